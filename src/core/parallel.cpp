@@ -1,0 +1,37 @@
+#include "core/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+namespace softscope {
+
+void parallelRanges(int count, int grain, const std::function<void(int, int)>& body) {
+  if (count <= 0) return;
+  if (count <= grain || threadCount() == 1) return body(0, count);
+  tbb::parallel_for(tbb::blocked_range<int>(0, count, static_cast<std::size_t>(grain)),
+                    [&](const tbb::blocked_range<int>& r) { body(r.begin(), r.end()); });
+}
+
+void parallelInvoke(const std::function<void()>& first, const std::function<void()>& second) {
+  tbb::parallel_invoke(first, second);
+}
+
+struct ThreadLimit::Control {
+  tbb::global_control limit;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads <= 0) return;
+  control_.reset(new Control{tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                                 static_cast<std::size_t>(threads))});
+}
+ThreadLimit::~ThreadLimit() = default;
+
+int threadCount() {
+  return static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+}  // namespace softscope

@@ -1,0 +1,18 @@
+// src/core/point_cloud.h: measured points without structure.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/image.h"
+
+namespace softscope {
+
+/// N points, mm, in the frame that the owner names. normals and colours are empty or N long.
+struct PointCloud {
+  std::vector<Eigen::Vector3f> points_mm;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<Rgb8> colours;
+};
+
+}  // namespace softscope
