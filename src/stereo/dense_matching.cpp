@@ -1,0 +1,146 @@
+#include "stereo/dense_matching.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "stereo/plane_prior.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kDifferences = 50;       // summed in one cost: kernels.cpp
+constexpr int kMaxDisparities = 1024;  // as StereoOptions::validate() allows
+using DisparitySet = std::bitset<kMaxDisparities>;
+
+/// The disparities of the support points in and around each tile.
+class SharedDisparities {
+ public:
+  SharedDisparities(const std::vector<SupportPoint>& points, int columns, int rows)
+      : cells_(columns, rows) {
+    for (const SupportPoint& p : points) {
+      const int c = p.u_px / kTileWidth, r = p.v_px / kTileHeight;
+      if (cells_.contains(c, r))
+        cells_.at(c, r).set(static_cast<std::size_t>(std::lround(p.disparity_px)));
+    }
+  }
+  /// Of the tile and its eight neighbours, each widened by one pixel.
+  DisparitySet around(int c, int r) const {
+    DisparitySet all;
+    for (int y = std::max(0, r - 1); y <= std::min(cells_.height_px - 1, r + 1); ++y)
+      for (int x = std::max(0, c - 1); x <= std::min(cells_.width_px - 1, c + 1); ++x)
+        all |= cells_.at(x, y);
+    return all | all << 1 | all >> 1;
+  }
+
+ private:
+  Raster<DisparitySet> cells_;
+};
+
+/// One tile's buffers and how to fill them.
+class TileMatcher {
+ public:
+  TileMatcher(const GradientView& reference, const GradientView& other, int direction,
+              const Raster<std::int16_t>& prior, const StereoOptions& options)
+      : reference_(reference), other_(other), prior_(prior), options_(options) {
+    const ElasOptions& elas = options.elas;
+    const double cap = elas.prior_weight * kDifferences;
+    // -log(γ + exp(-t²/2σ²)) is flat beyond about 1.5 σ: a parabola up to there, then its plateau.
+    const double slope = cap / std::pow(1.5 * elas.prior_sigma_px, 2);
+    tile_.direction = direction;
+    tile_.width_px = prior.width_px;
+    tile_.band_px8 = static_cast<int>(std::lround(8 * 3 * elas.prior_sigma_px));
+    tile_.prior_slope = std::clamp(static_cast<int>(std::lround(slope)), 0, kLargestPriorSlope);
+    tile_.prior_cap = std::min(static_cast<int>(std::lround(cap)), tile_.prior_slope * 14);
+  }
+
+  void match(int u0, int v0, DisparitySet shared, Raster<std::int16_t>& disparity) {
+    tile_.u0 = u0;
+    tile_.v0 = v0;
+    loadPrior();
+    listCandidates(shared);
+    tile_.disparities = candidates_.data();
+    tile_.everywhere = everywhere_.data();
+    tile_.candidate_count = static_cast<int>(candidates_.size());
+    tile_.prior_px8 = prior_px8_;
+    tile_.best_disparity = best_disparity_;
+    tile_.best_cost = best_cost_;
+    stereoKernels().denseTile(reference_, other_, tile_);
+    store(disparity);
+  }
+
+ private:
+  void loadPrior() {
+    for (int y = 0; y < kTileHeight; ++y)
+      for (int x = 0; x < kTileWidth; ++x) {
+        const int u = std::min(tile_.u0 + x, prior_.width_px - 1);
+        const int v = std::min(tile_.v0 + y, prior_.height_px - 1);
+        prior_px8_[y * kTileWidth + x] = prior_.at(u, v);
+      }
+  }
+
+  void listCandidates(const DisparitySet& shared) {
+    DisparitySet wanted = shared;
+    // Rows are smooth: the band around each row's extremes covers the band of every pixel.
+    const auto [low, high] = std::minmax_element(std::begin(prior_px8_), std::end(prior_px8_));
+    const int first = (*low - tile_.band_px8) / 8, last = (*high + tile_.band_px8) / 8 + 1;
+    for (int d = std::max(first, options_.disparity_min_px);
+         d <= std::min(last, options_.disparity_max_px); ++d)
+      wanted.set(static_cast<std::size_t>(d));
+    candidates_.clear();
+    everywhere_.clear();
+    for (int d = options_.disparity_min_px; d <= options_.disparity_max_px; ++d)
+      if (wanted[static_cast<std::size_t>(d)]) {
+        candidates_.push_back(static_cast<std::uint16_t>(d));
+        everywhere_.push_back(shared[static_cast<std::size_t>(d)]);
+      }
+  }
+
+  void store(Raster<std::int16_t>& disparity) const {
+    const int width = std::min(kTileWidth, disparity.width_px - tile_.u0);
+    const int height = std::min(kTileHeight, disparity.height_px - tile_.v0);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const int i = y * kTileWidth + x;
+        disparity.at(tile_.u0 + x, tile_.v0 + y) =
+            best_cost_[i] == 0xFFFF ? std::int16_t{-1}
+                                    : static_cast<std::int16_t>(best_disparity_[i]);
+      }
+  }
+
+  GradientView reference_, other_;
+  const Raster<std::int16_t>& prior_;
+  const StereoOptions& options_;
+  DenseTile tile_{};
+  std::vector<std::uint16_t> candidates_;
+  std::vector<std::uint8_t> everywhere_;
+  alignas(64) std::int16_t prior_px8_[kTileWidth * kTileHeight];
+  alignas(64) std::uint16_t best_disparity_[kTileWidth * kTileHeight];
+  alignas(64) std::uint16_t best_cost_[kTileWidth * kTileHeight];
+};
+
+}  // namespace
+
+Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& right,
+                                Reference reference, const std::vector<SupportPoint>& points,
+                                const StereoOptions& options) {
+  const int width = left.width_px(), height = left.height_px();
+  Raster<std::int16_t> disparity(width, height, -1);
+  if (points.empty()) return disparity;
+  const Raster<std::int16_t> prior = interpolatePlanes(points, width, height);
+  const int columns = (width + kTileWidth - 1) / kTileWidth;
+  const int rows = (height + kTileHeight - 1) / kTileHeight;
+  const SharedDisparities shared(points, columns, rows);
+  const bool from_left = reference == Reference::kLeft;
+  parallelRanges(rows, 2, [&](int begin, int end) {
+    TileMatcher matcher(from_left ? left.view() : right.view(),
+                        from_left ? right.view() : left.view(), from_left ? -1 : 1, prior, options);
+    for (int r = begin; r < end; ++r)
+      for (int c = 0; c < columns; ++c)
+        matcher.match(c * kTileWidth, r * kTileHeight, shared.around(c, r), disparity);
+  });
+  return disparity;
+}
+
+}  // namespace softscope

@@ -1,0 +1,50 @@
+#include "stereo/gradient_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/parallel.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kRowMargin = 2 * kTileHeight;  // the last tile may hang over the picture's border
+
+/// Copies a row with its first and last pixel doubled.
+void padRow(const std::uint8_t* row, int width, std::vector<std::uint8_t>& padded) {
+  padded.resize(static_cast<std::size_t>(width) + 2);
+  std::memcpy(padded.data() + 1, row, static_cast<std::size_t>(width));
+  padded.front() = row[0];
+  padded.back() = row[width - 1];
+}
+
+}  // namespace
+
+GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
+    : width_px_(image.width_px), height_px_(image.height_px) {
+  const int side = (margin_px + kTileWidth + 63) / 64 * 64;
+  stride_ = (width_px_ + 2 * side + 63) / 64 * 64;
+  origin_ = static_cast<std::size_t>(kRowMargin) * stride_ + side;
+  const std::size_t bytes = static_cast<std::size_t>(height_px_ + 2 * kRowMargin) * stride_;
+  du_.assign(bytes, 128);
+  dv_.assign(bytes, 128);
+  const StereoKernels& kernels = stereoKernels();
+  const int gain_q8 = static_cast<int>(std::lround(gain * 256));
+  parallelRanges(height_px_, 32, [&](int begin, int end) {
+    std::vector<std::uint8_t> rows[3];
+    for (int v = begin; v < end; ++v) {
+      for (int k = 0; k < 3; ++k)
+        padRow(image.row(std::clamp(v + k - 1, 0, height_px_ - 1)), width_px_, rows[k]);
+      const std::size_t at = origin_ + static_cast<std::size_t>(v) * stride_;
+      kernels.sobelRow(rows[0].data() + 1, rows[1].data() + 1, rows[2].data() + 1, width_px_,
+                       gain_q8, du_.data() + at, dv_.data() + at);
+    }
+  });
+}
+
+GradientView GradientImage::view() const {
+  return {du_.data() + origin_, dv_.data() + origin_, stride_};
+}
+
+}  // namespace softscope

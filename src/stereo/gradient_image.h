@@ -1,0 +1,29 @@
+// src/stereo/gradient_image.h: Sobel responses as bytes, the descriptors of ELAS.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "stereo/kernels.h"
+
+namespace softscope {
+
+/// Horizontal and vertical Sobel responses times `gain`, clamped to 8 bits around 128. A margin of
+/// 128s surrounds the picture, wide enough for every disparity and window, so that inner loops
+/// need no border cases.
+class GradientImage {
+ public:
+  GradientImage(const GrayImage& image, double gain, int margin_px);
+
+  int width_px() const { return width_px_; }
+  int height_px() const { return height_px_; }
+  GradientView view() const;
+
+ private:
+  int width_px_, height_px_, stride_;
+  std::size_t origin_;  // offset of pixel (0, 0)
+  std::vector<std::uint8_t> du_, dv_;
+};
+
+}  // namespace softscope

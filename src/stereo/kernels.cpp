@@ -1,0 +1,257 @@
+// src/stereo/kernels.cpp: plain loops of fixed length that the compiler turns into SIMD;
+// compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
+#include "stereo/kernels.h"
+
+#define SOFTSCOPE_NAME_(set) stereoKernels_##set
+#define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
+#define SOFTSCOPE_TEXT_(set) #set
+#define SOFTSCOPE_TEXT(set) SOFTSCOPE_TEXT_(set)
+
+namespace softscope {
+namespace {
+
+inline int clampByte(int x) { return x < 0 ? 0 : (x > 255 ? 255 : x); }
+
+inline std::uint8_t absDifference(std::uint8_t a, std::uint8_t b) {
+  return static_cast<std::uint8_t>(a > b ? a - b : b - a);
+}
+
+void sobelRow(const std::uint8_t* above, const std::uint8_t* middle, const std::uint8_t* below,
+              int width, int gain_q8, std::uint8_t* du, std::uint8_t* dv) {
+  for (int u = 0; u < width; ++u) {
+    const int right = above[u + 1] + 2 * middle[u + 1] + below[u + 1];
+    const int left = above[u - 1] + 2 * middle[u - 1] + below[u - 1];
+    const int bottom = below[u - 1] + 2 * below[u] + below[u + 1];
+    const int top = above[u - 1] + 2 * above[u] + above[u + 1];
+    du[u] = static_cast<std::uint8_t>(clampByte(128 + ((right - left) * gain_q8 + 128) / 256));
+    dv[u] = static_cast<std::uint8_t>(clampByte(128 + ((bottom - top) * gain_q8 + 128) / 256));
+  }
+}
+
+// --- support points: 9 x 9 window, every second pixel: 2 x 5 x 5 differences -------------------
+
+constexpr int kSupportReach = 4;
+
+void supportColumnSums(const GradientView& left, const GradientView& right, int v, int width, int d,
+                       std::uint16_t* sums) {
+  for (int u = -kSupportReach; u < width + kSupportReach; ++u) sums[u] = 0;
+  for (int dy = -kSupportReach; dy <= kSupportReach; dy += 2) {
+    const std::uint8_t* left_du = left.du + (v + dy) * left.stride;
+    const std::uint8_t* left_dv = left.dv + (v + dy) * left.stride;
+    const std::uint8_t* right_du = right.du + (v + dy) * right.stride - d;
+    const std::uint8_t* right_dv = right.dv + (v + dy) * right.stride - d;
+    for (int u = -kSupportReach; u < width + kSupportReach; ++u)
+      sums[u] = static_cast<std::uint16_t>(sums[u] + absDifference(left_du[u], right_du[u]) +
+                                           absDifference(left_dv[u], right_dv[u]));
+  }
+}
+
+void supportRow(const GradientView& left, const GradientView& right, int v, int width,
+                int disparity_min, int disparity_count, const SupportRow& out) {
+  for (int u = 0; u < width; ++u) {
+    out.cost_left[u] = out.cost_right[u] = 0xFFFF;
+    out.disparity_left[u] = out.disparity_right[u] = 0;
+  }
+  std::uint16_t scratch[4096 + 64];
+  std::uint16_t* sums = scratch + 32;
+  for (int i = 0; i < disparity_count; ++i) {
+    const int d = disparity_min + i;
+    supportColumnSums(left, right, v, width, d, sums);
+    std::uint16_t* cost = out.volume + static_cast<long>(i) * out.stride;
+    for (int u = 0; u < width; ++u)
+      cost[u] = static_cast<std::uint16_t>(sums[u - 4] + sums[u - 2] + sums[u] + sums[u + 2] +
+                                           sums[u + 4]);
+    const int first = d + kSupportReach;  // the whole window lies inside both pictures
+    const std::uint16_t disparity = static_cast<std::uint16_t>(d);
+    for (int u = 0; u < first && u < width; ++u) cost[u] = 0xFFFF;
+    for (int u = 0; u < width; ++u) {
+      const bool better = cost[u] < out.cost_left[u];
+      out.cost_left[u] = better ? cost[u] : out.cost_left[u];
+      out.disparity_left[u] = better ? disparity : out.disparity_left[u];
+    }
+    for (int u = 0; u < width - d; ++u) {
+      const bool better = cost[u + d] < out.cost_right[u];
+      out.cost_right[u] = better ? cost[u + d] : out.cost_right[u];
+      out.disparity_right[u] = better ? disparity : out.disparity_right[u];
+    }
+  }
+}
+
+// --- dense matching: 5 x 5 window: 2 x 25 differences ------------------------------------------
+
+constexpr int kReach = 2;
+constexpr int kRows = kTileHeight + 2 * kReach;
+constexpr int kColumns = kTileWidth + 2 * kReach;
+
+/// sums[y][x] = differences of the five columns x-2..x+2 in row y - 2 of the tile.
+void tileRowSums(const GradientView& reference, const GradientView& other, const DenseTile& tile,
+                 int d, std::uint16_t (*sums)[kTileWidth]) {
+  const int shift = tile.direction * d - kReach;
+  for (int y = 0; y < kRows; ++y) {
+    const long row = tile.v0 + y - kReach;
+    const std::uint8_t* a_du = reference.du + row * reference.stride + tile.u0 - kReach;
+    const std::uint8_t* a_dv = reference.dv + row * reference.stride + tile.u0 - kReach;
+    const std::uint8_t* b_du = other.du + row * other.stride + tile.u0 + shift;
+    const std::uint8_t* b_dv = other.dv + row * other.stride + tile.u0 + shift;
+    std::uint16_t difference[kColumns];
+    for (int x = 0; x < kColumns; ++x)
+      difference[x] = static_cast<std::uint16_t>(absDifference(a_du[x], b_du[x]) +
+                                                 absDifference(a_dv[x], b_dv[x]));
+    for (int x = 0; x < kTileWidth; ++x)
+      sums[y][x] =
+          static_cast<std::uint16_t>(difference[x] + difference[x + 1] + difference[x + 2] +
+                                     difference[x + 3] + difference[x + 4]);
+  }
+}
+
+/// Adds the prior and keeps the better disparity; one row of the tile.
+inline void updateRow(const DenseTile& tile, int y, int d, bool everywhere, int first, int last,
+                      const std::uint16_t* cost) {
+  const std::int16_t* prior = tile.prior_px8 + y * kTileWidth;
+  std::uint16_t* best_cost = tile.best_cost + y * kTileWidth;
+  std::uint16_t* best_disparity = tile.best_disparity + y * kTileWidth;
+  const std::int16_t d8 = static_cast<std::int16_t>(d * 8);
+  const std::int16_t band = static_cast<std::int16_t>(everywhere ? 0x7FFF : tile.band_px8);
+  const std::uint16_t slope = static_cast<std::uint16_t>(tile.prior_slope);
+  const std::uint16_t cap = static_cast<std::uint16_t>(tile.prior_cap);
+  for (int x = 0; x < kTileWidth; ++x) {
+    const std::int16_t away = static_cast<std::int16_t>(d8 - prior[x]);
+    const std::int16_t t = away < 0 ? static_cast<std::int16_t>(-away) : away;
+    const int t4 = t > 31 ? 15 : t >> 1;  // quarter pixels, so that slope t4² fits 16 bits
+    const std::uint16_t raw =
+        static_cast<std::uint16_t>(static_cast<std::uint16_t>(t4 * t4 * slope) >> 4);
+    const std::uint16_t prior_cost = raw < cap ? raw : cap;
+    const std::uint16_t total = static_cast<std::uint16_t>(cost[x] + prior_cost);
+    const bool allowed = t <= band && x >= first && x <= last;
+    const bool better = allowed && total < best_cost[x];
+    best_cost[x] = better ? total : best_cost[x];
+    best_disparity[x] = better ? static_cast<std::uint16_t>(d) : best_disparity[x];
+  }
+}
+
+void denseTile(const GradientView& reference, const GradientView& other, const DenseTile& tile) {
+  for (int i = 0; i < kTileWidth * kTileHeight; ++i) {
+    tile.best_cost[i] = 0xFFFF;
+    tile.best_disparity[i] = 0;
+  }
+  std::uint16_t sums[kRows][kTileWidth];
+  for (int i = 0; i < tile.candidate_count; ++i) {
+    const int d = tile.disparities[i];
+    // The other pixel lies inside its picture.
+    const int first = tile.direction < 0 ? d - tile.u0 : 0;
+    const int last = tile.direction < 0 ? kTileWidth : tile.width_px - 1 - d - tile.u0;
+    if (first >= kTileWidth || last < 0) continue;
+    tileRowSums(reference, other, tile, d, sums);
+    std::uint16_t cost[kTileWidth];
+    for (int x = 0; x < kTileWidth; ++x)
+      cost[x] = static_cast<std::uint16_t>(sums[0][x] + sums[1][x] + sums[2][x] + sums[3][x]);
+    for (int y = 0; y < kTileHeight; ++y) {
+      for (int x = 0; x < kTileWidth; ++x)
+        cost[x] = static_cast<std::uint16_t>(cost[x] + sums[y + 4][x]);
+      updateRow(tile, y, d, tile.everywhere[i] != 0, first, last, cost);
+      for (int x = 0; x < kTileWidth; ++x)
+        cost[x] = static_cast<std::uint16_t>(cost[x] - sums[y][x]);
+    }
+  }
+}
+
+// --- sub-pixel refinement ----------------------------------------------------------------------
+
+using Float8 = float __attribute__((vector_size(32), aligned(4)));
+
+inline Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
+inline void store8(float* p, Float8 x) { *reinterpret_cast<Float8*>(p) = x; }
+
+void residualRow(const ResidualRow& row) {
+  const float last = static_cast<float>(row.width - 1);
+  for (int u = 0; u < row.width; ++u) {
+    float x = static_cast<float>(u) - row.disparity[u];
+    const float inside = (x >= 0.0f && x <= last) ? row.valid[u] : 0.0f;
+    x = x < 0.0f ? 0.0f : (x > last ? last : x);
+    const int i = static_cast<int>(x);
+    const float t = x - static_cast<float>(i);
+    // Catmull-Rom through four pixels: value and slope.
+    const float p0 = row.right[i - 1], p1 = row.right[i], p2 = row.right[i + 1],
+                p3 = row.right[i + 2];
+    const float c1 = 0.5f * (p2 - p0), c2 = p0 - 2.5f * p1 + 2.0f * p2 - 0.5f * p3,
+                c3 = 1.5f * (p1 - p2) + 0.5f * (p3 - p0);
+    const float value = p1 + t * (c1 + t * (c2 + t * c3));
+    const float g = c1 + t * (2.0f * c2 + t * (3.0f * c3));
+    const float r = value - row.left[u];
+    const float w = inside / (1.0f + r * r * row.inverse_noise_sq);
+    row.information[u] = w * (g * g + row.prior_weight);
+    row.target[u] = w * (g * (g * row.disparity[u] + r) + row.prior_weight * row.disparity[u]);
+    row.residual_sq[u] = w * r * r;
+    row.weight[u] = w;
+  }
+}
+
+void horizontalMoments(const float* in, const float* window, int radius, int width, float* out_0,
+                       float* out_1, float* out_2) {
+  for (int u = 0; u < width; u += 8) {
+    Float8 s0{}, s1{}, s2{};
+    for (int x = -radius; x <= radius; ++x) {
+      const Float8 a = load8(in + u + x) * window[x + radius];
+      const float fx = static_cast<float>(x);
+      s0 += a;
+      s1 += a * fx;
+      s2 += a * (fx * fx);
+    }
+    store8(out_0 + u, s0);
+    store8(out_1 + u, s1);
+    if (out_2 != nullptr) store8(out_2 + u, s2);
+  }
+}
+
+void verticalMoments(const float* const* g_0, const float* const* g_1, const float* const* g_2,
+                     const float* const* q_0, const float* const* q_1, const float* window,
+                     int radius, int width, const PlaneMoments& out) {
+  for (int u = 0; u < width; u += 8) {
+    Float8 a00{}, a10{}, a01{}, a20{}, a11{}, a02{}, b0{}, b1{}, b2{};
+    for (int y = -radius; y <= radius; ++y) {
+      const int k = y + radius;
+      const float w = window[k], wy = w * static_cast<float>(y);
+      const Float8 g0 = load8(g_0[k] + u), g1 = load8(g_1[k] + u), q0 = load8(q_0[k] + u);
+      a00 += w * g0;
+      a01 += wy * g0;
+      a02 += wy * static_cast<float>(y) * g0;
+      a10 += w * g1;
+      a11 += wy * g1;
+      a20 += w * load8(g_2[k] + u);
+      b0 += w * q0;
+      b2 += wy * q0;
+      b1 += w * load8(q_1[k] + u);
+    }
+    store8(out.a00 + u, a00);
+    store8(out.a10 + u, a10);
+    store8(out.a01 + u, a01);
+    store8(out.a20 + u, a20);
+    store8(out.a11 + u, a11);
+    store8(out.a02 + u, a02);
+    store8(out.b0 + u, b0);
+    store8(out.b1 + u, b1);
+    store8(out.b2 + u, b2);
+  }
+}
+
+void sumRows(const float* const* in, const float* weights, int taps, int width, float* out) {
+  for (int u = 0; u < width; u += 8) {
+    Float8 sum{};
+    for (int t = 0; t < taps; ++t) sum += weights[t] * load8(in[t] + u);
+    store8(out + u, sum);
+  }
+}
+
+}  // namespace
+
+extern const StereoKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET);
+const StereoKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET) = {SOFTSCOPE_TEXT(SOFTSCOPE_SIMD_SET),
+                                                          sobelRow,
+                                                          supportRow,
+                                                          denseTile,
+                                                          residualRow,
+                                                          horizontalMoments,
+                                                          verticalMoments,
+                                                          sumRows};
+
+}  // namespace softscope

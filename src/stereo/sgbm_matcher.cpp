@@ -1,0 +1,43 @@
+#include "stereo/sgbm_matcher.h"
+
+#include <limits>
+#include <opencv2/calib3d.hpp>
+
+#include "stereo/disparity_filter.h"
+#include "stereo/opencv_view.h"
+#include "stereo/stage_clock.h"
+
+namespace softscope {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §6
+
+}  // namespace
+
+DisparityMap SgbmMatcher::match(const GrayImage& left, const GrayImage& right) {
+  StageClock clock;
+  const int count = (options_.disparity_max_px - options_.disparity_min_px + 16) / 16 * 16;
+  const int block = options_.sgbm_block_px, area = block * block;
+  const auto sgbm = cv::StereoSGBM::create(options_.disparity_min_px, count, block, 8 * area,
+                                           32 * area, 1, 63, 10, 100, 2);
+  cv::Mat found;
+  sgbm->compute(opencvView(left), opencvView(right), found);  // 1/16 px
+  clock.lap("match");
+  DisparityMap map{Raster<float>(left.width_px, left.height_px, kNaN),
+                   Raster<float>(left.width_px, left.height_px, kNaN)};
+  const short unmatched = static_cast<short>((options_.disparity_min_px - 1) * 16);
+  for (int v = 0; v < left.height_px; ++v)
+    for (int u = 0; u < left.width_px; ++u) {
+      const short d = found.at<short>(v, u);
+      if (d <= unmatched) continue;
+      map.disparity_px.at(u, v) = static_cast<float>(d) / 16;
+      map.sigma_px.at(u, v) = kStandardErrorPx;
+    }
+  erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
+  clock.lap("erode");
+  times_ = clock.laps();
+  return map;
+}
+
+}  // namespace softscope

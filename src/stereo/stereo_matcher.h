@@ -1,0 +1,37 @@
+// src/stereo/stereo_matcher.h: how far left did each pixel move?
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/depth_map.h"
+#include "core/image.h"
+#include "stereo/stereo_options.h"
+
+namespace softscope {
+
+/// Stage and milliseconds, in the order of work.
+using StageTimes = std::vector<std::pair<std::string, double>>;
+
+/// Finds, for each pixel of the rectified left picture, how far left it moved in the right one.
+class StereoMatcher {
+ public:
+  virtual ~StereoMatcher() = default;
+
+  /// "elas" or "sgbm"; written into every report.
+  virtual std::string name() const = 0;
+
+  /// Both pictures rectified and of one shape, else Error. Result: the left picture's shape, NaN
+  /// where there is no match. Same input, same bytes, whatever the number of threads.
+  virtual DisparityMap match(const GrayImage& left, const GrayImage& right) = 0;
+
+  /// Of the last match().
+  virtual const StageTimes& times() const = 0;
+};
+
+/// Throws OptionError if the options break a rule.
+std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options);
+
+}  // namespace softscope

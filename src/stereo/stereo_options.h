@@ -1,0 +1,62 @@
+// src/stereo/stereo_options.h: how disparity is found; one place for every default.
+#pragma once
+
+#include <string>
+
+namespace softscope {
+
+/// ELAS (Geiger, Roser, Urtasun, ACCV 2010), stage by stage. Costs are mean absolute differences
+/// of the gradient descriptors, so that thresholds don't depend on the window's size.
+struct ElasOptions {
+  // Gradients: Sobel responses become 8-bit descriptors, 128 = flat.
+  double gradient_gain = 0.5;  // 8-bit steps per Sobel unit; larger sees weaker texture
+
+  // Support points: pixels that can be matched without help.
+  int support_step_px = 5;          // grid on which they are sought
+  double support_texture = 1.0;     // least mean |gradient| of the window
+  double support_uniqueness = 0.9;  // best cost over second best, at most
+  int support_left_right_px = 1;    // right-to-left match returns this close
+  int support_window_cells = 5;     // neighbours, in grid steps, that must agree …
+  int support_agreement_px = 5;     // … to this many pixels …
+  int support_min_neighbours = 5;   // … and at least so many of them
+  int support_redundant_cells = 4;  // a point between two equal ones this near is left out
+
+  // Prior: the planes of the triangles between support points.
+  double prior_sigma_px = 1.0;  // how far the surface leaves its triangle
+  double prior_weight = 3.0;    // cost of leaving it altogether, in mean gradient steps
+
+  // Post-processing.
+  int left_right_px = 1;         // left and right disparity agree to this
+  int speckle_size_px = 150;     // smaller islands are removed
+  double speckle_step_px = 1.0;  // neighbours of one island differ at most by this
+  int gap_width_px = 6;          // gaps in a row or column up to this are interpolated …
+  double gap_step_px = 2.0;      // … if both sides differ at most by this
+};
+
+/// Sub-pixel refinement: a plane fitted to the brightness in a window about each pixel.
+struct RefinementOptions {
+  int iterations = 3;
+  int radius_px = 6;             // window is (2 r + 1)²
+  double highpass_sigma_px = 8;  // brightness slower than this is left out (light, exposure)
+  double noise_gray = 2.0;       // residual, in grey levels, that halves a pixel's weight
+  double prior_sigma_px = 0.5;   // trust in the matched disparity where texture is weak
+  double max_sigma_px = 1.0;     // pixels whose predicted standard error is larger are dropped
+};
+
+/// What any matcher needs.
+struct StereoOptions {
+  std::string method = "elas";  // "elas" or "sgbm"
+  int disparity_min_px = 0;
+  int disparity_max_px = 255;
+  int erode_edges_px = 1;     // measured pixels this near to a depth step are dropped …
+  double edge_step_px = 2.0;  // … where neighbours differ by more than this
+  int border_px = 2;          // pixels this near to the picture's border are dropped
+  ElasOptions elas;
+  RefinementOptions refinement;
+  int sgbm_block_px = 5;
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+}  // namespace softscope

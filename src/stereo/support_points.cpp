@@ -1,0 +1,150 @@
+#include "stereo/support_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/raster.h"
+
+namespace softscope {
+namespace {
+
+constexpr float kNone = -1;
+constexpr int kReach = 4;         // of the support window
+constexpr int kDifferences = 50;  // summed in one cost
+
+/// Mean |gradient| of the support window around (u, v).
+double texture(const GradientView& image, int u, int v) {
+  int sum = 0;
+  for (int dy = -kReach; dy <= kReach; dy += 2)
+    for (int dx = -kReach; dx <= kReach; dx += 2) {
+      const long at = static_cast<long>(v + dy) * image.stride + u + dx;
+      sum += std::abs(image.du[at] - 128) + std::abs(image.dv[at] - 128);
+    }
+  return static_cast<double>(sum) / kDifferences;
+}
+
+/// Least cost at u over disparities that are not next to `best`.
+int secondBestCost(const SupportRow& row, int u, int best, int count) {
+  int second = 0xFFFF;
+  for (int i = 0; i < count; ++i)
+    if (std::abs(i - best) > 1)
+      second = std::min<int>(second, row.volume[static_cast<long>(i) * row.stride + u]);
+  return second;
+}
+
+/// Offset of the minimum of the parabola through three costs, within half a pixel.
+float parabolaOffset(int before, int at, int after) {
+  const int curvature = before - 2 * at + after;
+  if (before == 0xFFFF || after == 0xFFFF || curvature <= 0) return 0;
+  return 0.5f * static_cast<float>(before - after) / static_cast<float>(curvature);
+}
+
+/// The support candidates of one row, kNone where a test fails.
+class RowMatcher {
+ public:
+  RowMatcher(const GradientImage& left, const GradientImage& right, const StereoOptions& options)
+      : left_(left.view()),
+        right_(right.view()),
+        width_(left.width_px()),
+        minimum_(options.disparity_min_px),
+        count_(options.disparity_max_px - options.disparity_min_px + 1),
+        elas_(options.elas) {
+    const std::size_t stride = static_cast<std::size_t>((width_ + 63) / 64 * 64);
+    buffer_.resize(stride * (static_cast<std::size_t>(count_) + 4));
+    std::uint16_t* rest = buffer_.data() + stride * static_cast<std::size_t>(count_);
+    row_ = {buffer_.data(),          rest, rest + stride, rest + 2 * stride, rest + 3 * stride,
+            static_cast<int>(stride)};
+  }
+
+  void match(int v, float* candidates, int columns) {
+    stereoKernels().supportRow(left_, right_, v, width_, minimum_, count_, row_);
+    for (int c = 0; c < columns; ++c) candidates[c] = candidate(c * elas_.support_step_px, v);
+  }
+
+ private:
+  float candidate(int u, int v) const {
+    if (u < kReach || u >= width_ - kReach || row_.cost_left[u] == 0xFFFF) return kNone;
+    const int disparity = row_.disparity_left[u], best = disparity - minimum_;
+    if (texture(left_, u, v) < elas_.support_texture) return kNone;
+    const int returned = row_.disparity_right[u - disparity];
+    if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
+    if (row_.cost_left[u] > elas_.support_uniqueness * secondBestCost(row_, u, best, count_))
+      return kNone;
+    if (best == 0 || best == count_ - 1) return kNone;  // the true one may lie outside the range
+    return static_cast<float>(disparity) +
+           parabolaOffset(cost(best - 1, u), cost(best, u), cost(best + 1, u));
+  }
+  int cost(int i, int u) const { return row_.volume[static_cast<long>(i) * row_.stride + u]; }
+
+  GradientView left_, right_;
+  int width_, minimum_, count_;
+  const ElasOptions& elas_;
+  std::vector<std::uint16_t> buffer_;
+  SupportRow row_;
+};
+
+bool hasNeighbours(const Raster<float>& grid, int c, int r, const ElasOptions& options) {
+  const int reach = options.support_window_cells;
+  int neighbours = -1;  // not itself
+  for (int y = std::max(0, r - reach); y <= std::min(grid.height_px - 1, r + reach); ++y)
+    for (int x = std::max(0, c - reach); x <= std::min(grid.width_px - 1, c + reach); ++x)
+      neighbours += grid.at(x, y) != kNone && std::abs(grid.at(x, y) - grid.at(c, r)) <=
+                                                  static_cast<float>(options.support_agreement_px);
+  return neighbours >= options.support_min_neighbours;
+}
+
+Raster<float> removeLonely(const Raster<float>& grid, const ElasOptions& options) {
+  Raster<float> kept(grid.width_px, grid.height_px, kNone);
+  parallelRows(grid.height_px, [&](int r) {
+    for (int c = 0; c < grid.width_px; ++c)
+      if (grid.at(c, r) != kNone && hasNeighbours(grid, c, r, options))
+        kept.at(c, r) = grid.at(c, r);
+  });
+  return kept;
+}
+
+/// True if, within reach, both neighbours along (dx, dy) have this point's disparity.
+bool isRedundant(const Raster<float>& grid, int c, int r, int dx, int dy, int reach) {
+  int agreeing = 0;
+  for (const int sign : {-1, 1})
+    for (int k = 1; k <= reach; ++k) {
+      const int x = c + sign * k * dx, y = r + sign * k * dy;
+      if (!grid.contains(x, y)) break;
+      if (grid.at(x, y) == kNone) continue;
+      agreeing += std::abs(grid.at(x, y) - grid.at(c, r)) <= 0.5f;
+      break;
+    }
+  return agreeing == 2;
+}
+
+void removeRedundant(Raster<float>& grid, int dx, int dy, int reach) {
+  for (int r = 0; r < grid.height_px; ++r)
+    for (int c = 0; c < grid.width_px; ++c)
+      if (grid.at(c, r) != kNone && isRedundant(grid, c, r, dx, dy, reach)) grid.at(c, r) = kNone;
+}
+
+}  // namespace
+
+std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
+                                            const StereoOptions& options) {
+  const int step = options.elas.support_step_px;
+  Raster<float> grid((left.width_px() + step - 1) / step, (left.height_px() + step - 1) / step,
+                     kNone);
+  parallelRanges(grid.height_px, 4, [&](int begin, int end) {
+    RowMatcher matcher(left, right, options);
+    for (int r = begin; r < end; ++r)
+      if (r * step >= kReach && r * step < left.height_px() - kReach)
+        matcher.match(r * step, grid.row(r), grid.width_px);
+  });
+  grid = removeLonely(grid, options.elas);
+  removeRedundant(grid, 0, 1, options.elas.support_redundant_cells);
+  removeRedundant(grid, 1, 0, options.elas.support_redundant_cells);
+  std::vector<SupportPoint> points;
+  for (int r = 0; r < grid.height_px; ++r)
+    for (int c = 0; c < grid.width_px; ++c)
+      if (grid.at(c, r) != kNone) points.push_back({c * step, r * step, grid.at(c, r)});
+  return points;
+}
+
+}  // namespace softscope

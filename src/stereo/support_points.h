@@ -1,0 +1,23 @@
+// src/stereo/support_points.h: pixels that can be matched without help (ELAS §3.1).
+#pragma once
+
+#include <vector>
+
+#include "stereo/gradient_image.h"
+#include "stereo/stereo_options.h"
+
+namespace softscope {
+
+/// A pixel of the left picture and its disparity, refined by a parabola through three costs.
+struct SupportPoint {
+  int u_px, v_px;
+  float disparity_px;
+};
+
+/// Matches a grid of pixels over the whole range of disparities, keeps what is unique, textured,
+/// confirmed from right to left and by its neighbours, and drops what its neighbours say already.
+/// In raster order.
+std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
+                                            const StereoOptions& options);
+
+}  // namespace softscope
