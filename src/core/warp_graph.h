@@ -1,0 +1,59 @@
+// src/core/warp_graph.h: the sparse nodes that carry the tissue from frame to frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/hd.h"
+#include "core/point_model.h"
+
+namespace softscope {
+
+/// Where a node takes its surroundings: docs/energy.md (1). A rotation in the rigid node model.
+struct NodeTransform {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();
+};
+
+/// Moves a point as one node alone would: docs/energy.md (1). mm.
+SOFTSCOPE_HD inline Eigen::Vector3d warpByNode(const NodeTransform& transform,
+                                               const Eigen::Vector3d& node_mm,
+                                               const Eigen::Vector3d& point_mm) {
+  return transform.linear * (point_mm - node_mm) + node_mm + transform.translation_mm;
+}
+
+/// Two nodes that want to move alike. first < second.
+struct GraphEdge {
+  std::int32_t first = 0;
+  std::int32_t second = 0;
+  double weight = 1;  // alpha of docs/energy.md (6)
+};
+
+/// The nodes that carry some points together: ascending ids. Where there are fewer than four, the
+/// last one is repeated (and has no weight in the points' bindings).
+using NodeStencil = std::array<std::int32_t, kNodesPerPoint>;
+
+/// An embedded deformation graph. Its warp leads from the last frame to the live one: after each
+/// frame nodes are re-based, so that positions are live and transforms the identity again.
+struct WarpGraph {
+  std::vector<Eigen::Vector3d> positions_mm;  // of the nodes, world frame, before the warp
+  std::vector<NodeTransform> transforms;      // one a node
+  std::vector<GraphEdge> edges;               // ascending by (first, second)
+  std::vector<NodeStencil> stencils;          // what PointBinding::stencil counts
+  std::uint64_t revision = 0;                 // changes when nodes, edges or stencils do
+
+  std::size_t size() const { return positions_mm.size(); }
+  bool empty() const { return positions_mm.empty(); }
+};
+
+/// How many different nodes the stencil holds.
+inline int distinctNodes(const NodeStencil& stencil) {
+  int count = 1;
+  while (count < kNodesPerPoint && stencil[count] != stencil[count - 1]) ++count;
+  return count;
+}
+
+}  // namespace softscope
