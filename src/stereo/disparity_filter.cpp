@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "stereo/spread.h"
 
 namespace softscope {
 namespace {
@@ -75,6 +76,17 @@ Raster<float> checkLeftRight(const Raster<std::int16_t>& left, const Raster<std:
     }
   });
   return checked;
+}
+
+void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_gray,
+                int margin_px) {
+  Raster<std::uint8_t> dark(left.width_px, left.height_px, 0);
+  parallelRows(left.height_px, [&](int v) {
+    for (int u = 0; u < left.width_px; ++u) dark.at(u, v) = left.at(u, v) < darkest_gray;
+  });
+  const Raster<std::uint8_t> near_dark = spread(dark, margin_px);
+  for (std::size_t i = 0; i < disparity_px.size(); ++i)
+    if (near_dark.values[i] != 0) disparity_px.values[i] = kNaN;
 }
 
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px) {

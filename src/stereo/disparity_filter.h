@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/depth_map.h"
+#include "core/image.h"
 #include "core/raster.h"
 #include "stereo/stereo_options.h"
 
@@ -13,6 +14,11 @@ namespace softscope {
 /// elsewhere. Input -1 = unmatched.
 Raster<float> checkLeftRight(const Raster<std::int16_t>& left, const Raster<std::int16_t>& right,
                              int tolerance_px);
+
+/// Removes pixels within `margin_px` of one darker than `darkest_gray`: too dark to be matched, and
+/// next to the dark the window sees more of the dark's border than of the tissue.
+void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_gray,
+                int margin_px);
 
 /// Removes islands of fewer than `size_px` pixels whose neighbours differ by at most `step_px`.
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px);

@@ -37,6 +37,7 @@ DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
   clock.lap("dense");
 
   Raster<float> disparity_px = checkLeftRight(from_left, from_right, elas.left_right_px);
+  removeDark(disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
   removeSpeckles(disparity_px, elas.speckle_size_px, elas.speckle_step_px);
   fillGaps(disparity_px, elas.gap_width_px, elas.gap_step_px);
   clock.lap("filter");

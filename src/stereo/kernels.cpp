@@ -137,9 +137,9 @@ void denseTile(const GradientView& reference, const GradientView& other, const D
   std::uint16_t sums[kRows][kTileWidth];
   for (int i = 0; i < tile.candidate_count; ++i) {
     const int d = tile.disparities[i];
-    // The other pixel lies inside its picture.
-    const int first = tile.direction < 0 ? d - tile.u0 : 0;
-    const int last = tile.direction < 0 ? kTileWidth : tile.width_px - 1 - d - tile.u0;
+    // The other pixel's window lies inside its picture.
+    const int first = tile.direction < 0 ? d + kReach - tile.u0 : 0;
+    const int last = tile.direction < 0 ? kTileWidth : tile.width_px - 1 - kReach - d - tile.u0;
     if (first >= kTileWidth || last < 0) continue;
     tileRowSums(reference, other, tile, d, sums);
     std::uint16_t cost[kTileWidth];
@@ -198,7 +198,7 @@ void horizontalMoments(const float* in, const float* window, int radius, int wid
       s2 += a * (fx * fx);
     }
     store8(out_0 + u, s0);
-    store8(out_1 + u, s1);
+    if (out_1 != nullptr) store8(out_1 + u, s1);
     if (out_2 != nullptr) store8(out_2 + u, s2);
   }
 }
@@ -234,6 +234,45 @@ void verticalMoments(const float* const* g_0, const float* const* g_1, const flo
   }
 }
 
+void selectedMoments(const SelectedWindow& at, float* moments) {
+  const float centre = at.disparity[0];
+  float sums[7][kSelectLanes] = {};
+  for (int y = -at.radius; y <= at.radius; ++y) {
+    const long row = static_cast<long>(y) * at.stride - at.radius;
+    const int k = (y + at.radius) * kSelectLanes;
+    const float fy = static_cast<float>(y);
+    for (int i = 0; i < kSelectLanes; ++i) {
+      const float away = at.disparity[row + i] - centre;
+      const float apart = away < 0 ? -away : away;
+      const float w = apart <= at.tolerance[k + i] ? at.window[k + i] : 0.0f;
+      const float g = w * at.information[row + i], q = w * at.target[row + i];
+      const float gy = fy * g;
+      sums[0][i] += g;
+      sums[1][i] += gy;
+      sums[2][i] += fy * gy;
+      sums[3][i] += q;
+      sums[4][i] += fy * q;
+      sums[5][i] += w * at.residual_sq[row + i];
+      sums[6][i] += w * at.weight[row + i];
+    }
+  }
+  for (int m = 0; m < 11; ++m) moments[m] = 0;
+  for (int i = 0; i < kSelectLanes; ++i) {
+    const float x = static_cast<float>(i - at.radius);
+    moments[0] += sums[0][i];
+    moments[1] += x * sums[0][i];
+    moments[2] += sums[1][i];
+    moments[3] += x * x * sums[0][i];
+    moments[4] += x * sums[1][i];
+    moments[5] += sums[2][i];
+    moments[6] += sums[3][i];
+    moments[7] += x * sums[3][i];
+    moments[8] += sums[4][i];
+    moments[9] += sums[5][i];
+    moments[10] += sums[6][i];
+  }
+}
+
 void sumRows(const float* const* in, const float* weights, int taps, int width, float* out) {
   for (int u = 0; u < width; u += 8) {
     Float8 sum{};
@@ -252,6 +291,7 @@ const StereoKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET) = {SOFTSCOPE_TEXT(SOFTSCO
                                                           residualRow,
                                                           horizontalMoments,
                                                           verticalMoments,
+                                                          selectedMoments,
                                                           sumRows};
 
 }  // namespace softscope

@@ -68,6 +68,22 @@ struct PlaneMoments {
   float *a00, *a10, *a01, *a20, *a11, *a02, *b0, *b1, *b2;
 };
 
+/// The same moments at one pixel, from those pixels of its window that lie on its own surface:
+/// their disparity differs by no more than the tolerance. Rows are `stride` floats apart, the
+/// pointers stand on the centre, `window` holds kSelectLanes weights a row, 0 beyond the radius.
+constexpr int kSelectLanes = 16;
+struct SelectedWindow {
+  const float* information;
+  const float* target;
+  const float* residual_sq;
+  const float* weight;
+  const float* disparity;
+  int stride;
+  const float* window;     // (2 r + 1) x kSelectLanes
+  const float* tolerance;  // of the disparity, same shape
+  int radius;
+};
+
 struct StereoKernels {
   const char* instruction_set;
   /// Sobel of `rows` rows beginning at `image` (border replicated by the caller), as bytes.
@@ -85,6 +101,8 @@ struct StereoKernels {
   void (*verticalMoments)(const float* const* g_0, const float* const* g_1, const float* const* g_2,
                           const float* const* q_0, const float* const* q_1, const float* window,
                           int radius, int width, const PlaneMoments& out);
+  /// moments: a00 a10 a01 a20 a11 a02 b0 b1 b2, then the sums of residual_sq and weight.
+  void (*selectedMoments)(const SelectedWindow& at, float* moments);
   /// sum over taps of weight[t] * in[t][u]; out[u], u in [0, width).
   void (*sumRows)(const float* const* in, const float* weights, int taps, int width, float* out);
 };

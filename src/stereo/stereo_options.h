@@ -36,11 +36,13 @@ struct ElasOptions {
 /// Sub-pixel refinement: a plane fitted to the brightness in a window about each pixel.
 struct RefinementOptions {
   int iterations = 3;
-  int radius_px = 6;             // window is (2 r + 1)²
-  double highpass_sigma_px = 8;  // brightness slower than this is left out (light, exposure)
-  double noise_gray = 2.0;       // residual, in grey levels, that halves a pixel's weight
-  double prior_sigma_px = 0.5;   // trust in the matched disparity where texture is weak
-  double max_sigma_px = 1.0;     // pixels whose predicted standard error is larger are dropped
+  int radius_px = 6;              // window is (2 r + 1)²
+  double highpass_sigma_px = 8;   // brightness slower than this is left out (light, exposure)
+  double noise_gray = 2.0;        // residual, in grey levels, that halves a pixel's weight
+  double noise_floor_gray = 0.4;  // noise that even a perfect match leaves
+  double model_sigma_px = 0.05;   // error that no amount of texture removes
+  double prior_sigma_px = 1.0;    // trust in the matched disparity where texture is weak
+  double max_sigma_px = 1.0;      // pixels whose predicted standard error is larger are dropped
 };
 
 /// What any matcher needs.
@@ -48,6 +50,8 @@ struct StereoOptions {
   std::string method = "elas";  // "elas" or "sgbm"
   int disparity_min_px = 0;
   int disparity_max_px = 255;
+  int darkest_gray = 10;      // darker pixels can't be matched …
+  int dark_margin_px = 4;     // … nor those this near to them
   int erode_edges_px = 1;     // measured pixels this near to a depth step are dropped …
   double edge_step_px = 2.0;  // … where neighbours differ by more than this
   int border_px = 2;          // pixels this near to the picture's border are dropped

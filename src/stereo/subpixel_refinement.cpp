@@ -1,36 +1,25 @@
 #include "stereo/subpixel_refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/parallel.h"
+#include "stereo/depth_steps.h"
 #include "stereo/kernels.h"
+#include "stereo/plane.h"
 
 namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr int kMargin = 16;  // zeros around every plane: windows need no border cases
-
-/// A picture of floats with a margin.
-class Plane {
- public:
-  Plane(int width, int height, float fill = 0)
-      : stride_((width + 2 * kMargin + 15) / 16 * 16),
-        values_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2 * kMargin),
-                fill) {}
-  float* row(int v) { return values_.data() + offset(v); }
-  const float* row(int v) const { return values_.data() + offset(v); }
-
- private:
-  std::size_t offset(int v) const {
-    return static_cast<std::size_t>(v + kMargin) * static_cast<std::size_t>(stride_) + kMargin;
-  }
-  int stride_;
-  std::vector<float> values_;
-};
+constexpr double kWindowSigma = 0.55;    // of the radius
+constexpr double kFarthestStepPx = 1.5;  // a fit that wanders farther has lost its pixel
+constexpr float kStepPx = 1.0f;          // neighbours of one surface differ by at most this …
+constexpr float kSlope = 0.4f;           // … and this much more for every pixel between them
+constexpr int kMoments = 11;             // see StereoKernels::selectedMoments
 
 std::vector<float> gaussian(double sigma, int radius) {
   std::vector<float> weights;
@@ -41,182 +30,160 @@ std::vector<float> gaussian(double sigma, int radius) {
   return weights;
 }
 
-/// Mean over (2 r + 1)² pixels inside the picture, by running sums.
-Raster<float> boxMean(const Raster<float>& in, int radius) {
-  const int width = in.width_px, height = in.height_px;
-  Raster<float> rows(width, height), out(width, height);
-  parallelRows(height, [&](int v) {
-    const float* a = in.row(v);
-    double sum = 0;
-    for (int u = 0; u < std::min(radius, width); ++u) sum += a[u];
-    for (int u = 0; u < width; ++u) {
-      if (u + radius < width) sum += a[u + radius];
-      if (u - radius - 1 >= 0) sum -= a[u - radius - 1];
-      const int count = std::min(u + radius, width - 1) - std::max(u - radius, 0) + 1;
-      rows.at(u, v) = static_cast<float>(sum / count);
-    }
-  });
-  parallelRanges(width, 32, [&](int begin, int end) {
-    std::vector<double> sum(static_cast<std::size_t>(end - begin), 0.0);
-    const auto add = [&](int v, double sign) {
-      for (int u = begin; u < end; ++u)
-        sum[static_cast<std::size_t>(u - begin)] += sign * rows.at(u, v);
-    };
-    for (int v = 0; v < std::min(radius, height); ++v) add(v, 1);
-    for (int v = 0; v < height; ++v) {
-      if (v + radius < height) add(v + radius, 1);
-      if (v - radius - 1 >= 0) add(v - radius - 1, -1);
-      const int count = std::min(v + radius, height - 1) - std::max(v - radius, 0) + 1;
-      for (int u = begin; u < end; ++u)
-        out.at(u, v) = static_cast<float>(sum[static_cast<std::size_t>(u - begin)] / count);
-    }
-  });
-  return out;
-}
-
-/// Brightness without its slow part (light, exposure) and with a little less noise.
-Plane bandPass(const GrayImage& image, double highpass_sigma_px) {
-  const int width = image.width_px, height = image.height_px;
-  Raster<float> brightness(width, height);
-  parallelRows(height, [&](int v) {
-    for (int u = 0; u < width; ++u) brightness.at(u, v) = image.at(u, v);
-  });
-  // Two box means are close to a Gaussian: variance 2 (w² - 1) / 12 with w = 2 r + 1.
-  const int radius = std::max(
-      1, static_cast<int>(
-             std::lround((std::sqrt(6 * highpass_sigma_px * highpass_sigma_px + 1) - 1) / 2)));
-  const Raster<float> slow = boxMean(boxMean(brightness, radius), radius);
-  Plane out(width, height);
-  parallelRows(height, [&](int v) {
-    const float* above = brightness.row(std::max(v - 1, 0));
-    const float* here = brightness.row(v);
-    const float* below = brightness.row(std::min(v + 1, height - 1));
-    float* to = out.row(v);
-    for (int u = 0; u < width; ++u) {
-      const int l = std::max(u - 1, 0), r = std::min(u + 1, width - 1);
-      const float smooth = 0.0625f * (above[l] + above[r] + below[l] + below[r]) +
-                           0.125f * (above[u] + below[u] + here[l] + here[r]) + 0.25f * here[u];
-      to[u] = smooth - slow.at(u, v);
-    }
-    to[-1] = to[-2] = to[0];
-    to[width] = to[width + 1] = to[width + 2] = to[width - 1];
-  });
-  return out;
-}
-
-/// Everything one iteration needs, allocated once.
+/// One Gauss-Newton step after the other; every buffer is allocated once.
 class PlaneFit {
  public:
-  PlaneFit(const GrayImage& left, const GrayImage& right, const RefinementOptions& options)
+  PlaneFit(const GrayImage& left, const GrayImage& right, const Raster<float>& initial_px,
+           const RefinementOptions& options)
       : width_(left.width_px),
         height_(left.height_px),
+        radius_(options.radius_px),
         options_(options),
         left_(bandPass(left, options.highpass_sigma_px)),
         right_(bandPass(right, options.highpass_sigma_px)),
-        window_(gaussian(0.55 * options.radius_px, options.radius_px)),
-        g_{{width_, height_}, {width_, height_}, {width_, height_}},
-        q_{{width_, height_}, {width_, height_}},
-        e_{{width_, height_}, {width_, height_}} {}
+        near_step_(nearDepthSteps(initial_px, options.radius_px, kStepPx, kSlope)),
+        window_(gaussian(kWindowSigma * options.radius_px, options.radius_px)),
+        pixels_(planes<kPixelPlanes>()),
+        rows_(planes<kRowPlanes>()) {
+    makeSelection();
+  }
 
-  /// One Gauss-Newton step of every pixel; NaN stays NaN.
+  /// One step of every pixel; NaN stays NaN.
   DisparityMap step(const Raster<float>& disparity) {
-    parallelRanges(height_, 16, [&](int begin, int end) { horizontal(disparity, begin, end); });
+    parallelRanges(height_, 16, [&](int begin, int end) {
+      for (int v = begin; v < end; ++v) linearise(disparity, v);
+    });
     DisparityMap out{Raster<float>(width_, height_, kNaN), Raster<float>(width_, height_, kNaN)};
-    parallelRanges(height_, 16, [&](int begin, int end) { vertical(disparity, begin, end, out); });
+    parallelRanges(height_, 16, [&](int begin, int end) {
+      Plane moments(width_, kMoments);
+      for (int v = begin; v < end; ++v) solveRow(disparity, v, moments, out);
+    });
     return out;
   }
 
  private:
-  void horizontal(const Raster<float>& disparity, int begin, int end) {
-    const StereoKernels& kernels = stereoKernels();
-    Plane rows(width_, 6);
-    const float noise = static_cast<float>(options_.noise_gray);
-    const float prior = static_cast<float>(options_.prior_sigma_px);
-    for (int v = begin; v < end; ++v) {
-      float *d = rows.row(0), *valid = rows.row(1);
-      for (int u = 0; u < width_; ++u) {
-        const float value = disparity.at(u, v);
-        valid[u] = std::isnan(value) ? 0.0f : 1.0f;
-        d[u] = std::isnan(value) ? 0.0f : value;
+  // What is known of each pixel, and the sums along its row.
+  enum { kDisparity, kInformation, kTarget, kResidualSq, kWeight, kPixelPlanes };
+  enum { kG0, kG1, kG2, kQ0, kQ1, kE0, kE1, kRowPlanes };
+
+  template <int count>
+  std::vector<Plane> planes() const {
+    return std::vector<Plane>(count, Plane(width_, height_));
+  }
+
+  void makeSelection() {
+    for (int y = -radius_; y <= radius_; ++y)
+      for (int i = 0; i < kSelectLanes; ++i) {
+        const int x = i - radius_;
+        const bool inside = x <= radius_;
+        selection_window_.push_back(inside ? window_[y + radius_] * window_[i] : 0.0f);
+        selection_tolerance_.push_back(kStepPx +
+                                       kSlope * std::sqrt(static_cast<float>(x * x + y * y)));
       }
-      kernels.residualRow({left_.row(v), right_.row(v), d, valid, width_, 1 / (noise * noise),
-                           noise * noise / (prior * prior), rows.row(2), rows.row(3), rows.row(4),
-                           rows.row(5)});
-      const int r = options_.radius_px;
-      kernels.horizontalMoments(rows.row(2), window_.data(), r, width_, g_[0].row(v), g_[1].row(v),
-                                g_[2].row(v));
-      kernels.horizontalMoments(rows.row(3), window_.data(), r, width_, q_[0].row(v), q_[1].row(v),
-                                nullptr);
-      for (int k = 0; k < 2; ++k) horizontalSum(rows.row(4 + k), e_[k].row(v));
-    }
   }
 
-  void horizontalSum(const float* in, float* out) const {
-    std::vector<const float*> shifted;
-    for (int x = -options_.radius_px; x <= options_.radius_px; ++x) shifted.push_back(in + x);
-    stereoKernels().sumRows(shifted.data(), window_.data(), static_cast<int>(shifted.size()),
-                            width_, out);
+  double priorWeight() const {
+    const double ratio = options_.noise_gray / options_.prior_sigma_px;
+    return ratio * ratio;
   }
 
-  void vertical(const Raster<float>& disparity, int begin, int end, DisparityMap& out) const {
+  /// Residual and gradient of every pixel of a row at its present disparity, and their row sums.
+  void linearise(const Raster<float>& disparity, int v) {
     const StereoKernels& kernels = stereoKernels();
-    Plane rows(width_, 11);
-    const PlaneMoments moments{rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4),
-                               rows.row(5), rows.row(6), rows.row(7), rows.row(8)};
-    const int r = options_.radius_px, taps = 2 * r + 1;
-    for (int v = begin; v < end; ++v) {
-      const auto around = [&](const Plane& plane) {
-        std::vector<const float*> pointers;
-        for (int y = -r; y <= r; ++y) pointers.push_back(plane.row(v + y));
-        return pointers;
-      };
-      kernels.verticalMoments(around(g_[0]).data(), around(g_[1]).data(), around(g_[2]).data(),
-                              around(q_[0]).data(), around(q_[1]).data(), window_.data(), r, width_,
-                              moments);
-      for (int k = 0; k < 2; ++k)
-        kernels.sumRows(around(e_[k]).data(), window_.data(), taps, width_, rows.row(9 + k));
-      solveRow(disparity.row(v), moments, rows.row(9), rows.row(10), out.disparity_px.row(v),
-               out.sigma_px.row(v));
-    }
-  }
-
-  /// D of the 3 x 3 system by Cramer's rule, and its standard error.
-  void solveRow(const float* before, const PlaneMoments& m, const float* residual_sq,
-                const float* weight, float* disparity, float* sigma) const {
+    Plane valid(width_, 1);
+    float* d = pixels_[kDisparity].row(v);
     for (int u = 0; u < width_; ++u) {
-      if (std::isnan(before[u])) continue;
-      const double a = m.a00[u], b = m.a10[u], c = m.a01[u], d = m.a20[u], e = m.a11[u],
-                   f = m.a02[u];
-      const double c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
-      const double determinant = a * c00 + b * c01 + c * c02;
-      if (!(determinant > 1e-6 * a * d * f)) continue;  // too few pixels for a plane
-      const double inverse = 1 / determinant;
-      const double found = (c00 * m.b0[u] + c01 * m.b1[u] + c02 * m.b2[u]) * inverse;
-      if (!(std::abs(found - before[u]) < kFarthestStepPx)) continue;
-      const double variance = (residual_sq[u] + 1e-3) / (weight[u] + 1e-6) * c00 * inverse;
-      disparity[u] = static_cast<float>(found);
-      sigma[u] = static_cast<float>(std::sqrt(variance));
+      const float value = disparity.at(u, v);
+      valid.row(0)[u] = std::isnan(value) ? 0.0f : 1.0f;
+      d[u] = std::isnan(value) ? 0.0f : value;
+    }
+    const auto row = [&](int plane) { return pixels_[plane].row(v); };
+    const float noise = static_cast<float>(options_.noise_gray);
+    kernels.residualRow({left_.row(v), right_.row(v), d, valid.row(0), width_, 1 / (noise * noise),
+                         static_cast<float>(priorWeight()), row(kInformation), row(kTarget),
+                         row(kResidualSq), row(kWeight)});
+    const auto sums = [&](int in, int out_0, float* out_1, float* out_2) {
+      kernels.horizontalMoments(row(in), window_.data(), radius_, width_, rows_[out_0].row(v),
+                                out_1, out_2);
+    };
+    sums(kInformation, kG0, rows_[kG1].row(v), rows_[kG2].row(v));
+    sums(kTarget, kQ0, rows_[kQ1].row(v), nullptr);
+    sums(kResidualSq, kE0, nullptr, nullptr);
+    sums(kWeight, kE1, nullptr, nullptr);
+  }
+
+  /// Moments of whole windows for a row, then the plane of each pixel.
+  void solveRow(const Raster<float>& disparity, int v, Plane& moments, DisparityMap& out) const {
+    windowMoments(v, moments);
+    for (int u = 0; u < width_; ++u) {
+      const float before = disparity.at(u, v);
+      if (std::isnan(before)) continue;
+      std::array<float, kMoments> m;
+      if (near_step_.at(u, v) != 0)
+        selectMoments(u, v, m.data());
+      else
+        for (int k = 0; k < kMoments; ++k) m[k] = moments.row(k)[u];
+      solvePixel(m, before, out.disparity_px.at(u, v), out.sigma_px.at(u, v));
     }
   }
 
-  static constexpr double kFarthestStepPx = 1.5;
-  int width_, height_;
-  const RefinementOptions& options_;
+  void windowMoments(int v, Plane& moments) const {
+    const StereoKernels& kernels = stereoKernels();
+    std::array<std::vector<const float*>, kRowPlanes> around;
+    for (int plane = 0; plane < kRowPlanes; ++plane)
+      for (int y = -radius_; y <= radius_; ++y) around[plane].push_back(rows_[plane].row(v + y));
+    const auto row = [&](int k) { return moments.row(k); };
+    kernels.verticalMoments(
+        around[kG0].data(), around[kG1].data(), around[kG2].data(), around[kQ0].data(),
+        around[kQ1].data(), window_.data(), radius_, width_,
+        {row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7), row(8)});
+    for (int k = 0; k < 2; ++k)
+      kernels.sumRows(around[kE0 + k].data(), window_.data(), 2 * radius_ + 1, width_, row(9 + k));
+  }
+
+  void selectMoments(int u, int v, float* moments) const {
+    const auto at = [&](int plane) { return pixels_[plane].row(v) + u; };
+    stereoKernels().selectedMoments(
+        {at(kInformation), at(kTarget), at(kResidualSq), at(kWeight), at(kDisparity),
+         pixels_[0].stride(), selection_window_.data(), selection_tolerance_.data(), radius_},
+        moments);
+  }
+
+  /// D of the 3 x 3 system by Cramer's rule, and its standard error; stays NaN where it fails.
+  void solvePixel(const std::array<float, kMoments>& m, float before, float& disparity,
+                  float& sigma) const {
+    const double a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
+    const double c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
+    const double determinant = a * c00 + b * c01 + c * c02;
+    if (!(determinant > 1e-3 * a * d * f)) return;  // too few pixels for a plane
+    const double found = (c00 * m[6] + c01 * m[7] + c02 * m[8]) / determinant;
+    if (!(std::abs(found - before) < kFarthestStepPx)) return;
+    // The matched disparity steadies the fit but is no evidence: it doesn't lower the error.
+    const double evidence = std::max(1 - priorWeight() * m[10] / a, 1e-3);
+    const double noise_sq = m[9] / m[10] + options_.noise_floor_gray * options_.noise_floor_gray;
+    const double independent = 2 * M_PI * std::pow(kWindowSigma * radius_, 2);
+    const double variance = noise_sq * (c00 / determinant) / (evidence * evidence * independent) +
+                            options_.model_sigma_px * options_.model_sigma_px;
+    if (!(variance <= options_.max_sigma_px * options_.max_sigma_px)) return;
+    disparity = static_cast<float>(found);
+    sigma = static_cast<float>(std::sqrt(variance));
+  }
+
+  int width_, height_, radius_;
+  RefinementOptions options_;
   Plane left_, right_;
-  std::vector<float> window_;
-  Plane g_[3], q_[2], e_[2];
+  Raster<std::uint8_t> near_step_;
+  std::vector<float> window_, selection_window_, selection_tolerance_;
+  std::vector<Plane> pixels_, rows_;
 };
 
 }  // namespace
 
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
-  PlaneFit fit(left, right, options);
+  PlaneFit fit(left, right, initial_px, options);
   DisparityMap map{initial_px, Raster<float>(left.width_px, left.height_px, kNaN)};
   for (int i = 0; i < options.iterations; ++i) map = fit.step(map.disparity_px);
-  for (std::size_t i = 0; i < map.disparity_px.size(); ++i)
-    if (!(map.sigma_px.values[i] <= options.max_sigma_px))
-      map.disparity_px.values[i] = map.sigma_px.values[i] = kNaN;
   return map;
 }
 
