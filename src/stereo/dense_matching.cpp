@@ -10,8 +10,8 @@
 namespace softscope {
 namespace {
 
-constexpr int kDifferences = 50;       // summed in one cost: kernels.cpp
-constexpr int kMaxDisparities = 1024;  // as StereoOptions::validate() allows
+constexpr int kDifferences = 50;  // summed in one cost: kernels.cpp
+constexpr int kMaxDisparities = StereoOptions::kLargestDisparityPx + 1;
 using DisparitySet = std::bitset<kMaxDisparities>;
 
 /// The disparities of the support points in and around each tile.

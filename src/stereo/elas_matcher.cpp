@@ -20,6 +20,7 @@ std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
 }  // namespace
 
 DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
+  requireRectifiedPair(left, right);
   const ElasOptions& elas = options_.elas;
   StageClock clock;
   const GradientImage left_gradient(left, elas.gradient_gain, options_.disparity_max_px);
@@ -30,10 +31,15 @@ DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
       findSupportPoints(left_gradient, right_gradient, options_);
   clock.lap("support");
 
-  const auto from_left =
-      matchDense(left_gradient, right_gradient, Reference::kLeft, points, options_);
-  const auto from_right =
-      matchDense(left_gradient, right_gradient, Reference::kRight, seenFromRight(points), options_);
+  Raster<std::int16_t> from_left, from_right;
+  parallelInvoke(
+      [&] {
+        from_left = matchDense(left_gradient, right_gradient, Reference::kLeft, points, options_);
+      },
+      [&] {
+        from_right = matchDense(left_gradient, right_gradient, Reference::kRight,
+                                seenFromRight(points), options_);
+      });
   clock.lap("dense");
 
   Raster<float> disparity_px = checkLeftRight(from_left, from_right, elas.left_right_px);

@@ -30,17 +30,15 @@ void sobelRow(const std::uint8_t* above, const std::uint8_t* middle, const std::
 
 // --- support points: 9 x 9 window, every second pixel: 2 x 5 x 5 differences -------------------
 
-constexpr int kSupportReach = 4;
-
 void supportColumnSums(const GradientView& left, const GradientView& right, int v, int width, int d,
                        std::uint16_t* sums) {
-  for (int u = -kSupportReach; u < width + kSupportReach; ++u) sums[u] = 0;
-  for (int dy = -kSupportReach; dy <= kSupportReach; dy += 2) {
+  for (int u = -kSupportMargin; u < width + kSupportMargin; ++u) sums[u] = 0;
+  for (int dy = -kSupportMargin; dy <= kSupportMargin; dy += 2) {
     const std::uint8_t* left_du = left.du + (v + dy) * left.stride;
     const std::uint8_t* left_dv = left.dv + (v + dy) * left.stride;
     const std::uint8_t* right_du = right.du + (v + dy) * right.stride - d;
     const std::uint8_t* right_dv = right.dv + (v + dy) * right.stride - d;
-    for (int u = -kSupportReach; u < width + kSupportReach; ++u)
+    for (int u = -kSupportMargin; u < width + kSupportMargin; ++u)
       sums[u] = static_cast<std::uint16_t>(sums[u] + absDifference(left_du[u], right_du[u]) +
                                            absDifference(left_dv[u], right_dv[u]));
   }
@@ -52,8 +50,7 @@ void supportRow(const GradientView& left, const GradientView& right, int v, int 
     out.cost_left[u] = out.cost_right[u] = 0xFFFF;
     out.disparity_left[u] = out.disparity_right[u] = 0;
   }
-  std::uint16_t scratch[4096 + 64];
-  std::uint16_t* sums = scratch + 32;
+  std::uint16_t* sums = out.sums + kSupportMargin;
   for (int i = 0; i < disparity_count; ++i) {
     const int d = disparity_min + i;
     supportColumnSums(left, right, v, width, d, sums);
@@ -61,7 +58,7 @@ void supportRow(const GradientView& left, const GradientView& right, int v, int 
     for (int u = 0; u < width; ++u)
       cost[u] = static_cast<std::uint16_t>(sums[u - 4] + sums[u - 2] + sums[u] + sums[u + 2] +
                                            sums[u + 4]);
-    const int first = d + kSupportReach;  // the whole window lies inside both pictures
+    const int first = d + kSupportMargin;  // the whole window lies inside both pictures
     const std::uint16_t disparity = static_cast<std::uint16_t>(d);
     for (int u = 0; u < first && u < width; ++u) cost[u] = 0xFFFF;
     for (int u = 0; u < width; ++u) {
@@ -205,7 +202,7 @@ void horizontalMoments(const float* in, const float* window, int radius, int wid
 
 void verticalMoments(const float* const* g_0, const float* const* g_1, const float* const* g_2,
                      const float* const* q_0, const float* const* q_1, const float* window,
-                     int radius, int width, const PlaneMoments& out) {
+                     int radius, int width, const MomentRow& out) {
   for (int u = 0; u < width; u += 8) {
     Float8 a00{}, a10{}, a01{}, a20{}, a11{}, a02{}, b0{}, b1{}, b2{};
     for (int y = -radius; y <= radius; ++y) {
@@ -222,19 +219,12 @@ void verticalMoments(const float* const* g_0, const float* const* g_1, const flo
       b2 += wy * q0;
       b1 += w * load8(q_1[k] + u);
     }
-    store8(out.a00 + u, a00);
-    store8(out.a10 + u, a10);
-    store8(out.a01 + u, a01);
-    store8(out.a20 + u, a20);
-    store8(out.a11 + u, a11);
-    store8(out.a02 + u, a02);
-    store8(out.b0 + u, b0);
-    store8(out.b1 + u, b1);
-    store8(out.b2 + u, b2);
+    const Float8 sums[] = {a00, a10, a01, a20, a11, a02, b0, b1, b2};
+    for (int k = 0; k < 9; ++k) store8(out.sums[k] + u, sums[k]);
   }
 }
 
-void selectedMoments(const SelectedWindow& at, float* moments) {
+void selectedMoments(const SelectedWindow& at, int u, const MomentRow& out) {
   const float centre = at.disparity[0];
   float sums[7][kSelectLanes] = {};
   for (int y = -at.radius; y <= at.radius; ++y) {
@@ -256,7 +246,7 @@ void selectedMoments(const SelectedWindow& at, float* moments) {
       sums[6][i] += w * at.weight[row + i];
     }
   }
-  for (int m = 0; m < 11; ++m) moments[m] = 0;
+  float moments[kMomentCount] = {};
   for (int i = 0; i < kSelectLanes; ++i) {
     const float x = static_cast<float>(i - at.radius);
     moments[0] += sums[0][i];
@@ -270,6 +260,33 @@ void selectedMoments(const SelectedWindow& at, float* moments) {
     moments[8] += sums[4][i];
     moments[9] += sums[5][i];
     moments[10] += sums[6][i];
+  }
+  for (int m = 0; m < kMomentCount; ++m) out.sums[m][u] = moments[m];
+}
+
+/// D of the 3 x 3 system by Cramer's rule, and its standard error; NaN where the fit fails.
+void solvePlanes(const PlaneRow& row) {
+  const float nan = __builtin_nanf("");
+  const auto& m = row.moments.sums;
+  for (int u = 0; u < row.width; ++u) {
+    const float a = m[0][u], b = m[1][u], c = m[2][u], d = m[3][u], e = m[4][u], f = m[5][u];
+    const float c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
+    const float determinant = a * c00 + b * c01 + c * c02;
+    const float found = (c00 * m[6][u] + c01 * m[7][u] + c02 * m[8][u]) / determinant;
+    const float step = found - row.before[u];
+    const float farthest = step < 0.0f ? -step : step;
+    // The matched disparity steadies the fit but is no evidence: it doesn't lower the error.
+    const float raw = 1.0f - row.prior_weight * m[10][u] / a;
+    const float evidence = raw > 1e-3f ? raw : 1e-3f;
+    const float noise_sq = m[9][u] / m[10][u] + row.noise_floor_sq;
+    const float variance =
+        noise_sq * (c00 / determinant) / (evidence * evidence * row.independent_pixels) +
+        row.model_variance_px2;
+    // Comparisons with NaN are false, so an unmatched pixel stays unmatched.
+    const bool holds = determinant > 1e-3f * a * d * f && farthest < row.farthest_step_px &&
+                       variance <= row.max_variance_px2;
+    row.disparity[u] = holds ? found : nan;
+    row.sigma[u] = holds ? __builtin_sqrtf(variance) : nan;
   }
 }
 
@@ -292,6 +309,7 @@ const StereoKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET) = {SOFTSCOPE_TEXT(SOFTSCO
                                                           horizontalMoments,
                                                           verticalMoments,
                                                           selectedMoments,
+                                                          solvePlanes,
                                                           sumRows};
 
 }  // namespace softscope

@@ -12,6 +12,7 @@ namespace softscope {
 /// Tile of the dense matcher; also the cell in which support disparities are shared.
 constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
+constexpr int kSupportMargin = 4;  // reach of the support window
 constexpr int kLargestPriorSlope = 65535 / (15 * 15);
 
 /// Two planes of 8-bit gradients around 128 with a margin on every side, see GradientImage.
@@ -24,7 +25,8 @@ struct GradientView {
 /// One row of support costs. For every u in [0, width): cost_left[u] the least cost over all
 /// disparities, disparity_left[u] where; the same for the right picture's pixels.
 struct SupportRow {
-  std::uint16_t* volume;  // (disparity_count) x stride
+  std::uint16_t* volume;  // disparity_count x stride
+  std::uint16_t* sums;    // scratch: width + 2 kSupportMargin
   std::uint16_t* cost_left;
   std::uint16_t* disparity_left;
   std::uint16_t* cost_right;
@@ -63,9 +65,26 @@ struct ResidualRow {
   float* weight;           // w
 };
 
-/// The six moments of the window's information and the three of its target, in one row.
-struct PlaneMoments {
-  float *a00, *a10, *a01, *a20, *a11, *a02, *b0, *b1, *b2;
+/// Sums over the window of each pixel of a row: six moments of its information (1, x, y, x², xy,
+/// y²), three of its target (1, x, y), then residual_sq and weight.
+constexpr int kMomentCount = 11;
+struct MomentRow {
+  float* sums[kMomentCount];
+};
+
+/// Solves every pixel of a row for its plane.
+struct PlaneRow {
+  MomentRow moments;
+  const float* before;  // disparity, NaN = unmatched
+  int width;
+  float farthest_step_px;  // NaN where the plane lies farther off
+  float prior_weight;      // see ResidualRow
+  float noise_floor_sq;
+  float independent_pixels;  // of the window
+  float model_variance_px2;
+  float max_variance_px2;  // NaN where the variance is larger
+  float* disparity;
+  float* sigma;
 };
 
 /// The same moments at one pixel, from those pixels of its window that lie on its own surface:
@@ -100,9 +119,10 @@ struct StereoKernels {
   /// Vertical moments of the rows v - r .. v + r (2 r + 1 pointers each).
   void (*verticalMoments)(const float* const* g_0, const float* const* g_1, const float* const* g_2,
                           const float* const* q_0, const float* const* q_1, const float* window,
-                          int radius, int width, const PlaneMoments& out);
-  /// moments: a00 a10 a01 a20 a11 a02 b0 b1 b2, then the sums of residual_sq and weight.
-  void (*selectedMoments)(const SelectedWindow& at, float* moments);
+                          int radius, int width, const MomentRow& out);
+  /// Writes column u of `out`.
+  void (*selectedMoments)(const SelectedWindow& at, int u, const MomentRow& out);
+  void (*solvePlanes)(const PlaneRow& row);
   /// sum over taps of weight[t] * in[t][u]; out[u], u in [0, width).
   void (*sumRows)(const float* const* in, const float* weights, int taps, int width, float* out);
 };

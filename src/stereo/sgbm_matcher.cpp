@@ -16,6 +16,7 @@ constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/s
 }  // namespace
 
 DisparityMap SgbmMatcher::match(const GrayImage& left, const GrayImage& right) {
+  requireRectifiedPair(left, right);
   StageClock clock;
   const int count = (options_.disparity_max_px - options_.disparity_min_px + 16) / 16 * 16;
   const int block = options_.sgbm_block_px, area = block * block;
@@ -34,6 +35,7 @@ DisparityMap SgbmMatcher::match(const GrayImage& left, const GrayImage& right) {
       map.disparity_px.at(u, v) = static_cast<float>(d) / 16;
       map.sigma_px.at(u, v) = kStandardErrorPx;
     }
+  removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
   clock.lap("erode");
   times_ = clock.laps();

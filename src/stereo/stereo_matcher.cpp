@@ -1,10 +1,24 @@
 #include "stereo/stereo_matcher.h"
 
+#include <sstream>
+
 #include "core/error.h"
 #include "stereo/elas_matcher.h"
 #include "stereo/sgbm_matcher.h"
 
 namespace softscope {
+
+void requireRectifiedPair(const GrayImage& left, const GrayImage& right) {
+  constexpr int kSmallestPx = 32;
+  if (left.sameShape(right) && left.width_px >= kSmallestPx && left.height_px >= kSmallestPx)
+    return;
+  std::ostringstream text;
+  text << "the left picture is " << left.width_px << " x " << left.height_px
+       << " pixels, the right " << right.width_px << " x " << right.height_px
+       << ", but stereo needs two pictures of one size, " << kSmallestPx
+       << " pixels or more each way";
+  throw InputError(text.str());
+}
 
 std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options) {
   options.validate();

@@ -31,6 +31,9 @@ class StereoMatcher {
   virtual const StageTimes& times() const = 0;
 };
 
+/// Throws Error unless both pictures have one shape of at least 32 x 32 pixels.
+void requireRectifiedPair(const GrayImage& left, const GrayImage& right);
+
 /// Throws OptionError if the options break a rule.
 std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options);
 

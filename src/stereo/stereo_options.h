@@ -23,7 +23,7 @@ struct ElasOptions {
 
   // Prior: the planes of the triangles between support points.
   double prior_sigma_px = 1.0;  // how far the surface leaves its triangle
-  double prior_weight = 3.0;    // cost of leaving it altogether, in mean gradient steps
+  double prior_weight = 1.0;    // cost of leaving it altogether, in mean gradient steps
 
   // Post-processing.
   int left_right_px = 1;         // left and right disparity agree to this
@@ -37,12 +37,15 @@ struct ElasOptions {
 struct RefinementOptions {
   int iterations = 3;
   int radius_px = 6;              // window is (2 r + 1)²
-  double highpass_sigma_px = 8;   // brightness slower than this is left out (light, exposure)
+  double highpass_sigma_px = 3;   // brightness slower than this is left out (light, exposure)
   double noise_gray = 2.0;        // residual, in grey levels, that halves a pixel's weight
   double noise_floor_gray = 0.4;  // noise that even a perfect match leaves
   double model_sigma_px = 0.05;   // error that no amount of texture removes
   double prior_sigma_px = 1.0;    // trust in the matched disparity where texture is weak
-  double max_sigma_px = 1.0;      // pixels whose predicted standard error is larger are dropped
+  double max_sigma_px = 2.0;      // pixels whose predicted standard error is larger are dropped
+
+  static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row
+  void validate() const;                      // see StereoOptions::validate()
 };
 
 /// What any matcher needs.
@@ -58,6 +61,8 @@ struct StereoOptions {
   ElasOptions elas;
   RefinementOptions refinement;
   int sgbm_block_px = 5;
+
+  static constexpr int kLargestDisparityPx = 1023;
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;

@@ -1,7 +1,6 @@
 #include "stereo/subpixel_refinement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -16,10 +15,11 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr double kWindowSigma = 0.55;    // of the radius
-constexpr double kFarthestStepPx = 1.5;  // a fit that wanders farther has lost its pixel
+constexpr float kFarthestStepPx = 1.5f;  // a fit that wanders farther has lost its pixel
 constexpr float kStepPx = 1.0f;          // neighbours of one surface differ by at most this …
 constexpr float kSlope = 0.4f;           // … and this much more for every pixel between them
-constexpr int kMoments = 11;             // see StereoKernels::selectedMoments
+constexpr float kClearStepPx = 2.0f;     // a step that is no noise of the matching
+constexpr int kBandRows = 80;            // solved by one thread at a time
 
 std::vector<float> gaussian(double sigma, int radius) {
   std::vector<float> weights;
@@ -30,35 +30,54 @@ std::vector<float> gaussian(double sigma, int radius) {
   return weights;
 }
 
-/// One Gauss-Newton step after the other; every buffer is allocated once.
-class PlaneFit {
- public:
-  PlaneFit(const GrayImage& left, const GrayImage& right, const Raster<float>& initial_px,
-           const RefinementOptions& options)
-      : width_(left.width_px),
-        height_(left.height_px),
-        radius_(options.radius_px),
-        options_(options),
-        left_(bandPass(left, options.highpass_sigma_px)),
-        right_(bandPass(right, options.highpass_sigma_px)),
-        near_step_(nearDepthSteps(initial_px, options.radius_px, kStepPx, kSlope)),
-        window_(gaussian(kWindowSigma * options.radius_px, options.radius_px)),
-        pixels_(planes<kPixelPlanes>()),
-        rows_(planes<kRowPlanes>()) {
-    makeSelection();
+/// What all bands share: the pictures, the window, and how to weigh.
+struct Setting {
+  Setting(const GrayImage& left_image, const GrayImage& right_image,
+          const Raster<float>& initial_px, const RefinementOptions& refinement)
+      : options(refinement),
+        left(bandPass(left_image, refinement.highpass_sigma_px)),
+        right(bandPass(right_image, refinement.highpass_sigma_px)),
+        near_step(nearDepthSteps(initial_px, refinement.radius_px, kClearStepPx, kSlope)),
+        window(gaussian(kWindowSigma * refinement.radius_px, refinement.radius_px)) {
+    const int radius = options.radius_px;
+    for (int y = -radius; y <= radius; ++y)
+      for (int i = 0; i < kSelectLanes; ++i) {
+        const int x = i - radius;
+        selection_window.push_back(x <= radius ? window[y + radius] * window[i] : 0.0f);
+        selection_tolerance.push_back(kStepPx +
+                                      kSlope * std::sqrt(static_cast<float>(x * x + y * y)));
+      }
   }
 
-  /// One step of every pixel; NaN stays NaN.
-  DisparityMap step(const Raster<float>& disparity) {
-    parallelRanges(height_, 16, [&](int begin, int end) {
-      for (int v = begin; v < end; ++v) linearise(disparity, v);
-    });
-    DisparityMap out{Raster<float>(width_, height_, kNaN), Raster<float>(width_, height_, kNaN)};
-    parallelRanges(height_, 16, [&](int begin, int end) {
-      Plane moments(width_, kMoments);
-      for (int v = begin; v < end; ++v) solveRow(disparity, v, moments, out);
-    });
-    return out;
+  float priorWeight() const {
+    return static_cast<float>(std::pow(options.noise_gray / options.prior_sigma_px, 2));
+  }
+
+  RefinementOptions options;
+  Plane left, right;
+  Raster<std::uint8_t> near_step;
+  std::vector<float> window, selection_window, selection_tolerance;
+};
+
+/// A band of rows, solved from top to bottom. Only the rows that a window needs are held, so that
+/// they stay in the cache.
+class Band {
+ public:
+  Band(const Setting& setting, const Raster<float>& disparity, DisparityMap& out)
+      : setting_(setting),
+        radius_(setting.options.radius_px),
+        width_(disparity.width_px),
+        disparity_(disparity),
+        out_(out),
+        pixels_(kPixelPlanes, Plane(width_, 2 * height())),
+        rows_(kRowPlanes, Plane(width_, height())),
+        moments_(width_, kMomentCount) {}
+
+  void solve(int begin, int end) {
+    for (int v = begin - radius_; v < end + radius_; ++v) {
+      linearise(v);
+      if (v - radius_ >= begin) solveRow(v - radius_);
+    }
   }
 
  private:
@@ -66,124 +85,100 @@ class PlaneFit {
   enum { kDisparity, kInformation, kTarget, kResidualSq, kWeight, kPixelPlanes };
   enum { kG0, kG1, kG2, kQ0, kQ1, kE0, kE1, kRowPlanes };
 
-  template <int count>
-  std::vector<Plane> planes() const {
-    return std::vector<Plane>(count, Plane(width_, height_));
-  }
-
-  void makeSelection() {
-    for (int y = -radius_; y <= radius_; ++y)
-      for (int i = 0; i < kSelectLanes; ++i) {
-        const int x = i - radius_;
-        const bool inside = x <= radius_;
-        selection_window_.push_back(inside ? window_[y + radius_] * window_[i] : 0.0f);
-        selection_tolerance_.push_back(kStepPx +
-                                       kSlope * std::sqrt(static_cast<float>(x * x + y * y)));
-      }
-  }
-
-  double priorWeight() const {
-    const double ratio = options_.noise_gray / options_.prior_sigma_px;
-    return ratio * ratio;
-  }
+  int height() const { return 2 * radius_ + 1; }
+  int slot(int v) const { return (v + height()) % height(); }
 
   /// Residual and gradient of every pixel of a row at its present disparity, and their row sums.
-  void linearise(const Raster<float>& disparity, int v) {
-    const StereoKernels& kernels = stereoKernels();
-    Plane valid(width_, 1);
-    float* d = pixels_[kDisparity].row(v);
+  void linearise(int v) {
+    const bool inside = v >= 0 && v < disparity_.height_px;
     for (int u = 0; u < width_; ++u) {
-      const float value = disparity.at(u, v);
-      valid.row(0)[u] = std::isnan(value) ? 0.0f : 1.0f;
-      d[u] = std::isnan(value) ? 0.0f : value;
+      const float value = inside ? disparity_.at(u, v) : kNaN;
+      valid_[u] = std::isnan(value) ? 0.0f : 1.0f;
+      pixels_[kDisparity].row(slot(v))[u] = std::isnan(value) ? 0.0f : value;
     }
-    const auto row = [&](int plane) { return pixels_[plane].row(v); };
-    const float noise = static_cast<float>(options_.noise_gray);
-    kernels.residualRow({left_.row(v), right_.row(v), d, valid.row(0), width_, 1 / (noise * noise),
-                         static_cast<float>(priorWeight()), row(kInformation), row(kTarget),
-                         row(kResidualSq), row(kWeight)});
-    const auto sums = [&](int in, int out_0, float* out_1, float* out_2) {
-      kernels.horizontalMoments(row(in), window_.data(), radius_, width_, rows_[out_0].row(v),
-                                out_1, out_2);
-    };
-    sums(kInformation, kG0, rows_[kG1].row(v), rows_[kG2].row(v));
-    sums(kTarget, kQ0, rows_[kQ1].row(v), nullptr);
-    sums(kResidualSq, kE0, nullptr, nullptr);
-    sums(kWeight, kE1, nullptr, nullptr);
+    const auto pixel = [&](int plane) { return pixels_[plane].row(slot(v)); };
+    const auto row = [&](int plane) { return rows_[plane].row(slot(v)); };
+    const float noise = static_cast<float>(setting_.options.noise_gray);
+    const int source = inside ? v : 0;
+    const StereoKernels& kernels = stereoKernels();
+    kernels.residualRow({setting_.left.row(source), setting_.right.row(source), pixel(kDisparity),
+                         valid_.data(), width_, 1 / (noise * noise), setting_.priorWeight(),
+                         pixel(kInformation), pixel(kTarget), pixel(kResidualSq), pixel(kWeight)});
+    const float* window = setting_.window.data();
+    kernels.horizontalMoments(pixel(kInformation), window, radius_, width_, row(kG0), row(kG1),
+                              row(kG2));
+    kernels.horizontalMoments(pixel(kTarget), window, radius_, width_, row(kQ0), row(kQ1), nullptr);
+    kernels.horizontalMoments(pixel(kResidualSq), window, radius_, width_, row(kE0), nullptr,
+                              nullptr);
+    kernels.horizontalMoments(pixel(kWeight), window, radius_, width_, row(kE1), nullptr, nullptr);
+    // A second copy, so that the rows around any row follow each other.
+    for (Plane& plane : pixels_)
+      std::copy_n(plane.row(slot(v)) - Plane::kMargin, width_ + 2 * Plane::kMargin,
+                  plane.row(slot(v) + height()) - Plane::kMargin);
   }
 
-  /// Moments of whole windows for a row, then the plane of each pixel.
-  void solveRow(const Raster<float>& disparity, int v, Plane& moments, DisparityMap& out) const {
-    windowMoments(v, moments);
-    for (int u = 0; u < width_; ++u) {
-      const float before = disparity.at(u, v);
-      if (std::isnan(before)) continue;
-      std::array<float, kMoments> m;
-      if (near_step_.at(u, v) != 0)
-        selectMoments(u, v, m.data());
-      else
-        for (int k = 0; k < kMoments; ++k) m[k] = moments.row(k)[u];
-      solvePixel(m, before, out.disparity_px.at(u, v), out.sigma_px.at(u, v));
-    }
+  /// Sums over the windows of a row, then the plane of each pixel.
+  void solveRow(int v) {
+    MomentRow moments;
+    for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = moments_.row(k);
+    sumWindows(v, moments);
+    for (int u = 0; u < width_; ++u)
+      if (setting_.near_step.at(u, v) != 0 && !std::isnan(disparity_.at(u, v)))
+        selectWindow(u, v, moments);
+    const RefinementOptions& options = setting_.options;
+    const auto squared = [](double x) { return static_cast<float>(x * x); };
+    stereoKernels().solvePlanes({moments, disparity_.row(v), width_, kFarthestStepPx,
+                                 setting_.priorWeight(), squared(options.noise_floor_gray),
+                                 static_cast<float>(2 * M_PI) * squared(kWindowSigma * radius_),
+                                 squared(options.model_sigma_px), squared(options.max_sigma_px),
+                                 out_.disparity_px.row(v), out_.sigma_px.row(v)});
   }
 
-  void windowMoments(int v, Plane& moments) const {
-    const StereoKernels& kernels = stereoKernels();
-    std::array<std::vector<const float*>, kRowPlanes> around;
+  void sumWindows(int v, const MomentRow& moments) {
+    const float* around[kRowPlanes][2 * Plane::kMargin];
     for (int plane = 0; plane < kRowPlanes; ++plane)
-      for (int y = -radius_; y <= radius_; ++y) around[plane].push_back(rows_[plane].row(v + y));
-    const auto row = [&](int k) { return moments.row(k); };
-    kernels.verticalMoments(
-        around[kG0].data(), around[kG1].data(), around[kG2].data(), around[kQ0].data(),
-        around[kQ1].data(), window_.data(), radius_, width_,
-        {row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7), row(8)});
-    for (int k = 0; k < 2; ++k)
-      kernels.sumRows(around[kE0 + k].data(), window_.data(), 2 * radius_ + 1, width_, row(9 + k));
+      for (int y = 0; y < height(); ++y) around[plane][y] = rows_[plane].row(slot(v - radius_ + y));
+    const float* window = setting_.window.data();
+    const StereoKernels& kernels = stereoKernels();
+    kernels.verticalMoments(around[kG0], around[kG1], around[kG2], around[kQ0], around[kQ1], window,
+                            radius_, width_, moments);
+    kernels.sumRows(around[kE0], window, height(), width_, moments.sums[9]);
+    kernels.sumRows(around[kE1], window, height(), width_, moments.sums[10]);
   }
 
-  void selectMoments(int u, int v, float* moments) const {
-    const auto at = [&](int plane) { return pixels_[plane].row(v) + u; };
+  void selectWindow(int u, int v, const MomentRow& moments) {
+    const int centre = slot(v - radius_) + radius_;  // in the doubled planes
+    const auto at = [&](int plane) { return pixels_[plane].row(centre) + u; };
     stereoKernels().selectedMoments(
         {at(kInformation), at(kTarget), at(kResidualSq), at(kWeight), at(kDisparity),
-         pixels_[0].stride(), selection_window_.data(), selection_tolerance_.data(), radius_},
-        moments);
+         pixels_[0].stride(), setting_.selection_window.data(), setting_.selection_tolerance.data(),
+         radius_},
+        u, moments);
   }
 
-  /// D of the 3 x 3 system by Cramer's rule, and its standard error; stays NaN where it fails.
-  void solvePixel(const std::array<float, kMoments>& m, float before, float& disparity,
-                  float& sigma) const {
-    const double a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
-    const double c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
-    const double determinant = a * c00 + b * c01 + c * c02;
-    if (!(determinant > 1e-3 * a * d * f)) return;  // too few pixels for a plane
-    const double found = (c00 * m[6] + c01 * m[7] + c02 * m[8]) / determinant;
-    if (!(std::abs(found - before) < kFarthestStepPx)) return;
-    // The matched disparity steadies the fit but is no evidence: it doesn't lower the error.
-    const double evidence = std::max(1 - priorWeight() * m[10] / a, 1e-3);
-    const double noise_sq = m[9] / m[10] + options_.noise_floor_gray * options_.noise_floor_gray;
-    const double independent = 2 * M_PI * std::pow(kWindowSigma * radius_, 2);
-    const double variance = noise_sq * (c00 / determinant) / (evidence * evidence * independent) +
-                            options_.model_sigma_px * options_.model_sigma_px;
-    if (!(variance <= options_.max_sigma_px * options_.max_sigma_px)) return;
-    disparity = static_cast<float>(found);
-    sigma = static_cast<float>(std::sqrt(variance));
-  }
-
-  int width_, height_, radius_;
-  RefinementOptions options_;
-  Plane left_, right_;
-  Raster<std::uint8_t> near_step_;
-  std::vector<float> window_, selection_window_, selection_tolerance_;
+  const Setting& setting_;
+  int radius_, width_;
+  const Raster<float>& disparity_;
+  DisparityMap& out_;
   std::vector<Plane> pixels_, rows_;
+  Plane moments_;
+  std::vector<float> valid_ = std::vector<float>(static_cast<std::size_t>(width_));
 };
 
 }  // namespace
 
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
-  PlaneFit fit(left, right, initial_px, options);
-  DisparityMap map{initial_px, Raster<float>(left.width_px, left.height_px, kNaN)};
-  for (int i = 0; i < options.iterations; ++i) map = fit.step(map.disparity_px);
+  const Setting setting(left, right, initial_px, options);
+  const int width = left.width_px, height = left.height_px;
+  DisparityMap map{initial_px, Raster<float>(width, height, kNaN)};
+  DisparityMap next = map;
+  for (int i = 0; i < options.iterations; ++i) {
+    parallelRanges(height, kBandRows, [&](int begin, int end) {
+      Band(setting, map.disparity_px, next).solve(begin, end);
+    });
+    std::swap(map, next);
+  }
   return map;
 }
 

@@ -51,10 +51,10 @@ class RowMatcher {
         count_(options.disparity_max_px - options.disparity_min_px + 1),
         elas_(options.elas) {
     const std::size_t stride = static_cast<std::size_t>((width_ + 63) / 64 * 64);
-    buffer_.resize(stride * (static_cast<std::size_t>(count_) + 4));
+    buffer_.resize(stride * (static_cast<std::size_t>(count_) + 5) + 2 * kSupportMargin);
     std::uint16_t* rest = buffer_.data() + stride * static_cast<std::size_t>(count_);
-    row_ = {buffer_.data(),          rest, rest + stride, rest + 2 * stride, rest + 3 * stride,
-            static_cast<int>(stride)};
+    row_ = {buffer_.data(),    rest + 4 * stride,       rest, rest + stride, rest + 2 * stride,
+            rest + 3 * stride, static_cast<int>(stride)};
   }
 
   void match(int v, float* candidates, int columns) {
