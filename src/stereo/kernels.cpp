@@ -180,6 +180,8 @@ void residualRow(const ResidualRow& row) {
     row.target[u] = w * (g * (g * row.disparity[u] + r) + row.prior_weight * row.disparity[u]);
     row.residual_sq[u] = w * r * r;
     row.weight[u] = w;
+    row.difference_sq[u] = inside * r * r;
+    row.energy[u] = inside * (value * value + row.left[u] * row.left[u]);
   }
 }
 
@@ -226,7 +228,7 @@ void verticalMoments(const float* const* g_0, const float* const* g_1, const flo
 
 void selectedMoments(const SelectedWindow& at, int u, const MomentRow& out) {
   const float centre = at.disparity[0];
-  float sums[7][kSelectLanes] = {};
+  float sums[9][kSelectLanes] = {};
   for (int y = -at.radius; y <= at.radius; ++y) {
     const long row = static_cast<long>(y) * at.stride - at.radius;
     const int k = (y + at.radius) * kSelectLanes;
@@ -244,6 +246,8 @@ void selectedMoments(const SelectedWindow& at, int u, const MomentRow& out) {
       sums[4][i] += fy * q;
       sums[5][i] += w * at.residual_sq[row + i];
       sums[6][i] += w * at.weight[row + i];
+      sums[7][i] += w * at.difference_sq[row + i];
+      sums[8][i] += w * at.energy[row + i];
     }
   }
   float moments[kMomentCount] = {};
@@ -260,6 +264,8 @@ void selectedMoments(const SelectedWindow& at, int u, const MomentRow& out) {
     moments[8] += sums[4][i];
     moments[9] += sums[5][i];
     moments[10] += sums[6][i];
+    moments[11] += sums[7][i];
+    moments[12] += sums[8][i];
   }
   for (int m = 0; m < kMomentCount; ++m) out.sums[m][u] = moments[m];
 }
@@ -284,8 +290,9 @@ void solvePlanes(const PlaneRow& row) {
         row.model_variance_px2;
     // Comparisons with NaN are false, so an unmatched pixel stays unmatched.
     const bool holds = determinant > 1e-3f * a * d * f && farthest < row.farthest_step_px &&
-                       variance <= row.max_variance_px2;
-    row.disparity[u] = holds ? found : nan;
+                       variance <= row.max_variance_px2 &&
+                       m[11][u] <= row.max_difference * m[12][u];
+    row.disparity[u] = holds ? row.before[u] + row.relaxation * step : nan;
     row.sigma[u] = holds ? __builtin_sqrtf(variance) : nan;
   }
 }

@@ -63,11 +63,13 @@ struct ResidualRow {
   float* target;           // w (g (g d + R - L) + prior_weight d)
   float* residual_sq;      // w (R - L)²
   float* weight;           // w
+  float* difference_sq;    // (R - L)² where matched, whatever its weight
+  float* energy;           // R² + L² where matched
 };
 
 /// Sums over the window of each pixel of a row: six moments of its information (1, x, y, x², xy,
-/// y²), three of its target (1, x, y), then residual_sq and weight.
-constexpr int kMomentCount = 11;
+/// y²), three of its target (1, x, y), then residual_sq, weight, difference_sq and energy.
+constexpr int kMomentCount = 13;
 struct MomentRow {
   float* sums[kMomentCount];
 };
@@ -83,6 +85,8 @@ struct PlaneRow {
   float independent_pixels;  // of the window
   float model_variance_px2;
   float max_variance_px2;  // NaN where the variance is larger
+  float max_difference;    // NaN where difference_sq is a larger share of the energy
+  float relaxation;        // share of the step to take; above 1 converges faster
   float* disparity;
   float* sigma;
 };
@@ -96,6 +100,8 @@ struct SelectedWindow {
   const float* target;
   const float* residual_sq;
   const float* weight;
+  const float* difference_sq;
+  const float* energy;
   const float* disparity;
   int stride;
   const float* window;     // (2 r + 1) x kSelectLanes

@@ -48,6 +48,9 @@ void RefinementOptions::validate() const {
   requireAtLeast("stereo.refinement.noise_floor_gray", noise_floor_gray, 0);
   requireAtLeast("stereo.refinement.model_sigma_px", model_sigma_px, 0);
   requireAbove("stereo.refinement.prior_sigma_px", prior_sigma_px, 0);
+  require(relaxation >= 1 && relaxation < 2, "stereo.refinement.relaxation", relaxation,
+          "must be at least 1 and below 2");
+  requireAbove("stereo.refinement.max_difference", max_difference, 0);
   requireAbove("stereo.refinement.max_sigma_px", max_sigma_px, 0);
 }
 

@@ -14,7 +14,7 @@ struct ElasOptions {
   // Support points: pixels that can be matched without help.
   int support_step_px = 5;          // grid on which they are sought
   double support_texture = 1.0;     // least mean |gradient| of the window
-  double support_uniqueness = 0.9;  // best cost over second best, at most
+  double support_uniqueness = 0.8;  // best cost over second best, at most
   int support_left_right_px = 1;    // right-to-left match returns this close
   int support_window_cells = 5;     // neighbours, in grid steps, that must agree …
   int support_agreement_px = 5;     // … to this many pixels …
@@ -31,6 +31,8 @@ struct ElasOptions {
   double speckle_step_px = 1.0;  // neighbours of one island differ at most by this
   int gap_width_px = 6;          // gaps in a row or column up to this are interpolated …
   double gap_step_px = 2.0;      // … if both sides differ at most by this
+
+  void validate() const;  // see StereoOptions::validate()
 };
 
 /// Sub-pixel refinement: a plane fitted to the brightness in a window about each pixel.
@@ -42,6 +44,8 @@ struct RefinementOptions {
   double noise_floor_gray = 0.4;  // noise that even a perfect match leaves
   double model_sigma_px = 0.05;   // error that no amount of texture removes
   double prior_sigma_px = 1.0;    // trust in the matched disparity where texture is weak
+  double relaxation = 1.5;        // share of each step taken, but for the last
+  double max_difference = 0.5;    // (R - L)² as a share of R² + L²; unrelated pictures have 1
   double max_sigma_px = 2.0;      // pixels whose predicted standard error is larger are dropped
 
   static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row

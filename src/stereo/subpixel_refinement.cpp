@@ -63,11 +63,12 @@ struct Setting {
 /// they stay in the cache.
 class Band {
  public:
-  Band(const Setting& setting, const Raster<float>& disparity, DisparityMap& out)
+  Band(const Setting& setting, const Raster<float>& disparity, float relaxation, DisparityMap& out)
       : setting_(setting),
         radius_(setting.options.radius_px),
         width_(disparity.width_px),
         disparity_(disparity),
+        relaxation_(relaxation),
         out_(out),
         pixels_(kPixelPlanes, Plane(width_, 2 * height())),
         rows_(kRowPlanes, Plane(width_, height())),
@@ -82,8 +83,17 @@ class Band {
 
  private:
   // What is known of each pixel, and the sums along its row.
-  enum { kDisparity, kInformation, kTarget, kResidualSq, kWeight, kPixelPlanes };
-  enum { kG0, kG1, kG2, kQ0, kQ1, kE0, kE1, kRowPlanes };
+  enum {
+    kDisparity,
+    kInformation,
+    kTarget,
+    kResidualSq,
+    kWeight,
+    kDifferenceSq,
+    kEnergy,
+    kPixelPlanes
+  };
+  enum { kG0, kG1, kG2, kQ0, kQ1, kE0, kE1, kE2, kE3, kRowPlanes };
 
   int height() const { return 2 * radius_ + 1; }
   int slot(int v) const { return (v + height()) % height(); }
@@ -103,14 +113,15 @@ class Band {
     const StereoKernels& kernels = stereoKernels();
     kernels.residualRow({setting_.left.row(source), setting_.right.row(source), pixel(kDisparity),
                          valid_.data(), width_, 1 / (noise * noise), setting_.priorWeight(),
-                         pixel(kInformation), pixel(kTarget), pixel(kResidualSq), pixel(kWeight)});
+                         pixel(kInformation), pixel(kTarget), pixel(kResidualSq), pixel(kWeight),
+                         pixel(kDifferenceSq), pixel(kEnergy)});
     const float* window = setting_.window.data();
     kernels.horizontalMoments(pixel(kInformation), window, radius_, width_, row(kG0), row(kG1),
                               row(kG2));
     kernels.horizontalMoments(pixel(kTarget), window, radius_, width_, row(kQ0), row(kQ1), nullptr);
-    kernels.horizontalMoments(pixel(kResidualSq), window, radius_, width_, row(kE0), nullptr,
-                              nullptr);
-    kernels.horizontalMoments(pixel(kWeight), window, radius_, width_, row(kE1), nullptr, nullptr);
+    for (int k = 0; k < 4; ++k)
+      kernels.horizontalMoments(pixel(kResidualSq + k), window, radius_, width_, row(kE0 + k),
+                                nullptr, nullptr);
     // A second copy, so that the rows around any row follow each other.
     for (Plane& plane : pixels_)
       std::copy_n(plane.row(slot(v)) - Plane::kMargin, width_ + 2 * Plane::kMargin,
@@ -129,8 +140,9 @@ class Band {
     const auto squared = [](double x) { return static_cast<float>(x * x); };
     stereoKernels().solvePlanes({moments, disparity_.row(v), width_, kFarthestStepPx,
                                  setting_.priorWeight(), squared(options.noise_floor_gray),
-                                 static_cast<float>(2 * M_PI) * squared(kWindowSigma * radius_),
+                                 static_cast<float>(4 * M_PI) * squared(kWindowSigma * radius_),
                                  squared(options.model_sigma_px), squared(options.max_sigma_px),
+                                 static_cast<float>(options.max_difference), relaxation_,
                                  out_.disparity_px.row(v), out_.sigma_px.row(v)});
   }
 
@@ -142,23 +154,24 @@ class Band {
     const StereoKernels& kernels = stereoKernels();
     kernels.verticalMoments(around[kG0], around[kG1], around[kG2], around[kQ0], around[kQ1], window,
                             radius_, width_, moments);
-    kernels.sumRows(around[kE0], window, height(), width_, moments.sums[9]);
-    kernels.sumRows(around[kE1], window, height(), width_, moments.sums[10]);
+    for (int k = 0; k < 4; ++k)
+      kernels.sumRows(around[kE0 + k], window, height(), width_, moments.sums[9 + k]);
   }
 
   void selectWindow(int u, int v, const MomentRow& moments) {
     const int centre = slot(v - radius_) + radius_;  // in the doubled planes
     const auto at = [&](int plane) { return pixels_[plane].row(centre) + u; };
     stereoKernels().selectedMoments(
-        {at(kInformation), at(kTarget), at(kResidualSq), at(kWeight), at(kDisparity),
-         pixels_[0].stride(), setting_.selection_window.data(), setting_.selection_tolerance.data(),
-         radius_},
+        {at(kInformation), at(kTarget), at(kResidualSq), at(kWeight), at(kDifferenceSq),
+         at(kEnergy), at(kDisparity), pixels_[0].stride(), setting_.selection_window.data(),
+         setting_.selection_tolerance.data(), radius_},
         u, moments);
   }
 
   const Setting& setting_;
   int radius_, width_;
   const Raster<float>& disparity_;
+  float relaxation_;
   DisparityMap& out_;
   std::vector<Plane> pixels_, rows_;
   Plane moments_;
@@ -174,8 +187,10 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   DisparityMap map{initial_px, Raster<float>(width, height, kNaN)};
   DisparityMap next = map;
   for (int i = 0; i < options.iterations; ++i) {
+    const float relaxation =
+        i + 1 < options.iterations ? static_cast<float>(options.relaxation) : 1.0f;
     parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(setting, map.disparity_px, next).solve(begin, end);
+      Band(setting, map.disparity_px, relaxation, next).solve(begin, end);
     });
     std::swap(map, next);
   }

@@ -1,0 +1,47 @@
+// tests/stereo/stereo_options_test.cpp: wrong options are refused by name.
+#include "stereo/stereo_options.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+void expectRefused(const StereoOptions& options, const std::string& field) {
+  try {
+    options.validate();
+    FAIL() << field << " was accepted";
+  } catch (const OptionError& error) {
+    EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+  }
+}
+
+TEST(StereoOptions, HaveValidDefaults) { EXPECT_NO_THROW(StereoOptions{}.validate()); }
+
+TEST(StereoOptions, RefuseWrongValuesByName) {
+  StereoOptions o;
+  o.method = "elass";
+  expectRefused(o, "stereo.method");
+  o = {};
+  o.disparity_max_px = 0;
+  expectRefused(o, "stereo.disparity_max_px");
+  o = {};
+  o.disparity_max_px = 5000;
+  expectRefused(o, "stereo.disparity_max_px");
+  o = {};
+  o.elas.support_step_px = 0;
+  expectRefused(o, "stereo.elas.support_step_px");
+  o = {};
+  o.elas.prior_sigma_px = -1;
+  expectRefused(o, "stereo.elas.prior_sigma_px");
+  o = {};
+  o.refinement.radius_px = 8;
+  expectRefused(o, "stereo.refinement.radius_px");
+  o = {};
+  o.refinement.noise_gray = std::numeric_limits<double>::quiet_NaN();
+  expectRefused(o, "stereo.refinement.noise_gray");
+}
+
+}  // namespace
+}  // namespace softscope

@@ -1,0 +1,47 @@
+// tests/stereo/support_points_test.cpp: points that need no help are right.
+#include "stereo/support_points.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scene.h"
+
+namespace softscope {
+namespace {
+
+std::vector<SupportPoint> pointsOf(const GrayImage& left, const GrayImage& right) {
+  StereoOptions options;
+  options.disparity_max_px = 100;
+  const GradientImage l(left, options.elas.gradient_gain, options.disparity_max_px);
+  const GradientImage r(right, options.elas.gradient_gain, options.disparity_max_px);
+  return findSupportPoints(l, r, options);
+}
+
+TEST(SupportPoints, LieOnASlantedPlaneToAQuarterPixel) {
+  const auto scene = test::makeScene(test::endoscope(), test::plane(55, 0.4, -0.2), 1.0);
+  const auto points = pointsOf(scene.left, scene.right);
+  ASSERT_GT(points.size(), 200u);
+  int wrong = 0;
+  for (const SupportPoint& p : points)
+    wrong += std::abs(p.disparity_px - scene.disparity_px.at(p.u_px, p.v_px)) > 0.5f;
+  // A parabola through three costs is good to a quarter pixel; beyond half lies a mismatch.
+  EXPECT_LE(wrong, static_cast<int>(points.size() / 100));
+}
+
+TEST(SupportPoints, ComeInRasterOrder) {
+  const auto scene = test::makeScene(test::endoscope(), test::plane(55));
+  const auto points = pointsOf(scene.left, scene.right);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    EXPECT_LT(points[i - 1].v_px * 1000 + points[i - 1].u_px,
+              points[i].v_px * 1000 + points[i].u_px);
+}
+
+TEST(SupportPoints, AreNotSeenInFlatOrUnrelatedPictures) {
+  EXPECT_TRUE(pointsOf(GrayImage(160, 120, 90), GrayImage(160, 120, 90)).empty());
+  const auto one = test::makeScene(test::endoscope(), test::plane(55), 0);
+  const auto other = test::makeScene(test::endoscope(), test::plane(75, 0.9), 0);
+  // Left and right of two scenes: of 3072 grid pixels few agree by chance and with neighbours.
+  EXPECT_LT(pointsOf(one.left, other.right).size(), 100u);
+}
+
+}  // namespace
+}  // namespace softscope
