@@ -1,0 +1,19 @@
+// vtk_views/nice_ticks.h: where an axis carries its numbers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace softscope {
+
+struct Ticks {
+  std::vector<double> values;  // ascending, multiples of 1, 2 or 5 times a power of ten
+  int decimals = 0;            // that tell them apart
+
+  std::string label(double value) const;
+};
+
+/// About `wanted` ticks within [low, high]. Throws Error unless low < high and both are finite.
+Ticks niceTicks(double low, double high, int wanted);
+
+}  // namespace softscope

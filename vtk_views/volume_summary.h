@@ -1,0 +1,38 @@
+// vtk_views/volume_summary.h: what a CT or MR volume says about itself.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace softscope {
+
+struct VolumeSummary {
+  std::string format;  // "NIfTI", "NRRD", "MetaImage", "DICOM"
+  std::array<int, 3> size_voxels{};
+  std::array<double, 3> spacing_mm{};  // between voxel centres, from positions where there are any
+  /// p_lps = lps_from_voxel * (i, j, k, 1), mm; LPS: x to the patient's left, y back, z to the
+  /// head.
+  Eigen::Matrix4d lps_from_voxel = Eigen::Matrix4d::Identity();
+  std::string file_space;  // the header's own convention: "LPS", "RAS" …; "unknown" if it says none
+  std::string axes;        // where i, j, k run to, e.g. "LPS"
+  std::string scalar_type;
+  int components = 1;
+  std::array<double, 2> value_range{};                       // of the first component
+  std::vector<std::pair<std::string, std::string>> details;  // modality, series …; no patient
+  std::vector<std::pair<std::string, std::string>> patient;  // DICOM, and only if asked for
+  std::vector<std::string> warnings;                         // a line each
+};
+
+/// True where the name or the first bytes say that summariseVolume() may read it: NIfTI, NRRD,
+/// MetaImage or DICOM file, or a folder that holds DICOM files.
+bool looksLikeVolume(const std::string& path);
+
+/// Reads the whole volume. Of a folder with several DICOM series, the one with most slices; the
+/// others are named in the warnings. `with_patient` adds name, ID, sex, birth date and study date.
+/// Throws InputError where the file can't be read.
+VolumeSummary summariseVolume(const std::string& path, bool with_patient = false);
+
+}  // namespace softscope
