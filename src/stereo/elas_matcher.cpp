@@ -1,9 +1,12 @@
 #include "stereo/elas_matcher.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
 #include "stereo/dense_matching.h"
 #include "stereo/disparity_filter.h"
 #include "stereo/gradient_image.h"
+#include "stereo/pyramid.h"
 #include "stereo/stage_clock.h"
 #include "stereo/subpixel_refinement.h"
 #include "stereo/support_points.h"
@@ -17,40 +20,67 @@ std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
   return points;
 }
 
-}  // namespace
-
-DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
-  requireRectifiedPair(left, right);
-  const ElasOptions& elas = options_.elas;
-  StageClock clock;
-  const GradientImage left_gradient(left, elas.gradient_gain, options_.disparity_max_px);
-  const GradientImage right_gradient(right, elas.gradient_gain, options_.disparity_max_px);
+/// One level of the pyramid, times into `clock`.
+DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const StereoOptions& options,
+                        StageClock& clock) {
+  const ElasOptions& elas = options.elas;
+  const GradientImage left_gradient(left, elas.gradient_gain, options.disparity_max_px);
+  const GradientImage right_gradient(right, elas.gradient_gain, options.disparity_max_px);
   clock.lap("gradients");
 
   const std::vector<SupportPoint> points =
-      findSupportPoints(left_gradient, right_gradient, options_);
+      findSupportPoints(left_gradient, right_gradient, options);
   clock.lap("support");
 
   Raster<std::int16_t> from_left, from_right;
   parallelInvoke(
       [&] {
-        from_left = matchDense(left_gradient, right_gradient, Reference::kLeft, points, options_);
+        from_left = matchDense(left_gradient, right_gradient, Reference::kLeft, points, options);
       },
       [&] {
         from_right = matchDense(left_gradient, right_gradient, Reference::kRight,
-                                seenFromRight(points), options_);
+                                seenFromRight(points), options);
       });
   clock.lap("dense");
 
   Raster<float> disparity_px = checkLeftRight(from_left, from_right, elas.left_right_px);
-  removeDark(disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
+  removeDark(disparity_px, left, options.darkest_gray, options.dark_margin_px);
   removeSpeckles(disparity_px, elas.speckle_size_px, elas.speckle_step_px);
   fillGaps(disparity_px, elas.gap_width_px, elas.gap_step_px);
   clock.lap("filter");
 
-  DisparityMap map = refineDisparity(left, right, disparity_px, options_.refinement);
+  DisparityMap map = refineDisparity(left, right, disparity_px, options.refinement);
   clock.lap("refine");
+  return map;
+}
 
+/// The same search at half the size.
+StereoOptions halved(StereoOptions options) {
+  options.disparity_min_px /= 2;
+  options.disparity_max_px = (options.disparity_max_px + 1) / 2;
+  options.dark_margin_px = (options.dark_margin_px + 1) / 2;
+  options.elas.speckle_size_px /= 4;
+  return options;
+}
+
+DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right,
+                          const StereoOptions& options, int coarser_levels, StageClock& clock) {
+  DisparityMap map = matchLevel(left, right, options, clock);
+  if (coarser_levels > 0 && std::min(left.width_px, left.height_px) >= 2 * kSmallestPicturePx) {
+    fillFromHalf(
+        matchPyramid(halve(left), halve(right), halved(options), coarser_levels - 1, clock), map);
+    clock.lap("fill");
+  }
+  return map;
+}
+
+}  // namespace
+
+DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
+  requireRectifiedPair(left, right);
+  StageClock clock;
+  DisparityMap map = matchPyramid(left, right, options_, options_.elas.coarser_levels, clock);
+  removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
   clock.lap("erode");
   times_ = clock.laps();

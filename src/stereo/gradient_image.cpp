@@ -9,8 +9,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kRowMargin = 2 * kTileHeight;  // the last tile may hang over the picture's border
-
 /// Copies a row with its first and last pixel doubled.
 void padRow(const std::uint8_t* row, int width, std::vector<std::uint8_t>& padded) {
   padded.resize(static_cast<std::size_t>(width) + 2);
@@ -43,8 +41,9 @@ GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
   });
 }
 
-GradientView GradientImage::view() const {
-  return {du_.data() + origin_, dv_.data() + origin_, stride_};
+GradientView GradientImage::view(int first_row) const {
+  const auto shift = static_cast<std::ptrdiff_t>(first_row) * stride_;
+  return {du_.data() + origin_ + shift, dv_.data() + origin_ + shift, stride_};
 }
 
 }  // namespace softscope

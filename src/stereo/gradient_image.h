@@ -18,7 +18,10 @@ class GradientImage {
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
-  GradientView view() const;
+  /// Row 0 of the view is row `first_row` of the picture, within kRowMargin.
+  GradientView view(int first_row = 0) const;
+
+  static constexpr int kRowMargin = 2 * kTileHeight;  // rows of 128 above and below
 
  private:
   int width_px_, height_px_, stride_;

@@ -8,120 +8,171 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "stereo/gradient_image.h"
 #include "stereo/opencv_view.h"
+#include "stereo/stereo_options.h"
+#include "stereo/support_points.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kCorners = 400;
-constexpr int kHalfWindow = 7;
-constexpr int kRowReach = 6;
-constexpr double kLeastCorrelation = 0.9;
+constexpr int kGridPx = 10;
+constexpr int kReach = 4;                // of the window, every second pixel
+constexpr int kRowReach = 2;             // rows tried around a support point's
+constexpr int kCoarseOffset = 2;         // rows between the coarse trials
+constexpr double kLeastCurvature = 0.3;  // of the cost over rows: less says nothing about rows
 
 struct RowMatch {
-  double u_px, difference_px;
+  double u_right_px, v_right_px, difference_px;
 };
 
-/// Peak of the parabola through three values, within half a step.
-double parabolaPeak(double before, double at, double after) {
-  const double curvature = before - 2 * at + after;
-  return curvature < 0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0;
-}
-
-/// Where the window around a left corner lies in the right picture.
-std::optional<RowMatch> matchCorner(const cv::Mat& left, const cv::Mat& right,
-                                    const cv::Point& corner, int disparity_max_px) {
-  const cv::Rect window(corner.x - kHalfWindow, corner.y - kHalfWindow, 2 * kHalfWindow + 1,
-                        2 * kHalfWindow + 1);
-  const int first = std::max(0, window.x - disparity_max_px);
-  const cv::Rect search = cv::Rect(first, window.y - kRowReach, window.x + window.width - first,
-                                   window.height + 2 * kRowReach) &
-                          cv::Rect(0, 0, right.cols, right.rows);
-  if (search.height != window.height + 2 * kRowReach || search.width <= window.width) return {};
-  cv::Mat score;
-  cv::matchTemplate(right(search), left(window), score, cv::TM_CCOEFF_NORMED);
-  double best = 0;
-  cv::Point at;
-  cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
-  if (best < kLeastCorrelation || at.y == 0 || at.y == score.rows - 1) return {};
-  const double sub =
-      parabolaPeak(score.at<float>(at.y - 1, at.x), best, score.at<float>(at.y + 1, at.x));
-  return RowMatch{static_cast<double>(corner.x), at.y - kRowReach + sub};
-}
-
-std::vector<RowMatch> matchCorners(const GrayImage& left, const GrayImage& right,
-                                   int disparity_max_px) {
-  const cv::Mat left_view = opencvView(left), right_view = opencvView(right);
-  std::vector<cv::Point2f> corners;
-  cv::goodFeaturesToTrack(left_view, corners, kCorners, 0.01, 8);
-  std::vector<std::optional<RowMatch>> found(corners.size());
-  parallelRanges(static_cast<int>(corners.size()), 4, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const cv::Point corner(static_cast<int>(corners[i].x), static_cast<int>(corners[i].y));
-      const cv::Rect inside(kHalfWindow, kHalfWindow, left_view.cols - 2 * kHalfWindow,
-                            left_view.rows - 2 * kHalfWindow);
-      if (inside.contains(corner))
-        found[i] = matchCorner(left_view, right_view, corner, disparity_max_px);
+/// Mean difference of the two windows.
+double windowCost(const GradientView& left, const GradientView& right, int u, int v, int u_right,
+                  int v_right) {
+  int sum = 0;
+  for (int dy = -kReach; dy <= kReach; dy += 2)
+    for (int dx = -kReach; dx <= kReach; dx += 2) {
+      const long a = static_cast<long>(v + dy) * left.stride + u + dx;
+      const long b = static_cast<long>(v_right + dy) * right.stride + u_right + dx;
+      sum += std::abs(left.du[a] - right.du[b]) + std::abs(left.dv[a] - right.dv[b]);
     }
-  });
+  return sum / 50.0;
+}
+
+/// The row at which a support point's window matches best, to a fraction of a pixel.
+std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& right,
+                                 const SupportPoint& point, int row_offset) {
+  const int disparity = static_cast<int>(std::lround(point.disparity_px));
+  std::array<double, 2 * kRowReach + 1> cost;
+  cost.fill(1e9);
+  for (int k = -kRowReach; k <= kRowReach; ++k)
+    for (int shift = -1; shift <= 1; ++shift)
+      cost[k + kRowReach] =
+          std::min(cost[k + kRowReach],
+                   windowCost(left, right, point.u_px, point.v_px, point.u_px - disparity + shift,
+                              point.v_px + row_offset + k));
+  const auto best = std::min_element(cost.begin(), cost.end());
+  if (best == cost.begin() || best == cost.end() - 1) return {};
+  const double curvature = best[-1] - 2 * best[0] + best[1];
+  if (curvature < kLeastCurvature) return {};
+  const double row = row_offset + static_cast<double>(best - cost.begin()) - kRowReach +
+                     0.5 * (best[-1] - best[1]) / curvature;
+  return RowMatch{static_cast<double>(point.u_px - disparity), point.v_px + row, row};
+}
+
+std::vector<RowMatch> matchRows(const GradientImage& left, const GradientImage& right,
+                                int disparity_max_px, int row_offset) {
+  StereoOptions options;
+  options.disparity_max_px = disparity_max_px;
+  options.elas.support_step_px = kGridPx;
+  options.elas.support_redundant_cells = 0;
+  const auto points = findSupportPoints(left, right, options, row_offset);
+  const int top = kReach + kRowReach, bottom = left.height_px() - top;
   std::vector<RowMatch> matches;
-  for (const auto& match : found)
-    if (match) matches.push_back(*match);
+  for (const SupportPoint& p : points) {
+    if (p.v_px + row_offset < top || p.v_px + row_offset >= bottom) continue;
+    if (const auto match = matchRow(left.view(), right.view(), p, row_offset))
+      matches.push_back(*match);
+  }
   return matches;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
+using Terms = Eigen::Matrix<double, 6, 1>;
+
+Terms termsAt(const RowAlignment& scale, double u, double v) {
+  const double x = (u - scale.centre_u_px) / scale.half_width_px;
+  const double y = (v - scale.centre_v_px) / scale.half_width_px;
+  return (Terms() << 1, x, y, x * x, x * y, y * y).finished();
 }
 
-/// Wrong matches scatter over all rows; right ones lie together.
-std::vector<RowMatch> keepConsistent(const std::vector<RowMatch>& matches) {
-  if (matches.empty()) return matches;
-  std::vector<double> differences, spread;
-  for (const RowMatch& m : matches) differences.push_back(m.difference_px);
-  const double centre = median(differences);
-  for (const double d : differences) spread.push_back(std::abs(d - centre));
-  const double limit = std::max(1.0, 4 * 1.4826 * median(spread));
-  std::vector<RowMatch> kept;
-  for (const RowMatch& m : matches)
-    if (std::abs(m.difference_px - centre) <= limit) kept.push_back(m);
-  return kept;
+/// Least squares with Tukey's weights about the median, then about the model.
+void fitModel(const std::vector<RowMatch>& matches, RowAlignment& alignment) {
+  constexpr int kRounds = 8;
+  std::vector<double> residuals(matches.size()), sorted;
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      residuals[i] =
+          matches[i].difference_px - alignment.at(matches[i].u_right_px, matches[i].v_right_px);
+    sorted = residuals;
+    for (double& r : sorted) r = std::abs(r);
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double limit = std::max(0.4, 4.685 * 1.4826 * sorted[sorted.size() / 2]);
+    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+    Terms rhs = Terms::Zero();
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const double t = residuals[i] / limit, w = std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;
+      const Terms terms = termsAt(alignment, matches[i].u_right_px, matches[i].v_right_px);
+      normal += w * terms * terms.transpose();
+      rhs += w * terms * matches[i].difference_px;
+    }
+    // Few or clustered matches must not bend the picture: slopes cost a little, curvature more.
+    normal.diagonal() += (Terms() << 0.1, 2, 2, 8, 8, 8).finished();
+    const Terms solved = normal.ldlt().solve(rhs);
+    std::copy_n(solved.data(), 6, alignment.model.begin());
+  }
+  alignment.matches = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double r = std::abs(matches[i].difference_px -
+                              alignment.at(matches[i].u_right_px, matches[i].v_right_px));
+    if (r > 1) continue;  // a mismatch
+    ++alignment.matches;
+    alignment.residual_px += r;
+    alignment.mean_row_difference_px += std::abs(matches[i].difference_px);
+  }
+  if (alignment.matches == 0) return;
+  alignment.residual_px /= alignment.matches;
+  alignment.mean_row_difference_px /= alignment.matches;
 }
 
 }  // namespace
 
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
                                  int disparity_max_px) {
-  const std::vector<RowMatch> matches = keepConsistent(matchCorners(left, right, disparity_max_px));
+  const double gain = ElasOptions{}.gradient_gain;
+  const GradientImage left_gradient(left, gain, disparity_max_px);
+  const GradientImage right_gradient(right, gain, disparity_max_px);
   RowAlignment alignment;
-  alignment.matches = static_cast<int>(matches.size());
-  if (!alignment.known()) return alignment;
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
-  for (const RowMatch& m : matches) {
-    const Eigen::Vector2d row(1, m.u_px - left.width_px / 2.0);
-    normal += row * row.transpose();
-    rhs += row * m.difference_px;
-    alignment.mean_row_difference_px += std::abs(m.difference_px) / alignment.matches;
+  alignment.half_width_px = left.width_px / 2.0;
+  alignment.centre_u_px = (left.width_px - 1) / 2.0;
+  alignment.centre_v_px = (left.height_px - 1) / 2.0;
+  std::vector<RowMatch> matches;
+  for (const int offset : {0, -kCoarseOffset, kCoarseOffset}) {
+    const auto found = matchRows(left_gradient, right_gradient, disparity_max_px, offset);
+    matches.insert(matches.end(), found.begin(), found.end());
   }
-  const Eigen::Vector2d model = normal.ldlt().solve(rhs);
-  alignment.shift_px = model.x();
-  alignment.tilt_px_per_px = model.y();
-  for (const RowMatch& m : matches)
-    alignment.residual_px +=
-        std::abs(m.difference_px - model.x() - model.y() * (m.u_px - left.width_px / 2.0)) /
-        alignment.matches;
+  if (matches.size() >= RowAlignment::kFewestMatches) fitModel(matches, alignment);
   return alignment;
 }
 
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment) {
-  const cv::Mat affine = (cv::Mat_<double>(2, 3) << 1, 0, 0, alignment.tilt_px_per_px, 1,
-                          alignment.shift_px - alignment.tilt_px_per_px * right.width_px / 2.0);
+  Raster<float> map_u(right.width_px, right.height_px), map_v(right.width_px, right.height_px);
+  parallelRows(right.height_px, [&](int v) {
+    for (int u = 0; u < right.width_px; ++u) {
+      map_u.at(u, v) = static_cast<float>(u);
+      map_v.at(u, v) = static_cast<float>(v + alignment.at(u, v));
+    }
+  });
   ColourImage aligned(right.width_px, right.height_px);
   cv::Mat view = opencvView(aligned);
-  cv::warpAffine(opencvView(right), view, affine, view.size(),
-                 cv::INTER_CUBIC | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+  cv::remap(opencvView(right), view, opencvView(map_u), opencvView(map_v), cv::INTER_CUBIC,
+            cv::BORDER_REPLICATE);
+  return aligned;
+}
+
+AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px) {
+  AlignedPair aligned{rectified, {}, false};
+  const GrayImage left = toGray(rectified.left);
+  for (int round = 0; round < 2; ++round) {
+    const RowAlignment found =
+        measureRowAlignment(left, toGray(aligned.pair.right), disparity_max_px);
+    if (round == 0) aligned.before = found;
+    if (!found.known() ||
+        found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||
+        found.mean_row_difference_px < RowAlignment::kRemoveAbovePx)
+      break;
+    aligned.pair.right = removeRowError(aligned.pair.right, found);
+    aligned.removed = true;
+  }
   return aligned;
 }
 

@@ -10,11 +10,17 @@ namespace softscope {
 
 class StageClock {
  public:
-  /// Ends the stage that began with the last lap.
+  /// Ends the stage that began with the last lap; laps of one name add up.
   void lap(const std::string& stage) {
     const auto now = std::chrono::steady_clock::now();
-    laps_.emplace_back(stage, std::chrono::duration<double, std::milli>(now - begin_).count());
+    const double elapsed_ms = std::chrono::duration<double, std::milli>(now - begin_).count();
     begin_ = now;
+    for (auto& [name, total_ms] : laps_)
+      if (name == stage) {
+        total_ms += elapsed_ms;
+        return;
+      }
+    laps_.emplace_back(stage, elapsed_ms);
   }
   const StageTimes& laps() const { return laps_; }
 

@@ -9,13 +9,13 @@
 namespace softscope {
 
 void requireRectifiedPair(const GrayImage& left, const GrayImage& right) {
-  constexpr int kSmallestPx = 32;
-  if (left.sameShape(right) && left.width_px >= kSmallestPx && left.height_px >= kSmallestPx)
+  if (left.sameShape(right) && left.width_px >= kSmallestPicturePx &&
+      left.height_px >= kSmallestPicturePx)
     return;
   std::ostringstream text;
   text << "the left picture is " << left.width_px << " x " << left.height_px
        << " pixels, the right " << right.width_px << " x " << right.height_px
-       << ", but stereo needs two pictures of one size, " << kSmallestPx
+       << ", but stereo needs two pictures of one size, " << kSmallestPicturePx
        << " pixels or more each way";
   throw InputError(text.str());
 }

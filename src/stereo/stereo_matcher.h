@@ -31,7 +31,9 @@ class StereoMatcher {
   virtual const StageTimes& times() const = 0;
 };
 
-/// Throws Error unless both pictures have one shape of at least 32 x 32 pixels.
+constexpr int kSmallestPicturePx = 32;
+
+/// Throws InputError unless both pictures have one shape, kSmallestPicturePx or more each way.
 void requireRectifiedPair(const GrayImage& left, const GrayImage& right);
 
 /// Throws OptionError if the options break a rule.

@@ -37,6 +37,7 @@ void ElasOptions::validate() const {
   requireAtLeast("stereo.elas.speckle_step_px", speckle_step_px, 0);
   requireAtLeast("stereo.elas.gap_width_px", gap_width_px, 0);
   requireAtLeast("stereo.elas.gap_step_px", gap_step_px, 0);
+  requireAtLeast("stereo.elas.coarser_levels", coarser_levels, 0);
 }
 
 void RefinementOptions::validate() const {

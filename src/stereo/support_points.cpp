@@ -43,9 +43,10 @@ float parabolaOffset(int before, int at, int after) {
 /// The support candidates of one row, kNone where a test fails.
 class RowMatcher {
  public:
-  RowMatcher(const GradientImage& left, const GradientImage& right, const StereoOptions& options)
+  RowMatcher(const GradientImage& left, const GradientImage& right, const StereoOptions& options,
+             int row_offset_px)
       : left_(left.view()),
-        right_(right.view()),
+        right_(right.view(row_offset_px)),
         width_(left.width_px()),
         minimum_(options.disparity_min_px),
         count_(options.disparity_max_px - options.disparity_min_px + 1),
@@ -127,12 +128,12 @@ void removeRedundant(Raster<float>& grid, int dx, int dy, int reach) {
 }  // namespace
 
 std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
-                                            const StereoOptions& options) {
+                                            const StereoOptions& options, int row_offset_px) {
   const int step = options.elas.support_step_px;
   Raster<float> grid((left.width_px() + step - 1) / step, (left.height_px() + step - 1) / step,
                      kNone);
   parallelRanges(grid.height_px, 4, [&](int begin, int end) {
-    RowMatcher matcher(left, right, options);
+    RowMatcher matcher(left, right, options, row_offset_px);
     for (int r = begin; r < end; ++r)
       if (r * step >= kReach && r * step < left.height_px() - kReach)
         matcher.match(r * step, grid.row(r), grid.width_px);

@@ -16,8 +16,8 @@ struct SupportPoint {
 
 /// Matches a grid of pixels over the whole range of disparities, keeps what is unique, textured,
 /// confirmed from right to left and by its neighbours, and drops what its neighbours say already.
-/// In raster order.
+/// In raster order. Rows of the right picture are sought `row_offset_px` below those of the left.
 std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
-                                            const StereoOptions& options);
+                                            const StereoOptions& options, int row_offset_px = 0);
 
 }  // namespace softscope
