@@ -1,16 +1,7 @@
 # One target per folder. Headers are included by their path from the source root:
 #   src/core/camera.h is "core/camera.h", eval/statistics.h is "eval/statistics.h".
-
-add_library(softscope_flags INTERFACE)
-target_compile_options(softscope_flags INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-    -Woverloaded-virtual -Werror>)
-if(SOFTSCOPE_SANITIZE)
-  target_compile_options(softscope_flags INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=address,undefined -fno-sanitize-recover=all
-      -fno-omit-frame-pointer>)
-  target_link_options(softscope_flags INTERFACE -fsanitize=address,undefined)
-endif()
+get_filename_component(SOFTSCOPE_ROOT ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
+include(${CMAKE_CURRENT_LIST_DIR}/SoftscopeFlags.cmake)
 
 # softscope_library(<folder> SOURCES … [LINKS …] [PRIVATE_LINKS …])
 function(softscope_library name)
@@ -18,18 +9,49 @@ function(softscope_library name)
   add_library(softscope_${name} STATIC ${ARG_SOURCES})
   add_library(softscope::${name} ALIAS softscope_${name})
   set_target_properties(softscope_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_include_directories(softscope_${name} PUBLIC
-    ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_include_directories(softscope_${name} PUBLIC ${SOFTSCOPE_ROOT}/src ${SOFTSCOPE_ROOT})
   target_link_libraries(softscope_${name} PUBLIC ${ARG_LINKS}
     PRIVATE ${ARG_PRIVATE_LINKS} softscope_flags)
 endfunction()
 
-# softscope_test(<folder> SOURCES … LINKS …): one test program a folder, one ctest entry a test.
+# softscope_test(<folder> SOURCES … LINKS …): one test program a folder, one ctest entry a test;
+# under sanitizers, which start slowly, one entry a program. Label: the folder.
 function(softscope_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_LINKS} GTest::gtest_main softscope_flags)
-  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 600)
+  target_include_directories(test_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
+  if(SOFTSCOPE_SANITIZE)
+    add_test(NAME ${name} COMMAND test_${name})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 1200 LABELS ${name})
+  else()
+    gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 600 LABELS ${name})
+  endif()
+endfunction()
+
+# softscope_fuzz(<reader> SOURCES … LINKS … CORPUS <folder> [RUNS <count>]): a reader that must
+# answer any bytes with a value or an InputError. SOURCES define LLVMFuzzerTestOneInput. With clang
+# and sanitizers the corpus is mutated for a bounded count, from a fixed seed; any other build feeds
+# the corpus as it is.
+function(softscope_fuzz name)
+  cmake_parse_arguments(ARG "" "CORPUS;RUNS" "SOURCES;LINKS" ${ARGN})
+  if(NOT ARG_RUNS)
+    set(ARG_RUNS 5000)
+  endif()
+  get_filename_component(corpus ${ARG_CORPUS} ABSOLUTE)
+  add_executable(fuzz_${name} ${ARG_SOURCES})
+  target_link_libraries(fuzz_${name} PRIVATE ${ARG_LINKS} softscope_flags)
+  target_include_directories(fuzz_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
+  if(SOFTSCOPE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    set(found ${CMAKE_CURRENT_BINARY_DIR}/fuzz_${name}_found)
+    file(MAKE_DIRECTORY ${found})
+    add_test(NAME fuzz.${name} COMMAND fuzz_${name} -runs=${ARG_RUNS} -seed=1 -timeout=20
+      -rss_limit_mb=4096 -artifact_prefix=${found}/ ${corpus})
+  else()
+    target_sources(fuzz_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests/support/replay_corpus.cpp)
+    add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${corpus})
+  endif()
+  set_tests_properties(fuzz.${name} PROPERTIES TIMEOUT 600 LABELS fuzz)
 endfunction()

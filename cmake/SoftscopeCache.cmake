@@ -1,0 +1,10 @@
+# Compiles through ccache where it is installed, and finds again what another checkout compiled.
+find_program(SOFTSCOPE_CCACHE ccache)
+if(SOFTSCOPE_CCACHE)
+  foreach(language CXX CUDA)
+    if(NOT DEFINED CMAKE_${language}_COMPILER_LAUNCHER)
+      set(CMAKE_${language}_COMPILER_LAUNCHER
+        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} ${SOFTSCOPE_CCACHE})
+    endif()
+  endforeach()
+endif()

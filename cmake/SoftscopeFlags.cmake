@@ -1,0 +1,25 @@
+# How every target of softscope is compiled: warnings are errors; Release is -O3 for any x86-64
+# (folders with hot loops compile those once more for newer processors and choose at run time).
+add_library(softscope_flags INTERFACE)
+target_compile_options(softscope_flags INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    -Woverloaded-virtual -Werror>
+  # 20012: Eigen marks defaulted functions for the device, which nvcc ignores aloud.
+  "$<$<COMPILE_LANGUAGE:CUDA>:SHELL:-Werror all-warnings -Xcompiler=-Wall,-Wextra,-Wshadow,-Werror \
+--expt-relaxed-constexpr --diag-suppress=20012>")
+
+# vptr is left out: it wants type information that VTK and OpenCV keep to themselves. Assertions of
+# Eigen and the standard library are on, and Eigen's unset numbers are NaN.
+if(SOFTSCOPE_SANITIZE)
+  set(softscope_sanitizers -fsanitize=address,undefined -fno-sanitize=vptr)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    list(APPEND softscope_sanitizers -fsanitize=fuzzer-no-link)
+  endif()
+  target_compile_options(softscope_flags INTERFACE
+    ${softscope_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_definitions(softscope_flags INTERFACE
+    _GLIBCXX_ASSERTIONS EIGEN_INITIALIZE_MATRICES_BY_NAN)
+  target_link_options(softscope_flags INTERFACE ${softscope_sanitizers})
+  target_sources(softscope_flags INTERFACE
+    $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp>)
+endif()

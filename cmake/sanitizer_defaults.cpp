@@ -1,0 +1,19 @@
+// cmake/sanitizer_defaults.cpp: how sanitized programs run unless the environment says otherwise.
+extern "C" {
+
+const char* __asan_default_options() {
+  return "detect_leaks=1:detect_stack_use_after_return=1:strict_init_order=1:"
+         "check_initialization_order=1";
+}
+
+const char* __ubsan_default_options() { return "print_stacktrace=1"; }
+
+// What these libraries keep until the process ends is theirs.
+const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig\n"
+         "leak:libEGL_mesa\n"
+         "leak:libGLX_mesa\n"
+         "leak:swrast_dri\n"
+         "leak:libLLVM\n";
+}
+}
