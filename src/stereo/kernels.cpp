@@ -270,7 +270,7 @@ void selectedMoments(const SelectedWindow& at, int u, const MomentRow& out) {
   for (int m = 0; m < kMomentCount; ++m) out.sums[m][u] = moments[m];
 }
 
-/// D of the 3 x 3 system by Cramer's rule, and its standard error; NaN where the fit fails.
+/// D of the 3 x 3 system by Cramer's rule; NaN where the window makes no plane.
 void solvePlanes(const PlaneRow& row) {
   const float nan = __builtin_nanf("");
   const auto& m = row.moments.sums;
@@ -281,6 +281,21 @@ void solvePlanes(const PlaneRow& row) {
     const float found = (c00 * m[6][u] + c01 * m[7][u] + c02 * m[8][u]) / determinant;
     const float step = found - row.before[u];
     const float farthest = step < 0.0f ? -step : step;
+    // Comparisons with NaN are false, so an unmatched pixel stays unmatched.
+    const bool holds = determinant > 1e-3f * a * d * f && farthest < row.farthest_step_px;
+    row.disparity[u] = holds ? row.before[u] + row.relaxation * step : nan;
+  }
+}
+
+/// Standard errors of what solvePlanes() found; NaN, and the disparity too, where it can't be
+/// trusted.
+void judgePlanes(const PlaneRow& row) {
+  const float nan = __builtin_nanf("");
+  const auto& m = row.moments.sums;
+  for (int u = 0; u < row.width; ++u) {
+    const float a = m[0][u], b = m[1][u], c = m[2][u], d = m[3][u], e = m[4][u], f = m[5][u];
+    const float c00 = d * f - e * e;
+    const float determinant = a * c00 + b * (c * e - b * f) + c * (b * e - c * d);
     // The matched disparity steadies the fit but is no evidence: it doesn't lower the error.
     const float raw = 1.0f - row.prior_weight * m[10][u] / a;
     const float evidence = raw > 1e-3f ? raw : 1e-3f;
@@ -288,11 +303,9 @@ void solvePlanes(const PlaneRow& row) {
     const float variance =
         noise_sq * (c00 / determinant) / (evidence * evidence * row.independent_pixels) +
         row.model_variance_px2;
-    // Comparisons with NaN are false, so an unmatched pixel stays unmatched.
-    const bool holds = determinant > 1e-3f * a * d * f && farthest < row.farthest_step_px &&
-                       variance <= row.max_variance_px2 &&
+    const bool holds = row.disparity[u] == row.disparity[u] && variance <= row.max_variance_px2 &&
                        m[11][u] <= row.max_difference * m[12][u];
-    row.disparity[u] = holds ? row.before[u] + row.relaxation * step : nan;
+    row.disparity[u] = holds ? row.disparity[u] : nan;
     row.sigma[u] = holds ? __builtin_sqrtf(variance) : nan;
   }
 }
@@ -317,6 +330,7 @@ const StereoKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET) = {SOFTSCOPE_TEXT(SOFTSCO
                                                           verticalMoments,
                                                           selectedMoments,
                                                           solvePlanes,
+                                                          judgePlanes,
                                                           sumRows};
 
 }  // namespace softscope

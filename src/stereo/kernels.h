@@ -74,7 +74,8 @@ struct MomentRow {
   float* sums[kMomentCount];
 };
 
-/// Solves every pixel of a row for its plane.
+/// A row of planes: solvePlanes() needs nine sums and gives disparities, judgePlanes() all of them
+/// and gives standard errors.
 struct PlaneRow {
   MomentRow moments;
   const float* before;  // disparity, NaN = unmatched
@@ -129,6 +130,7 @@ struct StereoKernels {
   /// Writes column u of `out`.
   void (*selectedMoments)(const SelectedWindow& at, int u, const MomentRow& out);
   void (*solvePlanes)(const PlaneRow& row);
+  void (*judgePlanes)(const PlaneRow& row);  // after solvePlanes()
   /// sum over taps of weight[t] * in[t][u]; out[u], u in [0, width).
   void (*sumRows)(const float* const* in, const float* weights, int taps, int width, float* out);
 };

@@ -16,7 +16,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kGridPx = 10;
+constexpr int kGridPx = 12;
 constexpr int kReach = 4;                // of the window, every second pixel
 constexpr int kRowReach = 2;             // rows tried around a support point's
 constexpr int kCoarseOffset = 2;         // rows between the coarse trials
@@ -85,9 +85,20 @@ Terms termsAt(const RowAlignment& scale, double u, double v) {
   return (Terms() << 1, x, y, x * x, x * y, y * y).finished();
 }
 
-/// Least squares with Tukey's weights about the median, then about the model.
-void fitModel(const std::vector<RowMatch>& matches, RowAlignment& alignment) {
+/// Many matches in their own row: rows farther off needn't be tried.
+bool isWellAligned(const std::vector<RowMatch>& matches) {
+  constexpr std::size_t kMany = 150;
+  if (matches.size() < kMany) return false;
+  double sum = 0;
+  for (const RowMatch& m : matches) sum += std::abs(m.difference_px);
+  return sum < RowAlignment::kRemoveAbovePx * static_cast<double>(matches.size());
+}
+
+/// Least squares with Tukey's weights about the median, then about the model. Too few matches leave
+/// `alignment` as it is.
+RowAlignment fitModel(const std::vector<RowMatch>& matches, RowAlignment alignment) {
   constexpr int kRounds = 8;
+  if (matches.size() < RowAlignment::kFewestMatches) return alignment;
   std::vector<double> residuals(matches.size()), sorted;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < matches.size(); ++i)
@@ -119,9 +130,10 @@ void fitModel(const std::vector<RowMatch>& matches, RowAlignment& alignment) {
     alignment.residual_px += r;
     alignment.mean_row_difference_px += std::abs(matches[i].difference_px);
   }
-  if (alignment.matches == 0) return;
+  if (alignment.matches == 0) return alignment;
   alignment.residual_px /= alignment.matches;
   alignment.mean_row_difference_px /= alignment.matches;
+  return alignment;
 }
 
 }  // namespace
@@ -135,13 +147,13 @@ RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
   alignment.half_width_px = left.width_px / 2.0;
   alignment.centre_u_px = (left.width_px - 1) / 2.0;
   alignment.centre_v_px = (left.height_px - 1) / 2.0;
-  std::vector<RowMatch> matches;
-  for (const int offset : {0, -kCoarseOffset, kCoarseOffset}) {
+  auto matches = matchRows(left_gradient, right_gradient, disparity_max_px, 0);
+  if (isWellAligned(matches)) return fitModel(matches, alignment);
+  for (const int offset : {-kCoarseOffset, kCoarseOffset}) {
     const auto found = matchRows(left_gradient, right_gradient, disparity_max_px, offset);
     matches.insert(matches.end(), found.begin(), found.end());
   }
-  if (matches.size() >= RowAlignment::kFewestMatches) fitModel(matches, alignment);
-  return alignment;
+  return fitModel(matches, alignment);
 }
 
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment) {

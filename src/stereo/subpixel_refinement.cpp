@@ -63,12 +63,12 @@ struct Setting {
 /// they stay in the cache.
 class Band {
  public:
-  Band(const Setting& setting, const Raster<float>& disparity, float relaxation, DisparityMap& out)
+  Band(const Setting& setting, const Raster<float>& disparity, bool last, DisparityMap& out)
       : setting_(setting),
         radius_(setting.options.radius_px),
         width_(disparity.width_px),
         disparity_(disparity),
-        relaxation_(relaxation),
+        last_(last),
         out_(out),
         pixels_(kPixelPlanes, Plane(width_, 2 * height())),
         rows_(kRowPlanes, Plane(width_, height())),
@@ -119,7 +119,7 @@ class Band {
     kernels.horizontalMoments(pixel(kInformation), window, radius_, width_, row(kG0), row(kG1),
                               row(kG2));
     kernels.horizontalMoments(pixel(kTarget), window, radius_, width_, row(kQ0), row(kQ1), nullptr);
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 4 && last_; ++k)
       kernels.horizontalMoments(pixel(kResidualSq + k), window, radius_, width_, row(kE0 + k),
                                 nullptr, nullptr);
     // A second copy, so that the rows around any row follow each other.
@@ -138,12 +138,22 @@ class Band {
         selectWindow(u, v, moments);
     const RefinementOptions& options = setting_.options;
     const auto squared = [](double x) { return static_cast<float>(x * x); };
-    stereoKernels().solvePlanes({moments, disparity_.row(v), width_, kFarthestStepPx,
-                                 setting_.priorWeight(), squared(options.noise_floor_gray),
-                                 static_cast<float>(4 * M_PI) * squared(kWindowSigma * radius_),
-                                 squared(options.model_sigma_px), squared(options.max_sigma_px),
-                                 static_cast<float>(options.max_difference), relaxation_,
-                                 out_.disparity_px.row(v), out_.sigma_px.row(v)});
+    const float relaxation = last_ ? 1.0f : static_cast<float>(options.relaxation);
+    const PlaneRow row{moments,
+                       disparity_.row(v),
+                       width_,
+                       kFarthestStepPx,
+                       setting_.priorWeight(),
+                       squared(options.noise_floor_gray),
+                       static_cast<float>(4 * M_PI) * squared(kWindowSigma * radius_),
+                       squared(options.model_sigma_px),
+                       squared(options.max_sigma_px),
+                       static_cast<float>(options.max_difference),
+                       relaxation,
+                       out_.disparity_px.row(v),
+                       out_.sigma_px.row(v)};
+    stereoKernels().solvePlanes(row);
+    if (last_) stereoKernels().judgePlanes(row);
   }
 
   void sumWindows(int v, const MomentRow& moments) {
@@ -154,7 +164,7 @@ class Band {
     const StereoKernels& kernels = stereoKernels();
     kernels.verticalMoments(around[kG0], around[kG1], around[kG2], around[kQ0], around[kQ1], window,
                             radius_, width_, moments);
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < 4 && last_; ++k)
       kernels.sumRows(around[kE0 + k], window, height(), width_, moments.sums[9 + k]);
   }
 
@@ -171,7 +181,7 @@ class Band {
   const Setting& setting_;
   int radius_, width_;
   const Raster<float>& disparity_;
-  float relaxation_;
+  bool last_;  // takes whole steps and judges them
   DisparityMap& out_;
   std::vector<Plane> pixels_, rows_;
   Plane moments_;
@@ -187,10 +197,9 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   DisparityMap map{initial_px, Raster<float>(width, height, kNaN)};
   DisparityMap next = map;
   for (int i = 0; i < options.iterations; ++i) {
-    const float relaxation =
-        i + 1 < options.iterations ? static_cast<float>(options.relaxation) : 1.0f;
+    const bool last = i + 1 == options.iterations;
     parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(setting, map.disparity_px, relaxation, next).solve(begin, end);
+      Band(setting, map.disparity_px, last, next).solve(begin, end);
     });
     std::swap(map, next);
   }

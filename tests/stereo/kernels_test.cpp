@@ -110,6 +110,7 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
                  out.data(), out.data() + width};
     for (int k = 0; k < kMomentCount; ++k) row.moments.sums[k] = copy.data() + k * width;
     kernels.solvePlanes(row);
+    kernels.judgePlanes(row);
     EXPECT_TRUE(std::isnan(out[17]));
     return out;
   });
