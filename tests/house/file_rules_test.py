@@ -1,0 +1,85 @@
+"""What holds for every file: a first line that says what it is, no paths of anyone's machine."""
+import re
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+NOT_OURS = {".git", ".cache", "build", "out"}
+SOURCES = {".h", ".cpp", ".cu", ".cuh"}
+LONGEST_FILE = 400  # lines; a file is one noun or one verb
+
+MACHINE_PATH = re.compile(r"(?<![\w.~-])/(?:home|root|work|Users)/[\w.]")
+UNFINISHED = re.compile(r"\b(?:TO" + r"DO|FIX" + r"ME|XX" + r"X)\b")
+
+
+def all_files():
+    for path in sorted(ROOT.rglob("*")):
+        inside = path.relative_to(ROOT).parts
+        if path.is_file() and inside[0] not in NOT_OURS and "__pycache__" not in inside:
+            yield path
+
+
+def text_of(path):
+    """The text, or nothing where the file holds pictures or other bytes."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        return ""
+
+
+def describes_itself(name, first_line):
+    return re.fullmatch(rf"// {re.escape(name)}: \S.*", first_line) is not None
+
+
+def described_by_header(path, first_line):
+    """A source beside its header, or a test that begins with the header of what it tests."""
+    if path.suffix not in (".cpp", ".cu"):
+        return False
+    subject = re.escape(path.stem.replace("_test", ""))
+    return path.with_suffix(".h").exists() or re.match(rf'#include ".*/{subject}.h"', first_line)
+
+
+def undescribed(path):
+    name = path.relative_to(ROOT).as_posix()
+    first_line = text_of(path).partition("\n")[0]
+    return not describes_itself(name, first_line) and not described_by_header(path, first_line)
+
+
+class FileRules(unittest.TestCase):
+    def none(self, wrong, complaint):
+        if wrong:
+            self.fail(f"these {complaint}:\n  " + "\n  ".join(wrong))
+
+    def test_every_header_and_lone_source_begins_with_what_it_is(self):
+        wrong = [path.relative_to(ROOT).as_posix() for path in all_files()
+                 if path.suffix in SOURCES and undescribed(path)]
+        self.none(wrong, "should begin with `// folder/file.h: what it is.`")
+
+    def test_no_file_names_a_path_of_anyones_machine(self):
+        wrong = [
+            f"{path.relative_to(ROOT).as_posix()}:{number}"
+            for path in all_files()
+            for number, line in enumerate(text_of(path).splitlines(), start=1)
+            if MACHINE_PATH.search(line)
+        ]
+        self.none(wrong, "name a path that exists on one machine only")
+
+    def test_nothing_is_left_unfinished_or_too_long(self):
+        sources = [path for path in all_files() if path.suffix in SOURCES]
+        wrong = [path.relative_to(ROOT).as_posix() for path in sources
+                 if UNFINISHED.search(text_of(path))
+                 or len(text_of(path).splitlines()) > LONGEST_FILE]
+        self.none(wrong, f"are unfinished or longer than {LONGEST_FILE} lines")
+
+    def test_the_rules_find_made_up_breaches(self):
+        self.assertTrue(MACHINE_PATH.search("see /" + "home/someone/data"))
+        self.assertTrue(MACHINE_PATH.search('"/' + 'root/x"'))
+        self.assertFalse(MACHINE_PATH.search("build/work/x and https://example.org/home/x"))
+        self.assertTrue(UNFINISHED.search("// TO" + "DO: later"))
+        self.assertTrue(describes_itself("src/core/image.h", "// src/core/image.h: what it saw."))
+        self.assertFalse(describes_itself("src/core/image.h", "// src/core/images.h: what it saw."))
+        self.assertFalse(describes_itself("src/core/image.h", "#pragma once"))
+
+
+if __name__ == "__main__":
+    unittest.main()

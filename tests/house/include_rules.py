@@ -1,0 +1,109 @@
+"""The two tables of docs/architecture.md, and the includes that break them."""
+import re
+from pathlib import Path
+
+SOURCES = {".h", ".hpp", ".cpp", ".cu", ".cuh"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+
+
+def table(text, first_heading):
+    """The rows of the table whose first column has this heading, as lists of cells."""
+    rows = []
+    inside = False
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if line.startswith("|") and cells[0] == first_heading:
+            inside = True
+        elif inside and not line.startswith("|"):
+            break
+        elif inside and not re.fullmatch(r"[|: -]+", line):
+            rows.append(cells)
+    if not rows:
+        raise ValueError(f"docs/architecture.md has no table whose first column is '{first_heading}'")
+    return rows
+
+
+def names(cell):
+    return re.findall(r"`([^`]+)`", cell)
+
+
+def lies_in(path, home):
+    return path == home or path.startswith(home + "/")
+
+
+class Rules:
+    def __init__(self, text):
+        self.allowed = {}  # folder: the folders it may include, None = everything
+        for folder, _, may_include in table(text, "Folder"):
+            everything = may_include == "everything"
+            self.allowed[names(folder)[0]] = None if everything else set(names(may_include))
+        self.homes = {}  # beginning of a header's name: the places it may be included, None = all
+        self.free = []  # places that may include every library
+        for _, headers, home in table(text, "Library"):
+            places = None if home == "everywhere" else names(home)
+            if not names(headers):
+                self.free += places
+            for beginning in names(headers):
+                self.homes[beginning] = places
+
+    def folder_of(self, path):
+        """"src/core" of "src/core/camera.h"; None where no row speaks of it."""
+        return next((folder for folder in self.allowed if lies_in(path, folder)), None)
+
+    def check(self, path, line):
+        """What is wrong with this line of this file; None where nothing is."""
+        found = INCLUDE.match(line)
+        if not found:
+            return None
+        own, library = found.groups()
+        return self.check_own(path, own) if own else self.check_library(path, library)
+
+    def check_own(self, path, header):
+        folder = self.folder_of(path)
+        if "/" not in header:
+            return f'"{header}" is not written from the root of src or of the repository'
+        target = header.split("/")[0]
+        allowed = self.allowed[folder]
+        if allowed is None or target == folder.split("/")[-1] or target in allowed:
+            return None
+        return f'"{header}": {folder} may include {", ".join(sorted(allowed)) or "nothing else"}'
+
+    def check_library(self, path, header):
+        beginnings = [b for b in self.homes if header.startswith(b)]
+        if not beginnings:
+            is_standard = "/" not in header and "." not in header
+            return None if is_standard else f"<{header}> has no home in docs/architecture.md"
+        places = self.homes[max(beginnings, key=len)]
+        if places is None or any(lies_in(path, place) for place in places + self.free):
+            return None
+        return f"<{header}> has its home in {', '.join(places) or 'no file'}"
+
+
+def source_files(root, folders):
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in SOURCES:
+                yield path
+
+
+def violations(root):
+    """One line for each include that breaks a rule: file:line, what, what the rule is."""
+    rules = Rules((root / "docs/architecture.md").read_text(encoding="utf-8"))
+    found = []
+    for path in source_files(root, rules.allowed):
+        name = path.relative_to(root).as_posix()
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+            wrong = rules.check(name, line)
+            if wrong:
+                found.append(f"{name}:{number}: {wrong}")
+    return found
+
+
+def folders_without_row(root):
+    """Folders with sources that the table leaves out, and rows without a folder."""
+    text = (root / "docs/architecture.md").read_text(encoding="utf-8")
+    rows = set(Rules(text).allowed)
+    there = {f"src/{path.name}" for path in (root / "src").iterdir() if path.is_dir()}
+    there |= {path.name for path in root.iterdir() if (path / "CMakeLists.txt").is_file()}
+    there -= {"src"}
+    return sorted(there ^ rows)

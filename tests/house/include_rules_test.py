@@ -1,0 +1,78 @@
+"""The tree keeps the rules of docs/architecture.md, and a made-up breach of each is found."""
+import unittest
+from pathlib import Path
+
+import include_rules
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# What must be found, in made-up lines: file, line, a word of the complaint.
+BREACHES = [
+    ("src/core/camera.h", '#include "io/settings.h"', "src/core may include nothing else"),
+    ("src/stereo/elas_matcher.cpp", '#include "deform/warp.h"', "src/stereo may include core"),
+    ("src/io/folder.cpp", '#  include "stereo/plane.h"', "src/io may include core"),
+    ("eval/triangle_tree.cpp", '#include "io/folder.h"', "eval may include core"),
+    ("vtk_views/canvas.cpp", '#include "eval/triangle_tree.h"', "vtk_views may include core"),
+    ("cuda/device_info.cu", '#include "pipeline/backends.h"', "cuda may include"),
+    ("src/core/image.cpp", '#include "image.h"', "not written from the root"),
+    ("src/core/image.cpp", '#include "../io/folder.h"', "src/core may include nothing else"),
+    ("eval/triangle_tree.cpp", "#include <vtkPolyData.h>", "its home in vtk_views"),
+    ("src/stereo/plane.cpp", "#include <opencv2/imgcodecs.hpp>", "its home in src/io"),
+    ("src/deform/warp.cpp", "#include <opencv2/core.hpp>", "its home in src/io, src/stereo"),
+    ("src/io/folder.cpp", "#include <opencv2/opencv.hpp>", "its home in no file"),
+    ("src/core/image.cpp", "#include <tbb/parallel_for.h>", "its home in src/core/parallel.cpp"),
+    ("apps/depth.cpp", "#include <CLI/CLI.hpp>", "its home in apps/command_line.cpp"),
+    ("src/io/settings.cpp", "#include <spdlog/spdlog.h>", "its home in apps"),
+    ("src/stereo/plane.cpp", "#include <curl/curl.h>", "no home"),
+    ("src/stereo/plane.cpp", "#include <math.h>", "no home"),
+]
+
+# What must be allowed.
+FINE = [
+    ("src/core/camera.h", "#include <Eigen/Core>"),
+    ("src/core/camera.h", "#include <vector>"),
+    ("src/core/camera.h", '#include "core/hd.h"'),
+    ("src/io/image_reader.cpp", "#include <opencv2/imgcodecs.hpp>"),
+    ("src/stereo/delaunay.cpp", "#include <boost/polygon/voronoi.hpp>"),
+    ("src/pipeline/backends.h", '#include "cuda/device_info.h"'),
+    ("apps/depth.cpp", '#include "vtk_views/canvas.h"'),
+    ("tests/io/image_reader_test.cpp", "#include <opencv2/imgcodecs.hpp>"),
+    ("vtk_views/canvas.cpp", '// #include "eval/triangle_tree.h"'),
+]
+
+
+class IncludeRules(unittest.TestCase):
+    def setUp(self):
+        text = (ROOT / "docs/architecture.md").read_text(encoding="utf-8")
+        self.rules = include_rules.Rules(text)
+
+    def test_the_tree_keeps_them(self):
+        found = include_rules.violations(ROOT)
+        if found:
+            self.fail("\n" + "\n".join(found))
+
+    def test_every_folder_has_a_row_and_every_row_a_folder(self):
+        self.assertEqual(include_rules.folders_without_row(ROOT), [])
+
+    def test_files_named_as_homes_exist(self):
+        homes = [place for places in self.rules.homes.values() for place in places or []]
+        missing = [place for place in homes + self.rules.free if not (ROOT / place).exists()]
+        self.assertEqual(missing, [])
+
+    def test_each_breach_is_found(self):
+        for path, line, complaint in BREACHES:
+            with self.subTest(path=path, line=line):
+                self.assertIn(complaint, self.rules.check(path, line) or "nothing found")
+
+    def test_what_is_allowed_passes(self):
+        for path, line in FINE:
+            with self.subTest(path=path, line=line):
+                self.assertIsNone(self.rules.check(path, line))
+
+    def test_a_lost_table_is_no_licence(self):
+        with self.assertRaises(ValueError):
+            include_rules.Rules("# Architecture\nwithout tables\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
