@@ -1,0 +1,54 @@
+#include <cmath>
+
+#include "core/error.h"
+#include "io/calibration_forms.h"
+#include "io/message.h"
+#include "io/npy_file.h"
+
+namespace softscope {
+namespace {
+
+// A row is a 3 x 5 matrix (pose, then height, width, focal length in its fifth column), row-major,
+// and near and far bounds, which some files leave out.
+constexpr std::size_t kHeightColumn = 4, kWidthColumn = 9, kFocalColumn = 14;
+
+int pixels(double value, const std::string& what) {
+  if (!(value >= 1 && value <= 1e6) || value != std::floor(value))
+    throw InputError(say(what, " is ", value, ", but a whole number of pixels is expected."));
+  return static_cast<int>(value);
+}
+
+void requireOneCamera(const NpyArray& poses, const std::string& name) {
+  for (std::size_t row = 1; row < poses.rows; ++row)
+    for (const std::size_t column : {kHeightColumn, kWidthColumn, kFocalColumn}) {
+      const double first = poses.values[column];
+      const double here = poses.values[row * poses.columns + column];
+      if (!(std::abs(here - first) <= 1e-6 * std::abs(first)))
+        throw InputError(say(name, ": row ", row, " is of another camera (", here, " against ",
+                             first, " in column ", column, "), but one rig is expected."));
+    }
+}
+
+}  // namespace
+
+CalibrationDraft draftFromEndoNerf(std::string_view npy, const std::string& name) {
+  const NpyArray poses = parseNpy(npy, name);
+  if (poses.columns != 17 && poses.columns != 15)
+    throw InputError(say(name, ": has ", poses.columns,
+                         " columns, but poses_bounds.npy has 17 (or 15 without bounds)."));
+  requireOneCamera(poses, name);
+  PinholeCamera camera;
+  camera.width_px = pixels(poses.values[kWidthColumn], name + ": width");
+  camera.height_px = pixels(poses.values[kHeightColumn], name + ": height");
+  camera.fx_px = camera.fy_px = poses.values[kFocalColumn];
+  camera.cx_px = camera.width_px / 2.0;
+  camera.cy_px = camera.height_px / 2.0;
+  CalibrationDraft draft;
+  draft.has_baseline = false;
+  draft.calibration.form = "EndoNeRF";
+  draft.calibration.rectified = true;
+  draft.calibration.left.pinhole = draft.calibration.right.pinhole = camera;
+  return draft;
+}
+
+}  // namespace softscope

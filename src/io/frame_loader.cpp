@@ -1,0 +1,117 @@
+#include "io/frame_loader.h"
+
+#include "core/error.h"
+#include "io/calibration_check.h"
+#include "io/depth_files.h"
+#include "io/frame_pairing.h"
+#include "io/image_reader.h"
+#include "io/message.h"
+#include "io/timestamps_file.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+void requireSequence(const SequencePaths& paths) {
+  if (paths.left.empty() == paths.stereo.empty())
+    throw OptionError("a sequence needs left and right, or stereo, and not both.");
+  if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
+    throw OptionError("a sequence needs right pictures or depth beside the left ones.");
+  if (paths.calibration.empty())
+    throw OptionError("a sequence needs a calibration. Give it with --calibration.");
+}
+
+void requireCount(std::size_t found, int expected, const fs::path& path, const char* what) {
+  if (found == static_cast<std::size_t>(expected)) return;
+  throw InputError(say(shown(path), ": has ", found, " ", what, ", but the sequence has ", expected,
+                       " frames; one a frame is expected."));
+}
+
+}  // namespace
+
+FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& options)
+    : options_(options) {
+  options.validate();
+  requireSequence(paths);
+  is_packed_ = !paths.stereo.empty();
+  const fs::path& first = is_packed_ ? paths.stereo : paths.left;
+  left_ = openPictures(first);
+  count_ = left_->count();
+  const ViewFiles view{first, left_->files(), count_};
+  if (!paths.right.empty()) {
+    right_ = openPictures(paths.right);
+    requirePartners(view, {paths.right, right_->files(), right_->count()});
+  }
+  if (!paths.mask.empty()) masks_ = partnersIn(paths.mask, kMaskKinds, view);
+  if (!paths.depth.empty()) depths_ = partnersIn(paths.depth, kDepthKinds, view);
+  if (!paths.timestamps.empty()) {
+    times_s_ = readTimestamps(paths.timestamps);
+    requireCount(times_s_.size(), count_, paths.timestamps, "times");
+  }
+  calibration_ = readCalibration(paths.calibration, options.calibration);
+}
+
+bool FrameLoader::survivesErrors() const {
+  return left_->survivesErrors() && (!right_ || right_->survivesErrors());
+}
+
+Frame FrameLoader::load(int index) {
+  Frame frame;
+  frame.index = index;
+  frame.time_s = timeOf(index);
+  frame.pair = readPair(index);
+  if (!is_settled_) settleSize(frame.pair.left, left_->nameOf(index));
+  requireShape(frame.pair.left.width_px, frame.pair.left.height_px, left_->nameOf(index));
+  if (right_)
+    requireShape(frame.pair.right.width_px, frame.pair.right.height_px, right_->nameOf(index));
+  const auto i = static_cast<std::size_t>(index);
+  if (!masks_.empty()) {
+    frame.mask = readMask(masks_[i]);
+    requireShape(frame.mask.width_px, frame.mask.height_px, shown(masks_[i]));
+  }
+  if (!depths_.empty()) {
+    frame.depth_mm = readDepth(depths_[i], calibration_.depth_unit_mm);
+    requireShape(frame.depth_mm.width_px, frame.depth_mm.height_px, shown(depths_[i]));
+  }
+  return frame;
+}
+
+StereoPair FrameLoader::readPair(int index) {
+  if (!is_packed_) return {left_->read(index), right_ ? right_->read(index) : ColourImage{}};
+  const ColourImage packed = left_->read(index);
+  const PinholeCamera& camera = calibration_.left.pinhole;
+  if (!is_settled_)
+    packing_ = choosePacking(packed, options_.layout, options_.right_first,
+                             {camera.width_px, camera.height_px}, left_->nameOf(index));
+  return unpack(packed, packing_, left_->nameOf(index));
+}
+
+void FrameLoader::settleSize(const ColourImage& left, const std::string& name) {
+  is_settled_ = true;
+  PinholeCamera& camera = calibration_.left.pinhole;
+  if (camera.width_px != 0 && camera.height_px != 0) return;
+  camera.width_px = calibration_.right.pinhole.width_px = left.width_px;
+  camera.height_px = calibration_.right.pinhole.height_px = left.height_px;
+  calibration_.warnings.push_back(
+      say(calibration_.source, ": doesn't say for which picture size it ", "holds; taken to be ",
+          name, "'s ", left.width_px, " x ", left.height_px, "."));
+  for (std::string& line : checkPictureFit(calibration_))
+    calibration_.warnings.push_back(std::move(line));
+}
+
+void FrameLoader::requireShape(int width_px, int height_px, const std::string& name) const {
+  const PinholeCamera& camera = calibration_.left.pinhole;
+  if (width_px == camera.width_px && height_px == camera.height_px) return;
+  throw InputError(say(name, ": ", width_px, " x ", height_px, " pixels, but ", calibration_.source,
+                       " is for ", camera.width_px, " x ", camera.height_px,
+                       ". Give the calibration made for this size."));
+}
+
+double FrameLoader::timeOf(int index) const {
+  if (!times_s_.empty()) return times_s_[static_cast<std::size_t>(index)];
+  const double rate_hz = left_->framesPerSecond();
+  return rate_hz > 0 ? index / rate_hz : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace softscope

@@ -1,0 +1,50 @@
+// src/io/frame_loader.h: puts one frame together from all the files that speak of it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/frame.h"
+#include "core/stereo_rig.h"
+#include "io/picture_source.h"
+#include "io/sequence_options.h"
+#include "io/sequence_paths.h"
+#include "io/stereo_packing.h"
+
+namespace softscope {
+
+/// Not for two threads at once; frames must be asked for in rising order.
+class FrameLoader {
+ public:
+  /// Opens everything, pairs pictures, masks and depth files by the numbers in their names (by
+  /// order where they have none), checks counts. Throws InputError.
+  FrameLoader(const SequencePaths& paths, const SequenceOptions& options);
+
+  int count() const { return count_; }
+  const StereoCalibration& calibration() const { return calibration_; }
+  bool survivesErrors() const;
+
+  /// Throws InputError. The first call settles the layout of packed pictures, and the picture size
+  /// where the calibration left it out.
+  Frame load(int index);
+
+ private:
+  StereoPair readPair(int index);
+  void settleSize(const ColourImage& left, const std::string& name);
+  void requireShape(int width_px, int height_px, const std::string& name) const;
+  double timeOf(int index) const;
+
+  SequenceOptions options_;
+  StereoCalibration calibration_;
+  std::unique_ptr<PictureSource> left_, right_;  // left_ alone where both views are packed in it
+  bool is_packed_ = false;
+  bool is_settled_ = false;
+  StereoPacking packing_;
+  int count_ = 0;
+  std::vector<std::filesystem::path> masks_, depths_;  // empty, or one a frame
+  std::vector<double> times_s_;                        // empty, or one a frame
+};
+
+}  // namespace softscope

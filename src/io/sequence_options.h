@@ -1,0 +1,35 @@
+// src/io/sequence_options.h: what of a sequence is read, and how.
+#pragma once
+
+#include <string>
+
+#include "io/calibration_reader.h"
+
+namespace softscope {
+
+class SettingsBinder;
+
+/// Frames begin, begin + 1, …, end - 1.
+struct FrameRange {
+  int begin = 0;
+  int end = -1;  // -1 = to the last
+};
+
+/// "A:B" is A up to, not with, B; either may be left out ("10:", ":20"). Throws OptionError.
+FrameRange parseFrameRange(const std::string& text);
+
+struct SequenceOptions {
+  FrameRange frames;
+  std::string layout = "auto";  // of one picture with both views: io/stereo_packing.h
+  bool right_first = false;     // … whose right view comes first
+  int read_ahead = 4;           // frames kept ready
+  CalibrationHints calibration;
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+/// Binds sequence.* and calibration.*; these are the keys that messages name.
+void bindSequenceOptions(SettingsBinder& binder, SequenceOptions& options);
+
+}  // namespace softscope

@@ -1,0 +1,84 @@
+#include "io/atomic_file.h"
+
+#include <gtest/gtest.h>
+
+#include "io/file_bytes.h"
+#include "io/temporary_folder.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+int entriesOf(const fs::path& folder) {
+  int count = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder)) ++count;
+  return count;
+}
+
+TEST(AtomicFile, AppearsOnlyWhenCommitted) {
+  TemporaryFolder folder;
+  {
+    AtomicFile file(folder / "a.txt", false);
+    file.write("half");
+    EXPECT_FALSE(fs::exists(folder / "a.txt"));
+  }
+  EXPECT_EQ(entriesOf(folder.path()), 0);  // nothing half-written is left behind
+  AtomicFile file(folder / "a.txt", false);
+  file.write("who");
+  file.write("le");
+  file.commit();
+  EXPECT_EQ(get(folder / "a.txt"), "whole");
+  EXPECT_EQ(entriesOf(folder.path()), 1);
+}
+
+TEST(AtomicFile, RefusesToOverwriteUnlessTold) {
+  TemporaryFolder folder;
+  writeFile(folder / "a.txt", "first", false);
+  expectError<OptionError>([&] { writeFile(folder / "a.txt", "second", false); },
+                           {"a.txt", "exists", "--force"});
+  EXPECT_EQ(get(folder / "a.txt"), "first");
+  writeFile(folder / "a.txt", "second", true);
+  EXPECT_EQ(get(folder / "a.txt"), "second");
+}
+
+TEST(AtomicFile, RefusesWhatAppearedMeanwhile) {
+  TemporaryFolder folder;
+  AtomicFile file(folder / "a.txt", false);
+  file.write("ours");
+  put(folder / "a.txt", "theirs");
+  expectError<OptionError>([&] { file.commit(); }, {"a.txt", "--force"});
+  EXPECT_EQ(get(folder / "a.txt"), "theirs");
+}
+
+TEST(AtomicFile, SaysWhyItCannotWrite) {
+  TemporaryFolder folder;
+  expectError<Error>([&] { writeFile(folder / "no/such/a.txt", "x", false); },
+                     {"a.txt", "can't be written"});
+  expectError<OptionError>([&] { writeFile(folder.path(), "x", true); }, {"folder"});
+  if (fs::exists("/dev/full")) {  // a disk without room; renaming onto it never happens
+    fs::create_symlink("/dev/full", folder / "full");
+    EXPECT_NO_THROW(writeFile(folder / "full", "x", true));  // replaces the link, not the device
+    EXPECT_EQ(get(folder / "full"), "x");
+  }
+}
+
+TEST(FileBytes, SaysWhatIsWrongWithAFile) {
+  TemporaryFolder folder;
+  put(folder / "empty", "");
+  put(folder / "some", "12345678");
+  fs::create_symlink("loop", folder / "loop");
+  fs::create_symlink("nowhere", folder / "dangling");
+  EXPECT_EQ(readBytes(folder / "some"), "12345678");
+  expectError<InputError>([&] { readBytes(folder / "none"); }, {"none", "no such file"});
+  expectError<InputError>([&] { readBytes(folder / "empty"); }, {"empty"});
+  expectError<InputError>([&] { readBytes(folder.path()); }, {"a folder"});
+  expectError<InputError>([&] { readBytes(folder / "loop"); }, {"loop", "symbolic link", "itself"});
+  expectError<InputError>([&] { readBytes(folder / "dangling"); }, {"dangling", "no such file"});
+  expectError<InputError>([&] { readBytes(folder / "some", 7); }, {"some", "right one"});
+  expectError<InputError>([] { readBytes("/dev/zero"); }, {"device"});
+  expectError<InputError>([&] { readBytes(folder / "two\nlines"); }, {"two?lines"});
+}
+
+}  // namespace
+}  // namespace softscope::test

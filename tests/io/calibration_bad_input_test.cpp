@@ -1,0 +1,172 @@
+// Calibrations that must be refused, or accepted with a warning.
+#include <gtest/gtest.h>
+
+#include "io/calibration_reader.h"
+#include "io/calibration_texts.h"
+#include "io/temporary_folder.h"
+
+namespace softscope::test {
+namespace {
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// The YAML with one thing changed must end in an InputError that holds all `parts`.
+void expectRefused(const std::string& from, const std::string& to,
+                   const std::vector<std::string>& parts) {
+  SCOPED_TRACE(from + " → " + to);
+  expectError<InputError>([&] { parseCalibration(replaced(openCvYaml(), from, to), "c.yaml"); },
+                          parts);
+}
+
+TEST(BadCalibration, FocalLengthMustBeAPositiveNumber) {
+  expectRefused("500,0,321", ".Nan,0,321", {"c.yaml", "M1", "nan", "Calibrate"});
+  expectRefused("500,0,321", "0,0,321", {"c.yaml", "left camera", "fx is 0", "positive"});
+  expectRefused("500,0,321", "-500,0,321", {"left camera", "-500"});
+  expectRefused("505,239", ".Inf,239", {"M2", "inf"});
+}
+
+TEST(BadCalibration, BaselineInAnotherUnitIsGuessed) {
+  const std::string size = "image_width: 640\nimage_height: 480\n";
+  expectError<InputError>(
+      [&] { parseCalibration(openCvYaml(size, "-0.0042 0 0"), "c.yaml"); },
+      {"c.yaml: the baseline is 0.0042 mm, but an endoscope's is 1 to 20 mm. In "
+       "metres? Then write `unit: m`"});
+  expectError<InputError>(
+      [&] { parseCalibration(openCvYaml(size + "unit: m\n", "-4.2 0 0"), "c.yaml"); },
+      {"4200 mm", "In millimetres? Then write `unit: mm`"});
+  expectError<InputError>([&] { parseCalibration(openCvYaml(size, "0 0 0"), "c.yaml"); }, {"0 mm"});
+  expectError<InputError>([&] { parseCalibration(openCvYaml(size, "-120 0 0"), "c.yaml"); },
+                          {"120 mm"});
+}
+
+TEST(BadCalibration, UnusualBaselinesWarn) {
+  const std::string size = "image_width: 640\nimage_height: 480\n";
+  for (const char* t : {"-0.5 0 0", "-40 0 0"}) {
+    const auto found = parseCalibration(openCvYaml(size, t), "c");
+    ASSERT_EQ(found.warnings.size(), 1U) << t;
+    EXPECT_NE(found.warnings[0].find("baseline"), std::string::npos);
+  }
+}
+
+TEST(BadCalibration, TheRightCameraMustBeOnTheRight) {
+  const std::string size = "image_width: 640\nimage_height: 480\n";
+  expectError<InputError>([&] { parseCalibration(openCvYaml(size, "5 0 0"), "c.yaml"); },
+                          {"right camera lies at", "exchanged"});
+  expectError<InputError>([&] { parseCalibration(openCvYaml(size, "-1 5 0"), "c.yaml"); },
+                          {"right camera lies at"});
+}
+
+TEST(BadCalibration, RMustBeARotation) {
+  expectRefused(commas(kRotation), "1,0,0,0,1,0,0,0,1.1", {"R is no rotation", "0.21"});
+  expectRefused(commas(kRotation), "1,0,0,0,1,0,0,0,-1", {"R is no rotation", "determinant -1"});
+  expectRefused(commas(kRotation), "1,0,0,0,nan,0,0,0,1", {"R holds nan"});
+  // Four digits, as some files have them, are made a rotation again.
+  const auto rounded = parseCalibration(
+      replaced(openCvYaml(), commas(kRotation), "0.9999,0,-0.0100,0,1,0,0.0100,0,0.9999"), "c");
+  const Eigen::Matrix3d r = rounded.right_from_left.linear();
+  EXPECT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+}
+
+TEST(BadCalibration, RectifiedMustBeTrue) {
+  const std::string head = "image_width: 640\nimage_height: 480\nrectified: 1\n";
+  expectError<InputError>([&] { parseCalibration(openCvYaml(head), "c.yaml"); },
+                          {"rectified", "distortion", "rectified: 0"});
+  std::string plain = openCvYaml(head);
+  plain = replaced(plain, "-0.1,0.02,0.001,-0.002,0.003", "0,0,0,0,0");
+  plain = replaced(plain, "-0.11,0.03,0.002,-0.001,0.004", "0,0,0,0,0");
+  expectError<InputError>([&] { parseCalibration(plain, "c.yaml"); }, {"R turns by 0.57"});
+  plain = replaced(plain, commas(kRotation), "1,0,0,0,1,0,0,0,1");
+  expectError<InputError>([&] { parseCalibration(plain, "c.yaml"); }, {"focal lengths differ"});
+  plain = replaced(plain, "502,0,318,0,505,239", "500,0,318,0,500,230");
+  expectError<InputError>([&] { parseCalibration(plain, "c.yaml"); }, {"cy differs", "241", "230"});
+  EXPECT_TRUE(parseCalibration(replaced(plain, "500,230", "500,241"), "c").rectified);
+  expectError<InputError>(
+      [&] { parseCalibration(replaced(plain, "rectified: 1", "rectified: maybe"), "c.yaml"); },
+      {"maybe", "0 or 1"});
+}
+
+TEST(BadCalibration, UnusualViewsWarn) {
+  const auto warningsFor = [](const std::string& size) {
+    return parseCalibration(openCvYaml(size), "c").warnings;
+  };
+  // f 500 on 120 px sees 14°, on 3000 px 143°; the principal point leaves the middle as well.
+  for (const char* size :
+       {"image_width: 120\nimage_height: 480\n", "image_width: 3000\nimage_height: 480\n"}) {
+    const auto warnings = warningsFor(size);
+    ASSERT_EQ(warnings.size(), 4U) << size;
+    EXPECT_NE(warnings[0].find("°"), std::string::npos);
+    EXPECT_NE(warnings[1].find("principal point"), std::string::npos);
+  }
+  const auto stretched =
+      parseCalibration(replaced(openCvYaml(), "500,0,321,0,500", "500,0,321,0,250"), "c").warnings;
+  ASSERT_EQ(stretched.size(), 1U);
+  EXPECT_NE(stretched[0].find("fx / fy is 2"), std::string::npos);
+}
+
+TEST(BadCalibration, AbsurdSizesAndUnitsAreRefused) {
+  expectRefused("image_width: 640", "image_width: 640000", {"640000 x 480"});
+  expectRefused("image_width: 640", "image_width: 640.5", {"image_width", "640.5", "whole"});
+  expectRefused("image_width: 640", "image_width: many", {"image_width", "many"});
+  expectRefused("image_width: 640", "depth_unit_mm: 0\nimage_width: 640", {"depth_unit_mm is 0"});
+}
+
+TEST(BadCalibration, MatricesMustHaveTheirShape) {
+  expectRefused("rows: 3", "rows: 4", {"M1", "`4` x `3`", "holds 9"});
+  expectRefused("500,0,321,0,500,241,0,0,1", "500,0,0,0,500,0,321,241,1",
+                {"M1", "third row is 321 241 1", "transposed"});
+  expectRefused("500,0,321", "500,7,321", {"M1", "skew of 7"});
+  expectRefused("cols: 5", "cols: 1", {"D1"});
+  expectRefused("500,0,321", "five,0,321", {"M1", "five"});
+  expectRefused("M1: !!opencv-matrix", "A1: !!opencv-matrix", {"M1 is missing", "stereoCalibrate"});
+}
+
+TEST(BadCalibration, OtherFormsAreCheckedAsWell) {
+  expectError<InputError>([] { parseCalibration("RAT\n3\n1 2 3\n", "x.txt"); }, {"x.txt", "RAT"});
+  expectError<InputError>(
+      [] { parseCalibration(replaced(openCas(), "0.4 0.5 0.6", "0.4"), "x.txt"); },
+      {"x.txt: left camera (line 4) has 29 numbers", "31"});
+  expectError<InputError>([] { parseCalibration(kHamlynLeft + kHamlynRight, "x.txt"); },
+                          {"x.txt", "8 lines of numbers", "12"});
+  expectError<InputError>(
+      [] { parseCalibration(replaced(scaredJson(), "\"KR\"", "\"KX\""), "f.json"); },
+      {"f.json: M2 is missing"});
+  expectError<InputError>([] { parseCalibration(scaredJson().substr(0, 200), "f.json"); },
+                          {"f.json", "JSON"});
+  expectError<InputError>([] { parseCalibration(openCvXml().substr(0, 400), "f.xml"); },
+                          {"f.xml", "line"});
+  expectError<InputError>([] { parseCalibration("", "f"); }, {"empty"});
+  expectError<InputError>([] { parseCalibration("\x93NUMPY\x01", "f.npy"); }, {"f.npy"});
+  CalibrationHints hints;
+  hints.baseline_mm = 5;
+  const std::string npy = endoNerfNpy();
+  expectError<InputError>([&] { parseCalibration(npy.substr(0, npy.size() - 9), "f.npy", hints); },
+                          {"f.npy", "promises"});
+  std::string two = endoNerfNpy(2);
+  two.replace(two.size() - 17 * 8, 17 * 8,
+              endoNerfNpy(1, 700).substr(endoNerfNpy(1).size() - 17 * 8));
+  expectError<InputError>([&] { parseCalibration(two, "f.npy", hints); },
+                          {"another camera", "700"});
+}
+
+TEST(BadCalibration, RosWithoutBaselineOrWithAFisheyeIsRefused) {
+  TemporaryFolder folder;
+  const std::string camera = "500 0 321 0 500 241 0 0 1", lens = "0 0 0 0 0",
+                    identity = "1 0 0 0 1 0 0 0 1";
+  put(folder / "left.yaml", rosYaml(camera, lens, identity, "0"));
+  put(folder / "right.yaml", rosYaml(camera, lens, identity, "0"));
+  expectError<InputError>([&] { readCalibration(folder.path()); },
+                          {"right camera", "-fx * baseline"});
+  put(folder / "right.yaml",
+      replaced(rosYaml(camera, lens, identity, "-2.1"), "plumb_bob", "equidistant"));
+  expectError<InputError>([&] { readCalibration(folder.path()); }, {"equidistant", "plumb_bob"});
+  // -fx * baseline in mm: a thousand times too long.
+  put(folder / "right.yaml", rosYaml(camera, lens, identity, "-2100"));
+  expectError<InputError>([&] { readCalibration(folder.path()); }, {"In millimetres?"});
+}
+
+}  // namespace
+}  // namespace softscope::test

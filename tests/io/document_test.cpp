@@ -1,0 +1,86 @@
+#include "io/document.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/number_tree.h"
+#include "io/temporary_folder.h"
+#include "io/text_lines.h"
+
+namespace softscope::test {
+namespace {
+
+TEST(Yaml, ReadsBlocksFlowsAndComments) {
+  const Document d = parseYaml(
+      "# head\n%YAML:1.0\n---\na: 1 # one\nb:\n  c: 'x # y'\n  d: [1, 2,\n      3]\ne: {f: 4, g: "
+      "[5]}\n"
+      "list:\n- 6\n-\n  h: 7\n- - 8\n  - 9\n",
+      "t");
+  EXPECT_EQ(d.find("a")->text, "1");
+  EXPECT_EQ(d.find("b")->find("c")->text, "x # y");
+  EXPECT_EQ(numbersOf(*d.find("b")->find("d"), "d"), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(d.find("e")->find("f")->text, "4");
+  ASSERT_EQ(d.find("list")->items.size(), 3U);
+  EXPECT_EQ(d.find("list")->items[1].find("h")->text, "7");
+  EXPECT_EQ(numbersOf(d.find("list")->items[2], "l"), (std::vector<double>{8, 9}));
+  EXPECT_EQ(d.find("none"), nullptr);
+}
+
+TEST(Yaml, NamesTheLineThatItCannotRead) {
+  expectError<InputError>([] { parseYaml("a: 1\n  b: 2\n", "t.yaml"); }, {"t.yaml: line 2"});
+  expectError<InputError>([] { parseYaml("a: [1, 2\nb: 3\n", "t"); }, {"t: line 1"});
+  expectError<InputError>([] { parseYaml("a: 1\nnothing\n", "t"); }, {"line 2", "nothing"});
+  expectError<InputError>([] { parseYaml("# only\n", "t"); }, {"no data"});
+  expectError<InputError>([] { parseYaml("a: " + std::string(1000, '['), "t"); }, {"nested"});
+  expectError<InputError>(
+      [] {
+        std::string deep;
+        for (int i = 0; i < 1000; ++i) deep += "- ";
+        parseYaml(deep + "x", "t");
+      },
+      {"nested"});
+}
+
+TEST(Xml, ReadsElementsAndLists) {
+  const Document d = parseXml(
+      "<?xml version='1.0'?><!-- c --><root a='1'><x> 1 2 </x><y><_>3</_><_>4</_></y><z/></root>",
+      "t");
+  EXPECT_EQ(numbersOf(*d.find("x"), "x"), (std::vector<double>{1, 2}));
+  EXPECT_EQ(numbersOf(*d.find("y"), "y"), (std::vector<double>{3, 4}));
+  EXPECT_EQ(d.find("z")->text, "");
+}
+
+TEST(Xml, NamesTheLineThatItCannotRead) {
+  expectError<InputError>([] { parseXml("<a>\n<b>\n</a>", "t.xml"); }, {"t.xml: line 3", "</b>"});
+  expectError<InputError>([] { parseXml("<a><b", "t"); }, {"`>` is missing"});
+  expectError<InputError>([] { parseXml("<a>text", "t"); }, {"</a> is missing"});
+  expectError<InputError>(
+      [] {
+        std::string deep;
+        for (int i = 0; i < 100000; ++i) deep += "<a>";
+        parseXml(deep, "t");
+      },
+      {"nested"});
+}
+
+TEST(Numbers, AreReadWhateverTheLocaleAndRefusedInPart) {
+  EXPECT_EQ(numberOf("1.5e-3"), 1.5e-3);
+  EXPECT_EQ(numberOf("+.5"), 0.5);
+  EXPECT_EQ(numberOf("500."), 500.0);
+  EXPECT_TRUE(std::isnan(*numberOf(".Nan")));
+  EXPECT_EQ(numberOf("-.Inf"), -INFINITY);
+  for (const char* word : {"", "1x", "0x10", "--1", "+-1", "1,5", "e5"})
+    EXPECT_FALSE(numberOf(word)) << word;
+  EXPECT_EQ(numberOf(exactText(0.1)), 0.1);
+}
+
+TEST(Numbers, RowsLeaveHeadingsOut) {
+  const auto rows = numberRows("Left camera:\r\n1 2\r\n\n 3;4,5 \nK 1 2\n");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].line, 2);
+  EXPECT_EQ(rows[1].values, (std::vector<double>{3, 4, 5}));
+}
+
+}  // namespace
+}  // namespace softscope::test

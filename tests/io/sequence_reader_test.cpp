@@ -1,0 +1,207 @@
+#include "io/sequence_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/depth_files.h"
+#include "io/sequence_folder.h"
+#include "io/settings_binder.h"
+
+namespace softscope::test {
+namespace {
+
+// Motion JPEG changes this noise by 4.7 grey levels; another frame differs by 20, the other view
+// by 16.
+constexpr double kVideoTolerance = 8;
+
+/// Reads all; every frame must be testPair(its index) within `tolerance`.
+std::vector<Frame> expectTestPairs(SequenceReader& reader, double tolerance) {
+  std::vector<Frame> frames;
+  while (auto result = reader.next()) {
+    EXPECT_TRUE(result->ok()) << result->error;
+    if (!result->ok()) break;
+    EXPECT_EQ(result->index, result->frame.index);
+    const StereoPair wanted = testPair(result->index);
+    EXPECT_TRUE(result->frame.pair.left.sameShape(wanted.left));
+    EXPECT_LE(meanDifference(result->frame.pair.left, wanted.left), tolerance) << result->index;
+    EXPECT_LE(meanDifference(result->frame.pair.right, wanted.right), tolerance) << result->index;
+    frames.push_back(std::move(result->frame));
+  }
+  return frames;
+}
+
+std::vector<ColourImage> packed(int count, ColourImage (*pack)(const StereoPair&)) {
+  std::vector<ColourImage> out;
+  for (int i = 0; i < count; ++i) out.push_back(pack(testPair(i)));
+  return out;
+}
+
+TEST(SequenceReader, ReadsAFolderOfPictures) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 12);
+  SequenceReader reader(folder.path());
+  EXPECT_EQ(reader.frameCount(), 12);
+  EXPECT_EQ(reader.calibration().left.pinhole.width_px, kWidth);
+  const auto frames = expectTestPairs(reader, 0);
+  ASSERT_EQ(frames.size(), 12U);
+  EXPECT_TRUE(std::isnan(frames[3].time_s));
+  EXPECT_TRUE(frames[3].mask.empty());
+  EXPECT_TRUE(frames[3].depth_mm.empty());
+  EXPECT_FALSE(reader.next());  // still nothing
+}
+
+TEST(SequenceReader, ReadsARange) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 8);
+  SequenceOptions options;
+  options.frames = parseFrameRange("3:6");
+  SequenceReader reader(folder.path(), options);
+  EXPECT_EQ(reader.frameCount(), 3);
+  EXPECT_EQ(reader.totalCount(), 8);
+  const auto frames = expectTestPairs(reader, 0);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].index, 3);
+  options.frames = parseFrameRange("6:9");
+  expectError<OptionError>([&] { SequenceReader(folder.path(), options); },
+                           {"--frames 6:9", "8 frames"});
+}
+
+TEST(SequenceReader, FrameRangesAreHalfOpen) {
+  EXPECT_EQ(parseFrameRange("2:").begin, 2);
+  EXPECT_EQ(parseFrameRange("2:").end, -1);
+  EXPECT_EQ(parseFrameRange(":7").end, 7);
+  EXPECT_EQ(parseFrameRange(":").begin, 0);
+  for (const char* text : {"", "5", "5:5", "7:3", "-1:4", "a:b", "1:2:3", "1.5:2"})
+    expectError<OptionError>([&] { parseFrameRange(text); }, {"--frames"});
+}
+
+TEST(SequenceReader, ReadsMasksDepthAndTimes) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 3);
+  std::filesystem::create_directories(folder / "mask");
+  std::filesystem::create_directories(folder / "depth");
+  for (int i = 0; i < 3; ++i) {
+    Mask mask(kWidth, kHeight, 0);
+    mask.at(i, 0) = 7;
+    writePng(folder / "mask" / numbered(i), mask);
+    writeDepthPng(folder / "depth" / numbered(i), Raster<float>(kWidth, kHeight, 50.0F + i), 0.02);
+  }
+  put(folder / "timestamps.txt", "0.5\n0.6\n0.8\n");
+  put(folder / "calibration.yaml",
+      smallCalibration("depth_unit_mm: 0.02\nimage_width: 160\nimage_height: 120\n"));
+  SequenceReader reader(folder.path());
+  const auto frames = expectTestPairs(reader, 0);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[2].time_s, 0.8);
+  EXPECT_NE(frames[2].mask.at(2, 0), 0);
+  EXPECT_EQ(frames[2].mask.at(1, 0), 0);
+  EXPECT_FLOAT_EQ(frames[1].depth_mm.at(9, 9), 51);
+}
+
+TEST(SequenceReader, DepthStandsInForTheRightView) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 2);
+  std::filesystem::remove_all(folder / "right");
+  expectError<InputError>([&] { SequenceReader(folder.path()); },
+                          {"neither a right one nor depth/"});
+  std::filesystem::create_directories(folder / "depth");
+  for (int i = 0; i < 2; ++i)
+    writePfm(folder / "depth" / numbered(i, ".pfm"), Raster<float>(kWidth, kHeight, 50));
+  SequenceReader reader(folder.path());
+  const auto result = reader.next();
+  ASSERT_TRUE(result && result->ok());
+  EXPECT_TRUE(result->frame.pair.right.empty());
+  EXPECT_EQ(result->frame.depth_mm.at(0, 0), 50);
+}
+
+TEST(SequenceReader, ReadsTwoVideos) {
+  TemporaryFolder folder;
+  put(folder / "calibration.yaml", smallCalibration());
+  std::vector<ColourImage> left, right;
+  for (int i = 0; i < 7; ++i) {
+    left.push_back(testPair(i).left);
+    right.push_back(testPair(i).right);
+  }
+  makeVideo(folder / "left.avi", left);
+  makeVideo(folder / "right.avi", right);
+  SequenceReader reader(folder.path());
+  EXPECT_EQ(reader.frameCount(), 7);
+  const auto frames = expectTestPairs(reader, kVideoTolerance);
+  ASSERT_EQ(frames.size(), 7U);
+  EXPECT_NEAR(frames[5].time_s, 0.2, 1e-9);  // 25 frames a second
+  SequenceOptions options;
+  options.frames = {4, -1};
+  SequenceReader late(folder.path(), options);
+  EXPECT_EQ(expectTestPairs(late, kVideoTolerance).size(), 3U);
+}
+
+TEST(SequenceReader, ReadsOneVideoInEveryLayout) {
+  ColourImage (*const packs[])(const StereoPair&) = {sideBySide, topBottom, interlaced};
+  for (const auto pack : packs) {
+    TemporaryFolder folder;
+    put(folder / "calibration.yaml", smallCalibration());
+    makeVideo(folder / "stereo.avi", packed(4, pack));
+    SequenceReader reader(folder.path());
+    // Interlaced views share JPEG's blocks, which costs 7.6 grey levels.
+    EXPECT_EQ(expectTestPairs(reader, pack == interlaced ? 12 : kVideoTolerance).size(), 4U);
+  }
+}
+
+TEST(SequenceReader, TakesASizeThatTheCalibrationLeavesOutFromThePictures) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 2);
+  put(folder / "calibration.yaml", smallCalibration(""));
+  SequenceReader reader(folder.path());
+  EXPECT_EQ(reader.calibration().right.pinhole.width_px, kWidth);
+  EXPECT_EQ(reader.calibration().left.pinhole.height_px, kHeight);
+  ASSERT_EQ(reader.calibration().warnings.size(), 1U);
+  EXPECT_NE(reader.calibration().warnings[0].find("160 x 120"), std::string::npos);
+}
+
+TEST(SequenceReader, TakesAUsersOwnLayout) {
+  TemporaryFolder folder;
+  put(folder / "rig.yaml", smallCalibration());
+  writePng(folder / "eye_l.png", testPair(0).left);
+  writePng(folder / "eye_r7.png", testPair(0).right);
+  SequencePaths paths;
+  paths.left = folder / "eye_l.png";
+  paths.right = folder / "eye_r7.png";
+  paths.calibration = folder / "rig.yaml";
+  SequenceReader reader(paths, {});
+  EXPECT_EQ(expectTestPairs(reader, 0).size(), 1U);
+  paths.calibration.clear();
+  expectError<OptionError>([&] { SequenceReader(paths, {}); }, {"--calibration"});
+}
+
+TEST(SequenceReader, KeepsFewFramesReadyAndStopsWhenLeft) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 10);
+  SequenceOptions options;
+  options.read_ahead = 1;
+  for (int taken = 0; taken < 4; ++taken) {  // destroyed with its thread waiting at each stage
+    SequenceReader reader(folder.path(), options);
+    for (int i = 0; i < taken; ++i) EXPECT_TRUE(reader.next()->ok());
+  }
+  SequenceReader first(folder.path(), options), second(folder.path(), options);
+  first = std::move(second);
+  EXPECT_EQ(expectTestPairs(first, 0).size(), 10U);
+}
+
+TEST(SequenceReader, OptionsAreBoundAndChecked) {
+  SequenceOptions options;
+  SettingsBinder binder;
+  bindSequenceOptions(binder, options);
+  Settings settings;
+  addAssignment(settings, "sequence.layout=top-bottom");
+  addAssignment(settings, "calibration.baseline_mm=4.3");
+  binder.apply(settings);
+  EXPECT_EQ(options.layout, "top-bottom");
+  EXPECT_EQ(options.calibration.baseline_mm, 4.3);
+  EXPECT_NO_THROW(options.validate());
+  options.read_ahead = 0;
+  expectError<OptionError>([&] { options.validate(); }, {"sequence.read_ahead is 0"});
+}
+
+}  // namespace
+}  // namespace softscope::test

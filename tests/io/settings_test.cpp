@@ -1,0 +1,119 @@
+#include "io/settings.h"
+
+#include <gtest/gtest.h>
+
+#include "io/nearest_name.h"
+#include "io/settings_binder.h"
+#include "io/temporary_folder.h"
+
+namespace softscope::test {
+namespace {
+
+struct Options {
+  bool fill = true;
+  int step_px = 5;
+  double weight = 1.5;
+  std::string method = "elas";
+};
+
+SettingsBinder binderOf(Options& options) {
+  SettingsBinder binder;
+  binder.bind("stereo.fill", options.fill, "close gaps");
+  binder.bind("stereo.step_px", options.step_px, "grid");
+  binder.bind("deform.weight", options.weight, "rigidity");
+  binder.bind("stereo.method", options.method, "elas or sgbm");
+  return binder;
+}
+
+TEST(Settings, TablesAndDottedKeysAreTheSame) {
+  const Settings settings = parseSettings(
+      "deform.weight = 2\n[stereo]\nfill = false\nstep_px = 7\nmethod = 'sgbm'\n", "s.toml");
+  Options options;
+  binderOf(options).apply(settings);
+  EXPECT_FALSE(options.fill);
+  EXPECT_EQ(options.step_px, 7);
+  EXPECT_EQ(options.weight, 2.0);  // a whole number is a number
+  EXPECT_EQ(options.method, "sgbm");
+  EXPECT_EQ(settings.at("stereo.step_px").origin, "s.toml:4");
+}
+
+TEST(Settings, AssignmentsWinAndNeedNoQuotes) {
+  Settings settings = parseSettings("stereo.method = 'elas'\n", "s");
+  addAssignment(settings, "stereo.method=sgbm");
+  addAssignment(settings, " deform.weight = 2.5 ");
+  addAssignment(settings, "stereo.fill=false");
+  Options options;
+  binderOf(options).apply(settings);
+  EXPECT_EQ(options.method, "sgbm");
+  EXPECT_EQ(options.weight, 2.5);
+  EXPECT_FALSE(options.fill);
+  addAssignment(settings, "stereo.method=5");
+  binderOf(options).apply(settings);
+  EXPECT_EQ(options.method, "5");
+  expectError<OptionError>([&] { addAssignment(settings, "fill"); }, {"fill", "key=value"});
+  expectError<OptionError>([&] { addAssignment(settings, "=3"); }, {"key=value"});
+}
+
+TEST(Settings, AnUnknownKeyGetsTheNearestName) {
+  Options options;
+  const SettingsBinder binder = binderOf(options);
+  const auto apply = [&](const std::string& toml) {
+    return [&binder, toml] { SettingsBinder(binder).apply(parseSettings(toml, "s.toml")); };
+  };
+  expectError<OptionError>(apply("\nstereo.stepp_px = 3"),
+                           {"s.toml:2", "`stereo.stepp_px`", "Did you mean stereo.step_px?"});
+  expectError<OptionError>(apply("weight = 3"), {"Did you mean deform.weight?"});
+  expectError<OptionError>(apply("camera.brightness = 3"), {"--help"});
+}
+
+TEST(Settings, TypesAreCheckedAndNothingIsSetByHalves) {
+  Options options;
+  SettingsBinder binder = binderOf(options);
+  const auto expectType = [&](const std::string& toml, const std::vector<std::string>& parts) {
+    expectError<OptionError>([&] { binder.apply(parseSettings(toml, "s.toml")); }, parts);
+  };
+  expectType("stereo.step_px = 2.5", {"s.toml:1", "stereo.step_px", "`2.5`", "whole number"});
+  expectType("stereo.step_px = 99999999999", {"whole number"});
+  expectType("stereo.fill = 1", {"true or false"});
+  expectType("stereo.method = 3", {"text in quotes"});
+  expectType("deform.weight = 'much'", {"`much`", "a number"});
+  expectType("deform.weight = nan", {"a number"});
+  expectType("deform.weight = 9\nstereo.fill = 1", {"true or false"});
+  EXPECT_EQ(options.weight, 1.5);
+}
+
+TEST(Settings, BrokenFilesNameTheLine) {
+  expectError<InputError>([] { parseSettings("a = 1\nb = = 2\n", "s.toml"); },
+                          {"s.toml:2", "TOML"});
+  expectError<OptionError>([] { parseSettings("a = [1, 2]\n", "s.toml"); },
+                           {"s.toml:1", "`a`", "list"});
+  expectError<InputError>([] { readSettings("/no/such.toml"); }, {"no such file"});
+}
+
+TEST(Settings, ListShowsDefaultsAndWhatIsSet) {
+  Options options;
+  SettingsBinder binder = binderOf(options);
+  Settings settings;
+  addAssignment(settings, "deform.weight=0.1");
+  binder.apply(settings);
+  const auto list = binder.list();
+  ASSERT_EQ(list.size(), 4U);
+  EXPECT_EQ(list[0].key, "stereo.fill");
+  EXPECT_EQ(list[0].type, "true/false");
+  EXPECT_EQ(list[2].default_text, "1.5");
+  EXPECT_EQ(list[2].current_text, "0.1");
+  EXPECT_EQ(list[2].help, "rigidity");
+  expectError<Error>([&] { binder.bind("stereo.fill", options.fill, ""); }, {"twice"});
+}
+
+TEST(NearestName, CountsEditsAndSwaps) {
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3);
+  EXPECT_EQ(editDistance("", "abc"), 3);
+  EXPECT_EQ(editDistance("wieght", "weight"), 1);  // one swap
+  EXPECT_EQ(nearestName("Method", {"stereo.method", "stereo.mode"}), "stereo.method");
+  EXPECT_EQ(nearestName("zzzzzz", {"stereo.method"}), "");
+  EXPECT_EQ(nearestName(std::string(100000, 'a'), {"a"}), "");
+}
+
+}  // namespace
+}  // namespace softscope::test

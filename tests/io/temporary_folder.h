@@ -1,0 +1,81 @@
+// tests/io/temporary_folder.h: a folder that is gone after the test.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "core/error.h"
+
+namespace softscope::test {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "softscope_XXXXXX").string();
+    if (!::mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code code;
+    std::filesystem::remove_all(path_, code);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline void put(const std::filesystem::path& file, const std::string& bytes) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+inline std::string get(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Calls `action`, which must throw an Expected whose text holds every one of `parts` and is one
+/// line; returns that text.
+template <class Expected, class Action>
+std::string expectError(const Action& action, const std::vector<std::string>& parts) {
+  try {
+    action();
+  } catch (const Expected& error) {
+    const std::string text = error.what();
+    for (const std::string& part : parts)
+      EXPECT_NE(text.find(part), std::string::npos) << "missing «" << part << "» in: " << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << "not one line: " << text;
+    return text;
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << "another error: " << error.what();
+    return {};
+  }
+  std::string wanted;
+  for (const std::string& part : parts) wanted += part + " … ";
+  ADD_FAILURE() << "no error; expected one with: " << wanted;
+  return {};
+}
+
+/// The development data's folder, empty where there is none.
+inline std::filesystem::path testData() {
+  const char* folder = std::getenv("SOFTSCOPE_TEST_DATA");
+  return folder ? std::filesystem::path(folder) : std::filesystem::path();
+}
+
+}  // namespace softscope::test
+
+/// Leaves the test, saying why, where the development data isn't at hand.
+#define SOFTSCOPE_NEEDS_DATA(name)                                           \
+  const std::filesystem::path data = softscope::test::testData() / (name);   \
+  if (softscope::test::testData().empty() || !std::filesystem::exists(data)) \
+  GTEST_SKIP() << "SOFTSCOPE_TEST_DATA names no folder with " << (name)

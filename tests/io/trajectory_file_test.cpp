@@ -1,0 +1,67 @@
+#include "io/trajectory_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/temporary_folder.h"
+#include "io/timestamps_file.h"
+
+namespace softscope::test {
+namespace {
+
+TEST(TrajectoryFile, ComesBackWithinItsDigits) {
+  TemporaryFolder folder;
+  TimedPose pose;
+  pose.time_s = 12.04;
+  pose.world_from_left = Eigen::Translation3d(1.25, -2.5, 80.123456) *
+                         Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+  writeTrajectory(folder / "t.txt", {TimedPose{}, pose});
+  const Trajectory found = readTrajectory(folder / "t.txt");
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].world_from_left.matrix(), Eigen::Matrix4d::Identity());
+  EXPECT_EQ(found[1].time_s, 12.04);
+  // Quaternions carry nine digits: 1e-9 each.
+  EXPECT_LT((found[1].world_from_left.linear() - pose.world_from_left.linear()).norm(), 1e-8);
+  EXPECT_LT((found[1].world_from_left.translation() - pose.world_from_left.translation()).norm(),
+            1e-6);
+}
+
+TEST(TrajectoryFile, TheOrderIsTumS) {
+  const Trajectory found = parseTrajectory("# t x y z qx qy qz qw\n\n0.5 1 2 3 0 0 0.6 0.8\n", "t");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].world_from_left.translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_NEAR(found[0].world_from_left.linear()(1, 0), 2 * 0.6 * 0.8, 1e-15);
+}
+
+TEST(TrajectoryFile, BadLinesAreNamed) {
+  expectError<InputError>([] { parseTrajectory("0 0 0 0 0 0 0 1\n1 2 3\n", "t.txt"); },
+                          {"t.txt: line 2", "3 words"});
+  expectError<InputError>([] { parseTrajectory("0 0 0 0 0 0 0 2\n", "t"); }, {"quaternion", "2"});
+  expectError<InputError>([] { parseTrajectory("0 0 0 0 0 0 0 0\n", "t"); }, {"quaternion"});
+  expectError<InputError>([] { parseTrajectory("0 0 nan 0 0 0 0 1\n", "t"); }, {"nan"});
+  expectError<InputError>([] { parseTrajectory("1 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n", "t"); },
+                          {"line 2", "Sort"});
+  expectError<InputError>([] { parseTrajectory("# none\n", "t"); }, {"no pose"});
+  TimedPose bad;
+  bad.world_from_left.translation().x() = std::nan("");
+  expectError<Error>([&] { trajectoryText({bad}); }, {"not finite"});
+}
+
+TEST(TrajectoryFile, ReadsTheDevelopmentData) {
+  SOFTSCOPE_NEEDS_DATA("openhelp_heart/groundtruth/trajectory.txt");
+  const Trajectory found = readTrajectory(data);
+  ASSERT_EQ(found.size(), 40U);
+  EXPECT_NEAR(found[1].time_s, 0.04, 1e-9);
+}
+
+TEST(Timestamps, RiseOneALine) {
+  EXPECT_EQ(parseTimestamps("# s\n0\n0.04\n\n0.08\n", "t"), (std::vector<double>{0, 0.04, 0.08}));
+  expectError<InputError>([] { parseTimestamps("0\n0\n", "t.txt"); }, {"t.txt: line 2", "later"});
+  expectError<InputError>([] { parseTimestamps("0\nx\n", "t"); }, {"line 2", "`x`"});
+  expectError<InputError>([] { parseTimestamps("inf\n", "t"); }, {"line 1"});
+  expectError<InputError>([] { parseTimestamps("\n", "t"); }, {"no time"});
+}
+
+}  // namespace
+}  // namespace softscope::test
