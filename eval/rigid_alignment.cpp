@@ -1,0 +1,60 @@
+// eval/rigid_alignment.cpp: the closed form by a singular value decomposition.
+#include "eval/rigid_alignment.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+void check(const Points& source_mm, const Points& target_mm) {
+  if (source_mm.size() != target_mm.size())
+    throw InputError("a rigid fit got " + std::to_string(source_mm.size()) + " points and " +
+                     std::to_string(target_mm.size()) + " partners; give one partner a point");
+  if (source_mm.size() < 3)
+    throw InputError("a rigid fit got " + std::to_string(source_mm.size()) +
+                     " pairs of points, but it takes three or more");
+  for (std::size_t i = 0; i < source_mm.size(); ++i)
+    if (!source_mm[i].allFinite() || !target_mm[i].allFinite())
+      throw InputError("pair " + std::to_string(i) +
+                       " of a rigid fit is not finite; leave such pairs out");
+}
+
+Eigen::Vector3d meanOf(const Points& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+RigidFit fitRigid(const Points& source_mm, const Points& target_mm) {
+  check(source_mm, target_mm);
+  const Eigen::Vector3d source_mean = meanOf(source_mm), target_mean = meanOf(target_mm);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < source_mm.size(); ++i)
+    covariance += (target_mm[i] - target_mean) * (source_mm[i] - source_mean).transpose();
+
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double turn = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  RigidFit fit;
+  fit.target_from_source.linear() =
+      svd.matrixU() * Eigen::Vector3d(1, 1, turn).asDiagonal() * svd.matrixV().transpose();
+  fit.target_from_source.translation() =
+      target_mean - fit.target_from_source.linear() * source_mean;
+  fit.unique = svd.singularValues()[1] > 1e-12 * svd.singularValues()[0];
+
+  double squares = 0;
+  for (std::size_t i = 0; i < source_mm.size(); ++i)
+    squares += (target_mm[i] - fit.target_from_source * source_mm[i]).squaredNorm();
+  fit.rmse_mm = std::sqrt(squares / static_cast<double>(source_mm.size()));
+  return fit;
+}
+
+}  // namespace softscope
