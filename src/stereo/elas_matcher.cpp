@@ -1,6 +1,7 @@
 #include "stereo/elas_matcher.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/parallel.h"
 #include "stereo/dense_matching.h"
@@ -63,10 +64,26 @@ StereoOptions halved(StereoOptions options) {
   return options;
 }
 
+/// Share of the pixels that are bright enough, and right of the strip that the right camera can't
+/// see, for which nothing was found.
+double unmatchedShare(const DisparityMap& map, const GrayImage& left, int darkest_gray) {
+  float nearest_px = 0;
+  for (const float d : map.disparity_px.values) nearest_px = d > nearest_px ? d : nearest_px;
+  std::size_t matchable = 0, unmatched = 0;
+  for (int v = 0; v < left.height_px; ++v)
+    for (int u = static_cast<int>(nearest_px); u < left.width_px; ++u) {
+      if (left.at(u, v) < darkest_gray) continue;
+      ++matchable;
+      unmatched += std::isnan(map.disparity_px.at(u, v));
+    }
+  return matchable == 0 ? 1 : static_cast<double>(unmatched) / static_cast<double>(matchable);
+}
+
 DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right,
                           const StereoOptions& options, int coarser_levels, StageClock& clock) {
   DisparityMap map = matchLevel(left, right, options, clock);
-  if (coarser_levels > 0 && std::min(left.width_px, left.height_px) >= 2 * kSmallestPicturePx) {
+  if (coarser_levels > 0 && std::min(left.width_px, left.height_px) >= 2 * kSmallestPicturePx &&
+      unmatchedShare(map, left, options.darkest_gray) > options.elas.coarser_above) {
     fillFromHalf(
         matchPyramid(halve(left), halve(right), halved(options), coarser_levels - 1, clock), map);
     clock.lap("fill");

@@ -38,6 +38,7 @@ void ElasOptions::validate() const {
   requireAtLeast("stereo.elas.gap_width_px", gap_width_px, 0);
   requireAtLeast("stereo.elas.gap_step_px", gap_step_px, 0);
   requireAtLeast("stereo.elas.coarser_levels", coarser_levels, 0);
+  requireAtLeast("stereo.elas.coarser_above", coarser_above, 0);
 }
 
 void RefinementOptions::validate() const {

@@ -34,6 +34,7 @@ struct ElasOptions {
 
   // Where a picture is too weak to be matched pixel by pixel, its half may do.
   int coarser_levels = 1;
+  double coarser_above = 0.05;  // share of unmatched pixels from which that is tried
 
   void validate() const;  // see StereoOptions::validate()
 };
