@@ -1,3 +1,5 @@
+// src/io/endonerf_calibration.cpp: EndoNeRF's poses_bounds.npy, which says neither baseline nor
+// principal point.
 #include <cmath>
 
 #include "core/error.h"

@@ -1,3 +1,4 @@
+// src/io/hamlyn_calibration.cpp: Hamlyn's texts, rows of numbers without names.
 #include "core/error.h"
 #include "io/calibration_forms.h"
 #include "io/calibration_parts.h"

@@ -1,3 +1,4 @@
+// src/io/jpeg_walk.cpp: a JPEG's markers up to its end.
 #include "io/byte_cursor.h"
 #include "io/image_walks.h"
 

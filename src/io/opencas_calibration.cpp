@@ -1,3 +1,5 @@
+// src/io/opencas_calibration.cpp: OpenCAS texts, in one file that begins with RAT or split into
+// five.
 #include <cmath>
 
 #include "core/error.h"

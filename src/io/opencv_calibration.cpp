@@ -1,3 +1,4 @@
+// src/io/opencv_calibration.cpp: stereoCalibrate's names in any document; SCARED's as well.
 #include <cmath>
 #include <limits>
 

@@ -1,3 +1,4 @@
+// src/io/png_walk.cpp: a PNG's parts and their check sums.
 #include <array>
 
 #include "io/byte_cursor.h"

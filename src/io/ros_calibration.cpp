@@ -1,3 +1,4 @@
+// src/io/ros_calibration.cpp: a pair of ROS camera_info, in metres.
 #include <cmath>
 
 #include "core/error.h"

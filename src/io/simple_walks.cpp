@@ -1,4 +1,4 @@
-// BMP, TIFF and PGM/PPM, whose size and length stand in their first bytes.
+// src/io/simple_walks.cpp: BMP, TIFF and PGM/PPM, whose size and length stand in their first bytes.
 #include <cstdlib>
 
 #include "io/byte_cursor.h"

@@ -1,3 +1,4 @@
+// src/io/xml_document.cpp: the part of XML that OpenCV writes.
 #include <algorithm>
 
 #include "core/error.h"

@@ -1,3 +1,4 @@
+// src/io/yaml_document.cpp: the part of YAML that OpenCV, ROS and Python write.
 #include <algorithm>
 
 #include "core/error.h"

@@ -1,4 +1,5 @@
-// Calibrations that must be refused, or accepted with a warning.
+// tests/io/calibration_bad_input_test.cpp: calibrations that must be refused, or accepted with a
+// warning.
 #include <gtest/gtest.h>
 
 #include "io/calibration_reader.h"

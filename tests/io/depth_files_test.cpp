@@ -9,6 +9,7 @@
 #include "io/image_codec.h"
 #include "io/pfm_file.h"
 #include "io/temporary_folder.h"
+#include "support/data_folder.h"
 
 namespace softscope::test {
 namespace {
@@ -113,7 +114,7 @@ TEST(DepthFiles, RefusesPicturesThatAreNoDepth) {
 }
 
 TEST(DepthFiles, ReadsTheDevelopmentData) {
-  SOFTSCOPE_NEEDS_DATA("openhelp_heart/groundtruth/depth/000000.png");
+  SOFTSCOPE_DATA_OR_SKIP(data, "openhelp_heart/groundtruth/depth/000000.png");
   const Raster<float> depth_mm = readDepth(data);
   EXPECT_EQ(depth_mm.width_px, 640);
   for (const float value : depth_mm.values) {

@@ -1,4 +1,5 @@
-// The readers on the development data: whole sequences and the real calibrations.
+// tests/io/development_data_test.cpp: whole sequences and real calibrations, as the larger test
+// data have them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +7,7 @@
 #include "io/calibration_reader.h"
 #include "io/sequence_reader.h"
 #include "io/temporary_folder.h"
+#include "support/data_folder.h"
 
 namespace softscope::test {
 namespace {
@@ -20,7 +22,7 @@ int countFrames(SequenceReader& reader) {
 }
 
 TEST(DevelopmentData, OpenCasInOneFileAndSplit) {
-  SOFTSCOPE_NEEDS_DATA("opencas_ct");
+  SOFTSCOPE_DATA_OR_SKIP(data, "opencas_ct");
   const auto whole = readCalibration(data);
   EXPECT_EQ(whole.form, "OpenCAS");
   EXPECT_EQ(whole.left.pinhole.width_px, 720);
@@ -41,7 +43,7 @@ TEST(DevelopmentData, OpenCasInOneFileAndSplit) {
 }
 
 TEST(DevelopmentData, OpenCasPairThroughAUsersOwnLayout) {
-  SOFTSCOPE_NEEDS_DATA("opencas_ct");
+  SOFTSCOPE_DATA_OR_SKIP(data, "opencas_ct");
   SequencePaths paths;
   paths.left = data / "left.png";
   paths.right = data / "right.png";
@@ -54,7 +56,7 @@ TEST(DevelopmentData, OpenCasPairThroughAUsersOwnLayout) {
 }
 
 TEST(DevelopmentData, EndoNerfClipWithItsMasks) {
-  SOFTSCOPE_NEEDS_DATA("endonerf_pulling");
+  SOFTSCOPE_DATA_OR_SKIP(data, "endonerf_pulling");
   SequenceReader reader(data);
   EXPECT_EQ(reader.frameCount(), 63);
   EXPECT_NEAR(reader.calibration().baseline_mm(), 4.324, 1e-12);
@@ -64,11 +66,11 @@ TEST(DevelopmentData, EndoNerfClipWithItsMasks) {
 }
 
 TEST(DevelopmentData, EverySequenceFolder) {
-  SOFTSCOPE_NEEDS_DATA("bdis_tissue");
+  SOFTSCOPE_DATA_OR_SKIP(data, "bdis_tissue");
   const std::pair<const char*, int> folders[] = {
       {"bdis_tissue", 8}, {"openhelp_heart", 40}, {"openhelp_kidney_small", 40}};
   for (const auto& [name, count] : folders) {
-    SequenceReader reader(testData() / name);
+    SequenceReader reader(dataFolder(name));
     EXPECT_TRUE(reader.calibration().warnings.empty()) << name;
     EXPECT_EQ(countFrames(reader), count) << name;
   }

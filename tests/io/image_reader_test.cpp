@@ -9,6 +9,7 @@
 #include "io/image_writer.h"
 #include "io/temporary_folder.h"
 #include "io/textures.h"
+#include "support/data_folder.h"
 
 namespace softscope::test {
 namespace {
@@ -135,14 +136,14 @@ TEST(ImageWriter, WritesPngJpegAndSixteenBits) {
 }
 
 TEST(ImageReader, ReadsTheDevelopmentData) {
-  SOFTSCOPE_NEEDS_DATA("opencas_ct");
+  SOFTSCOPE_DATA_OR_SKIP(data, "opencas_ct");
   const ColourImage left = readColourImage(data / "left.png");
   EXPECT_EQ(left.width_px, 720);
   EXPECT_EQ(left.height_px, 576);
   const Mask mask = readMask(data / "Stereo_SD_d_complete_22_MASK_eval.png");
   EXPECT_TRUE(mask.sameShape(left));
-  EXPECT_EQ(readColourImage(testData() / "openhelp_heart/left/000000.jpg").width_px, 640);
-  EXPECT_EQ(readGrayImage(testData() / "libelas_pairs/cones_left.pgm").width_px, 900);
+  EXPECT_EQ(readColourImage(dataFolder("openhelp_heart/left/000000.jpg")).width_px, 640);
+  EXPECT_EQ(readGrayImage(dataFolder("libelas_pairs/cones_left.pgm")).width_px, 900);
 }
 
 }  // namespace

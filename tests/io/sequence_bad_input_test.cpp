@@ -1,4 +1,5 @@
-// Sequences that must be refused, and frames that must be reported.
+// tests/io/sequence_bad_input_test.cpp: sequences that must be refused, and frames that must be
+// reported.
 #include <gtest/gtest.h>
 
 #include "io/sequence_folder.h"

@@ -4,6 +4,7 @@
 
 #include "io/image_reader.h"
 #include "io/sequence_folder.h"
+#include "support/data_folder.h"
 
 namespace softscope::test {
 namespace {
@@ -89,7 +90,7 @@ TEST(StereoPacking, WhatCannotBeToldIsAnError) {
 }
 
 TEST(StereoPacking, AutoTellsRealScopes) {
-  SOFTSCOPE_NEEDS_DATA("endonerf_pulling");
+  SOFTSCOPE_DATA_OR_SKIP(data, "endonerf_pulling");
   const std::vector<std::string> pairs[] = {
       {"endonerf_pulling/left/000062.jpg", "endonerf_pulling/right/000062.jpg"},
       {"opencas_ct/left.png", "opencas_ct/right.png"},
@@ -97,8 +98,8 @@ TEST(StereoPacking, AutoTellsRealScopes) {
       {"openhelp_kidney_small/left/000020.png", "openhelp_kidney_small/right/000020.png"}};
   for (const auto& names : pairs) {
     SCOPED_TRACE(names[0]);
-    const StereoPair pair{readColourImage(testData() / names[0]),
-                          readColourImage(testData() / names[1])};
+    const StereoPair pair{readColourImage(dataFolder(names[0])),
+                          readColourImage(dataFolder(names[1]))};
     const auto chosen = [&](const ColourImage& packed) {
       return choosePacking(packed, "auto", false, kUnknown, "x").layout;
     };

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 
@@ -66,16 +66,4 @@ std::string expectError(const Action& action, const std::vector<std::string>& pa
   return {};
 }
 
-/// The development data's folder, empty where there is none.
-inline std::filesystem::path testData() {
-  const char* folder = std::getenv("SOFTSCOPE_TEST_DATA");
-  return folder ? std::filesystem::path(folder) : std::filesystem::path();
-}
-
 }  // namespace softscope::test
-
-/// Leaves the test, saying why, where the development data isn't at hand.
-#define SOFTSCOPE_NEEDS_DATA(name)                                           \
-  const std::filesystem::path data = softscope::test::testData() / (name);   \
-  if (softscope::test::testData().empty() || !std::filesystem::exists(data)) \
-  GTEST_SKIP() << "SOFTSCOPE_TEST_DATA names no folder with " << (name)

@@ -6,6 +6,7 @@
 
 #include "io/temporary_folder.h"
 #include "io/timestamps_file.h"
+#include "support/data_folder.h"
 
 namespace softscope::test {
 namespace {
@@ -49,7 +50,7 @@ TEST(TrajectoryFile, BadLinesAreNamed) {
 }
 
 TEST(TrajectoryFile, ReadsTheDevelopmentData) {
-  SOFTSCOPE_NEEDS_DATA("openhelp_heart/groundtruth/trajectory.txt");
+  SOFTSCOPE_DATA_OR_SKIP(data, "openhelp_heart/groundtruth/trajectory.txt");
   const Trajectory found = readTrajectory(data);
   ASSERT_EQ(found.size(), 40U);
   EXPECT_NEAR(found[1].time_s, 0.04, 1e-9);
