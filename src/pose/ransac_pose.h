@@ -1,0 +1,45 @@
+// src/pose/ransac_pose.h: how the scope moved, from points that were seen twice.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pose/rigid_fit.h"
+
+namespace softscope {
+
+struct RansacOptions {
+  double threshold_mm = 2.0;   // a pair farther off than this is an outlier
+  double confidence = 0.9999;  // that one trial drew inliers only; ends the search early
+  int max_trials = 500;
+  int refits = 2;              // fits to all inliers, each followed by a new choice of inliers
+  int min_inliers = 12;        // fewer are no pose
+  double min_share = 0.2;      // of the usable pairs that must be inliers
+  double min_spread_mm = 0.5;  // of the inliers across their line, see RigidFit
+  std::uint32_t seed = 1;
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+struct RigidPose {
+  bool found = false;
+  std::string failure;  // why not, one line; empty where found
+  /// p_target = target_from_source * p_source, mm; the identity where nothing was found.
+  Eigen::Isometry3d target_from_source = Eigen::Isometry3d::Identity();
+  std::vector<std::uint8_t> inlier;  // one a pair, 1 = within the threshold; all 0 if not found
+  int usable = 0;                    // pairs that are finite and have a weight above 0
+  int inliers = 0;
+  double rms_mm = 0;  // of the inliers' distances, unweighted
+  int trials = 0;
+};
+
+/// Fischler and Bolles' RANSAC with a truncated quadratic score (MSAC), then refits to all inliers.
+/// Same input, same result. Bad pairs (not finite, weight not above 0) are left out; a hopeless
+/// set is a result with found = false, never an exception. Throws OptionError on bad options and
+/// Error where the vectors' lengths differ.
+RigidPose estimateRigidPose(const PointPairs& pairs, const RansacOptions& options);
+
+}  // namespace softscope

@@ -1,0 +1,31 @@
+// src/pose/rigid_fit.h: the rotation and translation that lay one set of points on another.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace softscope {
+
+/// Points that were seen twice. All vectors are N long; weights may be empty (all 1), and are
+/// inverse variances. mm.
+struct PointPairs {
+  std::vector<Eigen::Vector3f> sources_mm;
+  std::vector<Eigen::Vector3f> targets_mm;
+  std::vector<float> weights;
+
+  float weight(std::size_t i) const { return weights.empty() ? 1.0f : weights[i]; }
+};
+
+struct RigidFit {
+  Eigen::Isometry3d target_from_source = Eigen::Isometry3d::Identity();
+  /// Weighted standard deviation of the sources across the line that fits them best, mm; near 0,
+  /// the points lie on a line and the rotation about it is arbitrary.
+  double spread_mm = 0;
+};
+
+/// Least squares in closed form (Kabsch 1976, Horn 1987) over the chosen pairs; never a
+/// reflection. Fewer than three pairs, or no weight, give the identity and no spread.
+RigidFit fitRigid(const PointPairs& pairs, const std::vector<int>& chosen);
+
+}  // namespace softscope
