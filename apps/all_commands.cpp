@@ -1,0 +1,14 @@
+// apps/all_commands.cpp: what softscope can do.
+#include "apps/command.h"
+
+namespace softscope {
+
+std::vector<std::unique_ptr<Command>> allCommands() {
+  std::vector<std::unique_ptr<Command>> commands;
+  commands.push_back(makeDepthCommand());
+  commands.push_back(makeInfoCommand());
+  commands.push_back(makeDoctorCommand());
+  return commands;
+}
+
+}  // namespace softscope

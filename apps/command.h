@@ -1,0 +1,35 @@
+// apps/command.h: one `softscope <command>`.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/argument_list.h"
+#include "apps/common_options.h"
+
+namespace softscope {
+
+class Command {
+ public:
+  virtual ~Command() = default;
+  virtual std::string name() const = 0;
+  virtual std::string summary() const = 0;  // one line, for the list of commands
+  virtual std::string details() const = 0;  // a few lines, for its own help; may be empty
+  virtual std::string example() const = 0;  // a line that a user can copy
+  /// Binds arguments to members; common options are declared by the frame.
+  virtual void declare(ArgumentList& arguments) = 0;
+  /// Returns an ExitCode. Throws softscope::Error and its children.
+  virtual int run() = 0;
+
+  CommonOptions common;
+};
+
+std::unique_ptr<Command> makeDepthCommand();
+std::unique_ptr<Command> makeDoctorCommand();
+std::unique_ptr<Command> makeInfoCommand();
+
+/// In the order in which help lists them.
+std::vector<std::unique_ptr<Command>> allCommands();
+
+}  // namespace softscope

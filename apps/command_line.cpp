@@ -1,0 +1,129 @@
+// apps/command_line.cpp: CLI11's only home; it splits the line, we judge it.
+#include "apps/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "apps/help_text.h"
+#include "apps/version.h"
+#include "core/error.h"
+#include "io/nearest_name.h"
+
+namespace softscope {
+namespace {
+
+[[noreturn]] void fail(const Command& command, const std::string& what) {
+  throw OptionError("softscope " + command.name() + ": " + what + ". See `softscope " +
+                    command.name() + " --help`");
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names) {
+  const std::string nearest = nearestName(word, names);
+  return nearest.empty() ? nearest : " (did you mean `" + nearest + "`?)";
+}
+
+template <class Number, class Convert>
+Number toNumber(const std::string& name, const std::string& text, const char* kind,
+                const Convert& convert) {
+  char* end = nullptr;
+  errno = 0;
+  const auto value = convert(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || errno != 0 || Number(value) != value)
+    throw OptionError(name + " is `" + text + "`, but must be " + kind);
+  return Number(value);
+}
+
+void assign(const Argument& argument, const std::vector<std::string>& values) {
+  if (auto* flag = std::get_if<bool*>(&argument.target)) **flag = true;
+  if (auto* text = std::get_if<std::string*>(&argument.target)) **text = values.back();
+  if (auto* list = std::get_if<std::vector<std::string>*>(&argument.target)) **list = values;
+  if (auto* number = std::get_if<int*>(&argument.target))
+    **number = toNumber<int>(argument.name, values.back(), "a whole number",
+                             [](const char* t, char** end) { return std::strtol(t, end, 10); });
+  if (auto* number = std::get_if<double*>(&argument.target))
+    **number = toNumber<double>(argument.name, values.back(), "a number",
+                                [](const char* t, char** end) { return std::strtod(t, end); });
+}
+
+/// Declares every argument as text: what numbers may be is our own message to write.
+void addTo(CLI::App& app, const ArgumentList& arguments) {
+  for (const Argument& argument : arguments.all()) {
+    CLI::Option* option = nullptr;
+    if (std::holds_alternative<bool*>(argument.target))
+      option = app.add_flag(argument.name);
+    else
+      option = app.add_option(argument.name)->expected(1);
+    if (std::holds_alternative<std::vector<std::string>*>(argument.target))
+      option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  }
+}
+
+void refuseUnknown(const Command& command, const ArgumentList& arguments,
+                   const std::vector<std::string>& rest) {
+  std::vector<std::string> names{"--help"};
+  for (const Argument& a : arguments.all())
+    if (!a.isPositional()) names.push_back(a.name);
+  for (const std::string& word : rest)
+    if (word.size() > 1 && word[0] == '-')
+      fail(command, "unknown option `" + word + "`" + didYouMean(word, names));
+  if (!rest.empty()) fail(command, "`" + rest[0] + "` is one argument too many");
+}
+
+void parseArguments(Command& command, const ArgumentList& arguments,
+                    const std::vector<std::string>& words) {
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras();
+  addTo(app, arguments);
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants the end first
+  } catch (const CLI::ArgumentMismatch& error) {
+    fail(command, error.what());
+  }
+  refuseUnknown(command, arguments, app.remaining());
+  for (const Argument& argument : arguments.all()) {
+    const CLI::Option* option = app.get_option(argument.name);
+    if (option->count() > 0)
+      assign(argument, option->results());
+    else if (argument.required)
+      fail(command, argument.name + " is missing: " + argument.help);
+  }
+}
+
+Command& findCommand(const std::string& word,
+                     const std::vector<std::unique_ptr<Command>>& commands) {
+  std::vector<std::string> names;
+  for (const auto& command : commands) {
+    if (command->name() == word) return *command;
+    names.push_back(command->name());
+  }
+  const char* kind = word[0] == '-' ? "option" : "command";
+  if (word[0] == '-') names = {"--help", "--version"};
+  throw OptionError("softscope: unknown " + std::string(kind) + " `" + word + "`" +
+                    didYouMean(word, names) + ". See `softscope --help`");
+}
+
+bool asksForHelp(const std::string& word) { return word == "--help" || word == "-h"; }
+
+}  // namespace
+
+ParsedLine parseCommandLine(const std::vector<std::string>& words,
+                            const std::vector<std::unique_ptr<Command>>& commands) {
+  if (words.empty()) throw OptionError("softscope: no command given. See `softscope --help`");
+  if (asksForHelp(words[0]) || (words[0] == "help" && words.size() == 1))
+    return {nullptr, overviewText(commands)};
+  if (words[0] == "--version") return {nullptr, "softscope " + versionText() + "\n"};
+  const bool help_word = words[0] == "help";
+  Command& command = findCommand(words[help_word ? 1 : 0], commands);
+  ArgumentList arguments;
+  command.declare(arguments);
+  command.common.declare(arguments);
+  const std::vector<std::string> rest(words.begin() + 1, words.end());
+  if (help_word || std::any_of(rest.begin(), rest.end(), asksForHelp))
+    return {nullptr, helpText(command, arguments)};
+  parseArguments(command, arguments, rest);
+  command.common.validate();
+  return {&command, ""};
+}
+
+}  // namespace softscope

@@ -1,0 +1,26 @@
+// apps/common_options.cpp: one wording for every help text.
+#include "apps/common_options.h"
+
+#include "core/error.h"
+
+namespace softscope {
+
+void CommonOptions::declare(ArgumentList& arguments) {
+  arguments.flag("--json", json, "print the result on stdout as JSON");
+  arguments.flag("--quiet", quiet, "only warnings and errors on stderr, no progress bar");
+  arguments.flag("--verbose", verbose, "say more on stderr");
+  arguments.option("--threads", "N", threads, "work on N threads (0: every core, the default)");
+}
+
+void CommonOptions::validate() const {
+  require(threads >= 0 && threads <= 1024, "--threads", threads, "must be 0 (every core) to 1024");
+  if (quiet && verbose) throw OptionError("--quiet and --verbose exclude each other; give one");
+}
+
+void SettingsArguments::declare(ArgumentList& arguments) {
+  arguments.option("--config", "FILE", config_file, "settings file (TOML)");
+  arguments.option("--set", "KEY=VALUE", assignments,
+                   "one setting, e.g. stereo.method=sgbm; stronger than --config; repeatable");
+}
+
+}  // namespace softscope

@@ -1,0 +1,31 @@
+// apps/common_options.h: the options that mean the same in every command.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/argument_list.h"
+
+namespace softscope {
+
+/// --json, --quiet, --verbose, --threads.
+struct CommonOptions {
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  int threads = 0;  // 0 = as many as there are cores
+
+  void declare(ArgumentList& arguments);
+  /// Throws OptionError.
+  void validate() const;
+};
+
+/// --config and --set, for commands that compute.
+struct SettingsArguments {
+  std::string config_file;
+  std::vector<std::string> assignments;  // "stereo.method=sgbm"
+
+  void declare(ArgumentList& arguments);
+};
+
+}  // namespace softscope

@@ -1,0 +1,207 @@
+// apps/depth.cpp: `softscope depth`: stereo pairs, measured in mm.
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "apps/command.h"
+#include "apps/depth_estimator.h"
+#include "apps/depth_options.h"
+#include "apps/depth_outputs.h"
+#include "apps/depth_record.h"
+#include "apps/depth_text.h"
+#include "apps/exit_codes.h"
+#include "apps/frame_statistics.h"
+#include "apps/interrupt.h"
+#include "apps/progress_bar.h"
+#include "apps/result_output.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/sequence_reader.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isFolder(const fs::path& path) {
+  std::error_code ignored;  // what isn't there, or a link to itself, is the reader's to report
+  return fs::is_directory(path, ignored);
+}
+
+class DepthCommand : public Command {
+ public:
+  std::string name() const override { return "depth"; }
+  std::string summary() const override {
+    return "a stereo pair or sequence to disparity, depth, confidence and point cloud";
+  }
+  std::string details() const override { return kDepthDetails; }
+  std::string example() const override {
+    return "softscope depth left.png right.png --calibration calibration.yaml --out depth_out";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  SequencePaths paths() const;
+  void measureAll(SequenceReader& reader, DepthEstimator& estimator, const DepthOutputs& outputs,
+                  DepthRecord& record);
+  void measureOne(const FrameResult& result, DepthEstimator& estimator, const DepthOutputs& outputs,
+                  DepthRecord& record);
+  void requireFreeOutputs(const DepthOutputs& outputs, const SequenceReader& reader);
+  std::string prefixOf(int index) const;
+  std::map<std::string, std::string> inputs() const;
+
+  std::string left_, right_, out_, calibration_, mask_, frames_, range_text_, write_;
+  std::string frame_ = "left";
+  bool force_ = false;
+  SettingsArguments settings_;
+
+  bool is_sequence_ = false;  // files are numbered
+  bool row_warning_given_ = false;
+  bool interrupted_ = false;
+  std::optional<DepthRange> range_;
+};
+
+void DepthCommand::declare(ArgumentList& arguments) {
+  arguments.positional("LEFT", left_, "left picture, folder of pictures or video; or a sequence",
+                       true);
+  arguments.positional("RIGHT", right_, "right picture, folder or video; not for a sequence",
+                       false);
+  arguments.option("--out", "DIR", out_, "folder for the results", true);
+  arguments.option("--calibration", "FILE", calibration_,
+                   "calibration; a sequence folder has its own");
+  arguments.option("--mask", "PATH", mask_, "picture or folder; non-zero pixels are ignored");
+  arguments.option("--frame", "NAME", frame_,
+                   "frame of the point cloud: left (rectified, the default) or raw-left");
+  arguments.option("--frames", "A:B", frames_, "frames A up to, not with, B");
+  arguments.option("--range", "A:B", range_text_, "mm that the picture's colour bar spans");
+  arguments.option("--write", "LIST", write_,
+                   "some of disparity,depth,confidence,cloud,picture (default: all)");
+  arguments.flag("--force", force_, "overwrite what is there");
+  settings_.declare(arguments);
+}
+
+SequencePaths DepthCommand::paths() const {
+  SequencePaths paths;
+  if (right_.empty() && isFolder(left_)) {
+    paths = findSequence(left_);
+  } else if (calibration_.empty()) {
+    throw OptionError("softscope depth: --calibration is missing; only a sequence folder has one");
+  } else if (right_.empty()) {
+    paths.stereo = left_;
+  } else {
+    paths.left = left_;
+    paths.right = right_;
+  }
+  if (!calibration_.empty()) paths.calibration = calibration_;
+  if (!mask_.empty()) paths.mask = mask_;
+  return paths;
+}
+
+std::map<std::string, std::string> DepthCommand::inputs() const {
+  std::map<std::string, std::string> inputs{{right_.empty() ? "sequence" : "left", left_}};
+  if (!right_.empty()) inputs["right"] = right_;
+  if (!calibration_.empty()) inputs["calibration"] = calibration_;
+  if (!mask_.empty()) inputs["mask"] = mask_;
+  return inputs;
+}
+
+int DepthCommand::run() {
+  require(frame_ == "left" || frame_ == "raw-left", "--frame", frame_, "must be left or raw-left");
+  if (!range_text_.empty()) range_ = parseDepthRange(range_text_);
+  const DepthOutputKinds kinds = DepthOutputKinds::parse(write_);
+  DepthOptions options;
+  SettingsBinder binder;
+  bindDepthOptions(binder, options);
+  binder.apply(readSettingsArguments(settings_));
+  if (!frames_.empty()) options.sequence.frames = parseFrameRange(frames_);
+  options.validate();
+
+  SequenceReader reader(paths(), options.sequence);
+  for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
+  DepthEstimator estimator(reader.calibration(), options, frame_ == "raw-left");
+  is_sequence_ = reader.totalCount() > 1 || (right_.empty() && isFolder(left_));
+  const DepthOutputs outputs(
+      {out_, kinds, force_, frame_ == "raw-left", options.source == "stereo"});
+  requireFreeOutputs(outputs, reader);
+
+  DepthRecord record(inputs(), reader.calibration(), estimator, frame_ == "raw-left");
+  record.addSettings(binder.list());
+  measureAll(reader, estimator, outputs, record);
+  if (record.goodFrames() == 0 && !interrupted_)
+    throw InputError(left_ + ": not one frame could be measured; the reasons stand above");
+  if (interrupted_) record.setInterrupted();
+  if (record.goodFrames() > 0) writeFile(outputs.summaryFile(), jsonText(record.json()), force_);
+  if (common.json)
+    printJson(record.json());
+  else
+    printFacts(record.text(out_), false);
+  return interrupted_ ? kInterrupted : kDone;
+}
+
+void DepthCommand::requireFreeOutputs(const DepthOutputs& outputs, const SequenceReader& reader) {
+  if (fs::exists(out_) && !isFolder(out_))
+    throw OptionError("--out " + out_ + ": is a file, but must be a folder, there or not yet");
+  std::vector<std::string> prefixes;
+  const int begin = frames_.empty() ? 0 : parseFrameRange(frames_).begin;
+  for (int i = 0; i < reader.frameCount(); ++i) prefixes.push_back(prefixOf(begin + i));
+  outputs.requireFree(prefixes);
+}
+
+void DepthCommand::measureAll(SequenceReader& reader, DepthEstimator& estimator,
+                              const DepthOutputs& outputs, DepthRecord& record) {
+  const InterruptGuard interrupt;
+  ProgressBar progress("depth", reader.frameCount(),
+                       is_sequence_ ? progressStyle(common.quiet) : ProgressBar::Style::kSilent,
+                       std::cerr);
+  while (const auto result = reader.next()) {
+    if (interrupt.requested()) {
+      interrupted_ = true;
+      spdlog::warn("interrupted: what is finished stays");
+      return;
+    }
+    std::string error = result->error;
+    if (result->ok()) try {
+        measureOne(*result, estimator, outputs, record);
+      } catch (const InputError& problem) {
+        error = problem.what();
+      }
+    if (!error.empty()) {
+      spdlog::error("frame {}: {}", result->index, error);
+      record.addFailure(result->index, error);
+    }
+    progress.advance();
+  }
+}
+
+void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimator,
+                              const DepthOutputs& outputs, DepthRecord& record) {
+  const MeasuredFrame measured = estimator.measure(result.frame);
+  if (!range_) range_ = rangeForAll(depthRangeToShow(measured.depth.depth_mm), is_sequence_);
+  if (const std::string warning = rowWarning(measured); !warning.empty() && !row_warning_given_) {
+    row_warning_given_ = true;
+    spdlog::warn("frame {}: {}", result.index, warning);
+  }
+  fs::create_directories(out_);
+  const auto start = std::chrono::steady_clock::now();
+  outputs.write(prefixOf(result.index), measured, *range_,
+                titleOf(estimator.method(), left_, is_sequence_ ? result.index : -1));
+  const std::chrono::duration<double, std::milli> write = std::chrono::steady_clock::now() - start;
+  record.addFrame(result.index, result.frame.time_s, measured, write.count());
+}
+
+std::string DepthCommand::prefixOf(int index) const {
+  if (!is_sequence_) return {};
+  char text[32];
+  std::snprintf(text, sizeof text, "%06d_", index);
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeDepthCommand() { return std::make_unique<DepthCommand>(); }
+
+}  // namespace softscope

@@ -1,0 +1,32 @@
+// apps/depth_options.cpp: the keys of `softscope depth`.
+#include "apps/depth_options.h"
+
+#include "apps/stereo_settings.h"
+#include "core/error.h"
+
+namespace softscope {
+
+void DepthOptions::validate() const {
+  stereo.validate();
+  sequence.validate();
+  require(source == "stereo" || source == "files", "depth.source", source,
+          "must be stereo or files");
+}
+
+void bindDepthOptions(SettingsBinder& binder, DepthOptions& options) {
+  binder.bind("depth.source", options.source,
+              "stereo: match the views; files: take the sequence's depth/");
+  binder.bind("depth.align_rows", options.align_rows,
+              "remove what rows differ by after rectification, above 0.2 px");
+  bindStereoOptions(binder, options.stereo);
+  bindSequenceOptions(binder, options.sequence);
+}
+
+Settings readSettingsArguments(const SettingsArguments& arguments) {
+  Settings settings;
+  if (!arguments.config_file.empty()) settings = readSettings(arguments.config_file);
+  for (const std::string& assignment : arguments.assignments) addAssignment(settings, assignment);
+  return settings;
+}
+
+}  // namespace softscope

@@ -1,0 +1,113 @@
+// apps/depth_outputs.cpp: rasters, cloud and picture to disk.
+#include "apps/depth_outputs.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "apps/fact_sheet.h"
+#include "apps/frame_statistics.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "io/atomic_file.h"
+#include "io/depth_files.h"
+#include "io/image_writer.h"
+#include "io/nearest_name.h"
+#include "io/ply_writer.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kConfidentPx = 0.5;
+constexpr double kDepthStepMm = 0.01;
+
+std::string noteOf(const MeasuredFrame& measured) {
+  const FrameStatistics statistics = statisticsOf(measured);
+  std::string note = "coverage " + fixed(100 * statistics.coverage, 1) + " %";
+  if (statistics.measured_pixels > 0)
+    note += ", median depth " + fixed(statistics.median_mm, 1) + " mm";
+  if (std::isfinite(statistics.median_sigma_mm))
+    note += ", median predicted error " + fixed(statistics.median_sigma_mm, 2) + " mm";
+  return note + ". Research use only.";
+}
+
+}  // namespace
+
+DepthOutputKinds DepthOutputKinds::parse(const std::string& list) {
+  if (list.empty()) return {};
+  DepthOutputKinds kinds{false, false, false, false, false};
+  const std::vector<std::string> names{"disparity", "depth", "confidence", "cloud", "picture"};
+  bool* const fields[] = {&kinds.disparity, &kinds.depth, &kinds.confidence, &kinds.cloud,
+                          &kinds.picture};
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+      const std::string nearest = nearestName(word, names);
+      throw OptionError("--write: `" + word + "` is no kind of output" +
+                        (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
+                        ". Give some of disparity,depth,confidence,cloud,picture");
+    }
+    *fields[found - names.begin()] = true;
+  }
+  return kinds;
+}
+
+std::vector<std::string> DepthOutputs::names() const {
+  std::vector<std::string> names;
+  if (options_.kinds.disparity && options_.from_disparity)
+    names.insert(names.end(), {"disparity.pfm", "disparity.png"});
+  if (options_.kinds.depth) names.insert(names.end(), {"depth.pfm", "depth.png"});
+  if (options_.kinds.confidence && options_.from_disparity) names.emplace_back("confidence.png");
+  if (options_.kinds.cloud) names.emplace_back("cloud.ply");
+  if (options_.kinds.picture) names.emplace_back("picture.png");
+  return names;
+}
+
+void DepthOutputs::requireFree(const std::vector<std::string>& prefixes) const {
+  requireWritable(summaryFile(), options_.overwrite);
+  for (const std::string& prefix : prefixes)
+    for (const std::string& name : names())
+      requireWritable(file(prefix, name.c_str()), options_.overwrite);
+}
+
+void DepthOutputs::write(const std::string& prefix, const MeasuredFrame& measured,
+                         const DepthRange& range, const std::string& title) const {
+  const bool force = options_.overwrite;
+  const auto rasters = [&] {
+    if (options_.kinds.disparity && options_.from_disparity) {
+      writePfm(file(prefix, "disparity.pfm"), measured.disparity.disparity_px, force);
+      writeDisparityPng(file(prefix, "disparity.png"), measured.disparity.disparity_px, force);
+    }
+    if (options_.kinds.depth) {
+      writePfm(file(prefix, "depth.pfm"), measured.depth.depth_mm, force);
+      writeDepthPng(file(prefix, "depth.png"), measured.depth.depth_mm, kDepthStepMm, force);
+    }
+    if (options_.kinds.confidence && options_.from_disparity)
+      writePng(file(prefix, "confidence.png"), confidenceImage(measured.disparity), force);
+  };
+  const auto drawings = [&] {
+    if (options_.kinds.cloud)
+      writePly(file(prefix, "cloud.ply"), measured.cloud,
+               {options_.raw_left ? "raw left" : "left", ""}, force);
+    if (options_.kinds.picture)
+      writePng(file(prefix, "picture.png"),
+               drawDepthPicture(measured.left, measured.depth.depth_mm, measured.mask, range,
+                                {title, noteOf(measured)}),
+               force);
+  };
+  parallelInvoke(rasters, drawings);
+}
+
+GrayImage confidenceImage(const DisparityMap& disparity) {
+  GrayImage confidence(disparity.sigma_px.width_px, disparity.sigma_px.height_px);
+  for (std::size_t i = 0; i < confidence.size(); ++i) {
+    const double sigma_px = disparity.sigma_px.values[i];
+    if (std::isnan(sigma_px) || std::isnan(disparity.disparity_px.values[i])) continue;
+    const double probability =
+        sigma_px > 0 ? std::erf(kConfidentPx / (sigma_px * std::sqrt(2.0))) : 1.0;
+    confidence.values[i] = static_cast<std::uint8_t>(std::lround(255 * probability));
+  }
+  return confidence;
+}
+
+}  // namespace softscope

@@ -1,0 +1,55 @@
+// apps/depth_outputs.h: the files that `softscope depth` leaves, frame by frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/depth_estimator.h"
+#include "core/stereo_rig.h"
+#include "vtk_views/depth_picture.h"
+
+namespace softscope {
+
+/// Which kinds are written.
+struct DepthOutputKinds {
+  bool disparity = true, depth = true, confidence = true, cloud = true, picture = true;
+
+  /// "depth,picture"; empty = all. Throws OptionError with the nearest name.
+  static DepthOutputKinds parse(const std::string& list);
+};
+
+struct DepthOutputOptions {
+  std::filesystem::path folder;
+  DepthOutputKinds kinds;
+  bool overwrite = false;
+  bool raw_left = false;       // the frame that the cloud's header names
+  bool from_disparity = true;  // false: there is no disparity to write
+};
+
+class DepthOutputs {
+ public:
+  explicit DepthOutputs(DepthOutputOptions options) : options_(std::move(options)) {}
+
+  /// Throws OptionError naming the first file that exists already, unless overwriting is allowed.
+  void requireFree(const std::vector<std::string>& prefixes) const;
+
+  /// Files named <prefix>depth.png and so on, each whole or not at all.
+  void write(const std::string& prefix, const MeasuredFrame& measured, const DepthRange& range,
+             const std::string& title) const;
+
+  std::filesystem::path summaryFile() const { return options_.folder / "summary.json"; }
+
+ private:
+  std::vector<std::string> names() const;
+  std::filesystem::path file(const std::string& prefix, const char* name) const {
+    return options_.folder / (prefix + name);
+  }
+  DepthOutputOptions options_;
+};
+
+/// 255 times the probability that a pixel's error is below half a pixel, were it normally
+/// distributed with the predicted standard error; 0 where nothing was measured.
+GrayImage confidenceImage(const DisparityMap& disparity);
+
+}  // namespace softscope

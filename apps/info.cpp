@@ -1,0 +1,104 @@
+// apps/info.cpp: `softscope info`: what is this file, and is it plausible?
+#include <filesystem>
+
+#include "apps/command.h"
+#include "apps/exit_codes.h"
+#include "apps/info_parts.h"
+#include "apps/result_output.h"
+#include "core/error.h"
+#include "io/folder.h"
+#include "io/sequence_paths.h"
+#include "io/text_lines.h"
+#include "vtk_views/volume_summary.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool hasEnding(const std::string& path, std::initializer_list<const char*> endings) {
+  const std::string ending = lowerCase(fs::path(path).extension().string());
+  for (const char* candidate : endings)
+    if (ending == candidate) return true;
+  return false;
+}
+
+bool looksLikeSequence(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    if (stem != "left" && stem != "right" && stem != "stereo") continue;
+    std::error_code ignored;  // a link that leads nowhere is the reader's to report
+    if (entry.is_directory(ignored) || isVideo(entry.path())) return true;
+  }
+  return false;
+}
+
+class InfoCommand : public Command {
+ public:
+  std::string name() const override { return "info"; }
+  std::string summary() const override {
+    return "what a sequence, picture, volume, calibration or settings file holds";
+  }
+  std::string details() const override {
+    return "Tells size, units, geometry, what is implausible and what is missing.";
+  }
+  std::string example() const override { return "softscope info my_sequence"; }
+
+  void declare(ArgumentList& arguments) override {
+    arguments.positional("PATH", path_, "the file or folder", true);
+    arguments.flag("--check", check_, "read every frame of a sequence, not the first alone");
+    arguments.flag("--patient", patient_, "tell a DICOM series' patient fields as well");
+  }
+
+  int run() override {
+    const FactSheet facts = describe();
+    printFacts(facts, common.json);
+    return facts.hasProblems() ? kInput : kDone;
+  }
+
+ private:
+  FactSheet describe() const {
+    std::error_code code;
+    const fs::file_status status = fs::status(path_, code);
+    if (!fs::exists(status))
+      throw InputError(path_ + ": does not exist, or is a link that leads nowhere");
+    return fs::is_directory(status) ? describeFolder() : describeFile();
+  }
+
+  FactSheet describeFolder() const {
+    if (looksLikeSequence(path_)) return describeSequence(path_, check_);
+    if (looksLikeVolume(path_)) return describeVolume(path_, patient_);
+    try {
+      return describeCalibration(path_);
+    } catch (const InputError& error) {
+      throw InputError(path_ +
+                       ": is neither a sequence (left/ and right/, left.mp4 and right.mp4, or "
+                       "stereo.mp4) nor a DICOM series nor a calibration; as such: " +
+                       error.what());
+    }
+  }
+
+  FactSheet describeFile() const {
+    if (isPicture(path_)) return describeImage(path_);
+    if (isVideo(path_)) return describeVideo(path_);
+    if (hasEnding(path_, {".pfm"})) return describeFloatMap(path_);
+    if (hasEnding(path_, {".toml"})) return describeSettings(path_);
+    if (looksLikeVolume(path_)) return describeVolume(path_, patient_);
+    if (hasEnding(path_, {".yaml", ".yml", ".xml", ".json", ".txt", ".npy"}))
+      return describeCalibration(path_);
+    throw InputError(path_ +
+                     ": unknown kind of file. Accepted: a sequence folder; pictures (png, jpg, "
+                     "bmp, tif, pgm, ppm), pfm, videos; volumes (nii, nii.gz, nrrd, mha, DICOM); "
+                     "calibrations (yaml, xml, json, txt, npy); settings (toml)");
+  }
+
+  std::string path_;
+  bool check_ = false;
+  bool patient_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeInfoCommand() { return std::make_unique<InfoCommand>(); }
+
+}  // namespace softscope

@@ -1,0 +1,24 @@
+// apps/info_parts.h: `softscope info`, one function a kind of file. All throw InputError.
+#pragma once
+
+#include <string>
+
+#include "apps/fact_sheet.h"
+#include "core/stereo_rig.h"
+
+namespace softscope {
+
+/// `check_all`: reads every frame instead of the first.
+FactSheet describeSequence(const std::string& folder, bool check_all);
+FactSheet describeImage(const std::string& file);
+FactSheet describeFloatMap(const std::string& file);  // PFM
+FactSheet describeVideo(const std::string& file);
+FactSheet describeVolume(const std::string& path, bool with_patient);
+FactSheet describeCalibration(const std::string& path);
+FactSheet describeSettings(const std::string& file);
+
+/// Focal length, baseline, field of view, what a pixel of disparity is worth; warnings.
+/// `key` is the JSON name that all stand under; empty: at the top.
+void addCalibration(const StereoCalibration& calibration, const std::string& key, FactSheet& facts);
+
+}  // namespace softscope

@@ -1,0 +1,31 @@
+// apps/interrupt.cpp: a signal handler may touch one flag, and that flag must be global.
+#include "apps/interrupt.h"
+
+#include <csignal>
+
+namespace softscope {
+namespace {
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+
+void onSignal(int signal) {
+  interrupt_requested = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+InterruptGuard::InterruptGuard() {
+  interrupt_requested = 0;
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+}
+
+InterruptGuard::~InterruptGuard() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+bool InterruptGuard::requested() const { return interrupt_requested != 0; }
+
+}  // namespace softscope

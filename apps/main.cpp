@@ -1,0 +1,59 @@
+// apps/main.cpp: softscope <command>; the one place where failures become exit codes.
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "apps/command_line.h"
+#include "apps/exit_codes.h"
+#include "apps/log.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace softscope {
+namespace {
+
+int runCommand(Command& command) {
+  setUpLog(command.common);
+  const ThreadLimit limit(command.common.threads);
+  return command.run();
+}
+
+int runLine(const std::vector<std::string>& words) {
+  const auto commands = allCommands();
+  const ParsedLine line = parseCommandLine(words, commands);
+  std::cout << line.text;
+  return line.command == nullptr ? kDone : runCommand(*line.command);
+}
+
+int runAndReport(const std::vector<std::string>& words) {
+  setUpLog({});
+  try {
+    return runLine(words);
+  } catch (const OptionError& error) {
+    spdlog::error("{}", error.what());
+    return kUsage;
+  } catch (const BackendError& error) {
+    spdlog::error("{}", error.what());
+    return kNoBackend;
+  } catch (const Error& error) {  // InputError, and output that can't be written
+    spdlog::error("{}", error.what());
+    return kInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    spdlog::error("{}", error.what());
+    return kInput;
+  } catch (const std::bad_alloc&) {
+    spdlog::error("out of memory. Smaller pictures or fewer threads need less");
+    return kBug;
+  } catch (const std::exception& error) {
+    spdlog::error("unexpected: {}. Please report this with the command line", error.what());
+    return kBug;
+  }
+}
+
+}  // namespace
+}  // namespace softscope
+
+int main(int argc, char** argv) {
+  return softscope::runAndReport(std::vector<std::string>(argv + 1, argv + argc));
+}

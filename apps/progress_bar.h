@@ -1,0 +1,47 @@
+// apps/progress_bar.h: how far the work is, how fast, how long still.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+namespace softscope {
+
+/// On a terminal one line that is rewritten ten times a second at most; elsewhere a plain line
+/// every ten seconds and one at the end, so that logs stay readable.
+class ProgressBar {
+ public:
+  using Clock = std::chrono::steady_clock;
+  enum class Style { kSilent, kPlain, kTerminal };
+
+  /// `total` 0: unknown, then there is no ETA. `now` is asked for the time (tests have their own).
+  ProgressBar(std::string what, int total, Style style, std::ostream& out,
+              std::function<Clock::time_point()> now = Clock::now);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void advance();
+
+ private:
+  double secondsSince(Clock::time_point start) const;
+  std::string line() const;
+  std::string bar() const;
+  void show();
+
+  std::string what_;
+  int total_;
+  int done_ = 0;
+  int shown_ = -1;
+  Style style_;
+  std::ostream& out_;
+  std::function<Clock::time_point()> now_;
+  Clock::time_point start_;
+  Clock::time_point last_shown_;
+};
+
+/// What suits stderr: silent with --quiet.
+ProgressBar::Style progressStyle(bool quiet);
+
+}  // namespace softscope

@@ -1,0 +1,18 @@
+// apps/result_output.cpp: JSON or lines.
+#include "apps/result_output.h"
+
+#include <iostream>
+
+namespace softscope {
+
+std::string jsonText(const FactSheet::Json& json) {
+  return json.dump(2, ' ', false, FactSheet::Json::error_handler_t::replace) + "\n";
+}
+
+void printJson(const FactSheet::Json& json) { std::cout << jsonText(json) << std::flush; }
+
+void printFacts(const FactSheet& facts, bool as_json) {
+  std::cout << (as_json ? jsonText(facts.json()) : facts.text()) << std::flush;
+}
+
+}  // namespace softscope

@@ -1,0 +1,92 @@
+// tests/apps/test_command_line.cpp: help, misspelt words, exit codes.
+#include <gmock/gmock.h>
+
+#include "run_softscope.h"
+
+namespace softscope::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class EveryCommand : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryCommand, HelpsOnStdoutWithAnExample) {
+  const Outcome help = run({GetParam(), "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, HasSubstr(std::string("example:\n  softscope ") + GetParam()));
+  EXPECT_THAT(help.out, HasSubstr("--json"));
+  EXPECT_EQ(help.err, "");
+}
+
+TEST_P(EveryCommand, KnowsTheNearestOption) {
+  const Outcome outcome = run({GetParam(), "--jsn"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean `--json`?"));
+  EXPECT_EQ(outcome.out, "") << "stdout carries results alone";
+}
+
+INSTANTIATE_TEST_SUITE_P(Apps, EveryCommand, testing::Values("depth", "info", "doctor"),
+                         [](const auto& command) { return std::string(command.param); });
+
+TEST(CommandLine, OverviewListsEveryCommand) {
+  const Outcome help = run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* name : {"depth", "info", "doctor", "example:"})
+    EXPECT_THAT(help.out, HasSubstr(name));
+  EXPECT_EQ(run({"help", "depth"}).out, run({"depth", "--help"}).out);
+}
+
+TEST(CommandLine, TellsItsVersion) {
+  const Outcome version = run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, testing::MatchesRegex("softscope [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(CommandLine, MisspeltCommandGetsTheNearestName) {
+  const Outcome outcome = run({"docter"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean `doctor`?"));
+}
+
+TEST(CommandLine, AFarFetchedCommandGetsNoGuess) {
+  EXPECT_THAT(run({"xyzzy"}).err, Not(HasSubstr("did you mean")));
+}
+
+TEST(CommandLine, WrongUsageIsExitCodeTwoAndOneLine) {
+  const std::vector<std::vector<std::string>> lines{
+      {},
+      {"depth"},
+      {"depth", "a", "b", "c", "--out", "x"},
+      {"depth", "a", "b", "--out"},
+      {"depth", "a.png", "b.png", "--out", "x"},  // no calibration
+      {"info"},
+      {"doctor", "--threads", "many"},
+      {"doctor", "--threads", "-1"},
+      {"doctor", "--quiet", "--verbose"},
+      {"depth", "a", "--out", "x", "--frames", "9:3"},
+      {"depth", "a", "--out", "x", "--range", "80:40"},
+      {"depth", "a", "--out", "x", "--frame", "middle"},
+      {"depth", "a", "--out", "x", "--write", "dpth"}};
+  for (const auto& line : lines) {
+    const Outcome outcome = run(line);
+    EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(line);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, testing::StartsWith("error: "));
+  }
+}
+
+TEST(CommandLine, MisspeltSettingGetsTheNearestKey) {
+  const Outcome outcome = run({"depth", "a", "--out", "x", "--set", "stereo.methd=sgbm"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("stereo.method"));
+}
+
+TEST(CommandLine, AnOptionOutOfItsRangeIsNamed) {
+  const Outcome outcome = run({"depth", "a", "--out", "x", "--set", "stereo.method=magic"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("stereo.method is magic, but must be elas or sgbm"));
+}
+
+}  // namespace
+}  // namespace softscope::test

@@ -1,0 +1,141 @@
+// tests/apps/test_info.cpp: `softscope info` knows what it is shown.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "io/depth_files.h"
+#include "io/image_writer.h"
+#include "run_softscope.h"
+#include "support/data_folder.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Info : public InFolder {};
+
+TEST_F(Info, ASequenceTellsItsCalibrationAndWhatIsMissing) {
+  const std::string sequence = makeSequence("s", 2);
+  write("s/timestamps.txt", "0.0\n0.04\n");
+  const Outcome outcome = run({"info", sequence, "--json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = outcome.json();
+  EXPECT_EQ(json["kind"], "sequence");
+  EXPECT_EQ(json["frames"], 2);
+  EXPECT_EQ(json["width_px"], 160);
+  EXPECT_DOUBLE_EQ(json["calibration"]["baseline_mm"], 5);
+  EXPECT_DOUBLE_EQ(json["calibration"]["left"]["fx_px"], 140);
+  EXPECT_NEAR(json["calibration"]["depth_of_1px_at_50mm_mm"], 50 * 50 / (140 * 5.0), 1e-9);
+  EXPECT_NEAR(json["calibration"]["field_of_view_deg"][0], 2 * std::atan(80 / 140.0) * 180 / M_PI,
+              1e-6);
+  EXPECT_NEAR(json["duration_s"], 0.04, 1e-9);
+  EXPECT_LT(json["mean_row_difference_px"], 0.5);
+  EXPECT_THAT(json["missing"].dump(), HasSubstr("mask/"));
+  EXPECT_TRUE(json["problems"].empty());
+}
+
+TEST_F(Info, ASequenceWithoutCalibrationStillTellsWhatThereIs) {
+  const std::string sequence = makeSequence("s", 2);
+  fs::remove(sequence + "/calibration.yaml");
+  const Outcome outcome = run({"info", sequence, "--json"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  const auto json = outcome.json();
+  EXPECT_EQ(json["left_pictures"], 2);
+  EXPECT_THAT(json["problems"].dump(), HasSubstr("calibration"));
+}
+
+TEST_F(Info, CheckReadsEveryFrame) {
+  const std::string sequence = makeSequence("s", 3);
+  fs::resize_file(sequence + "/left/000002.png", 200);
+  EXPECT_FALSE(run({"info", sequence, "--json"}).json().contains("unreadable_frames"));
+  const auto json = run({"info", sequence, "--check", "--json"}).json();
+  EXPECT_EQ(json["unreadable_frames"], 1);
+  EXPECT_THAT(json["warnings"].dump(), HasSubstr("000002.png"));
+}
+
+TEST_F(Info, ExchangedViewsAreNoticed) {
+  const std::string sequence = makeSequence("s", 1);
+  fs::rename(sequence + "/left", sequence + "/tmp");
+  fs::rename(sequence + "/right", sequence + "/left");
+  fs::rename(sequence + "/tmp", sequence + "/right");
+  EXPECT_THAT(run({"info", sequence}).out, HasSubstr("not exchanged?"));
+}
+
+TEST_F(Info, APictureTellsItsSizeAndBrightness) {
+  writePng(at("p.png"), ColourImage(64, 48, {200, 100, 100}));
+  const auto json = run({"info", at("p.png"), "--json"}).json();
+  EXPECT_EQ(json["kind"], "image");
+  EXPECT_EQ(json["width_px"], 64);
+  EXPECT_TRUE(json["colour"]);
+  EXPECT_DOUBLE_EQ(json["mean_gray"], 130);  // 0.299 * 200 + 0.701 * 100, rounded
+}
+
+TEST_F(Info, AFloatMapTellsItsValues) {
+  Raster<float> depth_mm(4, 4, std::nanf(""));
+  depth_mm.values[3] = 51.5f;
+  writePfm(at("d.pfm"), depth_mm);
+  const auto json = run({"info", at("d.pfm"), "--json"}).json();
+  EXPECT_DOUBLE_EQ(json["coverage"], 1 / 16.0);
+  EXPECT_DOUBLE_EQ(json["median"], 51.5);
+}
+
+TEST_F(Info, ASettingsFileIsCheckedKeyByKey) {
+  const std::string good = write("good.toml", "[stereo]\nmethod = \"sgbm\"\n");
+  const Outcome fine = run({"info", good});
+  EXPECT_EQ(fine.exit_code, 0);
+  EXPECT_THAT(fine.out, HasSubstr("sgbm (default elas)"));
+  const std::string bad = write("bad.toml", "[stereo]\nmethd = \"sgbm\"\nborder_px = \"wide\"\n");
+  const Outcome wrong = run({"info", bad, "--json"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_EQ(wrong.json()["problems"].size(), 2u);
+}
+
+TEST_F(Info, ACalibrationIsSummarised) {
+  const std::string sequence = makeSequence("s", 1);
+  const auto json = run({"info", sequence + "/calibration.yaml", "--json"}).json();
+  EXPECT_EQ(json["kind"], "calibration");
+  EXPECT_EQ(json["form"], "OpenCV");
+  EXPECT_TRUE(json["rectified"]);
+}
+
+TEST_F(Info, AVolumeTellsWhereItLies) {
+  const std::string voxels(48, '\1');
+  const std::string file =
+      write("v.mha",
+            "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+            "BinaryDataByteOrderMSB = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+            "Offset = 1 2 3\nElementSpacing = 5 6 7\nDimSize = 12 2 1\n"
+            "ElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+                voxels);
+  const auto json = run({"info", file, "--json"}).json();
+  EXPECT_EQ(json["kind"], "volume");
+  EXPECT_EQ(json["axes"], "LPS");
+  EXPECT_EQ(json["origin_lps_mm"][2], 3);
+}
+
+TEST_F(Info, UnknownThingsAreInputErrorsThatSayWhatIsAccepted) {
+  const std::string strange = write("x.docx", "letter");
+  const std::string empty = write("empty.png", "");
+  fs::create_directories(at("folder"));
+  for (const std::string& path : {strange, empty, at("folder"), at("absent")}) {
+    const Outcome outcome = run({"info", path});
+    EXPECT_EQ(outcome.exit_code, 3) << path;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, HasSubstr(path));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  EXPECT_THAT(run({"info", strange}).err, HasSubstr("nii.gz"));
+}
+
+TEST_F(Info, PatientFieldsComeOnlyWhenAsked) {
+  SOFTSCOPE_DATA_OR_SKIP(data, "ct");
+  EXPECT_FALSE(run({"info", data / "chaos_dicom", "--json"}).json().contains("patient"));
+  EXPECT_TRUE(
+      run({"info", data / "chaos_dicom", "--json", "--patient"}).json().contains("patient"));
+}
+
+}  // namespace
+}  // namespace softscope::test
