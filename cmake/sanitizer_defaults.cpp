@@ -8,6 +8,8 @@ const char* __asan_default_options() {
 
 const char* __ubsan_default_options() { return "print_stacktrace=1"; }
 
+const char* __lsan_default_options() { return "print_suppressions=0"; }
+
 // What these libraries keep until the process ends is theirs.
 const char* __lsan_default_suppressions() {
   return "leak:libfontconfig\n"

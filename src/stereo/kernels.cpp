@@ -2,6 +2,8 @@
 // compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
 #include "stereo/kernels.h"
 
+#include <cstring>
+
 #define SOFTSCOPE_NAME_(set) stereoKernels_##set
 #define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
 #define SOFTSCOPE_TEXT_(set) #set
@@ -154,10 +156,15 @@ void denseTile(const GradientView& reference, const GradientView& other, const D
 
 // --- sub-pixel refinement ----------------------------------------------------------------------
 
-using Float8 = float __attribute__((vector_size(32), aligned(4)));
+using Float8 = float __attribute__((vector_size(32)));
 
-inline Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
-inline void store8(float* p, Float8 x) { *reinterpret_cast<Float8*>(p) = x; }
+// One unaligned instruction each.
+inline Float8 load8(const float* p) {
+  Float8 x;
+  std::memcpy(&x, p, sizeof x);
+  return x;
+}
+inline void store8(float* p, Float8 x) { std::memcpy(p, &x, sizeof x); }
 
 void residualRow(const ResidualRow& row) {
   const float last = static_cast<float>(row.width - 1);

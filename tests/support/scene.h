@@ -91,7 +91,7 @@ inline GrayImage renderView(const RectifiedRig& rig, const Surface& surface, dou
                             double noise_gray, unsigned seed, Raster<float>* seen_mm) {
   GrayImage image(rig.left.width_px, rig.left.height_px);
   std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0, noise_gray);
+  std::normal_distribution<double> noise(0, 1);  // a deviation of 0 is not allowed
   for (int v = 0; v < image.height_px; ++v)
     for (int u = 0; u < image.width_px; ++u) {
       const Eigen::Vector3d direction =
@@ -102,7 +102,7 @@ inline GrayImage renderView(const RectifiedRig& rig, const Surface& surface, dou
       const double texture = t <= 0 ? 0
                                     : 0.5 * solidTexture(hit, 1.3) + 0.3 * solidTexture(hit, 2.9) +
                                           0.2 * solidTexture(hit, 7.1);
-      const double gray = (t <= 0 ? 0 : 40 + 170 * texture) + (noise_gray > 0 ? noise(random) : 0);
+      const double gray = (t <= 0 ? 0 : 40 + 170 * texture) + noise_gray * noise(random);
       image.at(u, v) = static_cast<std::uint8_t>(std::lround(std::clamp(gray, 0.0, 255.0)));
       if (seen_mm != nullptr && t > 0) seen_mm->at(u, v) = static_cast<float>(t);
     }
