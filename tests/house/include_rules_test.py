@@ -15,6 +15,7 @@ BREACHES = [
     ("vtk_views/canvas.cpp", '#include "eval/triangle_tree.h"', "vtk_views may include core"),
     ("cuda/device_info.cu", '#include "pipeline/backends.h"', "cuda may include"),
     ("src/core/image.cpp", '#include "image.h"', "not written from the root"),
+    ("apps/depth.cpp", '#include "log.h"', "not written from the root"),
     ("src/core/image.cpp", '#include "../io/folder.h"', "src/core may include nothing else"),
     ("eval/triangle_tree.cpp", "#include <vtkPolyData.h>", "its home in vtk_views"),
     ("src/stereo/plane.cpp", "#include <opencv2/imgcodecs.hpp>", "its home in src/io"),
@@ -37,6 +38,7 @@ FINE = [
     ("src/pipeline/backends.h", '#include "cuda/device_info.h"'),
     ("apps/depth.cpp", '#include "vtk_views/canvas.h"'),
     ("tests/io/image_reader_test.cpp", "#include <opencv2/imgcodecs.hpp>"),
+    ("tests/deform/warp_test.cpp", '#include "scenes.h"'),
     ("vtk_views/canvas.cpp", '// #include "eval/triangle_tree.h"'),
 ]
 
@@ -51,7 +53,7 @@ class IncludeRules(unittest.TestCase):
         if found:
             self.fail("\n" + "\n".join(found))
 
-    def test_every_folder_has_a_row_and_every_row_a_folder(self):
+    def test_every_folder_has_a_row(self):
         self.assertEqual(include_rules.folders_without_row(ROOT), [])
 
     def test_files_named_as_homes_exist(self):
