@@ -32,8 +32,8 @@ endfunction()
 
 # softscope_fuzz(<reader> SOURCES … LINKS … CORPUS <folder> [RUNS <count>]): a reader that must
 # answer any bytes with a value or an InputError. SOURCES define LLVMFuzzerTestOneInput. With clang
-# and sanitizers the corpus is mutated for a bounded count, from a fixed seed; any other build feeds
-# the corpus as it is.
+# and sanitizers, libFuzzer mutates the corpus, guided by coverage; any other build damages it
+# blindly. Both for a bounded count, from a fixed seed, and the corpus stays as it is.
 function(softscope_fuzz name)
   cmake_parse_arguments(ARG "" "CORPUS;RUNS" "SOURCES;LINKS" ${ARGN})
   if(NOT ARG_RUNS)
@@ -45,13 +45,19 @@ function(softscope_fuzz name)
   target_include_directories(fuzz_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
   if(SOFTSCOPE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
-    set(found ${CMAKE_CURRENT_BINARY_DIR}/fuzz_${name}_found)
-    file(MAKE_DIRECTORY ${found})
+    softscope_fuzz_seeds(${corpus} ${CMAKE_CURRENT_BINARY_DIR}/${name}_seeds.txt)
     add_test(NAME fuzz.${name} COMMAND fuzz_${name} -runs=${ARG_RUNS} -seed=1 -timeout=20
-      -rss_limit_mb=4096 -artifact_prefix=${found}/ ${corpus})
+      -rss_limit_mb=4096 -seed_inputs=@${CMAKE_CURRENT_BINARY_DIR}/${name}_seeds.txt)
   else()
     target_sources(fuzz_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests/support/replay_corpus.cpp)
     add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${corpus})
   endif()
   set_tests_properties(fuzz.${name} PROPERTIES TIMEOUT 600 LABELS fuzz)
+endfunction()
+
+# libFuzzer would write into a corpus folder; a list of its files it only reads.
+function(softscope_fuzz_seeds corpus list)
+  file(GLOB_RECURSE seeds CONFIGURE_DEPENDS ${corpus}/*)
+  list(JOIN seeds "," seeds)
+  file(WRITE ${list} "${seeds}")
 endfunction()
