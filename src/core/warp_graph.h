@@ -43,7 +43,6 @@ struct WarpGraph {
   std::vector<NodeTransform> transforms;      // one a node
   std::vector<GraphEdge> edges;               // ascending by (first, second)
   std::vector<NodeStencil> stencils;          // what PointBinding::stencil counts
-  std::uint64_t revision = 0;                 // changes when nodes, edges or stencils do
 
   std::size_t size() const { return positions_mm.size(); }
   bool empty() const { return positions_mm.empty(); }

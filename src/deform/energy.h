@@ -1,0 +1,37 @@
+// src/deform/energy.h: how badly a warp fits: docs/energy.md (4).
+#pragma once
+
+#include <vector>
+
+#include "core/warp_graph.h"
+#include "deform/constraints.h"
+#include "deform/deform_options.h"
+
+namespace softscope {
+
+/// The four terms, weighted; their sum is what is minimised.
+struct EnergyTerms {
+  double rotation = 0;        // w_rot E_rot
+  double regularisation = 0;  // w_reg E_reg
+  double data = 0;            // w_data E_data, robust
+  double correspondence = 0;  // w_corr E_corr, robust
+
+  double total() const { return rotation + regularisation + data + correspondence; }
+};
+
+/// The energy of one set of transforms, and what the normal equations need of it.
+struct EnergyValue {
+  EnergyTerms terms;
+  std::vector<double> residuals;  // one a row of the constraints
+  std::vector<double> weights;    // base and robust weight of each row
+  double data_abs_sum_mm = 0;     // sum of |residual| over points, unweighted
+};
+
+/// Sums in a fixed order, whatever the number of threads.
+void evaluateEnergy(const WarpGraph& graph, const ConstraintSet& constraints,
+                    const DeformOptions& options, EnergyValue* value);
+
+/// The four nodes of a stencil side by side.
+StencilState gatherStencil(const WarpGraph& graph, const NodeStencil& stencil);
+
+}  // namespace softscope

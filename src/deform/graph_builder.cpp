@@ -1,0 +1,194 @@
+#include "deform/graph_builder.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "deform/graph_edges.h"
+#include "deform/node_reach.h"
+#include "deform/surface_cells.h"
+
+namespace softscope {
+namespace {
+
+std::vector<int> unboundPoints(const PointModel& model) {
+  std::vector<int> points;
+  for (int i = 0; i < static_cast<int>(model.size()); ++i)
+    if (!model.bindings[i].bound()) points.push_back(i);
+  return points;
+}
+
+/// Cubes of one reach around unbound points: beyond two of them nothing can change.
+CellTable changingRegion(const PointModel& model, const std::vector<int>& unbound,
+                         double reach_mm) {
+  constexpr int kAround = 2;
+  CellTable centres(reach_mm), region(reach_mm);
+  std::uint64_t key = 0;
+  for (const int point : unbound)
+    if (region.keyOf(model.positions_mm[point], &key)) centres.findOrAdd(key);
+  for (int c = 0; c < centres.size(); ++c)
+    for (int dz = -kAround; dz <= kAround; ++dz)
+      for (int dy = -kAround; dy <= kAround; ++dy)
+        for (int dx = -kAround; dx <= kAround; ++dx)
+          region.findOrAdd(CellTable::shifted(centres.key(c), dx, dy, dz));
+  return region;
+}
+
+bool inside(const CellTable& region, const Eigen::Vector3f& position_mm) {
+  std::uint64_t key = 0;
+  return region.keyOf(position_mm, &key) && region.find(key) >= 0;
+}
+
+std::vector<int> pointsInside(const PointModel& model, const CellTable& region) {
+  std::vector<int> points;
+  for (int i = 0; i < static_cast<int>(model.size()); ++i)
+    if (inside(region, model.positions_mm[i])) points.push_back(i);
+  return points;
+}
+
+/// The four nearest of the cell's nodes, weighted by docs/energy.md (25).
+struct Carriers {
+  NodeStencil stencil{};
+  std::array<float, kNodesPerPoint> weights{};
+};
+
+Carriers findCarriers(const NodeReach::Near& near, const Eigen::Vector3f& point_mm,
+                      const WarpGraph& graph, double spacing_mm) {
+  std::array<std::pair<double, int>, NodeReach::kNearest> sorted;
+  for (int i = 0; i < near.count; ++i)
+    sorted[i] = {(graph.positions_mm[near.nodes[i]] - point_mm.cast<double>()).norm(),
+                 near.nodes[i]};
+  std::sort(sorted.begin(), sorted.begin() + near.count);
+  const int used = std::min(near.count, kNodesPerPoint);
+  // Where the surface holds no further node, d_max is what the next one's distance would be.
+  const double furthest = near.count > kNodesPerPoint ? sorted[kNodesPerPoint].first
+                                                      : sorted[used - 1].first + spacing_mm;
+  double total = 0;
+  for (int i = 0; i < used; ++i) {
+    sorted[i].first = std::max(1 - sorted[i].first / furthest, 1e-6);
+    total += sorted[i].first;
+  }
+  std::sort(sorted.begin(), sorted.begin() + used,
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+  Carriers carriers;
+  for (int i = 0; i < kNodesPerPoint; ++i) {
+    carriers.stencil[i] = sorted[std::min(i, used - 1)].second;
+    carriers.weights[i] = i < used ? static_cast<float>(sorted[i].first / total) : 0.0f;
+  }
+  return carriers;
+}
+
+/// Gives every set of nodes its number; drops the numbers that no point uses any more.
+class StencilBook {
+ public:
+  explicit StencilBook(std::vector<NodeStencil>* stencils) : stencils_(stencils) {
+    for (std::size_t s = 0; s < stencils->size(); ++s)
+      numbers_.emplace((*stencils)[s], static_cast<std::int32_t>(s));
+  }
+
+  std::int32_t numberOf(const NodeStencil& stencil) {
+    const auto [at, added] =
+        numbers_.emplace(stencil, static_cast<std::int32_t>(stencils_->size()));
+    if (added) stencils_->push_back(stencil);
+    return at->second;
+  }
+
+  void dropUnused(PointModel* model) {
+    std::vector<std::int32_t> renumbered(stencils_->size(), -1);
+    for (const PointBinding& binding : model->bindings)
+      if (binding.bound()) renumbered[binding.stencil] = 0;
+    std::int32_t next = 0;
+    for (std::size_t s = 0; s < stencils_->size(); ++s) {
+      if (renumbered[s] < 0) continue;
+      (*stencils_)[next] = (*stencils_)[s];
+      renumbered[s] = next++;
+    }
+    stencils_->resize(static_cast<std::size_t>(next));
+    for (PointBinding& binding : model->bindings)
+      if (binding.bound()) binding.stencil = renumbered[binding.stencil];
+  }
+
+ private:
+  std::vector<NodeStencil>* stencils_;
+  std::map<NodeStencil, std::int32_t> numbers_;
+};
+
+/// One growth of the graph over the region around unbound points.
+class Growth {
+ public:
+  Growth(const GraphOptions& options, const std::vector<int>& unbound, PointModel* model,
+         WarpGraph* graph)
+      : options_(options),
+        model_(*model),
+        graph_(*graph),
+        region_(changingRegion(*model, unbound, NodeReach::reachMm(options))),
+        points_(pointsInside(*model, region_)),
+        cells_(model->positions_mm, points_, options.cell_mm),
+        reach_(cells_, options),
+        near_new_node_(static_cast<std::size_t>(cells_.size()), 0) {}
+
+  GraphGrowth run() {
+    const std::vector<NodeStencil> stencils_before = graph_.stencils;
+    for (std::size_t j = 0; j < graph_.size(); ++j) {
+      const Eigen::Vector3f position_mm = graph_.positions_mm[j].cast<float>();
+      if (inside(region_, position_mm)) reach_.spread(static_cast<int>(j), position_mm);
+    }
+    addNodes();
+    bindPoints();
+    result_.structure_changed =
+        result_.nodes_added > 0 || graph_.stencils != stencils_before || graph_.edges.empty();
+    if (result_.structure_changed) graph_.edges = makeEdges(graph_, options_);
+    return result_;
+  }
+
+ private:
+  /// In the order of the points: as the picture was read, row by row.
+  void addNodes() {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const int cell = cells_.cellOf(static_cast<int>(i));
+      if (cell < 0 || model_.bindings[points_[i]].bound() || reach_.covered(cell)) continue;
+      const int node = static_cast<int>(graph_.size());
+      const Eigen::Vector3f position_mm = model_.positions_mm[cells_.representative(cell)];
+      graph_.positions_mm.push_back(position_mm.cast<double>());
+      graph_.transforms.emplace_back();
+      for (const int reached : reach_.spread(node, position_mm)) near_new_node_[reached] = 1;
+      ++result_.nodes_added;
+    }
+  }
+
+  void bindPoints() {
+    StencilBook book(&graph_.stencils);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const int cell = cells_.cellOf(static_cast<int>(i));
+      PointBinding& binding = model_.bindings[points_[i]];
+      if (cell < 0 || (binding.bound() && !near_new_node_[cell])) continue;
+      const Carriers carriers = findCarriers(reach_.near(cell), model_.positions_mm[points_[i]],
+                                             graph_, options_.node_spacing_mm);
+      ++(binding.bound() ? result_.points_rebound : result_.points_bound);
+      binding.stencil = book.numberOf(carriers.stencil);
+      binding.weights = carriers.weights;
+    }
+    book.dropUnused(&model_);
+  }
+
+  GraphOptions options_;
+  PointModel& model_;
+  WarpGraph& graph_;
+  CellTable region_;
+  std::vector<int> points_;
+  SurfaceCells cells_;
+  NodeReach reach_;
+  std::vector<char> near_new_node_;
+  GraphGrowth result_;
+};
+
+}  // namespace
+
+GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph* graph) {
+  options.validate();
+  const std::vector<int> unbound = unboundPoints(*model);
+  if (unbound.empty()) return GraphGrowth();
+  return Growth(options, unbound, model, graph).run();
+}
+
+}  // namespace softscope

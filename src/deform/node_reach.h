@@ -1,0 +1,48 @@
+// src/deform/node_reach.h: which nodes a short walk along the surface leads to.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "deform/deform_options.h"
+#include "deform/surface_cells.h"
+
+namespace softscope {
+
+/// For each cell, the closest nodes that can be reached along the surface.
+class NodeReach {
+ public:
+  static constexpr int kNearest = 10;
+
+  /// One cell's nodes, closest to its centre first.
+  struct Near {
+    int count = 0;
+    std::array<int, kNearest> nodes{};
+    std::array<float, kNearest> distance_mm{};
+  };
+
+  NodeReach(const SurfaceCells& cells, const GraphOptions& options);
+
+  /// How far a node may carry points, mm.
+  static double reachMm(const GraphOptions& options) { return 2.5 * options.node_spacing_mm; }
+
+  /// Walks from the node over touching cells and enters it where it is among the closest.
+  /// Returns the cells that it was entered in.
+  std::vector<int> spread(int node, const Eigen::Vector3f& position_mm);
+
+  const Near& near(int cell) const { return near_[cell]; }
+  /// Whether some node lies within the node spacing of the cell's centre.
+  bool covered(int cell) const;
+
+ private:
+  bool enter(int node, float distance_mm, Near* near) const;
+
+  const SurfaceCells& cells_;
+  GraphOptions options_;
+  std::vector<Near> near_;
+  std::vector<int> visited_;  // the last walk that came by
+  int walk_ = 0;
+};
+
+}  // namespace softscope

@@ -1,0 +1,31 @@
+// src/deform/robust_loss.h: what a residual costs, and how far it is believed.
+#pragma once
+
+#include <cmath>
+
+#include "core/hd.h"
+#include "deform/deform_options.h"
+
+namespace softscope {
+
+/// Cost rho and weight rho' of a squared residual, docs/energy.md (13) to (15). For small residuals
+/// they equal the squared residual and 1.
+struct RobustValue {
+  double cost;
+  double weight;
+};
+
+SOFTSCOPE_HD inline RobustValue robustValue(const RobustOptions& robust, double squared) {
+  const double limit = robust.scale_mm * robust.scale_mm;
+  if (robust.loss == RobustLoss::kTukey) {
+    const double rest = squared < limit ? 1 - squared / limit : 0;
+    return {limit / 3 * (1 - rest * rest * rest), rest * rest};
+  }
+  if (robust.loss == RobustLoss::kHuber && squared > limit) {
+    const double size = std::sqrt(squared);
+    return {2 * robust.scale_mm * size - limit, robust.scale_mm / size};
+  }
+  return {squared, 1};
+}
+
+}  // namespace softscope

@@ -1,0 +1,287 @@
+// tests/deform/test_energy.cpp: energies by hand, and normal equations against plain sums.
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "deform/block_pattern.h"
+#include "deform/energy.h"
+#include "deform/node_terms.h"
+#include "deform/normal_equations.h"
+#include "deform/robust_loss.h"
+#include "scenes.h"
+
+namespace softscope {
+namespace {
+
+/// One node at the origin, one at (4, 0, 0), one point at (1, 0, 0) that both carry.
+struct TwoNodes {
+  PointModel model;
+  WarpGraph graph;
+
+  TwoNodes() {
+    graph.positions_mm = {{0, 0, 0}, {4, 0, 0}};
+    graph.transforms.resize(2);
+    graph.edges = {{0, 1, 1.0}};
+    graph.stencils = {{0, 1, 1, 1}};
+    model.add({1, 0, 0}, {0, 0, -1}, {}, 1);
+    model.bindings[0] = {0, {0.75f, 0.25f, 0, 0}};
+  }
+
+  EnergyTerms energy(const DeformOptions& options, const std::vector<KeyPointMatch>& matches) {
+    CandidatePoints none;
+    none.stencil_start.assign(2, 0);
+    ConstraintSet constraints;
+    makeConstraints(model, graph, none, matches, options.correspondence_weight, &constraints);
+    EnergyValue value;
+    evaluateEnergy(graph, constraints, options, &value);
+    return value.terms;
+  }
+};
+
+DeformOptions unitWeights(NodeModel model) {
+  DeformOptions options;
+  options.node_model = model;
+  options.rotation_weight = options.regularisation_weight = 1;
+  options.data_weight = options.correspondence_weight = 1;
+  options.data_robust.loss = options.correspondence_robust.loss = RobustLoss::kNone;
+  return options;
+}
+
+TEST(Energy, IsZeroWhereNothingMoved) {
+  TwoNodes scene;
+  EXPECT_EQ(scene.energy(unitWeights(NodeModel::kAffine), {}).total(), 0);
+}
+
+TEST(Energy, OfStretchedEdgeByHand) {
+  TwoNodes scene;
+  scene.graph.transforms[1].translation_mm = {0.5, 0, 0};
+  // Each node finds the other half a millimetre off: 2 * 0.25.
+  EXPECT_DOUBLE_EQ(scene.energy(unitWeights(NodeModel::kRigid), {}).regularisation, 0.5);
+  scene.graph.edges[0].weight = 3;
+  EXPECT_DOUBLE_EQ(scene.energy(unitWeights(NodeModel::kRigid), {}).regularisation, 1.5);
+}
+
+TEST(Energy, OfARigidMotionIsOnlyItsMisfit) {
+  TwoNodes scene;
+  const Eigen::Matrix3d turn = rotationOf({0, 0, 0.4}).toRotationMatrix();
+  for (int j = 0; j < 2; ++j) {
+    scene.graph.transforms[j].linear = turn;
+    scene.graph.transforms[j].translation_mm =
+        turn * scene.graph.positions_mm[j] - scene.graph.positions_mm[j];
+  }
+  const EnergyTerms terms = scene.energy(unitWeights(NodeModel::kAffine), {});
+  EXPECT_LT(terms.regularisation, 1e-28);  // rounding, squared
+  EXPECT_LT(terms.rotation, 1e-28);
+}
+
+TEST(Energy, OfAStretchedMatrixByHand) {
+  TwoNodes scene;
+  scene.graph.transforms[0].linear = Eigen::Vector3d(2, 1, 1).asDiagonal();
+  const EnergyTerms terms = scene.energy(unitWeights(NodeModel::kAffine), {});
+  EXPECT_DOUBLE_EQ(terms.rotation, 9);         // (2 * 2 - 1)^2
+  EXPECT_DOUBLE_EQ(terms.regularisation, 16);  // node 1 expected at (8, 0, 0)
+}
+
+TEST(Energy, OfAMatchByHand) {
+  TwoNodes scene;
+  scene.graph.transforms[1].translation_mm = {0, 0, 2};  // carries the point up by 0.25 * 2
+  KeyPointMatch match;
+  match.model_point = 0;
+  match.source_mm = {1, 0, 0};
+  match.target_mm = {1, 0, 1};
+  const DeformOptions options = unitWeights(NodeModel::kRigid);
+  EXPECT_DOUBLE_EQ(scene.energy(options, {match}).correspondence, 0.25);
+  match.sqrt_information = 2 * Eigen::Matrix3f::Identity();
+  EXPECT_DOUBLE_EQ(scene.energy(options, {match}).correspondence, 1.0);
+}
+
+TEST(RobustLoss, AgreesWithSquaresInsideAndBoundsOutside) {
+  const RobustOptions huber{RobustLoss::kHuber, 2.0}, tukey{RobustLoss::kTukey, 2.0};
+  EXPECT_DOUBLE_EQ(robustValue(huber, 4.0).cost, 4.0);
+  EXPECT_DOUBLE_EQ(robustValue(huber, 9.0).cost, 2 * 2 * 3 - 4);
+  EXPECT_DOUBLE_EQ(robustValue(huber, 9.0).weight, 2.0 / 3);
+  EXPECT_NEAR(robustValue(tukey, 1e-6).cost, 1e-6, 1e-12);  // differs by r^4 / limit
+  EXPECT_DOUBLE_EQ(robustValue(tukey, 5.0).cost, 4.0 / 3);
+  EXPECT_EQ(robustValue(tukey, 5.0).weight, 0);
+}
+
+TEST(RobustLoss, WeightIsTheSlopeOfTheCost) {
+  const double h = 1e-6;
+  for (const RobustLoss loss : {RobustLoss::kNone, RobustLoss::kHuber, RobustLoss::kTukey})
+    for (const double squared : {0.1, 0.9, 3.0, 7.0}) {
+      const RobustOptions robust{loss, 1.5};
+      const double slope =
+          (robustValue(robust, squared + h).cost - robustValue(robust, squared - h).cost) / (2 * h);
+      EXPECT_NEAR(robustValue(robust, squared).weight, slope, 1e-7);
+    }
+}
+
+/// A bent hill with targets and matches, away from its optimum.
+struct BentHill {
+  PointModel model = scenes::makeHill(24, 20, 0.6);
+  WarpGraph graph = scenes::bindGraph(&model);
+  ConstraintSet constraints;
+  EnergyValue value;
+
+  explicit BentHill(const DeformOptions& options) {
+    const auto view =
+        scenes::renderHill(scenes::makeCamera(90, 80, 200), scenes::smoothBend, 24, 20);
+    const DepthTarget target(view.depth, view.normals, view.camera, Eigen::Isometry3d::Identity(),
+                             options.association);
+    CandidatePoints candidates;
+    collectCandidates(model, graph, nullptr, 0, &candidates);
+    makeConstraints(model, graph, candidates, scenes::makeMatches(model, scenes::smoothBend, 37),
+                    options.correspondence_weight, &constraints);
+    for (std::size_t j = 0; j < graph.size(); ++j) {
+      const double s = static_cast<double>(j);
+      graph.transforms[j].linear =
+          rotationOf({0.01 * std::sin(s), 0.02 * std::cos(2 * s), 0.01}).toRotationMatrix();
+      graph.transforms[j].translation_mm = {0.1 * std::cos(s), 0.1, 0.05 * std::sin(3 * s)};
+      if (options.node_model == NodeModel::kAffine)
+        graph.transforms[j].linear(0, 1) += 0.02 * std::sin(5 * s);
+    }
+    associate(graph, candidates, &target, options.data_weight, &constraints);
+    evaluateEnergy(graph, constraints, options, &value);
+  }
+};
+
+DeformOptions testOptions(NodeModel model, RobustLoss loss) {
+  DeformOptions options = unitWeights(model);
+  options.rotation_weight = 10;
+  options.regularisation_weight = 7;
+  options.correspondence_weight = 3;
+  options.data_robust = {loss, 0.4};
+  options.correspondence_robust = {loss, 0.7};
+  return options;
+}
+
+/// Half the slope of the energy along one unknown, by central differences.
+template <class Node>
+double halfSlope(const BentHill& scene, const DeformOptions& options, int node, int unknown) {
+  const double h = 1e-5;
+  double energies[2];
+  for (const int side : {0, 1}) {
+    WarpGraph graph = scene.graph;
+    double step[Node::kUnknowns] = {};
+    step[unknown] = side == 0 ? -h : h;
+    Node::apply(step, &graph.transforms[node]);
+    EnergyValue value;
+    evaluateEnergy(graph, scene.constraints, options, &value);
+    energies[side] = value.terms.total();
+  }
+  return (energies[1] - energies[0]) / (4 * h);
+}
+
+template <class Node>
+void expectGradient(NodeModel model, RobustLoss loss) {
+  const DeformOptions options = testOptions(model, loss);
+  BentHill scene(options);
+  ASSERT_GT(scene.constraints.points, 500);
+  ASSERT_GT(scene.constraints.matches, 20);
+  NormalEquations<Node> equations;
+  equations.analyse(scene.graph, makeBlockPattern(scene.graph));
+  equations.assemble(scene.graph, scene.constraints, scene.value, options);
+  Eigen::VectorXd truth(equations.gradient().size());
+  for (Eigen::Index i = 0; i < truth.size(); ++i)
+    truth[i] = halfSlope<Node>(scene, options, static_cast<int>(i / Node::kUnknowns),
+                               static_cast<int>(i % Node::kUnknowns));
+  EXPECT_LT((equations.gradient() - truth).norm(), 1e-5 * truth.norm());
+}
+
+TEST(NormalEquations, GradientIsTheSlopeOfTheEnergyForRigidNodes) {
+  for (const RobustLoss loss : {RobustLoss::kNone, RobustLoss::kHuber, RobustLoss::kTukey})
+    expectGradient<RigidNode>(NodeModel::kRigid, loss);
+}
+
+TEST(NormalEquations, GradientIsTheSlopeOfTheEnergyForAffineNodes) {
+  for (const RobustLoss loss : {RobustLoss::kNone, RobustLoss::kHuber, RobustLoss::kTukey})
+    expectGradient<AffineNode>(NodeModel::kAffine, loss);
+}
+
+/// J^T W J as a textbook writes it: one dense row after the other.
+template <class Node>
+Eigen::MatrixXd denseSystem(const BentHill& scene, const DeformOptions& options) {
+  constexpr int n = Node::kUnknowns;
+  const WarpGraph& graph = scene.graph;
+  const Eigen::Index size = static_cast<Eigen::Index>(graph.size()) * n;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t s = 0; s < graph.stencils.size(); ++s) {
+    const StencilRows& at = scene.constraints.stencils[s];
+    for (int i = at.first; i < at.first + at.rows(); ++i) {
+      const PlaneConstraint& c = scene.constraints.rows[i];
+      const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3f>(c.point).cast<double>();
+      const Eigen::Vector3d normal = Eigen::Map<const Eigen::Vector3f>(c.normal).cast<double>();
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(size);
+      for (int k = 0; k < kNodesPerPoint; ++k) {
+        const int node = graph.stencils[s][k];
+        row.segment<n>(node * n) +=
+            c.node_weights[k] *
+            Node::leverJacobian(graph.transforms[node], p - graph.positions_mm[node]).transpose() *
+            normal;
+      }
+      sum += scene.value.weights[i] * row * row.transpose();
+    }
+  }
+  for (const GraphEdge& edge : graph.edges)
+    for (const auto& [own, other] :
+         {std::pair{edge.first, edge.second}, std::pair{edge.second, edge.first}}) {
+      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, size);
+      rows.middleCols<n>(own * n) = Node::leverJacobian(
+          graph.transforms[own], graph.positions_mm[other] - graph.positions_mm[own]);
+      rows.middleCols<3>(other * n + n - 3) = -Eigen::Matrix3d::Identity();
+      sum += options.regularisation_weight * edge.weight * rows.transpose() * rows;
+    }
+  if (n == 12)
+    for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(graph.size()); ++j) {
+      const Eigen::Matrix<double, 6, 12> rows = rotationJacobian(graph.transforms[j].linear);
+      sum.block<12, 12>(j * 12, j * 12) += options.rotation_weight * rows.transpose() * rows;
+    }
+  return sum;
+}
+
+template <class Node>
+void expectBlocks(NodeModel model) {
+  const DeformOptions options = testOptions(model, RobustLoss::kHuber);
+  BentHill scene(options);
+  const BlockPattern pattern = makeBlockPattern(scene.graph);
+  NormalEquations<Node> equations;
+  equations.analyse(scene.graph, pattern);
+  equations.assemble(scene.graph, scene.constraints, scene.value, options);
+  constexpr int n = Node::kUnknowns;
+  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(pattern.nodes() * n, pattern.nodes() * n);
+  for (int j = 0; j < pattern.nodes(); ++j)
+    for (int b = pattern.column_start[j]; b < pattern.column_start[j + 1]; ++b) {
+      const Eigen::Map<const Eigen::Matrix<double, n, n>> block(equations.blocks().data() +
+                                                                b * n * n);
+      found.block<n, n>(pattern.row[b] * n, j * n) = block;
+      found.block<n, n>(j * n, pattern.row[b] * n) = block.transpose();
+    }
+  const Eigen::MatrixXd truth = denseSystem<Node>(scene, options);
+  EXPECT_LT((found - truth).norm(), 1e-12 * truth.norm());  // the same sums, another order
+}
+
+TEST(NormalEquations, BlocksAreThoseOfTheTextbookForRigidNodes) {
+  expectBlocks<RigidNode>(NodeModel::kRigid);
+}
+
+TEST(NormalEquations, BlocksAreThoseOfTheTextbookForAffineNodes) {
+  expectBlocks<AffineNode>(NodeModel::kAffine);
+}
+
+TEST(NormalEquations, AreTheSameBytesOnAnyNumberOfThreads) {
+  const DeformOptions options = testOptions(NodeModel::kRigid, RobustLoss::kHuber);
+  std::vector<std::vector<double>> blocks;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    BentHill scene(options);
+    NormalEquations<RigidNode> equations;
+    equations.analyse(scene.graph, makeBlockPattern(scene.graph));
+    equations.assemble(scene.graph, scene.constraints, scene.value, options);
+    blocks.push_back(equations.blocks());
+    blocks.back().push_back(scene.value.terms.total());
+  }
+  EXPECT_EQ(blocks[0], blocks[1]);
+  EXPECT_EQ(blocks[0], blocks[2]);
+}
+
+}  // namespace
+}  // namespace softscope

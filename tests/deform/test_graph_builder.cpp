@@ -1,0 +1,177 @@
+// tests/deform/test_graph_builder.cpp: nodes cover the tissue and keep to their own side of a gap.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "scenes.h"
+
+namespace softscope {
+namespace {
+
+double distanceToNearest(const WarpGraph& graph, const Eigen::Vector3f& point_mm) {
+  double nearest = std::numeric_limits<double>::max();
+  for (const Eigen::Vector3d& g : graph.positions_mm)
+    nearest = std::min(nearest, (g - point_mm.cast<double>()).norm());
+  return nearest;
+}
+
+TEST(GraphBuilder, CoversTheModelAtTheSpacing) {
+  PointModel model = scenes::makeHill(40, 30, 0.4);
+  const WarpGraph graph = scenes::bindGraph(&model);
+  for (const Eigen::Vector3f& p : model.positions_mm)
+    EXPECT_LT(distanceToNearest(graph, p), 4.0 + 1.0);  // spacing and half a cell's diagonal
+  for (std::size_t i = 0; i < graph.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT((graph.positions_mm[i] - graph.positions_mm[j]).norm(), 4.0 - 1.0);
+  // One node takes between a hexagon of this spacing (13.9 mm²) and three of them.
+  EXPECT_GT(graph.size(), 40 * 30 / (3 * 13.9));
+  EXPECT_LT(graph.size(), 1.4 * 40 * 30 / 13.9);  // borders take half hexagons
+}
+
+TEST(GraphBuilder, BindsToTheFourNearestWithThePapersWeights) {
+  PointModel model = scenes::makeHill(40, 30, 0.4);
+  const WarpGraph graph = scenes::bindGraph(&model);
+  for (std::size_t i = 0; i < model.size(); i += 17) {
+    const PointBinding& binding = model.bindings[i];
+    ASSERT_TRUE(binding.bound());
+    std::vector<std::pair<double, int>> sorted;
+    for (std::size_t j = 0; j < graph.size(); ++j)
+      sorted.emplace_back((graph.positions_mm[j] - model.positions_mm[i].cast<double>()).norm(), j);
+    std::sort(sorted.begin(), sorted.end());
+    double total = 0;
+    for (int k = 0; k < 4; ++k) total += 1 - sorted[k].first / sorted[4].first;
+    for (int k = 0; k < 4; ++k) {
+      const NodeStencil& stencil = graph.stencils[binding.stencil];
+      const auto at = std::find(stencil.begin(), stencil.end(), sorted[k].second);
+      ASSERT_NE(at, stencil.end());
+      EXPECT_NEAR(binding.weights[at - stencil.begin()],
+                  (1 - sorted[k].first / sorted[4].first) / total, 1e-5);  // stored as float
+    }
+  }
+}
+
+/// A step of 6 mm in depth: an organ in front of another.
+PointModel makeStep() {
+  PointModel model;
+  for (double y = -8; y <= 8; y += 0.4)
+    for (double x = -16; x <= 16; x += 0.4)
+      model.add(Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y), x < 0 ? 50.f : 56.f),
+                {0, 0, -1}, {}, 1);
+  return model;
+}
+
+TEST(GraphBuilder, NodesDoNotCarryPointsAcrossAGapInDepth) {
+  PointModel model = makeStep();
+  const WarpGraph graph = scenes::bindGraph(&model);
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const PointBinding& binding = model.bindings[i];
+    ASSERT_TRUE(binding.bound());
+    for (int k = 0; k < 4; ++k) {
+      if (binding.weights[k] == 0) continue;
+      const Eigen::Vector3d& g = graph.positions_mm[graph.stencils[binding.stencil][k]];
+      EXPECT_NEAR(g.z(), model.positions_mm[i].z(), 0.1);
+    }
+  }
+}
+
+TEST(GraphBuilder, EdgesTieTheTwoSidesOfAGap) {
+  PointModel model = makeStep();
+  const WarpGraph graph = scenes::bindGraph(&model);
+  const auto across = std::count_if(graph.edges.begin(), graph.edges.end(), [&](const auto& edge) {
+    return std::abs(graph.positions_mm[edge.first].z() - graph.positions_mm[edge.second].z()) > 3;
+  });
+  EXPECT_EQ(across, 3);  // three bridges hold position and rotation
+}
+
+TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
+  PointModel whole = scenes::makeHill(40, 20, 0.4);
+  PointModel model;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    if (whole.positions_mm[i].x() < 0)
+      model.add(whole.positions_mm[i], whole.normals[i], whole.colours[i], 1);
+  const std::size_t old_points = model.size();
+  WarpGraph graph = scenes::bindGraph(&model);
+  const WarpGraph before = graph;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    if (whole.positions_mm[i].x() >= 0)
+      model.add(whole.positions_mm[i], whole.normals[i], whole.colours[i], 1);
+
+  const GraphGrowth growth = growGraph(GraphOptions(), &model, &graph);
+
+  EXPECT_TRUE(growth.structure_changed);
+  EXPECT_EQ(growth.nodes_added, static_cast<int>(graph.size() - before.size()));
+  EXPECT_GT(growth.nodes_added, 10);
+  EXPECT_EQ(growth.points_bound, static_cast<int>(model.size() - old_points));
+  EXPECT_GT(growth.points_rebound, 0);  // old points beside the seam have nearer nodes now
+  for (std::size_t j = 0; j < before.size(); ++j)
+    EXPECT_EQ(graph.positions_mm[j], before.positions_mm[j]);
+  std::vector<char> used(graph.stencils.size(), 0);
+  for (const PointBinding& binding : model.bindings) {
+    ASSERT_TRUE(binding.bound());
+    used[binding.stencil] = 1;
+  }
+  EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);  // no stencil outlives its points
+}
+
+TEST(GraphBuilder, DoesNothingWhereEveryPointIsBound) {
+  PointModel model = scenes::makeHill(20, 20, 0.5);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const WarpGraph before = graph;
+  const GraphGrowth growth = growGraph(GraphOptions(), &model, &graph);
+  EXPECT_FALSE(growth.structure_changed);
+  EXPECT_EQ(growth.nodes_added + growth.points_bound + growth.points_rebound, 0);
+  EXPECT_EQ(graph.size(), before.size());
+}
+
+TEST(GraphBuilder, PointsBetweenOldOnesNeedNoNewStructure) {
+  PointModel model = scenes::makeHill(20, 20, 0.5);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const std::size_t nodes = graph.size();
+  model.add(scenes::hillAt(0.1, 0.1).cast<float>(), {0, 0, -1}, {}, 1);
+  const GraphGrowth growth = growGraph(GraphOptions(), &model, &graph);
+  EXPECT_EQ(growth.points_bound, 1);
+  EXPECT_EQ(growth.points_rebound, 0);
+  EXPECT_EQ(graph.size(), nodes);
+  EXPECT_TRUE(model.bindings.back().bound());
+}
+
+TEST(GraphBuilder, IsTheSameTwice) {
+  PointModel first = scenes::makeHill(30, 30, 0.5), second = first;
+  const WarpGraph a = scenes::bindGraph(&first), b = scenes::bindGraph(&second);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t j = 0; j < a.size(); ++j) EXPECT_EQ(a.positions_mm[j], b.positions_mm[j]);
+  EXPECT_EQ(a.stencils, b.stencils);
+}
+
+TEST(GraphBuilder, TakesTheEmptyTheSingleAndTheBroken) {
+  PointModel model;
+  WarpGraph graph = scenes::bindGraph(&model);
+  EXPECT_TRUE(graph.empty());
+
+  model.add({1, 2, 50}, {0, 0, -1}, {}, 1);
+  growGraph(GraphOptions(), &model, &graph);
+  ASSERT_EQ(graph.size(), 1u);
+  EXPECT_EQ(graph.stencils[0], (NodeStencil{0, 0, 0, 0}));
+  EXPECT_EQ(model.bindings[0].weights, (std::array<float, 4>{1, 0, 0, 0}));
+
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  model.add({nan, 2, 50}, {0, 0, -1}, {}, 1);
+  model.add({1e30f, 2, 50}, {0, 0, -1}, {}, 1);
+  growGraph(GraphOptions(), &model, &graph);
+  EXPECT_EQ(graph.size(), 1u);
+  EXPECT_FALSE(model.bindings[1].bound());
+  EXPECT_FALSE(model.bindings[2].bound());
+}
+
+TEST(GraphBuilder, RefusesCellsThatAreTooLargeForTheSpacing) {
+  PointModel model;
+  WarpGraph graph;
+  GraphOptions options;
+  options.cell_mm = 3;
+  EXPECT_THROW(growGraph(options, &model, &graph), OptionError);
+}
+
+}  // namespace
+}  // namespace softscope

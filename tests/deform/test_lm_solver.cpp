@@ -1,0 +1,212 @@
+// tests/deform/test_lm_solver.cpp: known motions come back.
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "deform/lm_solver.h"
+#include "deform/warp.h"
+#include "scenes.h"
+
+namespace softscope {
+namespace {
+
+DeformOptions optionsFor(NodeModel model) {
+  DeformOptions options = model == NodeModel::kAffine ? DeformOptions::paper() : DeformOptions();
+  options.node_model = model;
+  options.regularisation_weight = 10;
+  options.correspondence_weight = 10;
+  options.data_robust.loss = options.correspondence_robust.loss = RobustLoss::kNone;
+  options.solver.max_iterations = 30;
+  options.solver.step_tolerance_mm = 1e-6;
+  options.solver.cost_tolerance = 1e-9;
+  return options;
+}
+
+void expectMonotone(const DeformSummary& summary) {
+  ASSERT_EQ(summary.costs.size(), 2 * static_cast<std::size_t>(summary.iterations));
+  for (std::size_t i = 0; i < summary.costs.size(); i += 2)
+    EXPECT_LT(summary.costs[i + 1], summary.costs[i]);
+}
+
+class BothNodeModels : public ::testing::TestWithParam<NodeModel> {};
+
+TEST_P(BothNodeModels, RecoverARigidMotionFromMatches) {
+  PointModel model = scenes::makeHill(30, 24, 0.5);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const Eigen::Isometry3d motion = scenes::rigidMotion();
+  const scenes::Motion truth = [&](const Eigen::Vector3d& p) { return motion * p; };
+  DeformObservation seen;
+  seen.matches = scenes::makeMatches(model, truth, 20);
+
+  const DeformSummary summary =
+      makeDeformSolver(optionsFor(GetParam()))->solve(model, seen, &graph);
+
+  EXPECT_TRUE(summary.converged()) << toString(summary.reason);
+  expectMonotone(summary);
+  PointModel warped = model;
+  warpModel(graph, &warped);
+  EXPECT_LT(scenes::meanError(model, warped, truth), 2e-5);  // float coordinates of 60 mm
+  for (const NodeTransform& transform : graph.transforms)
+    EXPECT_LT((transform.linear - motion.linear()).norm(), 1e-4);
+}
+
+TEST_P(BothNodeModels, RecoverARigidMotionFromDepthAndMatches) {
+  PointModel model = scenes::makeHill(30, 24, 0.5);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const Eigen::Isometry3d motion = scenes::rigidMotion();
+  const scenes::Motion truth = [&](const Eigen::Vector3d& p) { return motion * p; };
+  const auto view = scenes::renderHill(scenes::makeCamera(320, 260, 600), truth, 34, 28);
+  const DeformOptions options = optionsFor(GetParam());
+  const DepthTarget target(view.depth, view.normals, view.camera, Eigen::Isometry3d::Identity(),
+                           options.association);
+  DeformObservation seen;
+  seen.surface = &target;
+  seen.matches = scenes::makeMatches(model, truth, 50);
+
+  const DeformSummary summary = makeDeformSolver(options)->solve(model, seen, &graph);
+
+  expectMonotone(summary);
+  EXPECT_GT(summary.points_after, 2000);
+  PointModel warped = model;
+  warpModel(graph, &warped);
+  // A plane per pixel of 0.1 mm leaves 0.05² / 2 of the curvature's 1 / 20 mm.
+  EXPECT_LT(scenes::meanError(model, warped, truth), 1e-3);
+  EXPECT_LT(summary.data_mean_mm_after, 5e-4);
+  EXPECT_GT(summary.data_mean_mm_before, 0.2);
+}
+
+TEST_P(BothNodeModels, RecoverASmoothBend) {
+  PointModel model = scenes::makeHill(40, 30, 0.5);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const auto view =
+      scenes::renderHill(scenes::makeCamera(320, 260, 450), scenes::smoothBend, 44, 34);
+  DeformOptions options = optionsFor(GetParam());
+  options.rotation_weight = 10;
+  options.regularisation_weight = 0.1;
+  const DepthTarget target(view.depth, view.normals, view.camera, Eigen::Isometry3d::Identity(),
+                           options.association);
+  DeformObservation seen;
+  seen.surface = &target;
+  seen.matches = scenes::makeMatches(model, scenes::smoothBend, 20);
+
+  const DeformSummary summary = makeDeformSolver(options)->solve(model, seen, &graph);
+
+  expectMonotone(summary);
+  PointModel warped = model;
+  warpModel(graph, &warped);
+  const double unmoved = scenes::meanError(model, model, scenes::smoothBend);
+  EXPECT_GT(unmoved, 0.8);
+  EXPECT_LT(scenes::meanError(model, warped, scenes::smoothBend), 0.03);  // a 4 mm graph's limit
+}
+
+TEST_P(BothNodeModels, LetTheUnseenPartFollowAsRigidlyAsPossible) {
+  PointModel model = scenes::makeHill(40, 20, 0.5);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const Eigen::Isometry3d motion = scenes::rigidMotion();
+  const scenes::Motion truth = [&](const Eigen::Vector3d& p) { return motion * p; };
+  DeformObservation seen;  // matches on the left third only
+  for (const KeyPointMatch& match : scenes::makeMatches(model, truth, 5))
+    if (match.source_mm.x() < -7) seen.matches.push_back(match);
+
+  const DeformSummary summary =
+      makeDeformSolver(optionsFor(GetParam()))->solve(model, seen, &graph);
+
+  EXPECT_GT(summary.nodes_without_data, static_cast<int>(graph.size()) / 3);
+  EXPECT_EQ(summary.components_without_data, 0);
+  PointModel warped = model;
+  warpModel(graph, &warped);
+  EXPECT_LT(scenes::meanError(model, warped, truth), 1e-3);  // a rigid whole costs nothing
+}
+
+TEST_P(BothNodeModels, GiveTheSameBytesOnAnyNumberOfThreads) {
+  PointModel model = scenes::makeHill(50, 40, 0.5);
+  const WarpGraph start = scenes::bindGraph(&model);
+  const auto view =
+      scenes::renderHill(scenes::makeCamera(160, 130, 180), scenes::smoothBend, 54, 44);
+  const DeformOptions options = optionsFor(GetParam());
+  const DepthTarget target(view.depth, view.normals, view.camera, Eigen::Isometry3d::Identity(),
+                           options.association);
+  DeformObservation seen;
+  seen.surface = &target;
+  seen.matches = scenes::makeMatches(model, scenes::smoothBend, 40);
+  std::vector<WarpGraph> found;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    found.push_back(start);
+    makeDeformSolver(options)->solve(model, seen, &found.back());
+  }
+  for (std::size_t j = 0; j < start.size(); ++j)
+    for (std::size_t other : {1, 2}) {
+      ASSERT_EQ(found[0].transforms[j].linear, found[other].transforms[j].linear);
+      ASSERT_EQ(found[0].transforms[j].translation_mm, found[other].transforms[j].translation_mm);
+    }
+}
+
+TEST_P(BothNodeModels, ASolverThatIsUsedAgainForgetsTheLastGraph) {
+  const auto solver = makeDeformSolver(optionsFor(GetParam()));
+  for (const double width_mm : {30.0, 18.0, 30.0}) {
+    PointModel model = scenes::makeHill(width_mm, 20, 0.5);
+    WarpGraph graph = scenes::bindGraph(&model), fresh = graph;
+    DeformObservation seen;
+    seen.matches = scenes::makeMatches(model, scenes::smoothBend, 20);
+    solver->solve(model, seen, &graph);
+    makeDeformSolver(optionsFor(GetParam()))->solve(model, seen, &fresh);
+    for (std::size_t j = 0; j < graph.size(); ++j)
+      ASSERT_EQ(graph.transforms[j].translation_mm, fresh.transforms[j].translation_mm);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RigidAndAffine, BothNodeModels,
+                         ::testing::Values(NodeModel::kRigid, NodeModel::kAffine));
+
+TEST(RobustSolve, WrongMatchesLoseTheirSay) {
+  PointModel model = scenes::makeHill(30, 24, 0.5);
+  const WarpGraph start = scenes::bindGraph(&model);
+  const Eigen::Isometry3d motion = scenes::rigidMotion();
+  const scenes::Motion truth = [&](const Eigen::Vector3d& p) { return motion * p; };
+  DeformObservation seen;
+  seen.matches = scenes::makeMatches(model, truth, 20);
+  for (std::size_t i = 0; i < seen.matches.size(); i += 10)
+    seen.matches[i].target_mm += Eigen::Vector3f(4, 3, 0);
+  double errors[2];
+  for (const RobustLoss loss : {RobustLoss::kNone, RobustLoss::kTukey}) {
+    DeformOptions options = optionsFor(NodeModel::kRigid);
+    options.correspondence_robust = {loss, 2.5};
+    WarpGraph graph = start;
+    const DeformSummary summary = makeDeformSolver(options)->solve(model, seen, &graph);
+    expectMonotone(summary);
+    PointModel warped = model;
+    warpModel(graph, &warped);
+    errors[loss == RobustLoss::kTukey] = scenes::meanError(model, warped, truth);
+  }
+  EXPECT_GT(errors[0], 0.3);  // a tenth of the matches is 5 mm off
+  EXPECT_LT(errors[1], 0.01);
+}
+
+TEST(SubsampledSolve, FindsNearlyTheSameWarp) {
+  PointModel model = scenes::makeHill(40, 30, 0.25);
+  const WarpGraph start = scenes::bindGraph(&model);
+  const auto view =
+      scenes::renderHill(scenes::makeCamera(320, 260, 450), scenes::smoothBend, 44, 34);
+  std::vector<PointModel> warped;
+  for (const int max_points : {0, 4000}) {
+    DeformOptions options = optionsFor(NodeModel::kRigid);
+    options.association.max_points = max_points;
+    const DepthTarget target(view.depth, view.normals, view.camera, Eigen::Isometry3d::Identity(),
+                             options.association);
+    DeformObservation seen;
+    seen.surface = &target;
+    seen.matches = scenes::makeMatches(model, scenes::smoothBend, 100);
+    WarpGraph graph = start;
+    const DeformSummary summary = makeDeformSolver(options)->solve(model, seen, &graph);
+    EXPECT_LE(summary.points_after, max_points == 0 ? 1 << 30 : max_points);
+    warped.push_back(model);
+    warpModel(graph, &warped.back());
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < model.size(); ++i)
+    sum += (warped[0].positions_mm[i] - warped[1].positions_mm[i]).norm();
+  EXPECT_LT(sum / static_cast<double>(model.size()), 0.02);  // a tenth of a pixel
+}
+
+}  // namespace
+}  // namespace softscope
