@@ -40,6 +40,8 @@ const Document* Document::find(std::string_view key) const {
 Document parseJson(std::string_view text, const std::string& name) {
   try {
     return documentOf(nlohmann::json::parse(text), name, 0);
+  } catch (const nlohmann::json::out_of_range&) {
+    throw InputError(name + ": holds a number beyond all bounds. Export it again.");
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(say(name, ": not valid JSON from byte ", error.byte, " on. Export it again."));
   }

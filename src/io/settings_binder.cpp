@@ -1,5 +1,6 @@
 #include "io/settings_binder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -42,10 +43,15 @@ double numberValueOf(const std::string& key, const Setting& setting) {
   return *number;
 }
 
+bool isOneLine(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 32; });
+}
+
 /// On the command line a text needs no quotes, even if it looks like a number.
 std::string textValueOf(const std::string& key, const Setting& setting) {
   if (!std::holds_alternative<std::string>(setting.value) && setting.origin != "--set")
     failType(key, setting, "a text in quotes");
+  if (!isOneLine(setting.text)) failType(key, setting, "a text of one line");
   return setting.text;
 }
 

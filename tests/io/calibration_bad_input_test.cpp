@@ -139,6 +139,8 @@ TEST(BadCalibration, OtherFormsAreCheckedAsWell) {
                           {"f.json", "JSON"});
   expectError<InputError>([] { parseCalibration(openCvXml().substr(0, 400), "f.xml"); },
                           {"f.xml", "line"});
+  expectError<InputError>([] { parseCalibration("{\"M1\": [1e999]}", "f.json"); },
+                          {"f.json", "number"});
   expectError<InputError>([] { parseCalibration("", "f"); }, {"empty"});
   expectError<InputError>([] { parseCalibration("\x93NUMPY\x01", "f.npy"); }, {"f.npy"});
   CalibrationHints hints;

@@ -76,6 +76,7 @@ TEST(Settings, TypesAreCheckedAndNothingIsSetByHalves) {
   expectType("stereo.step_px = 99999999999", {"whole number"});
   expectType("stereo.fill = 1", {"true or false"});
   expectType("stereo.method = 3", {"text in quotes"});
+  expectType("stereo.method = \"one\\ntwo\"", {"`one?two`", "one line"});
   expectType("deform.weight = 'much'", {"`much`", "a number"});
   expectType("deform.weight = nan", {"a number"});
   expectType("deform.weight = 9\nstereo.fill = 1", {"true or false"});
