@@ -121,6 +121,11 @@ TEST(BadCalibration, MatricesMustHaveTheirShape) {
                 {"M1", "third row is 321 241 1", "transposed"});
   expectRefused("500,0,321", "500,7,321", {"M1", "skew of 7"});
   expectRefused("cols: 5", "cols: 1", {"D1"});
+  const std::string d1 = "rows: 1\n   cols: 5\n   dt: d\n   data: [ -0.1,0.02,0.001,-0.002,0.003 ]";
+  expectRefused(d1, "rows: 1\n   cols: 3\n   dt: d\n   data: [ 1, 2, 3 ]",
+                {"D1 has 3 numbers", "4, 5, 8 or 12"});
+  expectRefused(d1, "rows: 1\n   cols: 14\n   data: [ 0,0,0,0,0,0,0,0,0,0,0,0,0.1,0 ]",
+                {"D1", "tilt"});
   expectRefused("500,0,321", "five,0,321", {"M1", "five"});
   expectRefused("M1: !!opencv-matrix", "A1: !!opencv-matrix", {"M1 is missing", "stereoCalibrate"});
 }

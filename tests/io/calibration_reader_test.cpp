@@ -75,6 +75,17 @@ TEST(CalibrationReader, ReadsWhatOpenCvItselfWrites) {
   }
 }
 
+TEST(CalibrationReader, ReadsNestedListsAndARotationVector) {
+  const std::string text =
+      "KL:\n- - 500\n  - 0\n  - 321\n- [0, 500, 241]\n- [0, 0, 1]\n"
+      "KR: [[502, 0, 318], [0, 505, 239], [0, 0, 1]]\nDL: [-0.1, 0.02, 0.001, -0.002]\n"
+      "DR: {rows: 1, cols: 4, data: [-0.11, 0.03, 0.002, -0.001]}\n"
+      "R: [0, -0.01, 0]\nT: [-5, 0.02, 0.03]\nimage_size: [640, 480]\n";
+  const auto found = parseCalibration(text, "c.yaml");
+  expectTheRig(found);
+  expectSize(found, 640, 480);
+}
+
 TEST(CalibrationReader, UnderstandsUnitRectifiedAndDepthUnit) {
   const std::string head = "image_width: 640\nimage_height: 480\ndepth_unit_mm: 0.1\nunit: ";
   const auto metres = parseCalibration(openCvYaml(head + "m\n", "-0.005 0 0"), "c");
