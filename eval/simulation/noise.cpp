@@ -41,10 +41,10 @@ float smoothNoise(const Eigen::Vector3f& position, std::uint32_t seed) {
                         pz - float(k));
   };
   const float u = fade(px), v = fade(py), w = fade(pz);
-  const float front = mix(mix(corner(0, 0, 0), corner(1, 0, 0), u),
-                          mix(corner(0, 1, 0), corner(1, 1, 0), u), v);
-  const float back = mix(mix(corner(0, 0, 1), corner(1, 0, 1), u),
-                         mix(corner(0, 1, 1), corner(1, 1, 1), u), v);
+  const float front =
+      mix(mix(corner(0, 0, 0), corner(1, 0, 0), u), mix(corner(0, 1, 0), corner(1, 1, 0), u), v);
+  const float back =
+      mix(mix(corner(0, 0, 1), corner(1, 0, 1), u), mix(corner(0, 1, 1), corner(1, 1, 1), u), v);
   return mix(front, back, w);
 }
 

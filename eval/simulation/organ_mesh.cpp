@@ -83,7 +83,7 @@ TriangleMesh makeOrganMesh(const OrganOptions& options, std::uint64_t seed) {
   TriangleMesh mesh;
   CubeGrid grid(options.cells_per_side);
   addFaces(mesh, grid, options.cells_per_side);
-  const Eigen::Array3d radii_mm = 0.5 * options.length_mm * Eigen::Array3d(1.0, 0.88, 0.68);
+  const Eigen::Array3d radii_mm = 0.5 * options.length_mm * Eigen::Array3d(1.0, 0.88, 0.6);
   for (const Eigen::Vector3d& d : grid.directions()) {
     const Eigen::Vector3d on_ellipsoid = (d.array() * radii_mm).matrix();
     const Eigen::Vector3d outward = (d.array() / radii_mm).matrix().normalized();

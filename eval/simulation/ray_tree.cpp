@@ -17,9 +17,9 @@ constexpr int kDeepest = 64;  // median splits of 2^31 triangles are less than 3
 
 struct Rays {
   Eigen::Vector3f origin_mm;
-  Four dx, dy, dz;     // directions
-  Four inverse[3];     // 1 / direction, never infinite
-  Four distance;       // of the closest hit so far
+  Four dx, dy, dz;  // directions
+  Four inverse[3];  // 1 / direction, never infinite
+  Four distance;    // of the closest hit so far
   PacketHits hits;
 };
 

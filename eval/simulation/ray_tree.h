@@ -10,7 +10,8 @@
 
 namespace softscope {
 
-/// Where a ray meets a triangle (a, b, c): a + u (b - a) + v (c - a) = origin + distance * direction.
+/// Where a ray meets a triangle (a, b, c): a + u (b - a) + v (c - a) = origin + distance *
+/// direction.
 struct RayHit {
   std::int32_t triangle = -1;  // -1: nothing was met
   float u = 0, v = 0;

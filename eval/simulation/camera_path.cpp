@@ -1,0 +1,100 @@
+// eval/simulation/camera_path.cpp: sums of sines, all at rest at 0 s.
+#include "eval/simulation/camera_path.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "eval/simulation/random.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kTremorRadPerMm = 0.004;  // the scope tilts in the hand as it shakes
+
+/// x right, y down, z towards the tissue; y of the organ is up.
+Eigen::Matrix3d orientation(const Eigen::Vector3d& to_scope) {
+  const Eigen::Vector3d forward = -to_scope;
+  const Eigen::Vector3d up =
+      std::abs(to_scope.y()) > 0.99 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+  Eigen::Matrix3d axes;
+  axes.col(2) = forward;
+  axes.col(0) = forward.cross(up).normalized();
+  axes.col(1) = forward.cross(axes.col(0));
+  return axes;
+}
+
+Eigen::Isometry3d moved(double x_mm, double y_mm, double z_mm) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x_mm, y_mm, z_mm));
+}
+
+Eigen::Isometry3d turned(double pitch_rad, double yaw_rad) {
+  return Eigen::Isometry3d(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitX()));
+}
+
+}  // namespace
+
+void CameraPathOptions::validate() const {
+  require(path == "still" || path == "sweep" || path == "orbit", "camera.path", path,
+          "must be still, sweep or orbit");
+  require(amplitude_mm >= 0 && amplitude_mm <= distance_mm, "camera.amplitude_mm", amplitude_mm,
+          "must be 0 to camera.distance_mm");
+  require(period_s > 0 && period_s <= 1000, "camera.period_s", period_s,
+          "must be above 0, at most 1000");
+  require(tremor_mm >= 0 && tremor_mm <= 5, "camera.tremor_mm", tremor_mm, "must be 0 (off) to 5");
+  require(distance_mm >= 5 && distance_mm <= 500, "camera.distance_mm", distance_mm,
+          "must be 5 to 500");
+  require(std::abs(azimuth_deg) <= 360, "camera.azimuth_deg", azimuth_deg, "must be -360 to 360");
+  require(std::abs(elevation_deg) <= 90, "camera.elevation_deg", elevation_deg,
+          "must be -90 to 90");
+}
+
+Eigen::Vector3d scopeDirection(const CameraPathOptions& options) {
+  const double azimuth_rad = options.azimuth_deg * M_PI / 180;
+  const double elevation_rad = options.elevation_deg * M_PI / 180;
+  return {std::sin(azimuth_rad) * std::cos(elevation_rad), std::sin(elevation_rad),
+          std::cos(azimuth_rad) * std::cos(elevation_rad)};
+}
+
+CameraPath::CameraPath(const CameraPathOptions& options, const Eigen::Vector3d& target_body_mm,
+                       double baseline_mm, std::uint64_t seed)
+    : options_(options), baseline_mm_(baseline_mm) {
+  options.validate();
+  const Eigen::Vector3d to_scope = scopeDirection(options);
+  body_from_start_ = Eigen::Isometry3d::Identity();
+  body_from_start_.linear() = orientation(to_scope);
+  body_from_start_.translation() = target_body_mm + options.distance_mm * to_scope;
+  SeededRandom random(seed);
+  for (int i = 0; i < 6; ++i) {
+    tremor_hz_[i] = random.uniform(5, 11);
+    tremor_share_[i] = random.uniform(-1, 1);
+  }
+}
+
+Eigen::Isometry3d CameraPath::wayAt(double time_s) const {
+  const double phase_rad = 2 * M_PI * time_s / options_.period_s;
+  const double across = std::sin(phase_rad), along = 0.5 * std::sin(2 * phase_rad);
+  const double a_mm = options_.amplitude_mm, d_mm = options_.distance_mm;
+  if (options_.path == "sweep") {  // looks half-way back at the target
+    const double half_rad = 0.5 * a_mm / d_mm;
+    return moved(a_mm * across, a_mm * along, 0) * turned(half_rad * along, -half_rad * across);
+  }
+  if (options_.path == "orbit")
+    return moved(0, 0, d_mm) * turned(a_mm / d_mm * along, -a_mm / d_mm * across) *
+           moved(0, 0, -d_mm);
+  return Eigen::Isometry3d::Identity();
+}
+
+Eigen::Isometry3d CameraPath::tremorAt(double time_s) const {
+  Eigen::Array<double, 6, 1> wave;
+  for (int i = 0; i < 6; ++i)
+    wave[i] = options_.tremor_mm * tremor_share_[i] * std::sin(2 * M_PI * tremor_hz_[i] * time_s);
+  return moved(wave[0], wave[1], wave[2]) *
+         turned(kTremorRadPerMm * wave[3], kTremorRadPerMm * wave[4]);
+}
+
+Eigen::Isometry3d CameraPath::bodyFromLeft(double time_s) const {
+  return body_from_start_ * wayAt(time_s) * tremorAt(time_s) * moved(-0.5 * baseline_mm_, 0, 0);
+}
+
+}  // namespace softscope

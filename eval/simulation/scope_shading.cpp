@@ -1,0 +1,65 @@
+// eval/simulation/scope_shading.cpp: one light, one surface point, one eye.
+#include "eval/simulation/scope_shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+// Light seeps around edges, the red most of all.
+const Eigen::Array3f kSeep(0.28F, 0.12F, 0.10F);
+constexpr float kReflected = 0.028F;  // water, seen straight on
+
+/// x^(2^doublings), by multiplication alone: fast and the same everywhere.
+float powerOfTwo(float x, int doublings) {
+  for (int i = 0; i < doublings; ++i) x *= x;
+  return x;
+}
+
+/// Energy-normalised Blinn lobe with exponent 2^doublings.
+float lobe(float cosine, int doublings) {
+  return (float(1 << doublings) + 8) / 8 * powerOfTwo(cosine, doublings);
+}
+
+}  // namespace
+
+void LightOptions::validate() const {
+  for (const double offset_mm : {x_mm, y_mm, z_mm})
+    require(std::abs(offset_mm) <= 50, "light.x_mm, y_mm, z_mm", offset_mm, "must be -50 to 50");
+  require(beam >= 0 && beam <= 20, "light.beam", beam, "must be 0 to 20");
+  require(relief >= 0 && relief <= 3, "light.relief", relief, "must be 0 to 3");
+}
+
+ScopeLight::ScopeLight(const LightOptions& options, double baseline_mm, double reference_mm)
+    : position_mm_(float(options.x_mm + 0.5 * baseline_mm), float(options.y_mm),
+                   float(options.z_mm)),
+      reference2_mm2_(float(reference_mm * reference_mm)),
+      beam_(float(options.beam)) {
+  options.validate();
+}
+
+Eigen::Vector3f ScopeLight::shade(const LitPoint& point, const Eigen::Vector3f& eye_mm) const {
+  const Eigen::Vector3f to_light = position_mm_ - point.position_mm;
+  const float distance2 = std::max(to_light.squaredNorm(), 1.0F);
+  const Eigen::Vector3f light = to_light / std::sqrt(distance2);
+  const Eigen::Vector3f eye = (eye_mm - point.position_mm).normalized();
+  const float axial = std::max(-light.z(), 1e-4F);  // the beam points along +z
+  const float strength = reference2_mm2_ / distance2 * (beam_ > 0 ? std::pow(axial, beam_) : 1.0F);
+
+  const float facing = point.normal.dot(light);
+  const Eigen::Array3f diffuse = ((facing + kSeep) / (1 + kSeep)).max(0.0F);
+  Eigen::Array3f sent = point.albedo.array() * diffuse;
+  if (facing > 0 && point.wetness > 0) {
+    const float halfway = std::max(0.0F, point.normal.dot((light + eye).normalized()));
+    const float grazing = 1 - std::clamp(point.normal.dot(eye), 0.0F, 1.0F);
+    const float reflected = kReflected + 0.35F * grazing * powerOfTwo(grazing, 2);
+    sent +=
+        point.wetness * reflected * facing * (0.75F * lobe(halfway, 9) + 0.6F * lobe(halfway, 5));
+  }
+  return (strength * sent).matrix();
+}
+
+}  // namespace softscope

@@ -1,0 +1,124 @@
+// eval/simulation/scope_view.cpp: cast, paint what was seen, shade.
+#include "eval/simulation/scope_view.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+#include "core/parallel.h"
+#include "eval/simulation/surface_normals.h"
+
+namespace softscope {
+namespace {
+
+Eigen::Vector3f rayThrough(const PinholeCamera& camera, double u_px, double v_px) {
+  return liftPixel<double>(camera, u_px, v_px, 1.0).cast<float>();
+}
+
+/// Four rays a pixel, a quarter pixel off its centre.
+Raster<PacketHits> castViews(const ScopeScene& scene, const PinholeCamera& camera,
+                             const Eigen::Vector3f& eye_mm) {
+  Raster<PacketHits> hits(camera.width_px, camera.height_px);
+  parallelRows(camera.height_px, [&](int v) {
+    for (int u = 0; u < camera.width_px; ++u)
+      hits.at(u, v) = scene.tree.cast(eye_mm, RayPacket{rayThrough(camera, u - 0.25, v - 0.25),
+                                                        rayThrough(camera, u + 0.25, v - 0.25),
+                                                        rayThrough(camera, u - 0.25, v + 0.25),
+                                                        rayThrough(camera, u + 0.25, v + 0.25)});
+  });
+  return hits;
+}
+
+std::vector<std::int32_t> seenTriangles(const Raster<PacketHits>& hits, std::size_t triangles) {
+  std::vector<bool> seen(triangles, false);
+  std::vector<std::int32_t> list;
+  for (const PacketHits& packet : hits.values)
+    for (const RayHit& hit : packet)
+      if (hit.met() && !seen[hit.triangle]) {
+        seen[hit.triangle] = true;
+        list.push_back(hit.triangle);
+      }
+  return list;
+}
+
+/// The slope in space of a relief that rises by the given heights along two edges.
+Eigen::Vector3f slopeOf(const Eigen::Vector3f& ab, const Eigen::Vector3f& ac, float rise_ab,
+                        float rise_ac) {
+  const float bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm();
+  const float determinant = std::max(bb * cc - bc * bc, 1e-12F);
+  return ((cc * rise_ab - bc * rise_ac) * ab + (bb * rise_ac - bc * rise_ab) * ac) / determinant;
+}
+
+LitPoint litPoint(const ScopeScene& scene, const TissueSkin& skin, float relief,
+                  const RayHit& hit) {
+  const Triangle& t = scene.triangles[hit.triangle];
+  const Eigen::Vector3f& a = scene.vertices_mm[t[0]];
+  const Eigen::Vector3f ab = scene.vertices_mm[t[1]] - a, ac = scene.vertices_mm[t[2]] - a;
+  const SkinSample tissue = skin.sample(hit.triangle, hit.u, hit.v);
+  const Eigen::Vector3f smooth = ((1 - hit.u - hit.v) * scene.normals[t[0]] +
+                                  hit.u * scene.normals[t[1]] + hit.v * scene.normals[t[2]]);
+  const Eigen::Vector3f slope = slopeOf(ab, ac, tissue.rise_along_ab_mm, tissue.rise_along_ac_mm);
+  LitPoint point;
+  point.position_mm = a + hit.u * ab + hit.v * ac;
+  point.normal = (smooth.normalized() - relief * slope).normalized();
+  point.albedo = tissue.albedo;
+  point.wetness = tissue.wetness;
+  return point;
+}
+
+}  // namespace
+
+ScopeScene::ScopeScene(std::vector<Eigen::Vector3f> vertices_left_mm,
+                       const std::vector<Triangle>& all)
+    : vertices_mm(std::move(vertices_left_mm)),
+      triangles(all),
+      normals(vertexNormals(vertices_mm, triangles)),
+      tree(vertices_mm, triangles) {}
+
+Raster<Eigen::Vector3f> renderView(const ScopeScene& scene, TissueSkin& skin,
+                                   const ScopeLight& light, double relief,
+                                   const PinholeCamera& camera, const Eigen::Vector3f& eye_mm) {
+  const Raster<PacketHits> hits = castViews(scene, camera, eye_mm);
+  skin.paint(seenTriangles(hits, scene.triangles.size()));
+  const auto strength = static_cast<float>(relief);
+  Raster<Eigen::Vector3f> view(camera.width_px, camera.height_px, Eigen::Vector3f::Zero());
+  parallelRows(camera.height_px, [&](int v) {
+    for (int u = 0; u < camera.width_px; ++u)
+      for (const RayHit& hit : hits.at(u, v))
+        if (hit.met())
+          view.at(u, v) += 0.25F * light.shade(litPoint(scene, skin, strength, hit), eye_mm);
+  });
+  return view;
+}
+
+Raster<RayHit> castCentres(const ScopeScene& scene, const PinholeCamera& left) {
+  Raster<RayHit> hits(left.width_px, left.height_px);
+  parallelRows(left.height_px, [&](int v) {
+    for (int u = 0; u < left.width_px; u += 4) {
+      RayPacket rays;
+      for (int i = 0; i < 4; ++i) rays[i] = rayThrough(left, u + i, v);
+      const PacketHits found = scene.tree.cast(Eigen::Vector3f::Zero(), rays);
+      for (int i = 0; i < std::min(4, left.width_px - u); ++i) hits.at(u + i, v) = found[i];
+    }
+  });
+  return hits;
+}
+
+Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene,
+                      const PinholeCamera& left) {
+  Raster<float> depth_mm(hits.width_px, hits.height_px, std::numeric_limits<float>::quiet_NaN());
+  for (int v = 0; v < hits.height_px; ++v)
+    for (int u = 0; u < hits.width_px; ++u) {
+      const RayHit& hit = hits.at(u, v);
+      if (!hit.met()) continue;
+      const Triangle& t = scene.triangles[hit.triangle];
+      const Eigen::Vector3d a = scene.vertices_mm[t[0]].cast<double>();
+      const Eigen::Vector3d normal = (scene.vertices_mm[t[1]].cast<double>() - a)
+                                         .cross(scene.vertices_mm[t[2]].cast<double>() - a);
+      const Eigen::Vector3d ray = liftPixel<double>(left, double(u), double(v), 1.0);
+      depth_mm.at(u, v) = static_cast<float>(normal.dot(a) / normal.dot(ray));
+    }
+  return depth_mm;
+}
+
+}  // namespace softscope

@@ -1,0 +1,65 @@
+// eval/simulation/simulation_options.cpp: checks, and the rig.
+#include "eval/simulation/simulation_options.h"
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kUsualFocalPerWidth = 0.875;  // 59 degrees across
+
+}  // namespace
+
+void ScopeOptions::validate() const {
+  require(width_px >= 32 && width_px <= 8192, "scope.width_px", width_px, "must be 32 to 8192");
+  require(height_px >= 32 && height_px <= 8192, "scope.height_px", height_px, "must be 32 to 8192");
+  require(focal_px == 0 || (focal_px >= 0.1 * width_px && focal_px <= 20.0 * width_px),
+          "scope.focal_px", focal_px, "must be 0 (choose) or 0.1 to 20 times the width");
+  require(cx_px < width_px, "scope.cx_px", cx_px, "must be below the width, or negative (middle)");
+  require(cy_px < height_px, "scope.cy_px", cy_px,
+          "must be below the height, or negative (middle)");
+  require(baseline_mm >= 0.5 && baseline_mm <= 50, "scope.baseline_mm", baseline_mm,
+          "must be 0.5 to 50");
+}
+
+RectifiedRig ScopeOptions::rig() const {
+  RectifiedRig rig;
+  const double focal = focal_px > 0 ? focal_px : kUsualFocalPerWidth * width_px;
+  rig.left = {width_px,
+              height_px,
+              focal,
+              focal,
+              cx_px >= 0 ? cx_px : 0.5 * (width_px - 1),
+              cy_px >= 0 ? cy_px : 0.5 * (height_px - 1)};
+  rig.baseline_mm = baseline_mm;
+  return rig;
+}
+
+void SimulationOptions::validate() const {
+  require(seed >= 0, "seed", seed, "must be 0 or above");
+  require(frames_per_second > 0 && frames_per_second <= 1000, "frames_per_second",
+          frames_per_second, "must be above 0, at most 1000");
+  require(texel_mm == 0 || (texel_mm >= 0.005 && texel_mm <= 10), "texture.texel_mm", texel_mm,
+          "must be 0 (choose) or 0.005 to 10");
+  require(track_spacing_px >= 2 && track_spacing_px <= 10000, "track_spacing_px", track_spacing_px,
+          "must be 2 to 10000");
+  organ.validate();
+  texture.validate();
+  deformation.validate();
+  scope.validate();
+  camera.validate();
+  light.validate();
+  sensor.validate();
+}
+
+StereoCalibration calibrationOf(const RectifiedRig& rig) {
+  StereoCalibration calibration;
+  calibration.left.pinhole = rig.left;
+  calibration.right.pinhole = rig.left;
+  calibration.right_from_left.translation() = Eigen::Vector3d(-rig.baseline_mm, 0, 0);
+  calibration.rectified = true;
+  calibration.form = "OpenCV";
+  return calibration;
+}
+
+}  // namespace softscope

@@ -1,0 +1,48 @@
+// eval/simulation/simulation_options.h: everything that decides a simulated sequence.
+#pragma once
+
+#include "core/stereo_rig.h"
+#include "eval/simulation/camera_path.h"
+#include "eval/simulation/organ_mesh.h"
+#include "eval/simulation/scope_shading.h"
+#include "eval/simulation/sensor.h"
+#include "eval/simulation/tissue_deformation.h"
+#include "eval/simulation/tissue_texture.h"
+
+namespace softscope {
+
+/// The cameras: parallel, rows aligned, no distortion.
+struct ScopeOptions {
+  int width_px = 640;
+  int height_px = 480;
+  double focal_px = 0;  // 0: 0.875 of the width, as wide as common laparoscopes
+  double cx_px = -1;    // negative: the middle of the picture
+  double cy_px = -1;
+  double baseline_mm = 5.2;
+
+  /// Throws OptionError.
+  void validate() const;
+  RectifiedRig rig() const;
+};
+
+struct SimulationOptions {
+  int seed = 1;
+  double frames_per_second = 25;
+  double texel_mm = 0;        // 0: half a pixel at the camera's distance
+  int track_spacing_px = 20;  // between neighbouring tracked points of the first picture
+  OrganOptions organ;
+  TextureOptions texture;
+  DeformationOptions deformation;
+  ScopeOptions scope;
+  CameraPathOptions camera;
+  LightOptions light;
+  SensorOptions sensor;
+
+  /// Throws OptionError.
+  void validate() const;
+};
+
+/// The rig as a calibration file says it: rectified, mm.
+StereoCalibration calibrationOf(const RectifiedRig& rig);
+
+}  // namespace softscope

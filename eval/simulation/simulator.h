@@ -1,0 +1,58 @@
+// eval/simulation/simulator.h: what a stereo scope would see of living tissue, and the truth.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/depth_map.h"
+#include "core/image.h"
+#include "core/stereo_rig.h"
+#include "core/trajectory.h"
+#include "core/triangle_mesh.h"
+#include "eval/simulation/scope_view.h"
+#include "eval/simulation/simulation_options.h"
+#include "eval/simulation/track_points.h"
+
+namespace softscope {
+
+/// One moment. World = the left camera's frame at 0 s.
+struct SimulatedFrame {
+  StereoPair pictures;
+  TimedPose pose;
+  std::vector<Eigen::Vector3f> vertices_world_mm;  // vertex i is the same tissue in every frame
+  Raster<float> depth_mm;                          // of the left camera, exact; NaN: no tissue
+  std::vector<Eigen::Vector3d> tracks_world_mm;    // one a track point
+};
+
+/// The same options and mesh give the same frames, in any order, on any number of threads.
+class Simulator {
+ public:
+  /// `rest_mesh`: the organ at rest, mm, closed and outward as TriangleMesh says; use
+  /// makeOrganMesh() for the built-in one. Throws OptionError, or InputError where the mesh is no
+  /// surface that a ray can meet.
+  Simulator(TriangleMesh rest_mesh, const SimulationOptions& options);
+
+  SimulatedFrame frame(int index);
+
+  const RectifiedRig& rig() const { return rig_; }
+  const std::vector<Triangle>& triangles() const { return mesh_.triangles; }
+  const std::vector<TrackPoint>& trackPoints() const { return track_points_; }
+
+ private:
+  std::vector<Eigen::Vector3f> worldVertices(double time_s) const;
+  TimedPose poseAt(double time_s) const;
+  StereoPair takePair(const ScopeScene& scene, double time_s, int index);
+
+  SimulationOptions options_;
+  TriangleMesh mesh_;  // at rest, in the organ's frame
+  RectifiedRig rig_;
+  Eigen::Vector3d target_body_mm_;
+  CameraPath path_;
+  TissueDeformation deformation_;
+  TissueSkin skin_;
+  ScopeLight light_;
+  Eigen::Isometry3d world_from_body_;
+  std::vector<TrackPoint> track_points_;
+};
+
+}  // namespace softscope

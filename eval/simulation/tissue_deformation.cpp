@@ -1,0 +1,116 @@
+// eval/simulation/tissue_deformation.cpp: closed forms of time, so any frame can be made alone.
+#include "eval/simulation/tissue_deformation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "eval/simulation/noise.h"
+#include "eval/simulation/random.h"
+
+namespace softscope {
+namespace {
+
+constexpr float kBreathingWave_mm = 45;  // breathing bends the tissue this gently
+constexpr float kHeartReach_mm = 14;
+constexpr double kPushReach = 2.2;  // pushes land within this many spreads of the focus
+constexpr int kPushPeriods = 3;     // one to push, two to let go
+
+void requireMotion(const PeriodicMotion& motion, const std::string& name) {
+  require(motion.amplitude_mm >= 0 && motion.amplitude_mm <= 20, name + ".amplitude_mm",
+          motion.amplitude_mm, "must be 0 (off) to 20");
+  require(motion.period_s > 0 && motion.period_s <= 1000, name + ".period_s", motion.period_s,
+          "must be above 0, at most 1000");
+}
+
+float gaussian(float distance2, float spread) {
+  return static_cast<float>(std::exp(-0.5 * distance2 / (spread * spread)));
+}
+
+double breathAt(double time_s, const PeriodicMotion& motion) {
+  return 0.5 - 0.5 * std::cos(2 * M_PI * time_s / motion.period_s);
+}
+
+/// A quick contraction in the first two fifths of the period.
+double beatAt(double time_s, const PeriodicMotion& motion) {
+  const double phase = time_s / motion.period_s - std::floor(time_s / motion.period_s);
+  if (phase >= 0.4) return 0;
+  const double wave = std::sin(M_PI * phase / 0.4);
+  return wave * wave;
+}
+
+double pushAt(double age_periods) {
+  if (age_periods <= 1) return smoothStep(0, 1, static_cast<float>(age_periods));
+  return 1 - smoothStep(1, kPushPeriods, static_cast<float>(age_periods));
+}
+
+}  // namespace
+
+void DeformationOptions::validate() const {
+  requireMotion(breathing, "breathing");
+  requireMotion(heartbeat, "heartbeat");
+  requireMotion(push, "push");
+  require(push_spread_mm >= 2 * push.amplitude_mm && push_spread_mm > 0 && push_spread_mm <= 200,
+          "push.spread_mm", push_spread_mm,
+          "must be twice push.amplitude_mm or more (else the surface folds over), at most 200");
+}
+
+TissueDeformation::TissueDeformation(const TriangleMesh& rest_mesh, const Eigen::Vector3f& focus_mm,
+                                     const DeformationOptions& options, std::uint64_t seed)
+    : options_(options), seed_(mixBits(seed)), rest_mm_(rest_mesh.vertices_mm) {
+  options.validate();
+  Eigen::Vector3f middle_mm = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& p : rest_mm_) middle_mm += p / float(rest_mm_.size());
+  SeededRandom random(seed_);
+  const Eigen::Vector3f main = random.direction().cast<float>();
+  const auto noise_seed = static_cast<std::uint32_t>(seed_);
+  const float reach2 = static_cast<float>(std::pow(kPushReach * options.push_spread_mm, 2));
+  for (std::size_t i = 0; i < rest_mm_.size(); ++i) {
+    const Eigen::Vector3f& p = rest_mm_[i];
+    const float distance2 = (p - focus_mm).squaredNorm();
+    breathing_mm_.push_back(float(options.breathing.amplitude_mm) *
+                            (0.6F * main + 0.9F * vectorNoise(p / kBreathingWave_mm, noise_seed)));
+    heartbeat_mm_.push_back(float(options.heartbeat.amplitude_mm) *
+                            gaussian(distance2, kHeartReach_mm) * (middle_mm - p).normalized());
+    if (distance2 < reach2) push_sites_.push_back(static_cast<std::int32_t>(i));
+  }
+  if (push_sites_.empty()) push_sites_.push_back(0);  // a mesh coarser than the reach
+}
+
+TissueDeformation::Push TissueDeformation::pushNumber(int number) const {
+  SeededRandom random(seed_ + 1 + static_cast<std::uint64_t>(number));
+  const std::int32_t vertex = push_sites_[random.below(static_cast<int>(push_sites_.size()))];
+  const double size_mm = options_.push.amplitude_mm * random.uniform(0.8, 1.2);
+  return {rest_mm_[vertex], (size_mm * random.direction()).cast<float>()};
+}
+
+std::vector<TissueDeformation::Push> TissueDeformation::pushesAt(double time_s) const {
+  std::vector<Push> active;
+  if (options_.push.amplitude_mm == 0) return active;
+  const double periods = time_s / options_.push.period_s;
+  const int newest = static_cast<int>(std::floor(periods));
+  for (int number = std::max(0, newest - kPushPeriods + 1); number <= newest; ++number) {
+    active.push_back(pushNumber(number));
+    active.back().shift_mm *= static_cast<float>(pushAt(periods - number));
+  }
+  return active;
+}
+
+std::vector<Eigen::Vector3f> TissueDeformation::verticesAt(double time_s) const {
+  const auto breath = static_cast<float>(breathAt(time_s, options_.breathing));
+  const auto beat = static_cast<float>(beatAt(time_s, options_.heartbeat));
+  const auto spread_mm = static_cast<float>(options_.push_spread_mm);
+  const std::vector<Push> pushes = pushesAt(time_s);
+  std::vector<Eigen::Vector3f> moved(rest_mm_.size());
+  parallelRanges(static_cast<int>(moved.size()), 2048, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      moved[i] = rest_mm_[i] + breath * breathing_mm_[i] + beat * heartbeat_mm_[i];
+      for (const Push& push : pushes)
+        moved[i] += gaussian((rest_mm_[i] - push.site_mm).squaredNorm(), spread_mm) * push.shift_mm;
+    }
+  });
+  return moved;
+}
+
+}  // namespace softscope

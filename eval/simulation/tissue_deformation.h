@@ -1,0 +1,55 @@
+// eval/simulation/tissue_deformation.h: tissue that breathes, beats and is pushed.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace softscope {
+
+/// A motion that comes back to rest after every period; amplitude 0 switches it off.
+struct PeriodicMotion {
+  double amplitude_mm = 0;
+  double period_s = 1;
+};
+
+struct DeformationOptions {
+  PeriodicMotion breathing{2.0, 3.5};
+  PeriodicMotion heartbeat{0.8, 0.9};
+  /// Pushes follow one another: each moves a random place by 0.8 to 1.2 amplitudes within a period
+  /// and is let go over the two periods after.
+  PeriodicMotion push{2.5, 0.8};
+  double push_spread_mm = 9;  // standard deviation of the fall-off around the place
+
+  /// Throws OptionError.
+  void validate() const;
+};
+
+/// Where each vertex is at any time; vertex i is the same tissue for ever. At 0 s the tissue rests.
+class TissueDeformation {
+ public:
+  /// Hearts beat and pushes land around `focus_mm`, where the scope looks. Same frame as the mesh.
+  TissueDeformation(const TriangleMesh& rest_mesh, const Eigen::Vector3f& focus_mm,
+                    const DeformationOptions& options, std::uint64_t seed);
+
+  std::vector<Eigen::Vector3f> verticesAt(double time_s) const;
+
+ private:
+  struct Push {
+    Eigen::Vector3f site_mm;
+    Eigen::Vector3f shift_mm;  // at its height
+  };
+  Push pushNumber(int number) const;
+  std::vector<Push> pushesAt(double time_s) const;  // those at work, shifted as far as they are now
+
+  DeformationOptions options_;
+  std::uint64_t seed_;
+  std::vector<Eigen::Vector3f> rest_mm_;
+  std::vector<Eigen::Vector3f> breathing_mm_;  // at full breath
+  std::vector<Eigen::Vector3f> heartbeat_mm_;  // at the height of a beat
+  std::vector<std::int32_t> push_sites_;       // vertices that may be pushed
+};
+
+}  // namespace softscope

@@ -1,0 +1,53 @@
+// eval/simulation/tissue_texture.h: what tissue looks like at each of its points.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "core/triangle_mesh.h"
+#include "eval/simulation/vessel_map.h"
+
+namespace softscope {
+
+struct TextureOptions {
+  double contrast = 1.0;  // 0: one colour all over, 1: as in a healthy abdomen
+  double fat = 0.3;      // share of the surface that fat covers, roughly
+  double wetness = 1.0;   // strength of highlights; 0: dull
+  VesselOptions vessels;
+
+  /// Throws OptionError.
+  void validate() const;
+};
+
+/// One point of the tissue.
+struct TissuePoint {
+  Eigen::Vector3f albedo =
+      Eigen::Vector3f::Zero();  // linear red, green, blue: share of light sent back
+  float relief_mm = 0;          // fine bumps that bend highlights, too small for the mesh
+  float wetness = 0;
+};
+
+/// A solid texture: a function of the place in the undeformed tissue, so that it moves with it.
+class TissueTexture {
+ public:
+  TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions& options, std::uint64_t seed);
+
+  TissuePoint at(const Eigen::Vector3f& rest_mm) const;
+
+ private:
+  struct Layer {
+    Eigen::Vector3f albedo;
+    float relief_mm;
+  };
+  Layer serosa(const Eigen::Vector3f& warped_mm, const Eigen::Vector3f& rest_mm) const;
+  Layer fat(const Eigen::Vector3f& warped_mm) const;
+  float fatShare(const Eigen::Vector3f& warped_mm) const;
+  float capillaries(const Eigen::Vector3f& warped_mm) const;
+  void addVessels(Layer& layer, const Eigen::Vector3f& rest_mm) const;
+
+  TextureOptions options_;
+  std::uint32_t seed_;
+  VesselMap vessels_;
+};
+
+}  // namespace softscope
