@@ -2,7 +2,6 @@
 #include "eval/brute_force.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -29,13 +28,15 @@ double toSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen
 double toTriangle(const Eigen::Vector3d& p, const Corners& t) {
   const double edges =
       std::min({toSegment(p, t.a, t.b), toSegment(p, t.b, t.c), toSegment(p, t.c, t.a)});
-  Eigen::Matrix<double, 3, 2> basis;
-  basis << t.b - t.a, t.c - t.a;
-  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, 3, 2>> qr(basis);
-  if (qr.rank() < 2) return edges;
-  const Eigen::Vector2d foot = qr.solve(p - t.a);
-  const bool inside = foot.x() >= 0 && foot.y() >= 0 && foot.sum() <= 1;
-  return inside ? (p - t.a - basis * foot).norm() : edges;
+  // Axes of the plane by Gram-Schmidt, twice for thin triangles; then the foot as a + s ab + t ac.
+  const Eigen::Vector3d ab = t.b - t.a, ac = t.c - t.a, x = ab.normalized();
+  Eigen::Vector3d y = ac - x * x.dot(ac);
+  if (!(y.norm() > 0)) return edges;
+  y = (y - x * x.dot(y)).normalized();
+  const double along_ac = y.dot(p - t.a) / y.dot(ac);
+  const double along_ab = (x.dot(p - t.a) - along_ac * x.dot(ac)) / ab.norm();
+  const bool inside = along_ab >= 0 && along_ac >= 0 && along_ab + along_ac <= 1;
+  return inside ? (p - t.a - along_ab * ab - along_ac * ac).norm() : edges;
 }
 
 }  // namespace

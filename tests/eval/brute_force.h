@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// Least distance, mm, to all triangles of the mesh, in double: least squares in each triangle's
-/// plane, its edges where that lies outside.
+/// Least distance, mm, to all triangles of the mesh, in double: the foot on each triangle's
+/// plane, the edges where that lies outside.
 double bruteForceDistance(const TriangleMesh& mesh, const Eigen::Vector3d& point_mm);
 
 /// How often the surface winds around the point: 1 inside, 0 outside of a closed surface

@@ -73,15 +73,15 @@ INSTANTIATE_TEST_SUITE_P(Sets, EveryTreeKernel, testing::Range(0, allTreeKernels
 
 TEST_P(EveryTreeKernel, AgreesWithBruteForceNearAndFar) {
   std::mt19937 random(1);
-  const TriangleMesh organ = makeOrgan(40, 30);
-  expectBruteForceDistances(organ, pointsNear(organ, 300, 1, random), kernels());
-  expectBruteForceDistances(organ, pointsInCube(300, 100, random), kernels());
+  const TriangleMesh organ = makeOrgan(30, 20);
+  expectBruteForceDistances(organ, pointsNear(organ, 200, 1, random), kernels());
+  expectBruteForceDistances(organ, pointsInCube(200, 100, random), kernels());
   expectBruteForceDistances(organ, pointsInCube(50, 2000, random), kernels());
 }
 
 TEST_P(EveryTreeKernel, AgreesWithBruteForceFarFromTheOrigin) {
   std::mt19937 random(2);
-  TriangleMesh organ = makeOrgan(40, 30);  // CT coordinates: half a metre from the origin
+  TriangleMesh organ = makeOrgan(30, 20);  // CT coordinates: half a metre from the origin
   for (Eigen::Vector3f& v : organ.vertices_mm) v += Eigen::Vector3f(-450, 380, 520);
   expectBruteForceDistances(organ, pointsNear(organ, 300, 0.5f, random), kernels());
 }
@@ -171,9 +171,9 @@ TEST_P(EveryTreeKernel, AnswersAlikeOnAnyNumberOfThreadsAndInAnyOrder) {
 
 TEST(TriangleTree, KnowsInsideFromOutsideAsTheWindingNumberDoes) {
   std::mt19937 random(8);
-  const TriangleMesh organ = makeOrgan(40, 30);
-  expectSideOfWindingNumber(organ, pointsNear(organ, 500, 2, random));
-  expectSideOfWindingNumber(organ, pointsInCube(500, 70, random));
+  const TriangleMesh organ = makeOrgan(30, 20);
+  expectSideOfWindingNumber(organ, pointsNear(organ, 300, 2, random));
+  expectSideOfWindingNumber(organ, pointsInCube(300, 70, random));
 }
 
 TEST(TriangleTree, KnowsTheSideAmongSharpSpikes) {

@@ -1,0 +1,82 @@
+// src/mesh/text_scanner.h: words and numbers of a text file, and where they stand.
+#pragma once
+
+#include <charconv>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace softscope {
+
+class TextScanner {
+ public:
+  /// `name` is what errors call the file; `line` the number of the first line of `text`.
+  /// Neither is copied.
+  TextScanner(std::string_view text, std::string_view name, int line = 1)
+      : text_(text), name_(name), line_(line) {}
+
+  /// The next word, on this line or a later one; empty at the end.
+  std::string_view word() {
+    while (at_ < text_.size() && isSpace(text_[at_])) line_ += text_[at_++] == '\n';
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !isSpace(text_[at_])) ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+
+  /// The rest of this line, without its end; the scanner stands at the next line.
+  std::string_view restOfLine() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+    std::string_view rest = text_.substr(begin, at_ - begin);
+    if (at_ < text_.size()) ++at_, ++line_;
+    if (!rest.empty() && rest.back() == '\r') rest.remove_suffix(1);
+    return rest;
+  }
+
+  double number() { return toNumber<double>(word()); }
+
+  /// The whole word as a number.
+  template <class Number>
+  Number toNumber(std::string_view word) const {
+    if (word.empty()) fail("the text ends where a number is expected");
+    Number value{};
+    const char* begin = word.data() + (word[0] == '+');
+    const auto end = std::from_chars(begin, word.data() + word.size(), value);
+    if (end.ec != std::errc() || end.ptr != word.data() + word.size())
+      fail("found " + shownWord(word) + " where a number is expected");
+    return value;
+  }
+
+  bool atEnd() {
+    while (at_ < text_.size() && isSpace(text_[at_])) line_ += text_[at_++] == '\n';
+    return at_ == text_.size();
+  }
+  std::size_t position() const { return at_; }
+  int line() const { return line_; }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(std::string(name_) + ", line " + std::to_string(line_) + ": " + what +
+                     "; export the mesh again");
+  }
+
+  /// What a file said, in quotes: short, and unprintable characters as `?`.
+  static std::string shownWord(std::string_view word) {
+    std::string shown(word.substr(0, 40));
+    for (char& c : shown)
+      if (c < ' ' || c > '~') c = '?';
+    return "\"" + shown + "\"";
+  }
+
+ private:
+  static bool isSpace(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
+  }
+
+  std::string_view text_;
+  std::string_view name_;
+  std::size_t at_ = 0;
+  int line_;
+};
+
+}  // namespace softscope
