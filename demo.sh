@@ -35,7 +35,7 @@ step "Examine this machine: softscope doctor"
 "$softscope" doctor || say "a picture can't be drawn here; depth is measured all the same"
 
 step "Depth of $pair: softscope depth"
-if [ "$out/summary.json" -nt "$softscope" ] && [ "$out/summary.json" -nt "$pair/calibration.yaml" ]; then
+if [ -e "$out/summary.json" ] && [ -z "$(find "$softscope" "$pair" -newer "$out/summary.json")" ]; then
   say "measured before, and nothing has changed since"
 else
   "$softscope" depth "$pair/left/000000.png" "$pair/right/000000.png" \
@@ -44,7 +44,13 @@ fi
 finish_step
 
 echo
-echo "Done in $SECONDS s. Look at:"
-find "$out" -type f -name '*.png' -o -type f -name '*.ply' | sort | sed 's/^/  /'
-echo "and measure a pair of your own:"
+echo "Done in $SECONDS s. Look at"
+cat <<EOF
+  $out/picture.png      the photograph and its depth, with a scale in mm
+  $out/disparity.png    how far each pixel moved between the two pictures
+  $out/confidence.png   how sure each pixel is
+  $out/cloud.ply        the tissue as coloured points in mm, for any mesh viewer
+  $out/summary.json     coverage, range and times, for programs
+EOF
+echo "and measure a pair of your own by"
 echo "  $softscope depth LEFT.png RIGHT.png --calibration CALIBRATION.yaml --out out/mine"
