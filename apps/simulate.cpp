@@ -1,0 +1,159 @@
+// apps/simulate.cpp: `softscope simulate`: a stereo sequence whose truth is known.
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "apps/command.h"
+#include "apps/exit_codes.h"
+#include "apps/interrupt.h"
+#include "apps/progress_bar.h"
+#include "apps/result_output.h"
+#include "apps/simulate_options.h"
+#include "apps/simulate_outputs.h"
+#include "apps/version.h"
+#include "core/error.h"
+#include "eval/simulation/simulator.h"
+#include "mesh/mesh_check.h"
+#include "mesh/mesh_reader.h"
+
+namespace softscope {
+namespace {
+
+const char* const kDetails =
+    "Writes a sequence folder: left/, right/, calibration.yaml, timestamps.txt, track_points.csv,\n"
+    "groundtruth/ with mesh/ and depth/ of every 5th frame, trajectory.txt and tracks.csv (world "
+    "=\n"
+    "the left camera at the first frame, mm), and simulation.json with every setting.\n"
+    "The same settings and seed give the same bytes on any number of threads.\n"
+    "Keys of a scenario: frames, seed, truth_every, pictures, organ.*, texture.*, breathing.*,\n"
+    "heartbeat.*, push.*, scope.*, camera.*, light.*, sensor.*; data/scenario.toml has them all.\n"
+    "--frames, --size, --seed and --organ are stronger than --set, --set than --scenario.";
+
+/// The mesh, turned inside out where it faces inwards.
+TriangleMesh readOrgan(const SimulateOptions& options) {
+  if (options.builtinOrgan())
+    return makeOrganMesh(options.simulation.organ,
+                         static_cast<std::uint64_t>(options.simulation.seed));
+  TriangleMesh mesh = readMesh(options.organ, {options.organ_unit_mm});
+  const MeshCheck check = checkMesh(mesh);
+  for (const std::string& warning : meshWarnings(check))
+    spdlog::warn("{}: {}", options.organ, warning);
+  if (check.volume_mm3 < 0)
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+class SimulateCommand : public Command {
+ public:
+  std::string name() const override { return "simulate"; }
+  std::string summary() const override {
+    return "an organ to a stereo sequence with exact ground truth";
+  }
+  std::string details() const override { return kDetails; }
+  std::string example() const override {
+    return "softscope simulate --out phantom --frames 40 --size 640x480 --seed 3";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  void readOptions(SettingsBinder& binder, SimulateOptions& options);
+  FactSheet::Json record(const SettingsBinder& binder) const;
+  int simulateAll(Simulator& simulator, SimulateOutputs& outputs, const SimulateOptions& options);
+  void report(const Simulator& simulator, int frames, double elapsed_s) const;
+
+  std::string out_, scenario_, organ_, size_, frames_, seed_, truth_;
+  std::vector<std::string> assignments_;
+  bool force_ = false;
+};
+
+void SimulateCommand::declare(ArgumentList& arguments) {
+  arguments.option("--out", "DIR", out_, "folder for the sequence", true);
+  arguments.option("--scenario", "FILE", scenario_, "settings file (TOML)");
+  arguments.option("--set", "KEY=VALUE", assignments_,
+                   "one setting, e.g. push.amplitude_mm=3; repeatable");
+  arguments.option("--organ", "FILE", organ_, "closed mesh in mm (STL, PLY, OBJ), or builtin");
+  arguments.option("--frames", "N", frames_, "how many (default 40)");
+  arguments.option("--size", "WxH", size_, "of the pictures (default 640x480)");
+  arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
+  arguments.option("--truth", "LIST", truth_,
+                   "some of mesh,depth,trajectory,tracks, or none (default: all)");
+  arguments.flag("--force", force_, "overwrite an earlier simulation");
+}
+
+/// The short options are settings too, so that one check and one record serve all.
+void SimulateCommand::readOptions(SettingsBinder& binder, SimulateOptions& options) {
+  Settings settings;
+  if (!scenario_.empty()) settings = readSettings(scenario_);
+  for (const std::string& assignment : assignments_) addAssignment(settings, assignment);
+  if (!frames_.empty()) addAssignment(settings, "frames=" + frames_);
+  if (!seed_.empty()) addAssignment(settings, "seed=" + seed_);
+  bindSimulateOptions(binder, options);
+  binder.apply(settings);
+  if (!organ_.empty()) options.organ = organ_;
+  if (!size_.empty()) setPictureSize(size_, options.simulation.scope);
+  options.validate();
+}
+
+FactSheet::Json SimulateCommand::record(const SettingsBinder& binder) const {
+  FactSheet::Json json{
+      {"schema_version", 1}, {"softscope", versionText()}, {"command", "simulate"}};
+  for (const SettingInfo& setting : binder.list()) {
+    const auto value = FactSheet::Json::parse(setting.current_text, nullptr, false);
+    const bool is_text = setting.type == "text" || value.is_discarded();
+    json["options"][setting.key] = is_text ? FactSheet::Json(setting.current_text) : value;
+  }
+  return json;
+}
+
+int SimulateCommand::run() {
+  SimulateOptions options;
+  SettingsBinder binder;
+  readOptions(binder, options);
+  const TruthKinds truth = TruthKinds::parse(truth_);
+  Simulator simulator(readOrgan(options), options.simulation);
+  SimulateOutputs outputs({out_, truth, options.pictures, force_}, jsonText(record(binder)));
+  const auto start = std::chrono::steady_clock::now();
+  const int done = simulateAll(simulator, outputs, options);
+  if (done == 0) return kInterrupted;
+  outputs.finish(simulator);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  report(simulator, done, elapsed.count());
+  return done < options.frames ? kInterrupted : kDone;
+}
+
+int SimulateCommand::simulateAll(Simulator& simulator, SimulateOutputs& outputs,
+                                 const SimulateOptions& options) {
+  const InterruptGuard interrupt;
+  ProgressBar progress("simulate", options.frames, progressStyle(common.quiet), std::cerr);
+  for (int i = 0; i < options.frames; ++i) {
+    if (interrupt.requested()) {
+      spdlog::warn("interrupted: a sequence of {} frames stays", i);
+      return i;
+    }
+    const bool with_truth = i % options.truth_every == 0 || i + 1 == options.frames;
+    outputs.addFrame(i, simulator.frame(i), simulator.triangles(), with_truth);
+    progress.advance();
+  }
+  return options.frames;
+}
+
+void SimulateCommand::report(const Simulator& simulator, int frames, double elapsed_s) const {
+  FactSheet facts("simulated sequence");
+  facts.add("folder", "folder", out_);
+  facts.add("frames", "frames", frames);
+  facts.add("picture",
+            std::to_string(simulator.rig().left.width_px) + " x " +
+                std::to_string(simulator.rig().left.height_px) + " px",
+            "picture_px", {simulator.rig().left.width_px, simulator.rig().left.height_px});
+  facts.add("tracked points", "tracked_points", static_cast<int>(simulator.trackPoints().size()));
+  facts.add("time", fixed(elapsed_s, 1) + " s", "elapsed_s", elapsed_s);
+  printFacts(facts, common.json);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeSimulateCommand() { return std::make_unique<SimulateCommand>(); }
+
+}  // namespace softscope

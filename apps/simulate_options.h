@@ -1,0 +1,38 @@
+// apps/simulate_options.h: what `softscope simulate` may be told.
+#pragma once
+
+#include <string>
+
+#include "eval/simulation/simulation_options.h"
+#include "io/settings_binder.h"
+
+namespace softscope {
+
+struct SimulateOptions {
+  int frames = 40;
+  int truth_every = 5;            // mesh and depth of every so manieth frame, and of the last
+  std::string organ = "builtin";  // or a mesh file
+  double organ_unit_mm = 1;       // of a mesh file
+  std::string pictures = "png";   // or jpg
+  SimulationOptions simulation;
+
+  /// Throws OptionError.
+  void validate() const;
+  bool builtinOrgan() const { return organ == "builtin"; }
+};
+
+/// Binds every key of a scenario.
+void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options);
+
+/// "640x480" to width and height. Throws OptionError.
+void setPictureSize(const std::string& text, ScopeOptions& scope);
+
+/// Which truth is written.
+struct TruthKinds {
+  bool mesh = true, depth = true, trajectory = true, tracks = true;
+
+  /// "mesh,depth"; empty = all, "none" = none. Throws OptionError with the nearest name.
+  static TruthKinds parse(const std::string& list);
+};
+
+}  // namespace softscope

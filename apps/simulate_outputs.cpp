@@ -1,0 +1,160 @@
+// apps/simulate_outputs.cpp: pictures, calibration, truth.
+#include "apps/simulate_outputs.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "io/atomic_file.h"
+#include "io/calibration_writer.h"
+#include "io/depth_files.h"
+#include "io/image_writer.h"
+#include "io/message.h"
+#include "io/trajectory_file.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRecord = "simulation.json";
+constexpr const char* kFrameFolders[] = {"left", "right", "groundtruth/depth", "groundtruth/mesh"};
+constexpr double kDepthStepMm = 0.01;
+
+bool isNumberedFrame(const fs::path& file) {
+  const std::string stem = file.stem().string(), end = file.extension().string();
+  return stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos &&
+         (end == ".png" || end == ".jpg" || end == ".ply");
+}
+
+void removeEarlierFrames(const fs::path& folder) {
+  for (const char* name : kFrameFolders) {
+    if (!fs::is_directory(folder / name)) continue;
+    std::vector<fs::path> earlier;
+    for (const auto& entry : fs::directory_iterator(folder / name))
+      if (isNumberedFrame(entry.path())) earlier.push_back(entry.path());
+    for (const fs::path& file : earlier) fs::remove(file);
+  }
+  for (const char* name : {"groundtruth/trajectory.txt", "groundtruth/tracks.csv",
+                           "track_points.csv", "timestamps.txt", "calibration.yaml"})
+    fs::remove(folder / name);
+}
+
+void requireUsableFolder(const fs::path& folder, bool overwrite) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder))
+    throw OptionError("--out: " + shown(folder) + " is a file, but must be a folder");
+  if (fs::is_empty(folder)) return;
+  if (!overwrite)
+    throw OptionError("--out: " + shown(folder) +
+                      " is not empty; choose another folder, or give --force");
+  if (!fs::exists(folder / kRecord))
+    throw OptionError(
+        "--out: " + shown(folder) + " holds no " + kRecord +
+        ", so it is no simulation, and --force won't touch it; choose another folder");
+}
+
+template <class Value>
+void append(std::string& bytes, const Value& value) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.append(raw, sizeof value);
+}
+
+}  // namespace
+
+std::string meshPly(const std::vector<Eigen::Vector3f>& vertices_world_mm,
+                    const std::vector<Triangle>& triangles) {
+  std::string bytes =
+      say("ply\nformat binary_little_endian 1.0\n"
+          "comment mm, world frame (left camera of frame 0)\nelement vertex ",
+          vertices_world_mm.size(),
+          "\nproperty float x\nproperty float y\nproperty float z\nelement face ", triangles.size(),
+          "\nproperty list uchar int vertex_indices\nend_header\n");
+  for (const Eigen::Vector3f& p : vertices_world_mm)
+    for (int axis = 0; axis < 3; ++axis) append(bytes, p[axis]);
+  for (const Triangle& triangle : triangles) {
+    bytes.push_back(3);
+    for (const std::int32_t vertex : triangle) append(bytes, vertex);
+  }
+  return bytes;
+}
+
+SimulateOutputs::SimulateOutputs(SimulateOutputOptions options, const std::string& record_json)
+    : options_(std::move(options)) {
+  requireUsableFolder(options_.folder, options_.overwrite);
+  if (options_.overwrite) removeEarlierFrames(options_.folder);
+  for (const char* name : {"left", "right"}) fs::create_directories(options_.folder / name);
+  if (options_.truth.depth) fs::create_directories(options_.folder / "groundtruth/depth");
+  if (options_.truth.mesh) fs::create_directories(options_.folder / "groundtruth/mesh");
+  if (options_.truth.trajectory || options_.truth.tracks)
+    fs::create_directories(options_.folder / "groundtruth");
+  writeFile(options_.folder / kRecord, record_json, options_.overwrite);
+}
+
+fs::path SimulateOutputs::numbered(const char* folder, int index, const std::string& end) const {
+  char name[16];
+  std::snprintf(name, sizeof name, "%06d.", index);
+  return options_.folder / folder / (name + end);
+}
+
+void SimulateOutputs::writePicture(const char* folder, int index,
+                                   const ColourImage& picture) const {
+  constexpr int kJpegQuality = 95;
+  const fs::path file = numbered(folder, index, options_.pictures);
+  if (options_.pictures == "jpg")
+    writeJpeg(file, picture, kJpegQuality, options_.overwrite);
+  else
+    writePng(file, picture, options_.overwrite);
+}
+
+void SimulateOutputs::addTracks(int index, const SimulatedFrame& frame) {
+  for (std::size_t id = 0; id < frame.tracks_world_mm.size(); ++id) {
+    const Eigen::Vector3d& p = frame.tracks_world_mm[id];
+    char row[128];
+    std::snprintf(row, sizeof row, "%d,%zu,%.4f,%.4f,%.4f\n", index, id, p.x(), p.y(), p.z());
+    tracks_csv_ += row;
+  }
+}
+
+void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
+                               const std::vector<Triangle>& triangles, bool with_truth) {
+  const bool force = options_.overwrite;
+  parallelInvoke([&] { writePicture("left", index, frame.pictures.left); },
+                 [&] { writePicture("right", index, frame.pictures.right); });
+  if (with_truth && options_.truth.depth)
+    writeDepthPng(numbered("groundtruth/depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
+  if (with_truth && options_.truth.mesh)
+    writeFile(numbered("groundtruth/mesh", index, "ply"),
+              meshPly(frame.vertices_world_mm, triangles), force);
+  trajectory_.push_back(frame.pose);
+  addTracks(index, frame);
+}
+
+void SimulateOutputs::finish(const Simulator& simulator) {
+  const bool force = options_.overwrite;
+  if (options_.truth.trajectory)
+    writeTrajectory(options_.folder / "groundtruth/trajectory.txt", trajectory_, force);
+  if (options_.truth.tracks) {
+    std::string points = "id,u_px,v_px\n";
+    for (std::size_t id = 0; id < simulator.trackPoints().size(); ++id)
+      points += say(id, ",", simulator.trackPoints()[id].u_px, ",",
+                    simulator.trackPoints()[id].v_px, "\n");
+    writeFile(options_.folder / "groundtruth/tracks.csv", tracks_csv_, force);
+    writeFile(options_.folder / "track_points.csv", points, force);
+  }
+  if (trajectory_.size() > 1) {
+    std::string times;
+    char row[32];
+    for (const TimedPose& pose : trajectory_) {
+      std::snprintf(row, sizeof row, "%.6f\n", pose.time_s);
+      times += row;
+    }
+    writeFile(options_.folder / "timestamps.txt", times, force);
+  }
+  writeCalibration(options_.folder / "calibration.yaml", calibrationOf(simulator.rig()), force);
+}
+
+}  // namespace softscope

@@ -1,0 +1,48 @@
+// apps/simulate_outputs.h: a simulated sequence as a folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "apps/simulate_options.h"
+#include "core/trajectory.h"
+#include "eval/simulation/simulator.h"
+
+namespace softscope {
+
+struct SimulateOutputOptions {
+  std::filesystem::path folder;
+  TruthKinds truth;
+  std::string pictures = "png";
+  bool overwrite = false;
+};
+
+/// Each file appears whole or not at all. Frames first, what speaks of all frames last.
+class SimulateOutputs {
+ public:
+  /// With `overwrite`, frames of an earlier simulation in the folder are removed. Throws
+  /// OptionError where the folder holds anything and `overwrite` is false, or holds something else
+  /// than a simulation.
+  SimulateOutputs(SimulateOutputOptions options, const std::string& record_json);
+
+  void addFrame(int index, const SimulatedFrame& frame, const std::vector<Triangle>& triangles,
+                bool with_truth);
+
+  /// For the frames that were added.
+  void finish(const Simulator& simulator);
+
+ private:
+  std::filesystem::path numbered(const char* folder, int index, const std::string& end) const;
+  void writePicture(const char* folder, int index, const ColourImage& picture) const;
+  void addTracks(int index, const SimulatedFrame& frame);
+
+  SimulateOutputOptions options_;
+  Trajectory trajectory_;
+  std::string tracks_csv_ = "frame,id,x_mm,y_mm,z_mm\n";
+};
+
+/// Binary little-endian PLY, float x y z, in the world frame.
+std::string meshPly(const std::vector<Eigen::Vector3f>& vertices_world_mm,
+                    const std::vector<Triangle>& triangles);
+
+}  // namespace softscope
