@@ -1,0 +1,79 @@
+#include "fusion/colour_gain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fusion/illumination.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kBins = 512;  // of log2(ratio), from -2 to 2; 1 is the middle of one
+constexpr float kBinsPerOctave = kBins / 4.0f;
+constexpr int kDarkest = 16;  // below it quantisation spoils the ratio
+constexpr int kFewestPoints = 100;
+constexpr std::size_t kMostPoints = 20000;  // an even subset tells the median well enough
+
+/// Counts of log2(ratio).
+struct RatioHistogram {
+  std::array<int, kBins> counts{};
+  int total = 0;
+
+  void add(float ratio) {
+    const float bin = (std::log2(ratio) + 2) * kBinsPerOctave + 0.5f;
+    if (!(bin >= 0 && bin < kBins)) return;
+    ++counts[static_cast<std::size_t>(bin)];
+    ++total;
+  }
+
+  float median() const {
+    if (total < kFewestPoints) return 1;
+    int bin = 0;
+    for (int below = 0; below + counts[bin] <= total / 2; ++bin) below += counts[bin];
+    const float ratio = std::exp2(static_cast<float>(bin) / kBinsPerOctave - 2);
+    return std::clamp(ratio, 0.5f, 2.0f);
+  }
+};
+
+float pointShading(const PointModel& model, std::size_t i, const PosedCamera& camera,
+                   const ColourOptions& options) {
+  if (options.illumination == Illumination::kNone) return 1;
+  const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);
+  const float distance_mm = left.norm();
+  return shading(options, distance_mm,
+                 -(camera.left_from_world * model.normals[i]).dot(left) / distance_mm);
+}
+
+bool usable(Rgb8 colour, const ColourOptions& options) {
+  return std::min({colour.red, colour.green, colour.blue}) >= kDarkest &&
+         std::max({colour.red, colour.green, colour.blue}) < 250 && !isHighlight(colour, options);
+}
+
+}  // namespace
+
+ColourGain estimateGain(const PointModel& model, const Observation& observation,
+                        const Visibility& visibility, const ColourOptions& options) {
+  if (!options.compensate_gain || observation.colour.empty()) return {};
+  const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
+  const std::size_t stride = 1 + model.size() / kMostPoints;
+  RatioHistogram red, green, blue;
+  for (std::size_t i = 0; i < model.size(); i += stride) {
+    const PointSight& point = visibility.points[i];
+    if (point.sight != Sight::kSeen) continue;
+    const Rgb8 seen = observation.colour.values[static_cast<std::size_t>(point.pixel)];
+    const Rgb8 known = model.colours[i];
+    if (!usable(seen, options) || !usable(known, options)) continue;
+    const float inverse_shade = 1 / pointShading(model, i, camera, options);
+    red.add(static_cast<float>(seen.red) / known.red * inverse_shade);
+    green.add(static_cast<float>(seen.green) / known.green * inverse_shade);
+    blue.add(static_cast<float>(seen.blue) / known.blue * inverse_shade);
+  }
+  return {red.median(), green.median(), blue.median()};
+}
+
+Rgb8 modelColour(Rgb8 seen, float shade, const ColourGain& gain) {
+  return scaled(seen, 1 / (shade * gain.red), 1 / (shade * gain.green), 1 / (shade * gain.blue));
+}
+
+}  // namespace softscope

@@ -1,0 +1,114 @@
+#include "fusion/density_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "fusion/cell_table.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kGrain = 8192;  // points a task
+
+/// Cells of all points; kNoCell for those that can't stay.
+std::vector<CellKey> cellsOf(const PointModel& model, float cell_mm) {
+  std::vector<CellKey> keys(model.size());
+  const Eigen::Vector3f cell = Eigen::Vector3f::Constant(cell_mm);
+  parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const float length = model.normals[i].squaredNorm();
+      const bool stays = model.weights[i] > 0 && length > 0.25f && length < 4;
+      keys[i] = stays ? cellKey(model.positions_mm[i], cell) : kNoCell;
+    }
+  });
+  return keys;
+}
+
+/// docs/fusion.md (F18).
+void mergeInto(PointModel* model, std::int32_t survivor, std::int32_t other) {
+  Eigen::Vector3f& position = model->positions_mm[survivor];
+  Eigen::Vector3f& normal = model->normals[survivor];
+  const float own = model->weights[survivor], others = model->weights[other];
+  const float share = others / (own + others);
+  const float height_mm = normal.dot(model->positions_mm[other] - position);
+  position += normal * (share * height_mm);
+  normal = ((1 - share) * normal + share * model->normals[other]).normalized();
+  model->weights[survivor] = std::max(own, others);
+  if (!model->bindings[survivor].bound()) model->bindings[survivor] = model->bindings[other];
+}
+
+/// Merges within cells. Afterwards heir[i] is i, or who took i's place (perhaps merged in turn).
+std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cosine,
+                                     PointModel* model) {
+  std::vector<std::int32_t> heir(keys.size());
+  CellTable table(keys.size());
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const std::int32_t i = static_cast<std::int32_t>(k);
+    heir[k] = keys[k] == kNoCell ? IndexMap::kRemoved : i;
+    if (keys[k] == kNoCell) continue;
+    std::int32_t& held = table.find(keys[k], [&](std::int32_t j) {
+      return keys[j] == keys[k] && model->normals[j].dot(model->normals[i]) > cosine;
+    });
+    if (held == CellTable::kEmpty) {
+      held = i;
+    } else if (model->weights[i] > model->weights[held]) {
+      mergeInto(model, i, held);
+      heir[held] = i;
+      held = i;
+    } else {
+      mergeInto(model, held, i);
+      heir[k] = held;
+    }
+  }
+  return heir;
+}
+
+template <class T>
+void keepAt(std::vector<T>* values, const std::vector<std::int32_t>& old_of_new) {
+  for (std::size_t k = 0; k < old_of_new.size(); ++k) (*values)[k] = (*values)[old_of_new[k]];
+  values->resize(old_of_new.size());
+}
+
+void compact(PointModel* model, const std::vector<std::int32_t>& old_of_new) {
+  parallelInvoke([&] { keepAt(&model->bindings, old_of_new); },
+                 [&] {
+                   keepAt(&model->positions_mm, old_of_new);
+                   keepAt(&model->normals, old_of_new);
+                   keepAt(&model->colours, old_of_new);
+                   keepAt(&model->weights, old_of_new);
+                 });
+}
+
+/// Turns heirs into new indices; lists who stays.
+IndexMap indexMap(std::vector<std::int32_t> heir, std::vector<std::int32_t>* old_of_new) {
+  IndexMap map;
+  map.new_of_old.assign(heir.size(), IndexMap::kRemoved);
+  for (std::size_t i = 0; i < heir.size(); ++i) {
+    if (heir[i] != static_cast<std::int32_t>(i)) continue;
+    map.new_of_old[i] = static_cast<std::int32_t>(old_of_new->size());
+    old_of_new->push_back(static_cast<std::int32_t>(i));
+  }
+  map.new_count = static_cast<std::int32_t>(old_of_new->size());
+  for (std::size_t i = 0; i < heir.size(); ++i) {
+    std::int32_t last = heir[i];
+    if (last == IndexMap::kRemoved) continue;
+    while (heir[last] != last) last = heir[last];
+    map.new_of_old[i] = map.new_of_old[last];
+  }
+  return map;
+}
+
+}  // namespace
+
+IndexMap keepDensity(const DensityOptions& options, PointModel* model) {
+  options.validate();
+  const std::vector<CellKey> keys = cellsOf(*model, static_cast<float>(options.cell_mm));
+  const float cosine = static_cast<float>(std::cos(options.max_angle_deg * M_PI / 180));
+  std::vector<std::int32_t> old_of_new;
+  IndexMap map = indexMap(mergeCells(keys, cosine, model), &old_of_new);
+  if (!map.identity()) compact(model, old_of_new);
+  return map;
+}
+
+}  // namespace softscope

@@ -1,0 +1,27 @@
+// src/fusion/density_grid.h: tissue that is squeezed or seen twice doesn't get more points.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/point_model.h"
+#include "fusion/fusion_options.h"
+
+namespace softscope {
+
+/// Where points went when some were removed.
+struct IndexMap {
+  static constexpr std::int32_t kRemoved = -1;
+  std::vector<std::int32_t> new_of_old;  // merged points lead to the one that stands for them
+  std::int32_t new_count = 0;
+
+  bool identity() const { return static_cast<std::size_t>(new_count) == new_of_old.size(); }
+};
+
+/// Leaves one point a cell and side of the surface: docs/fusion.md (F17), (F18). The heaviest
+/// stays, so that material points don't slide, and takes part of the others' height over the
+/// surface. Points without weight, and those without a finite position or a normal, are removed.
+/// The others keep their order. Throws OptionError for bad options.
+IndexMap keepDensity(const DensityOptions& options, PointModel* model);
+
+}  // namespace softscope

@@ -1,0 +1,109 @@
+// src/fusion/fusion_options.h: what a measurement must be like to change the model, and how much.
+#pragma once
+
+namespace softscope {
+
+/// How far a warped point is believed, by its distance to its nodes: docs/fusion.md (F7).
+enum class NodeTrust {
+  kEqual,      // everywhere alike
+  kWarpNoise,  // the warp adds noise that grows away from nodes: old weight fades, new counts fully
+  kNearer,     // the text of the paper: what is measured near nodes weighs more
+  kPaper,      // the formula of the paper as printed: what is measured near nodes weighs less
+};
+
+/// How light falls on the tissue: docs/fusion.md (F12).
+enum class Illumination {
+  kNone,       // colours are kept as seen
+  kHeadlight,  // the light sits at the scope: colours are kept as seen from reference_distance_mm
+};
+
+/// Which pixels may speak at all.
+struct PixelOptions {
+  double max_depth_mm = 500;  // no endoscope sees further: such depths are no depths
+  double max_sigma_mm = 1.0;  // depths less sure than this are not heard
+  double edge_step = 0.02;    // share of the depth: neighbours further apart are a depth edge …
+  int edge_radius_px = 2;     // … and pixels this near to it are not heard
+  double min_cosine = 0.2;    // between normal and ray: more grazing surfaces are not heard
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+/// Which points the camera sees: docs/fusion.md (F3), (F4).
+struct VisibilityOptions {
+  double max_distance_mm = 2.0;  // epsilon_d, along the ray
+  double max_angle_deg = 60.0;   // epsilon_n
+  double occlusion_mm = 1.0;     // a point this far behind the model's nearest surface is hidden
+  int occlusion_cell_px = 4;     // that surface is known by squares of this size
+
+  void validate() const;
+};
+
+/// How measurements move points: docs/fusion.md (F5) to (F10).
+struct PointFusionOptions {
+  double truncation_mm = 1.0;           // tau: larger differences are not averaged
+  bool soft_truncation = true;          // weights fall smoothly to 0 at tau
+  double max_weight = 10.0;             // omega_max
+  double reference_sigma_mm = 0.1;      // depth this sure weighs 1, others by inverse variance;
+                                        // 0: all depths weigh 1
+  double max_measurement_weight = 2.0;  // no depth weighs more than this
+  NodeTrust node_trust = NodeTrust::kWarpNoise;
+  double node_spacing_mm = 4.0;     // epsilon of the paper
+  double warp_sigma_mm = 0.02;      // error of one warp, half a node spacing away from all nodes
+  bool along_ray = true;            // false: the full position is averaged with the pixel's
+  double contradiction_loss = 0.5;  // share of its weight, and half as much again of one
+                                    // measurement's, that a point seen through loses a frame
+  double confirmed_weight = 3.0;    // below it, a point that isn't found again where it should be
+                                    // loses weight in the same way
+
+  void validate() const;
+};
+
+/// How colours follow the picture: docs/fusion.md (F11) to (F13).
+struct ColourOptions {
+  bool compensate_gain = true;  // of the frame against the model, a factor per channel
+  Illumination illumination = Illumination::kNone;
+  double reference_distance_mm = 60.0;  // headlight colours are as seen from here, head on
+  double gamma = 2.2;                   // of the pictures' encoding
+  double max_weight = 4.0;              // new colours count at least 1 / (1 + max_weight)
+  int highlight_level = 225;            // brighter in all channels = specular, not the tissue
+  int brightening_limit = 50;           // so much brighter than the point in every channel: too
+
+  void validate() const;
+};
+
+/// Where new points come from: docs/fusion.md (F14) to (F16).
+struct InsertionOptions {
+  double spacing_mm = 0.2;    // between new points, and from them to old ones
+  double max_sigma_mm = 0.5;  // less sure depths make no points
+  double band_mm = 2.0;       // a model point this near in depth explains a pixel
+  bool confirm = true;        // wait until two frames in a row say the same
+
+  void validate() const;
+};
+
+/// How dense the model stays: docs/fusion.md (F17), (F18).
+struct DensityOptions {
+  double cell_mm = 0.2;
+  double max_angle_deg = 60.0;  // between normals of points that are merged: two sides stay two
+
+  void validate() const;
+};
+
+/// Everything that stage 7 may be told.
+struct FusionOptions {
+  PixelOptions pixels;
+  VisibilityOptions visibility;
+  PointFusionOptions points;
+  ColourOptions colour;
+  InsertionOptions insertion;
+  DensityOptions density;
+
+  /// The paper's choice: the printed weights, all depths alike, a hard truncation, the latest
+  /// colour, no confirmation of new points.
+  static FusionOptions paper();
+
+  void validate() const;
+};
+
+}  // namespace softscope

@@ -1,0 +1,58 @@
+// src/fusion/fusion_weights.h: how much a measurement counts against what is known.
+#pragma once
+
+#include <cmath>
+
+#include "core/hd.h"
+#include "fusion/fusion_options.h"
+
+namespace softscope {
+
+/// Inverse-variance weight of a depth, 1 at the reference: docs/fusion.md (F5). mm.
+SOFTSCOPE_HD inline float depthWeight(float sigma_mm, float reference_sigma_mm, float largest) {
+  if (!(reference_sigma_mm > 0)) return 1;
+  const float ratio = reference_sigma_mm / sigma_mm;
+  const float weight = ratio * ratio;
+  return weight < largest ? weight : largest;
+}
+
+/// 0 from tau on; below it 1, or smoothly falling: (F6). mm.
+SOFTSCOPE_HD inline float truncationWeight(float ahead_mm, float truncation_mm, bool soft) {
+  const float share = ahead_mm / truncation_mm, rest = 1 - share * share;
+  if (!(rest > 0)) return 0;
+  return soft ? rest * rest : 1.0f;
+}
+
+/// What the distance to the nearest node, in half node spacings, makes of a measurement: (F7).
+SOFTSCOPE_HD inline float nodeWeight(NodeTrust trust, float half_spacings) {
+  const float share = half_spacings < 1 ? half_spacings : 1.0f;
+  if (trust == NodeTrust::kPaper) return share;
+  if (trust == NodeTrust::kNearer) return 1 - 0.5f * share;
+  return 1;
+}
+
+/// What one warp leaves of a point's weight: (F7). `noise` is the warp's variance half a spacing
+/// away from all nodes, in units of the reference variance.
+SOFTSCOPE_HD inline float weightAfterWarp(float weight, float half_spacings, float noise) {
+  const float share = half_spacings < 1 ? half_spacings : 1.0f;
+  return weight / (1 + weight * noise * share * share);
+}
+
+/// Share of the new value in the running average: (F8).
+SOFTSCOPE_HD inline float averagingGain(float weight, float measurement_weight) {
+  return measurement_weight > 0 ? measurement_weight / (weight + measurement_weight) : 0.0f;
+}
+
+/// (F10): what a contradiction leaves; 0 = nothing, the point goes.
+SOFTSCOPE_HD inline float contradictedWeight(float weight, float measurement_weight, float loss) {
+  const float share = loss * measurement_weight, rest = (1 - share) * weight - 0.5f * share;
+  return rest > 0 ? rest : 0.0f;
+}
+
+/// (F9).
+SOFTSCOPE_HD inline float grownWeight(float weight, float measurement_weight, float largest) {
+  const float sum = weight + measurement_weight;
+  return sum < largest ? sum : largest;
+}
+
+}  // namespace softscope

@@ -1,0 +1,21 @@
+#include "fusion/model_update.h"
+
+namespace softscope {
+
+ModelUpdateSummary updateModel(const Observation& observation, const WarpGraph& graph,
+                               const FusionOptions& options, InsertionMemory* memory,
+                               PointModel* model) {
+  options.validate();
+  const Raster<PixelState> states = judgePixels(observation, options.pixels);
+  const Visibility visibility = findVisible(*model, observation, states, options.visibility);
+  ModelUpdateSummary summary;
+  for (const PointSight& point : visibility.points) summary.seen += point.sight == Sight::kSeen;
+  summary.points =
+      fusePoints(graph, observation, visibility, options.points, options.colour, model);
+  summary.insertion =
+      insertPoints(observation, states, visibility, summary.points.gain, options, memory, model);
+  summary.index_map = keepDensity(options.density, model);
+  return summary;
+}
+
+}  // namespace softscope

@@ -1,0 +1,175 @@
+#include "fusion/point_fusion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "fusion/fusion_weights.h"
+#include "fusion/illumination.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kGrain = 4096;  // points a task
+
+/// Distance to the nearest node that carries the point, mm; negative where none does.
+float nearestNodeMm(const WarpGraph& graph, const PointBinding& binding,
+                    const Eigen::Vector3f& point_mm) {
+  if (!binding.bound() || binding.stencil >= static_cast<std::int32_t>(graph.stencils.size()))
+    return -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::int32_t node : graph.stencils[binding.stencil])
+    nearest = std::min(nearest, (graph.positions_mm[node] - point_mm.cast<double>()).squaredNorm());
+  return static_cast<float>(std::sqrt(nearest));
+}
+
+/// One frame's work on single points.
+class Fuser {
+ public:
+  Fuser(const WarpGraph& graph, const Observation& observation, const PointFusionOptions& options,
+        const ColourOptions& colour_options, const ColourGain& gain, PointModel* model)
+      : graph_(graph),
+        observation_(observation),
+        options_(options),
+        colour_options_(colour_options),
+        gain_(gain),
+        model_(*model),
+        camera_(posedCamera(observation.left, observation.world_from_left)),
+        truncation_mm_(static_cast<float>(options.truncation_mm)),
+        reference_mm_(static_cast<float>(options.reference_sigma_mm)),
+        confirmed_weight_(static_cast<float>(options.confirmed_weight)) {
+    const double reference = options.reference_sigma_mm > 0 ? options.reference_sigma_mm : 0.1;
+    const double ratio = options.warp_sigma_mm / reference;
+    warp_noise_ = static_cast<float>(ratio * ratio);
+  }
+
+  bool contradicts(std::size_t i, const PointSight& point) const {
+    if (point.sight == Sight::kSeenThrough) return true;
+    if (model_.weights[i] >= confirmed_weight_) return false;
+    return point.sight == Sight::kHidden || point.sight == Sight::kTurned;
+  }
+
+  /// docs/fusion.md (F10).
+  void lose(std::size_t i, const PointSight& point) const {
+    model_.weights[i] =
+        contradictedWeight(model_.weights[i], std::min(1.0f, depthWeightAt(point.pixel)),
+                           static_cast<float>(options_.contradiction_loss));
+  }
+
+  /// docs/fusion.md (F8), (F9), (F13); false where the measurement has no weight.
+  bool fuse(std::size_t i, const PointSight& point) const {
+    if (!(std::abs(point.ahead_mm) < truncation_mm_)) return false;
+    float& weight = model_.weights[i];
+    float measured = depthWeightAt(point.pixel) *
+                     truncationWeight(point.ahead_mm, truncation_mm_, options_.soft_truncation);
+    const float node_mm = options_.node_trust == NodeTrust::kEqual
+                              ? -1
+                              : nearestNodeMm(graph_, model_.bindings[i], model_.positions_mm[i]);
+    if (node_mm >= 0) {
+      const float half_spacings = node_mm / (0.5f * static_cast<float>(options_.node_spacing_mm));
+      measured *= nodeWeight(options_.node_trust, half_spacings);
+      if (options_.node_trust == NodeTrust::kWarpNoise)
+        weight = weightAfterWarp(weight, half_spacings, warp_noise_);
+    }
+    const float gain = averagingGain(weight, measured);
+    if (!(gain > 0)) return false;
+    const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[i]);
+    updateColour(i, point.pixel, measured, left);  // before the weight grows
+    moveTowards(i, point, left, gain);
+    weight = grownWeight(weight, measured, static_cast<float>(options_.max_weight));
+    return true;
+  }
+
+ private:
+  float depthWeightAt(std::int32_t pixel) const {
+    if (observation_.depth.sigma_mm.empty()) return 1;
+    return depthWeight(observation_.depth.sigma_mm.values[static_cast<std::size_t>(pixel)],
+                       reference_mm_, static_cast<float>(options_.max_measurement_weight));
+  }
+
+  void moveTowards(std::size_t i, const PointSight& point, const Eigen::Vector3f& left,
+                   float gain) const {
+    Eigen::Vector3f& position = model_.positions_mm[i];
+    const std::size_t pixel = static_cast<std::size_t>(point.pixel);
+    if (options_.along_ray) {
+      const Eigen::Vector3f step = left * (gain * point.ahead_mm / left.norm());
+      position += camera_.left_from_world.transpose() * step;
+    } else {
+      const Eigen::Vector3f lifted =
+          camera_.ray(point.pixel % camera_.width_px, point.pixel / camera_.width_px) *
+          observation_.depth.depth_mm.values[pixel];
+      position += gain * (camera_.toWorld(lifted) - position);
+    }
+    const Eigen::Vector3f measured =
+        camera_.left_from_world.transpose() * observation_.normals.values[pixel];
+    model_.normals[i] = ((1 - gain) * model_.normals[i] + gain * measured).normalized();
+  }
+
+  void updateColour(std::size_t i, std::int32_t pixel, float measured,
+                    const Eigen::Vector3f& left) const {
+    if (observation_.colour.empty()) return;
+    const Rgb8 seen = observation_.colour.values[static_cast<std::size_t>(pixel)];
+    if (isHighlight(seen, colour_options_)) return;
+    const float distance_mm = left.norm();
+    const float cosine = -(camera_.left_from_world * model_.normals[i]).dot(left) / distance_mm;
+    const Rgb8 fresh = modelColour(seen, shading(colour_options_, distance_mm, cosine), gain_);
+    Rgb8& known = model_.colours[i];
+    const int limit = colour_options_.brightening_limit;
+    const bool brightened = fresh.red - known.red >= limit && fresh.green - known.green >= limit &&
+                            fresh.blue - known.blue >= limit;
+    if (brightened && model_.weights[i] >= confirmed_weight_) return;
+    const float old = std::min(model_.weights[i], static_cast<float>(colour_options_.max_weight));
+    const float gain = averagingGain(old, measured);
+    const auto mix = [gain](std::uint8_t a, std::uint8_t b) {
+      return toByte(static_cast<float>(a) + gain * (static_cast<float>(b) - static_cast<float>(a)));
+    };
+    known = {mix(known.red, fresh.red), mix(known.green, fresh.green), mix(known.blue, fresh.blue)};
+  }
+
+  const WarpGraph& graph_;
+  const Observation& observation_;
+  const PointFusionOptions& options_;
+  const ColourOptions& colour_options_;
+  const ColourGain gain_;
+  PointModel& model_;
+  const PosedCamera camera_;
+  const float truncation_mm_, reference_mm_, confirmed_weight_;
+  float warp_noise_ = 0;
+};
+
+}  // namespace
+
+PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observation,
+                              const Visibility& visibility, const PointFusionOptions& options,
+                              const ColourOptions& colour_options, PointModel* model) {
+  options.validate();
+  colour_options.validate();
+  observation.validate();
+  requireVisibility(visibility, *model);
+  PointFusionSummary summary;
+  summary.gain = estimateGain(*model, observation, visibility, colour_options);
+  const Fuser fuser(graph, observation, options, colour_options, summary.gain, model);
+  std::atomic<int> fused{0}, contradicted{0};
+  parallelRanges(static_cast<int>(model->size()), kGrain, [&](int begin, int end) {
+    int fused_here = 0, contradicted_here = 0;
+    for (int k = begin; k < end; ++k) {
+      const std::size_t i = static_cast<std::size_t>(k);
+      const PointSight& point = visibility.points[i];
+      if (fuser.contradicts(i, point)) {
+        fuser.lose(i, point);
+        ++contradicted_here;
+      } else if (point.sight == Sight::kSeen && fuser.fuse(i, point)) {
+        ++fused_here;
+      }
+    }
+    fused += fused_here;
+    contradicted += contradicted_here;
+  });
+  summary.fused = fused;
+  summary.contradicted = contradicted;
+  return summary;
+}
+
+}  // namespace softscope

@@ -1,0 +1,192 @@
+#include "fusion/point_insertion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "fusion/cell_table.h"
+#include "fusion/fusion_weights.h"
+#include "fusion/illumination.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kGrain = 4096;        // points a task
+constexpr int kMostFootprint = 10;  // pixels
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+using Flags = std::vector<std::atomic<std::uint8_t>>;  // a pixel each; set from any thread
+
+/// Pixels nearer to a point than this get no new one: (F14).
+int footprintPx(float depth_mm, float focal_px, float spacing_mm) {
+  const float spacing_px = spacing_mm * focal_px / depth_mm;
+  return std::clamp(static_cast<int>(std::lround(std::min(spacing_px, 100.0f))), 1, kMostFootprint);
+}
+
+/// Flags the pixels that this point explains.
+void explain(float depth_mm, int pixel, int reach, const Raster<float>& measured_mm, float band_mm,
+             Flags* explained) {
+  const int u0 = pixel % measured_mm.width_px, v0 = pixel / measured_mm.width_px;
+  for (int v = std::max(0, v0 - reach); v <= std::min(measured_mm.height_px - 1, v0 + reach); ++v)
+    for (int u = std::max(0, u0 - reach); u <= std::min(measured_mm.width_px - 1, u0 + reach);
+         ++u) {
+      const std::size_t i = static_cast<std::size_t>(v) * measured_mm.width_px + u;
+      if (depth_mm < measured_mm.values[i] + band_mm)
+        (*explained)[i].store(1, std::memory_order_relaxed);
+    }
+}
+
+void explainAll(const PointModel& model, const Visibility& visibility, const PosedCamera& camera,
+                const Raster<float>& measured_mm, const InsertionOptions& options,
+                Flags* explained) {
+  const float band_mm = static_cast<float>(options.band_mm);
+  const float spacing_mm = static_cast<float>(options.spacing_mm);
+  parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const int pixel = visibility.points[i].pixel;
+      if (pixel < 0 || !(model.weights[i] > 0)) continue;
+      const float depth_mm = camera.toLeft(model.positions_mm[i]).z();
+      explain(depth_mm, pixel, footprintPx(depth_mm, camera.fx_px, spacing_mm), measured_mm,
+              band_mm, explained);
+    }
+  });
+}
+
+/// Depths that are sure enough to make points, and unexplained; NaN elsewhere.
+Raster<float> unexplainedDepths(const Observation& observation, const Raster<PixelState>& states,
+                                const Flags& explained, float max_sigma_mm) {
+  const DepthMap& depth = observation.depth;
+  Raster<float> unexplained(states.width_px, states.height_px, kNaN);
+  parallelRanges(static_cast<int>(states.size()), kGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      if (states.values[i] != PixelState::kSure || explained[i].load(std::memory_order_relaxed))
+        continue;
+      if (!depth.sigma_mm.empty() && !(depth.sigma_mm.values[i] <= max_sigma_mm)) continue;
+      unexplained.values[i] = depth.depth_mm.values[i];
+    }
+  });
+  return unexplained;
+}
+
+/// Whether the last frame saw something unexplained there as well: (F15).
+bool confirmed(const Eigen::Vector3f& point_world, const PosedCamera& last_camera,
+               const Raster<float>& last_mm, float band_mm) {
+  const Eigen::Vector3f left = last_camera.toLeft(point_world);
+  int u0, v0;
+  if (!last_camera.findPixel(left, &u0, &v0)) return false;
+  for (int v = v0 - 1; v <= v0 + 1; ++v)
+    for (int u = u0 - 1; u <= u0 + 1; ++u)
+      if (last_mm.contains(u, v) && std::abs(last_mm.at(u, v) - left.z()) < band_mm) return true;
+  return false;
+}
+
+/// The pixels that become points, in the picture's order: (F16), the first of every cell.
+std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
+                                       const PosedCamera& camera,
+                                       const std::vector<std::uint8_t>& allowed,
+                                       const InsertionOptions& options) {
+  std::vector<std::int32_t> candidates;
+  for (std::size_t i = 0; i < unexplained_mm.size(); ++i)
+    if (allowed[i] != 0) candidates.push_back(static_cast<std::int32_t>(i));
+  const float spacing_mm = static_cast<float>(options.spacing_mm);
+  const Eigen::Vector3f cell_mm(spacing_mm, spacing_mm, static_cast<float>(options.band_mm));
+  std::vector<CellKey> keys(candidates.size());
+  parallelRanges(static_cast<int>(candidates.size()), kGrain, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::int32_t i = candidates[k];
+      const Eigen::Vector3f ray =
+          camera.ray(i % unexplained_mm.width_px, i / unexplained_mm.width_px);
+      keys[k] = cellKey(ray * unexplained_mm.values[i], cell_mm);
+    }
+  });
+  std::vector<std::int32_t> chosen;
+  CellTable table(candidates.size());
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (keys[k] == kNoCell) continue;
+    std::int32_t& held = table.find(keys[k], [&](std::int32_t j) { return keys[j] == keys[k]; });
+    if (held != CellTable::kEmpty) continue;
+    held = static_cast<std::int32_t>(k);
+    chosen.push_back(candidates[k]);
+  }
+  return chosen;
+}
+
+void addPoint(std::int32_t pixel, const Observation& observation, const PosedCamera& camera,
+              const ColourGain& gain, const FusionOptions& options, PointModel* model) {
+  const std::size_t i = static_cast<std::size_t>(pixel);
+  const Eigen::Vector3f left = camera.ray(pixel % camera.width_px, pixel / camera.width_px) *
+                               observation.depth.depth_mm.values[i];
+  const Eigen::Vector3f& normal = observation.normals.values[i];
+  const float distance_mm = left.norm();
+  const float shade = shading(options.colour, distance_mm, -normal.dot(left) / distance_mm);
+  const Rgb8 colour =
+      observation.colour.empty() ? Rgb8{} : modelColour(observation.colour.values[i], shade, gain);
+  const float weight = observation.depth.sigma_mm.empty()
+                           ? 1.0f
+                           : depthWeight(observation.depth.sigma_mm.values[i],
+                                         static_cast<float>(options.points.reference_sigma_mm),
+                                         static_cast<float>(options.points.max_measurement_weight));
+  model->add(camera.toWorld(left), camera.left_from_world.transpose() * normal, colour,
+             std::min(weight, static_cast<float>(options.points.max_weight)));
+}
+
+/// Makes room by a quarter more at a time: doubling would waste too much on a large model.
+void makeRoom(std::size_t more, PointModel* model) {
+  const std::size_t needed = model->size() + more;
+  if (needed > model->positions_mm.capacity())
+    model->reserve(std::max(needed, model->size() + model->size() / 4));
+}
+
+/// Which unexplained pixels may become points now.
+std::vector<std::uint8_t> allowedPixels(const Raster<float>& unexplained_mm,
+                                        const PosedCamera& camera, const InsertionMemory& last,
+                                        bool at_once, float band_mm) {
+  const PosedCamera last_camera = posedCamera(last.left, last.world_from_left);
+  std::vector<std::uint8_t> allowed(unexplained_mm.size(), 0);
+  parallelRows(unexplained_mm.height_px, [&](int v) {
+    for (int u = 0; u < unexplained_mm.width_px; ++u) {
+      const float depth_mm = unexplained_mm.at(u, v);
+      if (!(depth_mm > 0)) continue;
+      allowed[static_cast<std::size_t>(v) * unexplained_mm.width_px + u] =
+          at_once || confirmed(camera.toWorld(camera.ray(u, v) * depth_mm), last_camera,
+                               last.unexplained_mm, band_mm);
+    }
+  });
+  return allowed;
+}
+
+}  // namespace
+
+InsertionSummary insertPoints(const Observation& observation, const Raster<PixelState>& states,
+                              const Visibility& visibility, const ColourGain& gain,
+                              const FusionOptions& options, InsertionMemory* memory,
+                              PointModel* model) {
+  options.validate();
+  observation.validate();
+  requireStates(states, observation);
+  requireVisibility(visibility, *model);
+  const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
+  Flags explained(states.size());
+  explainAll(*model, visibility, camera, observation.depth.depth_mm, options.insertion, &explained);
+  Raster<float> unexplained_mm = unexplainedDepths(
+      observation, states, explained, static_cast<float>(options.insertion.max_sigma_mm));
+  const bool at_once = !options.insertion.confirm || model->empty();
+  const std::vector<std::uint8_t> allowed = allowedPixels(
+      unexplained_mm, camera, *memory, at_once, static_cast<float>(options.insertion.band_mm));
+  const std::vector<std::int32_t> chosen =
+      choosePixels(unexplained_mm, camera, allowed, options.insertion);
+  makeRoom(chosen.size(), model);
+  for (const std::int32_t pixel : chosen)
+    addPoint(pixel, observation, camera, gain, options, model);
+  InsertionSummary summary;
+  summary.inserted = static_cast<int>(chosen.size());
+  for (const float depth_mm : unexplained_mm.values) summary.unexplained_px += depth_mm > 0;
+  *memory = {std::move(unexplained_mm), observation.left, observation.world_from_left};
+  return summary;
+}
+
+}  // namespace softscope

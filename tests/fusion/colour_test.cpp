@@ -1,0 +1,124 @@
+// tests/fusion/colour_test.cpp: colours follow the tissue, not the light.
+#include <gtest/gtest.h>
+
+#include "fusion/colour_gain.h"
+#include "fusion/illumination.h"
+#include "fusion/made_shots.h"
+
+namespace softscope::test {
+namespace {
+
+constexpr Rgb8 kTissue{150, 90, 80};
+
+PointModel modelOf(const Surface& surface, const FusionOptions& options, InsertionMemory* memory,
+                   int frames = 5) {
+  PointModel model;
+  for (int k = 0; k < frames; ++k)
+    update(takeShot(surface, smallCamera()), options, memory, &model);
+  return model;
+}
+
+int largestDifference(const PointModel& model, Rgb8 colour) {
+  int largest = 0;
+  for (const Rgb8 c : model.colours)
+    largest = std::max({largest, std::abs(c.red - colour.red), std::abs(c.green - colour.green),
+                        std::abs(c.blue - colour.blue)});
+  return largest;
+}
+
+TEST(Colour, KeepsTheModelsExposureWhenTheCamerasChanges) {
+  InsertionMemory memory;
+  PointModel model = modelOf(plane(55), {}, &memory);
+  // 0.8 in red and green, 0.7 in blue, rounded: within half a level of 90, so 1 % of gain.
+  Shot darker = takeShot(plane(55), smallCamera(), shifted(0, 0, 0), 3.3e-5, {120, 72, 56});
+  const ModelUpdateSummary summary = update(darker, {}, &memory, &model);
+  EXPECT_NEAR(summary.points.gain.red, 0.8, 0.01);
+  EXPECT_NEAR(summary.points.gain.green, 0.8, 0.01);
+  EXPECT_NEAR(summary.points.gain.blue, 0.7, 0.01);
+  EXPECT_LE(largestDifference(model, kTissue), 2);
+}
+
+TEST(Colour, FollowsTissueThatChangesInPlaces) {
+  InsertionMemory memory;
+  PointModel model = modelOf(plane(55), {}, &memory);
+  Shot bleeding = takeShot(plane(55), smallCamera());
+  for (int v = 20; v < 40; ++v)
+    for (int u = 20; u < 40; ++u) bleeding.colour.at(u, v) = {90, 10, 10};
+  for (int k = 0; k < 20; ++k) update(bleeding, {}, &memory, &model);
+  int red = 0;
+  for (const Rgb8 c : model.colours) red += c.green < 16;
+  EXPECT_NEAR(red, 20 * 20 / 4.15, 25);  // 4.15 pixels a cell of 0.2 mm
+}
+
+TEST(Colour, IgnoresHighlights) {
+  InsertionMemory memory;
+  PointModel model = modelOf(plane(55), {}, &memory);
+  Shot glaring = takeShot(plane(55), smallCamera());
+  for (int v = 10; v < 40; ++v)
+    for (int u = 10; u < 40; ++u)  // the light itself, and its glow
+      glaring.colour.at(u, v) = u < 25 ? Rgb8{255, 250, 240} : Rgb8{210, 160, 150};
+  for (int k = 0; k < 10; ++k) update(glaring, {}, &memory, &model);
+  EXPECT_LE(largestDifference(model, kTissue), 1);
+}
+
+TEST(Colour, GetsRidOfAHighlightThatWasThereFirst) {
+  InsertionMemory memory;
+  PointModel model;
+  Shot glaring = takeShot(plane(55), smallCamera());
+  for (int u = 10; u < 40; ++u) glaring.colour.at(u, 30) = {250, 250, 250};
+  update(glaring, {}, &memory, &model);
+  for (int k = 0; k < 20; ++k) update(takeShot(plane(55), smallCamera()), {}, &memory, &model);
+  EXPECT_LE(largestDifference(model, kTissue), 3);  // steps below half a level end the average
+}
+
+TEST(Colour, ThePaperTakesTheLatest) {
+  InsertionMemory memory;
+  const FusionOptions paper = FusionOptions::paper();
+  PointModel model = modelOf(plane(55), paper, &memory);
+  update(takeShot(plane(55), smallCamera(), shifted(0, 0, 0), 3.3e-5, {10, 20, 30}), paper, &memory,
+         &model);
+  EXPECT_EQ(largestDifference(model, {10, 20, 30}), 0);
+}
+
+TEST(Headlight, ShadesByDistanceAndAngle) {
+  EXPECT_FLOAT_EQ(shading(60, 1, 60, 2.2f), 1);
+  EXPECT_FLOAT_EQ(shading(120, 1, 60, 1), 0.25f);
+  EXPECT_FLOAT_EQ(shading(60, 0.5f, 60, 1), 0.5f);
+  EXPECT_NEAR(shading(90, 1, 60, 2.2f), std::pow(1 / 2.25, 1 / 2.2), 1e-6);
+  EXPECT_FLOAT_EQ(shading(1, 1, 60, 2.2f), 4);  // bounded
+  EXPECT_FLOAT_EQ(shading(1e9f, 1, 60, 2.2f), 0.25f);
+}
+
+// The scope comes nearer, the picture brightens, the tissue stays the same. A fixed exposure, so
+// nothing may be explained by gain. 2 levels: 8-bit pictures, undone by factors up to 1.25.
+TEST(Headlight, AlbedoStaysAsTheScopeComesNearer) {
+  FusionOptions options;
+  options.colour.illumination = Illumination::kHeadlight;
+  options.colour.compensate_gain = false;
+  options.colour.reference_distance_mm = 60;
+  PointModel model;
+  InsertionMemory memory;
+  for (int k = 0; k < 12; ++k) {
+    const double z = 70 - 2.0 * k;
+    Shot shot = takeShot(plane(70), smallCamera(), shifted(0, 0, 70 - z));
+    for (int v = 0; v < 72; ++v)
+      for (int u = 0; u < 96; ++u) {
+        const Eigen::Vector3f p = liftPixel<float>(shot.left, u, v, static_cast<float>(z));
+        shot.colour.at(u, v) = relit(kTissue, shading(options.colour, p.norm(), p.z() / p.norm()));
+      }
+    update(shot, options, &memory, &model);
+  }
+  ASSERT_FALSE(model.empty());
+  EXPECT_LE(largestDifference(model, kTissue), 2);
+}
+
+TEST(Gain, IsOneWhereNobodySpeaks) {
+  const Shot shot = takeShot(plane(55), smallCamera());
+  const ColourGain gain = estimateGain({}, shot.observation(), {}, {});
+  EXPECT_EQ(gain.red, 1);
+  EXPECT_EQ(gain.green, 1);
+  EXPECT_EQ(gain.blue, 1);
+}
+
+}  // namespace
+}  // namespace softscope::test
