@@ -1,0 +1,183 @@
+#include "features/dense_surf.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "features/integral_image.h"
+#include "features/kernels.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kCells = 4;  // a side
+constexpr int kSums = 4;   // dx, |dx|, dy, |dy|
+
+struct Integrals {
+  Raster<std::int32_t> gray, invalid;
+};
+
+Integrals integralsOf(const GrayImage& image, const Mask& ignore) {
+  Integrals out;
+  const auto gray = [](std::uint8_t value) { return static_cast<std::int32_t>(value); };
+  const auto marked = [](std::uint8_t value) { return value != 0 ? 1 : 0; };
+  parallelInvoke([&] { out.gray = integralImage(image, gray); },
+                 [&] {
+                   out.invalid = ignore.empty() ? Raster<std::int32_t>(image.width_px + 1,
+                                                                       image.height_px + 1, 0)
+                                                : integralImage(ignore, marked);
+                 });
+  return out;
+}
+
+/// Sums of the wavelets, grid square by grid square.
+struct Squares {
+  Raster<std::int32_t> sums;   // kSums values a square: width is kSums * columns
+  Raster<std::int32_t> valid;  // how many wavelets of the square touch no ignored pixel
+};
+
+/// Wavelets of one row of pixels, all of the picture's width; 0 where they'd leave the picture.
+struct WaveletRow {
+  explicit WaveletRow(int width) : du(static_cast<std::size_t>(width), 0), dv(du), valid(du) {}
+  std::vector<std::int32_t> du, dv, valid;
+
+  void compute(const Integrals& integrals, int v, int h, int count) {
+    featureKernels().haarRow(integrals.gray.row(v - h) + h, integrals.gray.row(v) + h,
+                             integrals.gray.row(v + h) + h, integrals.invalid.row(v - h) + h,
+                             integrals.invalid.row(v + h) + h, h, count, du.data() + h,
+                             dv.data() + h, valid.data() + h);
+  }
+};
+
+void addRow(const WaveletRow& row, int grid, int columns, std::int32_t* sums, std::int32_t* valid) {
+  for (int c = 0; c < columns; ++c)
+    for (int k = c * grid; k < (c + 1) * grid; ++k) {
+      const std::size_t u = static_cast<std::size_t>(k);
+      sums[kSums * c] += row.du[u];
+      sums[kSums * c + 1] += std::abs(row.du[u]);
+      sums[kSums * c + 2] += row.dv[u];
+      sums[kSums * c + 3] += std::abs(row.dv[u]);
+      valid[c] += row.valid[u];
+    }
+}
+
+Squares squaresOf(const Integrals& integrals, int width, int height,
+                  const DenseSurfOptions& options) {
+  const int grid = options.grid_px, h = options.wavelet_px / 2;
+  const int columns = width / grid, rows = height / grid;
+  Squares out{Raster<std::int32_t>(kSums * columns, rows, 0),
+              Raster<std::int32_t>(columns, rows, 0)};
+  parallelRanges(rows, 8, [&](int begin, int end) {
+    WaveletRow wavelets(width + 1);
+    for (int r = begin; r < end; ++r)
+      for (int v = r * grid; v < (r + 1) * grid; ++v) {
+        if (v < h || v > height - h) continue;
+        wavelets.compute(integrals, v, h, width - 2 * h + 1);
+        addRow(wavelets, grid, columns, out.sums.row(r), out.valid.row(r));
+      }
+  });
+  return out;
+}
+
+/// Sums over `reach` x `reach` squares that begin at each square.
+struct Cells {
+  Raster<float> sums;  // kSums values a cell
+  Raster<std::int32_t> valid;
+};
+
+template <class To, class From>
+Raster<To> boxSums(const Raster<From>& in, int reach, int channels) {
+  const int columns = in.width_px / channels - reach + 1, rows = in.height_px - reach + 1;
+  Raster<To> out(channels * columns, rows);
+  parallelRows(rows, [&](int r) {
+    std::vector<From> upright(in.row(r), in.row(r) + in.width_px);
+    for (int y = 1; y < reach; ++y)
+      for (int k = 0; k < in.width_px; ++k) upright[static_cast<std::size_t>(k)] += in.at(k, r + y);
+    for (int k = 0; k < out.width_px; ++k) {
+      From sum = 0;
+      for (int x = 0; x < reach; ++x) sum += upright[static_cast<std::size_t>(k + x * channels)];
+      out.at(k, r) = static_cast<To>(sum);
+    }
+  });
+  return out;
+}
+
+/// What all descriptors of a picture share.
+struct Layout {
+  int reach;           // grid squares a cell's side
+  int least_valid;     // wavelets
+  float gray_per_sum;  // mean difference of the halves' grey levels, from the sum of |dx| + |dy|
+};
+
+Layout layoutOf(const DenseSurfOptions& options) {
+  const int side = kCells * options.cell_px;
+  const double half_wavelet = 0.5 * options.wavelet_px * options.wavelet_px;
+  return {options.cell_px / options.grid_px,
+          static_cast<int>((1 - options.max_invalid_share) * side * side),
+          static_cast<float>(1 / (half_wavelet * 2 * side * side))};
+}
+
+void describeRow(const Cells& cells, const Layout& layout, const DenseSurfOptions& options, int r,
+                 DenseDescriptors* out) {
+  const int step = kSums * layout.reach;
+  for (int c = 0; c < out->columns(); ++c) {
+    const float* rows[kCells];
+    int valid = 0;
+    float absolute = 0;
+    for (int i = 0; i < kCells; ++i) {
+      rows[i] = cells.sums.row(r + i * layout.reach) + kSums * c;
+      for (int j = 0; j < kCells; ++j) {
+        valid += cells.valid.at(c + j * layout.reach, r + i * layout.reach);
+        absolute += rows[i][j * step + 1] + rows[i][j * step + 3];
+      }
+    }
+    const std::size_t node = static_cast<std::size_t>(r) * out->columns() + c;
+    featureKernels().describe(rows, step, out->bytes.data() + kDescriptorSize * node);
+    out->contrast_gray.values[node] = absolute * layout.gray_per_sum;
+    out->valid.values[node] =
+        valid >= layout.least_valid &&
+        out->contrast_gray.values[node] >= static_cast<float>(options.min_contrast_gray);
+  }
+}
+
+}  // namespace
+
+void DenseSurfOptions::validate() const {
+  require(grid_px >= 1, "dense_surf.grid_px", grid_px, "must be 1 or more");
+  require(wavelet_px >= 2 && wavelet_px % 2 == 0, "dense_surf.wavelet_px", wavelet_px,
+          "must be even, 2 or more");
+  require(cell_px >= grid_px && cell_px % grid_px == 0, "dense_surf.cell_px", cell_px,
+          "must be a multiple of dense_surf.grid_px");
+  require(max_invalid_share >= 0 && max_invalid_share < 1, "dense_surf.max_invalid_share",
+          max_invalid_share, "must be 0 or more and below 1");
+  require(min_contrast_gray >= 0, "dense_surf.min_contrast_gray", min_contrast_gray,
+          "can't be negative");
+}
+
+DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
+                           const DenseSurfOptions& options) {
+  options.validate();
+  if (!ignore.empty() && !ignore.sameShape(image))
+    throw Error("dense SURF: the mask has another shape than the picture");
+  const Layout layout = layoutOf(options);
+  DenseDescriptors out;
+  out.grid_px = options.grid_px;
+  // Wavelet u lies between the pixels u - 1 and u, so that the middle of the cells is a pixel.
+  out.first_px = kCells / 2 * options.cell_px - 1;
+  const int least_side = std::max(kCells * options.cell_px, options.wavelet_px);
+  if (image.width_px < least_side || image.height_px < least_side) return out;
+
+  const Squares squares =
+      squaresOf(integralsOf(image, ignore), image.width_px, image.height_px, options);
+  const Cells cells{boxSums<float>(squares.sums, layout.reach, kSums),
+                    boxSums<std::int32_t>(squares.valid, layout.reach, 1)};
+  const int lost = (kCells - 1) * layout.reach;
+  out.valid = Raster<std::uint8_t>(cells.valid.width_px - lost, cells.valid.height_px - lost, 0);
+  out.contrast_gray = Raster<float>(out.columns(), out.rows());
+  out.bytes.resize(kDescriptorSize * out.valid.size());
+  parallelRows(out.rows(), [&](int r) { describeRow(cells, layout, options, r, &out); });
+  return out;
+}
+
+}  // namespace softscope

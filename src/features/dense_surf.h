@@ -1,0 +1,48 @@
+// src/features/dense_surf.h: a SURF descriptor every few pixels, whatever the picture shows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace softscope {
+
+/// Upright, at one scale. SURF's scale s stands for wavelets of 2 s and cells of 5 s pixels.
+struct DenseSurfOptions {
+  int grid_px = 3;                 // from one descriptor to the next
+  int wavelet_px = 4;              // side of the Haar wavelets; even
+  int cell_px = 6;                 // side of the 4 x 4 cells; a multiple of grid_px
+  double max_invalid_share = 0.2;  // of a descriptor's wavelets that touch ignored pixels
+  double min_contrast_gray = 0.8;  // mean difference of the wavelets' halves, or there's nothing
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+/// Descriptors on a grid: node (i, j) describes the square of 4 cells around pixel
+/// (first_px + i * grid_px, first_px + j * grid_px).
+struct DenseDescriptors {
+  int first_px = 0;
+  int grid_px = 3;
+  Raster<std::uint8_t> valid;       // columns x rows of nodes, 1 = may be matched
+  Raster<float> contrast_gray;      // same shape
+  std::vector<std::uint8_t> bytes;  // 64 a node, see kDescriptorUnit
+
+  int columns() const { return valid.width_px; }
+  int rows() const { return valid.height_px; }
+  const std::uint8_t* descriptor(int column, int row) const {
+    return bytes.data() + 64 * (static_cast<std::size_t>(row) * columns() + column);
+  }
+};
+
+/// Sums of dx, |dx|, dy and |dy| in 4 x 4 cells (Bay et al. 2008), length 1, on a dense grid
+/// (Uijlings, Smeulders, Scha 2009): wavelets come from an integral image, each is summed once into
+/// its grid square, each square once into its cells, and a cell serves the 16 descriptors that
+/// share it. Without SURF's Gaussian weights, which would forbid the sharing. `ignore` is empty or
+/// has the picture's shape, non-zero = invalid. A picture smaller than one descriptor gives none.
+/// Throws OptionError on bad options, Error where the shapes differ.
+DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
+                           const DenseSurfOptions& options);
+
+}  // namespace softscope

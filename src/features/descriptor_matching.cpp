@@ -1,0 +1,195 @@
+#include "features/descriptor_matching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/parallel.h"
+#include "features/kernels.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kInvalid = 0xFFFF;
+
+/// Distances from one descriptor to all in a window of another picture's nodes.
+class Window {
+ public:
+  /// Nodes around (column, row), cut at the grid's ends.
+  void compare(const std::uint8_t* one, const DenseDescriptors& others, int column, int row,
+               int reach) {
+    c0_ = std::max(column - reach, 0);
+    r0_ = std::max(row - reach, 0);
+    columns_ = std::min(column + reach, others.columns() - 1) - c0_ + 1;
+    rows_ = std::min(row + reach, others.rows() - 1) - r0_ + 1;
+    if (empty()) return;
+    distances_.resize(static_cast<std::size_t>(columns_) * rows_);
+    const FeatureKernels& kernels = featureKernels();
+    for (int r = 0; r < rows_; ++r) {
+      std::uint16_t* to = distances_.data() + static_cast<std::size_t>(r) * columns_;
+      kernels.descriptorDistances(one, others.descriptor(c0_, r0_ + r), columns_, to);
+      const std::uint8_t* valid = others.valid.row(r0_ + r) + c0_;
+      for (int c = 0; c < columns_; ++c) to[c] = valid[c] != 0 ? to[c] : kInvalid;
+    }
+    findBest();
+  }
+
+  bool empty() const { return columns_ <= 0 || rows_ <= 0; }
+  bool found() const { return !empty() && best_ < kInvalid; }
+  int best() const { return best_; }
+  int bestColumn() const { return c0_ + best_column_; }
+  int bestRow() const { return r0_ + best_row_; }
+
+  /// Least distance of nodes more than `reach` columns or rows away from the best one.
+  int bestElsewhere(int reach) const {
+    int least = kInvalid;
+    for (int r = 0; r < rows_; ++r) {
+      const bool near_row = std::abs(r - best_row_) <= reach;
+      const std::uint16_t* from = distances_.data() + static_cast<std::size_t>(r) * columns_;
+      const int left_end = near_row ? std::max(best_column_ - reach, 0) : columns_;
+      const int right_begin = near_row ? best_column_ + reach + 1 : columns_;
+      for (int c = 0; c < left_end; ++c) least = std::min<int>(least, from[c]);
+      for (int c = right_begin; c < columns_; ++c) least = std::min<int>(least, from[c]);
+    }
+    return least;
+  }
+
+  /// Where parabolas through the best node and its neighbours are lowest, in nodes; 0 at the rim.
+  Eigen::Vector2f parabolaShift() const {
+    return {lowest(at(best_column_ - 1, best_row_), at(best_column_ + 1, best_row_)),
+            lowest(at(best_column_, best_row_ - 1), at(best_column_, best_row_ + 1))};
+  }
+
+ private:
+  void findBest() {
+    const auto least = std::min_element(distances_.begin(), distances_.end());
+    const int at = static_cast<int>(least - distances_.begin());
+    best_ = *least;
+    best_column_ = at % columns_;
+    best_row_ = at / columns_;
+  }
+
+  int at(int c, int r) const {
+    if (c < 0 || r < 0 || c >= columns_ || r >= rows_) return kInvalid;
+    return distances_[static_cast<std::size_t>(r) * columns_ + static_cast<std::size_t>(c)];
+  }
+
+  float lowest(int before, int after) const {
+    if (before == kInvalid || after == kInvalid) return 0;
+    const int curvature = before + after - 2 * best_;
+    return curvature > 0 ? 0.5f * static_cast<float>(before - after) / static_cast<float>(curvature)
+                         : 0;
+  }
+
+  int c0_ = 0, r0_ = 0, columns_ = 0, rows_ = 0;
+  int best_ = kInvalid, best_column_ = 0, best_row_ = 0;
+  std::vector<std::uint16_t> distances_;
+};
+
+/// The options in nodes.
+struct Reach {
+  int search, elsewhere, mutual;
+  int shift_columns, shift_rows;
+};
+
+Reach reachOf(const MatcherOptions& options, int grid_px, const Eigen::Vector2f& shift_px) {
+  const auto nodes = [&](double px) { return static_cast<int>(std::lround(px / grid_px)); };
+  return {std::max(1, nodes(options.search_radius_px)), nodes(options.elsewhere_px),
+          nodes(options.mutual_px), nodes(shift_px.x()), nodes(shift_px.y())};
+}
+
+/// One node's match and its ratio; ratio 1 = none.
+struct Candidate {
+  int column = 0, row = 0;
+  float ratio = 1;
+  Eigen::Vector2f shift = Eigen::Vector2f::Zero();
+};
+
+class PairOfGrids {
+ public:
+  PairOfGrids(const DenseDescriptors& model, const DenseDescriptors& live, const Reach& reach,
+              float max_ratio)
+      : model_(model), live_(live), reach_(reach), max_ratio_(max_ratio) {}
+
+  Candidate candidate(int column, int row, Window* window) const {
+    Candidate none;
+    if (model_.valid.at(column, row) == 0) return none;
+    window->compare(model_.descriptor(column, row), live_, column + reach_.shift_columns,
+                    row + reach_.shift_rows, reach_.search);
+    if (!window->found()) return none;
+    const float elsewhere = static_cast<float>(window->bestElsewhere(reach_.elsewhere));
+    const float ratio = static_cast<float>(window->best()) / std::max(elsewhere, 1.0f);
+    if (!(ratio < max_ratio_)) return none;
+    return {window->bestColumn(), window->bestRow(), ratio, window->parabolaShift()};
+  }
+
+  bool mutual(int column, int row, const Candidate& there, Window* window) const {
+    window->compare(live_.descriptor(there.column, there.row), model_,
+                    there.column - reach_.shift_columns, there.row - reach_.shift_rows,
+                    reach_.search);
+    return window->found() && std::abs(window->bestColumn() - column) <= reach_.mutual &&
+           std::abs(window->bestRow() - row) <= reach_.mutual;
+  }
+
+ private:
+  const DenseDescriptors& model_;
+  const DenseDescriptors& live_;
+  Reach reach_;
+  float max_ratio_;
+};
+
+/// The most distinct node of a square that is mutual; tried in the order of distinctness.
+bool bestOfSquare(const PairOfGrids& grids, int c0, int r0, int c1, int r1, Window* window,
+                  std::vector<std::pair<Candidate, Eigen::Vector2i>>* tried, NodeMatch* match,
+                  const DenseDescriptors& model, const DenseDescriptors& live) {
+  tried->clear();
+  for (int r = r0; r < r1; ++r)
+    for (int c = c0; c < c1; ++c) {
+      const Candidate candidate = grids.candidate(c, r, window);
+      if (candidate.ratio < 1) tried->emplace_back(candidate, Eigen::Vector2i(c, r));
+    }
+  std::stable_sort(tried->begin(), tried->end(),
+                   [](const auto& a, const auto& b) { return a.first.ratio < b.first.ratio; });
+  for (const auto& [there, node] : *tried) {
+    if (!grids.mutual(node.x(), node.y(), there, window)) continue;
+    const auto pixel = [](const DenseDescriptors& grid, int column, int row) {
+      return Eigen::Vector2f(static_cast<float>(grid.first_px + column * grid.grid_px),
+                             static_cast<float>(grid.first_px + row * grid.grid_px));
+    };
+    match->model_px = pixel(model, node.x(), node.y());
+    match->live_px = pixel(live, there.column, there.row);
+    match->parabola_px = match->live_px + static_cast<float>(live.grid_px) * there.shift;
+    match->ratio = there.ratio;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<NodeMatch> matchDescriptors(const DenseDescriptors& model, const DenseDescriptors& live,
+                                        const Eigen::Vector2f& expected_shift_px,
+                                        const MatcherOptions& options) {
+  if (model.valid.empty() || live.valid.empty() || !expected_shift_px.allFinite()) return {};
+  const Reach reach = reachOf(options, model.grid_px, expected_shift_px);
+  const PairOfGrids grids(model, live, reach, static_cast<float>(options.max_ratio));
+  const int side = std::max(1, options.spacing_px / model.grid_px);
+  const int square_rows = (model.rows() + side - 1) / side;
+  std::vector<std::vector<NodeMatch>> found(static_cast<std::size_t>(square_rows));
+  parallelRanges(square_rows, 4, [&](int begin, int end) {
+    Window window;
+    std::vector<std::pair<Candidate, Eigen::Vector2i>> tried;
+    NodeMatch match;
+    for (int r = begin; r < end; ++r)
+      for (int c = 0; c < model.columns(); c += side)
+        if (bestOfSquare(grids, c, r * side, std::min(c + side, model.columns()),
+                         std::min((r + 1) * side, model.rows()), &window, &tried, &match, model,
+                         live))
+          found[static_cast<std::size_t>(r)].push_back(match);
+  });
+  std::vector<NodeMatch> all;
+  for (const auto& row : found) all.insert(all.end(), row.begin(), row.end());
+  return all;
+}
+
+}  // namespace softscope

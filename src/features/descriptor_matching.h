@@ -1,0 +1,26 @@
+// src/features/descriptor_matching.h: nearest descriptors within reach, both ways.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "features/dense_surf.h"
+#include "features/matcher_options.h"
+
+namespace softscope {
+
+/// Grid nodes that belong together.
+struct NodeMatch {
+  Eigen::Vector2f model_px;
+  Eigen::Vector2f live_px;
+  Eigen::Vector2f parabola_px;  // live_px moved to the lowest point of parabolas in u and in v
+  float ratio = 1;              // best distance over the best one elsewhere; below 1 = distinct
+};
+
+/// Nodes that pass the ratio test and the mutual test; of each square of spacing_px the most
+/// distinct one. By rows of the model's nodes.
+std::vector<NodeMatch> matchDescriptors(const DenseDescriptors& model, const DenseDescriptors& live,
+                                        const Eigen::Vector2f& expected_shift_px,
+                                        const MatcherOptions& options);
+
+}  // namespace softscope

@@ -1,0 +1,84 @@
+#include "features/instrument_detector.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "features/mask_morphology.h"
+
+namespace softscope {
+namespace {
+
+/// 3 x 3 box means, because chroma of single pixels is mostly JPEG blocks.
+ColourImage softened(const ColourImage& image) {
+  ColourImage out(image.width_px, image.height_px);
+  const cv::Mat from(image.height_px, image.width_px, CV_8UC3,
+                     const_cast<Rgb8*>(image.values.data()));
+  cv::Mat to(out.height_px, out.width_px, CV_8UC3, out.values.data());
+  cv::blur(from, to, {5, 5});
+  return out;
+}
+
+Mask colourlessPixels(const ColourImage& image, const InstrumentOptions& options) {
+  Mask mask(image.width_px, image.height_px, 0);
+  parallelRows(image.height_px, [&](int v) {
+    const Rgb8* in = image.row(v);
+    for (int u = 0; u < image.width_px; ++u) {
+      const int sum = in[u].red + in[u].green + in[u].blue;
+      const double redness = in[u].red - 0.5 * (in[u].green + in[u].blue);
+      mask.at(u, v) = sum >= 3 * options.min_brightness && redness <= options.max_redness * sum;
+    }
+  });
+  return mask;
+}
+
+/// Keeps connected regions that are large and begin at the border.
+Mask largeFromBorder(const Mask& mask, const InstrumentOptions& options) {
+  const cv::Mat from(mask.height_px, mask.width_px, CV_8U,
+                     const_cast<std::uint8_t*>(mask.values.data()));
+  cv::Mat labels, boxes, centres;
+  const int count = cv::connectedComponentsWithStats(from, labels, boxes, centres, 8, CV_32S);
+  const double least = options.min_area_share * mask.width_px * mask.height_px;
+  std::vector<std::uint8_t> kept(static_cast<std::size_t>(count), 0);
+  for (int i = 1; i < count; ++i) {
+    const int* box = boxes.ptr<int>(i);
+    const int right = box[cv::CC_STAT_LEFT] + box[cv::CC_STAT_WIDTH];
+    const int bottom = box[cv::CC_STAT_TOP] + box[cv::CC_STAT_HEIGHT];
+    const int gap = std::min({box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP], mask.width_px - right,
+                              mask.height_px - bottom});
+    kept[static_cast<std::size_t>(i)] =
+        box[cv::CC_STAT_AREA] >= least && gap <= options.max_border_gap_px;
+  }
+  Mask out(mask.width_px, mask.height_px, 0);
+  for (int v = 0; v < mask.height_px; ++v)
+    for (int u = 0; u < mask.width_px; ++u)
+      out.at(u, v) = kept[static_cast<std::size_t>(labels.at<int>(v, u))];
+  return out;
+}
+
+}  // namespace
+
+void InstrumentOptions::validate() const {
+  require(max_redness > -1 && max_redness < 1, "instruments.max_redness", max_redness,
+          "must lie between -1 and 1");
+  require(min_brightness >= 0 && min_brightness <= 255, "instruments.min_brightness",
+          min_brightness, "must lie between 0 and 255");
+  require(open_px >= 0, "instruments.open_px", open_px, "can't be negative");
+  require(close_px >= 0, "instruments.close_px", close_px, "can't be negative");
+  require(min_area_share >= 0 && min_area_share <= 1, "instruments.min_area_share", min_area_share,
+          "must lie between 0 and 1");
+  require(max_border_gap_px >= 0, "instruments.max_border_gap_px", max_border_gap_px,
+          "can't be negative");
+  require(grow_px >= 0, "instruments.grow_px", grow_px, "can't be negative");
+}
+
+Mask detectInstruments(const ColourImage& image, const InstrumentOptions& options) {
+  options.validate();
+  if (image.empty()) return Mask();
+  const Mask colourless = colourlessPixels(softened(image), options);
+  const Mask opened = grown(shrunk(colourless, options.open_px), options.open_px);
+  const Mask closed = shrunk(grown(opened, options.close_px), options.close_px);
+  return grown(largeFromBorder(closed, options), options.grow_px);
+}
+
+}  // namespace softscope

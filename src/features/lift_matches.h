@@ -1,0 +1,42 @@
+// src/features/lift_matches.h: matched pixels become matched points.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/depth_map.h"
+#include "features/matcher.h"
+#include "features/model_view.h"
+
+namespace softscope {
+
+struct LiftOptions {
+  double max_step_mm = 1.0;  // among the four pixels around a place; more is a depth step
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+/// One piece of tissue, on the model and as it was measured now.
+struct LiftedMatch {
+  std::int32_t model_point = 0;     // of the model, nearest to the ray
+  Eigen::Vector3f source_world_mm;  // on the model
+  Eigen::Vector3f target_left_mm;   // measured, in the live left camera's frame
+  float across_mm = 0;              // predicted standard errors of the target: across …
+  float along_mm = 0;               // … and along the live camera's ray; NaN if depth has none
+  int match = 0;                    // index of the pixel match
+};
+
+/// Depth at a sub-pixel place, bilinear in the inverse depth (exact on planes); NaN where one of
+/// the four pixels is unmeasured or they differ by more than `max_step_mm`.
+float depthAt(const Raster<float>& depth_mm, const Eigen::Vector2f& place_px, float max_step_mm);
+
+/// Lifts the model side by the view's depth and the live side by the depth map (sigma_mm may be
+/// empty); leaves out what has no depth. Keeps the order.
+std::vector<LiftedMatch> liftMatches(const std::vector<PixelMatch>& matches, const ModelView& view,
+                                     const DepthMap& live_depth, const PinholeCamera& live_camera,
+                                     const LiftOptions& options);
+
+}  // namespace softscope

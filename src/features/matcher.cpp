@@ -1,0 +1,111 @@
+#include "features/matcher.h"
+
+#include "core/error.h"
+#include "features/descriptor_matching.h"
+#include "features/kernels.h"
+#include "features/opencv_matchers.h"
+#include "features/subpixel_match.h"
+
+namespace softscope {
+namespace {
+
+void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
+  const auto shape = [](const auto& raster) {
+    return std::to_string(raster.width_px) + " x " + std::to_string(raster.height_px);
+  };
+  if (!model.gray.sameShape(live.gray))
+    throw Error("matching: the model view is " + shape(model.gray) + " and the live picture " +
+                shape(live.gray) + "; both need one shape");
+  for (const MatchPicture* picture : {&model, &live})
+    if (!picture->ignore.empty() && !picture->ignore.sameShape(picture->gray))
+      throw Error("matching: a mask is " + shape(picture->ignore) + ", but its picture " +
+                  shape(picture->gray));
+}
+
+class DenseSurfMatcher : public FeatureMatcher {
+ public:
+  explicit DenseSurfMatcher(const MatcherOptions& options) : options_(options) {}
+  std::string name() const override { return "dense-surf"; }
+
+  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
+                                const Eigen::Vector2f& expected_shift_px) override {
+    requireOneShape(model, live);
+    const std::vector<NodeMatch> nodes = matchDescriptors(
+        denseSurf(model.gray, model.ignore, options_.dense_surf),
+        denseSurf(live.gray, live.ignore, options_.dense_surf), expected_shift_px, options_);
+    const bool whole_nodes = options_.subpixel.method == "none";
+    std::vector<PixelMatch> rough;
+    for (const NodeMatch& node : nodes)
+      rough.push_back({node.model_px, whole_nodes ? node.live_px : node.parabola_px,
+                       0.5f * static_cast<float>(options_.dense_surf.grid_px), 0});
+    if (options_.subpixel.method != "gauss-newton") return rough;
+    return refineMatches(model, live, rough, options_.subpixel);
+  }
+
+ private:
+  MatcherOptions options_;
+};
+
+class NoMatcher : public FeatureMatcher {
+ public:
+  std::string name() const override { return "surf-off"; }
+  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
+                                const Eigen::Vector2f&) override {
+    requireOneShape(model, live);
+    return {};
+  }
+};
+
+/// Checks shapes for the matchers that OpenCV does.
+class CheckedMatcher : public FeatureMatcher {
+ public:
+  explicit CheckedMatcher(std::unique_ptr<FeatureMatcher> inner) : inner_(std::move(inner)) {}
+  std::string name() const override { return inner_->name(); }
+  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
+                                const Eigen::Vector2f& expected_shift_px) override {
+    requireOneShape(model, live);
+    return inner_->match(model, live, expected_shift_px);
+  }
+
+ private:
+  std::unique_ptr<FeatureMatcher> inner_;
+};
+
+}  // namespace
+
+void MatcherOptions::validate() const {
+  require(
+      method == "dense-surf" || method == "sift" || method == "dis-flow" || method == "surf-off",
+      "matcher.method", method, "must be dense-surf, sift, dis-flow or surf-off");
+  require(search_radius_px > 0, "matcher.search_radius_px", search_radius_px, "must be above 0");
+  require(max_ratio > 0 && max_ratio <= 1, "matcher.max_ratio", max_ratio,
+          "must be above 0 and at most 1");
+  require(elsewhere_px >= 0, "matcher.elsewhere_px", elsewhere_px, "can't be negative");
+  require(mutual_px >= 0, "matcher.mutual_px", mutual_px, "can't be negative");
+  require(spacing_px >= 1, "matcher.spacing_px", spacing_px, "must be 1 or more");
+  require(sift_features >= 1, "matcher.sift_features", sift_features, "must be 1 or more");
+  const std::string& refinement = subpixel.method;
+  require(refinement == "gauss-newton" || refinement == "parabola" || refinement == "none",
+          "matcher.subpixel.method", refinement, "must be gauss-newton, parabola or none");
+  require(subpixel.radius_px >= 1 && 2 * subpixel.radius_px + 1 <= kLargestWindow,
+          "matcher.subpixel.radius_px", subpixel.radius_px, "must lie between 1 and 7");
+  require(subpixel.iterations >= 1, "matcher.subpixel.iterations", subpixel.iterations,
+          "must be 1 or more");
+  require(subpixel.max_shift_px > 0, "matcher.subpixel.max_shift_px", subpixel.max_shift_px,
+          "must be above 0");
+  require(subpixel.max_sigma_px > 0, "matcher.subpixel.max_sigma_px", subpixel.max_sigma_px,
+          "must be above 0");
+  require(subpixel.floor_sigma_px >= 0, "matcher.subpixel.floor_sigma_px", subpixel.floor_sigma_px,
+          "can't be negative");
+  dense_surf.validate();
+}
+
+std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options) {
+  options.validate();
+  if (options.method == "dense-surf") return std::make_unique<DenseSurfMatcher>(options);
+  if (options.method == "surf-off") return std::make_unique<NoMatcher>();
+  return std::make_unique<CheckedMatcher>(options.method == "sift" ? makeSiftMatcher(options)
+                                                                   : makeFlowMatcher(options));
+}
+
+}  // namespace softscope

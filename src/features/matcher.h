@@ -1,0 +1,45 @@
+// src/features/matcher.h: where did each pixel of the model view go?
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "features/matcher_options.h"
+
+namespace softscope {
+
+/// A picture to be matched, and what of it to leave out.
+struct MatchPicture {
+  GrayImage gray;
+  Mask ignore;  // empty, or the picture's shape; non-zero = no tissue, instrument, highlight
+};
+
+/// One piece of tissue in two pictures.
+struct PixelMatch {
+  Eigen::Vector2f model_px;
+  Eigen::Vector2f live_px;
+  float sigma_px = 0;    // predicted standard error of live_px along its worst direction
+  float similarity = 0;  // correlation of the windows, -1 to 1; 0 where none was computed
+};
+
+class FeatureMatcher {
+ public:
+  virtual ~FeatureMatcher() = default;
+
+  /// "dense-surf", "sift", "dis-flow" or "surf-off"; written into every report.
+  virtual std::string name() const = 0;
+
+  /// Matches inside both pictures, by rows of the model picture. `expected_shift_px` is about how
+  /// far things moved. Pictures without texture, or all ignored, give no matches. Same input, same
+  /// matches, whatever the number of threads. Throws Error where shapes differ.
+  virtual std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
+                                        const Eigen::Vector2f& expected_shift_px) = 0;
+};
+
+/// Throws OptionError if the options break a rule.
+std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options);
+
+}  // namespace softscope

@@ -1,0 +1,36 @@
+// src/features/matcher_options.h: how pixels of the model view are found again; every default.
+#pragma once
+
+#include <string>
+
+#include "features/dense_surf.h"
+
+namespace softscope {
+
+/// Gauss-Newton on a window around each match; blind to gain and offset of the brightness.
+struct SubpixelOptions {
+  std::string method = "gauss-newton";  // or "parabola" (dense SURF only), or "none"
+  int radius_px = 7;                    // window is (2 r + 1)², at most 15²
+  int iterations = 8;
+  double max_shift_px = 3.0;     // from where it began
+  double min_similarity = 0.7;   // correlation of both windows
+  double max_sigma_px = 0.3;     // matches whose predicted standard error is larger are dropped
+  double floor_sigma_px = 0.03;  // error that no amount of texture removes
+};
+
+struct MatcherOptions {
+  std::string method = "dense-surf";  // or "sift", "dis-flow", or "surf-off": no matches
+  double search_radius_px = 24;       // around the expected place
+  double max_ratio = 0.9;             // best distance over the best one elsewhere
+  double elsewhere_px = 6;            // what is nearer to the best place isn't elsewhere
+  double mutual_px = 3;               // the match back ends this near to where it began
+  int spacing_px = 6;  // of the matches that are kept: one, the most distinct, a square
+  DenseSurfOptions dense_surf;
+  SubpixelOptions subpixel;
+  int sift_features = 4000;  // strongest key points that SIFT keeps a picture
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+}  // namespace softscope

@@ -1,0 +1,42 @@
+// src/features/model_view.h: what a camera would see of the model.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "core/camera.h"
+#include "core/image.h"
+#include "core/point_model.h"
+
+namespace softscope {
+
+struct ModelViewOptions {
+  double point_spacing_mm = 0.2;  // of the model's points
+  double disc_spacings = 0.9;     // radius of a disc, in spacings; larger discs blur
+  double min_disc_px = 1.25;      // so that far points leave no holes between pixels
+  double surface_depth_mm = 1.0;  // points this far behind the front one belong to its surface
+  int gap_px = 4;                 // gaps up to this wide in a nearer surface are closed
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+/// All rasters have the camera's shape.
+struct ModelView {
+  PinholeCamera camera;
+  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+  ColourImage colour;                // black where nothing is seen
+  Raster<float> depth_mm;            // along the optical axis; NaN where nothing is seen
+  Raster<std::int32_t> point_index;  // the model point nearest to the ray; -1 where there is none
+};
+
+/// Draws the points that face the camera as discs in their tangent planes: a depth buffer first,
+/// then the mean of all discs on the front surface, weighted by distance from their centres, so
+/// that texture keeps its place to a fraction of the points' spacing. Points that are not finite,
+/// behind the camera, or whose normal (if it has one) turns away aren't drawn. Same input, same
+/// bytes, whatever the number of threads. Throws OptionError on bad options.
+ModelView renderModelView(const PointModel& model, const PinholeCamera& camera,
+                          const Eigen::Isometry3d& world_from_left,
+                          const ModelViewOptions& options);
+
+}  // namespace softscope

@@ -1,0 +1,164 @@
+// tests/features/matcher_test.cpp: true matches, honest errors, and none where there is nothing.
+#include "features/matcher.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "features/warped_pair.h"
+
+namespace softscope {
+namespace {
+
+using Eigen::Vector2f;
+
+std::vector<PixelMatch> matchBy(const MatcherOptions& options, const test::WarpedPair& pair,
+                                const Vector2f& expected_shift_px = Vector2f::Zero()) {
+  return makeFeatureMatcher(options)->match(pair.model, pair.live, expected_shift_px);
+}
+
+MatcherOptions methodOf(const std::string& method) {
+  MatcherOptions options;
+  options.method = method;
+  return options;
+}
+
+bool same(const std::vector<PixelMatch>& a, const std::vector<PixelMatch>& b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [](const PixelMatch& x, const PixelMatch& y) {
+           return x.model_px == y.model_px && x.live_px == y.live_px && x.sigma_px == y.sigma_px;
+         });
+}
+
+TEST(DenseSurfMatcher, FindsASmoothDeformationToATenthOfAPixel) {
+  const auto errors = test::errorsOf(matchBy({}, test::makeWarpedPair(2.0)));
+  EXPECT_GT(errors.count, 1000u);  // of about 1700 squares of 6 px inside both pictures
+  EXPECT_LT(errors.median_px, 0.1);
+  EXPECT_LT(errors.outlier_share, 0.005);
+  // The median of a 2-D Gaussian error is 1.18 standard errors of one axis; sigma_px is the worst
+  // axis', so below; a third would be false modesty.
+  EXPECT_LT(errors.median_in_sigmas, 1.5);
+  EXPECT_GT(errors.median_in_sigmas, 0.4);
+}
+
+TEST(DenseSurfMatcher, RefinementIsWorthItsTime) {
+  const test::WarpedPair pair = test::makeWarpedPair(2.0);
+  double medians[3];
+  const char* methods[] = {"none", "parabola", "gauss-newton"};
+  for (int k = 0; k < 3; ++k) {
+    MatcherOptions options;
+    options.subpixel.method = methods[k];
+    medians[k] = test::errorsOf(matchBy(options, pair)).median_px;
+  }
+  EXPECT_LT(medians[1], medians[0]);
+  EXPECT_LT(medians[2], 0.2 * medians[1]);
+}
+
+TEST(DenseSurfMatcher, ExpectedShiftMovesTheSearch) {
+  MatcherOptions options;
+  options.search_radius_px = 4;  // the true shifts are 3 to 6 px right, 1 to 4 px up
+  const auto blind = matchBy(options, test::makeWarpedPair(1.0), Vector2f(-20, 20));
+  const auto told = matchBy(options, test::makeWarpedPair(1.0), Vector2f(4, -3));
+  EXPECT_LT(10 * blind.size(), told.size());
+}
+
+TEST(DenseSurfMatcher, RatioTestRefusesAPatternThatRepeats) {
+  test::WarpedPair pair = test::makeWarpedPair(0);
+  for (int v = 0; v < pair.model.gray.height_px; ++v)
+    for (int u = 0; u < pair.model.gray.width_px; ++u)
+      pair.model.gray.at(u, v) = pair.live.gray.at(u, v) =
+          static_cast<std::uint8_t>(128 + 60 * ((u / 6 + v / 6) % 2));
+  // 12 px period, 24 px reach: everything looks alike, but for the picture's own corners.
+  EXPECT_LT(matchBy({}, pair).size(), 20u);
+}
+
+class EveryMatcher : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMatcher,
+                         testing::Values("dense-surf", "sift", "dis-flow", "surf-off"),
+                         [](const auto& one) {
+                           std::string name = one.param;
+                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+                           return name;
+                         });
+
+TEST_P(EveryMatcher, SaysItsNameAndMatches) {
+  const auto matcher = makeFeatureMatcher(methodOf(GetParam()));
+  EXPECT_EQ(matcher->name(), GetParam());
+  const test::WarpedPair pair = test::makeWarpedPair(1.0);
+  const auto errors = test::errorsOf(matcher->match(pair.model, pair.live, Vector2f::Zero()));
+  if (matcher->name() == "surf-off")
+    EXPECT_EQ(errors.count, 0u);
+  else
+    EXPECT_LT(errors.median_px, 0.3) << errors.count;  // SIFT's own places are the worst
+}
+
+TEST_P(EveryMatcher, GivesTheSameOnOneThread) {
+  const test::WarpedPair pair = test::makeWarpedPair(2.0);
+  const auto many = matchBy(methodOf(GetParam()), pair);
+  const ThreadLimit one(1);
+  EXPECT_TRUE(same(many, matchBy(methodOf(GetParam()), pair)));
+}
+
+TEST_P(EveryMatcher, StaysSilentWhereThereIsNothing) {
+  const auto matcher = makeFeatureMatcher(methodOf(GetParam()));
+  const test::WarpedPair pair = test::makeWarpedPair(1.0);
+  const Mask everything(320, 240, 255);
+  for (const std::uint8_t gray : {0, 128, 255}) {
+    const MatchPicture flat{GrayImage(320, 240, gray), {}};
+    const auto found = matcher->match(flat, pair.live, Vector2f::Zero());
+    for (const PixelMatch& match : found) EXPECT_TRUE(match.live_px.allFinite());
+    if (matcher->name() != "dis-flow") {
+      EXPECT_TRUE(found.empty());
+    }
+    EXPECT_TRUE(matcher->match(flat, flat, Vector2f::Zero()).empty());
+  }
+  EXPECT_TRUE(matcher->match({pair.model.gray, everything}, pair.live, Vector2f::Zero()).empty());
+  EXPECT_TRUE(matcher->match(pair.model, {pair.live.gray, everything}, Vector2f::Zero()).empty());
+  EXPECT_TRUE(matcher->match({}, {}, Vector2f::Zero()).empty());
+  const MatchPicture tiny{GrayImage(5, 3, 9), {}};
+  EXPECT_TRUE(matcher->match(tiny, tiny, Vector2f::Zero()).empty());
+}
+
+TEST_P(EveryMatcher, NeverMatchesWhatIsIgnored) {
+  test::WarpedPair pair = test::makeWarpedPair(1.0);
+  pair.model.ignore = Mask(320, 240, 0);
+  for (int v = 80; v < 180; ++v)
+    for (int u = 100; u < 220; ++u) pair.model.ignore.at(u, v) = 1;
+  for (const PixelMatch& match : matchBy(methodOf(GetParam()), pair)) {
+    const int u = static_cast<int>(std::lround(match.model_px.x()));
+    const int v = static_cast<int>(std::lround(match.model_px.y()));
+    // Descriptors may reach 5 px into the mask before a fifth of them is ignored.
+    EXPECT_FALSE(u >= 108 && u < 212 && v >= 88 && v < 172) << u << ", " << v;
+  }
+}
+
+TEST_P(EveryMatcher, RefusesUnequalShapes) {
+  const test::WarpedPair pair = test::makeWarpedPair(0);
+  const auto matcher = makeFeatureMatcher(methodOf(GetParam()));
+  const MatchPicture other{GrayImage(300, 240, 0), {}};
+  EXPECT_THROW(matcher->match(pair.model, other, Vector2f::Zero()), Error);
+  EXPECT_THROW(matcher->match({pair.model.gray, Mask(3, 3, 0)}, pair.live, Vector2f::Zero()),
+               Error);
+}
+
+TEST(MatcherOptions, AreCheckedOneByOne) {
+  EXPECT_THROW(makeFeatureMatcher(methodOf("orb")), OptionError);
+  const auto refused = [](auto change) {
+    MatcherOptions options;
+    change(options);
+    EXPECT_THROW(makeFeatureMatcher(options), OptionError);
+  };
+  refused([](MatcherOptions& o) { o.search_radius_px = 0; });
+  refused([](MatcherOptions& o) { o.max_ratio = 1.1; });
+  refused([](MatcherOptions& o) { o.elsewhere_px = -1; });
+  refused([](MatcherOptions& o) { o.mutual_px = -1; });
+  refused([](MatcherOptions& o) { o.spacing_px = 0; });
+  refused([](MatcherOptions& o) { o.subpixel.method = "magic"; });
+  refused([](MatcherOptions& o) { o.subpixel.radius_px = 8; });
+  refused([](MatcherOptions& o) { o.subpixel.iterations = 0; });
+  refused([](MatcherOptions& o) { o.dense_surf.cell_px = 7; });
+  refused([](MatcherOptions& o) { o.dense_surf.wavelet_px = 3; });
+}
+
+}  // namespace
+}  // namespace softscope
