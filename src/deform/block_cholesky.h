@@ -17,6 +17,8 @@ namespace softscope {
 /// same, to the byte, whatever the number of threads.
 class BlockCholesky {
  public:
+  static constexpr int kTileColumns = 6;  // what the kernels take at a time
+
   /// How the diagonal is raised before factorising: H(jj) (1 + relative) + absolute I.
   struct Damping {
     double relative = 0;

@@ -31,12 +31,12 @@ struct GraphOptions {
 
 /// Which model points the depth map may pull, and where: docs/energy.md (9) to (11).
 struct AssociationOptions {
-  double max_distance_mm = 2.0;     // epsilon_d
-  double max_angle_deg = 45.0;      // epsilon_n
-  double reference_sigma_mm = 0.0;  // depth this sure weighs 1, others by inverse variance;
-                                    // 0: all depths weigh 1
-  double max_reliability = 4.0;     // no depth weighs more than this
-  int max_points = 0;               // use an even subset, each standing for many; 0 = all
+  double max_distance_mm = 2.0;      // epsilon_d
+  double max_angle_deg = 45.0;       // epsilon_n
+  double reference_sigma_mm = 0.15;  // depth this sure weighs 1, others by inverse variance;
+                                     // 0: all depths weigh 1
+  double max_reliability = 4.0;      // no depth weighs more than this
+  int max_points = 0;                // use an even subset, each standing for many; 0 = all
 
   void validate() const;
 };
@@ -52,24 +52,26 @@ struct SolverOptions {
   int max_iterations = 8;  // linear systems solved and accepted, over all associations
   int iterations_per_association = 1;
   int max_rejections = 8;         // in a row, before we say that there is no better step
-  double initial_damping = 1e-5;  // lambda, relative to the block diagonal
-  double min_damping = 1e-9;
+  double initial_damping = 1e-7;  // lambda, relative to the block diagonal
+  double min_damping = 1e-10;
   double max_damping = 1e6;
   double step_tolerance_mm = 2e-3;  // converged when no node moves further in one step
-  double cost_tolerance = 1e-4;     // or when a step lowers the cost by less than this share
+  double cost_tolerance = 1e-3;     // or when a step lowers the cost by less than this share
 
   void validate() const;
 };
 
-/// The energy's weights and everything else that stage 6 may be told.
+/// The energy's weights and everything else that stage 6 may be told. The defaults were found on a
+/// simulated sequence with noise (docs/energy.md, "Which weights"), for 0.2 mm between points:
+/// E_data grows with their number.
 struct DeformOptions {
   NodeModel node_model = NodeModel::kRigid;
-  double rotation_weight = 0.0;        // w_rot; has no effect on rigid nodes
-  double regularisation_weight = 1e4;  // w_reg
-  double data_weight = 1.0;            // w_data
-  double correspondence_weight = 1.0;  // w_corr
-  RobustOptions data_robust;
-  RobustOptions correspondence_robust;
+  double rotation_weight = 40.0;        // w_rot; has no effect on rigid nodes
+  double regularisation_weight = 60.0;  // w_reg
+  double data_weight = 1.0;             // w_data
+  double correspondence_weight = 60.0;  // w_corr
+  RobustOptions data_robust{RobustLoss::kHuber, 0.3};
+  RobustOptions correspondence_robust{RobustLoss::kHuber, 0.3};
   AssociationOptions association;
   SolverOptions solver;
 

@@ -35,14 +35,14 @@ CellTable changingRegion(const PointModel& model, const std::vector<int>& unboun
 }
 
 bool inside(const CellTable& region, const Eigen::Vector3f& position_mm) {
-  std::uint64_t key = 0;
-  return region.keyOf(position_mm, &key) && region.find(key) >= 0;
+  return CellFinder(region).find(position_mm) >= 0;
 }
 
 std::vector<int> pointsInside(const PointModel& model, const CellTable& region) {
   std::vector<int> points;
+  CellFinder finder(region);
   for (int i = 0; i < static_cast<int>(model.size()); ++i)
-    if (inside(region, model.positions_mm[i])) points.push_back(i);
+    if (finder.find(model.positions_mm[i]) >= 0) points.push_back(i);
   return points;
 }
 

@@ -26,7 +26,8 @@ std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm)
       if (straight_mm > reach_mm) continue;
       // On an even surface a walk takes about one step a cell of straight line, never many more.
       const bool direct = steps <= 2 + options_.detour_ratio * straight_mm / cells_.cellMm();
-      if (direct && enter(node, straight_mm, &near_[cell])) entered.push_back(cell);
+      if (direct && enter(node, straight_mm, &near_[cell]) <= kNodesPerPoint)
+        entered.push_back(cell);
       for (int i = cells_.neighboursBegin(cell); i < cells_.neighboursEnd(cell); ++i) {
         const int other = cells_.neighbour(i);
         if (visited_[other] == walk_) continue;
@@ -38,11 +39,11 @@ std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm)
   return entered;
 }
 
-/// Insertion into a short sorted list; equal distances keep the lower node first.
-bool NodeReach::enter(int node, float distance_mm, Near* near) const {
+/// Insertion into a short sorted list; equal distances keep the lower node first. Returns where.
+int NodeReach::enter(int node, float distance_mm, Near* near) const {
   int at = near->count;
   while (at > 0 && near->distance_mm[at - 1] > distance_mm) --at;
-  if (at == kNearest) return false;
+  if (at == kNearest) return at;
   near->count = std::min(near->count + 1, kNearest);
   for (int i = near->count - 1; i > at; --i) {
     near->nodes[i] = near->nodes[i - 1];
@@ -50,7 +51,7 @@ bool NodeReach::enter(int node, float distance_mm, Near* near) const {
   }
   near->nodes[at] = node;
   near->distance_mm[at] = distance_mm;
-  return true;
+  return at;
 }
 
 bool NodeReach::covered(int cell) const {

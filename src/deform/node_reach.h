@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "core/point_model.h"
 #include "deform/deform_options.h"
 #include "deform/surface_cells.h"
 
@@ -28,7 +29,7 @@ class NodeReach {
   static double reachMm(const GraphOptions& options) { return 2.5 * options.node_spacing_mm; }
 
   /// Walks from the node over touching cells and enters it where it is among the closest.
-  /// Returns the cells that it was entered in.
+  /// Returns the cells where it is one of the few that decide how a point is carried.
   std::vector<int> spread(int node, const Eigen::Vector3f& position_mm);
 
   const Near& near(int cell) const { return near_[cell]; }
@@ -36,7 +37,7 @@ class NodeReach {
   bool covered(int cell) const;
 
  private:
-  bool enter(int node, float distance_mm, Near* near) const;
+  int enter(int node, float distance_mm, Near* near) const;
 
   const SurfaceCells& cells_;
   GraphOptions options_;

@@ -68,9 +68,14 @@ SurfaceCells::SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm,
                            const std::vector<int>& points, double cell_mm)
     : cell_mm_(cell_mm), table_(cell_mm, static_cast<int>(points.size() / 16)) {
   cell_of_.assign(points.size(), -1);
-  std::uint64_t key = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (table_.keyOf(positions_mm[points[i]], &key)) cell_of_[i] = table_.findOrAdd(key);
+  std::uint64_t key = 0, last_key = ~std::uint64_t{0};
+  int cell = -1;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!table_.keyOf(positions_mm[points[i]], &key)) continue;
+    if (key != last_key) cell = table_.findOrAdd(key);  // neighbours in the list share cubes
+    last_key = key;
+    cell_of_[i] = cell;
+  }
   findCentres(positions_mm, points);
   findNeighbours();
 }

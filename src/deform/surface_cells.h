@@ -31,6 +31,26 @@ class CellTable {
   std::vector<std::uint64_t> keys_;
 };
 
+/// Looks points up one after the other. Neighbours in the list mostly share a cube: then the table
+/// isn't asked again.
+class CellFinder {
+ public:
+  explicit CellFinder(const CellTable& table) : table_(table) {}
+  /// The point's cell, -1 where it has none.
+  int find(const Eigen::Vector3f& point_mm) {
+    std::uint64_t key = 0;
+    if (!table_.keyOf(point_mm, &key)) return -1;
+    if (key != last_key_) last_cell_ = table_.find(key);
+    last_key_ = key;
+    return last_cell_;
+  }
+
+ private:
+  const CellTable& table_;
+  std::uint64_t last_key_ = ~std::uint64_t{0};  // no cube has it: keys take 63 bits
+  int last_cell_ = -1;
+};
+
 /// The cubes that some points lie in; cubes that touch (also at a corner) are neighbours.
 class SurfaceCells {
  public:

@@ -73,6 +73,7 @@ TEST(DepthTarget, WorksInTheWorldFrame) {
 
 TEST(DepthTarget, WeighsByInverseVarianceWhereAskedTo) {
   PlaneView view;
+  view.options.reference_sigma_mm = 0;
   EXPECT_EQ(view.ask({0, 0, 50}).reliability, 1);
   view.options.reference_sigma_mm = 0.15;
   EXPECT_NEAR(view.ask({0, 0, 50}).reliability, 2.25, 1e-4);  // (0.15 / 0.1)^2
