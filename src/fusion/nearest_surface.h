@@ -33,16 +33,21 @@ class NearestSurface {
       ;
   }
 
+  /// The nearest depth that was added to the square of pixel (u, v); infinite where none was.
+  float depthAt(int u, int v) const {
+    const std::uint32_t bits = cell(u, v).load(std::memory_order_relaxed);
+    float depth_mm;
+    std::memcpy(&depth_mm, &bits, sizeof depth_mm);
+    return depth_mm;
+  }
+
   /// Whether the point lies clearly behind: docs/fusion.md (F4). The square's own extent counts by
   /// the slope of the point's surface. `cosine`: between the point's normal and its ray.
   bool hides(int u, int v, float depth_mm, float cosine, float focal_px, float margin_mm) const {
-    const std::uint32_t bits = cell(u, v).load(std::memory_order_relaxed);
-    float nearest_mm;
-    std::memcpy(&nearest_mm, &bits, sizeof nearest_mm);
     const float steep = cosine > kLeastCosine ? cosine : kLeastCosine;
     const float slope = std::sqrt(1 - steep * steep) / steep;
     const float extent_mm = 1.5f * static_cast<float>(cell_px_) * depth_mm / focal_px;
-    return depth_mm > nearest_mm + margin_mm + slope * extent_mm;
+    return depth_mm > depthAt(u, v) + margin_mm + slope * extent_mm;
   }
 
  private:

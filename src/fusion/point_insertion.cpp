@@ -1,7 +1,6 @@
 #include "fusion/point_insertion.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "fusion/cell_table.h"
 #include "fusion/fusion_weights.h"
 #include "fusion/illumination.h"
+#include "fusion/nearest_surface.h"
 
 namespace softscope {
 namespace {
@@ -19,54 +19,56 @@ constexpr int kGrain = 4096;        // points a task
 constexpr int kMostFootprint = 10;  // pixels
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-using Flags = std::vector<std::atomic<std::uint8_t>>;  // a pixel each; set from any thread
-
 /// Pixels nearer to a point than this get no new one: (F14).
 int footprintPx(float depth_mm, float focal_px, float spacing_mm) {
   const float spacing_px = spacing_mm * focal_px / depth_mm;
   return std::clamp(static_cast<int>(std::lround(std::min(spacing_px, 100.0f))), 1, kMostFootprint);
 }
 
-/// Flags the pixels that this point explains.
-void explain(float depth_mm, int pixel, int reach, const Raster<float>& measured_mm, float band_mm,
-             Flags* explained) {
-  const int u0 = pixel % measured_mm.width_px, v0 = pixel / measured_mm.width_px;
-  for (int v = std::max(0, v0 - reach); v <= std::min(measured_mm.height_px - 1, v0 + reach); ++v)
-    for (int u = std::max(0, u0 - reach); u <= std::min(measured_mm.width_px - 1, u0 + reach);
-         ++u) {
-      const std::size_t i = static_cast<std::size_t>(v) * measured_mm.width_px + u;
-      if (depth_mm < measured_mm.values[i] + band_mm)
-        (*explained)[i].store(1, std::memory_order_relaxed);
-    }
-}
-
-void explainAll(const PointModel& model, const Visibility& visibility, const PosedCamera& camera,
-                const Raster<float>& measured_mm, const InsertionOptions& options,
-                Flags* explained) {
-  const float band_mm = static_cast<float>(options.band_mm);
-  const float spacing_mm = static_cast<float>(options.spacing_mm);
+/// The model's nearest depth in every pixel.
+NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
+                         const PosedCamera& camera) {
+  NearestSurface drawn(camera.width_px, camera.height_px, 1);
   parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const int pixel = visibility.points[i].pixel;
       if (pixel < 0 || !(model.weights[i] > 0)) continue;
       const float depth_mm = camera.toLeft(model.positions_mm[i]).z();
-      explain(depth_mm, pixel, footprintPx(depth_mm, camera.fx_px, spacing_mm), measured_mm,
-              band_mm, explained);
+      drawn.add(pixel % camera.width_px, pixel / camera.width_px, depth_mm);
     }
   });
+  return drawn;
+}
+
+/// Whether the model has a point within reach of the pixel that is not behind its band: (F14).
+bool explained(const NearestSurface& drawn, int u0, int v0, int reach, float farthest_mm,
+               const PosedCamera& camera) {
+  if (drawn.depthAt(u0, v0) < farthest_mm) return true;
+  const int u1 = std::min(camera.width_px - 1, u0 + reach);
+  const int v1 = std::min(camera.height_px - 1, v0 + reach);
+  for (int v = std::max(0, v0 - reach); v <= v1; ++v)
+    for (int u = std::max(0, u0 - reach); u <= u1; ++u)
+      if (drawn.depthAt(u, v) < farthest_mm) return true;
+  return false;
 }
 
 /// Depths that are sure enough to make points, and unexplained; NaN elsewhere.
 Raster<float> unexplainedDepths(const Observation& observation, const Raster<PixelState>& states,
-                                const Flags& explained, float max_sigma_mm) {
+                                const NearestSurface& drawn, const PosedCamera& camera,
+                                const InsertionOptions& options) {
   const DepthMap& depth = observation.depth;
+  const float max_sigma_mm = static_cast<float>(options.max_sigma_mm);
+  const float band_mm = static_cast<float>(options.band_mm);
+  const float spacing_mm = static_cast<float>(options.spacing_mm);
   Raster<float> unexplained(states.width_px, states.height_px, kNaN);
-  parallelRanges(static_cast<int>(states.size()), kGrain, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      if (states.values[i] != PixelState::kSure || explained[i].load(std::memory_order_relaxed))
-        continue;
-      if (!depth.sigma_mm.empty() && !(depth.sigma_mm.values[i] <= max_sigma_mm)) continue;
-      unexplained.values[i] = depth.depth_mm.values[i];
+  parallelRows(states.height_px, [&](int v) {
+    for (int u = 0; u < states.width_px; ++u) {
+      if (states.at(u, v) != PixelState::kSure) continue;
+      if (!depth.sigma_mm.empty() && !(depth.sigma_mm.at(u, v) <= max_sigma_mm)) continue;
+      const float depth_mm = depth.depth_mm.at(u, v);
+      const int reach = footprintPx(depth_mm, camera.fx_px, spacing_mm);
+      if (!explained(drawn, u, v, reach, depth_mm + band_mm, camera))
+        unexplained.at(u, v) = depth_mm;
     }
   });
   return unexplained;
@@ -170,10 +172,9 @@ InsertionSummary insertPoints(const Observation& observation, const Raster<Pixel
   requireStates(states, observation);
   requireVisibility(visibility, *model);
   const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
-  Flags explained(states.size());
-  explainAll(*model, visibility, camera, observation.depth.depth_mm, options.insertion, &explained);
-  Raster<float> unexplained_mm = unexplainedDepths(
-      observation, states, explained, static_cast<float>(options.insertion.max_sigma_mm));
+  const NearestSurface drawn = drawModel(*model, visibility, camera);
+  Raster<float> unexplained_mm =
+      unexplainedDepths(observation, states, drawn, camera, options.insertion);
   const bool at_once = !options.insertion.confirm || model->empty();
   const std::vector<std::uint8_t> allowed = allowedPixels(
       unexplained_mm, camera, *memory, at_once, static_cast<float>(options.insertion.band_mm));

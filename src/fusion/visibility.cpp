@@ -16,10 +16,11 @@ Sight sightOfState(PixelState state) {
   return state == PixelState::kMasked ? Sight::kMasked : Sight::kUnknown;
 }
 
-/// What the measurement alone says about one point.
+/// What the measurement alone says about one point; adds it to the model's nearest surface.
 PointSight sightOf(const Eigen::Vector3f& point_left, const Eigen::Vector3f& normal_left,
                    const PosedCamera& camera, const Observation& observation,
-                   const Raster<PixelState>& states, const SightLimits& limits) {
+                   const Raster<PixelState>& states, const SightLimits& limits,
+                   NearestSurface* nearest) {
   PointSight result;
   int u, v;
   if (!point_left.allFinite() || !camera.findPixel(point_left, &u, &v)) return result;
@@ -33,25 +34,17 @@ PointSight sightOf(const Eigen::Vector3f& point_left, const Eigen::Vector3f& nor
     result.sight = sightOfState(state);
   }
   result.pixel = pixel;
+  // A point that isn't there any more hides nothing.
+  if (result.sight != Sight::kSeenThrough) nearest->add(u, v, point_left.z());
   return result;
 }
 
 /// Hides what lies behind the model's own nearest surface: (F4).
 void hideBehindModel(const PointModel& model, const PosedCamera& camera,
-                     const VisibilityOptions& options, Visibility* visibility) {
-  const int count = static_cast<int>(model.size());
-  NearestSurface nearest(camera.width_px, camera.height_px, options.occlusion_cell_px);
-  parallelRanges(count, kGrain, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const PointSight& point = visibility->points[i];
-      // A point that isn't there any more hides nothing.
-      if (point.pixel < 0 || point.sight == Sight::kSeenThrough) continue;
-      nearest.add(point.pixel % camera.width_px, point.pixel / camera.width_px,
-                  camera.toLeft(model.positions_mm[i]).z());
-    }
-  });
+                     const NearestSurface& nearest, const VisibilityOptions& options,
+                     Visibility* visibility) {
   const float margin_mm = static_cast<float>(options.occlusion_mm);
-  parallelRanges(count, kGrain, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       PointSight& point = visibility->points[i];
       if (point.sight != Sight::kSeen && point.sight != Sight::kTurned) continue;
@@ -95,15 +88,16 @@ Visibility findVisible(const PointModel& model, const Observation& observation,
   const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
   const SightLimits limits{static_cast<float>(options.max_distance_mm),
                            static_cast<float>(std::cos(options.max_angle_deg * M_PI / 180))};
+  NearestSurface nearest(camera.width_px, camera.height_px, options.occlusion_cell_px);
   Visibility visibility;
   visibility.points.resize(model.size());
   parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
       visibility.points[i] =
           sightOf(camera.toLeft(model.positions_mm[i]), camera.left_from_world * model.normals[i],
-                  camera, observation, states, limits);
+                  camera, observation, states, limits, &nearest);
   });
-  hideBehindModel(model, camera, options, &visibility);
+  hideBehindModel(model, camera, nearest, options, &visibility);
   return visibility;
 }
 
