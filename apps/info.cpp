@@ -37,7 +37,7 @@ class InfoCommand : public Command {
  public:
   std::string name() const override { return "info"; }
   std::string summary() const override {
-    return "what a sequence, picture, volume, calibration or settings file holds";
+    return "what a sequence, picture, mesh, volume, calibration or settings file holds";
   }
   std::string details() const override {
     return "Tells size, units, geometry, what is implausible and what is missing.";
@@ -83,13 +83,15 @@ class InfoCommand : public Command {
     if (isVideo(path_)) return describeVideo(path_);
     if (hasEnding(path_, {".pfm"})) return describeFloatMap(path_);
     if (hasEnding(path_, {".toml"})) return describeSettings(path_);
+    if (hasEnding(path_, {".ply", ".stl", ".obj"})) return describeMesh(path_);
     if (looksLikeVolume(path_)) return describeVolume(path_, patient_);
     if (hasEnding(path_, {".yaml", ".yml", ".xml", ".json", ".txt", ".npy"}))
       return describeCalibration(path_);
-    throw InputError(path_ +
-                     ": unknown kind of file. Accepted: a sequence folder; pictures (png, jpg, "
-                     "bmp, tif, pgm, ppm), pfm, videos; volumes (nii, nii.gz, nrrd, mha, DICOM); "
-                     "calibrations (yaml, xml, json, txt, npy); settings (toml)");
+    throw InputError(
+        path_ +
+        ": unknown kind of file. Accepted: a sequence folder; pictures (png, jpg, "
+        "bmp, tif, pgm, ppm), pfm, videos; meshes (ply, stl, obj); volumes (nii, nii.gz, "
+        "nrrd, mha, DICOM); calibrations (yaml, xml, json, txt, npy); settings (toml)");
   }
 
   std::string path_;

@@ -13,6 +13,7 @@ FactSheet describeSequence(const std::string& folder, bool check_all);
 FactSheet describeImage(const std::string& file);
 FactSheet describeFloatMap(const std::string& file);  // PFM
 FactSheet describeVideo(const std::string& file);
+FactSheet describeMesh(const std::string& file);  // or a PLY of points alone
 FactSheet describeVolume(const std::string& path, bool with_patient);
 FactSheet describeCalibration(const std::string& path);
 FactSheet describeSettings(const std::string& file);

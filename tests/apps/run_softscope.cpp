@@ -1,5 +1,5 @@
 // tests/apps/run_softscope.cpp: spawns, waits, collects; makes small sequences.
-#include "run_softscope.h"
+#include "tests/apps/run_softscope.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

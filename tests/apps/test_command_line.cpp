@@ -1,7 +1,7 @@
 // tests/apps/test_command_line.cpp: help, misspelt words, exit codes.
 #include <gmock/gmock.h>
 
-#include "run_softscope.h"
+#include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
 namespace {

@@ -9,10 +9,10 @@
 #include "io/depth_files.h"
 #include "io/image_reader.h"
 #include "io/image_writer.h"
-#include "run_softscope.h"
 #include "stereo/rectifier.h"
 #include "support/data_folder.h"
 #include "support/scene.h"
+#include "tests/apps/run_softscope.h"
 #include "vtk_views/depth_picture.h"
 
 namespace softscope::test {

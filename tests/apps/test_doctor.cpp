@@ -1,7 +1,7 @@
 // tests/apps/test_doctor.cpp: the examination is complete and its words match its exit code.
 #include <gmock/gmock.h>
 
-#include "run_softscope.h"
+#include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
 namespace {

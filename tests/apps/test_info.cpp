@@ -6,8 +6,8 @@
 
 #include "io/depth_files.h"
 #include "io/image_writer.h"
-#include "run_softscope.h"
 #include "support/data_folder.h"
+#include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
 namespace {
@@ -99,6 +99,51 @@ TEST_F(Info, ACalibrationIsSummarised) {
   EXPECT_EQ(json["kind"], "calibration");
   EXPECT_EQ(json["form"], "OpenCV");
   EXPECT_TRUE(json["rectified"]);
+}
+
+TEST_F(Info, AMeshTellsItsBoxAndWhetherItIsClosed) {
+  const std::string tetrahedron =
+      "# SPACE=RAS\nv 0 0 0\nv 30 0 0\nv 0 40 0\nv 0 0 50\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const auto json = run({"info", write("t.obj", tetrahedron), "--json"}).json();
+  EXPECT_EQ(json["kind"], "mesh");
+  EXPECT_EQ(json["vertices"], 4);
+  EXPECT_EQ(json["triangles"], 4);
+  EXPECT_TRUE(json["closed"]);
+  EXPECT_EQ(json["space"], "RAS");
+  EXPECT_EQ(json["size_mm"][2], 50);
+  EXPECT_NEAR(json["volume_mm3"], 30 * 40 * 50 / 6.0, 0.1);
+}
+
+TEST_F(Info, AMeshInMetresIsSuspected) {
+  const std::string small =
+      "v 0 0 0\nv 0.12 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  EXPECT_THAT(run({"info", write("m.obj", small)}).out, HasSubstr("metres"));
+}
+
+TEST_F(Info, PointsOfDepthAreDescribed) {
+  const std::string sequence = makeSequence("s", 1);
+  const auto depth = run({"depth", sequence, "--out", at("out"), "--write", "cloud", "--json"});
+  const Outcome outcome = run({"info", at("out/000000_cloud.ply"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = outcome.json();
+  EXPECT_EQ(json["kind"], "points");
+  EXPECT_EQ(json["points"], depth.json()["frames"][0]["points"]);
+  EXPECT_GT(json["box_low_mm"][2], 30);
+  EXPECT_LT(json["box_high_mm"][2], 70);
+  fs::resize_file(at("out/000000_cloud.ply"), fs::file_size(at("out/000000_cloud.ply")) - 1);
+  EXPECT_EQ(run({"info", at("out/000000_cloud.ply")}).exit_code, 3);
+}
+
+TEST_F(Info, AnAsciiCloudIsReadAsWell) {
+  const std::string ply = write("a.ply",
+                                "ply\nformat ascii 1.0\ncomment mm, left frame\nelement vertex 2\n"
+                                "property float x\nproperty float y\nproperty float z\n"
+                                "end_header\n1 2 3\n4 nan 9\n");
+  const auto json = run({"info", ply, "--json"}).json();
+  EXPECT_EQ(json["points"], 2);
+  EXPECT_EQ(json["box_high_mm"][2], 3);
+  EXPECT_THAT(json["comments"].dump(), HasSubstr("left frame"));
+  EXPECT_THAT(json["warnings"].dump(), HasSubstr("1 points"));
 }
 
 TEST_F(Info, AVolumeTellsWhereItLies) {

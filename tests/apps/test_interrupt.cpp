@@ -1,14 +1,14 @@
 // tests/apps/test_interrupt.cpp: Ctrl-C ends long work cleanly.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <thread>
 
-#include "run_softscope.h"
+#include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
 namespace {
