@@ -28,7 +28,7 @@ struct ScopeOptions {
 struct SimulationOptions {
   int seed = 1;
   double frames_per_second = 25;
-  double texel_mm = 0;        // 0: half a pixel at the camera's distance
+  double texel_mm = 0;        // 0: three quarters of a pixel at the camera's distance
   int track_spacing_px = 20;  // between neighbouring tracked points of the first picture
   OrganOptions organ;
   TextureOptions texture;

@@ -18,7 +18,7 @@ std::uint64_t seedOf(const SimulationOptions& options, Part part) {
 
 /// The tissue that the scope looks at: the first that lies between it and the middle of the mesh.
 Eigen::Vector3d findTarget(const TriangleMesh& mesh, const CameraPathOptions& camera) {
-  const RayTree tree(mesh.vertices_mm, mesh.triangles);
+  const RayTree tree(mesh.vertices_mm, mesh.triangles);  // refuses what is no surface
   Eigen::Array3f low = mesh.vertices_mm[0].array(), high = low;
   for (const Eigen::Vector3f& vertex : mesh.vertices_mm) {
     low = low.min(vertex.array());
