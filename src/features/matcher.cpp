@@ -3,6 +3,8 @@
 #include "core/error.h"
 #include "features/descriptor_matching.h"
 #include "features/kernels.h"
+#include "features/mask_morphology.h"
+#include "features/match_consistency.h"
 #include "features/opencv_matchers.h"
 #include "features/subpixel_match.h"
 
@@ -29,7 +31,6 @@ class DenseSurfMatcher : public FeatureMatcher {
 
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
                                 const Eigen::Vector2f& expected_shift_px) override {
-    requireOneShape(model, live);
     const std::vector<NodeMatch> nodes = matchDescriptors(
         denseSurf(model.gray, model.ignore, options_.dense_surf),
         denseSurf(live.gray, live.ignore, options_.dense_surf), expected_shift_px, options_);
@@ -39,7 +40,8 @@ class DenseSurfMatcher : public FeatureMatcher {
       rough.push_back({node.model_px, whole_nodes ? node.live_px : node.parabola_px,
                        0.5f * static_cast<float>(options_.dense_surf.grid_px), 0});
     if (options_.subpixel.method != "gauss-newton") return rough;
-    return refineMatches(model, live, rough, options_.subpixel);
+    return keepConsistent(refineMatches(model, live, rough, options_.subpixel),
+                          options_.consistency);
   }
 
  private:
@@ -49,27 +51,49 @@ class DenseSurfMatcher : public FeatureMatcher {
 class NoMatcher : public FeatureMatcher {
  public:
   std::string name() const override { return "surf-off"; }
-  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
+  std::vector<PixelMatch> match(const MatchPicture&, const MatchPicture&,
                                 const Eigen::Vector2f&) override {
-    requireOneShape(model, live);
     return {};
   }
 };
 
-/// Checks shapes for the matchers that OpenCV does.
+/// The picture with its dark pixels ignored as well: they show the unlit background, whose edge
+/// with the tissue moves as the outline does, not as the tissue.
+MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& options) {
+  Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
+  for (std::size_t i = 0; i < dark.size(); ++i)
+    dark.values[i] = picture.gray.values[i] < options.darkest_gray;
+  MatchPicture out{picture.gray, grown(dark, options.dark_margin_px)};
+  for (std::size_t i = 0; i < picture.ignore.size(); ++i)
+    if (picture.ignore.values[i] != 0) out.ignore.values[i] = 1;
+  return out;
+}
+
+/// What all matchers have in common: shapes are checked, dark pixels left out.
 class CheckedMatcher : public FeatureMatcher {
  public:
-  explicit CheckedMatcher(std::unique_ptr<FeatureMatcher> inner) : inner_(std::move(inner)) {}
+  CheckedMatcher(const MatcherOptions& options, std::unique_ptr<FeatureMatcher> inner)
+      : options_(options), inner_(std::move(inner)) {}
   std::string name() const override { return inner_->name(); }
+
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
                                 const Eigen::Vector2f& expected_shift_px) override {
     requireOneShape(model, live);
-    return inner_->match(model, live, expected_shift_px);
+    return inner_->match(withoutDark(model, options_), withoutDark(live, options_),
+                         expected_shift_px);
   }
 
  private:
+  MatcherOptions options_;
   std::unique_ptr<FeatureMatcher> inner_;
 };
+
+std::unique_ptr<FeatureMatcher> makeUnchecked(const MatcherOptions& options) {
+  if (options.method == "dense-surf") return std::make_unique<DenseSurfMatcher>(options);
+  if (options.method == "sift") return makeSiftMatcher(options);
+  if (options.method == "dis-flow") return makeFlowMatcher(options);
+  return std::make_unique<NoMatcher>();
+}
 
 }  // namespace
 
@@ -83,6 +107,9 @@ void MatcherOptions::validate() const {
   require(elsewhere_px >= 0, "matcher.elsewhere_px", elsewhere_px, "can't be negative");
   require(mutual_px >= 0, "matcher.mutual_px", mutual_px, "can't be negative");
   require(spacing_px >= 1, "matcher.spacing_px", spacing_px, "must be 1 or more");
+  require(darkest_gray >= 0 && darkest_gray <= 255, "matcher.darkest_gray", darkest_gray,
+          "must lie between 0 and 255");
+  require(dark_margin_px >= 0, "matcher.dark_margin_px", dark_margin_px, "can't be negative");
   require(sift_features >= 1, "matcher.sift_features", sift_features, "must be 1 or more");
   const std::string& refinement = subpixel.method;
   require(refinement == "gauss-newton" || refinement == "parabola" || refinement == "none",
@@ -97,15 +124,18 @@ void MatcherOptions::validate() const {
           "must be above 0");
   require(subpixel.floor_sigma_px >= 0, "matcher.subpixel.floor_sigma_px", subpixel.floor_sigma_px,
           "can't be negative");
+  require(consistency.reach_px > 0, "matcher.consistency.reach_px", consistency.reach_px,
+          "must be above 0");
+  require(consistency.agree_px > 0, "matcher.consistency.agree_px", consistency.agree_px,
+          "must be above 0");
+  require(consistency.min_share >= 0 && consistency.min_share <= 1, "matcher.consistency.min_share",
+          consistency.min_share, "must lie between 0 and 1");
   dense_surf.validate();
 }
 
 std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options) {
   options.validate();
-  if (options.method == "dense-surf") return std::make_unique<DenseSurfMatcher>(options);
-  if (options.method == "surf-off") return std::make_unique<NoMatcher>();
-  return std::make_unique<CheckedMatcher>(options.method == "sift" ? makeSiftMatcher(options)
-                                                                   : makeFlowMatcher(options));
+  return std::make_unique<CheckedMatcher>(options, makeUnchecked(options));
 }
 
 }  // namespace softscope

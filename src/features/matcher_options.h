@@ -18,16 +18,26 @@ struct SubpixelOptions {
   double floor_sigma_px = 0.03;  // error that no amount of texture removes
 };
 
+/// Neighbours that a match must move with.
+struct ConsistencyOptions {
+  double reach_px = 20;    // others this near on the model are its neighbours
+  double agree_px = 2;     // they agree if their shifts differ by no more than this
+  double min_share = 0.4;  // of the neighbours that must agree; 0 = no test
+};
+
 struct MatcherOptions {
   std::string method = "dense-surf";  // or "sift", "dis-flow", or "surf-off": no matches
   double search_radius_px = 24;       // around the expected place
   double max_ratio = 0.9;             // best distance over the best one elsewhere
   double elsewhere_px = 6;            // what is nearer to the best place isn't elsewhere
   double mutual_px = 3;               // the match back ends this near to where it began
-  int spacing_px = 6;  // of the matches that are kept: one, the most distinct, a square
+  int spacing_px = 6;      // of the matches that are kept: one, the most distinct, a square
+  int darkest_gray = 10;   // darker pixels are left out …
+  int dark_margin_px = 3;  // … and those this near to them
   DenseSurfOptions dense_surf;
   SubpixelOptions subpixel;
-  int sift_features = 4000;  // strongest key points that SIFT keeps a picture
+  ConsistencyOptions consistency;  // of dense SURF and of flow
+  int sift_features = 4000;        // strongest key points that SIFT keeps a picture
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;

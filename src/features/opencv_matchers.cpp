@@ -5,6 +5,7 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "features/match_consistency.h"
 #include "features/subpixel_match.h"
 
 namespace softscope {
@@ -107,7 +108,8 @@ class FlowMatcher : public FeatureMatcher {
           rough.push_back({Eigen::Vector2f(u, v), {to_u, to_v}, 0.5f, 0});
       }
     return options_.subpixel.method == "gauss-newton"
-               ? refineMatches(model, live, rough, options_.subpixel)
+               ? keepConsistent(refineMatches(model, live, rough, options_.subpixel),
+                                options_.consistency)
                : rough;
   }
 

@@ -91,7 +91,7 @@ class Refiner {
  private:
   void fillWindow() {
     const int r = options_.radius_px;
-    const float sigma = 0.5f * static_cast<float>(r) + 0.5f;
+    const float sigma = 0.8f * static_cast<float>(r) + 0.5f;
     for (int y = -r; y <= r; ++y)
       for (int x = -r; x <= r; ++x)
         window_[static_cast<std::size_t>((y + r) * kWindowLanes + x + r)] =

@@ -1,0 +1,16 @@
+// src/features/match_consistency.h: tissue moves like its neighbours, outliers don't.
+#pragma once
+
+#include <vector>
+
+#include "features/matcher.h"
+
+namespace softscope {
+
+/// Keeps matches of which at least `options.min_share` of the others within reach_px (and one at
+/// least) moved the same way to agree_px; two surfaces that slide past each other both stay. Keeps
+/// the order.
+std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
+                                       const ConsistencyOptions& options);
+
+}  // namespace softscope
