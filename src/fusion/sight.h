@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/hd.h"
-#include "fusion/observation.h"
 
 namespace softscope {
 

@@ -29,7 +29,7 @@ double fastestMs(const std::function<void()>& prepare, const std::function<void(
 
 /// About `points` points over a ball, most of them in the picture, each bound to a node.
 PointModel makeModel(int points, const PinholeCamera& left) {
-  const double extent_mm = std::sqrt(points * 0.04 * 0.7);
+  const double extent_mm = std::sqrt(points * 0.04 * 0.88);
   PinholeCamera wide = left;  // fine enough for the 0.2 mm grid to decide the density
   wide.width_px = static_cast<int>(1.0 * extent_mm / 0.1);
   wide.height_px = wide.width_px;
@@ -37,7 +37,7 @@ PointModel makeModel(int points, const PinholeCamera& left) {
   wide.cx_px = wide.cy_px = (wide.width_px - 1) / 2.0;
   PointModel model;
   InsertionMemory memory;
-  const Shot shot = takeShot(sphere({0, 0, 115}, 60), wide);
+  const Shot shot = takeShot(sphere({0, 0, 205}, 150), wide);
   update(shot, {}, &memory, &model);
   for (PointBinding& binding : model.bindings) binding = {0, {1, 0, 0, 0}};
   return model;
@@ -46,7 +46,7 @@ PointModel makeModel(int points, const PinholeCamera& left) {
 void measure(int width_px, int height_px, int points) {
   const double focal_px = 560.0 * width_px / 640;
   const PinholeCamera left = smallCamera(width_px, height_px, focal_px);
-  Shot shot = takeShot(sphere({0, 0, 115}, 60), left, Eigen::Isometry3d::Identity(), 2e-5);
+  Shot shot = takeShot(sphere({0, 0, 205}, 150), left, Eigen::Isometry3d::Identity(), 2e-5);
   addNoise(1, &shot);
   const PointModel model = makeModel(points, left);
   const Observation observation = shot.observation();
