@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "stereo/kernel_sets.h"
 #include "stereo/plane_prior.h"
 
 namespace softscope {
@@ -66,7 +67,7 @@ class TileMatcher {
     tile_.prior_px8 = prior_px8_;
     tile_.best_disparity = best_disparity_;
     tile_.best_cost = best_cost_;
-    stereoKernels().denseTile(reference_, other_, tile_);
+    matchingKernels().denseTile(reference_, other_, tile_);
     store(disparity);
   }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/parallel.h"
+#include "stereo/kernel_sets.h"
 
 namespace softscope {
 namespace {
@@ -27,7 +28,7 @@ GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
   const std::size_t bytes = static_cast<std::size_t>(height_px_ + 2 * kRowMargin) * stride_;
   du_.assign(bytes, 128);
   dv_.assign(bytes, 128);
-  const StereoKernels& kernels = stereoKernels();
+  const MatchingKernels& kernels = matchingKernels();
   const int gain_q8 = static_cast<int>(std::lround(gain * 256));
   parallelRanges(height_px_, 32, [&](int begin, int end) {
     std::vector<std::uint8_t> rows[3];

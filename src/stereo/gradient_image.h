@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "stereo/kernels.h"
+#include "stereo/matching_kernels.h"
 
 namespace softscope {
 

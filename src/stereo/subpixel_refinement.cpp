@@ -7,7 +7,7 @@
 
 #include "core/parallel.h"
 #include "stereo/depth_steps.h"
-#include "stereo/kernels.h"
+#include "stereo/kernel_sets.h"
 #include "stereo/plane.h"
 
 namespace softscope {
@@ -110,7 +110,7 @@ class Band {
     const auto row = [&](int plane) { return rows_[plane].row(slot(v)); };
     const float noise = static_cast<float>(setting_.options.noise_gray);
     const int source = inside ? v : 0;
-    const StereoKernels& kernels = stereoKernels();
+    const RefinementKernels& kernels = refinementKernels();
     kernels.residualRow({setting_.left.row(source), setting_.right.row(source), pixel(kDisparity),
                          valid_.data(), width_, 1 / (noise * noise), setting_.priorWeight(),
                          pixel(kInformation), pixel(kTarget), pixel(kResidualSq), pixel(kWeight),
@@ -152,8 +152,8 @@ class Band {
                        relaxation,
                        out_.disparity_px.row(v),
                        out_.sigma_px.row(v)};
-    stereoKernels().solvePlanes(row);
-    if (last_) stereoKernels().judgePlanes(row);
+    refinementKernels().solvePlanes(row);
+    if (last_) refinementKernels().judgePlanes(row);
   }
 
   void sumWindows(int v, const MomentRow& moments) {
@@ -161,7 +161,7 @@ class Band {
     for (int plane = 0; plane < kRowPlanes; ++plane)
       for (int y = 0; y < height(); ++y) around[plane][y] = rows_[plane].row(slot(v - radius_ + y));
     const float* window = setting_.window.data();
-    const StereoKernels& kernels = stereoKernels();
+    const RefinementKernels& kernels = refinementKernels();
     kernels.verticalMoments(around[kG0], around[kG1], around[kG2], around[kQ0], around[kQ1], window,
                             radius_, width_, moments);
     for (int k = 0; k < 4 && last_; ++k)
@@ -171,7 +171,7 @@ class Band {
   void selectWindow(int u, int v, const MomentRow& moments) {
     const int centre = slot(v - radius_) + radius_;  // in the doubled planes
     const auto at = [&](int plane) { return pixels_[plane].row(centre) + u; };
-    stereoKernels().selectedMoments(
+    refinementKernels().selectedMoments(
         {at(kInformation), at(kTarget), at(kResidualSq), at(kWeight), at(kDifferenceSq),
          at(kEnergy), at(kDisparity), pixels_[0].stride(), setting_.selection_window.data(),
          setting_.selection_tolerance.data(), radius_},

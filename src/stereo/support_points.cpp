@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "core/raster.h"
+#include "stereo/kernel_sets.h"
 
 namespace softscope {
 namespace {
@@ -59,7 +60,7 @@ class RowMatcher {
   }
 
   void match(int v, float* candidates, int columns) {
-    stereoKernels().supportRow(left_, right_, v, width_, minimum_, count_, row_);
+    matchingKernels().supportRow(left_, right_, v, width_, minimum_, count_, row_);
     for (int c = 0; c < columns; ++c) candidates[c] = candidate(c * elas_.support_step_px, v);
   }
 

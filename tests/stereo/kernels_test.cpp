@@ -1,6 +1,4 @@
 // tests/stereo/kernels_test.cpp: every instruction set gives the same bytes.
-#include "stereo/kernels.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "stereo/gradient_image.h"
+#include "stereo/kernel_sets.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -37,16 +36,17 @@ class EveryInstructionSet : public testing::Test {
   /// Runs `compute(set)` on every set and expects one result.
   template <class Compute>
   void expectEqual(const Compute& compute) {
-    const auto reference = compute(*list_.sets[0]);
+    const auto reference = compute(list_.sets[0]);
     for (int i = 1; i < list_.count; ++i)
-      EXPECT_TRUE(sameBytes(reference, compute(*list_.sets[i]))) << list_.sets[i]->instruction_set;
+      EXPECT_TRUE(sameBytes(reference, compute(list_.sets[i]))) << list_.sets[i].name;
   }
-  StereoKernelList list_ = allStereoKernels();
+  KernelSetList list_ = allKernelSets();
 };
 
 TEST_F(EveryInstructionSet, ChoosesTheFastestThatRuns) {
-  EXPECT_STREQ(stereoKernels().instruction_set, list_.sets[list_.count - 1]->instruction_set);
-  EXPECT_STREQ(list_.sets[0]->instruction_set, "baseline");
+  EXPECT_EQ(&matchingKernels(), list_.sets[list_.count - 1].matching);
+  EXPECT_EQ(&refinementKernels(), list_.sets[list_.count - 1].refinement);
+  EXPECT_STREQ(list_.sets[0].name, "baseline");
 }
 
 TEST_F(EveryInstructionSet, MatchesTilesAlike) {
@@ -55,11 +55,11 @@ TEST_F(EveryInstructionSet, MatchesTilesAlike) {
   std::vector<std::int16_t> prior(kTileWidth * kTileHeight, 8 * 27);
   const Bytes16 candidates = {3, 20, 25, 26, 27, 28, 29, 33, 60};
   const std::vector<std::uint8_t> everywhere = {1, 0, 0, 0, 1, 0, 0, 1, 1};
-  expectEqual([&](const StereoKernels& kernels) {
+  expectEqual([&](const KernelSet& set) {
     Bytes16 disparity(prior.size()), cost(prior.size());
     const DenseTile tile{64,           96, -1, 320, candidates.data(), everywhere.data(), 9,
                          prior.data(), 24, 22, 50,  disparity.data(),  cost.data()};
-    kernels.denseTile(left.view(), right.view(), tile);
+    set.matching->denseTile(left.view(), right.view(), tile);
     Floats result(disparity.begin(), disparity.end());
     result.insert(result.end(), cost.begin(), cost.end());
     return result;
@@ -69,10 +69,11 @@ TEST_F(EveryInstructionSet, MatchesTilesAlike) {
 TEST_F(EveryInstructionSet, FindsSupportAlike) {
   const auto scene = test::makeScene(test::endoscope(), test::plane(50, 0.3, 0.1), 2.0);
   const GradientImage left(scene.left, 0.5, 64), right(scene.right, 0.5, 64);
-  expectEqual([&](const StereoKernels& kernels) {
+  expectEqual([&](const KernelSet& set) {
     Bytes16 volume(320 * 64), sums(320 + 2 * kSupportMargin), a(320), b(320), c(320), d(320);
-    kernels.supportRow(left.view(), right.view(), 100, 320, 0, 64,
-                       {volume.data(), sums.data(), a.data(), b.data(), c.data(), d.data(), 320});
+    set.matching->supportRow(
+        left.view(), right.view(), 100, 320, 0, 64,
+        {volume.data(), sums.data(), a.data(), b.data(), c.data(), d.data(), 320});
     Floats result(volume.begin(), volume.end());
     for (const Bytes16* part : {&a, &b, &c, &d})
       result.insert(result.end(), part->begin(), part->end());
@@ -84,17 +85,17 @@ TEST_F(EveryInstructionSet, SumsMomentsAlike) {
   const int width = 333, radius = 6, stride = 384;
   const Floats in = randomFloats(static_cast<std::size_t>(stride) * 70, -30, 30, 5);
   const Floats window = randomFloats(13, 0, 1, 6);
-  expectEqual([&](const StereoKernels& kernels) {
+  expectEqual([&](const KernelSet& set) {
     Floats out(static_cast<std::size_t>(stride) * 17);
     std::vector<const float*> rows;
     for (int r = 0; r < 65; ++r) rows.push_back(in.data() + r * stride + 16);
     MomentRow moments;
     for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = out.data() + k * stride;
-    kernels.verticalMoments(&rows[0], &rows[13], &rows[26], &rows[39], &rows[52], window.data(),
-                            radius, width, moments);
-    kernels.sumRows(rows.data(), window.data(), 13, width, moments.sums[9]);
-    kernels.horizontalMoments(rows[3], window.data(), radius, width, moments.sums[10],
-                              moments.sums[11], moments.sums[12]);
+    set.refinement->verticalMoments(&rows[0], &rows[13], &rows[26], &rows[39], &rows[52],
+                                    window.data(), radius, width, moments);
+    set.refinement->sumRows(rows.data(), window.data(), 13, width, moments.sums[9]);
+    set.refinement->horizontalMoments(rows[3], window.data(), radius, width, moments.sums[10],
+                                      moments.sums[11], moments.sums[12]);
     return out;
   });
 }
@@ -104,13 +105,13 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
   const Floats sums = randomFloats(static_cast<std::size_t>(width) * kMomentCount, 0.1f, 9, 8);
   Floats before = randomFloats(width, 10, 12, 9);
   before[17] = std::numeric_limits<float>::quiet_NaN();
-  expectEqual([&](const StereoKernels& kernels) {
+  expectEqual([&](const KernelSet& set) {
     Floats copy = sums, out(2 * width);
     PlaneRow row{{},         before.data(),     width, 50, 0.1f, 0.2f, 70, 0.01f, 100, 1e9f, 1.5f,
                  out.data(), out.data() + width};
     for (int k = 0; k < kMomentCount; ++k) row.moments.sums[k] = copy.data() + k * width;
-    kernels.solvePlanes(row);
-    kernels.judgePlanes(row);
+    set.refinement->solvePlanes(row);
+    set.refinement->judgePlanes(row);
     EXPECT_TRUE(std::isnan(out[17]));
     return out;
   });
@@ -120,11 +121,12 @@ TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
   const int width = 301;
   const Floats left = randomFloats(width, -40, 40, 1), right = randomFloats(width + 8, -40, 40, 2),
                disparity = randomFloats(width, -3, 40, 3), valid(width, 1.0f);
-  expectEqual([&](const StereoKernels& kernels) {
+  expectEqual([&](const KernelSet& set) {
     Floats out(static_cast<std::size_t>(width) * 6);
-    kernels.residualRow({left.data(), right.data() + 3, disparity.data(), valid.data(), width, 0.2f,
-                         4.0f, out.data(), out.data() + width, out.data() + 2 * width,
-                         out.data() + 3 * width, out.data() + 4 * width, out.data() + 5 * width});
+    set.refinement->residualRow({left.data(), right.data() + 3, disparity.data(), valid.data(),
+                                 width, 0.2f, 4.0f, out.data(), out.data() + width,
+                                 out.data() + 2 * width, out.data() + 3 * width,
+                                 out.data() + 4 * width, out.data() + 5 * width});
     return out;
   });
 }

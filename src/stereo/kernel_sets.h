@@ -1,0 +1,26 @@
+// src/stereo/kernel_sets.h: which instruction sets this processor runs.
+#pragma once
+
+#include "stereo/matching_kernels.h"
+#include "stereo/refinement_kernels.h"
+
+namespace softscope {
+
+struct KernelSet {
+  const char* name;  // "baseline", "avx2"
+  const MatchingKernels* matching;
+  const RefinementKernels* refinement;
+};
+
+/// Every set that this processor runs, slowest first.
+struct KernelSetList {
+  KernelSet sets[2];
+  int count;
+};
+KernelSetList allKernelSets();
+
+/// Of the fastest set.
+const MatchingKernels& matchingKernels();
+const RefinementKernels& refinementKernels();
+
+}  // namespace softscope
