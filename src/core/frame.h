@@ -9,11 +9,11 @@
 namespace softscope {
 
 struct Frame {
-  int index = 0;  // position in the sequence, from 0
+  int index = 0;                                             // position in the sequence, from 0
   double time_s = std::numeric_limits<double>::quiet_NaN();  // NaN where the sequence gives none
   StereoPair pair;
-  Mask mask;                  // empty where the sequence has none
-  Raster<float> depth_mm;     // from depth/NNNNNN; NaN = unmeasured; empty where there is none
+  Mask mask;               // empty where the sequence has none
+  Raster<float> depth_mm;  // from depth/NNNNNN; NaN = unmeasured; empty where there is none
 };
 
 }  // namespace softscope

@@ -16,10 +16,10 @@ struct StereoCalibration {
   RawCamera right;
   /// p_right = right_from_left * p_left, mm (OpenCV's R and T).
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
-  bool rectified = false;      // the pictures on disk are rectified already
-  double depth_unit_mm = 0.01; // one step of the 16-bit depth files
-  std::string source;          // the file it came from, for messages
-  std::string form;            // "OpenCV", "Hamlyn", "OpenCAS", "SCARED", "EndoNeRF", "ROS"
+  bool rectified = false;             // the pictures on disk are rectified already
+  double depth_unit_mm = 0.01;        // one step of the 16-bit depth files
+  std::string source;                 // the file it came from, for messages
+  std::string form;                   // "OpenCV", "Hamlyn", "OpenCAS", "SCARED", "EndoNeRF", "ROS"
   std::vector<std::string> warnings;  // what is unusual about it, a line each
 
   double baseline_mm() const { return right_from_left.translation().norm(); }
