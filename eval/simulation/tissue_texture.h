@@ -11,7 +11,7 @@ namespace softscope {
 
 struct TextureOptions {
   double contrast = 1.0;  // 0: one colour all over, 1: as in a healthy abdomen
-  double fat = 0.3;      // share of the surface that fat covers, roughly
+  double fat = 0.3;       // share of the surface that fat covers, roughly
   double wetness = 1.0;   // strength of highlights; 0: dull
   VesselOptions vessels;
 
