@@ -55,7 +55,8 @@ if [ "$sanitize" = yes ]; then
   configure sanitize
   build sanitize
   step "Tests under sanitizers"
-  run_suite sanitize
+  # The study of accuracy runs the same code as stereo's tests, over minutes of pictures.
+  run_suite sanitize --label-exclude stereo_study
 fi
 configure release
 build release
