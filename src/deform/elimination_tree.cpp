@@ -68,7 +68,8 @@ double factorBlocks(const Supernode& supernode) {
 }
 
 /// Columns in order; each becomes the parent of the supernode just before it, as long as few of
-/// the merged front's blocks are zero: fewer and fuller fronts are faster (measured: 15 %).
+/// the merged front's blocks are zero: fewer and fuller fronts are faster (of 0, 8, 15, 20 and 25 %
+/// this was best: 1.0 instead of 2.3 ms at 225 nodes).
 std::vector<Supernode> mergeColumns(const Lists& columns) {
   constexpr double kZeroShare = 0.2;
   std::vector<Supernode> merged;

@@ -3,6 +3,7 @@
 #include "deform/kernels.h"
 
 #include <cstddef>
+#include <cstring>
 
 #include "deform/plane_term.h"
 
@@ -16,14 +17,20 @@ namespace {
 
 using Double4 = double __attribute__((vector_size(32)));
 using Float4 = float __attribute__((vector_size(16)));
-using LooseDouble4 = double __attribute__((vector_size(32), aligned(8)));  // any address
-using LooseFloat4 = float __attribute__((vector_size(16), aligned(4)));
 
 inline Double4 splat(double x) { return Double4{x, x, x, x}; }
-inline Double4 load(const double* p) { return *reinterpret_cast<const LooseDouble4*>(p); }
-inline void store(double* p, const Double4& x) { *reinterpret_cast<LooseDouble4*>(p) = x; }
+
+// From and to any address, by one unaligned instruction each.
+template <class Vector, class Number>
+inline Vector loadVector(const Number* p) {
+  Vector x;
+  std::memcpy(&x, p, sizeof x);
+  return x;
+}
+inline Double4 load(const double* p) { return loadVector<Double4>(p); }
+inline void store(double* p, const Double4& x) { std::memcpy(p, &x, sizeof x); }
 inline Double4 loadFloats(const float* p) {
-  return __builtin_convertvector(*reinterpret_cast<const LooseFloat4*>(p), Double4);
+  return __builtin_convertvector(loadVector<Float4>(p), Double4);
 }
 inline double sum(const Double4& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 inline Vec3<Double4> splat3(const float* p) { return {splat(p[0]), splat(p[1]), splat(p[2])}; }
@@ -252,9 +259,9 @@ void multiplyTransposedSubtract(const double* a, int leading, int rows, int colu
   }
 }
 
-// --- warping points: docs/energy.md (2), (3) -----------------------------------------------------
+// --- warping points: docs/energy.md (2), (24) ----------------------------------------------------
 
-inline Float4 loadFloat4(const float* p) { return *reinterpret_cast<const LooseFloat4*>(p); }
+inline Float4 loadFloat4(const float* p) { return loadVector<Float4>(p); }
 inline Float4 splatFloat(float x) { return Float4{x, x, x, x}; }
 inline Vec3<float> firstThree(const Float4& x) { return {x[0], x[1], x[2]}; }
 

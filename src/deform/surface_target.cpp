@@ -34,6 +34,7 @@ DepthTarget::DepthTarget(const DepthMap& depth, const NormalMap& normals, const 
       squared_distance_limit_(
           static_cast<float>(options.max_distance_mm * options.max_distance_mm)),
       cosine_limit_(static_cast<float>(std::cos(options.max_angle_deg * M_PI / 180))),
+      use_sigma_(options.reference_sigma_mm > 0 && !depth.sigma_mm.empty()),
       reference_sigma_mm_(static_cast<float>(options.reference_sigma_mm)),
       max_reliability_(static_cast<float>(options.max_reliability)) {
   options.validate();
@@ -47,7 +48,7 @@ DepthTarget::DepthTarget(const DepthMap& depth, const NormalMap& normals, const 
 /// counts by the cosine between ray and normal.
 float DepthTarget::reliabilityAt(int pixel, const Eigen::Vector3f& lifted_left,
                                  const Eigen::Vector3f& normal_left) const {
-  if (reference_sigma_mm_ <= 0 || depth_.sigma_mm.empty()) return 1;
+  if (!use_sigma_) return 1;
   const float sigma_mm = depth_.sigma_mm.values[pixel];
   if (!(sigma_mm > 0)) return 0;  // NaN too: nobody vouches for this depth
   const float across = std::abs(normal_left.dot(lifted_left)) / lifted_left.z() * sigma_mm;
@@ -100,6 +101,7 @@ void DepthTarget::lookUp(const Eigen::Vector3f* points_mm, const Eigen::Vector3f
       if (pixels[i] < 0) continue;
       __builtin_prefetch(&depth_.depth_mm.values[pixels[i]]);
       __builtin_prefetch(&normals_.values[pixels[i]]);
+      if (use_sigma_) __builtin_prefetch(&depth_.sigma_mm.values[pixels[i]]);
     }
     for (int i = 0; i < batch; ++i)
       targets[first + i] =

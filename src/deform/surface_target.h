@@ -57,6 +57,7 @@ class DepthTarget : public SurfaceTarget {
   Eigen::Vector3f left_from_world_translation_mm_;
   float squared_distance_limit_;
   float cosine_limit_;
+  bool use_sigma_;
   float reference_sigma_mm_;
   float max_reliability_;
 };
