@@ -82,7 +82,7 @@ inline void blendLanes(const SplatDisc& disc, const SplatBand& band, long at, co
   const Float8 falloff = 1 - (x * x + y * y) * inverse_radius_sq;
   const Float8 front = load8<Float8>(band.front + at);
   const Float8 limit = front * (1 - band.tolerance_mm * front);
-  const Float8 w = (falloff > 0) & (depth >= limit) ? falloff * falloff : none;
+  const Float8 w = ((falloff > 0) & (depth >= limit)) ? falloff * falloff : none;
   add8(band.weight + at, w);
   add8(band.red + at, w * disc.red);
   add8(band.green + at, w * disc.green);
