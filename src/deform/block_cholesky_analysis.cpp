@@ -9,7 +9,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kTileColumns = BlockCholesky::kTileColumns;
 constexpr double kTaskOperations = 2e5;  // a subtree with fewer is not worth a thread
 
 /// Room for the kernels' overhang of 3 rows, and not a multiple of 64 bytes, so that columns don't
