@@ -33,6 +33,8 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
+constexpr double kSuspiciousPivotRatio = 3e-4;  // tissue with data has 0.01 and more
+
 double meanDataResidual(const EnergyValue& value, int points) {
   return points > 0 ? value.data_abs_sum_mm / points : 0;
 }
@@ -115,6 +117,18 @@ class Solver : public DeformSolver {
     summary->points_after = constraints_.points;
     summary->data_mean_mm_after = meanDataResidual(current_, constraints_.points);
     summary->damping = damping_;
+    describeCondition(summary);
+  }
+
+  /// Both pivots are square roots of what they stand for.
+  void describeCondition(DeformSummary* summary) const {
+    if (summary->iterations == 0) return;
+    summary->pivot_ratio = cholesky_.pivotRatio();
+    if (summary->pivot_ratio > kSuspiciousPivotRatio) return;
+    std::ostringstream text;
+    text << "ill-conditioned: pivots differ by a factor of " << 1 / summary->pivot_ratio
+         << "; some nodes are held by damping alone";
+    summary->warnings.push_back(text.str());
   }
 
   /// Returns false where nothing pulls at all.

@@ -54,6 +54,7 @@ struct DeformSummary {
   int nodes_without_data = 0;       // no point, no match: their neighbours carry them
   int components_without_data = 0;  // connected parts of the graph that nothing pulls: they stay
   double damping = 0;               // lambda at the end
+  double pivot_ratio = 1;           // smallest to largest pivot of the last factor, see the warning
   double last_step_mm = 0;          // the furthest that a node moved in the last accepted step
   std::vector<double> costs;        // before each accepted step and after it, pairwise
   std::vector<std::string> warnings;

@@ -65,6 +65,8 @@ TEST_P(BothNodeModels, RecoverARigidMotionFromDepthAndMatches) {
   const DeformSummary summary = makeDeformSolver(options)->solve(model, seen, &graph);
 
   expectMonotone(summary);
+  EXPECT_TRUE(summary.warnings.empty());
+  EXPECT_GT(summary.pivot_ratio, 1e-3);
   EXPECT_GT(summary.points_after, 2000);
   PointModel warped = model;
   warpModel(graph, &warped);
