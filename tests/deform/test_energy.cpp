@@ -94,6 +94,13 @@ TEST(Energy, OfAMatchByHand) {
   EXPECT_DOUBLE_EQ(scene.energy(options, {match}).correspondence, 1.0);
 }
 
+TEST(MatchSqrtInformation, WeighsAlongTheRayAndAcrossIt) {
+  const Eigen::Vector3f ray(0, 0.6f, 0.8f), across(1, 0, 0);
+  const Eigen::Matrix3f root = matchSqrtInformation(ray, 0.3, 0.05, 0.15);
+  EXPECT_LT((root * ray - 0.5f * ray).norm(), 1e-6f);        // 0.15 / 0.3
+  EXPECT_LT((root * across - 3.0f * across).norm(), 1e-6f);  // 0.15 / 0.05
+}
+
 TEST(RobustLoss, AgreesWithSquaresInsideAndBoundsOutside) {
   const RobustOptions huber{RobustLoss::kHuber, 2.0}, tukey{RobustLoss::kTukey, 2.0};
   EXPECT_DOUBLE_EQ(robustValue(huber, 4.0).cost, 4.0);
