@@ -55,8 +55,8 @@ if [ "$sanitize" = yes ]; then
   configure sanitize
   build sanitize
   step "Tests under sanitizers"
-  # The study of accuracy runs the same code as stereo's tests, over minutes of pictures.
-  run_suite sanitize --label-exclude stereo_study
+  # The studies of accuracy run the same code as their stages' tests, over minutes of pictures.
+  run_suite sanitize --label-exclude 'stereo_study|features_data'
 fi
 configure release
 build release
