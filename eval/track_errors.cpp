@@ -1,0 +1,51 @@
+// eval/track_errors.cpp: one pass over the estimates.
+#include "eval/track_errors.h"
+
+namespace softscope {
+namespace {
+
+void summarise(TrackErrors& errors, int last_frame) {
+  std::vector<double> all, visible, hidden, control, last;
+  for (const TrackError& e : errors.each) {
+    all.push_back(e.error_mm);
+    control.push_back(e.control_mm);
+    (e.visible ? visible : hidden).push_back(e.error_mm);
+    if (e.frame == last_frame) last.push_back(e.error_mm);
+  }
+  errors.error_mm = statistics(all);
+  errors.visible_mm = statistics(visible);
+  errors.hidden_mm = statistics(hidden);
+  errors.control_mm = statistics(control);
+  errors.last_frame_mm = statistics(last);
+}
+
+}  // namespace
+
+TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
+                        int first_frame,
+                        const std::vector<Eigen::Isometry3d>& truth_from_estimate) {
+  const int end_frame = first_frame + static_cast<int>(truth_from_estimate.size());
+  TrackErrors errors;
+  for (const TrackSample& sample : estimate) {
+    const auto found = truth.find({sample.frame, sample.id});
+    const auto start = truth.find({first_frame, sample.id});
+    if (!sample.position_mm.allFinite()) {
+      ++errors.lost;
+    } else if (found == truth.end() || sample.frame < first_frame || sample.frame >= end_frame) {
+      ++errors.without_truth;
+    } else {
+      const auto& move = truth_from_estimate[static_cast<std::size_t>(sample.frame - first_frame)];
+      errors.each.push_back(
+          {sample.frame, sample.id, (move * sample.position_mm - found->second).norm(),
+           start == truth.end() ? Statistics::kNone : (found->second - start->second).norm(),
+           sample.visible});
+    }
+  }
+  if (!truth.empty())
+    errors.reported_share =
+        static_cast<double>(errors.each.size()) / static_cast<double>(truth.size());
+  summarise(errors, end_frame - 1);
+  return errors;
+}
+
+}  // namespace softscope

@@ -1,0 +1,88 @@
+// eval/trajectory_errors.cpp: differences of poses; the alignment is that of paired points.
+#include "eval/trajectory_errors.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "eval/rigid_alignment.h"
+
+namespace softscope {
+namespace {
+
+using Poses = std::vector<Eigen::Isometry3d>;
+
+void check(const Poses& truth, const Poses& estimate) {
+  if (truth.size() != estimate.size() || truth.empty())
+    throw InputError("a trajectory of " + std::to_string(estimate.size()) +
+                     " poses can't be compared with " + std::to_string(truth.size()) +
+                     " true ones; give one true pose a pose, and at least one");
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    if (!truth[i].matrix().allFinite() || !estimate[i].matrix().allFinite())
+      throw InputError("pose " + std::to_string(i) +
+                       " of a trajectory is not finite; leave such poses out");
+}
+
+void add(const Eigen::Isometry3d& difference, PoseErrors& errors) {
+  const Eigen::Quaterniond turn(difference.linear());
+  errors.each_mm.push_back(difference.translation().norm());
+  errors.each_deg.push_back(2 * std::atan2(turn.vec().norm(), std::abs(turn.w())) * 180 / M_PI);
+}
+
+void summarise(PoseErrors& errors) {
+  errors.translation_mm = statistics(errors.each_mm);
+  errors.rotation_deg = statistics(errors.each_deg);
+}
+
+/// Of truth and `truth_from_estimate` * estimate.
+PoseErrors poseErrors(const Poses& truth, const Poses& estimate,
+                      const Eigen::Isometry3d& truth_from_estimate) {
+  PoseErrors errors;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    add(truth[i].inverse() * (truth_from_estimate * estimate[i]), errors);
+  summarise(errors);
+  return errors;
+}
+
+PoseErrors stepErrors(const Poses& truth, const Poses& estimate) {
+  PoseErrors errors;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const Eigen::Isometry3d true_step = truth[i - 1].inverse() * truth[i];
+    add(true_step.inverse() * (estimate[i - 1].inverse() * estimate[i]), errors);
+  }
+  summarise(errors);
+  return errors;
+}
+
+RigidFit fitPositions(const Poses& truth, const Poses& estimate) {
+  std::vector<Eigen::Vector3d> source_mm, target_mm;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    source_mm.push_back(estimate[i].translation());
+    target_mm.push_back(truth[i].translation());
+  }
+  if (source_mm.size() >= 3) return fitRigid(source_mm, target_mm);
+  RigidFit fit;  // one or two positions: the shift that brings their middles together
+  fit.target_from_source.translation() =
+      (target_mm.front() + target_mm.back() - source_mm.front() - source_mm.back()) / 2;
+  return fit;
+}
+
+}  // namespace
+
+TrajectoryErrors trajectoryErrors(const Poses& truth, const Poses& estimate) {
+  check(truth, estimate);
+  const RigidFit fit = fitPositions(truth, estimate);
+  TrajectoryErrors errors;
+  errors.unaligned = poseErrors(truth, estimate, Eigen::Isometry3d::Identity());
+  errors.absolute = poseErrors(truth, estimate, fit.target_from_source);
+  errors.relative = stepErrors(truth, estimate);
+  errors.truth_from_estimate = fit.target_from_source;
+  errors.alignment_unique = fit.unique;
+  if (!fit.unique) {
+    errors.absolute.each_deg.assign(truth.size(), Statistics::kNone);
+    summarise(errors.absolute);
+  }
+  return errors;
+}
+
+}  // namespace softscope

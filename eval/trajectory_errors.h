@@ -1,0 +1,35 @@
+// eval/trajectory_errors.h: how far an estimated path of the scope is from the true one.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "eval/statistics.h"
+
+namespace softscope {
+
+/// One value a pose (or a step between two), and their statistics.
+struct PoseErrors {
+  std::vector<double> each_mm;   // length of the translation between estimate and truth
+  std::vector<double> each_deg;  // angle of the rotation between them, 0 to 180
+  Statistics translation_mm;
+  Statistics rotation_deg;
+};
+
+/// Definitions as evo has them (Grupp 2017; Sturm et al., IROS 2012): docs/evaluation.md.
+struct TrajectoryErrors {
+  PoseErrors unaligned;  // both worlds taken as one
+  PoseErrors absolute;   // ATE: after the rigid alignment of all positions
+  PoseErrors relative;   // RPE: of the steps from each pose to the next; one value fewer
+  Eigen::Isometry3d truth_from_estimate = Eigen::Isometry3d::Identity();  // that alignment
+  /// False where the positions leave a rotation free (a still scope, a straight path, fewer than
+  /// three poses): then absolute.each_deg and absolute.rotation_deg are NaN.
+  bool alignment_unique = false;
+};
+
+/// world_from_left, mm, moment by moment. Throws InputError for unequal counts, for none at all,
+/// and for poses that are not finite.
+TrajectoryErrors trajectoryErrors(const std::vector<Eigen::Isometry3d>& truth,
+                                  const std::vector<Eigen::Isometry3d>& estimate);
+
+}  // namespace softscope
