@@ -5,6 +5,7 @@ namespace softscope {
 
 std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
+  commands.push_back(makeReconstructCommand());
   commands.push_back(makeDepthCommand());
   commands.push_back(makeSimulateCommand());
   commands.push_back(makeInfoCommand());

@@ -125,7 +125,7 @@ int DepthCommand::run() {
   DepthEstimator estimator(reader.calibration(), options, frame_ == "raw-left");
   is_sequence_ = reader.totalCount() > 1 || (right_.empty() && isFolder(left_));
   const DepthOutputs outputs(
-      {out_, kinds, force_, frame_ == "raw-left", options.source == "stereo"});
+      {out_, kinds, force_, frame_ == "raw-left", options.measurement.source == "stereo"});
   requireFreeOutputs(outputs, reader);
 
   DepthRecord record(inputs(), reader.calibration(), estimator, frame_ == "raw-left");
@@ -179,7 +179,7 @@ void DepthCommand::measureAll(SequenceReader& reader, DepthEstimator& estimator,
 
 void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimator,
                               const DepthOutputs& outputs, DepthRecord& record) {
-  const MeasuredFrame measured = estimator.measure(result.frame);
+  const DepthResult measured = estimator.measure(result.frame);
   if (!range_) range_ = rangeForAll(depthRangeToShow(measured.depth.depth_mm), is_sequence_);
   if (const std::string warning = rowWarning(measured); !warning.empty() && !row_warning_given_) {
     row_warning_given_ = true;

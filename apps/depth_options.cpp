@@ -2,23 +2,24 @@
 #include "apps/depth_options.h"
 
 #include "apps/stereo_settings.h"
-#include "core/error.h"
 
 namespace softscope {
 
 void DepthOptions::validate() const {
-  stereo.validate();
+  measurement.validate();
   sequence.validate();
-  require(source == "stereo" || source == "files", "depth.source", source,
-          "must be stereo or files");
 }
 
-void bindDepthOptions(SettingsBinder& binder, DepthOptions& options) {
+void bindFrameDepthOptions(SettingsBinder& binder, FrameDepthOptions& options) {
   binder.bind("depth.source", options.source,
               "stereo: match the views; files: take the sequence's depth/");
   binder.bind("depth.align_rows", options.align_rows,
               "remove what rows differ by after rectification, above 0.2 px");
   bindStereoOptions(binder, options.stereo);
+}
+
+void bindDepthOptions(SettingsBinder& binder, DepthOptions& options) {
+  bindFrameDepthOptions(binder, options.measurement);
   bindSequenceOptions(binder, options.sequence);
 }
 

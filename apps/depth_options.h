@@ -4,20 +4,21 @@
 #include "apps/common_options.h"
 #include "io/sequence_options.h"
 #include "io/settings_binder.h"
-#include "stereo/stereo_options.h"
+#include "pipeline/frame_depth.h"
 
 namespace softscope {
 
 /// Of one run of `softscope depth`.
 struct DepthOptions {
-  StereoOptions stereo;
+  FrameDepthOptions measurement;
   SequenceOptions sequence;
-  std::string source = "stereo";  // or "files": the sequence's own depth/
-  bool align_rows = true;         // remove a residual row error where it is large enough
 
   /// Throws OptionError.
   void validate() const;
 };
+
+/// Binds depth.* and stereo.*.
+void bindFrameDepthOptions(SettingsBinder& binder, FrameDepthOptions& options);
 
 /// Binds depth.*, stereo.*, sequence.*, calibration.*.
 void bindDepthOptions(SettingsBinder& binder, DepthOptions& options);

@@ -20,7 +20,7 @@ namespace {
 constexpr double kConfidentPx = 0.5;
 constexpr double kDepthStepMm = 0.01;
 
-std::string noteOf(const MeasuredFrame& measured) {
+std::string noteOf(const DepthResult& measured) {
   const FrameStatistics statistics = statisticsOf(measured);
   std::string note = "coverage " + fixed(100 * statistics.coverage, 1) + " %";
   if (statistics.measured_pixels > 0)
@@ -70,7 +70,7 @@ void DepthOutputs::requireFree(const std::vector<std::string>& prefixes) const {
       requireWritable(file(prefix, name.c_str()), options_.overwrite);
 }
 
-void DepthOutputs::write(const std::string& prefix, const MeasuredFrame& measured,
+void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
                          const DepthRange& range, const std::string& title) const {
   const bool force = options_.overwrite;
   const auto rasters = [&] {

@@ -35,7 +35,7 @@ class DepthOutputs {
   void requireFree(const std::vector<std::string>& prefixes) const;
 
   /// Files named <prefix>depth.png and so on, each whole or not at all.
-  void write(const std::string& prefix, const MeasuredFrame& measured, const DepthRange& range,
+  void write(const std::string& prefix, const DepthResult& measured, const DepthRange& range,
              const std::string& title) const;
 
   std::filesystem::path summaryFile() const { return options_.folder / "summary.json"; }

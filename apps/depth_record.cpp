@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/frame_statistics.h"
+#include "apps/run_record.h"
 #include "apps/version.h"
 
 namespace softscope {
@@ -20,13 +21,6 @@ Json calibrationJson(const StereoCalibration& calibration, const RectifiedRig& r
           {"rectified_focal_px", rig.left.fx_px},
           {"rectified_centre_px", {rig.left.cx_px, rig.left.cy_px}},
           {"disparity_offset_px", rig.disparity_offset_px}};
-}
-
-/// A setting's text as the JSON value that it stands for.
-Json valueOf(const SettingInfo& setting) {
-  if (setting.type == "text") return setting.current_text;
-  const Json value = Json::parse(setting.current_text, nullptr, /*allow_exceptions=*/false);
-  return value.is_discarded() ? Json(setting.current_text) : value;
 }
 
 }  // namespace
@@ -49,8 +43,7 @@ void DepthRecord::addSettings(const std::vector<SettingInfo>& settings) {
   for (const SettingInfo& setting : settings) json_["options"][setting.key] = valueOf(setting);
 }
 
-void DepthRecord::addFrame(int index, double time_s, const MeasuredFrame& measured,
-                           double write_ms) {
+void DepthRecord::addFrame(int index, double time_s, const DepthResult& measured, double write_ms) {
   Json frame{{"frame", index}};
   if (std::isfinite(time_s)) frame["time_s"] = time_s;
   frame.update(frameJson(measured));

@@ -19,7 +19,7 @@ class DepthRecord {
               const StereoCalibration& calibration, const DepthEstimator& estimator, bool raw_left);
 
   void addSettings(const std::vector<SettingInfo>& settings);
-  void addFrame(int index, double time_s, const MeasuredFrame& measured, double write_ms);
+  void addFrame(int index, double time_s, const DepthResult& measured, double write_ms);
   void addFailure(int index, const std::string& error);
   void addWarning(const std::string& text);
   void setInterrupted() { json_["interrupted"] = true; }

@@ -25,7 +25,7 @@ double quantile(const std::vector<float>& sorted, double part) {
   return sorted[below] + (place - double(below)) * (double(sorted[above]) - sorted[below]);
 }
 
-FactSheet::Json rowsJson(const MeasuredFrame& measured) {
+FactSheet::Json rowsJson(const DepthResult& measured) {
   const RowAlignment& rows = measured.rows;
   FactSheet::Json json{{"matches", rows.matches}, {"known", rows.known()}};
   if (!rows.known()) return json;
@@ -39,7 +39,7 @@ FactSheet::Json rowsJson(const MeasuredFrame& measured) {
 
 }  // namespace
 
-FrameStatistics statisticsOf(const MeasuredFrame& measured) {
+FrameStatistics statisticsOf(const DepthResult& measured) {
   FrameStatistics statistics;
   const std::vector<float> depth_mm = sortedFinite(measured.depth.depth_mm);
   const auto masked = std::count_if(measured.mask.values.begin(), measured.mask.values.end(),
@@ -56,7 +56,7 @@ FrameStatistics statisticsOf(const MeasuredFrame& measured) {
   return statistics;
 }
 
-FactSheet::Json frameJson(const MeasuredFrame& measured) {
+FactSheet::Json frameJson(const DepthResult& measured) {
   const FrameStatistics statistics = statisticsOf(measured);
   FactSheet::Json json;
   json["coverage"] = statistics.coverage;
@@ -74,7 +74,7 @@ FactSheet::Json frameJson(const MeasuredFrame& measured) {
   return json;
 }
 
-std::string rowWarning(const MeasuredFrame& measured) {
+std::string rowWarning(const DepthResult& measured) {
   const RowAlignment& rows = measured.rows;
   if (!rows.known() || rows.mean_row_difference_px <= RowAlignment::kWarnAbovePx) return {};
   std::string text = "rows differ by " + fixed(rows.mean_row_difference_px, 2) +

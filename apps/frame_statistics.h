@@ -13,12 +13,12 @@ struct FrameStatistics {
   double median_sigma_mm = 0;  // predicted standard error; NaN where unknown
 };
 
-FrameStatistics statisticsOf(const MeasuredFrame& measured);
+FrameStatistics statisticsOf(const DepthResult& measured);
 
 /// Coverage, depth percentiles, rows, milliseconds a stage; units in key names.
-FactSheet::Json frameJson(const MeasuredFrame& measured);
+FactSheet::Json frameJson(const DepthResult& measured);
 
 /// One line if rows are off by more than RowAlignment::kWarnAbovePx and stay so; else empty.
-std::string rowWarning(const MeasuredFrame& measured);
+std::string rowWarning(const DepthResult& measured);
 
 }  // namespace softscope

@@ -8,11 +8,12 @@
 
 namespace softscope {
 
-/// N points, mm, in the frame that the owner names. normals and colours are empty or N long.
+/// N points, mm, in the frame that the owner names. What else is empty or N long.
 struct PointCloud {
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<Eigen::Vector3f> normals;
   std::vector<Rgb8> colours;
+  std::vector<float> weights;  // PointModel's
 };
 
 }  // namespace softscope

@@ -25,15 +25,18 @@ std::string headerOf(const PointCloud& cloud, const PlyComments& comments) {
   if (!cloud.normals.empty()) out += "property float nx\nproperty float ny\nproperty float nz\n";
   if (!cloud.colours.empty())
     out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (!cloud.weights.empty()) out += "property float weight\n";
   return out + "end_header\n";
 }
 
+void append(std::string& out, float value) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &value, 4);
+  for (int i = 0; i < 4; ++i) out += static_cast<char>(bits >> (8 * i) & 0xFF);
+}
+
 void append(std::string& out, const Eigen::Vector3f& vector) {
-  for (int axis = 0; axis < 3; ++axis) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &vector[axis], 4);
-    for (int i = 0; i < 4; ++i) out += static_cast<char>(bits >> (8 * i) & 0xFF);
-  }
+  for (int axis = 0; axis < 3; ++axis) append(out, vector[axis]);
 }
 
 void append(std::string& out, const Rgb8& colour) {
@@ -46,13 +49,15 @@ void append(std::string& out, const Rgb8& colour) {
 std::string plyBytes(const PointCloud& cloud, const PlyComments& comments) {
   requireOneAPoint(cloud.normals.size(), cloud, "normals");
   requireOneAPoint(cloud.colours.size(), cloud, "colours");
+  requireOneAPoint(cloud.weights.size(), cloud, "weights");
   std::string out = headerOf(cloud, comments);
-  out.reserve(out.size() + 27 * cloud.points_mm.size());
+  out.reserve(out.size() + 31 * cloud.points_mm.size());
   for (std::size_t i = 0; i < cloud.points_mm.size(); ++i) {
     append(out, cloud.points_mm[i]);
     if (!cloud.normals.empty())
       append(out, cloud.normals[i].allFinite() ? cloud.normals[i] : Eigen::Vector3f(0, 0, 0));
     if (!cloud.colours.empty()) append(out, cloud.colours[i]);
+    if (!cloud.weights.empty()) append(out, cloud.weights[i]);
   }
   return out;
 }

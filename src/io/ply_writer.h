@@ -14,9 +14,9 @@ struct PlyComments {
   std::string space;  // "LPS" or "RAS" where the cloud lies in a patient's space; else empty
 };
 
-/// Binary little-endian PLY: x y z (float, mm), then nx ny nz (float) and red green blue (uchar)
-/// where the cloud has them. A normal that isn't finite is written as 0 0 0.
-/// Throws Error where normals or colours aren't one a point.
+/// Binary little-endian PLY: x y z (float, mm), then nx ny nz (float), red green blue (uchar) and
+/// weight (float) where the cloud has them. A normal that isn't finite is written as 0 0 0.
+/// Throws Error where normals, colours or weights aren't one a point.
 std::string plyBytes(const PointCloud& cloud, const PlyComments& comments);
 
 /// Throws OptionError where the file exists and `overwrite` is false, Error where it can't be

@@ -4,6 +4,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "core/error.h"
 #include "stereo/opencv_view.h"
@@ -55,6 +56,7 @@ void requireSize(const ColourImage& image, const PinholeCamera& camera, const ch
 
 struct Rectifier::Maps {
   cv::Mat left_u, left_v, right_u, right_v;
+  cv::Mat left_k, left_d, left_rotation, left_projection;
 };
 
 Rectifier::~Rectifier() = default;
@@ -80,6 +82,10 @@ Rectifier::Rectifier(const StereoCalibration& calibration) {
                               maps_->left_u, maps_->left_v);
   cv::initUndistortRectifyMap(right_k, right_d, right_rotation, right_projection, size, CV_32F,
                               maps_->right_u, maps_->right_v);
+  maps_->left_k = left_k;
+  maps_->left_d = left_d;
+  maps_->left_rotation = left_rotation;
+  maps_->left_projection = left_projection;
   const auto p = [&](int row, int column) { return left_projection.at<double>(row, column); };
   rig_.left = {size.width, size.height, p(0, 0), p(1, 1), p(0, 2), p(1, 2)};
   rig_.baseline_mm = -right_projection.at<double>(0, 3) / right_projection.at<double>(0, 0);
@@ -98,6 +104,15 @@ StereoPair Rectifier::rectify(const StereoPair& raw) const {
   cv::remap(opencvView(raw.left), left, maps_->left_u, maps_->left_v, cv::INTER_CUBIC);
   cv::remap(opencvView(raw.right), right, maps_->right_u, maps_->right_v, cv::INTER_CUBIC);
   return out;
+}
+
+Eigen::Vector2d Rectifier::rectifiedPixel(const Eigen::Vector2d& raw_left_px) const {
+  if (!maps_) return raw_left_px;
+  const std::vector<cv::Point2d> raw{{raw_left_px.x(), raw_left_px.y()}};
+  std::vector<cv::Point2d> rectified;
+  cv::undistortPoints(raw, rectified, maps_->left_k, maps_->left_d, maps_->left_rotation,
+                      maps_->left_projection);
+  return {rectified[0].x, rectified[0].y};
 }
 
 Mask Rectifier::rectifyMask(const Mask& raw) const {

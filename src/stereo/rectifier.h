@@ -24,6 +24,9 @@ class Rectifier {
   /// Throws InputError where their size isn't the calibration's.
   StereoPair rectify(const StereoPair& raw) const;
 
+  /// Where a pixel of the raw left picture lies in the rectified one.
+  Eigen::Vector2d rectifiedPixel(const Eigen::Vector2d& raw_left_px) const;
+
   /// A mask of the left picture; what the left camera didn't see counts as masked.
   Mask rectifyMask(const Mask& raw) const;
 

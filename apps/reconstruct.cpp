@@ -1,0 +1,234 @@
+// apps/reconstruct.cpp: `softscope reconstruct`: a stereo clip to a live, deforming model.
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include "apps/command.h"
+#include "apps/depth_options.h"
+#include "apps/exit_codes.h"
+#include "apps/interrupt.h"
+#include "apps/progress_bar.h"
+#include "apps/reconstruct_options.h"
+#include "apps/result_output.h"
+#include "apps/run_folder.h"
+#include "apps/run_record.h"
+#include "core/error.h"
+#include "io/file_hash.h"
+#include "io/sequence_reader.h"
+#include "io/track_points_file.h"
+#include "pipeline/backends.h"
+#include "pipeline/cpu_backend.h"
+#include "pipeline/reconstructor.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kDetails =
+    "Writes model.ply (the last model: mm, world = the left camera at the first frame),\n"
+    "models/NNNNNN.ply and .vtp with models.pvd for ParaView, trajectory.txt (TUM lines,\n"
+    "world_from_left), frames.csv (what became of each frame), tracks.csv (with --track), "
+    "run.json.\n"
+    "A sequence is a folder with left/ and right/ pictures or videos and calibration.yaml;\n"
+    "two videos and a calibration do as well: see the second example.\n"
+    "A frame that isn't good enough is skipped and reported, never fused. Ctrl-C ends the run\n"
+    "cleanly; --resume goes on from there, with the same result as if it had not been stopped.";
+
+class ReconstructCommand : public Command {
+ public:
+  std::string name() const override { return "reconstruct"; }
+  std::string summary() const override {
+    return "a stereo clip to a live, coloured, deforming model with the scope's pose";
+  }
+  std::string details() const override { return kDetails; }
+  std::string example() const override {
+    return "softscope reconstruct clip --out run\n"
+           "  softscope reconstruct left.mp4 right.mp4 --calibration calibration.yaml --out run";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  SequencePaths paths() const;
+  std::string digestOf(const SequencePaths& paths, const SettingsBinder& binder) const;
+  std::vector<TrackSeed> seeds() const;
+  std::unique_ptr<ReconstructionBackend> makeBackend(const StereoCalibration& calibration,
+                                                     const ReconstructionOptions& options) const;
+  void reconstructAll(SequenceReader& reader, Reconstructor& reconstructor, RunFolder& folder,
+                      RunRecord& record, Checkpoint& checkpoint);
+
+  std::string left_, right_, out_, calibration_, mask_, frames_, track_;
+  std::string backend_ = "auto", preset_ = "default", matcher_;
+  int save_every_ = 10, checkpoint_every_ = 100;
+  bool no_correspondence_ = false, resume_ = false, force_ = false;
+  SettingsArguments settings_;
+  bool interrupted_ = false;
+};
+
+void ReconstructCommand::declare(ArgumentList& arguments) {
+  arguments.positional("SEQUENCE", left_, "sequence folder; or the left video or folder", true);
+  arguments.positional("RIGHT", right_, "right video or folder; not for a sequence folder", false);
+  arguments.option("--out", "DIR", out_, "folder for the run", true);
+  arguments.option("--calibration", "FILE", calibration_,
+                   "calibration; a sequence folder has its own");
+  arguments.option("--mask", "PATH", mask_, "picture or folder; non-zero pixels are ignored");
+  arguments.option("--frames", "A:B", frames_, "frames A up to, not with, B");
+  arguments.option("--save-every", "N", save_every_,
+                   "save the model every N frames (default 10; 0: only the last)");
+  arguments.option("--track", "FILE", track_,
+                   "follow pixels of the first left picture: CSV id,u_px,v_px");
+  arguments.option("--backend", "NAME", backend_, "auto (the default), cpu or cuda");
+  arguments.option("--preset", "NAME", preset_, "default, or paper: the paper's nodes and weights");
+  arguments.option("--matcher", "NAME", matcher_, "dense-surf (the default), sift or surf-off");
+  arguments.flag("--no-correspondence", no_correspondence_,
+                 "matches give the pose, but don't pull the warp");
+  arguments.option("--checkpoint-every", "N", checkpoint_every_,
+                   "bring all files up to date every N frames (default 100)");
+  arguments.flag("--resume", resume_, "go on with an interrupted run");
+  arguments.flag("--force", force_, "replace an earlier run");
+  settings_.declare(arguments);
+}
+
+SequencePaths ReconstructCommand::paths() const {
+  SequencePaths paths;
+  std::error_code ignored;  // what isn't there is the reader's to report
+  if (right_.empty() && (calibration_.empty() || fs::is_directory(left_, ignored))) {
+    paths = findSequence(left_);
+  } else if (calibration_.empty()) {
+    throw OptionError(
+        "softscope reconstruct: --calibration is missing; only a sequence folder "
+        "has its own");
+  } else if (right_.empty()) {
+    paths.stereo = left_;
+  } else {
+    paths.left = left_;
+    paths.right = right_;
+  }
+  if (!calibration_.empty()) paths.calibration = calibration_;
+  if (!mask_.empty()) paths.mask = mask_;
+  return paths;
+}
+
+/// Everything that decides the result; a run goes on only with the same.
+std::string ReconstructCommand::digestOf(const SequencePaths& paths,
+                                         const SettingsBinder& binder) const {
+  std::string all;
+  for (const SettingInfo& setting : binder.list())
+    if (setting.key != "sequence.read_ahead")
+      all += setting.key + "=" + setting.current_text + "\n";
+  if (!paths.calibration.empty()) all += sha256Of(paths.calibration);
+  if (!track_.empty()) all += sha256Of(track_);
+  return sha256OfBytes(all);
+}
+
+std::vector<TrackSeed> ReconstructCommand::seeds() const {
+  std::vector<TrackSeed> seeds;
+  if (track_.empty()) return seeds;
+  for (const TrackPixel& pixel : readTrackPixels(track_))
+    seeds.push_back({pixel.id, pixel.u_px, pixel.v_px});
+  return seeds;
+}
+
+std::unique_ptr<ReconstructionBackend> ReconstructCommand::makeBackend(
+    const StereoCalibration& calibration, const ReconstructionOptions& options) const {
+  if (backend_ != "auto" && backend_ != "cpu" && backend_ != "cuda")
+    throw OptionError("--backend is `" + backend_ + "`, but must be auto, cpu or cuda");
+  if (backend_ == "cuda")
+    throw BackendError(
+        "--backend cuda: reconstruction on a GPU is not part of this version; "
+        "give cpu or auto");
+  if (backend_ == "auto") spdlog::info("back end: cpu");
+  return makeCpuBackend(calibration, options);
+}
+
+int ReconstructCommand::run() {
+  ReconstructOptions options(preset_);
+  SettingsBinder binder;
+  bindReconstructOptions(binder, options);
+  Settings settings = readSettingsArguments(settings_);
+  if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
+  if (no_correspondence_) addAssignment(settings, "deform.use_correspondences=false");
+  binder.apply(settings);
+  if (!frames_.empty()) options.sequence.frames = parseFrameRange(frames_);
+  options.resolve();
+  require(checkpoint_every_ >= 1, "--checkpoint-every", checkpoint_every_, "must be 1 or more");
+
+  const SequencePaths where = paths();
+  const std::vector<TrackSeed> tracked = seeds();
+  RunFolder folder({out_, save_every_, !tracked.empty(), force_}, resume_);
+  Checkpoint checkpoint{digestOf(where, binder), options.sequence.frames.begin, {}};
+  const std::optional<Checkpoint> earlier = resume_ ? folder.readCheckpoint() : std::nullopt;
+  if (resume_ && !earlier)
+    throw OptionError("--resume: " + out_ + " holds no interrupted run; start it without --resume");
+  if (earlier && earlier->settings != checkpoint.settings)
+    throw OptionError("--resume: the run in " + out_ +
+                      " was begun with other settings, calibration or tracked pixels; give the "
+                      "same, or start again without --resume");
+  if (earlier) options.sequence.frames.begin = earlier->next_frame;
+
+  SequenceReader reader(where, options.sequence);
+  for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
+  Reconstructor reconstructor(makeBackend(reader.calibration(), options.method), options.method);
+  reconstructor.track(tracked);
+  if (earlier) {
+    folder.takeOver(earlier->next_frame);
+    reconstructor.restore(earlier->state);
+  }
+  RunRecord record(where, reader.calibration(), reconstructor.backend(), binder.list());
+  if (earlier) record.set("resumed_at_frame", earlier->next_frame);
+  reconstructAll(reader, reconstructor, folder, record, checkpoint);
+  record.set("interrupted", interrupted_);
+  const bool nothing = reconstructor.backend().empty();
+  if (nothing && !interrupted_)
+    throw InputError(left_ + ": not one frame could be used; the reasons stand above");
+  if (!nothing) folder.writeRecord(jsonText(record.json()));
+  if (common.json)
+    printJson(record.json());
+  else
+    printFacts(record.text(out_), false);
+  return interrupted_ ? kInterrupted : kDone;
+}
+
+void ReconstructCommand::reconstructAll(SequenceReader& reader, Reconstructor& reconstructor,
+                                        RunFolder& folder, RunRecord& record,
+                                        Checkpoint& checkpoint) {
+  const InterruptGuard interrupt;
+  ProgressBar progress("reconstruct", reader.frameCount(), progressStyle(common.quiet), std::cerr);
+  int since_flush = 0;
+  while (!interrupt.requested()) {
+    const auto result = reader.next();
+    if (!result) break;
+    const FrameRecord frame = result->ok() ? reconstructor.process(result->frame)
+                                           : reconstructor.skip(result->index, result->error);
+    if (!frame.reason.empty())
+      spdlog::warn("frame {}: {}: {}", frame.frame, toString(frame.status), frame.reason);
+    folder.add(frame);
+    record.add(frame);
+    if (!reconstructor.backend().empty())
+      folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model.model);
+    checkpoint.next_frame = frame.frame + 1;
+    if (++since_flush >= checkpoint_every_ && !reconstructor.backend().empty()) {
+      checkpoint.state = reconstructor.state();
+      folder.flush(checkpoint.state.model.model, checkpoint);
+      since_flush = 0;
+    }
+    progress.advance();
+  }
+  interrupted_ = interrupt.requested();
+  if (interrupted_) spdlog::warn("interrupted: what is finished stays; --resume goes on");
+  if (reconstructor.backend().empty()) return;
+  checkpoint.state = reconstructor.state();
+  if (interrupted_)
+    folder.flush(checkpoint.state.model.model, checkpoint);
+  else
+    folder.finish(checkpoint.state.model.model);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeReconstructCommand() { return std::make_unique<ReconstructCommand>(); }
+
+}  // namespace softscope

@@ -1,0 +1,179 @@
+#include "apps/run_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/file_bytes.h"
+#include "io/message.h"
+#include "io/ply_writer.h"
+#include "io/text_lines.h"
+#include "io/trajectory_file.h"
+#include "pipeline/run_tables.h"
+#include "vtk_views/point_cloud_vtp.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCheckpoint = "checkpoint.bin";
+constexpr const char* kRecord = "run.json";
+constexpr const char* kModels = "models";
+constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
+
+const char* const kFiles[] = {"model.ply",  "frames.csv", "trajectory.txt", "tracks.csv",
+                              "models.pvd", kRecord,      kCheckpoint};
+
+std::string numbered(int frame, const char* end) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%06d%s", frame, end);
+  return name;
+}
+
+bool isSavedModel(const fs::path& file) {
+  const std::string stem = file.stem().string(), end = file.extension().string();
+  return stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos &&
+         (end == ".ply" || end == ".vtp");
+}
+
+bool holdsRun(const fs::path& folder) {
+  for (const char* name : kFiles)
+    if (fs::exists(folder / name)) return true;
+  return fs::exists(folder / kModels);
+}
+
+void requireUsable(const RunFolderOptions& options, bool resume) {
+  const fs::path& folder = options.folder;
+  if (!fs::exists(folder)) {
+    if (resume)
+      throw OptionError("--resume: there is no " + shown(folder) +
+                        "; start the run without --resume");
+    return;
+  }
+  if (!fs::is_directory(folder))
+    throw OptionError("--out " + shown(folder) + ": is a file, but must be a folder");
+  if (!resume && !options.overwrite && holdsRun(folder))
+    throw OptionError("--out " + shown(folder) +
+                      ": holds a run already; choose another folder, go on with --resume, or "
+                      "replace it with --force");
+}
+
+/// Lines of a CSV whose first cell is a frame before `next_frame`.
+std::string linesBefore(const fs::path& file, int next_frame) {
+  if (!fs::exists(file)) return {};
+  std::string kept;
+  const std::string bytes = readBytes(file, std::uintmax_t{4} << 30);
+  for (const std::string_view line : linesOf(bytes)) {
+    if (line.empty() || line.front() < '0' || line.front() > '9') continue;
+    if (std::atoi(std::string(line.substr(0, line.find(','))).c_str()) >= next_frame) continue;
+    kept.append(line).append("\n");
+  }
+  return kept;
+}
+
+int countLines(const std::string& text) {
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+PointCloud cloudOf(const PointModel& model) {
+  return {model.positions_mm, model.normals, model.colours, model.weights};
+}
+
+RunFolder::RunFolder(RunFolderOptions options, bool resume) : options_(std::move(options)) {
+  require(options_.save_every >= 0, "--save-every", options_.save_every, "can't be negative");
+  requireUsable(options_, resume);
+}
+
+std::optional<Checkpoint> RunFolder::readCheckpoint() const {
+  const fs::path path = file(kCheckpoint);
+  if (!fs::exists(path)) return std::nullopt;
+  return parseCheckpoint(readBytes(path, kCheckpointLimitBytes), shown(path));
+}
+
+void RunFolder::takeOver(int next_frame) {
+  begun_ = true;
+  frames_csv_ = linesBefore(file("frames.csv"), next_frame);
+  tracks_csv_ = linesBefore(file("tracks.csv"), next_frame);
+  trajectory_ = readTrajectory(file("trajectory.txt"));
+  const auto frames = static_cast<std::size_t>(countLines(frames_csv_));
+  if (trajectory_.size() < frames)
+    throw InputError(shown(options_.folder) + ": frames.csv has " + std::to_string(frames) +
+                     " frames, trajectory.txt " + std::to_string(trajectory_.size()) +
+                     "; they don't belong together. Start again without --resume");
+  trajectory_.resize(frames);
+  for (std::size_t i = 0; i < frames && fs::exists(file(kModels)); ++i)
+    if (const int frame = static_cast<int>(i); fs::exists(file(kModels) / numbered(frame, ".ply")))
+      saved_.push_back({frame, trajectory_[i].time_s});
+}
+
+void RunFolder::begin() {
+  if (begun_) return;
+  begun_ = true;
+  std::error_code failure;
+  fs::create_directories(options_.folder, failure);
+  if (failure)
+    throw InputError("--out " + shown(options_.folder) + ": can't be made: " + failure.message() +
+                     ". Choose a folder that you may write to");
+  for (const char* name : kFiles) fs::remove(file(name));
+  if (!fs::is_directory(file(kModels))) return;
+  std::vector<fs::path> earlier;
+  for (const auto& entry : fs::directory_iterator(file(kModels)))
+    if (isSavedModel(entry.path())) earlier.push_back(entry.path());
+  for (const fs::path& path : earlier) fs::remove(path);
+}
+
+void RunFolder::add(const FrameRecord& record) {
+  frames_csv_ += framesCsvLine(record);
+  tracks_csv_ += tracksCsvLines(record);
+  const double time_s = std::isfinite(record.time_s) ? record.time_s : record.frame;
+  trajectory_.push_back({time_s, record.world_from_left});
+}
+
+void RunFolder::saveModel(int frame, double time_s, const PointModel& model) {
+  if (options_.save_every == 0 || frame % options_.save_every != 0) return;
+  begin();
+  fs::create_directories(file(kModels));
+  const PointCloud cloud = cloudOf(model);
+  writePly(file(kModels) / numbered(frame, ".ply"), cloud, {"world", ""}, true);
+  writeFile(file(kModels) / numbered(frame, ".vtp"), pointCloudVtp(cloud), true);
+  saved_.push_back({frame, std::isfinite(time_s) ? time_s : frame});
+}
+
+void RunFolder::writeTables(const PointModel& model) {
+  begin();
+  writeFile(file("frames.csv"), framesCsvHeading() + "\n" + frames_csv_, true);
+  if (options_.tracks) writeFile(file("tracks.csv"), tracksCsvHeading() + "\n" + tracks_csv_, true);
+  if (!trajectory_.empty()) writeTrajectory(file("trajectory.txt"), trajectory_, true);
+  writePly(file("model.ply"), cloudOf(model), {"world", ""}, true);
+  if (options_.save_every == 0) return;
+  std::string pvd =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const SavedModel& saved : saved_)
+    pvd += say("<DataSet timestep=\"", saved.time_s, "\" file=\"models/",
+               numbered(saved.frame, ".vtp"), "\"/>\n");
+  writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
+}
+
+void RunFolder::flush(const PointModel& model, const Checkpoint& checkpoint) {
+  writeTables(model);
+  writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
+}
+
+void RunFolder::finish(const PointModel& model) {
+  writeTables(model);
+  fs::remove(file(kCheckpoint));
+}
+
+void RunFolder::writeRecord(const std::string& json) {
+  begin();
+  writeFile(file(kRecord), json, true);
+}
+
+}  // namespace softscope

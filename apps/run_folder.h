@@ -1,0 +1,64 @@
+// apps/run_folder.h: the files that `softscope reconstruct` leaves.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/point_cloud.h"
+#include "core/point_model.h"
+#include "core/trajectory.h"
+#include "pipeline/checkpoint.h"
+#include "pipeline/frame_record.h"
+
+namespace softscope {
+
+struct RunFolderOptions {
+  std::filesystem::path folder;
+  int save_every = 10;  // frames between models/NNNNNN.ply; 0: none
+  bool tracks = false;
+  bool overwrite = false;
+};
+
+/// Tables and models of one run. Files appear whole; flush() brings all of them up to date, so that
+/// what was computed survives whatever comes next.
+class RunFolder {
+ public:
+  /// Throws OptionError where the folder can't be used: a file, or an earlier run and no --force.
+  /// What an earlier run left is removed with the first flush() or model.
+  RunFolder(RunFolderOptions options, bool resume);
+
+  /// The state that an interrupted run left; nothing where there is none. Throws InputError.
+  std::optional<Checkpoint> readCheckpoint() const;
+  /// Takes over the tables of the frames before `next_frame`.
+  void takeOver(int next_frame);
+
+  void add(const FrameRecord& record);
+  /// models/NNNNNN.ply and .vtp, if it is this frame's turn.
+  void saveModel(int frame, double time_s, const PointModel& model);
+  void flush(const PointModel& model, const Checkpoint& checkpoint);
+  /// The run is complete: nothing will be resumed.
+  void finish(const PointModel& model);
+  void writeRecord(const std::string& json);
+
+ private:
+  struct SavedModel {
+    int frame = 0;
+    double time_s = 0;
+  };
+  void begin();
+  void writeTables(const PointModel& model);
+  std::filesystem::path file(const std::string& name) const { return options_.folder / name; }
+
+  RunFolderOptions options_;
+  bool begun_ = false;
+  std::string frames_csv_, tracks_csv_;
+  Trajectory trajectory_;
+  std::vector<SavedModel> saved_;
+};
+
+/// The model as a point cloud with weights, world frame.
+PointCloud cloudOf(const PointModel& model);
+
+}  // namespace softscope

@@ -1,0 +1,140 @@
+// apps/run_record.cpp: inputs with their hashes, settings, frames, times.
+#include "apps/run_record.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "apps/machine.h"
+#include "apps/version.h"
+#include "core/parallel.h"
+#include "io/file_hash.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = FactSheet::Json;
+
+Json inputsJson(const SequencePaths& paths) {
+  Json inputs = Json::object();
+  const std::pair<const char*, const fs::path&> parts[] = {{"left", paths.left},
+                                                           {"right", paths.right},
+                                                           {"stereo", paths.stereo},
+                                                           {"calibration", paths.calibration},
+                                                           {"mask", paths.mask},
+                                                           {"depth", paths.depth},
+                                                           {"timestamps", paths.timestamps}};
+  for (const auto& [name, path] : parts)
+    if (!path.empty()) inputs[name] = {{"path", path.string()}, {"sha256", sha256Of(path)}};
+  return inputs;
+}
+
+Json machineJson(const ReconstructionBackend& backend) {
+  const Machine machine = describeMachine();
+  return {{"backend", backend.name()},
+          {"device", backend.name() == "cpu" ? machine.processor : backend.device()},
+          {"processor", machine.processor},
+          {"cores", machine.cores},
+          {"threads", threadCount()}};
+}
+
+Json rigJson(const RectifiedRig& rig) {
+  return {{"width_px", rig.left.width_px},
+          {"height_px", rig.left.height_px},
+          {"focal_px", rig.left.fx_px},
+          {"centre_px", {rig.left.cx_px, rig.left.cy_px}},
+          {"baseline_mm", rig.baseline_mm}};
+}
+
+Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+}  // namespace
+
+Json valueOf(const SettingInfo& setting) {
+  if (setting.type == "text") return setting.current_text;
+  const Json value = Json::parse(setting.current_text, nullptr, /*allow_exceptions=*/false);
+  return value.is_discarded() ? Json(setting.current_text) : value;
+}
+
+RunRecord::RunRecord(const SequencePaths& paths, const StereoCalibration& calibration,
+                     const ReconstructionBackend& backend,
+                     const std::vector<SettingInfo>& settings) {
+  json_["schema_version"] = 1;
+  json_["softscope"] = versionText();
+  json_["command"] = "reconstruct";
+  json_["machine"] = machineJson(backend);
+  json_["inputs"] = inputsJson(paths);
+  json_["rectified_rig"] = rigJson(backend.rig());
+  for (const SettingInfo& setting : settings)
+    json_["configuration"][setting.key] = valueOf(setting);
+  for (const std::string& warning : calibration.warnings) addWarning(warning);
+}
+
+void RunRecord::add(const FrameRecord& record) {
+  ++frames_;
+  ++frames_of_status_[toString(record.status)];
+  for (const auto& [stage, stage_ms] : record.times) elapsed_ms_[stage] += stage_ms;
+  frame_ms_.push_back(record.elapsed_ms());
+  if (!record.fused()) return;
+  points_ = record.points;
+  if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
+  if (record.status == FrameStatus::kStarted) return;
+  matches_.push_back(record.pose.inliers);
+  if (std::isfinite(record.fusion.corrected.mean_mm))
+    backprojection_mm_.push_back(record.fusion.corrected.mean_mm);
+  if (std::isfinite(record.fusion.predicted.mean_mm))
+    prediction_mm_.push_back(record.fusion.predicted.mean_mm);
+}
+
+int RunRecord::fusedFrames() const {
+  int fused = 0;
+  for (const FrameStatus status :
+       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered})
+    if (const auto found = frames_of_status_.find(toString(status));
+        found != frames_of_status_.end())
+      fused += found->second;
+  return fused;
+}
+
+double RunRecord::meanOf(const std::vector<double>& values) const {
+  if (values.empty()) return kUnknown;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Json RunRecord::json() const {
+  Json all = json_;
+  all["frames"] = frames_;
+  all["frames_fused"] = fusedFrames();
+  all["frames_by_status"] = frames_of_status_;
+  all["points"] = points_;
+  all["nodes"] = nodes_;
+  all["mean_inliers"] = numberOrNull(meanOf(matches_));
+  all["mean_backprojection_mm"] = numberOrNull(meanOf(backprojection_mm_));
+  all["mean_prediction_mm"] = numberOrNull(meanOf(prediction_mm_));
+  all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
+  Json& stages = all["mean_stage_ms"] = Json::object();
+  for (const auto& [stage, sum_ms] : elapsed_ms_) stages[stage] = sum_ms / std::max(1, frames_);
+  all["warnings"] = warnings_;
+  return all;
+}
+
+FactSheet RunRecord::text(const std::string& folder) const {
+  FactSheet facts("reconstruction of " + std::to_string(frames_) + " frames");
+  std::string statuses;
+  for (const auto& [status, count] : frames_of_status_)
+    statuses += (statuses.empty() ? "" : ", ") + std::to_string(count) + " " + status;
+  facts.addLine("frames", statuses);
+  facts.addLine("model",
+                std::to_string(points_) + " points on " + std::to_string(nodes_) + " nodes");
+  if (!matches_.empty())
+    facts.addLine("matches", fixed(meanOf(matches_), 0) + " that agree with the pose, a frame");
+  if (!backprojection_mm_.empty())
+    facts.addLine("back-projection", fixed(meanOf(backprojection_mm_), 3) +
+                                         " mm mean distance of the model from each frame's depth");
+  if (!frame_ms_.empty()) facts.addLine("time", fixed(meanOf(frame_ms_), 0) + " ms a frame");
+  facts.addLine("written to", folder);
+  facts.addLine("look at", folder + "/model.ply (MeshLab), " + folder + "/models.pvd (ParaView)");
+  return facts;
+}
+
+}  // namespace softscope

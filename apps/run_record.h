@@ -1,0 +1,45 @@
+// apps/run_record.h: what run.json says of a reconstruction.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/fact_sheet.h"
+#include "core/stereo_rig.h"
+#include "io/sequence_paths.h"
+#include "io/settings_binder.h"
+#include "pipeline/frame_record.h"
+#include "pipeline/reconstruction_backend.h"
+
+namespace softscope {
+
+class RunRecord {
+ public:
+  RunRecord(const SequencePaths& paths, const StereoCalibration& calibration,
+            const ReconstructionBackend& backend, const std::vector<SettingInfo>& settings);
+
+  void add(const FrameRecord& record);
+  void addWarning(const std::string& text) { warnings_.push_back(text); }
+  void set(const std::string& key, const FactSheet::Json& value) { json_[key] = value; }
+
+  int fusedFrames() const;
+  FactSheet::Json json() const;
+  /// A few lines for people.
+  FactSheet text(const std::string& folder) const;
+
+ private:
+  double meanOf(const std::vector<double>& values) const;
+
+  FactSheet::Json json_;
+  FactSheet::Json warnings_ = FactSheet::Json::array();
+  std::map<std::string, int> frames_of_status_;
+  std::map<std::string, double> elapsed_ms_;  // of every stage, over all frames
+  std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
+  int frames_ = 0, points_ = 0, nodes_ = 0;
+};
+
+/// A setting's text as the JSON value that it stands for.
+FactSheet::Json valueOf(const SettingInfo& setting);
+
+}  // namespace softscope

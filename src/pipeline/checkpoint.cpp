@@ -1,0 +1,163 @@
+#include "pipeline/checkpoint.h"
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+constexpr std::string_view kMagic = "softscope checkpoint 1\n";
+
+/// FNV-1a, 64 bits, over 8 bytes at a time.
+std::uint64_t checksumOf(std::string_view bytes) {
+  std::uint64_t sum = 14695981039346656037ull;
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
+    sum = (sum ^ word) * 1099511628211ull;
+    sum ^= sum >> 29;
+  }
+  return sum;
+}
+
+class Writer {
+ public:
+  template <class Value>
+  void value(const Value& value) {
+    static_assert(std::is_arithmetic_v<Value>);
+    raw(&value, sizeof value);
+  }
+  void text(const std::string& text) {
+    value(static_cast<std::uint64_t>(text.size()));
+    raw(text.data(), text.size());
+  }
+  /// Elements without pointers: numbers, Eigen's fixed sizes, and structs of them.
+  template <class Element>
+  void array(const std::vector<Element>& elements) {
+    value(static_cast<std::uint64_t>(elements.size()));
+    value(static_cast<std::uint64_t>(sizeof(Element)));
+    raw(elements.data(), elements.size() * sizeof(Element));
+  }
+  void pose(const Eigen::Isometry3d& pose) { raw(pose.matrix().data(), 16 * sizeof(double)); }
+  std::string bytes;
+
+ private:
+  void raw(const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  }
+};
+
+class Reader {
+ public:
+  Reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  template <class Value>
+  void value(Value& value) {
+    raw(&value, sizeof value);
+  }
+  void text(std::string& text) {
+    std::uint64_t size = 0;
+    value(size);
+    if (size > bytes_.size()) fail();
+    text.resize(size);
+    raw(text.data(), size);
+  }
+  template <class Element>
+  void array(std::vector<Element>& elements) {
+    std::uint64_t count = 0, element_size = 0;
+    value(count);
+    value(element_size);
+    if (element_size != sizeof(Element) || count > bytes_.size() / sizeof(Element)) fail();
+    elements.resize(count);
+    raw(static_cast<void*>(elements.data()), count * sizeof(Element));
+  }
+  void pose(Eigen::Isometry3d& pose) { raw(pose.matrix().data(), 16 * sizeof(double)); }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw InputError(name_ + ": the checkpoint is damaged. Start the run again without --resume");
+  }
+  void raw(void* data, std::size_t size) {
+    if (size > bytes_.size()) fail();
+    if (size > 0) std::memcpy(data, bytes_.data(), size);
+    bytes_.remove_prefix(size);
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+};
+
+/// One list of what a checkpoint holds, for writing and for reading.
+template <class Archive, class Model>
+void visitModel(Archive& archive, Model& model) {
+  archive.array(model.positions_mm);
+  archive.array(model.normals);
+  archive.array(model.colours);
+  archive.array(model.weights);
+  archive.array(model.bindings);
+}
+
+template <class Archive, class Graph>
+void visitGraph(Archive& archive, Graph& graph) {
+  archive.array(graph.positions_mm);
+  archive.array(graph.transforms);
+  archive.array(graph.edges);
+  archive.array(graph.stencils);
+}
+
+template <class Archive, class Memory>
+void visitMemory(Archive& archive, Memory& memory) {
+  archive.value(memory.unexplained_mm.width_px);
+  archive.value(memory.unexplained_mm.height_px);
+  archive.array(memory.unexplained_mm.values);
+  archive.value(memory.left.width_px);
+  archive.value(memory.left.height_px);
+  archive.value(memory.left.fx_px);
+  archive.value(memory.left.fy_px);
+  archive.value(memory.left.cx_px);
+  archive.value(memory.left.cy_px);
+  archive.pose(memory.world_from_left);
+}
+
+template <class Archive, class Whole>
+void visit(Archive& archive, Whole& checkpoint) {
+  archive.text(checkpoint.settings);
+  archive.value(checkpoint.next_frame);
+  visitModel(archive, checkpoint.state.model.model);
+  visitGraph(archive, checkpoint.state.model.graph);
+  visitMemory(archive, checkpoint.state.model.memory);
+  archive.array(checkpoint.state.model.tracked.points);
+  archive.pose(checkpoint.state.world_from_left);
+  archive.array(checkpoint.state.key_views);
+  archive.value(checkpoint.state.lost);
+}
+
+}  // namespace
+
+std::string checkpointBytes(const Checkpoint& checkpoint) {
+  Writer writer;
+  visit(writer, checkpoint);
+  const std::uint64_t checksum = checksumOf(writer.bytes);
+  std::string bytes(kMagic);
+  bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+  return bytes + writer.bytes;
+}
+
+Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name) {
+  std::uint64_t checksum = 0;
+  const std::size_t head = kMagic.size() + sizeof checksum;
+  if (bytes.size() < head || bytes.substr(0, kMagic.size()) != kMagic)
+    throw InputError(name + ": is no checkpoint of this version. Start again without --resume");
+  std::memcpy(&checksum, bytes.data() + kMagic.size(), sizeof checksum);
+  if (checksumOf(bytes.substr(head)) != checksum)
+    throw InputError(name + ": the checkpoint is damaged. Start the run again without --resume");
+  Reader reader(bytes.substr(head), name);
+  Checkpoint checkpoint;
+  visit(reader, checkpoint);
+  return checkpoint;
+}
+
+}  // namespace softscope

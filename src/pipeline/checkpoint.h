@@ -1,0 +1,24 @@
+// src/pipeline/checkpoint.h: a run's state as bytes, so that it can go on after a stop.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "pipeline/reconstructor.h"
+
+namespace softscope {
+
+struct Checkpoint {
+  std::string settings;  // a digest of everything that decides the result
+  int next_frame = 0;    // of the sequence
+  ReconstructionState state;
+};
+
+/// Little-endian, with a magic word, a version and a checksum: a file that was cut or altered is
+/// not read. For the machine that wrote it; no format to keep data in.
+std::string checkpointBytes(const Checkpoint& checkpoint);
+
+/// Throws InputError, naming `name`, for bytes that are no whole checkpoint of this version.
+Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name);
+
+}  // namespace softscope

@@ -1,0 +1,284 @@
+#include "pipeline/cpu_backend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "deform/graph_builder.h"
+#include "deform/surface_target.h"
+#include "deform/warp.h"
+#include "features/mask_morphology.h"
+#include "features/matcher.h"
+#include "fusion/model_update.h"
+#include "fusion/visibility.h"
+#include "pipeline/frame_depth.h"
+#include "pose/ransac_pose.h"
+#include "stereo/stage_clock.h"
+
+namespace softscope {
+namespace {
+
+void addTo(Mask& mask, const Mask& more) {
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (more.values[i] != 0) mask.values[i] = 1;
+}
+
+/// SIFT finds places again wherever they went; the pose is then refined from near.
+MatcherOptions wholePicture(const MatcherOptions& near, const PinholeCamera& left) {
+  MatcherOptions options = near;
+  options.method = "sift";
+  options.search_radius_px = std::hypot(left.width_px, left.height_px);
+  return options;
+}
+
+Mask unseen(const ModelView& view) {
+  Mask ignore(view.colour.width_px, view.colour.height_px, 0);
+  for (std::size_t i = 0; i < ignore.size(); ++i) ignore.values[i] = view.point_index.values[i] < 0;
+  return ignore;
+}
+
+double medianOf(std::vector<float> values) {
+  if (values.empty()) return kUnknown;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class CpuBackend : public ReconstructionBackend {
+ public:
+  CpuBackend(const StereoCalibration& calibration, const ReconstructionOptions& options)
+      : options_(options),
+        depth_(calibration, options.depth),
+        near_matcher_(makeFeatureMatcher(options.matcher)),
+        whole_matcher_(makeFeatureMatcher(wholePicture(options.matcher, depth_.rig().left))),
+        solver_(makeDeformSolver(options.deform)) {
+    options.validate();
+  }
+
+  std::string name() const override { return "cpu"; }
+  std::string device() const override { return "processor"; }
+  const RectifiedRig& rig() const override { return depth_.rig(); }
+  bool empty() const override { return state_.model.empty(); }
+  ModelState state() const override { return state_; }
+  void restore(ModelState state) override { state_ = std::move(state); }
+  const StageTimes& times() const override { return clock_.laps(); }
+
+  DepthSummary measure(const Frame& frame) override;
+  MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) override;
+  PoseSummary estimatePose() override;
+  WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
+  void acceptWarp() override;
+  void rejectWarp() override;
+  FusionSummary fuse(const Eigen::Isometry3d& world_from_left) override;
+  void track(const std::vector<TrackSeed>& seeds) override { seeds_ = seeds; }
+  std::vector<TrackedPosition> tracked(const Eigen::Isometry3d& world_from_left) const override;
+
+ private:
+  const PinholeCamera& left() const { return depth_.rig().left; }
+  Mask notTissue() const;
+  Observation observe(const Eigen::Isometry3d& world_from_left) const;
+  DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
+                              const SurfaceTarget& surface, const std::vector<int>& visible) const;
+  void seedTracks(const Eigen::Isometry3d& world_from_left);
+  bool visible(const Eigen::Vector3d& point_left) const;
+
+  ReconstructionOptions options_;
+  FrameDepth depth_;
+  std::unique_ptr<FeatureMatcher> near_matcher_, whole_matcher_;
+  std::unique_ptr<DeformSolver> solver_;
+
+  ModelState state_;
+  std::vector<TrackSeed> seeds_;
+
+  // Of the frame at hand.
+  MeasuredFrame measured_;
+  Mask not_tissue_;
+  MatchPicture live_;
+  std::vector<LiftedMatch> matches_;
+  RigidPose pose_;
+  StageClock clock_;
+};
+
+Mask CpuBackend::notTissue() const {
+  Mask mask(left().width_px, left().height_px, 0);
+  if (!measured_.mask.empty()) addTo(mask, measured_.mask);
+  if (options_.tissue.detect_instruments)
+    addTo(mask, detectInstruments(measured_.left, options_.tissue.instruments));
+  return options_.tissue.margin_px > 0 ? grown(mask, options_.tissue.margin_px) : mask;
+}
+
+DepthSummary CpuBackend::measure(const Frame& frame) {
+  clock_ = StageClock();
+  matches_.clear();
+  pose_ = RigidPose();
+  measured_ = depth_.measure(frame);
+  clock_.lap("depth");
+  not_tissue_ = notTissue();
+  live_ = {toGray(measured_.left), not_tissue_};
+  addTo(live_.ignore, highlightMask(measured_.left, options_.tissue.highlights));
+  DepthSummary summary;
+  std::vector<float> sigmas;
+  for (std::size_t i = 0; i < not_tissue_.size(); ++i) {
+    if (not_tissue_.values[i] != 0) continue;
+    ++summary.tissue_px;
+    if (!std::isfinite(measured_.depth.depth_mm.values[i])) continue;
+    ++summary.measured_px;
+    if (!measured_.depth.sigma_mm.empty()) sigmas.push_back(measured_.depth.sigma_mm.values[i]);
+  }
+  summary.median_sigma_mm = medianOf(std::move(sigmas));
+  if (measured_.rows.known()) summary.row_difference_px = measured_.rows.mean_row_difference_px;
+  clock_.lap("mask");
+  return summary;
+}
+
+MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach reach) {
+  clock_.lap("other");
+  const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
+  clock_.lap("view");
+  FeatureMatcher& matcher = reach == MatchReach::kNear ? *near_matcher_ : *whole_matcher_;
+  const std::vector<PixelMatch> found =
+      matcher.match({toGray(view.colour), unseen(view)}, live_, Eigen::Vector2f::Zero());
+  matches_ = liftMatches(found, view, measured_.depth, left(), options_.lift);
+  clock_.lap("match");
+  return {static_cast<int>(found.size()), static_cast<int>(matches_.size())};
+}
+
+PoseSummary CpuBackend::estimatePose() {
+  PointPairs pairs;
+  for (const LiftedMatch& match : matches_) {
+    pairs.sources_mm.push_back(match.target_left_mm);
+    pairs.targets_mm.push_back(match.source_world_mm);
+    const float along = std::isfinite(match.along_mm) ? match.along_mm : match.across_mm;
+    const float variance = (2 * match.across_mm * match.across_mm + along * along) / 3;
+    pairs.weights.push_back(1 / std::max(variance, 1e-6f));
+  }
+  pose_ = estimateRigidPose(pairs, options_.pose);
+  clock_.lap("pose");
+  PoseSummary summary;
+  summary.found = pose_.found;
+  summary.failure = pose_.failure;
+  if (!pose_.found) return summary;
+  summary.world_from_left = pose_.target_from_source;
+  summary.inliers = pose_.inliers;
+  summary.rms_mm = pose_.rms_mm;
+  return summary;
+}
+
+Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const {
+  return {measured_.depth, measured_.normals, measured_.left, not_tissue_, left(), world_from_left};
+}
+
+DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left,
+                                        const SurfaceTarget& surface,
+                                        const std::vector<int>& visible) const {
+  DeformObservation seen;
+  seen.surface = &surface;
+  seen.visible = &visible;
+  if (!options_.use_correspondences) return seen;
+  const double reference_mm = options_.deform.association.reference_sigma_mm;
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    const LiftedMatch& match = matches_[i];
+    if (pose_.found && pose_.inlier[i] == 0) continue;
+    KeyPointMatch pull;
+    pull.model_point = match.model_point;
+    pull.source_mm = match.source_world_mm;
+    pull.target_mm = (world_from_left * match.target_left_mm.cast<double>()).cast<float>();
+    if (std::isfinite(match.along_mm) && reference_mm > 0) {
+      const Eigen::Vector3f ray =
+          (world_from_left.linear() * match.target_left_mm.cast<double>().normalized())
+              .cast<float>();
+      pull.sqrt_information =
+          matchSqrtInformation(ray, match.along_mm, match.across_mm, reference_mm);
+    }
+    seen.matches.push_back(pull);
+  }
+  return seen;
+}
+
+WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
+  growGraph(options_.graph, &state_.model, &state_.graph);
+  state_.tracked.anchor(state_.model);
+  clock_.lap("graph");
+  const Observation observation = observe(world_from_left);
+  const Raster<PixelState> states = judgePixels(observation, options_.fusion.pixels);
+  const std::vector<std::int32_t> visible =
+      findVisible(state_.model, observation, states, options_.fusion.visibility).seen();
+  const DepthTarget surface(measured_.depth, measured_.normals, left(), world_from_left.inverse(),
+                            options_.deform.association);
+  clock_.lap("visible");
+  WarpSummary summary;
+  summary.in_sight = static_cast<int>(visible.size());
+  summary.nodes = static_cast<int>(state_.graph.size());
+  summary.solver =
+      solver_->solve(state_.model, whatPulls(world_from_left, surface, visible), &state_.graph);
+  clock_.lap("solve");
+  return summary;
+}
+
+void CpuBackend::acceptWarp() {
+  state_.tracked.warp(state_.graph, state_.model);
+  warpModel(state_.graph, &state_.model);
+  rebase(&state_.graph);
+  clock_.lap("warp");
+}
+
+void CpuBackend::rejectWarp() {
+  for (NodeTransform& transform : state_.graph.transforms) transform = NodeTransform();
+}
+
+FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
+  const Observation observation = observe(world_from_left);
+  const Raster<PixelState> states = judgePixels(observation, options_.fusion.pixels);
+  if (empty()) seedTracks(world_from_left);
+  FusionSummary summary;
+  summary.predicted = backProjectionError(state_.model, observation, states);
+  clock_.lap("check");
+  const ModelUpdateSummary update =
+      updateModel(observation, state_.graph, options_.fusion, &state_.memory, &state_.model);
+  state_.tracked.renumber(update.index_map, state_.model);
+  state_.tracked.settle(state_.model);
+  clock_.lap("fuse");
+  summary.corrected = backProjectionError(state_.model, observation, states);
+  summary.points = static_cast<int>(state_.model.size());
+  summary.seen = update.seen;
+  summary.fused = update.points.fused;
+  summary.contradicted = update.points.contradicted;
+  summary.inserted = update.insertion.inserted;
+  clock_.lap("check");
+  return summary;
+}
+
+void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
+  for (const TrackSeed& seed : seeds_)
+    state_.tracked.add(seed.id, depth_.rectifier().rectifiedPixel({seed.u_px, seed.v_px}), left(),
+                       measured_.depth.depth_mm, world_from_left);
+}
+
+bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
+  if (!(point_left.z() > 0)) return false;
+  const Eigen::Vector2d pixel = projectPoint(left(), point_left);
+  const int u = static_cast<int>(std::lround(pixel.x())),
+            v = static_cast<int>(std::lround(pixel.y()));
+  if (!not_tissue_.contains(u, v) || not_tissue_.at(u, v) != 0) return false;
+  const float depth_mm = measured_.depth.depth_mm.at(u, v);
+  return !(point_left.z() - depth_mm > options_.fusion.visibility.occlusion_mm);
+}
+
+std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_from_left) const {
+  std::vector<TrackedPosition> positions;
+  for (const MaterialPoints::Point& point : state_.tracked.points)
+    positions.push_back(
+        {point.id, point.position_mm,
+         point.position_mm.allFinite() && visible(world_from_left.inverse() * point.position_mm)});
+  return positions;
+}
+
+}  // namespace
+
+std::unique_ptr<ReconstructionBackend> makeCpuBackend(const StereoCalibration& calibration,
+                                                      const ReconstructionOptions& options) {
+  options.validate();
+  return std::make_unique<CpuBackend>(calibration, options);
+}
+
+}  // namespace softscope

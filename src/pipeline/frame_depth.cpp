@@ -1,0 +1,97 @@
+#include "pipeline/frame_depth.h"
+
+#include <limits>
+
+#include "core/error.h"
+#include "stereo/depth_from_disparity.h"
+#include "stereo/stage_clock.h"
+
+namespace softscope {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// NaN where the mask says to ignore.
+void drop(Raster<float>& raster, const Mask& mask) {
+  if (!raster.sameShape(mask)) return;
+  for (std::size_t i = 0; i < raster.size(); ++i)
+    if (mask.values[i] != 0) raster.values[i] = kNan;
+}
+
+void dropMasked(MeasuredFrame& measured) {
+  drop(measured.disparity.disparity_px, measured.mask);
+  drop(measured.disparity.sigma_px, measured.mask);
+  drop(measured.depth.depth_mm, measured.mask);
+  drop(measured.depth.sigma_mm, measured.mask);
+}
+
+}  // namespace
+
+void FrameDepthOptions::validate() const {
+  require(source == "stereo" || source == "files", "depth.source", source,
+          "must be stereo or files");
+  stereo.validate();
+}
+
+FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options)
+    : options_(options), rectifier_(calibration), matcher_(makeStereoMatcher(options.stereo)) {
+  options.validate();
+  if (options.source == "files" && !calibration.rectified)
+    throw InputError(calibration.source +
+                     ": depth.source is files, but depth files belong to rectified pictures. Are "
+                     "these? Then write `rectified: 1`; else leave depth.source at stereo");
+}
+
+std::string FrameDepth::method() const {
+  return options_.source == "files" ? "files" : matcher_->name();
+}
+
+MeasuredFrame FrameDepth::measure(const Frame& frame) {
+  MeasuredFrame measured;
+  if (options_.source == "files")
+    takeFile(frame, measured);
+  else
+    match(frame, measured);
+  StageClock clock;
+  dropMasked(measured);
+  measured.normals = normalsFromDepth(measured.depth.depth_mm, rig().left);
+  clock.lap("normals");
+  measured.times.insert(measured.times.end(), clock.laps().begin(), clock.laps().end());
+  return measured;
+}
+
+void FrameDepth::takeFile(const Frame& frame, MeasuredFrame& measured) const {
+  if (frame.depth_mm.empty())
+    throw InputError("depth.source is files, but there is no depth/. Leave it at stereo");
+  measured.left = frame.pair.left;
+  measured.mask = frame.mask;
+  measured.depth.depth_mm = frame.depth_mm;
+}
+
+void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
+  if (frame.pair.right.empty())
+    throw InputError("there is no right view to match. With depth/, set depth.source=files");
+  StageClock clock;
+  const StereoPair rectified = rectifier_.rectify(frame.pair);
+  measured.mask = frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
+  clock.lap("rectify");
+  AlignedPair aligned{rectified, {}, false};
+  if (options_.align_rows)
+    aligned = alignRows(rectified, options_.stereo.disparity_max_px);
+  else
+    aligned.before = measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
+                                         options_.stereo.disparity_max_px);
+  measured.rows = aligned.before;
+  measured.rows_aligned = aligned.removed;
+  clock.lap("rows");
+  measured.disparity = matcher_->match(toGray(aligned.pair.left), toGray(aligned.pair.right));
+  clock.lap("disparity");
+  measured.depth = depthFromDisparity(measured.disparity, rig());
+  measured.left = std::move(aligned.pair.left);
+  clock.lap("depth");
+  measured.times = clock.laps();
+  for (const auto& [stage, elapsed_ms] : matcher_->times())
+    measured.times.emplace_back("disparity/" + stage, elapsed_ms);
+}
+
+}  // namespace softscope

@@ -1,0 +1,60 @@
+// src/pipeline/frame_depth.h: stage 1, one stereo frame to depth.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/depth_map.h"
+#include "core/frame.h"
+#include "core/stereo_rig.h"
+#include "stereo/rectifier.h"
+#include "stereo/row_alignment.h"
+#include "stereo/stereo_matcher.h"
+
+namespace softscope {
+
+/// Where depth comes from.
+struct FrameDepthOptions {
+  std::string source = "stereo";  // or "files": the sequence's own depth/
+  bool align_rows = true;         // remove a residual row error where it is large enough
+  StereoOptions stereo;
+
+  /// Throws OptionError.
+  void validate() const;
+};
+
+/// All rasters have the shape of the rectified left picture.
+struct MeasuredFrame {
+  ColourImage left;        // rectified
+  Mask mask;               // instruments, and what the raw left picture didn't show; may be empty
+  DisparityMap disparity;  // empty where depth came from a file
+  DepthMap depth;          // NaN under the mask
+  NormalMap normals;
+  RowAlignment rows;  // as found after rectification
+  bool rows_aligned = false;
+  StageTimes times;
+};
+
+/// Rectify, align rows, match, lift; or take the depth that the sequence brings.
+class FrameDepth {
+ public:
+  /// Throws OptionError for bad options, InputError where the calibration doesn't fit them.
+  FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options);
+
+  const RectifiedRig& rig() const { return rectifier_.rig(); }
+  const Rectifier& rectifier() const { return rectifier_; }
+  std::string method() const;  // elas, sgbm or files
+
+  /// Throws InputError where the frame doesn't fit.
+  MeasuredFrame measure(const Frame& frame);
+
+ private:
+  void match(const Frame& frame, MeasuredFrame& measured);
+  void takeFile(const Frame& frame, MeasuredFrame& measured) const;
+
+  FrameDepthOptions options_;
+  Rectifier rectifier_;
+  std::unique_ptr<StereoMatcher> matcher_;
+};
+
+}  // namespace softscope

@@ -1,0 +1,46 @@
+// src/pipeline/frame_record.h: what became of one frame; a line of frames.csv.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/reconstruction_backend.h"
+
+namespace softscope {
+
+enum class FrameStatus {
+  kStarted,          // the model began with it
+  kFused,            // the model learned from it
+  kRecovered,        // so did it, after the model had been lost
+  kSkippedDepth,     // too little depth; the model stays as it was
+  kLost,             // no pose: the model was not found in it
+  kSkippedResidual,  // located, but the model could not be bent to it
+  kUnreadable,       // its files are missing or broken
+};
+
+const char* toString(FrameStatus status);
+
+struct FrameRecord {
+  int frame = 0;
+  double time_s = kUnknown;
+  FrameStatus status = FrameStatus::kUnreadable;
+  std::string reason;  // why it was not fused; empty where it was
+  /// The last known pose where this frame has none of its own.
+  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+  DepthSummary depth;
+  MatchSummary matches;
+  PoseSummary pose;
+  WarpSummary warp;
+  FusionSummary fusion;
+  int points = 0;
+  std::vector<TrackedPosition> tracked;
+  StageTimes times;
+
+  bool fused() const {
+    return status == FrameStatus::kStarted || status == FrameStatus::kFused ||
+           status == FrameStatus::kRecovered;
+  }
+  double elapsed_ms() const;
+};
+
+}  // namespace softscope

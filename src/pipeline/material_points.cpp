@@ -1,0 +1,139 @@
+#include "pipeline/material_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "deform/warp.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kSearchPx = 6;          // a seed without depth takes it from pixels this near
+constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
+constexpr double kMaxSettleMm = 0.5;  // further off is another surface
+
+/// Depth at the pixel: a plane fitted to the inverse depth of the 5 x 5 pixels around; where none
+/// of them is measured, the nearest one that is. NaN where there is none.
+double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel) {
+  const int u0 = static_cast<int>(std::lround(pixel.x()));
+  const int v0 = static_cast<int>(std::lround(pixel.y()));
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double nearest_mm = std::numeric_limits<double>::quiet_NaN(), nearest_px = kSearchPx + 1;
+  int count = 0;
+  for (int v = v0 - kSearchPx; v <= v0 + kSearchPx; ++v)
+    for (int u = u0 - kSearchPx; u <= u0 + kSearchPx; ++u) {
+      if (!depth_mm.contains(u, v) || !std::isfinite(depth_mm.at(u, v))) continue;
+      const double x = u - pixel.x(), y = v - pixel.y(), distance_px = std::hypot(x, y);
+      if (distance_px < nearest_px) {
+        nearest_px = distance_px;
+        nearest_mm = depth_mm.at(u, v);
+      }
+      if (std::abs(u - u0) > 2 || std::abs(v - v0) > 2) continue;
+      const Eigen::Vector3d row(1, x, y);
+      normal += row * row.transpose();
+      right += row / depth_mm.at(u, v);
+      ++count;
+    }
+  if (count < 13) return nearest_mm;
+  return 1 / normal.ldlt().solve(right).x();
+}
+
+std::int64_t cellOf(const Eigen::Vector3d& position_mm) {
+  const Eigen::Vector3d cell = (position_mm / kSurfaceMm).array().floor();
+  constexpr std::int64_t kBias = 1 << 20;
+  return (static_cast<std::int64_t>(cell.x()) + kBias) << 42 |
+         (static_cast<std::int64_t>(cell.y()) + kBias) << 21 |
+         (static_cast<std::int64_t>(cell.z()) + kBias);
+}
+
+/// What the model says around one tracked point.
+struct SurfacePiece {
+  double weight = 0, height_mm = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+std::int32_t nearestPoint(const PointModel& model, const Eigen::Vector3f& position_mm) {
+  std::int32_t nearest = -1;
+  float best = std::numeric_limits<float>::max();
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const float distance = (model.positions_mm[i] - position_mm).squaredNorm();
+    if (distance < best) {
+      best = distance;
+      nearest = static_cast<std::int32_t>(i);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void MaterialPoints::add(int id, const Eigen::Vector2d& pixel, const PinholeCamera& left,
+                         const Raster<float>& depth_mm, const Eigen::Isometry3d& world_from_left) {
+  Point point;
+  point.id = id;
+  const double depth = depthAround(depth_mm, pixel);
+  if (std::isfinite(depth))
+    point.position_mm = world_from_left * liftPixel(left, pixel.x(), pixel.y(), depth);
+  points.push_back(point);
+}
+
+void MaterialPoints::anchor(const PointModel& model) {
+  for (Point& point : points)
+    if (point.model_point < 0 && point.position_mm.allFinite())
+      point.model_point = nearestPoint(model, point.position_mm.cast<float>());
+}
+
+void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model) {
+  for (Point& point : points)
+    if (point.model_point >= 0)
+      point.position_mm = warpPoint(
+          graph, model.bindings[static_cast<std::size_t>(point.model_point)], point.position_mm);
+}
+
+void MaterialPoints::renumber(const IndexMap& map, const PointModel& model) {
+  for (Point& point : points) {
+    if (point.model_point < 0) continue;
+    point.model_point = map.new_of_old[static_cast<std::size_t>(point.model_point)];
+    if (point.model_point == IndexMap::kRemoved)
+      point.model_point = nearestPoint(model, point.position_mm.cast<float>());
+  }
+}
+
+void MaterialPoints::settle(const PointModel& model) {
+  std::unordered_map<std::int64_t, std::vector<int>> points_of_cell;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (points[k].model_point < 0) continue;
+    for (int cell = 0; cell < 27; ++cell) {
+      const Eigen::Vector3d step(cell % 3 - 1, cell / 3 % 3 - 1, cell / 9 - 1);
+      points_of_cell[cellOf(points[k].position_mm + kSurfaceMm * step)].push_back(
+          static_cast<int>(k));
+    }
+  }
+  std::vector<SurfacePiece> pieces(points.size());
+  for (std::size_t i = 0; i < model.size() && !points_of_cell.empty(); ++i) {
+    const Eigen::Vector3d position = model.positions_mm[i].cast<double>();
+    const auto found = points_of_cell.find(cellOf(position));
+    if (found == points_of_cell.end()) continue;
+    for (const int k : found->second) {
+      const Eigen::Vector3d away = position - points[static_cast<std::size_t>(k)].position_mm;
+      const double share = 1 - away.squaredNorm() / (kSurfaceMm * kSurfaceMm);
+      if (share <= 0) continue;
+      SurfacePiece& piece = pieces[static_cast<std::size_t>(k)];
+      const Eigen::Vector3d normal = model.normals[i].cast<double>();
+      const double weight = share * model.weights[i];
+      piece.weight += weight;
+      piece.height_mm += weight * normal.dot(away);
+      piece.normal += weight * normal;
+    }
+  }
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (pieces[k].weight <= 0 || pieces[k].normal.norm() <= 0) continue;
+    const double height = pieces[k].height_mm / pieces[k].weight;
+    if (std::abs(height) < kMaxSettleMm)
+      points[k].position_mm += height * pieces[k].normal.normalized();
+  }
+}
+
+}  // namespace softscope

@@ -1,0 +1,57 @@
+// src/pipeline/material_points.h: pieces of tissue that are followed through the whole run.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/image.h"
+#include "core/point_model.h"
+#include "core/raster.h"
+#include "core/warp_graph.h"
+#include "fusion/density_grid.h"
+
+namespace softscope {
+
+/// A pixel of the first left picture, as it is on disk.
+struct TrackSeed {
+  int id = 0;
+  double u_px = 0, v_px = 0;
+};
+
+/// Where a piece of tissue is. position_mm: world frame; NaN where it was never found.
+struct TrackedPosition {
+  int id = 0;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  bool visible = false;
+};
+
+/// Follows points by the warp that carries the model point beside them; after fusion they are laid
+/// back onto the model's surface, so that points and surface stay one thing.
+class MaterialPoints {
+ public:
+  struct Point {
+    int id = 0;
+    std::int32_t model_point = -1;  // the one beside it; -1 where the tissue was never measured
+    Eigen::Vector3d position_mm =
+        Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  };
+
+  /// A seed in the rectified left camera: lies where its ray meets the depth around the pixel.
+  void add(int id, const Eigen::Vector2d& pixel, const PinholeCamera& left,
+           const Raster<float>& depth_mm, const Eigen::Isometry3d& world_from_left);
+  /// Ties points that have none to the nearest model point.
+  void anchor(const PointModel& model);
+  /// Moves them by the graph's warp, before it is re-based.
+  void warp(const WarpGraph& graph, const PointModel& model);
+  /// Model points have new numbers.
+  void renumber(const IndexMap& map, const PointModel& model);
+  /// Lays them onto the surface that the model's points around them make.
+  void settle(const PointModel& model);
+
+  std::vector<Point> points;
+};
+
+}  // namespace softscope

@@ -1,0 +1,107 @@
+// src/pipeline/reconstruction_backend.h: the seam between the order of work and those who do it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/frame.h"
+#include "core/point_model.h"
+#include "core/stereo_rig.h"
+#include "core/warp_graph.h"
+#include "deform/lm_solver.h"
+#include "fusion/back_projection_error.h"
+#include "fusion/point_insertion.h"
+#include "pipeline/material_points.h"
+#include "stereo/stereo_matcher.h"
+
+namespace softscope {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct DepthSummary {
+  int tissue_px = 0;    // that no mask hides
+  int measured_px = 0;  // of those
+  double median_sigma_mm = kUnknown;
+  double row_difference_px = kUnknown;  // as found after rectification
+  double coverage() const { return tissue_px > 0 ? double(measured_px) / tissue_px : 0; }
+};
+
+/// How far matches are sought.
+enum class MatchReach {
+  kNear,   // the model is about where it was
+  kWhole,  // anywhere in the picture
+};
+
+struct MatchSummary {
+  int matches = 0;  // pixels of the model view found again
+  int lifted = 0;   // of those, with depth on both sides
+};
+
+struct PoseSummary {
+  bool found = false;
+  std::string failure;  // why not; empty where found
+  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+  int inliers = 0;
+  double rms_mm = kUnknown;
+};
+
+struct WarpSummary {
+  DeformSummary solver;
+  int in_sight = 0;  // points that the depth may pull
+  int nodes = 0;
+};
+
+struct FusionSummary {
+  int points = 0;
+  int seen = 0, fused = 0, inserted = 0, contradicted = 0;
+  BackProjectionError predicted;  // of the warped model, before it learns from the frame
+  BackProjectionError corrected;  // of the model as it is now: the paper's number
+};
+
+/// What must outlive the program for a run to go on as if it had never stopped.
+struct ModelState {
+  PointModel model;
+  WarpGraph graph;
+  InsertionMemory memory;
+  MaterialPoints tracked;
+};
+
+/// The working set of a run, and one verb a stage. The reconstructor owns the order. Poses are
+/// world_from_left, mm. A verb works on what the verbs before it left for this frame.
+class ReconstructionBackend {
+ public:
+  virtual ~ReconstructionBackend() = default;
+  virtual std::string name() const = 0;    // "cpu" or "cuda"; written into every report
+  virtual std::string device() const = 0;  // which processor or GPU
+  virtual const RectifiedRig& rig() const = 0;
+
+  /// Stage 1: rectifies, masks and measures. Throws InputError where the frame doesn't fit.
+  virtual DepthSummary measure(const Frame& frame) = 0;
+  /// Stages 2 and 3: draws the model from that pose, finds its pixels in the live picture.
+  virtual MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) = 0;
+  /// Stage 4: from the last matches.
+  virtual PoseSummary estimatePose() = 0;
+  /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
+  virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
+  /// Carries points, nodes and tracked points to the live shape.
+  virtual void acceptWarp() = 0;
+  /// The model stays as it was.
+  virtual void rejectWarp() = 0;
+  /// Stage 7: brings the model up to the frame; an empty model begins with it.
+  virtual FusionSummary fuse(const Eigen::Isometry3d& world_from_left) = 0;
+
+  virtual bool empty() const = 0;
+  /// Follows these tissue points; they lie in the first frame that is fused.
+  virtual void track(const std::vector<TrackSeed>& seeds) = 0;
+  /// Where they are now, and whether the scope sees them from that pose.
+  virtual std::vector<TrackedPosition> tracked(const Eigen::Isometry3d& world_from_left) const = 0;
+  virtual ModelState state() const = 0;
+  virtual void restore(ModelState state) = 0;
+  /// Of the last frame, in the order of work; verbs that were called twice add up.
+  virtual const StageTimes& times() const = 0;
+};
+
+}  // namespace softscope

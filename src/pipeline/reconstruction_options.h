@@ -1,0 +1,57 @@
+// src/pipeline/reconstruction_options.h: everything that a reconstruction may be told.
+#pragma once
+
+#include "deform/deform_options.h"
+#include "features/highlight_mask.h"
+#include "features/instrument_detector.h"
+#include "features/lift_matches.h"
+#include "features/matcher_options.h"
+#include "features/model_view.h"
+#include "fusion/fusion_options.h"
+#include "pipeline/frame_depth.h"
+#include "pose/ransac_pose.h"
+
+namespace softscope {
+
+/// Which frames are good enough to change the model.
+struct GateOptions {
+  double min_coverage = 0.1;      // share of the unmasked pixels that have depth
+  double max_residual_mm = 0.6;   // mean distance of the warped model from the depth
+  double min_explained = 0.3;     // share of the points in sight that the depth still pulls
+  int max_key_views = 12;         // poses kept to find the model again after a loss
+  double key_view_step_mm = 10;   // the scope moved this far from all of them …
+  double key_view_step_deg = 15;  // … or turned this much: another key view
+
+  void validate() const;  // see ReconstructionOptions::validate()
+};
+
+/// What of the picture is not tissue.
+struct TissueMaskOptions {
+  int margin_px = 6;  // pixels this near to a masked one are left out: the stereo window's reach
+  bool detect_instruments = false;  // by colour, beside mask files
+  HighlightOptions highlights;      // out of matching
+  InstrumentOptions instruments;
+};
+
+/// One struct a stage, in the order of the loop.
+struct ReconstructionOptions {
+  FrameDepthOptions depth;
+  TissueMaskOptions tissue;
+  ModelViewOptions model_view;
+  MatcherOptions matcher;
+  LiftOptions lift;
+  RansacOptions pose;
+  GraphOptions graph;
+  DeformOptions deform;
+  bool use_correspondences = true;  // false: matches give the pose, but don't pull the warp
+  FusionOptions fusion;
+  GateOptions gate;
+
+  /// The paper's choice throughout.
+  static ReconstructionOptions paper();
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+}  // namespace softscope

@@ -1,0 +1,167 @@
+#include "pipeline/reconstructor.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+bool reject(FrameRecord& record, FrameStatus status, const std::string& reason) {
+  record.status = status;
+  record.reason = reason;
+  return false;
+}
+
+template <class... Parts>
+std::string text(const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(3);
+  (out << ... << parts);
+  return out.str();
+}
+
+double degreesBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() * 180 / M_PI;
+}
+
+}  // namespace
+
+Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
+                             const ReconstructionOptions& options)
+    : backend_(std::move(backend)),
+      gate_(options.gate),
+      matching_(options.matcher.method != "surf-off") {
+  options.validate();
+}
+
+FrameRecord Reconstructor::process(const Frame& frame) {
+  FrameRecord record;
+  record.frame = frame.index;
+  record.time_s = frame.time_s;
+  try {
+    reconstruct(frame, record);
+  } catch (const InputError& error) {
+    reject(record, FrameStatus::kUnreadable, error.what());
+  }
+  record.world_from_left = world_from_left_;
+  record.tracked = backend_->tracked(world_from_left_);
+  record.times = backend_->times();
+  return record;
+}
+
+FrameRecord Reconstructor::skip(int index, const std::string& reason) {
+  FrameRecord record;
+  record.frame = index;
+  reject(record, FrameStatus::kUnreadable, reason);
+  record.world_from_left = world_from_left_;
+  record.tracked = backend_->tracked(world_from_left_);
+  return record;
+}
+
+// Song et al. 2018, section III, in its order: depth, visible model, matches, rigid pose, warp
+// field, fusion.
+void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
+  if (!measure(frame, record)) return;
+  if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
+  const bool was_lost = lost_;
+  if (!locate(record) && !findAgain(record)) return;
+  if (!deform(record)) return;
+  fuse(was_lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
+}
+
+bool Reconstructor::measure(const Frame& frame, FrameRecord& record) {
+  record.depth = backend_->measure(frame);
+  if (record.depth.measured_px > 0 && record.depth.coverage() >= gate_.min_coverage) return true;
+  return reject(record, FrameStatus::kSkippedDepth,
+                text("depth on ", 100 * record.depth.coverage(), " % of the tissue, but ",
+                     100 * gate_.min_coverage, " % are needed"));
+}
+
+bool Reconstructor::locate(FrameRecord& record) {
+  if (lost_) return false;
+  record.matches = backend_->match(world_from_left_, MatchReach::kNear);
+  if (!matching_) {
+    record.pose.world_from_left = world_from_left_;
+    return true;
+  }
+  record.pose = backend_->estimatePose();
+  if (record.pose.found) world_from_left_ = record.pose.world_from_left;
+  return record.pose.found;
+}
+
+// A loss: the model is sought from the last pose and from all key views, over the whole picture.
+bool Reconstructor::findAgain(FrameRecord& record) {
+  PoseSummary best;
+  std::vector<Eigen::Isometry3d> views{world_from_left_};
+  views.insert(views.end(), key_views_.rbegin(), key_views_.rend());
+  for (const Eigen::Isometry3d& view : views) {
+    backend_->match(view, MatchReach::kWhole);
+    const PoseSummary pose = backend_->estimatePose();
+    if (pose.found && pose.inliers > best.inliers) best = pose;
+  }
+  lost_ = true;
+  if (!best.found)
+    return reject(
+        record, FrameStatus::kLost,
+        text("the model was not found: ",
+             record.pose.failure.empty() ? "no view of it matches" : record.pose.failure));
+  // Once more from near, for matches that the warp may trust.
+  record.matches = backend_->match(best.world_from_left, MatchReach::kNear);
+  record.pose = backend_->estimatePose();
+  if (!record.pose.found)
+    return reject(record, FrameStatus::kLost,
+                  text("found, but not confirmed: ", record.pose.failure));
+  world_from_left_ = record.pose.world_from_left;
+  lost_ = false;
+  return true;
+}
+
+bool Reconstructor::deform(FrameRecord& record) {
+  record.warp = backend_->findWarp(world_from_left_);
+  const DeformSummary& solver = record.warp.solver;
+  const double explained =
+      record.warp.in_sight > 0 ? double(solver.points_after) / record.warp.in_sight : 0;
+  if (solver.reason != StopReason::kNotFinite && explained >= gate_.min_explained &&
+      solver.data_mean_mm_after <= gate_.max_residual_mm) {
+    backend_->acceptWarp();
+    return true;
+  }
+  backend_->rejectWarp();
+  return reject(record, FrameStatus::kSkippedResidual,
+                text("the warp (", toString(solver.reason), ") explains ", 100 * explained,
+                     " % of the points in sight, to ", solver.data_mean_mm_after,
+                     " mm on average; needed are ", 100 * gate_.min_explained, " % and ",
+                     gate_.max_residual_mm, " mm"));
+}
+
+void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {
+  record.fusion = backend_->fuse(world_from_left_);
+  record.points = record.fusion.points;
+  record.status = status;
+  rememberView();
+}
+
+void Reconstructor::rememberView() {
+  for (const Eigen::Isometry3d& view : key_views_)
+    if ((view.translation() - world_from_left_.translation()).norm() < gate_.key_view_step_mm &&
+        degreesBetween(view, world_from_left_) < gate_.key_view_step_deg)
+      return;
+  key_views_.push_back(world_from_left_);
+  if (key_views_.size() > static_cast<std::size_t>(gate_.max_key_views))
+    key_views_.erase(key_views_.begin());
+}
+
+ReconstructionState Reconstructor::state() const {
+  return {backend_->state(), world_from_left_, key_views_, lost_};
+}
+
+void Reconstructor::restore(ReconstructionState state) {
+  backend_->restore(std::move(state.model));
+  world_from_left_ = state.world_from_left;
+  key_views_ = std::move(state.key_views);
+  lost_ = state.lost;
+}
+
+}  // namespace softscope

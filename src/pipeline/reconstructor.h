@@ -1,0 +1,58 @@
+// src/pipeline/reconstructor.h: the method, frame by frame.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/frame_record.h"
+#include "pipeline/reconstruction_backend.h"
+#include "pipeline/reconstruction_options.h"
+
+namespace softscope {
+
+/// Everything that a run needs to go on where it stopped.
+struct ReconstructionState {
+  ModelState model;
+  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+  std::vector<Eigen::Isometry3d> key_views;
+  bool lost = false;
+};
+
+/// Owns the order of the stages; the back end owns what they work on.
+class Reconstructor {
+ public:
+  Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
+                const ReconstructionOptions& options);
+
+  /// One frame, from pictures to the updated model. A frame that isn't good enough leaves the
+  /// model as it was; the record says why.
+  FrameRecord process(const Frame& frame);
+
+  /// A frame that could not even be read.
+  FrameRecord skip(int index, const std::string& reason);
+
+  /// Before the first frame.
+  void track(const std::vector<TrackSeed>& seeds) { backend_->track(seeds); }
+
+  const ReconstructionBackend& backend() const { return *backend_; }
+  ReconstructionState state() const;
+  void restore(ReconstructionState state);
+
+ private:
+  void reconstruct(const Frame& frame, FrameRecord& record);
+  bool measure(const Frame& frame, FrameRecord& record);
+  bool locate(FrameRecord& record);
+  bool findAgain(FrameRecord& record);
+  bool deform(FrameRecord& record);
+  void fuse(FrameStatus status, FrameRecord& record);
+  void rememberView();
+
+  std::unique_ptr<ReconstructionBackend> backend_;
+  GateOptions gate_;
+  bool matching_;  // false: nothing tells where the scope is, so it is taken to stand still
+  Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
+  std::vector<Eigen::Isometry3d> key_views_;
+  bool lost_ = false;
+};
+
+}  // namespace softscope

@@ -1,0 +1,125 @@
+#include "pipeline/run_tables.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace softscope {
+namespace {
+
+constexpr const char* kColumns =
+    "frame,time_s,status,points,nodes,matches,inliers,backprojection_mean_mm,"
+    "backprojection_p95_mm,prediction_mean_mm,prediction_p95_mm,coverage,depth_sigma_mm,"
+    "row_difference_px,lifted,pose_rms_mm,solver_stop,solver_iterations,residual_before_mm,"
+    "residual_mm,in_sight,seen,fused,inserted,contradicted";
+
+/// Cells of one line, separated by commas.
+class Line {
+ public:
+  void add(int value) { addText(std::to_string(value)); }
+  void add(double value, int decimals) {
+    char text[64] = "";
+    if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    addText(text);
+  }
+  void addText(const std::string& text) {
+    if (!text_.empty() || begun_) text_ += ',';
+    begun_ = true;
+    text_ += text;
+  }
+  void skip(int cells) {
+    for (int i = 0; i < cells; ++i) addText("");
+  }
+  std::string ended() const { return text_ + '\n'; }
+
+ private:
+  std::string text_;
+  bool begun_ = false;
+};
+
+/// Quoted, as RFC 4180 has it; one line.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return out + '"';
+}
+
+double timeOf(const FrameRecord& record, const std::string& stage) {
+  for (const auto& [name, elapsed_ms] : record.times)
+    if (name == stage) return elapsed_ms;
+  return 0;
+}
+
+void addSolver(const FrameRecord& record, Line& line) {
+  const DeformSummary& solver = record.warp.solver;
+  const bool ran = record.status == FrameStatus::kFused ||
+                   record.status == FrameStatus::kRecovered ||
+                   record.status == FrameStatus::kSkippedResidual;
+  if (!ran) return line.skip(5);
+  line.addText(toString(solver.reason));
+  line.add(solver.iterations);
+  line.add(solver.data_mean_mm_before, 4);
+  line.add(solver.data_mean_mm_after, 4);
+  line.add(record.warp.in_sight);
+}
+
+}  // namespace
+
+const std::vector<std::string>& timedStages() {
+  static const std::vector<std::string> stages{"depth",   "mask",  "view", "match", "pose", "graph",
+                                               "visible", "solve", "warp", "fuse",  "check"};
+  return stages;
+}
+
+std::string framesCsvHeading() {
+  std::string heading = kColumns;
+  for (const std::string& stage : timedStages()) heading += "," + stage + "_ms";
+  return heading + ",total_ms,reason";
+}
+
+std::string tracksCsvHeading() { return "frame,id,x_mm,y_mm,z_mm,visible"; }
+
+std::string framesCsvLine(const FrameRecord& record) {
+  Line line;
+  line.add(record.frame);
+  line.add(record.time_s, 6);
+  line.addText(toString(record.status));
+  line.add(record.points);
+  line.add(record.warp.nodes);
+  line.add(record.matches.matches);
+  line.add(record.pose.inliers);
+  line.add(record.fusion.corrected.mean_mm, 4);
+  line.add(record.fusion.corrected.p95_mm, 4);
+  line.add(record.fusion.predicted.mean_mm, 4);
+  line.add(record.fusion.predicted.p95_mm, 4);
+  line.add(record.depth.coverage(), 4);
+  line.add(record.depth.median_sigma_mm, 4);
+  line.add(record.depth.row_difference_px, 3);
+  line.add(record.matches.lifted);
+  line.add(record.pose.rms_mm, 4);
+  addSolver(record, line);
+  line.add(record.fusion.seen);
+  line.add(record.fusion.fused);
+  line.add(record.fusion.inserted);
+  line.add(record.fusion.contradicted);
+  for (const std::string& stage : timedStages()) line.add(timeOf(record, stage), 2);
+  line.add(record.elapsed_ms(), 2);
+  line.addText(quoted(record.reason));
+  return line.ended();
+}
+
+std::string tracksCsvLines(const FrameRecord& record) {
+  std::string lines;
+  for (const TrackedPosition& point : record.tracked) {
+    char line[160];
+    std::snprintf(line, sizeof line, "%d,%d,%.4f,%.4f,%.4f,%d\n", record.frame, point.id,
+                  point.position_mm.x(), point.position_mm.y(), point.position_mm.z(),
+                  point.visible ? 1 : 0);
+    lines += line;
+  }
+  return lines;
+}
+
+}  // namespace softscope

@@ -1,0 +1,25 @@
+// src/pipeline/run_tables.h: frames.csv and tracks.csv, line by line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/frame_record.h"
+
+namespace softscope {
+
+/// Headings, without the newline. What a frame doesn't have is an empty cell of frames.csv; a
+/// tracked point that was never found has nan in tracks.csv. docs/formats.md explains the columns.
+std::string framesCsvHeading();
+std::string tracksCsvHeading();
+
+/// One line, with its newline.
+std::string framesCsvLine(const FrameRecord& record);
+
+/// One line a tracked point.
+std::string tracksCsvLines(const FrameRecord& record);
+
+/// The stages that frames.csv has times of, in its order.
+const std::vector<std::string>& timedStages();
+
+}  // namespace softscope
