@@ -4,71 +4,94 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "stereo/kernel_sets.h"
 
 namespace softscope {
 namespace {
 
-/// Mean over (2 r + 1)² pixels inside the picture, by running sums.
-Raster<float> boxMean(const Raster<float>& in, int radius) {
-  const int width = in.width_px, height = in.height_px;
-  Raster<float> rows(width, height), out(width, height);
-  parallelRows(height, [&](int v) {
-    const float* a = in.row(v);
-    double sum = 0;
-    for (int u = 0; u < std::min(radius, width); ++u) sum += a[u];
-    for (int u = 0; u < width; ++u) {
-      if (u + radius < width) sum += a[u + radius];
-      if (u - radius - 1 >= 0) sum -= a[u - radius - 1];
-      const int count = std::min(u + radius, width - 1) - std::max(u - radius, 0) + 1;
-      rows.at(u, v) = static_cast<float>(sum / count);
-    }
-  });
-  parallelRanges(width, 32, [&](int begin, int end) {
-    std::vector<double> sum(static_cast<std::size_t>(end - begin), 0.0);
-    const auto add = [&](int v, double sign) {
-      for (int u = begin; u < end; ++u)
-        sum[static_cast<std::size_t>(u - begin)] += sign * rows.at(u, v);
-    };
-    for (int v = 0; v < std::min(radius, height); ++v) add(v, 1);
-    for (int v = 0; v < height; ++v) {
-      if (v + radius < height) add(v + radius, 1);
-      if (v - radius - 1 >= 0) add(v - radius - 1, -1);
-      const int count = std::min(v + radius, height - 1) - std::max(v - radius, 0) + 1;
-      for (int u = begin; u < end; ++u)
-        out.at(u, v) = static_cast<float>(sum[static_cast<std::size_t>(u - begin)] / count);
-    }
-  });
-  return out;
+/// Two box means one after the other are close to a Gaussian: variance 2 (w² - 1) / 12 with a width
+/// of w = 2 r + 1. Returns their 4 r + 1 weights.
+std::vector<float> slowWindow(double sigma_px) {
+  const int radius =
+      std::max(1, static_cast<int>(std::lround((std::sqrt(6 * sigma_px * sigma_px + 1) - 1) / 2)));
+  const int width = 2 * radius + 1;
+  std::vector<float> weights;
+  for (int x = -2 * radius; x <= 2 * radius; ++x)
+    weights.push_back(static_cast<float>(width - std::abs(x)) / static_cast<float>(width * width));
+  return weights;
 }
+
+/// Filters a band of rows from top to bottom; only the rows that the window needs are held.
+class BandPass {
+ public:
+  BandPass(const GrayImage& image, const std::vector<float>& slow)
+      : image_(image),
+        slow_(slow),
+        taps_(static_cast<int>(slow.size())),
+        reach_(taps_ / 2),
+        padded_(static_cast<std::size_t>(image.width_px + 2 * reach_ + kLanes)),
+        slow_rows_(image.width_px, taps_, 0, 0),
+        smooth_rows_(image.width_px, taps_, 0, 0) {}
+
+  void filter(int begin, int end, Plane& out) {
+    for (int v = begin - reach_; v < end + reach_; ++v) {
+      filterRow(v);
+      if (v - reach_ >= begin) combineRows(v - reach_, out.row(v - reach_));
+    }
+  }
+
+ private:
+  static constexpr int kLanes = 8;  // kernels work on so many values at a time
+  int slot(int v) const { return (v + taps_) % taps_; }
+
+  /// Both filters along row v, the border repeated beyond the picture.
+  void filterRow(int v) {
+    const std::uint8_t* row = image_.row(std::clamp(v, 0, image_.height_px - 1));
+    float* padded = padded_.data();
+    std::fill_n(padded, reach_, static_cast<float>(row[0]));
+    std::copy_n(row, image_.width_px, padded + reach_);
+    std::fill_n(padded + reach_ + image_.width_px, reach_ + kLanes,
+                static_cast<float>(row[image_.width_px - 1]));
+    std::vector<const float*> shifted;
+    for (int t = 0; t < taps_; ++t) shifted.push_back(padded + t);
+    const RefinementKernels& kernels = refinementKernels();
+    kernels.sumRows(shifted.data(), slow_.data(), taps_, image_.width_px, slow_rows_.row(slot(v)));
+    kernels.sumRows(&shifted[static_cast<std::size_t>(reach_ - 1)], kBinomial, 3, image_.width_px,
+                    smooth_rows_.row(slot(v)));
+  }
+
+  /// The smooth rows around v minus the slow ones.
+  void combineRows(int v, float* out) {
+    std::vector<const float*> rows;
+    std::vector<float> weights(kBinomial, kBinomial + 3);
+    for (int y = -1; y <= 1; ++y) rows.push_back(smooth_rows_.row(slot(v + y)));
+    for (int y = -reach_; y <= reach_; ++y) {
+      rows.push_back(slow_rows_.row(slot(v + y)));
+      weights.push_back(-slow_[static_cast<std::size_t>(y + reach_)]);
+    }
+    const int width = image_.width_px;
+    refinementKernels().sumRows(rows.data(), weights.data(), static_cast<int>(rows.size()), width,
+                                out);
+    out[-1] = out[-2] = out[0];
+    out[width] = out[width + 1] = out[width + 2] = out[width - 1];
+  }
+
+  static constexpr float kBinomial[3] = {0.25f, 0.5f, 0.25f};
+  const GrayImage& image_;
+  const std::vector<float>& slow_;
+  int taps_, reach_;
+  std::vector<float> padded_;
+  Plane slow_rows_, smooth_rows_;
+};
 
 }  // namespace
 
 Plane bandPass(const GrayImage& image, double highpass_sigma_px) {
-  const int width = image.width_px, height = image.height_px;
-  Raster<float> brightness(width, height);
-  parallelRows(height, [&](int v) {
-    for (int u = 0; u < width; ++u) brightness.at(u, v) = image.at(u, v);
-  });
-  // Two box means are close to a Gaussian: variance 2 (w² - 1) / 12 with w = 2 r + 1.
-  const int radius = std::max(
-      1, static_cast<int>(
-             std::lround((std::sqrt(6 * highpass_sigma_px * highpass_sigma_px + 1) - 1) / 2)));
-  const Raster<float> slow = boxMean(boxMean(brightness, radius), radius);
-  Plane out(width, height);
-  parallelRows(height, [&](int v) {
-    const float* above = brightness.row(std::max(v - 1, 0));
-    const float* here = brightness.row(v);
-    const float* below = brightness.row(std::min(v + 1, height - 1));
-    float* to = out.row(v);
-    for (int u = 0; u < width; ++u) {
-      const int l = std::max(u - 1, 0), r = std::min(u + 1, width - 1);
-      const float smooth = 0.0625f * (above[l] + above[r] + below[l] + below[r]) +
-                           0.125f * (above[u] + below[u] + here[l] + here[r]) + 0.25f * here[u];
-      to[u] = smooth - slow.at(u, v);
-    }
-    to[-1] = to[-2] = to[0];
-    to[width] = to[width + 1] = to[width + 2] = to[width - 1];
-  });
+  constexpr int kBandRows = 60;
+  const std::vector<float> slow = slowWindow(highpass_sigma_px);
+  Plane out(image.width_px, image.height_px);
+  parallelRanges(image.height_px, kBandRows,
+                 [&](int begin, int end) { BandPass(image, slow).filter(begin, end, out); });
   return out;
 }
 

@@ -8,24 +8,26 @@
 
 namespace softscope {
 
-/// Rows may be read kMargin values beyond either end, and kMargin rows above and below.
+/// Rows may be read and written kMargin values beyond either end, and there are `row_margin` rows
+/// above and below.
 class Plane {
  public:
   static constexpr int kMargin = 16;
 
-  Plane(int width, int height, float fill = 0)
+  Plane(int width, int height, float fill = 0, int row_margin = kMargin)
       : stride_((width + 2 * kMargin + 15) / 16 * 16),
-        values_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2 * kMargin),
-                fill) {}
-  int stride() const { return stride_; }
+        row_margin_(row_margin),
+        values_(
+            static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2 * row_margin),
+            fill) {}
   float* row(int v) { return values_.data() + offset(v); }
   const float* row(int v) const { return values_.data() + offset(v); }
 
  private:
   std::size_t offset(int v) const {
-    return static_cast<std::size_t>(v + kMargin) * static_cast<std::size_t>(stride_) + kMargin;
+    return static_cast<std::size_t>(v + row_margin_) * static_cast<std::size_t>(stride_) + kMargin;
   }
-  int stride_;
+  int stride_, row_margin_;
   std::vector<float> values_;
 };
 

@@ -1,8 +1,7 @@
-// src/stereo/refinement_kernels.cpp: loops over eight pixels at a time, in whatever registers there
-// are; SOFTSCOPE_SIMD_SET names the instruction set.
+// src/stereo/refinement_kernels.cpp: SOFTSCOPE_SIMD_SET names the instruction set.
 #include "stereo/refinement_kernels.h"
 
-#include <cstring>
+#include "stereo/simd.h"
 
 #define SOFTSCOPE_NAME_(name, set) name##_##set
 #define SOFTSCOPE_NAME(name, set) SOFTSCOPE_NAME_(name, set)
@@ -10,164 +9,212 @@
 namespace softscope {
 namespace {
 
-using Float8 = float __attribute__((vector_size(32)));
+constexpr float kNaN = __builtin_nanf("");
 
-// One unaligned instruction each.
-inline Float8 load8(const float* p) {
-  Float8 x;
-  std::memcpy(&x, p, sizeof x);
-  return x;
+/// Column k of the result: element k of each row.
+struct Transposed {
+  Float8 p[4];
+};
+inline Transposed transpose(const Float4 (&row)[8]) {
+  Transposed out;
+  for (int half = 0; half < 2; ++half) {
+    const Float4 *r = row + 4 * half, a = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5),
+                 b = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5),
+                 c = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7),
+                 d = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+    const Float4 columns[4] = {
+        __builtin_shufflevector(a, b, 0, 1, 4, 5), __builtin_shufflevector(a, b, 2, 3, 6, 7),
+        __builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7)};
+    for (int k = 0; k < 4; ++k)
+      std::memcpy(reinterpret_cast<char*>(&out.p[k]) + 16 * half, &columns[k], 16);
+  }
+  return out;
 }
-inline void store8(float* p, Float8 x) { std::memcpy(p, &x, sizeof x); }
 
 void residualRow(const ResidualRow& row) {
-  const float last = static_cast<float>(row.width - 1);
-  for (int u = 0; u < row.width; ++u) {
-    float x = static_cast<float>(u) - row.disparity[u];
-    const float inside = (x >= 0.0f && x <= last) ? row.valid[u] : 0.0f;
-    x = x < 0.0f ? 0.0f : (x > last ? last : x);
-    const int i = static_cast<int>(x);
-    const float t = x - static_cast<float>(i);
+  const Float8 last = broadcast8(static_cast<float>(row.width - 1)), zero{};
+  for (int u = 0; u < row.width; u += 8) {
+    const Float8 given = load8(row.disparity + u);
+    const Float8 d = given == given ? given : zero;
+    Float8 x = broadcast8(static_cast<float>(u)) + lanes8() - given;  // NaN compares false
+    const Float8 inside = ((x >= zero) & (x <= last)) ? broadcast8(1) : zero;
+    x = x >= zero ? x : zero;
+    x = x <= last ? x : last;
+    const Int8 i = __builtin_convertvector(x, Int8);
+    const Float8 t = x - __builtin_convertvector(i, Float8);
     // Catmull-Rom through four pixels: value and slope.
-    const float p0 = row.right[i - 1], p1 = row.right[i], p2 = row.right[i + 1],
-                p3 = row.right[i + 2];
-    const float c1 = 0.5f * (p2 - p0), c2 = p0 - 2.5f * p1 + 2.0f * p2 - 0.5f * p3,
-                c3 = 1.5f * (p1 - p2) + 0.5f * (p3 - p0);
-    const float value = p1 + t * (c1 + t * (c2 + t * c3));
-    const float g = c1 + t * (2.0f * c2 + t * (3.0f * c3));
-    const float r = value - row.left[u];
-    const float w = inside / (1.0f + r * r * row.inverse_noise_sq);
-    row.information[u] = w * (g * g + row.prior_weight);
-    row.target[u] = w * (g * (g * row.disparity[u] + r) + row.prior_weight * row.disparity[u]);
-    row.residual_sq[u] = w * r * r;
-    row.weight[u] = w;
-    row.difference_sq[u] = inside * r * r;
-    row.energy[u] = inside * (value * value + row.left[u] * row.left[u]);
+    Float4 pixels[8];
+    for (int k = 0; k < 8; ++k) pixels[k] = load4(row.right + i[k] - 1);
+    const auto [p0, p1, p2, p3] = transpose(pixels).p;
+    const Float8 c1 = 0.5f * (p2 - p0), c2 = p0 - 2.5f * p1 + 2.0f * p2 - 0.5f * p3,
+                 c3 = 1.5f * (p1 - p2) + 0.5f * (p3 - p0);
+    const Float8 value = p1 + t * (c1 + t * (c2 + t * c3));
+    const Float8 g = c1 + t * (2.0f * c2 + t * (3.0f * c3));
+    const Float8 left = load8(row.left + u), r = value - left;
+    const Float8 w = inside / (1.0f + r * r * row.inverse_noise_sq);
+    store8(row.information + u, w * (g * g + row.prior_weight));
+    store8(row.target + u, w * (g * (g * d + r) + row.prior_weight * d));
+    if (row.weight == nullptr) continue;
+    store8(row.residual_sq + u, w * r * r);
+    store8(row.weight + u, w);
+    store8(row.difference_sq + u, inside * r * r);
+    store8(row.energy + u, inside * (value * value + left * left));
   }
 }
 
-void horizontalMoments(const float* in, const float* window, int radius, int width, float* out_0,
-                       float* out_1, float* out_2) {
+// A window is symmetric: sums and differences of the pixels on either side of the centre serve the
+// even and the odd moments.
+void columnMoments(const float* const* information, const float* const* target, const float* window,
+                   int radius, int width, float* const* out) {
   for (int u = 0; u < width; u += 8) {
-    Float8 s0{}, s1{}, s2{};
-    for (int x = -radius; x <= radius; ++x) {
-      const Float8 a = load8(in + u + x) * window[x + radius];
-      const float fx = static_cast<float>(x);
-      s0 += a;
-      s1 += a * fx;
-      s2 += a * (fx * fx);
+    Float8 g0 = window[radius] * load8(information[radius] + u), g1{}, g2{};
+    Float8 q0 = window[radius] * load8(target[radius] + u), q1{};
+    for (int y = 1; y <= radius; ++y) {
+      const float w = window[radius + y], fy = static_cast<float>(y), wy = w * fy, wyy = wy * fy;
+      const Float8 g_above = load8(information[radius - y] + u),
+                   g_below = load8(information[radius + y] + u),
+                   q_above = load8(target[radius - y] + u), q_below = load8(target[radius + y] + u);
+      const Float8 g = g_below + g_above, q = q_below + q_above;
+      g0 += w * g;
+      g1 += wy * (g_below - g_above);
+      g2 += wyy * g;
+      q0 += w * q;
+      q1 += wy * (q_below - q_above);
     }
-    store8(out_0 + u, s0);
-    if (out_1 != nullptr) store8(out_1 + u, s1);
-    if (out_2 != nullptr) store8(out_2 + u, s2);
+    const Float8 sums[kColumnMomentCount] = {g0, g1, g2, q0, q1};
+    for (int k = 0; k < kColumnMomentCount; ++k) store8(out[k] + u, sums[k]);
   }
 }
 
-void verticalMoments(const float* const* g_0, const float* const* g_1, const float* const* g_2,
-                     const float* const* q_0, const float* const* q_1, const float* window,
-                     int radius, int width, const MomentRow& out) {
+void rowMoments(const float* const* in, const float* window, int radius, int width,
+                const MomentRow& out) {
   for (int u = 0; u < width; u += 8) {
-    Float8 a00{}, a10{}, a01{}, a20{}, a11{}, a02{}, b0{}, b1{}, b2{};
-    for (int y = -radius; y <= radius; ++y) {
-      const int k = y + radius;
-      const float w = window[k], wy = w * static_cast<float>(y);
-      const Float8 g0 = load8(g_0[k] + u), g1 = load8(g_1[k] + u), q0 = load8(q_0[k] + u);
-      a00 += w * g0;
-      a01 += wy * g0;
-      a02 += wy * static_cast<float>(y) * g0;
-      a10 += w * g1;
-      a11 += wy * g1;
-      a20 += w * load8(g_2[k] + u);
-      b0 += w * q0;
-      b2 += wy * q0;
-      b1 += w * load8(q_1[k] + u);
+    Float8 even[kColumnMomentCount], g_x{}, g_xx{}, g_xy{}, q_x{};
+    for (int k = 0; k < kColumnMomentCount; ++k) even[k] = window[radius] * load8(in[k] + u);
+    for (int x = 1; x <= radius; ++x) {
+      const float w = window[radius + x], fx = static_cast<float>(x), wx = w * fx, wxx = wx * fx;
+      Float8 before[kColumnMomentCount], after[kColumnMomentCount];
+      for (int k = 0; k < kColumnMomentCount; ++k) {
+        before[k] = load8(in[k] + u - x);
+        after[k] = load8(in[k] + u + x);
+        even[k] += w * (after[k] + before[k]);
+      }
+      g_x += wx * (after[0] - before[0]);
+      g_xx += wxx * (after[0] + before[0]);
+      g_xy += wx * (after[1] - before[1]);
+      q_x += wx * (after[3] - before[3]);
     }
-    const Float8 sums[] = {a00, a10, a01, a20, a11, a02, b0, b1, b2};
-    for (int k = 0; k < 9; ++k) store8(out.sums[k] + u, sums[k]);
+    const Float8 sums[kFirstEvidence] = {even[0], g_x,     even[1], g_xx,   g_xy,
+                                         even[2], even[3], q_x,     even[4]};
+    for (int k = 0; k < kFirstEvidence; ++k) store8(out.sums[k] + u, sums[k]);
   }
 }
 
-void selectedMoments(const SelectedWindow& at, int u, const MomentRow& out) {
-  const float centre = at.disparity[0];
-  float sums[9][kSelectLanes] = {};
-  for (int y = -at.radius; y <= at.radius; ++y) {
-    const long row = static_cast<long>(y) * at.stride - at.radius;
-    const int k = (y + at.radius) * kSelectLanes;
-    const float fy = static_cast<float>(y);
-    for (int i = 0; i < kSelectLanes; ++i) {
-      const float away = at.disparity[row + i] - centre;
-      const float apart = away < 0 ? -away : away;
-      const float w = apart <= at.tolerance[k + i] ? at.window[k + i] : 0.0f;
-      const float g = w * at.information[row + i], q = w * at.target[row + i];
-      const float gy = fy * g;
-      sums[0][i] += g;
-      sums[1][i] += gy;
-      sums[2][i] += fy * gy;
-      sums[3][i] += q;
-      sums[4][i] += fy * q;
-      sums[5][i] += w * at.residual_sq[row + i];
-      sums[6][i] += w * at.weight[row + i];
-      sums[7][i] += w * at.difference_sq[row + i];
-      sums[8][i] += w * at.energy[row + i];
+/// True where the window at column u holds a pixel of another surface.
+bool mixesSurfaces(const SelectedRows& rows, int u, Float8 centre) {
+  Int8 found{};
+  for (int y = 0; y <= 2 * rows.radius; ++y)
+    for (int i = 0; i < kSelectLanes; i += 8)
+      found |= abs8(load8(rows.disparity[y] + u - rows.radius + i) - centre) >
+               load8(rows.tolerance + y * kSelectLanes + i);
+  int any = 0;
+  for (int i = 0; i < 8; ++i) any |= found[i];
+  return any != 0;
+}
+
+/// The nine moments of the plane.
+void selectPlane(const SelectedRows& rows, int u, Float8 centre, const MomentRow& out) {
+  float moments[kFirstEvidence] = {};
+  for (int i = 0; i < kSelectLanes; i += 8) {
+    Float8 g0{}, g1{}, g2{}, q0{}, q1{};
+    for (int y = 0; y <= 2 * rows.radius; ++y) {
+      const int at = u - rows.radius + i, k = y * kSelectLanes + i;
+      const Float8 apart = abs8(load8(rows.disparity[y] + at) - centre);
+      const Float8 w = apart <= load8(rows.tolerance + k) ? load8(rows.window + k) : Float8{};
+      const float fy = static_cast<float>(y - rows.radius);
+      const Float8 g = w * load8(rows.information[y] + at), q = w * load8(rows.target[y] + at);
+      g0 += g;
+      g1 += fy * g;
+      g2 += fy * fy * g;
+      q0 += q;
+      q1 += fy * q;
     }
+    const Float8 x = lanes8() + static_cast<float>(i - rows.radius);
+    const Float8 parts[] = {g0, x * g0, g1, x * x * g0, x * g1, g2, q0, x * q0, q1};
+    for (int m = 0; m < kFirstEvidence; ++m) moments[m] += sum8(parts[m]);
   }
-  float moments[kMomentCount] = {};
-  for (int i = 0; i < kSelectLanes; ++i) {
-    const float x = static_cast<float>(i - at.radius);
-    moments[0] += sums[0][i];
-    moments[1] += x * sums[0][i];
-    moments[2] += sums[1][i];
-    moments[3] += x * x * sums[0][i];
-    moments[4] += x * sums[1][i];
-    moments[5] += sums[2][i];
-    moments[6] += sums[3][i];
-    moments[7] += x * sums[3][i];
-    moments[8] += sums[4][i];
-    moments[9] += sums[5][i];
-    moments[10] += sums[6][i];
-    moments[11] += sums[7][i];
-    moments[12] += sums[8][i];
+  for (int m = 0; m < kFirstEvidence; ++m) out.sums[m][u] = moments[m];
+}
+
+void selectEvidence(const SelectedRows& rows, int u, Float8 centre, const MomentRow& out) {
+  float moments[4] = {};
+  for (int i = 0; i < kSelectLanes; i += 8) {
+    Float8 sums[4] = {};
+    for (int y = 0; y <= 2 * rows.radius; ++y) {
+      const int at = u - rows.radius + i, k = y * kSelectLanes + i;
+      const Float8 apart = abs8(load8(rows.disparity[y] + at) - centre);
+      const Float8 w = apart <= load8(rows.tolerance + k) ? load8(rows.window + k) : Float8{};
+      for (int m = 0; m < 4; ++m) sums[m] += w * load8(rows.evidence[m][y] + at);
+    }
+    for (int m = 0; m < 4; ++m) moments[m] += sum8(sums[m]);
   }
-  for (int m = 0; m < kMomentCount; ++m) out.sums[m][u] = moments[m];
+  for (int m = 0; m < 4; ++m) out.sums[kFirstEvidence + m][u] = moments[m];
+}
+
+void selectedMoments(const SelectedRows& rows, const int* columns, int count,
+                     const MomentRow& out) {
+  for (int i = 0; i < count; ++i) {
+    const int u = columns[i];
+    const Float8 centre = broadcast8(rows.disparity[rows.radius][u]);
+    if (!mixesSurfaces(rows, u, centre)) continue;
+    selectPlane(rows, u, centre, out);
+    if (rows.evidence[0] != nullptr) selectEvidence(rows, u, centre, out);
+  }
 }
 
 /// D of the 3 x 3 system by Cramer's rule; NaN where the window makes no plane.
 void solvePlanes(const PlaneRow& row) {
-  const float nan = __builtin_nanf("");
   const auto& m = row.moments.sums;
-  for (int u = 0; u < row.width; ++u) {
-    const float a = m[0][u], b = m[1][u], c = m[2][u], d = m[3][u], e = m[4][u], f = m[5][u];
-    const float c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
-    const float determinant = a * c00 + b * c01 + c * c02;
-    const float found = (c00 * m[6][u] + c01 * m[7][u] + c02 * m[8][u]) / determinant;
-    const float step = found - row.before[u];
-    const float farthest = step < 0.0f ? -step : step;
+  for (int u = 0; u < row.width; u += 8) {
+    const Float8 a = load8(m[0] + u), b = load8(m[1] + u), c = load8(m[2] + u), d = load8(m[3] + u),
+                 e = load8(m[4] + u), f = load8(m[5] + u);
+    const Float8 c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
+    const Float8 determinant = a * c00 + b * c01 + c * c02;
+    const Float8 found =
+        (c00 * load8(m[6] + u) + c01 * load8(m[7] + u) + c02 * load8(m[8] + u)) / determinant;
+    const Float8 before = load8(row.before + u), step = found - before;
     // Comparisons with NaN are false, so an unmatched pixel stays unmatched.
-    const bool holds = determinant > 1e-3f * a * d * f && farthest < row.farthest_step_px;
-    row.disparity[u] = holds ? row.before[u] + row.relaxation * step : nan;
+    const Int8 holds = (determinant > 1e-3f * a * d * f) & (abs8(step) < row.farthest_step_px);
+    store8(row.disparity + u, holds ? before + row.relaxation * step : broadcast8(kNaN));
   }
+}
+
+inline Float8 squareRoot(Float8 x) {
+  for (int i = 0; i < 8; ++i) x[i] = __builtin_sqrtf(x[i]);
+  return x;
 }
 
 /// Standard errors of what solvePlanes() found; NaN, and the disparity too, where it can't be
 /// trusted.
 void judgePlanes(const PlaneRow& row) {
-  const float nan = __builtin_nanf("");
   const auto& m = row.moments.sums;
-  for (int u = 0; u < row.width; ++u) {
-    const float a = m[0][u], b = m[1][u], c = m[2][u], d = m[3][u], e = m[4][u], f = m[5][u];
-    const float c00 = d * f - e * e;
-    const float determinant = a * c00 + b * (c * e - b * f) + c * (b * e - c * d);
+  for (int u = 0; u < row.width; u += 8) {
+    const Float8 a = load8(m[0] + u), b = load8(m[1] + u), c = load8(m[2] + u), d = load8(m[3] + u),
+                 e = load8(m[4] + u), f = load8(m[5] + u);
+    const Float8 c00 = d * f - e * e;
+    const Float8 determinant = a * c00 + b * (c * e - b * f) + c * (b * e - c * d);
     // The matched disparity steadies the fit but is no evidence: it doesn't lower the error.
-    const float raw = 1.0f - row.prior_weight * m[10][u] / a;
-    const float evidence = raw > 1e-3f ? raw : 1e-3f;
-    const float noise_sq = m[9][u] / m[10][u] + row.noise_floor_sq;
-    const float variance =
+    const Float8 weight = load8(m[10] + u), raw = 1.0f - row.prior_weight * weight / a;
+    const Float8 evidence = raw > 1e-3f ? raw : broadcast8(1e-3f);
+    const Float8 noise_sq = load8(m[9] + u) / weight + row.noise_floor_sq;
+    const Float8 variance =
         noise_sq * (c00 / determinant) / (evidence * evidence * row.independent_pixels) +
         row.model_variance_px2;
-    const bool holds = row.disparity[u] == row.disparity[u] && variance <= row.max_variance_px2 &&
-                       m[11][u] <= row.max_difference * m[12][u];
-    row.disparity[u] = holds ? row.disparity[u] : nan;
-    row.sigma[u] = holds ? __builtin_sqrtf(variance) : nan;
+    const Float8 disparity = load8(row.disparity + u);
+    const Int8 holds = (disparity == disparity) & (variance <= row.max_variance_px2) &
+                       (load8(m[11] + u) <= row.max_difference * load8(m[12] + u));
+    store8(row.disparity + u, holds ? disparity : broadcast8(kNaN));
+    store8(row.sigma + u, holds ? squareRoot(variance) : broadcast8(kNaN));
   }
 }
 
@@ -183,7 +230,6 @@ void sumRows(const float* const* in, const float* weights, int taps, int width, 
 
 extern const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET);
 const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET) = {
-    residualRow, horizontalMoments, verticalMoments, selectedMoments,
-    solvePlanes, judgePlanes,       sumRows};
+    residualRow, columnMoments, rowMoments, selectedMoments, solvePlanes, judgePlanes, sumRows};
 
 }  // namespace softscope

@@ -3,7 +3,8 @@
 //
 // Compiled once for each instruction set (kernel_sets.h). Raw pointers only: a header-only
 // container compiled with AVX2 could be picked by the linker for the whole program. Floating point
-// is never contracted, so that every set gives the same bytes.
+// is never contracted, so that every set gives the same bytes. Rows are worked on eight values at
+// a time: all must be readable and writable up to the next multiple of eight.
 #pragma once
 
 namespace softscope {
@@ -11,23 +12,27 @@ namespace softscope {
 /// Inputs and outputs of one row of brightness residuals, see subpixel_refinement.cpp.
 struct ResidualRow {
   const float* left;       // filtered brightness of the left row
-  const float* right;      // of the right row; readable from -2 to width + 2
-  const float* disparity;  // 0 where unmatched
-  const float* valid;      // 1 or 0
+  const float* right;      // of the right row; readable from -1 to width + 2
+  const float* disparity;  // NaN where unmatched
   int width;
   float inverse_noise_sq;  // 1 / noise²
   float prior_weight;      // (noise / prior sigma)²
   float* information;      // w (g² + prior_weight)
   float* target;           // w (g (g d + R - L) + prior_weight d)
-  float* residual_sq;      // w (R - L)²
-  float* weight;           // w
-  float* difference_sq;    // (R - L)² where matched, whatever its weight
-  float* energy;           // R² + L² where matched
+  // What judges the fit, all null but in the last step.
+  float* residual_sq;    // w (R - L)²
+  float* weight;         // w
+  float* difference_sq;  // (R - L)² where matched, whatever its weight
+  float* energy;         // R² + L² where matched
 };
+
+/// Sums along the columns of a window: three moments of information (1, y, y²), two of target.
+constexpr int kColumnMomentCount = 5;
 
 /// Sums over the window of each pixel of a row: six moments of its information (1, x, y, x², xy,
 /// y²), three of its target (1, x, y), then residual_sq, weight, difference_sq and energy.
 constexpr int kMomentCount = 13;
+constexpr int kFirstEvidence = 9;
 struct MomentRow {
   float* sums[kMomentCount];
 };
@@ -50,35 +55,33 @@ struct PlaneRow {
   float* sigma;
 };
 
-/// The same moments at one pixel, from those pixels of its window that lie on its own surface:
-/// their disparity differs by no more than the tolerance. Rows are `stride` floats apart, the
-/// pointers stand on the centre, `window` holds kSelectLanes weights a row, 0 beyond the radius.
+/// Windows near a depth step: of each, those pixels count that lie on the centre's own surface,
+/// their disparity differing by no more than the tolerance. Each array holds the rows v - r .. v +
+/// r (2 r + 1 pointers); window and tolerance have kSelectLanes values a row, 0 and infinity beyond
+/// the radius.
 constexpr int kSelectLanes = 16;
-struct SelectedWindow {
-  const float* information;
-  const float* target;
-  const float* residual_sq;
-  const float* weight;
-  const float* difference_sq;
-  const float* energy;
-  const float* disparity;
-  int stride;
-  const float* window;     // (2 r + 1) x kSelectLanes
-  const float* tolerance;  // of the disparity, same shape
+struct SelectedRows {
+  const float* const* disparity;  // NaN = unmatched
+  const float* const* information;
+  const float* const* target;
+  const float* const* evidence[4];  // residual_sq … energy; null but in the last step
+  const float* window;
+  const float* tolerance;
   int radius;
 };
 
 struct RefinementKernels {
   void (*residualRow)(const ResidualRow& row);
-  /// Horizontal moments: out_k[u] = sum over x in [-r, r] of w[x] x^k in[u + x], k = 0, 1, 2.
-  void (*horizontalMoments)(const float* in, const float* window, int radius, int width,
-                            float* out_0, float* out_1, float* out_2);
-  /// Vertical moments of the rows v - r .. v + r (2 r + 1 pointers each).
-  void (*verticalMoments)(const float* const* g_0, const float* const* g_1, const float* const* g_2,
-                          const float* const* q_0, const float* const* q_1, const float* window,
-                          int radius, int width, const MomentRow& out);
-  /// Writes column u of `out`.
-  void (*selectedMoments)(const SelectedWindow& at, int u, const MomentRow& out);
+  /// out_k[u] = sum over y in [-r, r] of w[y] y^k in[y + r][u]: k = 0, 1, 2 of `information`, then
+  /// k = 0, 1 of `target`.
+  void (*columnMoments)(const float* const* information, const float* const* target,
+                        const float* window, int radius, int width, float* const* out);
+  /// The same along the row, of what columnMoments() gave; readable `radius` beyond both ends.
+  void (*rowMoments)(const float* const* in, const float* window, int radius, int width,
+                     const MomentRow& out);
+  /// Replaces the moments of `count` columns where the window holds pixels of another surface.
+  void (*selectedMoments)(const SelectedRows& rows, const int* columns, int count,
+                          const MomentRow& out);
   void (*solvePlanes)(const PlaneRow& row);
   void (*judgePlanes)(const PlaneRow& row);  // after solvePlanes()
   /// sum over taps of weight[t] * in[t][u]; out[u], u in [0, width).

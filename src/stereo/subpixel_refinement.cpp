@@ -1,6 +1,7 @@
 #include "stereo/subpixel_refinement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -14,6 +15,7 @@ namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kWindowSigma = 0.55;    // of the radius
 constexpr float kFarthestStepPx = 1.5f;  // a fit that wanders farther has lost its pixel
 constexpr float kStepPx = 1.0f;          // neighbours of one surface differ by at most this …
@@ -35,6 +37,7 @@ struct Setting {
   Setting(const GrayImage& left_image, const GrayImage& right_image,
           const Raster<float>& initial_px, const RefinementOptions& refinement)
       : options(refinement),
+        width(left_image.width_px),
         left(bandPass(left_image, refinement.highpass_sigma_px)),
         right(bandPass(right_image, refinement.highpass_sigma_px)),
         near_step(nearDepthSteps(initial_px, refinement.radius_px, kClearStepPx, kSlope)),
@@ -43,9 +46,9 @@ struct Setting {
     for (int y = -radius; y <= radius; ++y)
       for (int i = 0; i < kSelectLanes; ++i) {
         const int x = i - radius;
+        const float apart = std::sqrt(static_cast<float>(x * x + y * y));
         selection_window.push_back(x <= radius ? window[y + radius] * window[i] : 0.0f);
-        selection_tolerance.push_back(kStepPx +
-                                      kSlope * std::sqrt(static_cast<float>(x * x + y * y)));
+        selection_tolerance.push_back(x <= radius ? kStepPx + kSlope * apart : kInfinity);
       }
   }
 
@@ -54,6 +57,7 @@ struct Setting {
   }
 
   RefinementOptions options;
+  int width;
   Plane left, right;
   Raster<std::uint8_t> near_step;
   std::vector<float> window, selection_window, selection_tolerance;
@@ -63,16 +67,17 @@ struct Setting {
 /// they stay in the cache.
 class Band {
  public:
-  Band(const Setting& setting, const Raster<float>& disparity, bool last, DisparityMap& out)
+  /// `sigma`: null but in the last step, which is a whole one and is judged.
+  Band(const Setting& setting, const Plane& disparity, Plane& next, Plane* sigma)
       : setting_(setting),
         radius_(setting.options.radius_px),
-        width_(disparity.width_px),
+        width_(setting.width),
         disparity_(disparity),
-        last_(last),
-        out_(out),
-        pixels_(kPixelPlanes, Plane(width_, 2 * height())),
-        rows_(kRowPlanes, Plane(width_, height())),
-        moments_(width_, kMomentCount) {}
+        next_(next),
+        sigma_(sigma),
+        pixels_(sigma == nullptr ? kTarget + 1 : kPixelPlanes, Plane(width_, height(), 0, 0)),
+        columns_(width_, kColumnMomentCount, 0, 0),
+        moments_(width_, kMomentCount, 0, 0) {}
 
   void solve(int begin, int end) {
     for (int v = begin - radius_; v < end + radius_; ++v) {
@@ -82,50 +87,22 @@ class Band {
   }
 
  private:
-  // What is known of each pixel, and the sums along its row.
-  enum {
-    kDisparity,
-    kInformation,
-    kTarget,
-    kResidualSq,
-    kWeight,
-    kDifferenceSq,
-    kEnergy,
-    kPixelPlanes
-  };
-  enum { kG0, kG1, kG2, kQ0, kQ1, kE0, kE1, kE2, kE3, kRowPlanes };
+  enum { kInformation, kTarget, kResidualSq, kWeight, kDifferenceSq, kEnergy, kPixelPlanes };
+  using RowsOfWindow = std::array<const float*, 2 * RefinementOptions::kLargestRadiusPx + 1>;
 
   int height() const { return 2 * radius_ + 1; }
   int slot(int v) const { return (v + height()) % height(); }
 
-  /// Residual and gradient of every pixel of a row at its present disparity, and their row sums.
+  /// Residual and gradient of every pixel of a row at its present disparity.
   void linearise(int v) {
-    const bool inside = v >= 0 && v < disparity_.height_px;
-    for (int u = 0; u < width_; ++u) {
-      const float value = inside ? disparity_.at(u, v) : kNaN;
-      valid_[u] = std::isnan(value) ? 0.0f : 1.0f;
-      pixels_[kDisparity].row(slot(v))[u] = std::isnan(value) ? 0.0f : value;
-    }
-    const auto pixel = [&](int plane) { return pixels_[plane].row(slot(v)); };
-    const auto row = [&](int plane) { return rows_[plane].row(slot(v)); };
+    const auto pixel = [&](int plane) {
+      return sigma_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
+    };
     const float noise = static_cast<float>(setting_.options.noise_gray);
-    const int source = inside ? v : 0;
-    const RefinementKernels& kernels = refinementKernels();
-    kernels.residualRow({setting_.left.row(source), setting_.right.row(source), pixel(kDisparity),
-                         valid_.data(), width_, 1 / (noise * noise), setting_.priorWeight(),
-                         pixel(kInformation), pixel(kTarget), pixel(kResidualSq), pixel(kWeight),
-                         pixel(kDifferenceSq), pixel(kEnergy)});
-    const float* window = setting_.window.data();
-    kernels.horizontalMoments(pixel(kInformation), window, radius_, width_, row(kG0), row(kG1),
-                              row(kG2));
-    kernels.horizontalMoments(pixel(kTarget), window, radius_, width_, row(kQ0), row(kQ1), nullptr);
-    for (int k = 0; k < 4 && last_; ++k)
-      kernels.horizontalMoments(pixel(kResidualSq + k), window, radius_, width_, row(kE0 + k),
-                                nullptr, nullptr);
-    // A second copy, so that the rows around any row follow each other.
-    for (Plane& plane : pixels_)
-      std::copy_n(plane.row(slot(v)) - Plane::kMargin, width_ + 2 * Plane::kMargin,
-                  plane.row(slot(v) + height()) - Plane::kMargin);
+    refinementKernels().residualRow({setting_.left.row(v), setting_.right.row(v), disparity_.row(v),
+                                     width_, 1 / (noise * noise), setting_.priorWeight(),
+                                     pixel(kInformation), pixel(kTarget), pixel(kResidualSq),
+                                     pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
   }
 
   /// Sums over the windows of a row, then the plane of each pixel.
@@ -133,12 +110,9 @@ class Band {
     MomentRow moments;
     for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = moments_.row(k);
     sumWindows(v, moments);
-    for (int u = 0; u < width_; ++u)
-      if (setting_.near_step.at(u, v) != 0 && !std::isnan(disparity_.at(u, v)))
-        selectWindow(u, v, moments);
+    selectWindows(v, moments);
     const RefinementOptions& options = setting_.options;
     const auto squared = [](double x) { return static_cast<float>(x * x); };
-    const float relaxation = last_ ? 1.0f : static_cast<float>(options.relaxation);
     const PlaneRow row{moments,
                        disparity_.row(v),
                        width_,
@@ -149,44 +123,86 @@ class Band {
                        squared(options.model_sigma_px),
                        squared(options.max_sigma_px),
                        static_cast<float>(options.max_difference),
-                       relaxation,
-                       out_.disparity_px.row(v),
-                       out_.sigma_px.row(v)};
+                       sigma_ != nullptr ? 1.0f : static_cast<float>(options.relaxation),
+                       next_.row(v),
+                       sigma_ != nullptr ? sigma_->row(v) : nullptr};
     refinementKernels().solvePlanes(row);
-    if (last_) refinementKernels().judgePlanes(row);
+    if (sigma_ != nullptr) refinementKernels().judgePlanes(row);
+  }
+
+  /// The rows of one plane in the window around row v.
+  RowsOfWindow rowsAround(int plane, int v) const {
+    RowsOfWindow rows{};
+    for (int y = 0; y < height(); ++y)
+      rows[static_cast<std::size_t>(y)] = pixels_[plane].row(slot(v - radius_ + y));
+    return rows;
   }
 
   void sumWindows(int v, const MomentRow& moments) {
-    const float* around[kRowPlanes][2 * Plane::kMargin];
-    for (int plane = 0; plane < kRowPlanes; ++plane)
-      for (int y = 0; y < height(); ++y) around[plane][y] = rows_[plane].row(slot(v - radius_ + y));
     const float* window = setting_.window.data();
     const RefinementKernels& kernels = refinementKernels();
-    kernels.verticalMoments(around[kG0], around[kG1], around[kG2], around[kQ0], around[kQ1], window,
-                            radius_, width_, moments);
-    for (int k = 0; k < 4 && last_; ++k)
-      kernels.sumRows(around[kE0 + k], window, height(), width_, moments.sums[9 + k]);
+    float* columns[kColumnMomentCount];
+    for (int k = 0; k < kColumnMomentCount; ++k) columns[k] = columns_.row(k);
+    kernels.columnMoments(rowsAround(kInformation, v).data(), rowsAround(kTarget, v).data(), window,
+                          radius_, width_, columns);
+    kernels.rowMoments(columns, window, radius_, width_, moments);
+    for (int plane = kResidualSq; plane < kPixelPlanes && sigma_ != nullptr; ++plane) {
+      kernels.sumRows(rowsAround(plane, v).data(), window, height(), width_, columns[0]);
+      RowsOfWindow shifted{};
+      for (int x = 0; x < height(); ++x)
+        shifted[static_cast<std::size_t>(x)] = columns[0] + x - radius_;
+      kernels.sumRows(shifted.data(), window, height(), width_,
+                      moments.sums[kFirstEvidence + plane - kResidualSq]);
+    }
   }
 
-  void selectWindow(int u, int v, const MomentRow& moments) {
-    const int centre = slot(v - radius_) + radius_;  // in the doubled planes
-    const auto at = [&](int plane) { return pixels_[plane].row(centre) + u; };
-    refinementKernels().selectedMoments(
-        {at(kInformation), at(kTarget), at(kResidualSq), at(kWeight), at(kDifferenceSq),
-         at(kEnergy), at(kDisparity), pixels_[0].stride(), setting_.selection_window.data(),
-         setting_.selection_tolerance.data(), radius_},
-        u, moments);
+  void selectWindows(int v, const MomentRow& moments) {
+    near_.clear();
+    for (int u = 0; u < width_; ++u)
+      if (setting_.near_step.at(u, v) != 0 && !std::isnan(disparity_.row(v)[u])) near_.push_back(u);
+    if (near_.empty()) return;
+    std::array<RowsOfWindow, kPixelPlanes> rows;
+    for (std::size_t plane = 0; plane < pixels_.size(); ++plane)
+      rows[plane] = rowsAround(static_cast<int>(plane), v);
+    RowsOfWindow disparity{};
+    for (int y = 0; y < height(); ++y)
+      disparity[static_cast<std::size_t>(y)] = disparity_.row(v - radius_ + y);
+    SelectedRows selected{disparity.data(),
+                          rows[kInformation].data(),
+                          rows[kTarget].data(),
+                          {},
+                          setting_.selection_window.data(),
+                          setting_.selection_tolerance.data(),
+                          radius_};
+    for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
+      selected.evidence[m] = rows[static_cast<std::size_t>(kResidualSq + m)].data();
+    refinementKernels().selectedMoments(selected, near_.data(), static_cast<int>(near_.size()),
+                                        moments);
   }
 
   const Setting& setting_;
   int radius_, width_;
-  const Raster<float>& disparity_;
-  bool last_;  // takes whole steps and judges them
-  DisparityMap& out_;
-  std::vector<Plane> pixels_, rows_;
-  Plane moments_;
-  std::vector<float> valid_ = std::vector<float>(static_cast<std::size_t>(width_));
+  const Plane& disparity_;
+  Plane& next_;
+  Plane* sigma_;
+  std::vector<Plane> pixels_;
+  Plane columns_, moments_;
+  std::vector<int> near_;  // columns of a row whose window may reach across a step
 };
+
+/// Margins stay NaN: unmatched.
+Plane planeOf(const Raster<float>& raster) {
+  Plane plane(raster.width_px, raster.height_px, kNaN);
+  parallelRows(raster.height_px,
+               [&](int v) { std::copy_n(raster.row(v), raster.width_px, plane.row(v)); });
+  return plane;
+}
+
+Raster<float> rasterOf(const Plane& plane, int width, int height) {
+  Raster<float> raster(width, height);
+  parallelRows(height, [&](int v) { std::copy_n(plane.row(v), width, raster.row(v)); });
+  return raster;
+}
 
 }  // namespace
 
@@ -194,16 +210,15 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
   const Setting setting(left, right, initial_px, options);
   const int width = left.width_px, height = left.height_px;
-  DisparityMap map{initial_px, Raster<float>(width, height, kNaN)};
-  DisparityMap next = map;
+  Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
   for (int i = 0; i < options.iterations; ++i) {
     const bool last = i + 1 == options.iterations;
     parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(setting, map.disparity_px, last, next).solve(begin, end);
+      Band(setting, disparity, next, last ? &sigma : nullptr).solve(begin, end);
     });
-    std::swap(map, next);
+    std::swap(disparity, next);
   }
-  return map;
+  return {rasterOf(disparity, width, height), rasterOf(sigma, width, height)};
 }
 
 }  // namespace softscope

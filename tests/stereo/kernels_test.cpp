@@ -81,35 +81,79 @@ TEST_F(EveryInstructionSet, FindsSupportAlike) {
   });
 }
 
+/// `count` rows of `values`, `stride` apart, with 16 values before the first.
+std::vector<const float*> rowsOf(const Floats& values, int stride, int count) {
+  std::vector<const float*> rows;
+  for (int r = 0; r < count; ++r) rows.push_back(values.data() + r * stride + 16);
+  return rows;
+}
+
+MomentRow momentsIn(Floats& values, int stride) {
+  MomentRow moments;
+  for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = values.data() + k * stride;
+  return moments;
+}
+
 TEST_F(EveryInstructionSet, SumsMomentsAlike) {
   const int width = 333, radius = 6, stride = 384;
-  const Floats in = randomFloats(static_cast<std::size_t>(stride) * 70, -30, 30, 5);
+  const Floats in = randomFloats(static_cast<std::size_t>(stride) * 26, -30, 30, 5);
   const Floats window = randomFloats(13, 0, 1, 6);
+  const auto rows = rowsOf(in, stride, 26);
   expectEqual([&](const KernelSet& set) {
-    Floats out(static_cast<std::size_t>(stride) * 17);
-    std::vector<const float*> rows;
-    for (int r = 0; r < 65; ++r) rows.push_back(in.data() + r * stride + 16);
-    MomentRow moments;
-    for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = out.data() + k * stride;
-    set.refinement->verticalMoments(&rows[0], &rows[13], &rows[26], &rows[39], &rows[52],
-                                    window.data(), radius, width, moments);
-    set.refinement->sumRows(rows.data(), window.data(), 13, width, moments.sums[9]);
-    set.refinement->horizontalMoments(rows[3], window.data(), radius, width, moments.sums[10],
-                                      moments.sums[11], moments.sums[12]);
+    Floats columns(static_cast<std::size_t>(stride) * kColumnMomentCount), out(stride * 14ul);
+    std::vector<float*> column_rows;
+    for (int k = 0; k < kColumnMomentCount; ++k)
+      column_rows.push_back(columns.data() + k * stride + 16);
+    set.refinement->columnMoments(&rows[0], &rows[13], window.data(), radius, width,
+                                  column_rows.data());
+    set.refinement->rowMoments(column_rows.data(), window.data(), radius, width,
+                               momentsIn(out, stride));
+    set.refinement->sumRows(rows.data(), window.data(), 13, width, out.data() + 13 * stride);
+    return out;
+  });
+}
+
+TEST_F(EveryInstructionSet, SelectsWindowsAlike) {
+  const int radius = 6, stride = 384;
+  const Floats in = randomFloats(static_cast<std::size_t>(stride) * 91, 0, 30, 15);
+  const auto rows = rowsOf(in, stride, 91);
+  const Floats window(13 * kSelectLanes, 0.5f), tolerance(13 * kSelectLanes, 5.0f);
+  const std::vector<int> columns = {0, 7, 100, 101, 332};
+  expectEqual([&](const KernelSet& set) {
+    Floats out(static_cast<std::size_t>(stride) * kMomentCount);
+    set.refinement->selectedMoments({&rows[0],
+                                     &rows[13],
+                                     &rows[26],
+                                     {&rows[39], &rows[52], &rows[65], &rows[78]},
+                                     window.data(),
+                                     tolerance.data(),
+                                     radius},
+                                    columns.data(), 5, momentsIn(out, stride));
+    EXPECT_NE(out[12 * stride + 332], 0);  // the last moment of the last column was written
     return out;
   });
 }
 
 TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
-  const int width = 203;
+  const int width = 208;
   const Floats sums = randomFloats(static_cast<std::size_t>(width) * kMomentCount, 0.1f, 9, 8);
   Floats before = randomFloats(width, 10, 12, 9);
   before[17] = std::numeric_limits<float>::quiet_NaN();
   expectEqual([&](const KernelSet& set) {
     Floats copy = sums, out(2 * width);
-    PlaneRow row{{},         before.data(),     width, 50, 0.1f, 0.2f, 70, 0.01f, 100, 1e9f, 1.5f,
-                 out.data(), out.data() + width};
-    for (int k = 0; k < kMomentCount; ++k) row.moments.sums[k] = copy.data() + k * width;
+    const PlaneRow row{momentsIn(copy, width),
+                       before.data(),
+                       width,
+                       50,
+                       0.1f,
+                       0.2f,
+                       70,
+                       0.01f,
+                       100,
+                       1e9f,
+                       1.5f,
+                       out.data(),
+                       out.data() + width};
     set.refinement->solvePlanes(row);
     set.refinement->judgePlanes(row);
     EXPECT_TRUE(std::isnan(out[17]));
@@ -118,15 +162,17 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
 }
 
 TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
-  const int width = 301;
-  const Floats left = randomFloats(width, -40, 40, 1), right = randomFloats(width + 8, -40, 40, 2),
-               disparity = randomFloats(width, -3, 40, 3), valid(width, 1.0f);
+  const int width = 304;
+  const Floats left = randomFloats(width, -40, 40, 1), right = randomFloats(width + 8, -40, 40, 2);
+  Floats disparity = randomFloats(width, -3, 40, 3);
+  disparity[50] = std::numeric_limits<float>::quiet_NaN();
   expectEqual([&](const KernelSet& set) {
     Floats out(static_cast<std::size_t>(width) * 6);
-    set.refinement->residualRow({left.data(), right.data() + 3, disparity.data(), valid.data(),
-                                 width, 0.2f, 4.0f, out.data(), out.data() + width,
-                                 out.data() + 2 * width, out.data() + 3 * width,
-                                 out.data() + 4 * width, out.data() + 5 * width});
+    set.refinement->residualRow({left.data(), right.data() + 3, disparity.data(), width, 0.2f, 4.0f,
+                                 out.data(), out.data() + width, out.data() + 2 * width,
+                                 out.data() + 3 * width, out.data() + 4 * width,
+                                 out.data() + 5 * width});
+    for (int k = 0; k < 6; ++k) EXPECT_EQ(out[k * width + 50], 0);  // no weight where unmatched
     return out;
   });
 }
