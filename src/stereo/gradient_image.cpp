@@ -22,12 +22,11 @@ void padRow(const std::uint8_t* row, int width, std::vector<std::uint8_t>& padde
 
 GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
     : width_px_(image.width_px), height_px_(image.height_px) {
-  const int side = (margin_px + kTileWidth + 63) / 64 * 64;
+  const int side = (margin_px + 2 * kTileWidth + 63) / 64 * 64;
   stride_ = (width_px_ + 2 * side + 63) / 64 * 64;
   origin_ = static_cast<std::size_t>(kRowMargin) * stride_ + side;
-  const std::size_t bytes = static_cast<std::size_t>(height_px_ + 2 * kRowMargin) * stride_;
-  du_.assign(bytes, 128);
-  dv_.assign(bytes, 128);
+  constexpr std::uint16_t kFlat = 128 + 256 * 128;
+  packed_.assign(static_cast<std::size_t>(height_px_ + 2 * kRowMargin) * stride_, kFlat);
   const MatchingKernels& kernels = matchingKernels();
   const int gain_q8 = static_cast<int>(std::lround(gain * 256));
   parallelRanges(height_px_, 32, [&](int begin, int end) {
@@ -37,14 +36,14 @@ GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
         padRow(image.row(std::clamp(v + k - 1, 0, height_px_ - 1)), width_px_, rows[k]);
       const std::size_t at = origin_ + static_cast<std::size_t>(v) * stride_;
       kernels.sobelRow(rows[0].data() + 1, rows[1].data() + 1, rows[2].data() + 1, width_px_,
-                       gain_q8, du_.data() + at, dv_.data() + at);
+                       gain_q8, packed_.data() + at);
     }
   });
 }
 
 GradientView GradientImage::view(int first_row) const {
   const auto shift = static_cast<std::ptrdiff_t>(first_row) * stride_;
-  return {du_.data() + origin_ + shift, dv_.data() + origin_ + shift, stride_};
+  return {packed_.data() + origin_ + shift, stride_};
 }
 
 }  // namespace softscope

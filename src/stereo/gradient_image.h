@@ -26,7 +26,7 @@ class GradientImage {
  private:
   int width_px_, height_px_, stride_;
   std::size_t origin_;  // offset of pixel (0, 0)
-  std::vector<std::uint8_t> du_, dv_;
+  std::vector<std::uint16_t> packed_;
 };
 
 }  // namespace softscope

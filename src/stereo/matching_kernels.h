@@ -12,21 +12,26 @@ namespace softscope {
 /// Tile of the dense matcher; also the cell in which support disparities are shared.
 constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
-constexpr int kSupportMargin = 4;  // reach of the support window
+constexpr int kSupportMargin = 4;      // reach of the support window
+constexpr int kSupportScratch = 64;    // margins and the rest of a register
+constexpr int kSupportNarrowest = 32;  // columns that the pictures must share at a disparity
 constexpr int kLargestPriorSlope = 65535 / (15 * 15);
 
-/// Two planes of 8-bit gradients around 128 with a margin on every side, see GradientImage.
+/// Both 8-bit gradients of a pixel, around 128, side by side: du + 256 dv. With a margin on every
+/// side, see GradientImage.
 struct GradientView {
-  const std::uint8_t* du;  // at pixel (0, 0)
-  const std::uint8_t* dv;
-  int stride;  // bytes between rows
+  const std::uint16_t* packed;  // at pixel (0, 0)
+  int stride;                   // pixels between rows
+
+  const std::uint16_t* at(int u, int v) const { return packed + static_cast<long>(v) * stride + u; }
 };
 
 /// One row of support costs. For every u in [0, width): cost_left[u] the least cost over all
-/// disparities, disparity_left[u] where; the same for the right picture's pixels.
+/// disparities, disparity_left[u] where; the same for the right picture's pixels; 0xFFFF and 0
+/// where the window fits into both pictures at none.
 struct SupportRow {
-  std::uint16_t* volume;  // disparity_count x stride
-  std::uint16_t* sums;    // scratch: width + 2 kSupportMargin
+  std::uint16_t* volume;  // disparity_count x stride; from column d + kSupportMargin on
+  std::uint16_t* sums;    // scratch: width + kSupportScratch
   std::uint16_t* cost_left;
   std::uint16_t* disparity_left;
   std::uint16_t* cost_right;
@@ -51,9 +56,9 @@ struct DenseTile {
 };
 
 struct MatchingKernels {
-  /// Sobel responses of the middle one of three rows, readable from -1 to width, as bytes.
+  /// Sobel responses of the middle one of three rows, readable from -1 to width.
   void (*sobelRow)(const std::uint8_t* above, const std::uint8_t* middle, const std::uint8_t* below,
-                   int width, int gain_q8, std::uint8_t* du, std::uint8_t* dv);
+                   int width, int gain_q8, std::uint16_t* packed);
   void (*supportRow)(const GradientView& left, const GradientView& right, int v, int width,
                      int disparity_min, int disparity_count, const SupportRow& out);
   void (*denseTile)(const GradientView& reference, const GradientView& other,

@@ -32,9 +32,8 @@ double windowCost(const GradientView& left, const GradientView& right, int u, in
   int sum = 0;
   for (int dy = -kReach; dy <= kReach; dy += 2)
     for (int dx = -kReach; dx <= kReach; dx += 2) {
-      const long a = static_cast<long>(v + dy) * left.stride + u + dx;
-      const long b = static_cast<long>(v_right + dy) * right.stride + u_right + dx;
-      sum += std::abs(left.du[a] - right.du[b]) + std::abs(left.dv[a] - right.dv[b]);
+      const int a = *left.at(u + dx, v + dy), b = *right.at(u_right + dx, v_right + dy);
+      sum += std::abs(a % 256 - b % 256) + std::abs(a / 256 - b / 256);
     }
   return sum / 50.0;
 }

@@ -1,9 +1,10 @@
-// src/stereo/simd.h: eight floats at a time, in whatever registers there are.
+// src/stereo/simd.h: many values at a time, in whatever registers there are.
 //
 // For the files that are compiled once for each instruction set (kernel_sets.h): everything here is
 // local to the file that includes it.
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 
 namespace softscope {
@@ -37,6 +38,36 @@ inline float sum8(Float8 x) {
 
 /// 0, 1, … 7.
 inline Float8 lanes8() { return Float8{0, 1, 2, 3, 4, 5, 6, 7}; }
+
+// As many 16-bit values as a register holds: comparing and choosing is fast on whole registers
+// only.
+#ifdef __AVX2__
+constexpr int kWordLanes = 16;
+#else
+constexpr int kWordLanes = 8;
+#endif
+using Words = std::uint16_t __attribute__((vector_size(2 * kWordLanes)));
+using SignedWords = std::int16_t __attribute__((vector_size(2 * kWordLanes)));
+using Bytes = std::uint8_t __attribute__((vector_size(2 * kWordLanes)));  // two in each word
+
+template <class Vector, class Value>
+inline Vector load(const Value* p) {
+  Vector x;
+  std::memcpy(&x, p, sizeof x);
+  return x;
+}
+template <class Vector, class Value>
+inline void store(Value* p, Vector x) {
+  std::memcpy(p, &x, sizeof x);
+}
+template <class Vector>
+inline Vector least(Vector a, Vector b) {
+  return a < b ? a : b;
+}
+template <class Vector>
+inline Vector greatest(Vector a, Vector b) {
+  return a > b ? a : b;
+}
 
 }  // namespace
 }  // namespace softscope

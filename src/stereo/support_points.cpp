@@ -11,7 +11,7 @@ namespace softscope {
 namespace {
 
 constexpr float kNone = -1;
-constexpr int kReach = 4;         // of the support window
+constexpr int kReach = kSupportMargin;
 constexpr int kDifferences = 50;  // summed in one cost
 
 /// Mean |gradient| of the support window around (u, v).
@@ -19,8 +19,8 @@ double texture(const GradientView& image, int u, int v) {
   int sum = 0;
   for (int dy = -kReach; dy <= kReach; dy += 2)
     for (int dx = -kReach; dx <= kReach; dx += 2) {
-      const long at = static_cast<long>(v + dy) * image.stride + u + dx;
-      sum += std::abs(image.du[at] - 128) + std::abs(image.dv[at] - 128);
+      const int packed = *image.at(u + dx, v + dy);
+      sum += std::abs(packed % 256 - 128) + std::abs(packed / 256 - 128);
     }
   return static_cast<double>(sum) / kDifferences;
 }
@@ -37,7 +37,7 @@ int secondBestCost(const SupportRow& row, int u, int best, int count) {
 /// Offset of the minimum of the parabola through three costs, within half a pixel.
 float parabolaOffset(int before, int at, int after) {
   const int curvature = before - 2 * at + after;
-  if (before == 0xFFFF || after == 0xFFFF || curvature <= 0) return 0;
+  if (curvature <= 0) return 0;
   return 0.5f * static_cast<float>(before - after) / static_cast<float>(curvature);
 }
 
@@ -53,7 +53,7 @@ class RowMatcher {
         count_(options.disparity_max_px - options.disparity_min_px + 1),
         elas_(options.elas) {
     const std::size_t stride = static_cast<std::size_t>((width_ + 63) / 64 * 64);
-    buffer_.resize(stride * (static_cast<std::size_t>(count_) + 5) + 2 * kSupportMargin);
+    buffer_.resize(stride * (static_cast<std::size_t>(count_) + 5) + kSupportScratch);
     std::uint16_t* rest = buffer_.data() + stride * static_cast<std::size_t>(count_);
     row_ = {buffer_.data(),    rest + 4 * stride,       rest, rest + stride, rest + 2 * stride,
             rest + 3 * stride, static_cast<int>(stride)};
@@ -71,11 +71,18 @@ class RowMatcher {
     if (texture(left_, u, v) < elas_.support_texture) return kNone;
     const int returned = row_.disparity_right[u - disparity];
     if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
-    if (row_.cost_left[u] > elas_.support_uniqueness * secondBestCost(row_, u, best, count_))
-      return kNone;
     if (best == 0 || best == count_ - 1) return kNone;  // the true one may lie outside the range
+    const int count = countAt(u);
+    if (row_.cost_left[u] > elas_.support_uniqueness * secondBestCost(row_, u, best, count))
+      return kNone;
+    if (best + 1 == count) return static_cast<float>(disparity);
     return static_cast<float>(disparity) +
            parabolaOffset(cost(best - 1, u), cost(best, u), cost(best + 1, u));
+  }
+  /// How many disparities have a cost at column u: the window lies inside both pictures.
+  int countAt(int u) const {
+    const int largest = std::min(u, width_ - kSupportNarrowest) - kReach;
+    return std::clamp(largest - minimum_ + 1, 0, count_);
   }
   int cost(int i, int u) const { return row_.volume[static_cast<long>(i) * row_.stride + u]; }
 

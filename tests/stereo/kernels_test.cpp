@@ -70,7 +70,7 @@ TEST_F(EveryInstructionSet, FindsSupportAlike) {
   const auto scene = test::makeScene(test::endoscope(), test::plane(50, 0.3, 0.1), 2.0);
   const GradientImage left(scene.left, 0.5, 64), right(scene.right, 0.5, 64);
   expectEqual([&](const KernelSet& set) {
-    Bytes16 volume(320 * 64), sums(320 + 2 * kSupportMargin), a(320), b(320), c(320), d(320);
+    Bytes16 volume(320 * 64), sums(320 + kSupportScratch), a(320), b(320), c(320), d(320);
     set.matching->supportRow(
         left.view(), right.view(), 100, 320, 0, 64,
         {volume.data(), sums.data(), a.data(), b.data(), c.data(), d.data(), 320});
