@@ -27,6 +27,7 @@ class Command {
 
 std::unique_ptr<Command> makeDepthCommand();
 std::unique_ptr<Command> makeDoctorCommand();
+std::unique_ptr<Command> makeEvaluateCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeReconstructCommand();
 std::unique_ptr<Command> makeSimulateCommand();

@@ -22,21 +22,20 @@ void summarise(TrackErrors& errors, int last_frame) {
 }  // namespace
 
 TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
-                        int first_frame,
-                        const std::vector<Eigen::Isometry3d>& truth_from_estimate) {
-  const int end_frame = first_frame + static_cast<int>(truth_from_estimate.size());
+                        const TruthFromEstimate& moves) {
   TrackErrors errors;
+  if (moves.empty()) return errors;
   for (const TrackSample& sample : estimate) {
     const auto found = truth.find({sample.frame, sample.id});
-    const auto start = truth.find({first_frame, sample.id});
+    const auto start = truth.find({moves.begin()->first, sample.id});
+    const auto move = moves.find(sample.frame);
     if (!sample.position_mm.allFinite()) {
       ++errors.lost;
-    } else if (found == truth.end() || sample.frame < first_frame || sample.frame >= end_frame) {
+    } else if (found == truth.end() || move == moves.end()) {
       ++errors.without_truth;
     } else {
-      const auto& move = truth_from_estimate[static_cast<std::size_t>(sample.frame - first_frame)];
       errors.each.push_back(
-          {sample.frame, sample.id, (move * sample.position_mm - found->second).norm(),
+          {sample.frame, sample.id, (move->second * sample.position_mm - found->second).norm(),
            start == truth.end() ? Statistics::kNone : (found->second - start->second).norm(),
            sample.visible});
     }
@@ -44,7 +43,7 @@ TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>&
   if (!truth.empty())
     errors.reported_share =
         static_cast<double>(errors.each.size()) / static_cast<double>(truth.size());
-  summarise(errors, end_frame - 1);
+  summarise(errors, moves.rbegin()->first);
   return errors;
 }
 

@@ -43,9 +43,12 @@ struct TrackErrors {
 /// True positions in the world's frame, by (frame, id).
 using TrueTracks = std::map<std::pair<int, int>, Eigen::Vector3d>;
 
-/// `truth_from_estimate[k]` brings an estimate of frame first_frame + k into the true world (by way
-/// of the current camera). Estimates of other frames count as without truth.
+/// What brings an estimate of a frame into the true world, by way of the camera of that frame.
+using TruthFromEstimate = std::map<int, Eigen::Isometry3d>;
+
+/// Judges the frames that `moves` knows; estimates of others count as without truth. The control
+/// starts at the first of these frames.
 TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
-                        int first_frame, const std::vector<Eigen::Isometry3d>& truth_from_estimate);
+                        const TruthFromEstimate& moves);
 
 }  // namespace softscope

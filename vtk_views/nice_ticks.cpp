@@ -34,7 +34,7 @@ Ticks niceTicks(double low, double high, int wanted) {
   ticks.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   const double slack = 1e-9 * step;  // a bound that is a multiple of the step keeps its tick
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k)
-    ticks.values.push_back(k * step);
+    ticks.values.push_back(k * step + 0.0);  // + 0.0: zero is never written as -0
   return ticks;
 }
 

@@ -19,7 +19,7 @@ TEST(TrackErrors, MovesEstimatesIntoTheTrueWorldAndSetsTheControlBesideThem) {
                                           {0, 1, {9, 0, 0}, true},
                                           {1, 0, {-2, 3, 1}, true},   // shifted by 2: 1 mm off
                                           {1, 1, {7, 0, 2}, false}};  // 2 mm off
-  const TrackErrors errors = trackErrors(truth, estimate, 0, {shift(0), shift(2)});
+  const TrackErrors errors = trackErrors(truth, estimate, {{0, shift(0)}, {1, shift(2)}});
   ASSERT_EQ(errors.each.size(), 4u);
   EXPECT_NEAR(errors.each[2].error_mm, 1, kRounding);
   EXPECT_NEAR(errors.each[2].control_mm, 3, kRounding);
@@ -38,7 +38,7 @@ TEST(TrackErrors, CountsWhatItCannotJudge) {
                                           {4, 0, {0, 0, 0}, true},               // before the run
                                           {7, 0, {0, 0, 0}, true},               // after it
                                           {6, 0, {0, 0, std::nan("")}, false}};  // lost
-  const TrackErrors errors = trackErrors(truth, estimate, 5, {shift(0), shift(0)});
+  const TrackErrors errors = trackErrors(truth, estimate, {{5, shift(0)}, {6, shift(0)}});
   EXPECT_EQ(errors.each.size(), 1u);
   EXPECT_EQ(errors.without_truth, 3u);
   EXPECT_EQ(errors.lost, 1u);
@@ -47,7 +47,7 @@ TEST(TrackErrors, CountsWhatItCannotJudge) {
 }
 
 TEST(TrackErrors, WithoutTruthThereAreNoNumbers) {
-  const TrackErrors errors = trackErrors({}, {{0, 0, {0, 0, 0}, true}}, 0, {shift(0)});
+  const TrackErrors errors = trackErrors({}, {{0, 0, {0, 0, 0}, true}}, {{0, shift(0)}});
   EXPECT_TRUE(std::isnan(errors.error_mm.mean));
   EXPECT_TRUE(std::isnan(errors.reported_share));
 }

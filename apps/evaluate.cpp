@@ -1,0 +1,205 @@
+// apps/evaluate.cpp: `softscope evaluate`: how far a run is from the truth, frame by frame.
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "apps/command.h"
+#include "apps/evaluate_outputs.h"
+#include "apps/evaluate_record.h"
+#include "apps/evaluate_thresholds.h"
+#include "apps/exit_codes.h"
+#include "apps/interrupt.h"
+#include "apps/progress_bar.h"
+#include "apps/result_output.h"
+#include "core/error.h"
+#include "io/message.h"
+#include "mesh/mesh_check.h"
+#include "mesh/mesh_reader.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kDetails =
+    "RUN is a folder that `reconstruct` wrote. Against a sequence with groundtruth/, every model\n"
+    "whose frame has a true mesh is compared in the frame of that moment's camera: accuracy, "
+    "split\n"
+    "into observed and predicted points, signed distance, completeness, three HD95 by name, drift\n"
+    "and jitter; tracks beside the no-motion control; the scope's path (ATE, RPE).\n"
+    "Against a mesh (STL, PLY, OBJ; a CT's, say) the last model, or each one, is compared.\n"
+    "With --out DIR it writes evaluation.json, frames.csv, tracks.csv, and the figures\n"
+    "error_series and error_histogram as SVG, PDF and PNG. docs/evaluation.md defines every "
+    "value.\n"
+    "--fail-if METRIC>LIMIT ends with exit code 1 where that holds, or the metric isn't known;\n"
+    "METRIC is a path in evaluation.json (surface.observed.p95_mm), or its last part.";
+
+bool isFolder(const fs::path& path) {
+  std::error_code ignored;  // what isn't there is the reader's to report
+  return fs::is_directory(path, ignored);
+}
+
+class EvaluateCommand : public Command {
+ public:
+  std::string name() const override { return "evaluate"; }
+  std::string summary() const override {
+    return "a run against ground truth or a mesh: errors over time";
+  }
+  std::string details() const override { return kDetails; }
+  std::string example() const override {
+    return "softscope evaluate run --reference phantom --out evaluation --fail-if 'p95_mm>2'";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  MeshAlignment alignment() const;
+  EvaluationResult againstSequence(const JudgedRun& run);
+  EvaluationResult againstMesh(const JudgedRun& run);
+  FrameFiles modelsFor(const JudgedRun& run) const;
+  int finish(EvaluationResult result, const EvaluateOutputs* outputs);
+  void report(const EvaluationResult& result, const FactSheet::Json& record,
+              const std::vector<ThresholdOutcome>& outcomes) const;
+
+  std::string run_, reference_, out_, align_ = "none";
+  std::vector<std::string> fail_if_;
+  double unit_mm_ = 1;
+  bool each_ = false, force_ = false;
+
+  std::vector<Threshold> thresholds_;
+};
+
+void EvaluateCommand::declare(ArgumentList& arguments) {
+  arguments.positional("RUN", run_, "folder that reconstruct wrote", true);
+  arguments.option("--reference", "PATH", reference_, "sequence with groundtruth/, or a mesh",
+                   true);
+  arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
+  arguments.option("--fail-if", "LIMIT", fail_if_, "e.g. p95_mm>2: then exit code 1; repeatable");
+  arguments.option("--align", "HOW", align_,
+                   "to a mesh: none (the default), rigid (one for all models), icp (each model)");
+  arguments.option("--reference-unit-mm", "N", unit_mm_,
+                   "what one unit of a mesh measures: 1000 for metres");
+  arguments.flag("--each", each_, "against a mesh: every model, not the last alone");
+  arguments.flag("--force", force_, "overwrite what is there");
+}
+
+MeshAlignment EvaluateCommand::alignment() const {
+  for (const MeshAlignment kind :
+       {MeshAlignment::kNone, MeshAlignment::kRigid, MeshAlignment::kIcp})
+    if (align_ == toString(kind)) return kind;
+  throw OptionError("--align is `" + align_ + "`, but must be none, rigid or icp");
+}
+
+int EvaluateCommand::run() {
+  for (const std::string& text : fail_if_) thresholds_.push_back(parseThreshold(text));
+  const bool sequence = isFolder(reference_);
+  if (sequence && (alignment() != MeshAlignment::kNone || each_))
+    throw OptionError(
+        "--align and --each are for a mesh; a sequence is compared frame by frame, "
+        "in its camera's frame, with no alignment");
+  EvaluationResult empty;
+  empty.against_mesh = !sequence;
+  checkThresholds(thresholds_, evaluationJson(empty));  // a misspelt name is told before the work
+  std::optional<EvaluateOutputs> outputs;
+  if (!out_.empty()) outputs.emplace(out_, force_);
+
+  const JudgedRun folder = openJudgedRun(run_);
+  EvaluationResult result = sequence ? againstSequence(folder) : againstMesh(folder);
+  if (result.surface.interrupted) {
+    spdlog::warn("interrupted: nothing is written");
+    return kInterrupted;
+  }
+  return finish(std::move(result), outputs ? &*outputs : nullptr);
+}
+
+EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
+  const SequenceTruth truth = openSequenceTruth(reference_);
+  requireSameSequence(folder, truth);
+  EvaluationResult result;
+  result.camera = judgeCamera(folder, truth);
+  result.tracks = judgeTracks(folder, truth);
+  const auto frames = framesToJudge(folder, truth);
+  const InterruptGuard interrupt;
+  ProgressBar progress("evaluate", static_cast<int>(frames.size()), progressStyle(common.quiet),
+                       std::cerr);
+  result.surface = judgeSeries(folder, truth, [&] {
+    progress.advance();
+    return !interrupt.requested();
+  });
+  result.warnings = sequenceWarnings(folder, truth, result);
+  return result;
+}
+
+FrameFiles EvaluateCommand::modelsFor(const JudgedRun& folder) const {
+  if (each_ && folder.models.empty())
+    throw InputError(shown(folder.folder / "models") +
+                     ": holds no model NNNNNN.ply, but --each asks for them; reconstruct with "
+                     "--save-every 1");
+  if (each_) return folder.models;
+  if (folder.last_model.empty())
+    throw InputError(shown(folder.folder / "model.ply") +
+                     ": is missing, but it is what a mesh is compared with; reconstruct again");
+  return {{folder.frames.back(), folder.last_model}};
+}
+
+EvaluationResult EvaluateCommand::againstMesh(const JudgedRun& folder) {
+  const MeshAlignment how = alignment();
+  const FrameFiles models = modelsFor(folder);
+  const TriangleMesh mesh = readMesh(reference_, {unit_mm_});
+  EvaluationResult result;
+  result.against_mesh = true;
+  result.alignment = how;
+  for (const std::string& warning : meshWarnings(checkMesh(mesh)))
+    result.warnings.push_back(reference_ + ": " + warning);
+  const InterruptGuard interrupt;
+  ProgressBar progress("evaluate", static_cast<int>(models.size()),
+                       each_ ? progressStyle(common.quiet) : ProgressBar::Style::kSilent,
+                       std::cerr);
+  AlignedSeries series = judgeAgainstMesh(folder, models, mesh, how, [&] {
+    progress.advance();
+    return !interrupt.requested();
+  });
+  result.surface = std::move(series.surface);
+  result.alignments = std::move(series.alignments);
+  return result;
+}
+
+int EvaluateCommand::finish(EvaluationResult result, const EvaluateOutputs* outputs) {
+  result.run = run_;
+  result.reference = reference_;
+  const FrameTable frames = frameTable(result);
+  FactSheet::Json record = evaluationJson(result);
+  const auto outcomes = checkThresholds(thresholds_, record);
+  record["thresholds"] = thresholdsJson(outcomes);
+  record["frames"] = frames.json();
+  if (outputs != nullptr) outputs->write(result, frames, record);
+  report(result, record, outcomes);
+  for (const ThresholdOutcome& outcome : outcomes)
+    if (outcome.failed) return kThresholdFailed;
+  return kDone;
+}
+
+void EvaluateCommand::report(const EvaluationResult& result, const FactSheet::Json& record,
+                             const std::vector<ThresholdOutcome>& outcomes) const {
+  if (common.json) {
+    printJson(record);
+  } else {
+    FactSheet facts = evaluationFacts(result);
+    if (!out_.empty()) facts.addLine("written to", out_);
+    printFacts(facts, false);
+  }
+  for (const ThresholdOutcome& outcome : outcomes)
+    if (outcome.failed)
+      spdlog::error("failed: {} is {}, and --fail-if says {}", outcome.path,
+                    std::isnan(outcome.value) ? "not measured" : fixed(outcome.value, 4),
+                    outcome.threshold.text());
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeEvaluateCommand() { return std::make_unique<EvaluateCommand>(); }
+
+}  // namespace softscope

@@ -1,0 +1,31 @@
+// apps/evaluate_outputs.h: the files of an evaluation.
+#pragma once
+
+#include <filesystem>
+
+#include "apps/evaluate_frames.h"
+#include "apps/evaluate_result.h"
+#include "apps/fact_sheet.h"
+
+namespace softscope {
+
+/// Each file appears whole or not at all.
+class EvaluateOutputs {
+ public:
+  /// Throws OptionError where `folder` is a file, or a file to be written is there and `overwrite`
+  /// is false.
+  EvaluateOutputs(std::filesystem::path folder, bool overwrite);
+
+  /// evaluation.json, frames.csv, tracks.csv where tracks were judged, and the figures error_series
+  /// and error_histogram as SVG, PDF and PNG where a surface was.
+  void write(const EvaluationResult& result, const FrameTable& frames,
+             const FactSheet::Json& record) const;
+
+ private:
+  void put(const char* name, const std::string& bytes) const;
+
+  std::filesystem::path folder_;
+  bool overwrite_;
+};
+
+}  // namespace softscope

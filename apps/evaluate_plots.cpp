@@ -1,0 +1,75 @@
+// apps/evaluate_plots.cpp: picks, counts and names.
+#include "apps/evaluate_plots.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "eval/histogram.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kBins = 60;
+
+std::string lastPart(const std::string& path) {
+  std::filesystem::path place = std::filesystem::path(path).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();
+  return place.filename().string();
+}
+
+std::string titleOf(const EvaluationResult& result) {
+  return lastPart(result.run) + " against " + lastPart(result.reference);
+}
+
+/// Whether times tell the models apart.
+bool timesRise(const SurfaceSeries& surface) {
+  for (std::size_t i = 0; i < surface.models.size(); ++i)
+    if (!std::isfinite(surface.models[i].time_s) ||
+        (i > 0 && surface.models[i].time_s <= surface.models[i - 1].time_s))
+      return false;
+  return true;
+}
+
+/// 1, 2 or 5 times a power of ten, and its halves in between.
+double roundUp(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double leading : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (value <= leading * power) return leading * power;
+  return 10 * power;
+}
+
+}  // namespace
+
+ErrorSeriesData seriesData(const EvaluationResult& result) {
+  ErrorSeriesData data;
+  data.title = titleOf(result);
+  const bool over_time = timesRise(result.surface);
+  if (!over_time) data.time_label = "frame";
+  for (const JudgedModel& model : result.surface.models) {
+    data.times.push_back(over_time ? model.time_s : model.frame);
+    data.mean.push_back(model.errors.distance_mm.mean);
+    data.median.push_back(model.errors.distance_mm.median);
+    data.p95.push_back(model.errors.distance_mm.p95);
+  }
+  return data;
+}
+
+ErrorHistogramData histogramData(const EvaluationResult& result) {
+  const SurfaceSeries& surface = result.surface;
+  const double p99_mm = percentiles(surface.pool.all_mm(), {99})[0];
+  const Histogram counted =
+      histogram(surface.pool.all_mm(), 0, roundUp(std::max(p99_mm, 1e-3)), kBins);
+  ErrorHistogramData data;
+  data.title = titleOf(result);
+  data.high = counted.high;
+  const auto total = static_cast<double>(counted.total);
+  for (const std::size_t count : counted.counts)
+    data.shares.push_back(static_cast<double>(count) / total);
+  data.cumulative = counted.cumulativeShares();
+  data.share_beyond = static_cast<double>(counted.above) / total;
+  data.median = surface.all_mm.median;
+  data.p95 = surface.all_mm.p95;
+  return data;
+}
+
+}  // namespace softscope

@@ -1,0 +1,143 @@
+// apps/evaluate_series.cpp: reads ahead, judges, sums up.
+#include "apps/evaluate_series.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "apps/evaluate_depth.h"
+#include "apps/evaluate_points.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "eval/error_series.h"
+#include "io/message.h"
+#include "mesh/mesh_reader.h"
+
+namespace softscope {
+namespace {
+
+/// What one frame is judged by, in the true world.
+struct Moment {
+  std::vector<Eigen::Vector3f> points_mm;
+  std::unique_ptr<TriangleTree> surface;
+  Raster<float> depth_mm;
+  Eigen::Isometry3d world_from_left;
+};
+
+Moment readMoment(const JudgedRun& run, const SequenceTruth& truth, int frame,
+                  const Eigen::Isometry3d& truth_from_run) {
+  Moment moment;
+  moment.points_mm = movePoints(truth_from_run, readModelPoints(run.models.at(frame)));
+  const TriangleMesh mesh = readMesh(truth.meshes.at(frame));
+  moment.surface = std::make_unique<TriangleTree>(mesh);
+  moment.depth_mm = trueDepth(truth, frame, mesh);
+  moment.world_from_left = truth.trajectory[static_cast<std::size_t>(frame)].world_from_left;
+  return moment;
+}
+
+void keep(int frame, double time_s, ModelErrors errors, SurfaceSeries& series) {
+  series.pool.add(errors);
+  errors.each_mm = {};
+  errors.each_signed_mm = {};
+  errors.each_observed = {};
+  series.models.push_back({frame, time_s, std::move(errors)});
+}
+
+void sumUp(SurfaceSeries& series) {
+  series.all_mm = statistics(series.pool.all_mm());
+  series.signed_mm = statistics(series.pool.signed_mm());
+  series.observed_mm = statistics(series.pool.observed_mm());
+  series.predicted_mm = statistics(series.pool.predicted_mm());
+  std::vector<double> times_s, frames, means_mm;
+  for (const JudgedModel& model : series.models) {
+    times_s.push_back(model.time_s);
+    frames.push_back(model.frame);
+    means_mm.push_back(model.errors.distance_mm.mean);
+  }
+  series.drift_mm_per_s = theilSenSlope(times_s, means_mm);
+  series.drift_mm_per_frame = theilSenSlope(frames, means_mm);
+  series.second_differences_mm = secondDifferences(frames, means_mm);
+  series.jitter_rms_mm = statistics(series.second_differences_mm).rmse;
+}
+
+/// Of the run's own clock; NaN for a frame without a pose.
+double timeOf(const JudgedRun& run, int frame) {
+  const auto found = std::lower_bound(run.frames.begin(), run.frames.end(), frame);
+  if (found == run.frames.end() || *found != frame) return Statistics::kNone;
+  return run.trajectory[static_cast<std::size_t>(found - run.frames.begin())].time_s;
+}
+
+}  // namespace
+
+double SurfaceSeries::meanOf(const std::function<double(const ModelErrors&)>& value) const {
+  std::vector<double> values;
+  for (const JudgedModel& model : models) values.push_back(value(model.errors));
+  return statistics(values).mean;
+}
+
+std::vector<int> framesToJudge(const JudgedRun& run, const SequenceTruth& truth) {
+  std::vector<int> frames;
+  for (const auto& [frame, file] : run.models)
+    if (truth.meshes.count(frame) != 0) frames.push_back(frame);
+  return frames;
+}
+
+SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth,
+                          const AfterModel& after_model) {
+  const std::vector<int> frames = framesToJudge(run, truth);
+  const auto moves = truthFromRun(run, truth);
+  SurfaceSeries series;
+  series.pool = ErrorPool(frames.size());
+  const auto read = [&](std::size_t i) {
+    return readMoment(run, truth, frames[i], moves.at(frames[i]));
+  };
+  std::optional<Moment> next;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Moment now = next ? std::move(*next) : read(i);
+    next.reset();
+    ModelErrors errors;
+    const TrueMoment true_moment{*now.surface, now.depth_mm, truth.rig, now.world_from_left};
+    parallelInvoke([&] { errors = modelErrors(now.points_mm, true_moment, kCompletenessMm); },
+                   [&] {
+                     if (i + 1 < frames.size()) next = read(i + 1);
+                   });
+    keep(frames[i], truth.trajectory[static_cast<std::size_t>(frames[i])].time_s, std::move(errors),
+         series);
+    if (!after_model()) {
+      series.interrupted = true;
+      return series;
+    }
+  }
+  sumUp(series);
+  return series;
+}
+
+AlignedSeries judgeAgainstMesh(const JudgedRun& run, const FrameFiles& models,
+                               const TriangleMesh& mesh, MeshAlignment alignment,
+                               const AfterModel& after_model) {
+  const TriangleTree surface(mesh);
+  const Raster<float> no_depth;
+  const RectifiedRig no_rig;
+  AlignedSeries result;
+  result.surface.pool = ErrorPool(models.size());
+  Eigen::Isometry3d mesh_from_run = Eigen::Isometry3d::Identity();
+  for (const auto& [frame, file] : models) {
+    const std::vector<Eigen::Vector3f> points_mm = readModelPoints(file);
+    const bool first = result.alignments.empty();
+    if (alignment == MeshAlignment::kIcp || (alignment == MeshAlignment::kRigid && first)) {
+      result.alignments.push_back(alignToSurface(points_mm, surface, {}, mesh_from_run));
+      mesh_from_run = result.alignments.back().surface_from_points;
+    }
+    keep(frame, timeOf(run, frame),
+         modelErrors(movePoints(mesh_from_run, points_mm), {surface, no_depth, no_rig, {}}),
+         result.surface);
+    if (!after_model()) {
+      result.surface.interrupted = true;
+      return result;
+    }
+  }
+  sumUp(result.surface);
+  return result;
+}
+
+}  // namespace softscope
