@@ -13,10 +13,14 @@
 #include "fusion/visibility.h"
 #include "pipeline/frame_depth.h"
 #include "pose/ransac_pose.h"
+#include "pose/refine_pose.h"
+#include "stereo/depth_from_disparity.h"
 #include "stereo/stage_clock.h"
 
 namespace softscope {
 namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 void addTo(Mask& mask, const Mask& more) {
   for (std::size_t i = 0; i < mask.size(); ++i)
@@ -66,6 +70,7 @@ class CpuBackend : public ReconstructionBackend {
   DepthSummary measure(const Frame& frame) override;
   MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) override;
   PoseSummary estimatePose() override;
+  void shiftDisparity(double offset_px) override;
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
   void acceptWarp() override;
   void rejectWarp() override;
@@ -79,6 +84,7 @@ class CpuBackend : public ReconstructionBackend {
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
+  void refine(PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
 
@@ -95,6 +101,7 @@ class CpuBackend : public ReconstructionBackend {
   Mask not_tissue_;
   MatchPicture live_;
   std::vector<LiftedMatch> matches_;
+  Eigen::Isometry3d viewed_from_ = Eigen::Isometry3d::Identity();
   RigidPose pose_;
   StageClock clock_;
 };
@@ -132,7 +139,7 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
 }
 
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach reach) {
-  clock_.lap("other");
+  viewed_from_ = viewed_from;
   const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
   clock_.lap("view");
   FeatureMatcher& matcher = reach == MatchReach::kNear ? *near_matcher_ : *whole_matcher_;
@@ -153,15 +160,36 @@ PoseSummary CpuBackend::estimatePose() {
     pairs.weights.push_back(1 / std::max(variance, 1e-6f));
   }
   pose_ = estimateRigidPose(pairs, options_.pose);
-  clock_.lap("pose");
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;
-  if (!pose_.found) return summary;
-  summary.world_from_left = pose_.target_from_source;
-  summary.inliers = pose_.inliers;
-  summary.rms_mm = pose_.rms_mm;
+  if (pose_.found) refine(&summary);
+  clock_.lap("pose");
   return summary;
+}
+
+void CpuBackend::refine(PoseSummary* summary) {
+  summary->world_from_left = pose_.target_from_source;
+  summary->inliers = pose_.inliers;
+  summary->rms_mm = pose_.rms_mm;
+  if (options_.refine_pose.iterations == 0) return;
+  const RectifiedRig& rig = depth_.rig();
+  std::vector<PosePair> pairs;
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    if (pose_.inlier[i] == 0) continue;
+    const LiftedMatch& match = matches_[i];
+    const Eigen::Vector3d live = match.target_left_mm.cast<double>();
+    const double px_per_mm = rig.left.fx_px / live.z();
+    const double sigma_mm = std::isfinite(match.along_mm) ? match.along_mm : 0;
+    pairs.push_back({match.source_world_mm.cast<double>(), projectPoint(rig.left, live),
+                     match.across_mm * px_per_mm, rig.disparityPx(live.z()),
+                     sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
+  }
+  const RefinedPose best =
+      refinePose(pairs, rig, pose_.target_from_source, viewed_from_, options_.refine_pose);
+  summary->world_from_left = best.world_from_left;
+  summary->stands = best.stands;
+  summary->disparity_offset_px = best.disparity_offset_px;
 }
 
 Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const {
@@ -193,6 +221,22 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
     seen.matches.push_back(pull);
   }
   return seen;
+}
+
+void CpuBackend::shiftDisparity(double offset_px) {
+  const RectifiedRig& rig = depth_.rig();
+  const double focal_baseline = rig.left.fx_px * rig.baseline_mm;
+  for (float& depth_mm : measured_.depth.depth_mm.values) {
+    const double disparity_px = focal_baseline / depth_mm - offset_px;
+    depth_mm = disparity_px > 0 ? static_cast<float>(focal_baseline / disparity_px) : kNan;
+  }
+  for (LiftedMatch& match : matches_) {
+    const double depth_mm = match.target_left_mm.z();
+    const double disparity_px = focal_baseline / depth_mm - offset_px;
+    match.target_left_mm *= static_cast<float>(focal_baseline / disparity_px / depth_mm);
+  }
+  measured_.normals = normalsFromDepth(measured_.depth.depth_mm, rig.left);
+  clock_.lap("depth");
 }
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {

@@ -46,6 +46,8 @@ struct PoseSummary {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   int inliers = 0;
   double rms_mm = kUnknown;
+  bool stands = false;             // the scope is where it was
+  double disparity_offset_px = 0;  // by which the frame's disparities exceed the model's
 };
 
 struct WarpSummary {
@@ -84,6 +86,8 @@ class ReconstructionBackend {
   virtual MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) = 0;
   /// Stage 4: from the last matches.
   virtual PoseSummary estimatePose() = 0;
+  /// Takes `offset_px` off all disparities of this frame, and off the matches.
+  virtual void shiftDisparity(double offset_px) = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
   virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
   /// Carries points, nodes and tracked points to the live shape.

@@ -19,6 +19,8 @@ ReconstructionOptions ReconstructionOptions::paper() {
   ReconstructionOptions options;
   options.deform = DeformOptions::paper();
   options.fusion = FusionOptions::paper();
+  options.refine_pose.iterations = 0;
+  options.level_disparity = false;
   return options;
 }
 
@@ -32,6 +34,7 @@ void ReconstructionOptions::validate() const {
   matcher.validate();
   lift.validate();
   pose.validate();
+  refine_pose.validate();
   graph.validate();
   deform.validate();
   fusion.validate();

@@ -10,6 +10,7 @@
 #include "fusion/fusion_options.h"
 #include "pipeline/frame_depth.h"
 #include "pose/ransac_pose.h"
+#include "pose/refine_pose.h"
 
 namespace softscope {
 
@@ -41,8 +42,10 @@ struct ReconstructionOptions {
   MatcherOptions matcher;
   LiftOptions lift;
   RansacOptions pose;
+  RefinePoseOptions refine_pose;  // 0 iterations: RANSAC's fit is the pose
   GraphOptions graph;
   DeformOptions deform;
+  bool level_disparity = true;      // while the scope stands still: see Reconstructor
   bool use_correspondences = true;  // false: matches give the pose, but don't pull the warp
   FusionOptions fusion;
   GateOptions gate;

@@ -32,6 +32,7 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
                              const ReconstructionOptions& options)
     : backend_(std::move(backend)),
       gate_(options.gate),
+      leveling_(options.level_disparity),
       matching_(options.matcher.method != "surf-off") {
   options.validate();
 }
@@ -67,6 +68,7 @@ void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
   const bool was_lost = lost_;
   if (!locate(record) && !findAgain(record)) return;
+  level(record);
   if (!deform(record)) return;
   fuse(was_lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
 }
@@ -118,6 +120,17 @@ bool Reconstructor::findAgain(FrameRecord& record) {
   return true;
 }
 
+// Exposure times and rectification that change from frame to frame shift all disparities together.
+// On average over the run the calibration is right, so only what differs from the mean is taken
+// off.
+void Reconstructor::level(FrameRecord& record) {
+  if (!leveling_ || !record.pose.stands) return;
+  ++offsets_;
+  mean_offset_px_ += (record.pose.disparity_offset_px - mean_offset_px_) / offsets_;
+  const double shift_px = record.pose.disparity_offset_px - mean_offset_px_;
+  if (shift_px != 0) backend_->shiftDisparity(shift_px);
+}
+
 bool Reconstructor::deform(FrameRecord& record) {
   record.warp = backend_->findWarp(world_from_left_);
   const DeformSummary& solver = record.warp.solver;
@@ -154,7 +167,7 @@ void Reconstructor::rememberView() {
 }
 
 ReconstructionState Reconstructor::state() const {
-  return {backend_->state(), world_from_left_, key_views_, lost_};
+  return {backend_->state(), world_from_left_, key_views_, lost_, mean_offset_px_, offsets_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
@@ -162,6 +175,8 @@ void Reconstructor::restore(ReconstructionState state) {
   world_from_left_ = state.world_from_left;
   key_views_ = std::move(state.key_views);
   lost_ = state.lost;
+  mean_offset_px_ = state.mean_offset_px;
+  offsets_ = state.offsets;
 }
 
 }  // namespace softscope

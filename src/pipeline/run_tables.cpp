@@ -9,7 +9,8 @@ namespace {
 constexpr const char* kColumns =
     "frame,time_s,status,points,nodes,matches,inliers,backprojection_mean_mm,"
     "backprojection_p95_mm,prediction_mean_mm,prediction_p95_mm,coverage,depth_sigma_mm,"
-    "row_difference_px,lifted,pose_rms_mm,solver_stop,solver_iterations,residual_before_mm,"
+    "row_difference_px,lifted,pose_rms_mm,disparity_offset_px,solver_stop,solver_iterations,"
+    "residual_before_mm,"
     "residual_mm,in_sight,seen,fused,inserted,contradicted";
 
 /// Cells of one line, separated by commas.
@@ -99,6 +100,7 @@ std::string framesCsvLine(const FrameRecord& record) {
   line.add(record.depth.row_difference_px, 3);
   line.add(record.matches.lifted);
   line.add(record.pose.rms_mm, 4);
+  line.add(record.pose.disparity_offset_px, 3);
   addSolver(record, line);
   line.add(record.fusion.seen);
   line.add(record.fusion.fused);
