@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/command.h"
+#include "apps/evaluate_origin.h"
 #include "apps/evaluate_outputs.h"
 #include "apps/evaluate_record.h"
 #include "apps/evaluate_thresholds.h"
@@ -118,6 +119,7 @@ int EvaluateCommand::run() {
 EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
   const SequenceTruth truth = openSequenceTruth(reference_);
   requireSameSequence(folder, truth);
+  const std::vector<std::string> origin = checkOrigin(folder, truth);
   EvaluationResult result;
   result.camera = judgeCamera(folder, truth);
   result.tracks = judgeTracks(folder, truth);
@@ -130,6 +132,7 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
     return !interrupt.requested();
   });
   result.warnings = sequenceWarnings(folder, truth, result);
+  result.warnings.insert(result.warnings.end(), origin.begin(), origin.end());
   return result;
 }
 

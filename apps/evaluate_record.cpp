@@ -194,7 +194,7 @@ void addCameraFacts(const CameraResult& camera, FactSheet& facts) {
                                            : ", " + fixed(errors.rotation_deg.rmse, 3) + " deg");
   };
   facts.addLine("camera", "rmse " + rmse(camera.errors.unaligned) + " unaligned; ATE " +
-                              rmse(camera.errors.absolute) + "; RPE " +
+                              fixed(camera.errors.absolute.translation_mm.rmse, 3) + " mm; RPE " +
                               rmse(camera.errors.relative) + " a frame");
 }
 

@@ -75,8 +75,9 @@ Threshold parseThreshold(const std::string& text) {
         std::string(trimmed(text.substr(0, begin))), text.substr(begin, end - begin),
         numberOf(trimmed(text.substr(end))).value_or(std::numeric_limits<double>::quiet_NaN())};
     const auto& relation = threshold.relation;
+    const bool named = threshold.metric.find('=') == std::string::npos && !threshold.metric.empty();
     const bool known = relation == ">" || relation == ">=" || relation == "<" || relation == "<=";
-    if (known && !threshold.metric.empty() && std::isfinite(threshold.limit)) return threshold;
+    if (known && named && std::isfinite(threshold.limit)) return threshold;
   }
   throw OptionError("--fail-if is `" + text +
                     "`, but must be a metric, one of > >= < <=, and a number, e.g. p95_mm>2");

@@ -120,7 +120,7 @@ void drawCumulative(const ErrorHistogramData& data, const PlotAxes& axes, AxisRa
                     VectorDrawing& drawing) {
   const PlotAxes shares({axes.left(), axes.top()}, {axes.right(), axes.bottom()},
                         {data.low, data.high}, range, 1);
-  std::vector<double> x, y;
+  std::vector<double> x{data.low}, y{0};
   for (std::size_t i = 0; i < data.cumulative.size(); ++i) {
     x.push_back(data.low + (data.high - data.low) * static_cast<double>(i + 1) /
                                static_cast<double>(data.cumulative.size()));

@@ -1,0 +1,51 @@
+// tests/apps/test_evaluate_parts.cpp: models from bytes, limits from texts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/evaluate_points.h"
+#include "apps/evaluate_thresholds.h"
+#include "core/error.h"
+#include "io/ply_writer.h"
+#include "tests/apps/made_run.h"
+
+namespace softscope::test {
+namespace {
+
+TEST(EvaluatePoints, AreReadAsTheyWereWritten) {
+  const PointCloud model = wallModel(1);
+  const auto points = parseModelPoints(plyBytes(model, {"world", ""}), "model");
+  EXPECT_EQ(points, model.points_mm);
+}
+
+TEST(EvaluatePoints, HeadersOfOtherFilesAreRefused) {
+  const std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex ";
+  for (const std::string& bytes :
+       {std::string("obj"),
+        head + "0\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+        head + "1\nproperty double x\nproperty float y\nproperty float z\nend_header\n" +
+            std::string(16, '\0'),
+        head + "1\nproperty float y\nproperty float x\nproperty float z\nend_header\n" +
+            std::string(12, '\0'),
+        std::string("ply\nformat binary_little_endian 1.0\nend_header\n")})
+    EXPECT_THROW(parseModelPoints(bytes, "model"), InputError) << bytes;
+}
+
+TEST(EvaluateThresholds, CompareAsWritten) {
+  EXPECT_TRUE(parseThreshold("a>2").fails(2.1));
+  EXPECT_FALSE(parseThreshold("a>2").fails(2));
+  EXPECT_TRUE(parseThreshold("a >= 2").fails(2));
+  EXPECT_TRUE(parseThreshold("a<-1e-3").fails(-1));
+  EXPECT_TRUE(parseThreshold("a<=0").fails(0));
+  EXPECT_TRUE(parseThreshold("a<=0").fails(std::nan(""))) << "not measured isn't good";
+}
+
+TEST(EvaluateThresholds, AmbiguousNamesMustBeWrittenInFull) {
+  const FactSheet::Json result{{"a", {{"x_mm", 1}}}, {"b", {{"x_mm", 2}, {"y_mm", nullptr}}}};
+  EXPECT_THROW(checkThresholds({parseThreshold("x_mm>0")}, result), OptionError);
+  EXPECT_EQ(checkThresholds({parseThreshold("b.x_mm>1")}, result)[0].path, "b.x_mm");
+  EXPECT_TRUE(checkThresholds({parseThreshold("y_mm>1")}, result)[0].failed);
+}
+
+}  // namespace
+}  // namespace softscope::test
