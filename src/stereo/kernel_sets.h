@@ -2,6 +2,7 @@
 #pragma once
 
 #include "stereo/matching_kernels.h"
+#include "stereo/normal_kernels.h"
 #include "stereo/refinement_kernels.h"
 
 namespace softscope {
@@ -10,6 +11,7 @@ struct KernelSet {
   const char* name;  // "baseline", "avx2"
   const MatchingKernels* matching;
   const RefinementKernels* refinement;
+  const NormalKernels* normal;
 };
 
 /// Every set that this processor runs, slowest first.
@@ -22,5 +24,6 @@ KernelSetList allKernelSets();
 /// Of the fastest set.
 const MatchingKernels& matchingKernels();
 const RefinementKernels& refinementKernels();
+const NormalKernels& normalKernels();
 
 }  // namespace softscope

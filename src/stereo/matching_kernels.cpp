@@ -3,9 +3,6 @@
 
 #include "stereo/simd.h"
 
-#define SOFTSCOPE_NAME_(name, set) name##_##set
-#define SOFTSCOPE_NAME(name, set) SOFTSCOPE_NAME_(name, set)
-
 namespace softscope {
 namespace {
 

@@ -3,9 +3,6 @@
 
 #include "stereo/simd.h"
 
-#define SOFTSCOPE_NAME_(name, set) name##_##set
-#define SOFTSCOPE_NAME(name, set) SOFTSCOPE_NAME_(name, set)
-
 namespace softscope {
 namespace {
 
@@ -111,26 +108,28 @@ void rowMoments(const float* const* in, const float* window, int radius, int wid
 }
 
 /// True where the window at column u holds a pixel of another surface.
-bool mixesSurfaces(const SelectedRows& rows, int u, Float8 centre) {
+bool mixesSurfaces(const SelectedRows& rows, int u, Float8 centre, Float8 scale) {
   Int8 found{};
   for (int y = 0; y <= 2 * rows.radius; ++y)
     for (int i = 0; i < kSelectLanes; i += 8)
       found |= abs8(load8(rows.disparity[y] + u - rows.radius + i) - centre) >
-               load8(rows.tolerance + y * kSelectLanes + i);
+               scale * load8(rows.tolerance + y * kSelectLanes + i);
   int any = 0;
   for (int i = 0; i < 8; ++i) any |= found[i];
   return any != 0;
 }
 
 /// The nine moments of the plane.
-void selectPlane(const SelectedRows& rows, int u, Float8 centre, const MomentRow& out) {
+void selectPlane(const SelectedRows& rows, int u, Float8 centre, Float8 scale,
+                 const MomentRow& out) {
   float moments[kFirstEvidence] = {};
   for (int i = 0; i < kSelectLanes; i += 8) {
     Float8 g0{}, g1{}, g2{}, q0{}, q1{};
     for (int y = 0; y <= 2 * rows.radius; ++y) {
       const int at = u - rows.radius + i, k = y * kSelectLanes + i;
       const Float8 apart = abs8(load8(rows.disparity[y] + at) - centre);
-      const Float8 w = apart <= load8(rows.tolerance + k) ? load8(rows.window + k) : Float8{};
+      const Float8 w =
+          apart <= scale * load8(rows.tolerance + k) ? load8(rows.window + k) : Float8{};
       const float fy = static_cast<float>(y - rows.radius);
       const Float8 g = w * load8(rows.information[y] + at), q = w * load8(rows.target[y] + at);
       g0 += g;
@@ -146,14 +145,16 @@ void selectPlane(const SelectedRows& rows, int u, Float8 centre, const MomentRow
   for (int m = 0; m < kFirstEvidence; ++m) out.sums[m][u] = moments[m];
 }
 
-void selectEvidence(const SelectedRows& rows, int u, Float8 centre, const MomentRow& out) {
+void selectEvidence(const SelectedRows& rows, int u, Float8 centre, Float8 scale,
+                    const MomentRow& out) {
   float moments[4] = {};
   for (int i = 0; i < kSelectLanes; i += 8) {
     Float8 sums[4] = {};
     for (int y = 0; y <= 2 * rows.radius; ++y) {
       const int at = u - rows.radius + i, k = y * kSelectLanes + i;
       const Float8 apart = abs8(load8(rows.disparity[y] + at) - centre);
-      const Float8 w = apart <= load8(rows.tolerance + k) ? load8(rows.window + k) : Float8{};
+      const Float8 w =
+          apart <= scale * load8(rows.tolerance + k) ? load8(rows.window + k) : Float8{};
       for (int m = 0; m < 4; ++m) sums[m] += w * load8(rows.evidence[m][y] + at);
     }
     for (int m = 0; m < 4; ++m) moments[m] += sum8(sums[m]);
@@ -166,9 +167,10 @@ void selectedMoments(const SelectedRows& rows, const int* columns, int count,
   for (int i = 0; i < count; ++i) {
     const int u = columns[i];
     const Float8 centre = broadcast8(rows.disparity[rows.radius][u]);
-    if (!mixesSurfaces(rows, u, centre)) continue;
-    selectPlane(rows, u, centre, out);
-    if (rows.evidence[0] != nullptr) selectEvidence(rows, u, centre, out);
+    const Float8 scale = rows.relative ? centre : broadcast8(1);
+    if (!mixesSurfaces(rows, u, centre, scale)) continue;
+    selectPlane(rows, u, centre, scale, out);
+    if (rows.evidence[0] != nullptr) selectEvidence(rows, u, centre, scale, out);
   }
 }
 
@@ -187,11 +189,6 @@ void solvePlanes(const PlaneRow& row) {
     const Int8 holds = (determinant > 1e-3f * a * d * f) & (abs8(step) < row.farthest_step_px);
     store8(row.disparity + u, holds ? before + row.relaxation * step : broadcast8(kNaN));
   }
-}
-
-inline Float8 squareRoot(Float8 x) {
-  for (int i = 0; i < 8; ++i) x[i] = __builtin_sqrtf(x[i]);
-  return x;
 }
 
 /// Standard errors of what solvePlanes() found; NaN, and the disparity too, where it can't be

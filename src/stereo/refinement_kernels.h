@@ -67,6 +67,7 @@ struct SelectedRows {
   const float* const* evidence[4];  // residual_sq … energy; null but in the last step
   const float* window;
   const float* tolerance;
+  bool relative;  // the tolerance is a share of the centre's value
   int radius;
 };
 

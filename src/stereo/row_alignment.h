@@ -48,7 +48,7 @@ struct AlignedPair {
 };
 
 /// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right picture;
-/// twice, since matches are better after the first time.
+/// measures once more, since matches are better then, and moves the right picture by both at once.
 AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px);
 
 }  // namespace softscope

@@ -7,6 +7,10 @@
 #include <cstdint>
 #include <cstring>
 
+// The name of what one set offers.
+#define SOFTSCOPE_NAME_(name, set) name##_##set
+#define SOFTSCOPE_NAME(name, set) SOFTSCOPE_NAME_(name, set)
+
 namespace softscope {
 namespace {
 
@@ -30,6 +34,10 @@ inline Float4 load4(const float* p) {
 
 inline Float8 broadcast8(float x) { return Float8{} + x; }
 inline Float8 abs8(Float8 x) { return x < 0.0f ? -x : x; }
+inline Float8 squareRoot(Float8 x) {
+  for (int i = 0; i < 8; ++i) x[i] = __builtin_sqrtf(x[i]);
+  return x;
+}
 
 /// Always in the same order, so that every instruction set gives the same bytes.
 inline float sum8(Float8 x) {

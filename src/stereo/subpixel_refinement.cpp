@@ -173,6 +173,7 @@ class Band {
                           {},
                           setting_.selection_window.data(),
                           setting_.selection_tolerance.data(),
+                          false,
                           radius_};
     for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
       selected.evidence[m] = rows[static_cast<std::size_t>(kResidualSq + m)].data();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/parallel.h"
 #include "core/raster.h"
@@ -13,6 +14,13 @@ namespace {
 constexpr float kNone = -1;
 constexpr int kReach = kSupportMargin;
 constexpr int kDifferences = 50;  // summed in one cost
+
+// The whole range of disparities is tried in every fourth row; in the others what was found there.
+constexpr int kRangeRows = 4;
+constexpr std::size_t kFewestForRange = 50;  // points, to know the range
+constexpr int kNear = 2;                     // px: points as near as that …
+constexpr int kFewestAlike = 3;              // … and as many make a surface
+constexpr int kBeyondRangePx = 16;           // on either side
 
 /// Mean |gradient| of the support window around (u, v).
 double texture(const GradientView& image, int u, int v) {
@@ -133,19 +141,57 @@ void removeRedundant(Raster<float>& grid, int dx, int dy, int reach) {
       if (grid.at(c, r) != kNone && isRedundant(grid, c, r, dx, dy, reach)) grid.at(c, r) = kNone;
 }
 
+void matchRows(const GradientImage& left, const GradientImage& right, const StereoOptions& options,
+               int row_offset_px, const std::vector<int>& rows, Raster<float>& grid) {
+  parallelRanges(static_cast<int>(rows.size()), 4, [&](int begin, int end) {
+    RowMatcher matcher(left, right, options, row_offset_px);
+    for (int i = begin; i < end; ++i) {
+      const int r = rows[static_cast<std::size_t>(i)];
+      matcher.match(r * options.elas.support_step_px, grid.row(r), grid.width_px);
+    }
+  });
+}
+
+std::vector<float> foundIn(const Raster<float>& grid) {
+  std::vector<float> found;
+  std::copy_if(grid.values.begin(), grid.values.end(), std::back_inserter(found),
+               [](float d) { return d != kNone; });
+  return found;
+}
+
 }  // namespace
+
+StereoOptions narrowedTo(const std::vector<float>& disparities_px, StereoOptions options) {
+  if (disparities_px.size() < kFewestForRange) return options;
+  const int first = options.disparity_min_px, last = options.disparity_max_px;
+  // How many lie within kNear of each disparity, those of first - kNear first.
+  std::vector<int> alike(static_cast<std::size_t>(last - first + 1 + 2 * kNear));
+  for (const float d : disparities_px) {
+    const long shifted = std::clamp<long>(std::lround(d), first, last) - first;
+    for (long i = shifted; i <= shifted + 2 * kNear; ++i) ++alike[static_cast<std::size_t>(i)];
+  }
+  const auto isSurface = [](int count) { return count >= kFewestAlike; };
+  const auto low = std::find_if(alike.begin(), alike.end(), isSurface);
+  const auto high = std::find_if(alike.rbegin(), alike.rend(), isSurface);
+  if (low == alike.end()) return options;
+  const int lowest = first - kNear + static_cast<int>(low - alike.begin());
+  const int highest = first - kNear + static_cast<int>(alike.rend() - high) - 1;
+  options.disparity_min_px = std::max(first, lowest - kBeyondRangePx);
+  options.disparity_max_px = std::min(last, highest + kBeyondRangePx);
+  return options;
+}
 
 std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
                                             const StereoOptions& options, int row_offset_px) {
   const int step = options.elas.support_step_px;
   Raster<float> grid((left.width_px() + step - 1) / step, (left.height_px() + step - 1) / step,
                      kNone);
-  parallelRanges(grid.height_px, 4, [&](int begin, int end) {
-    RowMatcher matcher(left, right, options, row_offset_px);
-    for (int r = begin; r < end; ++r)
-      if (r * step >= kReach && r * step < left.height_px() - kReach)
-        matcher.match(r * step, grid.row(r), grid.width_px);
-  });
+  std::vector<int> first_rows, other_rows;
+  for (int r = 0; r < grid.height_px; ++r)
+    if (r * step >= kReach && r * step < left.height_px() - kReach)
+      (r % kRangeRows == 1 ? first_rows : other_rows).push_back(r);
+  matchRows(left, right, options, row_offset_px, first_rows, grid);
+  matchRows(left, right, narrowedTo(foundIn(grid), options), row_offset_px, other_rows, grid);
   grid = removeLonely(grid, options.elas);
   removeRedundant(grid, 0, 1, options.elas.support_redundant_cells);
   removeRedundant(grid, 1, 0, options.elas.support_redundant_cells);

@@ -14,10 +14,15 @@ struct SupportPoint {
   float disparity_px;
 };
 
-/// Matches a grid of pixels over the whole range of disparities, keeps what is unique, textured,
+/// Matches a grid of pixels over the whole range of disparities (every fourth row; the others over
+/// the range found there), keeps what is unique, textured,
 /// confirmed from right to left and by its neighbours, and drops what its neighbours say already.
 /// In raster order. Rows of the right picture are sought `row_offset_px` below those of the left.
 std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
                                             const StereoOptions& options, int row_offset_px = 0);
+
+/// The same options with the range of disparities in which these lie, and some more on either side;
+/// strays don't count. As given where there are few.
+StereoOptions narrowedTo(const std::vector<float>& disparities_px, StereoOptions options);
 
 }  // namespace softscope

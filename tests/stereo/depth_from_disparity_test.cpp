@@ -51,6 +51,16 @@ TEST(NormalsFromDepth, PointOutwardsOnASphere) {
     }
 }
 
+TEST(NormalsFromDepth, KeepTwoSurfacesApart) {
+  const RectifiedRig rig = test::endoscope(160, 120);
+  Raster<float> depth(160, 120, 50.0f);  // a wall in front of another, a step of 20 %
+  for (int v = 0; v < 120; ++v)
+    for (int u = 80; u < 160; ++u) depth.at(u, v) = 60;
+  const NormalMap normals = normalsFromDepth(depth, rig.left);
+  for (int u = 70; u < 90; ++u)  // float rounding alone: no pixel of the other wall counts
+    EXPECT_LT((normals.at(u, 60) - Eigen::Vector3f(0, 0, -1)).norm(), 1e-3f) << u;
+}
+
 TEST(NormalsFromDepth, AreAbsentWhereTooLittleIsMeasured) {
   const RectifiedRig rig = test::endoscope(160, 120);
   Raster<float> depth(160, 120, std::numeric_limits<float>::quiet_NaN());

@@ -117,7 +117,7 @@ TEST_F(EveryInstructionSet, SelectsWindowsAlike) {
   const int radius = 6, stride = 384;
   const Floats in = randomFloats(static_cast<std::size_t>(stride) * 91, 0, 30, 15);
   const auto rows = rowsOf(in, stride, 91);
-  const Floats window(13 * kSelectLanes, 0.5f), tolerance(13 * kSelectLanes, 5.0f);
+  const Floats window(13 * kSelectLanes, 0.5f), tolerance(13 * kSelectLanes, 0.5f);
   const std::vector<int> columns = {0, 7, 100, 101, 332};
   expectEqual([&](const KernelSet& set) {
     Floats out(static_cast<std::size_t>(stride) * kMomentCount);
@@ -127,6 +127,7 @@ TEST_F(EveryInstructionSet, SelectsWindowsAlike) {
                                      {&rows[39], &rows[52], &rows[65], &rows[78]},
                                      window.data(),
                                      tolerance.data(),
+                                     true,
                                      radius},
                                     columns.data(), 5, momentsIn(out, stride));
     EXPECT_NE(out[12 * stride + 332], 0);  // the last moment of the last column was written
@@ -173,6 +174,36 @@ TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
                                  out.data() + 3 * width, out.data() + 4 * width,
                                  out.data() + 5 * width});
     for (int k = 0; k < 6; ++k) EXPECT_EQ(out[k * width + 50], 0);  // no weight where unmatched
+    return out;
+  });
+}
+
+TEST_F(EveryInstructionSet, SolvesNormalsAlike) {
+  const int width = 200, stride = 256;
+  Floats depth = randomFloats(static_cast<std::size_t>(stride) * 7, 48, 52, 21);
+  depth[3 * stride + 40] = std::numeric_limits<float>::quiet_NaN();
+  const Floats sums = randomFloats(static_cast<std::size_t>(stride) * kMomentCount, 0.1f, 49, 22);
+  expectEqual([&](const KernelSet& set) {
+    Floats out(stride * 26ul, std::numeric_limits<float>::quiet_NaN()), copy = sums;
+    for (int y = 0; y < 7; ++y)
+      set.normal->invertRow({depth.data() + y * stride, width, out.data() + y * stride + 16,
+                             out.data() + (7 + y) * stride, out.data() + (14 + y) * stride});
+    const auto rows = rowsOf(out, stride, 7);
+    std::vector<unsigned char> mixed(stride);
+    set.normal->findMixed(rows.data(), 3, width, 0.05f, out.data() + 21 * stride + 16,
+                          out.data() + 22 * stride + 16, mixed.data());
+    set.normal->solveNormals(
+        {momentsIn(copy, stride),
+         rows[3],
+         width,
+         12,
+         560,
+         560,
+         100,
+         -7,
+         {out.data() + 23 * stride, out.data() + 24 * stride, out.data() + 25 * stride}});
+    EXPECT_TRUE(std::isnan(out[23 * stride + 40]));
+    out.insert(out.end(), mixed.begin(), mixed.end());
     return out;
   });
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
+#include "stereo/row_model.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -61,6 +63,20 @@ TEST(RowAlignment, LeavesAlignedPicturesAsTheyAre) {
   const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
   EXPECT_FALSE(aligned.removed);
   EXPECT_EQ(aligned.pair.right.values, colourOf(scene.right).values);
+}
+
+TEST(RowModel, DoesNotFollowItsSlopeWhereNothingWasMatched) {
+  RowAlignment picture;
+  picture.half_width_px = 320;
+  picture.centre_u_px = 319.5;
+  picture.centre_v_px = 239.5;
+  std::vector<RowMatch> matches;  // an organ at the left moved between the exposures
+  for (int u = 5; u < 200; u += 12)
+    for (int v = 5; v < 480; v += 12) matches.push_back({1.0 * u, 1.0 * v, 2.0 - 0.01 * u});
+  const RowAlignment model = fitRowModel(matches, picture);
+  EXPECT_NEAR(model.at(100, 240), 1.0, 0.2);
+  // The line through the matches would give -4.4 px here.
+  EXPECT_LT(std::abs(model.at(639, 240)), 1.0);
 }
 
 TEST(RowAlignment, IsUnknownWithoutTexture) {
