@@ -72,30 +72,35 @@ class TileMatcher {
   }
 
  private:
+  /// Beyond the picture its last row and column are repeated.
   void loadPrior() {
-    for (int y = 0; y < kTileHeight; ++y)
-      for (int x = 0; x < kTileWidth; ++x) {
-        const int u = std::min(tile_.u0 + x, prior_.width_px - 1);
-        const int v = std::min(tile_.v0 + y, prior_.height_px - 1);
-        prior_px8_[y * kTileWidth + x] = prior_.at(u, v);
-      }
+    const int inside = std::min(kTileWidth, prior_.width_px - tile_.u0);
+    for (int y = 0; y < kTileHeight; ++y) {
+      const std::int16_t* from =
+          prior_.row(std::min(tile_.v0 + y, prior_.height_px - 1)) + tile_.u0;
+      std::int16_t* to = prior_px8_ + y * kTileWidth;
+      std::copy_n(from, inside, to);
+      std::fill(to + inside, to + kTileWidth, from[inside - 1]);
+    }
   }
 
   void listCandidates(const DisparitySet& shared) {
-    DisparitySet wanted = shared;
-    // Rows are smooth: the band around each row's extremes covers the band of every pixel.
-    const auto [low, high] = std::minmax_element(std::begin(prior_px8_), std::end(prior_px8_));
-    const int first = (*low - tile_.band_px8) / 8, last = (*high + tile_.band_px8) / 8 + 1;
-    for (int d = std::max(first, options_.disparity_min_px);
-         d <= std::min(last, options_.disparity_max_px); ++d)
-      wanted.set(static_cast<std::size_t>(d));
+    // Rows are smooth: the band around the extremes covers the band of every pixel.
+    int low = prior_px8_[0], high = low;
+    for (const std::int16_t prior : prior_px8_) {
+      low = std::min<int>(low, prior);
+      high = std::max<int>(high, prior);
+    }
+    const int first = std::max((low - tile_.band_px8) / 8, options_.disparity_min_px);
+    const int last = std::min((high + tile_.band_px8) / 8 + 1, options_.disparity_max_px);
     candidates_.clear();
     everywhere_.clear();
-    for (int d = options_.disparity_min_px; d <= options_.disparity_max_px; ++d)
-      if (wanted[static_cast<std::size_t>(d)]) {
-        candidates_.push_back(static_cast<std::uint16_t>(d));
-        everywhere_.push_back(shared[static_cast<std::size_t>(d)]);
-      }
+    for (int d = options_.disparity_min_px; d <= options_.disparity_max_px; ++d) {
+      const bool is_shared = shared[static_cast<std::size_t>(d)];
+      if (!is_shared && (d < first || d > last)) continue;
+      candidates_.push_back(static_cast<std::uint16_t>(d));
+      everywhere_.push_back(is_shared);
+    }
   }
 
   void store(Raster<std::int16_t>& disparity) const {

@@ -1,8 +1,9 @@
 #include "stereo/depth_from_disparity.h"
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "core/parallel.h"
 
@@ -31,16 +32,31 @@ DepthMap depthFromDisparity(const DisparityMap& disparity, const RectifiedRig& r
 
 PointCloud pointCloud(const Raster<float>& depth_mm, const NormalMap& normals,
                       const ColourImage& colour, const PinholeCamera& camera, const Mask& mask) {
+  const int width = depth_mm.width_px, height = depth_mm.height_px;
+  const auto isPoint = [&](int u, int v) {
+    return !std::isnan(depth_mm.at(u, v)) && !std::isnan(normals.at(u, v).x()) &&
+           (mask.empty() || mask.at(u, v) == 0);
+  };
+  std::vector<std::size_t> first(static_cast<std::size_t>(height) + 1, 0);  // point of each row
+  parallelRows(height, [&](int v) {
+    for (int u = 0; u < width; ++u) first[static_cast<std::size_t>(v) + 1] += isPoint(u, v);
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
   PointCloud cloud;
-  for (int v = 0; v < depth_mm.height_px; ++v)
-    for (int u = 0; u < depth_mm.width_px; ++u) {
-      const float z = depth_mm.at(u, v);
-      if (std::isnan(z) || normals.at(u, v).hasNaN()) continue;
-      if (!mask.empty() && mask.at(u, v) != 0) continue;
-      cloud.points_mm.push_back(liftPixel(camera, static_cast<float>(u), static_cast<float>(v), z));
-      cloud.normals.push_back(normals.at(u, v));
-      cloud.colours.push_back(colour.at(u, v));
+  cloud.points_mm.resize(first.back());
+  cloud.normals.resize(first.back());
+  cloud.colours.resize(first.back());
+  parallelRows(height, [&](int v) {
+    std::size_t i = first[static_cast<std::size_t>(v)];
+    for (int u = 0; u < width; ++u) {
+      if (!isPoint(u, v)) continue;
+      cloud.points_mm[i] =
+          liftPixel(camera, static_cast<float>(u), static_cast<float>(v), depth_mm.at(u, v));
+      cloud.normals[i] = normals.at(u, v);
+      cloud.colours[i] = colour.at(u, v);
+      ++i;
     }
+  });
   return cloud;
 }
 

@@ -1,5 +1,6 @@
 #include "stereo/disparity_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -13,28 +14,66 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// Disjoint sets of pixels, joined by union, found with path halving.
+/// Measured pixels of one row that lie side by side on one surface.
+struct Run {
+  int begin, end;  // columns
+  int parent;      // run of the same island, itself at the root
+  int island_px;   // of the root: pixels of the island
+};
+
+/// Runs joined to islands, found with path halving.
 class Islands {
  public:
-  explicit Islands(std::size_t pixels) : parent_(pixels), size_(pixels, 1) {
-    for (std::size_t i = 0; i < pixels; ++i) parent_[i] = static_cast<int>(i);
+  explicit Islands(float step_px) : step_px_(step_px) {}
+
+  void addRow(const float* d, int width) {
+    above_ = row_;
+    row_ = static_cast<int>(runs_.size());
+    for (int u = 0; u < width; ++u) {
+      if (std::isnan(d[u])) continue;
+      const int begin = u;
+      while (u + 1 < width && std::abs(d[u + 1] - d[u]) <= step_px_) ++u;
+      const int index = static_cast<int>(runs_.size());
+      runs_.push_back({begin, u + 1, index, u + 1 - begin});
+    }
   }
+
+  /// Joins the last row's runs with those above that they touch.
+  void joinRows(const float* above, const float* row) {
+    int a = above_, b = row_;
+    while (a < row_ && b < static_cast<int>(runs_.size())) {
+      const int begin = std::max(runs_[a].begin, runs_[b].begin);
+      const int end = std::min(runs_[a].end, runs_[b].end);
+      for (int u = begin; u < end; ++u)
+        if (std::abs(above[u] - row[u]) <= step_px_) {
+          join(a, b);
+          break;
+        }
+      (runs_[a].end < runs_[b].end ? a : b) += 1;
+    }
+  }
+
+  /// In raster order.
+  const std::vector<Run>& runs() const { return runs_; }
+  int sizeOf(int i) { return runs_[root(i)].island_px; }
+
+ private:
   int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    while (runs_[i].parent != i) i = runs_[i].parent = runs_[runs_[i].parent].parent;
     return i;
   }
   void join(int a, int b) {
     a = root(a);
     b = root(b);
     if (a == b) return;
-    if (size_[a] < size_[b]) std::swap(a, b);
-    parent_[b] = a;
-    size_[a] += size_[b];
+    if (runs_[a].island_px < runs_[b].island_px) std::swap(a, b);
+    runs_[b].parent = a;
+    runs_[a].island_px += runs_[b].island_px;
   }
-  int sizeOf(int i) { return size_[root(i)]; }
 
- private:
-  std::vector<int> parent_, size_;
+  float step_px_;
+  std::vector<Run> runs_;
+  int above_ = 0, row_ = 0;  // first runs of the last two rows
 };
 
 /// Fills the gaps of one line of `count` values that lie `stride` apart.
@@ -55,11 +94,26 @@ void fillLine(float* line, int count, std::size_t stride, int width, float step)
   }
 }
 
-/// True where a step of more than `step` lies between the pixel and its right or lower neighbour.
-bool isEdge(const Raster<float>& d, int u, int v, float step) {
-  const float here = d.at(u, v);
-  return (u + 1 < d.width_px && std::abs(d.at(u + 1, v) - here) > step) ||
-         (v + 1 < d.height_px && std::abs(d.at(u, v + 1) - here) > step);
+/// Marks pixels that a step of more than `step` parts from their right or lower neighbour.
+Raster<std::uint8_t> findEdges(const Raster<float>& d, float step) {
+  Raster<std::uint8_t> edges(d.width_px, d.height_px, 0);
+  parallelRows(d.height_px, [&](int v) {
+    const float *here = d.row(v), *below = d.row(std::min(v + 1, d.height_px - 1));
+    std::uint8_t* edge = edges.row(v);
+    const int last = d.width_px - 1;
+    for (int u = 0; u < last; ++u) {
+      const bool beside = std::abs(here[u + 1] - here[u]) > step;
+      const bool beneath = std::abs(below[u] - here[u]) > step;
+      edge[u] = beside || beneath;
+    }
+    edge[last] = std::abs(below[last] - here[last]) > step;
+  });
+  return edges;
+}
+
+void forget(DisparityMap& map, int v, int begin, int end) {
+  for (int u = std::max(begin, 0); u < std::min(end, map.disparity_px.width_px); ++u)
+    map.disparity_px.at(u, v) = map.sigma_px.at(u, v) = kNaN;
 }
 
 }  // namespace
@@ -90,18 +144,18 @@ void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_
 }
 
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px) {
-  const int width = disparity_px.width_px, height = disparity_px.height_px;
-  const float step = static_cast<float>(step_px);
-  const float* d = disparity_px.values.data();
-  Islands islands(disparity_px.size());
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u) {
-      const int i = v * width + u;
-      if (u + 1 < width && std::abs(d[i] - d[i + 1]) <= step) islands.join(i, i + 1);
-      if (v + 1 < height && std::abs(d[i] - d[i + width]) <= step) islands.join(i, i + width);
-    }
-  for (int i = 0; i < width * height; ++i)
-    if (islands.sizeOf(i) < size_px) disparity_px.values[i] = kNaN;
+  Islands islands(static_cast<float>(step_px));
+  std::vector<int> ends;  // of each row's runs
+  for (int v = 0; v < disparity_px.height_px; ++v) {
+    islands.addRow(disparity_px.row(v), disparity_px.width_px);
+    if (v > 0) islands.joinRows(disparity_px.row(v - 1), disparity_px.row(v));
+    ends.push_back(static_cast<int>(islands.runs().size()));
+  }
+  int i = 0;
+  for (int v = 0; v < disparity_px.height_px; ++v)
+    for (; i < ends[static_cast<std::size_t>(v)]; ++i)
+      if (const Run& run = islands.runs()[static_cast<std::size_t>(i)]; islands.sizeOf(i) < size_px)
+        std::fill(disparity_px.row(v) + run.begin, disparity_px.row(v) + run.end, kNaN);
 }
 
 void fillGaps(Raster<float>& disparity_px, int width_px, double step_px) {
@@ -116,19 +170,19 @@ void fillGaps(Raster<float>& disparity_px, int width_px, double step_px) {
 }
 
 void erodeEdges(DisparityMap& map, int reach_px, double step_px, int border_px) {
-  const Raster<float> before = map.disparity_px;
-  const int width = before.width_px, height = before.height_px;
-  const auto remove = [&](int u, int v) {
-    if (before.contains(u, v)) map.disparity_px.at(u, v) = map.sigma_px.at(u, v) = kNaN;
-  };
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u) {
-      if (u < border_px || v < border_px || u >= width - border_px || v >= height - border_px)
-        remove(u, v);
-      if (reach_px <= 0 || !isEdge(before, u, v, static_cast<float>(step_px))) continue;
-      for (int dv = 1 - reach_px; dv <= reach_px; ++dv)
-        for (int du = 1 - reach_px; du <= reach_px; ++du) remove(u + du, v + dv);
+  const int width = map.disparity_px.width_px, height = map.disparity_px.height_px;
+  const Raster<std::uint8_t> edges = findEdges(map.disparity_px, static_cast<float>(step_px));
+  parallelRows(height, [&](int v) {
+    if (v < border_px || v >= height - border_px) return forget(map, v, 0, width);
+    forget(map, v, 0, border_px);
+    forget(map, v, width - border_px, width);
+    // An edge lies between a pixel and its neighbours to the right and below.
+    for (int y = std::max(v - reach_px, 0); y <= std::min(v - 1 + reach_px, height - 1); ++y) {
+      const std::uint8_t* edge = edges.row(y);
+      for (int u = 0; u < width; ++u)
+        if (edge[u] != 0) forget(map, v, u + 1 - reach_px, u + 1 + reach_px);
     }
+  });
 }
 
 }  // namespace softscope

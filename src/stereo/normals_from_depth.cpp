@@ -116,7 +116,8 @@ class NormalBand {
                                          selection_.window.data(),
                                          selection_.tolerance.data(),
                                          true,
-                                         kReach},
+                                         kReach,
+                                         nullptr},
                                         columns_mixed_.data(),
                                         static_cast<int>(columns_mixed_.size()), moments);
   }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -55,34 +54,57 @@ void makeDistinct(std::vector<SupportPoint>& points) {
                points.end());
 }
 
+/// Columns between which a triangle lies in a row.
+struct Span {
+  double first = 1e9, last = -1e9;
+  void widen(double u) {
+    first = std::min(first, u);
+    last = std::max(last, u);
+  }
+};
+
+/// One side of a triangle, from its upper to its lower end.
+class Side {
+ public:
+  Side(const SupportPoint* p, const SupportPoint* q)
+      : upper_(p->v_px <= q->v_px ? p : q), lower_(p->v_px <= q->v_px ? q : p) {
+    const int rows = lower_->v_px - upper_->v_px;
+    slope_ = rows == 0 ? 0 : static_cast<double>(lower_->u_px - upper_->u_px) / rows;
+  }
+  void widen(int v, Span& span) const {
+    if (v < upper_->v_px || v > lower_->v_px) return;
+    span.widen(upper_->u_px + slope_ * (v - upper_->v_px));
+    if (upper_->v_px == lower_->v_px) span.widen(lower_->u_px);
+  }
+
+ private:
+  const SupportPoint *upper_, *lower_;
+  double slope_;
+};
+
 /// Fills the pixels of one triangle; every pixel inside or on its edges.
-void fillTriangle(const std::array<const SupportPoint*, 3>& corner, Raster<std::int16_t>& prior) {
-  const auto& [a, b, c] = corner;
-  const double bu = b->u_px - a->u_px, bv = b->v_px - a->v_px;
-  const double cu = c->u_px - a->u_px, cv = c->v_px - a->v_px;
+void fillTriangle(const SupportPoint& a, const SupportPoint& b, const SupportPoint& c,
+                  Raster<std::int16_t>& prior) {
+  const double bu = b.u_px - a.u_px, bv = b.v_px - a.v_px;
+  const double cu = c.u_px - a.u_px, cv = c.v_px - a.v_px;
   const double area = bu * cv - bv * cu;
   if (area == 0) return;
-  const double db = b->disparity_px - a->disparity_px, dc = c->disparity_px - a->disparity_px;
-  const double slope_u = (db * cv - dc * bv) / area, slope_v = (dc * bu - db * cu) / area;
-  const int top = std::min({a->v_px, b->v_px, c->v_px});
-  const int bottom = std::max({a->v_px, b->v_px, c->v_px});
-  for (int v = std::max(top, 0); v <= std::min(bottom, prior.height_px - 1); ++v) {
-    double first = 1e9, last = -1e9;
-    for (int k = 0; k < 3; ++k) {
-      const SupportPoint *p = corner[k], *q = corner[(k + 1) % 3];
-      if ((v < p->v_px && v < q->v_px) || (v > p->v_px && v > q->v_px)) continue;
-      const double along =
-          p->v_px == q->v_px ? 0.0 : static_cast<double>(v - p->v_px) / (q->v_px - p->v_px);
-      const double crossing = p->u_px + along * (q->u_px - p->u_px);
-      first = std::min({first, crossing, p->v_px == q->v_px ? q->u_px : crossing});
-      last = std::max({last, crossing, p->v_px == q->v_px ? q->u_px : crossing});
-    }
-    const int begin = std::max(0, static_cast<int>(std::ceil(first - 1e-9)));
-    const int end = std::min(prior.width_px - 1, static_cast<int>(std::floor(last + 1e-9)));
-    for (int u = begin; u <= end; ++u) {
-      const double d = a->disparity_px + slope_u * (u - a->u_px) + slope_v * (v - a->v_px);
-      prior.at(u, v) = static_cast<std::int16_t>(std::lround(8 * d));
-    }
+  const double db = b.disparity_px - a.disparity_px, dc = c.disparity_px - a.disparity_px;
+  const double slope_u = 8 * (db * cv - dc * bv) / area, slope_v = 8 * (dc * bu - db * cu) / area;
+  const Side sides[] = {{&a, &b}, {&b, &c}, {&c, &a}};
+  const int top = std::max(std::min({a.v_px, b.v_px, c.v_px}), 0);
+  const int bottom = std::min(std::max({a.v_px, b.v_px, c.v_px}), prior.height_px - 1);
+  for (int v = top; v <= bottom; ++v) {
+    Span span;
+    for (const Side& side : sides) side.widen(v, span);
+    // Both ends are at least -1: truncation is the floor of what is not negative.
+    const int begin = std::max(0, static_cast<int>(span.first + 1 - 1e-9));
+    const int end = std::min(prior.width_px - 1, static_cast<int>(span.last + 1e-9));
+    // In 1/8 px; rounded, and disparities are not negative.
+    const double at_zero = 8.0 * a.disparity_px + slope_v * (v - a.v_px) - slope_u * a.u_px + 0.5;
+    std::int16_t* row = prior.row(v);
+    for (int u = begin; u <= end; ++u)
+      row[u] = static_cast<std::int16_t>(static_cast<int>(at_zero + slope_u * u));
   }
 }
 
@@ -98,7 +120,8 @@ Raster<std::int16_t> interpolatePlanes(std::vector<SupportPoint> points, int wid
   for (const SupportPoint& p : points) positions.emplace_back(p.u_px, p.v_px);
   // In order: a pixel on a shared edge takes the later triangle, whatever the number of threads.
   for (const auto& [i, j, k] : delaunay(positions))
-    fillTriangle({&points[i], &points[j], &points[k]}, prior);
+    fillTriangle(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(j)],
+                 points[static_cast<std::size_t>(k)], prior);
   return prior;
 }
 

@@ -168,7 +168,8 @@ void selectedMoments(const SelectedRows& rows, const int* columns, int count,
     const int u = columns[i];
     const Float8 centre = broadcast8(rows.disparity[rows.radius][u]);
     const Float8 scale = rows.relative ? centre : broadcast8(1);
-    if (!mixesSurfaces(rows, u, centre, scale)) continue;
+    if (rows.mixed != nullptr) rows.mixed[u] = mixesSurfaces(rows, u, centre, scale);
+    if (rows.mixed != nullptr && rows.mixed[u] == 0) continue;
     selectPlane(rows, u, centre, scale, out);
     if (rows.evidence[0] != nullptr) selectEvidence(rows, u, centre, scale, out);
   }

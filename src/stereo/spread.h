@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// 1 wherever a non-zero pixel lies within `radius_px` rows and columns, else 0.
+/// 1 wherever a 1 lies within `radius_px` rows and columns, else 0. `marks` are 0 or 1.
 Raster<std::uint8_t> spread(const Raster<std::uint8_t>& marks, int radius_px);
 
 }  // namespace softscope

@@ -35,12 +35,11 @@ std::vector<float> gaussian(double sigma, int radius) {
 /// What all bands share: the pictures, the window, and how to weigh.
 struct Setting {
   Setting(const GrayImage& left_image, const GrayImage& right_image,
-          const Raster<float>& initial_px, const RefinementOptions& refinement)
+          const RefinementOptions& refinement)
       : options(refinement),
         width(left_image.width_px),
         left(bandPass(left_image, refinement.highpass_sigma_px)),
         right(bandPass(right_image, refinement.highpass_sigma_px)),
-        near_step(nearDepthSteps(initial_px, refinement.radius_px, kClearStepPx, kSlope)),
         window(gaussian(kWindowSigma * refinement.radius_px, refinement.radius_px)) {
     const int radius = options.radius_px;
     for (int y = -radius; y <= radius; ++y)
@@ -59,7 +58,6 @@ struct Setting {
   RefinementOptions options;
   int width;
   Plane left, right;
-  Raster<std::uint8_t> near_step;
   std::vector<float> window, selection_window, selection_tolerance;
 };
 
@@ -67,15 +65,25 @@ struct Setting {
 /// they stay in the cache.
 class Band {
  public:
-  /// `sigma`: null but in the last step, which is a whole one and is judged.
-  Band(const Setting& setting, const Plane& disparity, Plane& next, Plane* sigma)
+  /// What a step starts from and gives.
+  struct Step {
+    const Plane& disparity;
+    Plane& next;
+    Plane* sigma;                 // null but in the last step, which is a whole one and is judged
+    Raster<std::uint8_t>& mixed;  // windows that may hold two surfaces; after the first step: do
+    bool first;
+  };
+
+  Band(const Setting& setting, const Step& step)
       : setting_(setting),
         radius_(setting.options.radius_px),
         width_(setting.width),
-        disparity_(disparity),
-        next_(next),
-        sigma_(sigma),
-        pixels_(sigma == nullptr ? kTarget + 1 : kPixelPlanes, Plane(width_, height(), 0, 0)),
+        disparity_(step.disparity),
+        next_(step.next),
+        sigma_(step.sigma),
+        mixed_(step.mixed),
+        first_(step.first),
+        pixels_(step.sigma == nullptr ? kTarget + 1 : kPixelPlanes, Plane(width_, height(), 0, 0)),
         columns_(width_, kColumnMomentCount, 0, 0),
         moments_(width_, kMomentCount, 0, 0) {}
 
@@ -157,9 +165,10 @@ class Band {
   }
 
   void selectWindows(int v, const MomentRow& moments) {
+    const std::uint8_t* mixed = mixed_.row(v);
     near_.clear();
     for (int u = 0; u < width_; ++u)
-      if (setting_.near_step.at(u, v) != 0 && !std::isnan(disparity_.row(v)[u])) near_.push_back(u);
+      if (mixed[u] != 0 && !std::isnan(disparity_.row(v)[u])) near_.push_back(u);
     if (near_.empty()) return;
     std::array<RowsOfWindow, kPixelPlanes> rows;
     for (std::size_t plane = 0; plane < pixels_.size(); ++plane)
@@ -174,7 +183,8 @@ class Band {
                           setting_.selection_window.data(),
                           setting_.selection_tolerance.data(),
                           false,
-                          radius_};
+                          radius_,
+                          first_ ? mixed_.row(v) : nullptr};
     for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
       selected.evidence[m] = rows[static_cast<std::size_t>(kResidualSq + m)].data();
     refinementKernels().selectedMoments(selected, near_.data(), static_cast<int>(near_.size()),
@@ -186,6 +196,8 @@ class Band {
   const Plane& disparity_;
   Plane& next_;
   Plane* sigma_;
+  Raster<std::uint8_t>& mixed_;
+  bool first_;
   std::vector<Plane> pixels_;
   Plane columns_, moments_;
   std::vector<int> near_;  // columns of a row whose window may reach across a step
@@ -209,13 +221,14 @@ Raster<float> rasterOf(const Plane& plane, int width, int height) {
 
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
-  const Setting setting(left, right, initial_px, options);
+  const Setting setting(left, right, options);
+  Raster<std::uint8_t> mixed = nearDepthSteps(initial_px, options.radius_px, kClearStepPx, kSlope);
   const int width = left.width_px, height = left.height_px;
   Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
   for (int i = 0; i < options.iterations; ++i) {
     const bool last = i + 1 == options.iterations;
     parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(setting, disparity, next, last ? &sigma : nullptr).solve(begin, end);
+      Band(setting, {disparity, next, last ? &sigma : nullptr, mixed, i == 0}).solve(begin, end);
     });
     std::swap(disparity, next);
   }

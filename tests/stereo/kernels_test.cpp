@@ -121,6 +121,7 @@ TEST_F(EveryInstructionSet, SelectsWindowsAlike) {
   const std::vector<int> columns = {0, 7, 100, 101, 332};
   expectEqual([&](const KernelSet& set) {
     Floats out(static_cast<std::size_t>(stride) * kMomentCount);
+    std::vector<unsigned char> mixed(stride, 1);
     set.refinement->selectedMoments({&rows[0],
                                      &rows[13],
                                      &rows[26],
@@ -128,9 +129,11 @@ TEST_F(EveryInstructionSet, SelectsWindowsAlike) {
                                      window.data(),
                                      tolerance.data(),
                                      true,
-                                     radius},
+                                     radius,
+                                     mixed.data()},
                                     columns.data(), 5, momentsIn(out, stride));
     EXPECT_NE(out[12 * stride + 332], 0);  // the last moment of the last column was written
+    out.insert(out.end(), mixed.begin(), mixed.end());
     return out;
   });
 }
