@@ -2,6 +2,7 @@
 #include "apps/evaluate_folders.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "apps/evaluate_tables.h"
@@ -47,15 +48,17 @@ Trajectory readRunTrajectory(const fs::path& folder) {
   return readTrajectory(file);
 }
 
-std::vector<int> frameNumbers(const fs::path& file, std::size_t poses) {
-  std::vector<int> frames(poses);
-  std::iota(frames.begin(), frames.end(), 0);
-  if (!isThere(file)) return frames;
-  frames = readFrameNumbers(file);
-  if (frames.size() != poses)
-    throw InputError(say(shown(file), ": has ", frames.size(), " frames, but trajectory.txt has ",
-                         poses, " poses; a run that was cut short? Reconstruct again"));
-  return frames;
+FrameRows frameRows(const fs::path& file, std::size_t poses) {
+  FrameRows rows;
+  rows.frames.resize(poses);
+  std::iota(rows.frames.begin(), rows.frames.end(), 0);
+  if (!isThere(file)) return rows;
+  rows = readFrameRows(file);
+  if (rows.frames.size() != poses)
+    throw InputError(say(shown(file), ": has ", rows.frames.size(),
+                         " frames, but trajectory.txt has ", poses,
+                         " poses; a run that was cut short? Reconstruct again"));
+  return rows;
 }
 
 }  // namespace
@@ -64,7 +67,11 @@ JudgedRun openJudgedRun(const fs::path& folder) {
   JudgedRun run;
   run.folder = folder;
   run.trajectory = readRunTrajectory(folder);
-  run.frames = frameNumbers(folder / "frames.csv", run.trajectory.size());
+  const FrameRows rows = frameRows(folder / "frames.csv", run.trajectory.size());
+  run.frames = rows.frames;
+  for (std::size_t k = 0; k < rows.backprojection_mm.size(); ++k)
+    if (std::isfinite(rows.backprojection_mm[k]))
+      run.backprojection_mm[rows.frames[k]] = rows.backprojection_mm[k];
   run.models = numberedFiles(folder / "models", ".ply");
   run.last_model = fileOrNone(folder / "model.ply");
   run.tracks = fileOrNone(folder / "tracks.csv");

@@ -17,11 +17,12 @@ using FrameFiles = std::map<int, std::filesystem::path>;
 /// A folder that `reconstruct` wrote (docs/formats.md).
 struct JudgedRun {
   std::filesystem::path folder;
-  Trajectory trajectory;             // world_from_left
-  std::vector<int> frames;           // the frame of each pose, rising
-  FrameFiles models;                 // models/NNNNNN.ply
-  std::filesystem::path last_model;  // model.ply; empty where it is missing
-  std::filesystem::path tracks;      // tracks.csv; empty where it is missing
+  Trajectory trajectory;                    // world_from_left
+  std::vector<int> frames;                  // the frame of each pose, rising
+  std::map<int, double> backprojection_mm;  // of frames.csv, by frame, where it has a value
+  FrameFiles models;                        // models/NNNNNN.ply
+  std::filesystem::path last_model;         // model.ply; empty where it is missing
+  std::filesystem::path tracks;             // tracks.csv; empty where it is missing
 };
 
 /// Throws InputError: no such folder, no trajectory, or a table of frames that doesn't fit it.

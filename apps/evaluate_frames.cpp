@@ -16,9 +16,10 @@ struct FrameFacts {
   int frame = 0;
   double time_s = kNone;
   const ModelErrors* model = nullptr;
+  const ViewErrors* view = nullptr;
   double second_difference_mm = kNone;
   double pose_mm = kNone, pose_deg = kNone, ate_mm = kNone, ate_deg = kNone;
-  double rpe_mm = kNone, rpe_deg = kNone;
+  double rpe_mm = kNone, rpe_deg = kNone, backprojection_mm = kNone;
   Statistics track_mm, control_mm;
 };
 
@@ -63,6 +64,27 @@ std::vector<Column> viewColumns() {
           ofModel("tissue_to_model_p95_mm", [](E e) { return e.both.distance_mm.p95; })};
 }
 
+Column ofView(const char* heading, std::function<double(const ViewErrors&)> value) {
+  return {heading, [value = std::move(value)](const FrameFacts& facts) {
+            return facts.view == nullptr ? kNone : value(*facts.view);
+          }};
+}
+
+std::vector<Column> drawnColumns() {
+  using V = const ViewErrors&;
+  return {
+      ofView("depth_mean_mm", [](V v) { return v.depth.absolute_mm.mean; }),
+      ofView("depth_median_mm", [](V v) { return v.depth.absolute_mm.median; }),
+      ofView("depth_rmse_mm", [](V v) { return v.depth.absolute_mm.rmse; }),
+      ofView("depth_bad_3mm_percent", [](V v) { return v.depth.bad_percent[0]; }),
+      ofView("depth_coverage_percent", [](V v) { return v.depth.coverage_percent; }),
+      ofView("view_psnr_db", [](V v) { return v.picture.psnr_db; }),
+      ofView("view_psnr_over_all_pixels_db", [](V v) { return v.picture.psnr_over_all_pixels_db; }),
+      ofView("view_ssim", [](V v) { return v.picture.ssim; }),
+      ofView("view_judged_share", [](V v) { return v.picture.judged_share; }),
+      {"backprojection_mean_mm", [](const FrameFacts& f) { return f.backprojection_mm; }}};
+}
+
 std::vector<Column> hausdorffColumns() {
   using E = const ModelErrors&;
   return {
@@ -100,7 +122,9 @@ std::vector<Column> columnsFor(const EvaluationResult& result) {
   append(surfaceColumns());
   if (!result.against_mesh) append(viewColumns());
   append(hausdorffColumns());
-  if (!result.against_mesh) append(cameraAndTrackColumns());
+  if (result.against_mesh) return columns;
+  append(drawnColumns());
+  append(cameraAndTrackColumns());
   return columns;
 }
 
@@ -139,11 +163,14 @@ FactsByFrame gather(const EvaluationResult& result) {
     FrameFacts& frame = facts[surface.models[i].frame];
     frame.time_s = surface.models[i].time_s;
     frame.model = &surface.models[i].errors;
+    if (surface.models[i].view) frame.view = &*surface.models[i].view;
     if (i < surface.second_differences_mm.size())
       frame.second_difference_mm = surface.second_differences_mm[i];
   }
   if (result.camera) addCamera(*result.camera, facts);
   if (result.tracks) addTracks(*result.tracks, facts);
+  for (const auto& [frame, mean_mm] : result.backprojection_mm)
+    facts[frame].backprojection_mm = mean_mm;
   for (auto& [number, frame] : facts) frame.frame = number;
   return facts;
 }

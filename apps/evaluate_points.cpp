@@ -1,7 +1,9 @@
-// apps/evaluate_points.cpp: header by src/mesh, positions copied straight from the bytes.
+// apps/evaluate_points.cpp: header by src/mesh, values copied straight from the bytes.
 #include "apps/evaluate_points.h"
 
+#include <array>
 #include <cstring>
+#include <optional>
 
 #include "core/error.h"
 #include "io/file_bytes.h"
@@ -16,67 +18,77 @@ constexpr float kFarthestMm = 1e6f;
 const PlyElement& verticesOf(const PlyHeader& header, const std::string& name) {
   if (header.encoding != PlyEncoding::kLittleEndian)
     throw InputError(name +
-                     ": a model is a binary little-endian PLY, but this is another kind; "
-                     "give a folder that softscope reconstruct wrote");
+                     ": a model is a binary little-endian PLY, but this is another kind; give a "
+                     "folder that softscope reconstruct wrote");
   if (header.elements.empty() || header.elements[0].name != "vertex")
     throw InputError(name + ": the first element is no vertex; give a model of points");
+  for (const PlyProperty& property : header.elements[0].properties)
+    if (property.is_list) throw InputError(name + ": points with lists are no model");
   return header.elements[0];
 }
 
-struct Layout {
-  std::size_t stride = 0;
-  std::size_t x = 0;  // y and z follow it at once
-};
+using Names = std::array<const char*, 3>;
 
-Layout layoutOf(const PlyElement& vertices, const std::string& name) {
-  Layout layout;
-  std::size_t found = 0;
-  for (const PlyProperty& property : vertices.properties) {
-    if (property.is_list) throw InputError(name + ": points with lists are no model");
-    const std::size_t axis = std::string("xyz").find(property.name);
-    if (property.name.size() == 1 && axis != std::string::npos &&
-        property.type == PlyType::kFloat) {
-      if (axis == 0) layout.x = layout.stride;
-      if (axis == found && layout.stride == layout.x + 4 * axis) ++found;
-    }
-    layout.stride += static_cast<std::size_t>(sizeOf(property.type));
+/// Where three values of one type stand one after the other, in bytes from the point's first.
+std::optional<std::size_t> findTriple(const PlyElement& vertices, const Names& names,
+                                      PlyType type) {
+  const int first = vertices.find(names[0]);
+  if (first < 0 || static_cast<std::size_t>(first) + 3 > vertices.properties.size()) return {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlyProperty& property = vertices.properties[static_cast<std::size_t>(first) + i];
+    if (property.name != names[i] || property.type != type) return {};
   }
-  if (found != 3)
-    throw InputError(name +
-                     ": its points have no x, y, z as floats one after the other; give a "
-                     "model that softscope reconstruct wrote");
-  return layout;
+  std::size_t offset = 0;
+  for (int i = 0; i < first; ++i)
+    offset +=
+        static_cast<std::size_t>(sizeOf(vertices.properties[static_cast<std::size_t>(i)].type));
+  return offset;
 }
 
 void requirePlausible(const Eigen::Vector3f& point_mm, std::size_t index, const std::string& name) {
   if (point_mm.cwiseAbs().maxCoeff() <= kFarthestMm && point_mm.allFinite()) return;
   throw InputError(say(name, ": point ", index, " is ", point_mm.x(), " ", point_mm.y(), " ",
                        point_mm.z(),
-                       ", but a model has finite coordinates within 1 km, in mm; "
-                       "is the file damaged?"));
+                       ", but a model has finite coordinates within 1 km, in mm; is the file "
+                       "damaged?"));
 }
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> parseModelPoints(std::string_view bytes, const std::string& name) {
+ModelFile parseModel(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, 4) != "ply\n" && bytes.substr(0, 4) != "ply\r")
     throw InputError(name + ": is no PLY file; give a model that softscope reconstruct wrote");
   const PlyHeader header = parsePlyHeader(bytes, name);  // promises no more than there is
   const PlyElement& vertices = verticesOf(header, name);
-  const Layout layout = layoutOf(vertices, name);
+  const auto position = findTriple(vertices, {"x", "y", "z"}, PlyType::kFloat);
+  const auto normal = findTriple(vertices, {"nx", "ny", "nz"}, PlyType::kFloat);
+  const auto colour = findTriple(vertices, {"red", "green", "blue"}, PlyType::kUint8);
+  if (!position)
+    throw InputError(name +
+                     ": its points have no x, y, z as floats one after the other; give a model "
+                     "that softscope reconstruct wrote");
   if (vertices.count == 0)
     throw InputError(name + ": holds no point; was the run lost from its first frame on?");
-  std::vector<Eigen::Vector3f> points_mm(vertices.count);
-  const char* at = bytes.data() + header.bytes + layout.x;
-  for (std::size_t i = 0; i < points_mm.size(); ++i, at += layout.stride) {
-    std::memcpy(points_mm[i].data(), at, 3 * sizeof(float));
-    requirePlausible(points_mm[i], i, name);
+  ModelFile file;
+  file.coloured = colour.has_value();
+  PointModel& model = file.model;
+  model.positions_mm.resize(vertices.count);
+  model.normals.assign(vertices.count, Eigen::Vector3f::Zero());
+  model.colours.resize(vertices.count);
+  model.weights.resize(vertices.count);
+  model.bindings.resize(vertices.count);
+  const char* at = bytes.data() + header.bytes;
+  for (std::size_t i = 0; i < vertices.count; ++i, at += vertices.leastBytes(header.encoding)) {
+    std::memcpy(model.positions_mm[i].data(), at + *position, 3 * sizeof(float));
+    requirePlausible(model.positions_mm[i], i, name);
+    if (normal) std::memcpy(model.normals[i].data(), at + *normal, 3 * sizeof(float));
+    if (colour) std::memcpy(&model.colours[i], at + *colour, 3);
   }
-  return points_mm;
+  return file;
 }
 
-std::vector<Eigen::Vector3f> readModelPoints(const std::filesystem::path& file) {
-  return parseModelPoints(readBytes(file), shown(file));
+ModelFile readModel(const std::filesystem::path& file) {
+  return parseModel(readBytes(file), shown(file));
 }
 
 }  // namespace softscope

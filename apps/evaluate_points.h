@@ -1,18 +1,25 @@
-// apps/evaluate_points.h: the points of a reconstructed model, fast.
+// apps/evaluate_points.h: a reconstructed model from its file, fast.
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "core/point_model.h"
 
 namespace softscope {
 
-/// Positions of a model, mm, from a binary little-endian PLY whose vertices have float x, y, z, as
-/// `reconstruct` writes it. Throws InputError: not such a file, cut short, no point at all, or a
-/// point that is not finite or beyond 1 km.
-std::vector<Eigen::Vector3f> readModelPoints(const std::filesystem::path& file);
-std::vector<Eigen::Vector3f> parseModelPoints(std::string_view bytes, const std::string& name);
+/// A model as far as its file tells it: no bindings, and zeros for what the file lacks.
+struct ModelFile {
+  PointModel model;
+  bool coloured = false;
+};
+
+/// Reads a binary little-endian PLY whose vertices have float x, y, z and, one after the other as
+/// well, maybe nx, ny, nz (float) and red, green, blue (uchar), as `reconstruct` writes it. Throws
+/// InputError: not such a file, cut short, no point at all, or a point that is not finite or beyond
+/// 1 km.
+ModelFile readModel(const std::filesystem::path& file);
+ModelFile parseModel(std::string_view bytes, const std::string& name);
 
 }  // namespace softscope

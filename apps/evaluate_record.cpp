@@ -82,6 +82,31 @@ Json surfaceJson(const EvaluationResult& result) {
   return json;
 }
 
+Json drawnDepthJson(const SurfaceSeries& surface) {
+  using V = const ViewErrors&;
+  return {{"mean_mm", surface.meanOfView([](V v) { return v.depth.absolute_mm.mean; })},
+          {"median_mm", surface.meanOfView([](V v) { return v.depth.absolute_mm.median; })},
+          {"rmse_mm", surface.meanOfView([](V v) { return v.depth.absolute_mm.rmse; })},
+          {"bad_3mm_percent", surface.meanOfView([](V v) { return v.depth.bad_percent[0]; })},
+          {"coverage_percent", surface.meanOfView([](V v) { return v.depth.coverage_percent; })}};
+}
+
+Json viewJson(const SurfaceSeries& surface) {
+  using V = const ViewErrors&;
+  return {{"psnr_db", surface.meanOfView([](V v) { return v.picture.psnr_db; })},
+          {"psnr_over_all_pixels_db",
+           surface.meanOfView([](V v) { return v.picture.psnr_over_all_pixels_db; })},
+          {"ssim", surface.meanOfView([](V v) { return v.picture.ssim; })},
+          {"judged_share", surface.meanOfView([](V v) { return v.picture.judged_share; })}};
+}
+
+/// The run's own figure: statistics of its frames' means.
+Statistics backprojectionOf(const EvaluationResult& result) {
+  std::vector<double> means_mm;
+  for (const auto& [frame, mean_mm] : result.backprojection_mm) means_mm.push_back(mean_mm);
+  return statistics(means_mm);
+}
+
 Json cameraJson(const CameraResult& camera) {
   return {{"poses", camera.frames.size()},
           {"pose", poseErrorsJson(camera.errors.unaligned)},
@@ -204,6 +229,27 @@ void addTrackFacts(const TrackErrors& tracks, FactSheet& facts) {
   facts.addLine("  no motion", spread(tracks.control_mm) + ", had nothing been tracked");
 }
 
+void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
+  using V = const ViewErrors&;
+  const SurfaceSeries& surface = result.surface;
+  const double depth_mm = surface.meanOfView([](V v) { return v.depth.absolute_mm.mean; });
+  const double psnr_db = surface.meanOfView([](V v) { return v.picture.psnr_db; });
+  if (!std::isnan(depth_mm))
+    facts.addLine("drawn depth",
+                  "mean " + fixed(depth_mm, 3) + " mm over " +
+                      fixed(surface.meanOfView([](V v) { return v.depth.coverage_percent; }), 1) +
+                      " % of the tissue in view");
+  if (!std::isnan(psnr_db))
+    facts.addLine("drawn view",
+                  "PSNR " + fixed(psnr_db, 1) + " dB, SSIM " +
+                      fixed(surface.meanOfView([](V v) { return v.picture.ssim; }), 3) +
+                      " over the pixels that the model covers");
+  const Statistics backprojection = backprojectionOf(result);
+  if (backprojection.count > 0)
+    facts.addLine("back-projection",
+                  "mean " + fixed(backprojection.mean, 3) + " mm, as the run measured it");
+}
+
 void addAlignmentFacts(const EvaluationResult& result, FactSheet& facts) {
   facts.addLine("alignment", toString(result.alignment));
   if (result.alignments.empty()) return;
@@ -226,6 +272,9 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
   if (!result.against_mesh) {
     json["camera"] = cameraJson(result.camera.value_or(CameraResult()));
     json["tracks"] = tracksJson(result.tracks.value_or(TrackErrors()));
+    json["depth"] = drawnDepthJson(result.surface);
+    json["view"] = viewJson(result.surface);
+    json["backprojection"] = statisticsJson(backprojectionOf(result), "_mm");
   }
   json["warnings"] = result.warnings;
   return json;
@@ -248,6 +297,7 @@ FactSheet evaluationFacts(const EvaluationResult& result) {
   addSurfaceFacts(result, facts);
   if (result.camera) addCameraFacts(*result.camera, facts);
   if (result.tracks) addTrackFacts(*result.tracks, facts);
+  if (!result.against_mesh) addDrawnFacts(result, facts);
   for (const std::string& warning : result.warnings) facts.warn(warning);
   return facts;
 }

@@ -1,6 +1,7 @@
 // apps/evaluate_result.h: everything that one evaluation found.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct EvaluationResult {
   SurfaceSeries surface;
   std::optional<CameraResult> camera;
   std::optional<TrackErrors> tracks;
+  std::map<int, double> backprojection_mm;  // by frame, as the run itself measured it
   std::vector<std::string> warnings;
 };
 

@@ -18,7 +18,8 @@ namespace {
 
 /// What one frame is judged by, in the true world.
 struct Moment {
-  std::vector<Eigen::Vector3f> points_mm;
+  ModelFile file;                          // in the run's world
+  std::vector<Eigen::Vector3f> points_mm;  // in the true one
   std::unique_ptr<TriangleTree> surface;
   Raster<float> depth_mm;
   Eigen::Isometry3d world_from_left;
@@ -27,7 +28,8 @@ struct Moment {
 Moment readMoment(const JudgedRun& run, const SequenceTruth& truth, int frame,
                   const Eigen::Isometry3d& truth_from_run) {
   Moment moment;
-  moment.points_mm = movePoints(truth_from_run, readModelPoints(run.models.at(frame)));
+  moment.file = readModel(run.models.at(frame));
+  moment.points_mm = movePoints(truth_from_run, moment.file.model.positions_mm);
   const TriangleMesh mesh = readMesh(truth.meshes.at(frame));
   moment.surface = std::make_unique<TriangleTree>(mesh);
   moment.depth_mm = trueDepth(truth, frame, mesh);
@@ -35,12 +37,13 @@ Moment readMoment(const JudgedRun& run, const SequenceTruth& truth, int frame,
   return moment;
 }
 
-void keep(int frame, double time_s, ModelErrors errors, SurfaceSeries& series) {
+JudgedModel& keep(int frame, double time_s, ModelErrors errors, SurfaceSeries& series) {
   series.pool.add(errors);
   errors.each_mm = {};
   errors.each_signed_mm = {};
   errors.each_observed = {};
-  series.models.push_back({frame, time_s, std::move(errors)});
+  series.models.push_back({frame, time_s, std::move(errors), std::nullopt});
+  return series.models.back();
 }
 
 void sumUp(SurfaceSeries& series) {
@@ -69,6 +72,13 @@ double timeOf(const JudgedRun& run, int frame) {
 
 }  // namespace
 
+double SurfaceSeries::meanOfView(const std::function<double(const ViewErrors&)>& value) const {
+  std::vector<double> values;
+  for (const JudgedModel& model : models)
+    if (model.view) values.push_back(value(*model.view));
+  return statistics(values).mean;
+}
+
 double SurfaceSeries::meanOf(const std::function<double(const ModelErrors&)>& value) const {
   std::vector<double> values;
   for (const JudgedModel& model : models) values.push_back(value(model.errors));
@@ -82,10 +92,12 @@ std::vector<int> framesToJudge(const JudgedRun& run, const SequenceTruth& truth)
   return frames;
 }
 
-SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth,
+SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth, bool views,
                           const AfterModel& after_model) {
   const std::vector<int> frames = framesToJudge(run, truth);
   const auto moves = truthFromRun(run, truth);
+  std::optional<ViewJudge> view_judge;
+  if (views) view_judge.emplace(truth);
   SurfaceSeries series;
   series.pool = ErrorPool(frames.size());
   const auto read = [&](std::size_t i) {
@@ -96,13 +108,22 @@ SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth,
     const Moment now = next ? std::move(*next) : read(i);
     next.reset();
     ModelErrors errors;
-    const TrueMoment true_moment{*now.surface, now.depth_mm, truth.rig, now.world_from_left};
-    parallelInvoke([&] { errors = modelErrors(now.points_mm, true_moment, kCompletenessMm); },
-                   [&] {
-                     if (i + 1 < frames.size()) next = read(i + 1);
-                   });
-    keep(frames[i], truth.trajectory[static_cast<std::size_t>(frames[i])].time_s, std::move(errors),
-         series);
+    std::optional<ViewErrors> view;
+    parallelInvoke(
+        [&] {
+          errors = modelErrors(now.points_mm,
+                               {*now.surface, now.depth_mm, truth.rig, now.world_from_left},
+                               kCompletenessMm);
+        },
+        [&] {
+          const Eigen::Isometry3d run_from_left =
+              moves.at(frames[i]).inverse() * now.world_from_left;
+          if (view_judge)
+            view = view_judge->judge(now.file, run_from_left, frames[i], now.depth_mm);
+          if (i + 1 < frames.size()) next = read(i + 1);
+        });
+    const double time_s = truth.trajectory[static_cast<std::size_t>(frames[i])].time_s;
+    keep(frames[i], time_s, std::move(errors), series).view = std::move(view);
     if (!after_model()) {
       series.interrupted = true;
       return series;
@@ -122,7 +143,7 @@ AlignedSeries judgeAgainstMesh(const JudgedRun& run, const FrameFiles& models,
   result.surface.pool = ErrorPool(models.size());
   Eigen::Isometry3d mesh_from_run = Eigen::Isometry3d::Identity();
   for (const auto& [frame, file] : models) {
-    const std::vector<Eigen::Vector3f> points_mm = readModelPoints(file);
+    const std::vector<Eigen::Vector3f> points_mm = readModel(file).model.positions_mm;
     const bool first = result.alignments.empty();
     if (alignment == MeshAlignment::kIcp || (alignment == MeshAlignment::kRigid && first)) {
       result.alignments.push_back(alignToSurface(points_mm, surface, {}, mesh_from_run));

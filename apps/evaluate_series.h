@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "apps/evaluate_folders.h"
+#include "apps/evaluate_view.h"
 #include "core/triangle_mesh.h"
 #include "eval/error_pool.h"
 #include "eval/model_errors.h"
@@ -21,6 +23,7 @@ struct JudgedModel {
   int frame = 0;
   double time_s = 0;
   ModelErrors errors;
+  std::optional<ViewErrors> view;  // none against a mesh, or where it wasn't asked for
 };
 
 /// Values over all judged models.
@@ -36,6 +39,7 @@ struct SurfaceSeries {
 
   /// The mean over the models of one of their values, NaNs left out.
   double meanOf(const std::function<double(const ModelErrors&)>& value) const;
+  double meanOfView(const std::function<double(const ViewErrors&)>& value) const;
 };
 
 /// Called after each model; false asks to stop.
@@ -45,8 +49,8 @@ using AfterModel = std::function<bool()>;
 std::vector<int> framesToJudge(const JudgedRun& run, const SequenceTruth& truth);
 
 /// Each model in the frame of its own moment's camera. The next moment is read meanwhile.
-/// Throws InputError.
-SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth,
+/// With `views`, each model is drawn as well and compared with the picture. Throws InputError.
+SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth, bool views,
                           const AfterModel& after_model);
 
 enum class MeshAlignment {

@@ -100,16 +100,17 @@ std::vector<TrackSample> readTracks(const std::filesystem::path& file) {
   return tracks;
 }
 
-std::vector<int> readFrameNumbers(const std::filesystem::path& file) {
-  const NumberTable table(readBytes(file), shown(file), {"frame"}, {});
-  std::vector<int> frames;
+FrameRows readFrameRows(const std::filesystem::path& file) {
+  const NumberTable table(readBytes(file), shown(file), {"frame"}, {"backprojection_mean_mm"});
+  FrameRows rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    frames.push_back(table.indexAt(i, 0));
-    if (i > 0 && frames[i] <= frames[i - 1])
-      throw InputError(say(shown(file), ": frame ", frames[i], " stands below frame ",
-                           frames[i - 1], "; they must rise"));
+    rows.frames.push_back(table.indexAt(i, 0));
+    rows.backprojection_mm.push_back(table.at(i, 1));
+    if (i > 0 && rows.frames[i] <= rows.frames[i - 1])
+      throw InputError(say(shown(file), ": frame ", rows.frames[i], " stands below frame ",
+                           rows.frames[i - 1], "; they must rise"));
   }
-  return frames;
+  return rows;
 }
 
 }  // namespace softscope

@@ -40,7 +40,12 @@ class NumberTable {
 /// frame,id,x_mm,y_mm,z_mm[,visible]; positions that were lost are NaN.
 std::vector<TrackSample> readTracks(const std::filesystem::path& file);
 
-/// The column `frame` of frames.csv, rising.
-std::vector<int> readFrameNumbers(const std::filesystem::path& file);
+/// The column `frame` of frames.csv, rising, and backprojection_mean_mm, NaN where it lacks.
+struct FrameRows {
+  std::vector<int> frames;
+  std::vector<double> backprojection_mm;
+};
+
+FrameRows readFrameRows(const std::filesystem::path& file);
 
 }  // namespace softscope

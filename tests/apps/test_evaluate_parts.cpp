@@ -14,8 +14,11 @@ namespace {
 
 TEST(EvaluatePoints, AreReadAsTheyWereWritten) {
   const PointCloud model = wallModel(1);
-  const auto points = parseModelPoints(plyBytes(model, {"world", ""}), "model");
-  EXPECT_EQ(points, model.points_mm);
+  const ModelFile file = parseModel(plyBytes(model, {"world", ""}), "model");
+  EXPECT_EQ(file.model.positions_mm, model.points_mm);
+  EXPECT_EQ(file.model.normals, model.normals);
+  EXPECT_EQ(file.model.colours, model.colours);
+  EXPECT_TRUE(file.coloured);
 }
 
 TEST(EvaluatePoints, HeadersOfOtherFilesAreRefused) {
@@ -28,7 +31,7 @@ TEST(EvaluatePoints, HeadersOfOtherFilesAreRefused) {
         head + "1\nproperty float y\nproperty float x\nproperty float z\nend_header\n" +
             std::string(12, '\0'),
         std::string("ply\nformat binary_little_endian 1.0\nend_header\n")})
-    EXPECT_THROW(parseModelPoints(bytes, "model"), InputError) << bytes;
+    EXPECT_THROW(parseModel(bytes, "model"), InputError) << bytes;
 }
 
 TEST(EvaluateThresholds, CompareAsWritten) {
