@@ -15,6 +15,11 @@
 namespace softscope {
 namespace {
 
+// Halving again is worth it if the last time closed a quarter of what was open; weak texture does,
+// what only one camera sees doesn't.
+constexpr double kWorthHalving = 0.75;
+constexpr double kEverything = 2;  // more than any share
+
 /// The same points as the right picture sees them.
 std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
   for (SupportPoint& p : points) p.u_px -= static_cast<int>(p.disparity_px + 0.5f);
@@ -79,15 +84,20 @@ double unmatchedShare(const DisparityMap& map, const GrayImage& left, int darkes
   return matchable == 0 ? 1 : static_cast<double>(unmatched) / static_cast<double>(matchable);
 }
 
+/// `finer_unmatched`: the share that twice the size left open; above 1 at full size.
 DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right,
-                          const StereoOptions& options, int coarser_levels, StageClock& clock) {
+                          const StereoOptions& options, int coarser_levels, double finer_unmatched,
+                          StageClock& clock) {
   DisparityMap map = matchLevel(left, right, options, clock);
-  if (coarser_levels > 0 && std::min(left.width_px, left.height_px) >= 2 * kSmallestPicturePx &&
-      unmatchedShare(map, left, options.darkest_gray) > options.elas.coarser_above) {
-    fillFromHalf(
-        matchPyramid(halve(left), halve(right), halved(options), coarser_levels - 1, clock), map);
-    clock.lap("fill");
-  }
+  if (coarser_levels == 0 || std::min(left.width_px, left.height_px) < 2 * kSmallestPicturePx)
+    return map;
+  const double unmatched = unmatchedShare(map, left, options.darkest_gray);
+  if (unmatched <= options.elas.coarser_above || unmatched >= kWorthHalving * finer_unmatched)
+    return map;
+  fillFromHalf(matchPyramid(halve(left), halve(right), halved(options), coarser_levels - 1,
+                            unmatched, clock),
+               map);
+  clock.lap("fill");
   return map;
 }
 
@@ -96,7 +106,8 @@ DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right,
 DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
   requireRectifiedPair(left, right);
   StageClock clock;
-  DisparityMap map = matchPyramid(left, right, options_, options_.elas.coarser_levels, clock);
+  DisparityMap map =
+      matchPyramid(left, right, options_, options_.elas.coarser_levels, kEverything, clock);
   removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
   clock.lap("erode");

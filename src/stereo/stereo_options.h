@@ -32,8 +32,8 @@ struct ElasOptions {
   int gap_width_px = 6;          // gaps in a row or column up to this are interpolated …
   double gap_step_px = 2.0;      // … if both sides differ at most by this
 
-  // Where a picture is too weak to be matched pixel by pixel, its half may do.
-  int coarser_levels = 1;
+  // Where a picture is too weak to be matched pixel by pixel, its half may do, or the half's half.
+  int coarser_levels = 2;
   double coarser_above = 0.05;  // share of unmatched pixels from which that is tried
 
   void validate() const;  // see StereoOptions::validate()

@@ -10,7 +10,9 @@
 
 #include "core/parallel.h"
 #include "io/image_reader.h"
+#include "stereo/depth_from_disparity.h"
 #include "stereo/opencv_view.h"
+#include "stereo/row_alignment.h"
 #include "stereo/stereo_matcher.h"
 #include "stereo_study/study.h"
 #include "support/data_folder.h"
@@ -142,18 +144,56 @@ void printTimes(const GrayImage& left, const GrayImage& right, int threads) {
               median(runs["3way"]));
 }
 
+ColourImage resized(const ColourImage& image, int width, int height) {
+  ColourImage out(width, height);
+  cv::Mat view = opencvView(out);
+  cv::resize(opencvView(image), view, view.size(), 0, 0, cv::INTER_AREA);
+  return out;
+}
+
+/// What a frame costs besides the matcher.
+void printOtherStages(const StereoPair& pair, int threads) {
+  constexpr int kRuns = 9;
+  const ThreadLimit limit(threads);
+  cv::setNumThreads(threads);
+  RectifiedRig rig;
+  rig.left = {pair.left.width_px, pair.left.height_px, 560, 560, 320, 240};
+  rig.baseline_mm = 5;
+  const DisparityMap disparity =
+      makeStereoMatcher({})->match(toGray(pair.left), toGray(pair.right));
+  std::vector<double> rows, depth, normals, cloud;
+  for (int run = 0; run < kRuns; ++run) {
+    DepthMap map;
+    NormalMap normal_map;
+    rows.push_back(elapsedMs([&] { alignRows(pair, 255); }));
+    depth.push_back(elapsedMs([&] { map = depthFromDisparity(disparity, rig); }));
+    normals.push_back(elapsedMs([&] { normal_map = normalsFromDepth(map.depth_mm, rig.left); }));
+    cloud.push_back(
+        elapsedMs([&] { pointCloud(map.depth_mm, normal_map, pair.left, rig.left, {}); }));
+  }
+  std::printf("| %d x %d | %d | %.1f | %.1f | %.1f | %.1f |\n", pair.left.width_px,
+              pair.left.height_px, threads, median(rows), median(depth), median(normals),
+              median(cloud));
+}
+
 void printAllTimes() {
   const auto folder = dataFolder("endonerf_pulling");
   if (folder.empty()) return;
-  const GrayImage left = readGrayImage(folder / "left" / "000000.jpg");
-  const GrayImage right = readGrayImage(folder / "right" / "000000.jpg");
+  const ColourImage left = readColourImage(folder / "left" / "000000.jpg");
+  const ColourImage right = readColourImage(folder / "right" / "000000.jpg");
+  const GrayImage left_gray = toGray(left), right_gray = toGray(right);
   std::printf(
       "\n| in vivo, 256 disparities | cores | ELAS alone ms | with sub-pixel and errors ms | SGBM "
       "ms | SGBM_3WAY ms |\n|---|---|---|---|---|---|\n");
   for (const auto& [width, height] :
        {std::pair{360, 288}, std::pair{640, 480}, std::pair{1280, 1024}})
     for (const int threads : {1, 2})
-      printTimes(resized(left, width, height), resized(right, width, height), threads);
+      printTimes(resized(left_gray, width, height), resized(right_gray, width, height), threads);
+  std::printf(
+      "\n| the same pair | cores | align rows ms | depth ms | normals ms | points ms |\n"
+      "|---|---|---|---|---|---|\n");
+  for (const int threads : {1, 2})
+    printOtherStages({resized(left, 640, 480), resized(right, 640, 480)}, threads);
 }
 
 }  // namespace
