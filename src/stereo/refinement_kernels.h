@@ -3,8 +3,8 @@
 //
 // Compiled once for each instruction set (kernel_sets.h). Raw pointers only: a header-only
 // container compiled with AVX2 could be picked by the linker for the whole program. Floating point
-// is never contracted, so that every set gives the same bytes. Rows are worked on eight values at
-// a time: all must be readable and writable up to the next multiple of eight.
+// is never contracted, so that every set gives the same bytes. Rows are worked on up to eight
+// values at a time: all must be readable and writable up to the next multiple of eight.
 #pragma once
 
 namespace softscope {

@@ -14,50 +14,22 @@
 namespace softscope {
 namespace {
 
-using Float4 = float __attribute__((vector_size(16)));
-using Float8 = float __attribute__((vector_size(32)));
-using Int8 = int __attribute__((vector_size(32)));
-
-// One unaligned instruction each.
-inline Float8 load8(const float* p) {
-  Float8 x;
-  std::memcpy(&x, p, sizeof x);
-  return x;
-}
-inline void store8(float* p, Float8 x) { std::memcpy(p, &x, sizeof x); }
-
-inline Float4 load4(const float* p) {
-  Float4 x;
-  std::memcpy(&x, p, sizeof x);
-  return x;
-}
-
-inline Float8 broadcast8(float x) { return Float8{} + x; }
-inline Float8 abs8(Float8 x) { return x < 0.0f ? -x : x; }
-inline Float8 squareRoot(Float8 x) {
-  for (int i = 0; i < 8; ++i) x[i] = __builtin_sqrtf(x[i]);
-  return x;
-}
-
-/// Always in the same order, so that every instruction set gives the same bytes.
-inline float sum8(Float8 x) {
-  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
-}
-
-/// 0, 1, … 7.
-inline Float8 lanes8() { return Float8{0, 1, 2, 3, 4, 5, 6, 7}; }
-
-// As many 16-bit values as a register holds: comparing and choosing is fast on whole registers
-// only.
+// As many values as a register holds: comparing and choosing is fast on whole registers only. Sums
+// across lanes must not depend on how many there are.
 #ifdef __AVX2__
-constexpr int kWordLanes = 16;
+constexpr int kFloatLanes = 8;
 #else
-constexpr int kWordLanes = 8;
+constexpr int kFloatLanes = 4;
 #endif
+constexpr int kWordLanes = 2 * kFloatLanes;
+using Float4 = float __attribute__((vector_size(16)));
+using Floats = float __attribute__((vector_size(4 * kFloatLanes)));
+using Ints = int __attribute__((vector_size(4 * kFloatLanes)));
 using Words = std::uint16_t __attribute__((vector_size(2 * kWordLanes)));
 using SignedWords = std::int16_t __attribute__((vector_size(2 * kWordLanes)));
 using Bytes = std::uint8_t __attribute__((vector_size(2 * kWordLanes)));  // two in each word
 
+// One unaligned instruction each.
 template <class Vector, class Value>
 inline Vector load(const Value* p) {
   Vector x;
@@ -68,6 +40,8 @@ template <class Vector, class Value>
 inline void store(Value* p, Vector x) {
   std::memcpy(p, &x, sizeof x);
 }
+inline Floats loadFloats(const float* p) { return load<Floats>(p); }
+
 template <class Vector>
 inline Vector least(Vector a, Vector b) {
   return a < b ? a : b;
@@ -75,6 +49,20 @@ inline Vector least(Vector a, Vector b) {
 template <class Vector>
 inline Vector greatest(Vector a, Vector b) {
   return a > b ? a : b;
+}
+
+inline Floats broadcast(float x) { return Floats{} + x; }
+inline Floats absolute(Floats x) { return x < 0.0f ? -x : x; }
+inline Floats squareRoot(Floats x) {
+  for (int i = 0; i < kFloatLanes; ++i) x[i] = __builtin_sqrtf(x[i]);
+  return x;
+}
+
+/// 0, 1, 2, …
+inline Floats laneNumbers() {
+  Floats x{};
+  for (int i = 0; i < kFloatLanes; ++i) x[i] = static_cast<float>(i);
+  return x;
 }
 
 }  // namespace
