@@ -9,6 +9,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeDepthCommand());
   commands.push_back(makeSimulateCommand());
   commands.push_back(makeEvaluateCommand());
+  commands.push_back(makeCompareCommand());
   commands.push_back(makeInfoCommand());
   commands.push_back(makeDoctorCommand());
   return commands;

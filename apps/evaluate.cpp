@@ -40,6 +40,8 @@ const char* const kDetails =
     "--fail-if METRIC>LIMIT ends with exit code 1 where that holds, or the metric isn't known;\n"
     "METRIC is a path in evaluation.json (surface.observed.p95_mm), or its last part.";
 
+constexpr const char* kPreferred = "surface";  // where --fail-if looks for a bare name
+
 bool isFolder(const fs::path& path) {
   std::error_code ignored;  // what isn't there is the reader's to report
   return fs::is_directory(path, ignored);
@@ -64,8 +66,7 @@ class EvaluateCommand : public Command {
   EvaluationResult againstMesh(const JudgedRun& run);
   FrameFiles modelsFor(const JudgedRun& run) const;
   int finish(EvaluationResult result, const EvaluateOutputs* outputs);
-  void report(const EvaluationResult& result, const FactSheet::Json& record,
-              const std::vector<ThresholdOutcome>& outcomes) const;
+  void report(const EvaluationResult& result, const FactSheet::Json& record) const;
 
   std::string run_, reference_, out_, align_ = "none";
   std::vector<std::string> fail_if_;
@@ -107,7 +108,8 @@ int EvaluateCommand::run() {
         "in its camera's frame, with no alignment");
   EvaluationResult empty;
   empty.against_mesh = !sequence;
-  checkThresholds(thresholds_, evaluationJson(empty));  // a misspelt name is told before the work
+  checkThresholds(thresholds_, evaluationJson(empty),
+                  kPreferred);  // a misspelt name is told before the work
   std::optional<EvaluateOutputs> outputs;
   if (!out_.empty()) outputs.emplace(out_, force_);
 
@@ -180,18 +182,15 @@ int EvaluateCommand::finish(EvaluationResult result, const EvaluateOutputs* outp
   result.reference = reference_;
   const FrameTable frames = frameTable(result);
   FactSheet::Json record = evaluationJson(result);
-  const auto outcomes = checkThresholds(thresholds_, record);
+  const auto outcomes = checkThresholds(thresholds_, record, kPreferred);
   record["thresholds"] = thresholdsJson(outcomes);
   record["frames"] = frames.json();
   if (outputs != nullptr) outputs->write(result, frames, record);
-  report(result, record, outcomes);
-  for (const ThresholdOutcome& outcome : outcomes)
-    if (outcome.failed) return kThresholdFailed;
-  return kDone;
+  report(result, record);
+  return exitCodeOf(outcomes);
 }
 
-void EvaluateCommand::report(const EvaluationResult& result, const FactSheet::Json& record,
-                             const std::vector<ThresholdOutcome>& outcomes) const {
+void EvaluateCommand::report(const EvaluationResult& result, const FactSheet::Json& record) const {
   if (common.json) {
     printJson(record);
   } else {
@@ -199,11 +198,6 @@ void EvaluateCommand::report(const EvaluationResult& result, const FactSheet::Js
     if (!out_.empty()) facts.addLine("written to", out_);
     printFacts(facts, false);
   }
-  for (const ThresholdOutcome& outcome : outcomes)
-    if (outcome.failed)
-      spdlog::error("failed: {} is {}, and --fail-if says {}", outcome.path,
-                    std::isnan(outcome.value) ? "not measured" : fixed(outcome.value, 4),
-                    outcome.threshold.text());
 }
 
 }  // namespace

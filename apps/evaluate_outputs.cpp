@@ -40,7 +40,8 @@ void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& fr
   if (result.tracks) put("tracks.csv", tracksCsv(*result.tracks));
   if (!result.surface.models.empty()) {
     const VectorDrawing series = drawErrorSeries(seriesData(result));
-    const VectorDrawing histogram = drawErrorHistogram(histogramData(result));
+    const VectorDrawing histogram = drawErrorHistogram(
+        histogramOf(result.surface.pool.all_mm(), comparisonTitle(result.run, result.reference)));
     put("error_series.svg", svgBytes(series));
     put("error_series.pdf", pdfBytes(series));
     writePng(folder_ / "error_series.png", rasterise(series, kDotsPerInch), overwrite_);

@@ -17,10 +17,6 @@ std::string lastPart(const std::string& path) {
   return place.filename().string();
 }
 
-std::string titleOf(const EvaluationResult& result) {
-  return lastPart(result.run) + " against " + lastPart(result.reference);
-}
-
 /// Whether times tell the models apart.
 bool timesRise(const SurfaceSeries& surface) {
   for (std::size_t i = 0; i < surface.models.size(); ++i)
@@ -42,7 +38,7 @@ double roundUp(double value) {
 
 ErrorSeriesData seriesData(const EvaluationResult& result) {
   ErrorSeriesData data;
-  data.title = titleOf(result);
+  data.title = comparisonTitle(result.run, result.reference);
   const bool over_time = timesRise(result.surface);
   if (!over_time) data.time_label = "frame";
   for (const JudgedModel& model : result.surface.models) {
@@ -54,22 +50,25 @@ ErrorSeriesData seriesData(const EvaluationResult& result) {
   return data;
 }
 
-ErrorHistogramData histogramData(const EvaluationResult& result) {
-  const SurfaceSeries& surface = result.surface;
-  const double p99_mm = percentiles(surface.pool.all_mm(), {99})[0];
-  const Histogram counted =
-      histogram(surface.pool.all_mm(), 0, roundUp(std::max(p99_mm, 1e-3)), kBins);
+ErrorHistogramData histogramOf(const std::vector<double>& errors_mm, const std::string& title) {
+  const Statistics all = statistics(errors_mm);
+  const double p99_mm = percentiles(errors_mm, {99})[0];
+  const Histogram counted = histogram(errors_mm, 0, roundUp(std::max(p99_mm, 1e-3)), kBins);
   ErrorHistogramData data;
-  data.title = titleOf(result);
+  data.title = title;
   data.high = counted.high;
   const auto total = static_cast<double>(counted.total);
   for (const std::size_t count : counted.counts)
     data.shares.push_back(static_cast<double>(count) / total);
   data.cumulative = counted.cumulativeShares();
   data.share_beyond = static_cast<double>(counted.above) / total;
-  data.median = surface.all_mm.median;
-  data.p95 = surface.all_mm.p95;
+  data.median = all.median;
+  data.p95 = all.p95;
   return data;
+}
+
+std::string comparisonTitle(const std::string& test, const std::string& reference) {
+  return lastPart(test) + " against " + lastPart(reference);
 }
 
 }  // namespace softscope

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/evaluate_result.h"
 #include "vtk_views/series_plot.h"
@@ -11,7 +12,10 @@ namespace softscope {
 /// Of all judged models, over time, or over frames where no time is known. At least one model.
 ErrorSeriesData seriesData(const EvaluationResult& result);
 
-/// Of the pooled points, from 0 to a round number above the 99th percentile. At least one model.
-ErrorHistogramData histogramData(const EvaluationResult& result);
+/// From 0 to a round number above the 99th percentile. At least one value is a number.
+ErrorHistogramData histogramOf(const std::vector<double>& errors_mm, const std::string& title);
+
+/// "run against reference", by the last parts of their paths.
+std::string comparisonTitle(const std::string& test, const std::string& reference);
 
 }  // namespace softscope

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/evaluate_json.h"
 #include "apps/version.h"
 
 namespace softscope {
@@ -11,27 +12,10 @@ namespace {
 
 using Json = FactSheet::Json;
 
-Json statisticsJson(const Statistics& s, const std::string& unit) {
-  return {{"mean" + unit, s.mean}, {"sd" + unit, s.sd},
-          {"rmse" + unit, s.rmse}, {"median" + unit, s.median},
-          {"p95" + unit, s.p95},   {"max" + unit, s.max},
-          {"n", s.count}};
-}
-
 Json poseErrorsJson(const PoseErrors& errors) {
   Json json = statisticsJson(errors.translation_mm, "_mm");
   json.update(statisticsJson(errors.rotation_deg, "_deg"));
   return json;
-}
-
-Json matrixJson(const Eigen::Isometry3d& pose) {
-  Json rows = Json::array();
-  for (int i = 0; i < 4; ++i) {
-    Json row = Json::array();
-    for (int j = 0; j < 4; ++j) row.push_back(pose.matrix()(i, j));
-    rows.push_back(row);
-  }
-  return rows;
 }
 
 /// Means over the models of what is defined per model.
@@ -131,21 +115,9 @@ Json tracksJson(const TrackErrors& tracks) {
   return json;
 }
 
-const char* toString(AlignmentStop stop) {
-  switch (stop) {
-    case AlignmentStop::kConverged:
-      return "converged";
-    case AlignmentStop::kIterationLimit:
-      return "iteration limit";
-    case AlignmentStop::kTooFewPairs:
-      return "too few pairs";
-  }
-  return "unknown";
-}
-
 Json alignmentJson(const SurfaceAlignment& alignment) {
   return {{"mesh_from_run", matrixJson(alignment.surface_from_points)},
-          {"stop", toString(alignment.stop)},
+          {"stop", stopText(alignment.stop)},
           {"iterations", alignment.iterations},
           {"pairs", alignment.pair_count},
           {"free_directions", alignment.free_directions},
@@ -164,12 +136,6 @@ Json comparisonJson(const EvaluationResult& result) {
   return json;
 }
 
-std::string spread(const Statistics& s) {
-  if (s.count == 0) return "not measured";
-  return "mean " + fixed(s.mean, 3) + ", median " + fixed(s.median, 3) + ", P95 " +
-         fixed(s.p95, 3) + ", max " + fixed(s.max, 2) + " mm";
-}
-
 std::string percent(double share) {
   return std::isnan(share) ? "unknown" : fixed(100 * share, 1) + " %";
 }
@@ -177,10 +143,10 @@ std::string percent(double share) {
 void addViewFacts(const SurfaceSeries& surface, FactSheet& facts) {
   using E = const ModelErrors&;
   const auto hd95 = [&](auto value) { return fixed(surface.meanOf(value), 2); };
-  facts.addLine("  observed", spread(surface.observed_mm) + "; " +
+  facts.addLine("  observed", spreadText(surface.observed_mm) + "; " +
                                   percent(surface.meanOf([](E e) { return e.observed_share; })) +
                                   " of the points");
-  facts.addLine("  predicted", spread(surface.predicted_mm));
+  facts.addLine("  predicted", spreadText(surface.predicted_mm));
   facts.addLine("completeness",
                 percent(surface.meanOf([](E e) { return e.both.share; })) +
                     " of the tissue that both cameras see has a model point within 1 mm; " +
@@ -197,7 +163,7 @@ void addSurfaceFacts(const EvaluationResult& result, FactSheet& facts) {
   const SurfaceSeries& surface = result.surface;
   const JudgedModel* worst = worstOf(surface);
   if (worst == nullptr) return facts.addLine("surface", "no model was judged");
-  facts.addLine("surface", spread(surface.all_mm) + " over " +
+  facts.addLine("surface", spreadText(surface.all_mm) + " over " +
                                std::to_string(surface.models.size()) + " models");
   facts.addLine("  signed", "mean " + fixed(surface.signed_mm.mean, 3) + " mm, + = outside");
   if (!result.against_mesh) addViewFacts(surface, facts);
@@ -224,9 +190,9 @@ void addCameraFacts(const CameraResult& camera, FactSheet& facts) {
 }
 
 void addTrackFacts(const TrackErrors& tracks, FactSheet& facts) {
-  facts.addLine("tracks", spread(tracks.error_mm) + "; " + percent(tracks.reported_share) +
+  facts.addLine("tracks", spreadText(tracks.error_mm) + "; " + percent(tracks.reported_share) +
                               " of the true positions reported");
-  facts.addLine("  no motion", spread(tracks.control_mm) + ", had nothing been tracked");
+  facts.addLine("  no motion", spreadText(tracks.control_mm) + ", had nothing been tracked");
 }
 
 void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
@@ -254,8 +220,8 @@ void addAlignmentFacts(const EvaluationResult& result, FactSheet& facts) {
   facts.addLine("alignment", toString(result.alignment));
   if (result.alignments.empty()) return;
   const SurfaceAlignment& first = result.alignments.front();
-  facts.addLine("  before", spread(first.before.distance_mm));
-  facts.addLine("  after", spread(first.after.distance_mm) + "; " + toString(first.stop) +
+  facts.addLine("  before", spreadText(first.before.distance_mm));
+  facts.addLine("  after", spreadText(first.after.distance_mm) + "; " + stopText(first.stop) +
                                " after " + std::to_string(first.iterations) + " iterations");
 }
 
@@ -278,16 +244,6 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
   }
   json["warnings"] = result.warnings;
   return json;
-}
-
-FactSheet::Json thresholdsJson(const std::vector<ThresholdOutcome>& outcomes) {
-  Json list = Json::array();
-  for (const ThresholdOutcome& outcome : outcomes)
-    list.push_back({{"fail_if", outcome.threshold.text()},
-                    {"metric", outcome.path},
-                    {"value", outcome.value},
-                    {"failed", outcome.failed}});
-  return list;
 }
 
 FactSheet evaluationFacts(const EvaluationResult& result) {

@@ -14,8 +14,6 @@ namespace softscope {
 /// tells which names --fail-if may use.
 FactSheet::Json evaluationJson(const EvaluationResult& result);
 
-FactSheet::Json thresholdsJson(const std::vector<ThresholdOutcome>& outcomes);
-
 FactSheet evaluationFacts(const EvaluationResult& result);
 
 }  // namespace softscope

@@ -1,10 +1,13 @@
 // apps/evaluate_thresholds.cpp: splits the text, looks the metric up, compares.
 #include "apps/evaluate_thresholds.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "apps/exit_codes.h"
 #include "core/error.h"
 #include "io/nearest_name.h"
 #include "io/text_lines.h"
@@ -41,8 +44,9 @@ bool endsWithPart(const std::string& path, const std::string& part) {
       (nearest.empty() ? "; --json shows what there is" : " (did you mean `" + nearest + "`?)"));
 }
 
-const std::pair<std::string, double>& find(const std::string& name, const Metrics& metrics) {
-  for (const std::string& path : {name, "surface." + name})
+const std::pair<std::string, double>& find(const std::string& name, const Metrics& metrics,
+                                           const std::string& preferred) {
+  for (const std::string& path : {name, preferred + "." + name})
     for (const auto& metric : metrics)
       if (metric.first == path) return metric;
   const auto matches = [&](const auto& metric) { return endsWithPart(metric.first, name); };
@@ -90,14 +94,37 @@ Metrics metricsOf(const FactSheet::Json& result) {
 }
 
 std::vector<ThresholdOutcome> checkThresholds(const std::vector<Threshold>& thresholds,
-                                              const FactSheet::Json& result) {
+                                              const FactSheet::Json& result,
+                                              const std::string& preferred) {
   const Metrics metrics = metricsOf(result);
   std::vector<ThresholdOutcome> outcomes;
   for (const Threshold& threshold : thresholds) {
-    const auto& [path, value] = find(threshold.metric, metrics);
+    const auto& [path, value] = find(threshold.metric, metrics, preferred);
     outcomes.push_back({threshold, path, value, threshold.fails(value)});
   }
   return outcomes;
+}
+
+FactSheet::Json thresholdsJson(const std::vector<ThresholdOutcome>& outcomes) {
+  FactSheet::Json list = FactSheet::Json::array();
+  for (const ThresholdOutcome& outcome : outcomes)
+    list.push_back({{"fail_if", outcome.threshold.text()},
+                    {"metric", outcome.path},
+                    {"value", outcome.value},
+                    {"failed", outcome.failed}});
+  return list;
+}
+
+int exitCodeOf(const std::vector<ThresholdOutcome>& outcomes) {
+  int code = kDone;
+  for (const ThresholdOutcome& outcome : outcomes) {
+    if (!outcome.failed) continue;
+    code = kThresholdFailed;
+    spdlog::error("failed: {} is {}, and --fail-if says {}", outcome.path,
+                  std::isnan(outcome.value) ? "not measured" : fixed(outcome.value, 4),
+                  outcome.threshold.text());
+  }
+  return code;
 }
 
 }  // namespace softscope

@@ -33,9 +33,15 @@ struct ThresholdOutcome {
 /// Every number (or null) of a result by its path, with dots; lists are left out.
 std::vector<std::pair<std::string, double>> metricsOf(const FactSheet::Json& result);
 
-/// Finds each metric by its path, by "surface." and its name, or by a last part that only one path
-/// has. Throws OptionError with the nearest name where there is none, or several.
+/// Finds each metric by its path, by its name in the part `preferred`, or by a last part that only
+/// one path has. Throws OptionError with the nearest name where there is none, or several.
 std::vector<ThresholdOutcome> checkThresholds(const std::vector<Threshold>& thresholds,
-                                              const FactSheet::Json& result);
+                                              const FactSheet::Json& result,
+                                              const std::string& preferred);
+
+FactSheet::Json thresholdsJson(const std::vector<ThresholdOutcome>& outcomes);
+
+/// kThresholdFailed where one failed, each of which is told on stderr; else kDone.
+int exitCodeOf(const std::vector<ThresholdOutcome>& outcomes);
 
 }  // namespace softscope

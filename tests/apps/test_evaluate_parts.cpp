@@ -45,9 +45,10 @@ TEST(EvaluateThresholds, CompareAsWritten) {
 
 TEST(EvaluateThresholds, AmbiguousNamesMustBeWrittenInFull) {
   const FactSheet::Json result{{"a", {{"x_mm", 1}}}, {"b", {{"x_mm", 2}, {"y_mm", nullptr}}}};
-  EXPECT_THROW(checkThresholds({parseThreshold("x_mm>0")}, result), OptionError);
-  EXPECT_EQ(checkThresholds({parseThreshold("b.x_mm>1")}, result)[0].path, "b.x_mm");
-  EXPECT_TRUE(checkThresholds({parseThreshold("y_mm>1")}, result)[0].failed);
+  EXPECT_THROW(checkThresholds({parseThreshold("x_mm>0")}, result, "c"), OptionError);
+  EXPECT_EQ(checkThresholds({parseThreshold("x_mm>0")}, result, "a")[0].path, "a.x_mm");
+  EXPECT_EQ(checkThresholds({parseThreshold("b.x_mm>1")}, result, "a")[0].path, "b.x_mm");
+  EXPECT_TRUE(checkThresholds({parseThreshold("y_mm>1")}, result, "a")[0].failed);
 }
 
 }  // namespace

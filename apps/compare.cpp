@@ -1,0 +1,164 @@
+// apps/compare.cpp: `softscope compare`: a model against a reference surface.
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "apps/command.h"
+#include "apps/compare_inputs.h"
+#include "apps/compare_outputs.h"
+#include "apps/compare_record.h"
+#include "apps/evaluate_thresholds.h"
+#include "apps/exit_codes.h"
+#include "apps/result_output.h"
+#include "core/error.h"
+#include "io/text_lines.h"
+#include "mesh/mesh_check.h"
+
+namespace softscope {
+namespace {
+
+const char* const kDetails =
+    "Distances both ways, point to triangle: accuracy (the test from the reference), completeness\n"
+    "(the reference from the test), by vertex and by area; signed; three HD95 by name; precision,\n"
+    "recall, F and surface Dice at each tau. The test may be a mesh or a model of points.\n"
+    "Completeness and what is built on it mean little where the test shows a part of the "
+    "reference.\n"
+    "With --out DIR it writes comparison.json, metrics.csv, errors.vtp (the test in the "
+    "reference's\n"
+    "place with arrays Signed, Absolute and ToReference) and error_histogram as SVG, PDF and PNG.\n"
+    "Landmarks: CSV test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm.\n"
+    "docs/evaluation.md defines every value.";
+
+/// "0.5,1,2". Throws OptionError.
+std::vector<double> parseTaus(const std::string& text) {
+  std::vector<double> taus_mm;
+  for (const std::string_view word : wordsOf(text)) {
+    const auto tau_mm = numberOf(word);
+    if (!tau_mm || !std::isfinite(*tau_mm) || *tau_mm <= 0)
+      throw OptionError("--tau is `" + text + "`, but must be lengths in mm above 0, e.g. 0.5,1,2");
+    taus_mm.push_back(*tau_mm);
+  }
+  return taus_mm;
+}
+
+void addMeshWarnings(const TriangleMesh& mesh, const std::string& name,
+                     std::vector<std::string>& warnings) {
+  if (mesh.empty()) return;
+  for (const std::string& warning : meshWarnings(checkMesh(mesh)))
+    warnings.push_back(name + ": " + warning);
+}
+
+class CompareCommand : public Command {
+ public:
+  std::string name() const override { return "compare"; }
+  std::string summary() const override {
+    return "a model against a reference surface: distances both ways";
+  }
+  std::string details() const override { return kDetails; }
+  std::string example() const override {
+    return "softscope compare --reference liver_ct.stl --test run/model.ply --align icp --out cmp";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  void requireAlignment() const;
+  void align(const TriangleMesh& reference, TriangleMesh& test, ComparisonResult& result) const;
+
+  std::string reference_, test_, out_, align_, landmarks_, taus_ = "0.5,1,2";
+  std::vector<std::string> fail_if_;
+  double reference_unit_mm_ = 1, test_unit_mm_ = 1;
+  bool force_ = false;
+};
+
+void CompareCommand::declare(ArgumentList& arguments) {
+  arguments.option("--reference", "MESH", reference_, "surface to judge by (STL, PLY, OBJ)", true);
+  arguments.option("--test", "MODEL", test_, "surface, or points as reconstruct writes them", true);
+  arguments.option("--align", "HOW", align_,
+                   "none (the default), landmarks, or icp, which begins at the landmarks if given");
+  arguments.option("--landmarks", "FILE", landmarks_, "pairs of points; alone: --align landmarks");
+  arguments.option("--tau", "LIST", taus_, "thresholds in mm (default 0.5,1,2)");
+  arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
+  arguments.option("--fail-if", "LIMIT", fail_if_,
+                   "e.g. accuracy.p95_mm>2: then exit code 1; repeatable");
+  arguments.option("--reference-unit-mm", "N", reference_unit_mm_,
+                   "what one unit of the file measures: 1000 for metres");
+  arguments.option("--test-unit-mm", "N", test_unit_mm_, "the same of the test");
+  arguments.flag("--force", force_, "overwrite what is there");
+}
+
+void CompareCommand::requireAlignment() const {
+  require(align_.empty() || align_ == "none" || align_ == "landmarks" || align_ == "icp", "--align",
+          align_, "must be none, landmarks or icp");
+  if (align_ == "landmarks" && landmarks_.empty())
+    throw OptionError("--align landmarks needs --landmarks FILE");
+  if (align_ == "none" && !landmarks_.empty())
+    throw OptionError("--align none and --landmarks exclude each other; give one");
+}
+
+void CompareCommand::align(const TriangleMesh& reference, TriangleMesh& test,
+                           ComparisonResult& result) const {
+  result.alignment = "none";
+  if (landmarks_.empty() && align_ != "icp") return;
+  const TriangleTree surface(reference);
+  result.before_mm = surfaceErrors(surface.closestPoints(test.vertices_mm)).distance_mm;
+  if (!landmarks_.empty()) {
+    const Landmarks landmarks = readLandmarks(landmarks_);
+    result.landmarks = landmarkErrors(landmarks.test_mm, landmarks.reference_mm);
+    result.reference_from_test = result.landmarks->fit.target_from_source;
+    result.alignment = "landmarks";
+  }
+  if (align_ == "icp") {
+    result.icp = alignToSurface(test.vertices_mm, surface, {}, result.reference_from_test);
+    result.reference_from_test = result.icp->surface_from_points;
+    result.alignment = landmarks_.empty() ? "icp" : "landmarks, then icp";
+    if (!result.icp->converged())
+      result.warnings.push_back(
+          "the alignment did not converge; a better start may help: "
+          "--landmarks");
+  }
+  test.vertices_mm = movePoints(result.reference_from_test, test.vertices_mm);
+}
+
+int CompareCommand::run() {
+  requireAlignment();
+  const std::vector<double> taus_mm = parseTaus(taus_);
+  std::vector<Threshold> thresholds;
+  for (const std::string& text : fail_if_) thresholds.push_back(parseThreshold(text));
+  checkThresholds(thresholds, comparisonJson({}), "accuracy");  // misspelt: told before the work
+  std::optional<CompareOutputs> outputs;
+  if (!out_.empty()) outputs.emplace(out_, force_);
+
+  ComparisonResult result;
+  result.reference = reference_;
+  result.test = test_;
+  const TriangleMesh reference = readSurfaceOrPoints(reference_, reference_unit_mm_);
+  if (reference.empty())
+    throw InputError(reference_ +
+                     ": is a set of points, but a reference is a surface; give a mesh");
+  TriangleMesh test = readSurfaceOrPoints(test_, test_unit_mm_);
+  addMeshWarnings(reference, reference_, result.warnings);
+  addMeshWarnings(test, test_, result.warnings);
+  result.space = matchSpaces(reference, test);
+  align(reference, test, result);
+  result.comparison = compareSurfaces(reference, test, taus_mm);
+
+  FactSheet::Json record = comparisonJson(result);
+  const auto outcomes = checkThresholds(thresholds, record, "accuracy");
+  record["thresholds"] = thresholdsJson(outcomes);
+  if (outputs) outputs->write(result, test, record);
+  FactSheet facts = comparisonFacts(result);
+  if (!out_.empty()) facts.addLine("written to", out_);
+  if (common.json)
+    printJson(record);
+  else
+    printFacts(facts, false);
+  return exitCodeOf(outcomes);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeCompareCommand() { return std::make_unique<CompareCommand>(); }
+
+}  // namespace softscope

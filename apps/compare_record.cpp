@@ -1,0 +1,117 @@
+// apps/compare_record.cpp: names, units, nesting.
+#include "apps/compare_record.h"
+
+#include <cmath>
+
+#include "apps/evaluate_json.h"
+#include "apps/version.h"
+
+namespace softscope {
+namespace {
+
+using Json = FactSheet::Json;
+
+Json directedJson(const DirectedErrors& errors) {
+  Json json = statisticsJson(errors.vertices_mm, "_mm");
+  json["by_area"] = statisticsJson(errors.area_mm, "_mm");
+  return json;
+}
+
+/// In the order in which they were asked for.
+Json scoresJson(const std::vector<ThresholdScores>& scores) {
+  Json list = Json::array();
+  for (const ThresholdScores& s : scores)
+    list.push_back({{"tau_mm", s.tau_mm},
+                    {"precision", s.precision},
+                    {"recall", s.recall},
+                    {"f_score", s.f_score},
+                    {"surface_dice", s.surface_dice}});
+  return list;
+}
+
+Json hausdorffJson(const HausdorffDistances& d) {
+  return {{"hd95_max_of_directed_mm", d.hd95_max_of_directed_mm},
+          {"hd95_pooled_mm", d.hd95_pooled_mm},
+          {"hd95_mean_of_directed_mm", d.hd95_mean_of_directed_mm},
+          {"hd_mm", d.hd_mm},
+          {"assd_mm", d.assd_mm},
+          {"masd_mm", d.masd_mm}};
+}
+
+Json alignmentJson(const ComparisonResult& result) {
+  Json json{{"method", result.alignment},
+            {"reference_from_test", matrixJson(result.reference_from_test)}};
+  if (result.before_mm) json["before"] = statisticsJson(*result.before_mm, "_mm");
+  if (result.landmarks) {
+    json["fre"] = statisticsJson(result.landmarks->fre_mm, "_mm");
+    json["tre_leave_one_out"] = statisticsJson(result.landmarks->tre_mm, "_mm");
+  }
+  if (result.icp)
+    json["icp"] = {{"stop", stopText(result.icp->stop)},
+                   {"iterations", result.icp->iterations},
+                   {"free_directions", result.icp->free_directions}};
+  return json;
+}
+
+void addAlignmentFacts(const ComparisonResult& result, FactSheet& facts) {
+  facts.addLine("alignment", result.alignment);
+  if (result.before_mm) facts.addLine("  before", spreadText(*result.before_mm));
+  if (result.landmarks)
+    facts.addLine("  landmarks", "FRE rmse " + fixed(result.landmarks->fre_mm.rmse, 3) + " mm" +
+                                     (result.landmarks->tre_mm.count == 0
+                                          ? std::string("; TRE takes four landmarks")
+                                          : "; TRE, leaving one out, mean " +
+                                                fixed(result.landmarks->tre_mm.mean, 3) + " mm"));
+  if (result.icp)
+    facts.addLine("  icp", std::string(stopText(result.icp->stop)) + " after " +
+                               std::to_string(result.icp->iterations) + " iterations");
+}
+
+}  // namespace
+
+Json comparisonJson(const ComparisonResult& result) {
+  const SurfaceComparison& c = result.comparison;
+  Json json;
+  json["schema_version"] = 1;
+  json["softscope"] = versionText();
+  json["command"] = "compare";
+  json["inputs"] = {{"reference", result.reference}, {"test", result.test}};
+  json["space"] = result.space;
+  json["alignment"] = alignmentJson(result);
+  json["accuracy"] = directedJson(c.accuracy);
+  json["completeness"] = directedJson(c.completeness);
+  json["signed"] = statisticsJson(c.signed_mm, "_mm");
+  json["signed"]["border_vertices"] = c.signed_mm.nan_count;
+  json["hausdorff"] = hausdorffJson(c.hausdorff);
+  json["scores"] = scoresJson(c.scores);
+  json["warnings"] = result.warnings;
+  return json;
+}
+
+FactSheet comparisonFacts(const ComparisonResult& result) {
+  const SurfaceComparison& c = result.comparison;
+  FactSheet facts(result.test + " against " + result.reference);
+  facts.addLine("space", result.space);
+  addAlignmentFacts(result, facts);
+  facts.addLine("accuracy", spreadText(c.accuracy.vertices_mm) + ", of the test's vertices");
+  if (c.accuracy.area_mm.count > 0) facts.addLine("  by area", spreadText(c.accuracy.area_mm));
+  facts.addLine("  signed", "mean " + fixed(c.signed_mm.mean, 3) + " mm, + = outside; " +
+                                std::to_string(c.signed_mm.nan_count) +
+                                " vertices at the reference's border have no side");
+  facts.addLine("completeness",
+                spreadText(c.completeness.vertices_mm) + ", of the reference's vertices");
+  facts.addLine("HD95", fixed(c.hausdorff.hd95_max_of_directed_mm, 2) +
+                            " mm as the larger of both ways, " +
+                            fixed(c.hausdorff.hd95_pooled_mm, 2) + " pooled, " +
+                            fixed(c.hausdorff.hd95_mean_of_directed_mm, 2) + " as their mean");
+  for (const ThresholdScores& s : c.scores)
+    facts.addLine("within " + fixed(s.tau_mm, 2) + " mm",
+                  "precision " + fixed(s.precision, 3) + ", recall " + fixed(s.recall, 3) + ", F " +
+                      fixed(s.f_score, 3) +
+                      (std::isnan(s.surface_dice) ? std::string()
+                                                  : ", surface Dice " + fixed(s.surface_dice, 3)));
+  for (const std::string& warning : result.warnings) facts.warn(warning);
+  return facts;
+}
+
+}  // namespace softscope

@@ -1,0 +1,30 @@
+// apps/compare_record.h: a comparison as JSON and as lines for people.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/fact_sheet.h"
+#include "eval/landmark_errors.h"
+#include "eval/surface_alignment.h"
+#include "eval/surface_comparison.h"
+
+namespace softscope {
+
+struct ComparisonResult {
+  std::string reference, test;  // as the user named them
+  std::string space;            // what was done or assumed
+  std::string alignment;        // none, landmarks, icp, landmarks+icp
+  Eigen::Isometry3d reference_from_test = Eigen::Isometry3d::Identity();
+  std::optional<LandmarkErrors> landmarks;
+  std::optional<SurfaceAlignment> icp;
+  std::optional<Statistics> before_mm;  // the test's distances before any alignment
+  SurfaceComparison comparison;
+  std::vector<std::string> warnings;
+};
+
+FactSheet::Json comparisonJson(const ComparisonResult& result);
+FactSheet comparisonFacts(const ComparisonResult& result);
+
+}  // namespace softscope

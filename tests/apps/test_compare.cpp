@@ -1,0 +1,149 @@
+// tests/apps/test_compare.cpp: `softscope compare` on squares whose distances are known.
+#include <cmath>
+
+#include "io/ply_writer.h"
+#include "tests/apps/evaluate_fixture.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A square of 20 mm at height z, facing up, its corner at (x, 0), in steps of 1 mm.
+std::string squareObj(double x_mm, double z_mm, double scale = 1, const std::string& head = "") {
+  std::string text = head;
+  const auto at = [](int i, int j) { return std::to_string(1 + j * 21 + i); };
+  for (int j = 0; j <= 20; ++j)
+    for (int i = 0; i <= 20; ++i)
+      text += "v " + std::to_string((x_mm + i) * scale) + " " + std::to_string(j * scale) + " " +
+              std::to_string(z_mm * scale) + "\n";
+  for (int j = 0; j < 20; ++j)
+    for (int i = 0; i < 20; ++i)
+      text +=
+          "f " + at(i, j) + " " + at(i + 1, j) + " " + at(i + 1, j + 1) + " " + at(i, j + 1) + "\n";
+  return text;
+}
+
+class Compare : public InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    write("reference.obj", squareObj(0, 0));
+    write("above.obj", squareObj(0, 0.75));
+  }
+  Outcome compare(const std::string& test, std::vector<std::string> more = {}) const {
+    std::vector<std::string> line{"compare", "--reference", at("reference.obj"), "--test",
+                                  at(test)};
+    line.insert(line.end(), more.begin(), more.end());
+    return softscope::test::run(line);
+  }
+  Json compared(const std::string& test, std::vector<std::string> more = {}) const {
+    more.push_back("--json");
+    const Outcome outcome = compare(test, more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.json();
+  }
+};
+
+TEST_F(Compare, AShiftedSquareIsOffByItsShift) {
+  const Json result = compared("above.obj", {"--tau", "0.5,1"});
+  for (const char* part : {"accuracy", "completeness"}) {
+    EXPECT_NEAR(result[part]["mean_mm"], 0.75, 1e-6) << part;
+    EXPECT_NEAR(result[part]["by_area"]["p95_mm"], 0.75, 1e-6) << part;
+  }
+  EXPECT_NEAR(result["signed"]["mean_mm"], 0.75, 1e-6) << "above is outside";
+  EXPECT_EQ(result["signed"]["border_vertices"], 80) << "the rim of 21 x 21";
+  EXPECT_NEAR(result["hausdorff"]["hd95_pooled_mm"], 0.75, 1e-6);
+  EXPECT_EQ(result["scores"][0]["f_score"], 0);
+  EXPECT_EQ(result["scores"][1]["f_score"], 1);
+  EXPECT_NEAR(result["scores"][1]["surface_dice"], 1, 1e-12);
+  EXPECT_EQ(result["alignment"]["method"], "none");
+}
+
+TEST_F(Compare, PointsAreComparedToo) {
+  PointCloud cloud;
+  for (int i = 2; i < 18; ++i) cloud.points_mm.emplace_back(float(i), 10.0f, -0.5f);
+  writePly(at("points.ply"), cloud, {"world", ""});
+  const Json result = compared("points.ply");
+  EXPECT_NEAR(result["accuracy"]["mean_mm"], 0.5, 1e-6);
+  EXPECT_NEAR(result["signed"]["mean_mm"], -0.5, 1e-6) << "below is inside";
+  EXPECT_TRUE(result["accuracy"]["by_area"]["mean_mm"].is_null());
+  EXPECT_TRUE(result["scores"][0]["surface_dice"].is_null());
+}
+
+TEST_F(Compare, AnAlignmentIsToldWithTheErrorsBefore) {
+  const Json icp = compared("above.obj", {"--align", "icp"});
+  EXPECT_NEAR(icp["alignment"]["before"]["mean_mm"], 0.75, 1e-6);
+  EXPECT_LT(icp["accuracy"]["mean_mm"], 1e-3);
+  write("marks.csv",
+        "name,test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm\n"
+        "a,0,0,0.75,0,0,0.25\nb,20,0,0.75,20,0,0.25\nc,0,20,0.75,0,20,0.25\n\"d, e\",20,20,0.75,20,"
+        "20,0.25\n");
+  const Json marks = compared("above.obj", {"--landmarks", at("marks.csv")});
+  EXPECT_EQ(marks["alignment"]["method"], "landmarks");
+  EXPECT_NEAR(marks["accuracy"]["mean_mm"], 0.25, 1e-6) << "half a millimetre down";
+  EXPECT_NEAR(marks["alignment"]["fre"]["rmse_mm"], 0, 1e-6);
+  EXPECT_EQ(marks["alignment"]["tre_leave_one_out"]["n"], 4);
+}
+
+TEST_F(Compare, UnitsAndSpacesAreMatchedAndTold) {
+  write("metres.obj", squareObj(0, 0.75, 0.001));
+  EXPECT_THAT(compared("metres.obj")["warnings"].dump(), HasSubstr("metres"));
+  EXPECT_NEAR(compared("metres.obj", {"--test-unit-mm", "1000"})["accuracy"]["mean_mm"], 0.75,
+              1e-5);
+  write("reference.obj", squareObj(0, 0, 1, "# SPACE=LPS\n"));
+  std::string ras = "# SPACE=RAS\n";
+  for (const char* corner : {"0 0", "-20 0", "-20 -20", "0 -20"})
+    ras += std::string("v ") + corner + " 0.75\n";
+  write("ras.obj", ras + "f 1 2 3 4\n");
+  const Json result = compared("ras.obj");
+  EXPECT_NEAR(result["accuracy"]["mean_mm"], 0.75, 1e-6);
+  EXPECT_THAT(result["space"].dump(), HasSubstr("negated"));
+}
+
+TEST_F(Compare, WritesNumbersSurfaceAndFigure) {
+  const Json result = compared("above.obj", {"--out", at("out")});
+  EXPECT_EQ(result, Json::parse(textOf(at("out/comparison.json"))));
+  EXPECT_EQ(countFiles(at("out")), 6);
+  EXPECT_THAT(textOf(at("out/metrics.csv")), HasSubstr("\nhausdorff.hd95_pooled_mm,0.75"));
+  const std::string vtp = textOf(at("out/errors.vtp"));
+  for (const char* array : {"\"Signed\"", "\"Absolute\"", "\"ToReference\""})
+    EXPECT_THAT(vtp, HasSubstr(array));
+  EXPECT_EQ(compare("above.obj", {"--out", at("out")}).exit_code, 2);
+  EXPECT_EQ(compare("above.obj", {"--out", at("out"), "--force"}).exit_code, 0);
+}
+
+TEST_F(Compare, LimitsSetTheExitCode) {
+  EXPECT_EQ(compare("above.obj", {"--fail-if", "p95_mm>0.8"}).exit_code, 0);
+  const Outcome failed = compare("above.obj", {"--fail-if", "p95_mm>0.7"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(failed.err, HasSubstr("accuracy.p95_mm is 0.75"));
+}
+
+TEST_F(Compare, BadInputEndsInOneLine) {
+  PointCloud cloud;
+  cloud.points_mm = {{1, 2, 3}};
+  writePly(at("points.ply"), cloud, {"world", ""});
+  write("few.csv",
+        "test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm\n"
+        "0,0,0,0,0,0\n");
+  write("hole.csv",
+        "test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm\n"
+        "0,0,,0,0,0\n0,0,1,0,0,0\n0,0,2,0,0,0\n");
+  const Outcome cloud_reference =
+      softscope::test::run({"compare", "--reference", at("points.ply"), "--test", at("above.obj")});
+  EXPECT_THAT(cloud_reference.err, HasSubstr("a reference is a surface"));
+  for (const Outcome& outcome : {cloud_reference, compare("nothing.ply"),
+                                 compare("above.obj", {"--landmarks", at("few.csv")}),
+                                 compare("above.obj", {"--landmarks", at("hole.csv")})}) {
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"--tau", "0"}, {"--tau", "a"}, {"--align", "best"}, {"--align", "landmarks"}})
+    EXPECT_EQ(compare("above.obj", wrong).exit_code, 2) << wrong[0] << " " << wrong[1];
+}
+
+}  // namespace
+}  // namespace softscope::test
