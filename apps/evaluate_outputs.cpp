@@ -17,7 +17,8 @@ constexpr double kDotsPerInch = 300;
 
 const char* const kFiles[] = {"evaluation.json",     "frames.csv",          "tracks.csv",
                               "error_series.svg",    "error_series.pdf",    "error_series.png",
-                              "error_histogram.svg", "error_histogram.pdf", "error_histogram.png"};
+                              "error_histogram.svg", "error_histogram.pdf", "error_histogram.png",
+                              "worst_frames.svg",    "worst_frames.pdf",    "worst_frames.png"};
 
 }  // namespace
 
@@ -29,8 +30,14 @@ EvaluateOutputs::EvaluateOutputs(fs::path folder, bool overwrite)
   for (const char* name : kFiles) requireWritable(folder_ / name, overwrite_);
 }
 
-void EvaluateOutputs::put(const char* name, const std::string& bytes) const {
+void EvaluateOutputs::put(const std::string& name, const std::string& bytes) const {
   writeFile(folder_ / name, bytes, overwrite_);
+}
+
+void EvaluateOutputs::putFigure(const std::string& name, const VectorDrawing& figure) const {
+  put(name + ".svg", svgBytes(figure));
+  put(name + ".pdf", pdfBytes(figure));
+  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), overwrite_);
 }
 
 void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& frames,
@@ -39,15 +46,11 @@ void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& fr
   put("frames.csv", frames.csv());
   if (result.tracks) put("tracks.csv", tracksCsv(*result.tracks));
   if (!result.surface.models.empty()) {
-    const VectorDrawing series = drawErrorSeries(seriesData(result));
-    const VectorDrawing histogram = drawErrorHistogram(
-        histogramOf(result.surface.pool.all_mm(), comparisonTitle(result.run, result.reference)));
-    put("error_series.svg", svgBytes(series));
-    put("error_series.pdf", pdfBytes(series));
-    writePng(folder_ / "error_series.png", rasterise(series, kDotsPerInch), overwrite_);
-    put("error_histogram.svg", svgBytes(histogram));
-    put("error_histogram.pdf", pdfBytes(histogram));
-    writePng(folder_ / "error_histogram.png", rasterise(histogram, kDotsPerInch), overwrite_);
+    const std::string title = comparisonTitle(result.run, result.reference);
+    putFigure("error_series", drawErrorSeries(seriesData(result)));
+    putFigure("error_histogram",
+              drawErrorHistogram(histogramOf(result.surface.pool.all_mm(), title)));
+    putFigure("worst_frames", drawWorstFrames(worstFramesData(result)));
   }
   put("evaluation.json", jsonText(record));  // last: who finds it finds the others
 }

@@ -6,6 +6,7 @@
 #include "apps/evaluate_frames.h"
 #include "apps/evaluate_result.h"
 #include "apps/fact_sheet.h"
+#include "vtk_views/vector_drawing.h"
 
 namespace softscope {
 
@@ -16,13 +17,14 @@ class EvaluateOutputs {
   /// is false.
   EvaluateOutputs(std::filesystem::path folder, bool overwrite);
 
-  /// evaluation.json, frames.csv, tracks.csv where tracks were judged, and the figures error_series
-  /// and error_histogram as SVG, PDF and PNG where a surface was.
+  /// evaluation.json, frames.csv, tracks.csv where tracks were judged, and the figures
+  /// error_series, error_histogram and worst_frames as SVG, PDF and PNG where a surface was.
   void write(const EvaluationResult& result, const FrameTable& frames,
              const FactSheet::Json& record) const;
 
  private:
-  void put(const char* name, const std::string& bytes) const;
+  void put(const std::string& name, const std::string& bytes) const;
+  void putFigure(const std::string& name, const VectorDrawing& figure) const;
 
   std::filesystem::path folder_;
   bool overwrite_;

@@ -1,6 +1,7 @@
 // apps/evaluate_plots.cpp: picks, counts and names.
 #include "apps/evaluate_plots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -10,6 +11,7 @@ namespace softscope {
 namespace {
 
 constexpr int kBins = 60;
+constexpr std::size_t kWorstFrames = 10;
 
 std::string lastPart(const std::string& path) {
   std::filesystem::path place = std::filesystem::path(path).lexically_normal();
@@ -46,6 +48,23 @@ ErrorSeriesData seriesData(const EvaluationResult& result) {
     data.mean.push_back(model.errors.distance_mm.mean);
     data.median.push_back(model.errors.distance_mm.median);
     data.p95.push_back(model.errors.distance_mm.p95);
+  }
+  return data;
+}
+
+WorstFramesData worstFramesData(const EvaluationResult& result) {
+  std::vector<const JudgedModel*> models;
+  for (const JudgedModel& model : result.surface.models) models.push_back(&model);
+  std::stable_sort(models.begin(), models.end(), [](const JudgedModel* a, const JudgedModel* b) {
+    return a->errors.distance_mm.mean > b->errors.distance_mm.mean;
+  });
+  if (models.size() > kWorstFrames) models.resize(kWorstFrames);
+  WorstFramesData data;
+  data.title = comparisonTitle(result.run, result.reference);
+  for (const JudgedModel* model : models) {
+    data.frames.push_back(model->frame);
+    data.mean.push_back(model->errors.distance_mm.mean);
+    data.p95.push_back(model->errors.distance_mm.p95);
   }
   return data;
 }

@@ -6,11 +6,15 @@
 
 #include "apps/evaluate_result.h"
 #include "vtk_views/series_plot.h"
+#include "vtk_views/worst_frames_plot.h"
 
 namespace softscope {
 
 /// Of all judged models, over time, or over frames where no time is known. At least one model.
 ErrorSeriesData seriesData(const EvaluationResult& result);
+
+/// The ten models with the largest mean, worst first. At least one model.
+WorstFramesData worstFramesData(const EvaluationResult& result);
 
 /// From 0 to a round number above the 99th percentile. At least one value is a number.
 ErrorHistogramData histogramOf(const std::vector<double>& errors_mm, const std::string& title);

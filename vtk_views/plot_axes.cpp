@@ -70,9 +70,9 @@ void PlotAxes::drawBottomNumbers(VectorDrawing& drawing) const {
 }
 
 void PlotAxes::drawFrame(const std::string& x_label, const std::string& y_label,
-                         VectorDrawing& drawing) const {
+                         VectorDrawing& drawing, bool x_numbers) const {
   drawLeftNumbers(drawing);
-  drawBottomNumbers(drawing);
+  if (x_numbers) drawBottomNumbers(drawing);
   drawing.parts.emplace_back(
       DrawnLine{{top_left_, {right(), top()}, bottom_right_, {left(), bottom()}, top_left_},
                 kThinPt,
@@ -118,6 +118,27 @@ void PlotAxes::drawCurve(const std::vector<double>& x, const std::vector<double>
     else
       finishPiece();
   finishPiece();
+}
+
+VectorDrawing newPlotSheet(double width_mm, double height_mm) {
+  VectorDrawing drawing;
+  drawing.width_pt = width_mm * kPtPerMm;
+  drawing.height_pt = height_mm * kPtPerMm;
+  return drawing;
+}
+
+PlotAxes plotAxes(const VectorDrawing& drawing, AxisRange x, AxisRange y, double font_pt,
+                  const PlotMargins& margins) {
+  return PlotAxes({5.2 * font_pt, margins.above * font_pt},
+                  {drawing.width_pt - margins.right * font_pt, drawing.height_pt - 3.6 * font_pt},
+                  x, y, font_pt);
+}
+
+void drawPlotTitle(const std::string& title, const PlotAxes& axes, double font_pt,
+                   VectorDrawing& drawing) {
+  DrawnText text = label({axes.left(), 1.4 * font_pt}, title, font_pt, TextAnchor::kStart);
+  text.bold = true;
+  drawing.parts.emplace_back(std::move(text));
 }
 
 void drawLegend(const std::vector<LegendEntry>& entries, PointPt left_middle, double font_pt,

@@ -32,9 +32,10 @@ class PlotAxes {
 
   /// Pale lines across at the ticks of y; under everything else.
   void drawGrid(VectorDrawing& drawing) const;
-  /// Frame, ticks, numbers and names of both axes; over everything else.
-  void drawFrame(const std::string& x_label, const std::string& y_label,
-                 VectorDrawing& drawing) const;
+  /// Frame, ticks, numbers and names of both axes; over everything else. Without `x_numbers` the
+  /// caller writes what stands below.
+  void drawFrame(const std::string& x_label, const std::string& y_label, VectorDrawing& drawing,
+                 bool x_numbers = true) const;
   /// Numbers of a second y axis on the right, which spans `range`.
   void drawRightAxis(AxisRange range, const std::string& label, VectorDrawing& drawing) const;
 
@@ -50,6 +51,22 @@ class PlotAxes {
   AxisRange x_, y_;
   double font_pt_;
 };
+
+/// Nothing but its size.
+VectorDrawing newPlotSheet(double width_mm, double height_mm);
+
+/// Room for title and legend above, numbers and names at the sides, in heights of letters.
+struct PlotMargins {
+  double above = 3.4, right = 1.2;
+};
+
+/// The frame that a sheet with one plot has room for.
+PlotAxes plotAxes(const VectorDrawing& drawing, AxisRange x, AxisRange y, double font_pt,
+                  const PlotMargins& margins);
+
+/// Bold, at the top.
+void drawPlotTitle(const std::string& title, const PlotAxes& axes, double font_pt,
+                   VectorDrawing& drawing);
 
 /// A sample of a line or shape and its meaning.
 struct LegendEntry {

@@ -14,35 +14,6 @@ namespace {
 constexpr Rgb8 kBlue{0, 114, 178}, kVermilion{213, 94, 0}, kBand{214, 228, 240},
     kBandEdge{140, 170, 200}, kBars{150, 190, 220}, kGrey{110, 110, 110};
 
-VectorDrawing sheet(const PlotStyle& style) {
-  VectorDrawing drawing;
-  drawing.width_pt = style.width_mm * kPtPerMm;
-  drawing.height_pt = style.height_mm * kPtPerMm;
-  return drawing;
-}
-
-/// Room for title and legend above, numbers and names at the sides, in heights of letters.
-struct Margins {
-  double above = 3.4, right = 1.2;
-};
-
-PlotAxes axesOn(const VectorDrawing& drawing, AxisRange x, AxisRange y, double font_pt,
-                const Margins& margins) {
-  return PlotAxes({5.2 * font_pt, margins.above * font_pt},
-                  {drawing.width_pt - margins.right * font_pt, drawing.height_pt - 3.6 * font_pt},
-                  x, y, font_pt);
-}
-
-void drawTitle(const std::string& title, const PlotAxes& axes, double font_pt,
-               VectorDrawing& drawing) {
-  DrawnText text;
-  text.at = {axes.left(), 1.4 * font_pt};
-  text.text = title;
-  text.size_pt = font_pt;
-  text.bold = true;
-  drawing.parts.emplace_back(text);
-}
-
 double largestFinite(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values)
@@ -141,21 +112,21 @@ void requireSeries(const ErrorSeriesData& data) {
 
 VectorDrawing drawErrorSeries(const ErrorSeriesData& data, const PlotStyle& style) {
   requireSeries(data);
-  VectorDrawing drawing = sheet(style);
+  VectorDrawing drawing = newPlotSheet(style.width_mm, style.height_mm);
   std::vector<double> times;
   for (const double time : data.times)
     if (std::isfinite(time)) times.push_back(time);
   const auto range = std::minmax_element(times.begin(), times.end());
   const double highest = std::max({largestFinite(data.p95), largestFinite(data.mean), 1e-6});
-  const PlotAxes axes = axesOn(drawing, AxisRange::around(*range.first, *range.second),
-                               {0, 1.06 * highest}, style.font_pt, {});
+  const PlotAxes axes = plotAxes(drawing, AxisRange::around(*range.first, *range.second),
+                                 {0, 1.06 * highest}, style.font_pt, {});
   drawBand(data, axes, drawing);
   axes.drawGrid(drawing);
   axes.drawCurve(data.times, data.p95, {{}, 0.6, kBandEdge, false}, drawing);
   axes.drawCurve(data.times, data.median, {{}, 1.2, kVermilion, true}, drawing);
   axes.drawCurve(data.times, data.mean, {{}, 1.2, kBlue, false}, drawing);
   axes.drawFrame(data.time_label, data.error_label, drawing);
-  drawTitle(data.title, axes, style.font_pt, drawing);
+  drawPlotTitle(data.title, axes, style.font_pt, drawing);
   drawLegend({{"mean", kBlue}, {"median", kVermilion, false, true}, {"up to P95", kBand, true}},
              {axes.left(), 2.5 * style.font_pt}, style.font_pt, drawing);
   return drawing;
@@ -165,18 +136,18 @@ VectorDrawing drawErrorHistogram(const ErrorHistogramData& data, const PlotStyle
   if (data.shares.empty() || data.shares.size() != data.cumulative.size() ||
       !(data.low < data.high))
     throw Error("error histogram: it needs bins, and as many cumulative shares");
-  VectorDrawing drawing = sheet(style);
+  VectorDrawing drawing = newPlotSheet(style.width_mm, style.height_mm);
   const double highest = std::max(100 * largestFinite(data.shares), 1e-3);
   const AxisRange all{0, 105};
   const PlotAxes axes =
-      axesOn(drawing, {data.low, data.high}, {0, 1.06 * highest}, style.font_pt, {4.6, 4.6});
+      plotAxes(drawing, {data.low, data.high}, {0, 1.06 * highest}, style.font_pt, {4.6, 4.6});
   axes.drawGrid(drawing);
   drawBars(data, axes, drawing);
   drawCumulative(data, axes, all, drawing);
   drawMarks(data, axes, style.font_pt, drawing);
   axes.drawFrame(data.error_label, "points in the bin [%]", drawing);
   axes.drawRightAxis(all, "points below [%]", drawing);
-  drawTitle(data.title, axes, style.font_pt, drawing);
+  drawPlotTitle(data.title, axes, style.font_pt, drawing);
   std::vector<LegendEntry> legend{{"histogram", kBars, true}, {"cumulative", kBlue}};
   drawLegend(legend, {axes.left(), 2.5 * style.font_pt}, style.font_pt, drawing);
   if (data.share_beyond > 0) {

@@ -7,6 +7,7 @@
 #include "vtk_views/fonts.h"
 #include "vtk_views/plot_axes.h"
 #include "vtk_views/series_plot.h"
+#include "vtk_views/worst_frames_plot.h"
 
 namespace softscope {
 namespace {
@@ -126,6 +127,24 @@ TEST(SeriesPlot, BarsHaveTheHeightOfTheirShares) {
   ASSERT_GE(heights.size(), 2u);
   EXPECT_NEAR(heights[0], 2 * heights[1], 1e-9);
   EXPECT_NEAR(widths[0], widths[1], 1e-9);
+}
+
+TEST(SeriesPlot, WorstFramesHaveBarsOfTheirErrorsOverTheirNumbers) {
+  WorstFramesData data;
+  data.frames = {35, 7};
+  data.mean = {0.4, 0.2};
+  data.p95 = {1.0, 0.5};
+  const VectorDrawing drawing = drawWorstFrames(data);
+  std::vector<double> heights;
+  for (const DrawnShape& bar : partsOf<DrawnShape>(drawing))
+    heights.push_back(bar.points[0].y_pt - bar.points[1].y_pt);
+  ASSERT_GE(heights.size(), 4u);
+  EXPECT_NEAR(heights[0] / heights[1], 2.5, 1e-9) << "P95 behind the mean";
+  EXPECT_NEAR(heights[0] / heights[2], 2, 1e-9);
+  EXPECT_THAT(wordsOf(drawing), testing::IsSupersetOf({"35", "7", "frame, worst mean first"}));
+  data.p95.pop_back();
+  EXPECT_THROW(drawWorstFrames(data), Error);
+  EXPECT_THROW(drawWorstFrames({}), Error);
 }
 
 TEST(SeriesPlot, NothingToDrawIsRefused) {
