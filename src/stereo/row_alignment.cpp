@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
-#include "core/parallel.h"
 #include "stereo/gradient_image.h"
-#include "stereo/opencv_view.h"
 #include "stereo/row_model.h"
+#include "stereo/row_resampling.h"
 #include "stereo/stereo_options.h"
 #include "stereo/support_points.h"
 
@@ -117,24 +115,6 @@ bool canStay(const RowAlignment& found) {
   return !found.known() ||
          found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||
          found.mean_row_difference_px < RowAlignment::kRemoveAbovePx;
-}
-
-/// The picture moved so that the model's row difference vanishes.
-template <class Pixel>
-Raster<Pixel> moveRows(const Raster<Pixel>& picture, const RowAlignment& alignment) {
-  Raster<float> map_u(picture.width_px, picture.height_px);
-  Raster<float> map_v(picture.width_px, picture.height_px);
-  parallelRows(picture.height_px, [&](int v) {
-    for (int u = 0; u < picture.width_px; ++u) {
-      map_u.at(u, v) = static_cast<float>(u);
-      map_v.at(u, v) = static_cast<float>(v + alignment.at(u, v));
-    }
-  });
-  Raster<Pixel> moved(picture.width_px, picture.height_px);
-  cv::Mat view = opencvView(moved);
-  cv::remap(opencvView(picture), view, opencvView(map_u), opencvView(map_v), cv::INTER_CUBIC,
-            cv::BORDER_REPLICATE);
-  return moved;
 }
 
 }  // namespace
