@@ -164,7 +164,8 @@ void addSurfaceFacts(const EvaluationResult& result, FactSheet& facts) {
   const JudgedModel* worst = worstOf(surface);
   if (worst == nullptr) return facts.addLine("surface", "no model was judged");
   facts.addLine("surface", spreadText(surface.all_mm) + " over " +
-                               std::to_string(surface.models.size()) + " models");
+                               std::to_string(surface.models.size()) +
+                               (surface.models.size() == 1 ? " model" : " models"));
   facts.addLine("  signed", "mean " + fixed(surface.signed_mm.mean, 3) + " mm, + = outside");
   if (!result.against_mesh) addViewFacts(surface, facts);
   facts.addLine("worst", "frame " + std::to_string(worst->frame) + ", mean " +
