@@ -9,6 +9,8 @@
 #include "apps/log.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "io/message.h"
+#include "io/quiet_libraries.h"
 
 namespace softscope {
 namespace {
@@ -26,6 +28,12 @@ int runLine(const std::vector<std::string>& words) {
   return line.command == nullptr ? kDone : runCommand(*line.command);
 }
 
+/// Which file, what the system says of it, what to do: as our own errors tell it.
+std::string tell(const std::filesystem::filesystem_error& error) {
+  return say(shown(error.path1()), ": ", error.code().message(),
+             ". Check the path and the rights of its folders.");
+}
+
 int runAndReport(const std::vector<std::string>& words) {
   setUpLog({});
   try {
@@ -40,7 +48,7 @@ int runAndReport(const std::vector<std::string>& words) {
     spdlog::error("{}", error.what());
     return kInput;
   } catch (const std::filesystem::filesystem_error& error) {
-    spdlog::error("{}", error.what());
+    spdlog::error("{}", tell(error));
     return kInput;
   } catch (const std::bad_alloc&) {
     spdlog::error("out of memory. Smaller pictures or fewer threads need less");
@@ -55,5 +63,6 @@ int runAndReport(const std::vector<std::string>& words) {
 }  // namespace softscope
 
 int main(int argc, char** argv) {
+  softscope::quietLibraries();
   return softscope::runAndReport(std::vector<std::string>(argv + 1, argv + argc));
 }

@@ -26,13 +26,16 @@ TEST_P(EveryCommand, KnowsTheNearestOption) {
   EXPECT_EQ(outcome.out, "") << "stdout carries results alone";
 }
 
-INSTANTIATE_TEST_SUITE_P(Apps, EveryCommand, testing::Values("depth", "info", "doctor"),
+INSTANTIATE_TEST_SUITE_P(Apps, EveryCommand,
+                         testing::Values("reconstruct", "depth", "simulate", "evaluate", "info",
+                                         "doctor"),
                          [](const auto& command) { return std::string(command.param); });
 
 TEST(CommandLine, OverviewListsEveryCommand) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* name : {"depth", "info", "doctor", "example:"})
+  for (const char* name :
+       {"reconstruct", "depth", "simulate", "evaluate", "info", "doctor", "example:"})
     EXPECT_THAT(help.out, HasSubstr(name));
   EXPECT_EQ(run({"help", "depth"}).out, run({"depth", "--help"}).out);
 }

@@ -175,6 +175,20 @@ TEST_F(Info, UnknownThingsAreInputErrorsThatSayWhatIsAccepted) {
   EXPECT_THAT(run({"info", strange}).err, HasSubstr("nii.gz"));
 }
 
+TEST_F(Info, LibrariesAddNothingToOurError) {
+  // An MP4's data without its table: "moov atom not found", FFmpeg would say.
+  const char bytes[] =
+      "\0\0\0\x18"
+      "ftypmp42\0\0\0\0mp42isom\0\0\0\x10"
+      "mdat12345678";
+  const std::string video = write("v.mp4", {bytes, sizeof bytes - 1});
+  const Outcome outcome = run({"info", video});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, testing::StartsWith("error: " + video));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
 TEST_F(Info, PatientFieldsComeOnlyWhenAsked) {
   SOFTSCOPE_DATA_OR_SKIP(data, "ct");
   EXPECT_FALSE(run({"info", data / "chaos_dicom", "--json"}).json().contains("patient"));

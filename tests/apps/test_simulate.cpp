@@ -1,0 +1,159 @@
+// tests/apps/test_simulate.cpp: `softscope simulate` from a scenario to a sequence folder.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+
+#include "tests/apps/run_softscope.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Frames of 64 x 48 of a coarse organ: a tenth of a second in all.
+class Simulate : public InFolder {
+ protected:
+  Outcome simulate(const std::string& out, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> line{"simulate", "--out", out};
+    for (const char* setting : {"frames=3", "truth_every=2", "scope.width_px=64",
+                                "scope.height_px=48", "organ.cells_per_side=10"})
+      line.insert(line.end(), {"--set", setting});
+    line.insert(line.end(), more.begin(), more.end());
+    return run(line);
+  }
+
+  /// Every file's bytes by its path in the folder.
+  static std::map<std::string, std::string> contentOf(const fs::path& root) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+      if (entry.is_directory()) continue;
+      std::ostringstream bytes;
+      bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+      files[fs::relative(entry.path(), root).string()] = bytes.str();
+    }
+    return files;
+  }
+
+  static void expectOneLine(const Outcome& outcome, int exit_code) {
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, testing::StartsWith("error: "));
+    EXPECT_EQ(outcome.out, "");
+  }
+};
+
+TEST_F(Simulate, WritesASequenceFolderWithItsTruth) {
+  const Outcome outcome = simulate(at("s"), {"--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["frames"], 3);
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : contentOf(at("s"))) {
+    names.push_back(name);
+    EXPECT_FALSE(bytes.empty()) << name;
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAre(
+                         "left/000000.png", "left/000001.png", "left/000002.png",
+                         "right/000000.png", "right/000001.png", "right/000002.png",
+                         "calibration.yaml", "timestamps.txt", "track_points.csv",
+                         "simulation.json", "groundtruth/trajectory.txt", "groundtruth/tracks.csv",
+                         "groundtruth/mesh/000000.ply", "groundtruth/mesh/000002.ply",
+                         "groundtruth/depth/000000.png", "groundtruth/depth/000002.png"));
+
+  const auto info = run({"info", at("s"), "--json"}).json();  // a reader finds nothing wrong
+  EXPECT_EQ(info["kind"], "sequence");
+  EXPECT_EQ(info["frames"], 3);
+  EXPECT_EQ(info["width_px"], 64);
+  EXPECT_TRUE(info["problems"].empty()) << info["problems"];
+}
+
+TEST_F(Simulate, OneThreadGivesTheSameBytes) {
+  ASSERT_EQ(simulate(at("one"), {"--threads", "1"}).exit_code, 0);
+  ASSERT_EQ(simulate(at("two"), {"--threads", "2"}).exit_code, 0);
+  const auto one = contentOf(at("one")), two = contentOf(at("two"));
+  ASSERT_EQ(one.size(), 16u);
+  for (const auto& [name, bytes] : one) EXPECT_TRUE(two.at(name) == bytes) << name;
+}
+
+TEST_F(Simulate, AnotherSeedGivesOtherPictures) {
+  ASSERT_EQ(simulate(at("one"), {"--seed", "1"}).exit_code, 0);
+  ASSERT_EQ(simulate(at("two"), {"--seed", "2"}).exit_code, 0);
+  EXPECT_FALSE(contentOf(at("one")).at("left/000000.png") ==
+               contentOf(at("two")).at("left/000000.png"));
+}
+
+TEST_F(Simulate, OnlyTheTruthThatIsAskedForIsWritten) {
+  ASSERT_EQ(simulate(at("s"), {"--truth", "tracks"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(at("s/groundtruth/tracks.csv")));
+  EXPECT_EQ(countFiles(at("s/groundtruth")), 1);
+  ASSERT_EQ(simulate(at("none"), {"--truth", "none"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(at("none/groundtruth")));
+}
+
+TEST_F(Simulate, AScenarioIsWeakerThanTheLine) {
+  const std::string scenario = write("scenario.toml", "frames = 9\n[scope]\nbaseline_mm = 4.5\n");
+  ASSERT_EQ(simulate(at("s"), {"--scenario", scenario}).exit_code, 0);
+  const auto options = nlohmann::json::parse(std::ifstream(at("s/simulation.json")))["options"];
+  EXPECT_EQ(options["frames"], 3);
+  EXPECT_EQ(options["scope.baseline_mm"], 4.5);
+}
+
+TEST_F(Simulate, NothingIsOverwrittenWithoutForce) {
+  ASSERT_EQ(simulate(at("s")).exit_code, 0);
+  const auto before = contentOf(at("s"));
+  const Outcome refused = simulate(at("s"), {"--frames", "1", "--seed", "2"});
+  expectOneLine(refused, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_TRUE(contentOf(at("s")) == before);
+  ASSERT_EQ(simulate(at("s"), {"--frames", "1", "--force"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(at("s/left/000001.png"))) << "a frame of the earlier simulation stayed";
+}
+
+TEST_F(Simulate, ForceLeavesAFolderAloneThatIsNoSimulation) {
+  write("mine/left/000000.png", "a photograph");
+  expectOneLine(simulate(at("mine"), {"--force"}), 2);
+  EXPECT_EQ(countFiles(at("mine")), 1);
+}
+
+TEST_F(Simulate, AFolderThatCannotBeIsOneLine) {
+  write("file", "bytes");
+  expectOneLine(simulate(at("file")), 2);
+  const Outcome below = simulate(at("file/s"));
+  expectOneLine(below, 3);
+  EXPECT_THAT(below.err, HasSubstr(at("file/s")));
+  EXPECT_THAT(below.err, HasSubstr("Check the path"));
+  EXPECT_THAT(below.err, testing::Not(HasSubstr("filesystem")));
+}
+
+TEST_F(Simulate, MisspeltKeysGetTheNearestName) {
+  const Outcome line = simulate(at("s"), {"--set", "organ.lenght_mm=50"});
+  expectOneLine(line, 2);
+  EXPECT_THAT(line.err, HasSubstr("organ.length_mm"));
+  const Outcome file = simulate(at("s"), {"--scenario", write("s.toml", "[scope]\nbaselin = 4\n")});
+  expectOneLine(file, 2);
+  EXPECT_THAT(file.err, HasSubstr("baseline_mm"));
+  expectOneLine(simulate(at("s"), {"--truth", "msh"}), 2);
+  EXPECT_FALSE(fs::exists(at("s")));
+}
+
+TEST_F(Simulate, WhatCannotBeSimulatedIsOneLine) {
+  const std::vector<std::vector<std::string>> lines{{"--size", "640"},
+                                                    {"--size", "9x9"},
+                                                    {"--frames", "0"},
+                                                    {"--set", "scope.baseline_mm=0"},
+                                                    {"--set", "camera.path=zigzag"},
+                                                    {"--set", "pictures=gif"}};
+  for (const auto& line : lines) {
+    SCOPED_TRACE(testing::PrintToString(line));
+    expectOneLine(simulate(at("s"), line), 2);
+    EXPECT_FALSE(fs::exists(at("s")));
+  }
+  expectOneLine(simulate(at("s"), {"--organ", at("absent.stl")}), 3);
+  expectOneLine(simulate(at("s"), {"--organ", write("o.stl", "no mesh")}), 3);
+  EXPECT_FALSE(fs::exists(at("s")));
+}
+
+}  // namespace
+}  // namespace softscope::test
