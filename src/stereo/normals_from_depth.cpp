@@ -116,8 +116,7 @@ class NormalBand {
                                          selection_.window.data(),
                                          selection_.tolerance.data(),
                                          true,
-                                         kReach,
-                                         nullptr},
+                                         kReach},
                                         columns_mixed_.data(),
                                         static_cast<int>(columns_mixed_.size()), moments);
   }

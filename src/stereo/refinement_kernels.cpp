@@ -172,16 +172,26 @@ void selectEvidence(const SelectedRows& rows, int u, Floats centre, Floats scale
   for (int m = 0; m < 4; ++m) out.sums[kFirstEvidence + m][u] = sumLanes(moments[m]);
 }
 
+inline Floats centreOf(const SelectedRows& rows, int u) {
+  return broadcast(rows.disparity[rows.radius][u]);
+}
+inline Floats scaleOf(const SelectedRows& rows, Floats centre) {
+  return rows.relative ? centre : broadcast(1);
+}
+
+void markMixed(const SelectedRows& rows, const int* columns, int count, unsigned char* mixed) {
+  for (int i = 0; i < count; ++i) {
+    const Floats centre = centreOf(rows, columns[i]);
+    mixed[columns[i]] = mixesSurfaces(rows, columns[i], centre, scaleOf(rows, centre));
+  }
+}
+
 void selectedMoments(const SelectedRows& rows, const int* columns, int count,
                      const MomentRow& out) {
   for (int i = 0; i < count; ++i) {
-    const int u = columns[i];
-    const Floats centre = broadcast(rows.disparity[rows.radius][u]);
-    const Floats scale = rows.relative ? centre : broadcast(1);
-    if (rows.mixed != nullptr) rows.mixed[u] = mixesSurfaces(rows, u, centre, scale);
-    if (rows.mixed != nullptr && rows.mixed[u] == 0) continue;
-    selectPlane(rows, u, centre, scale, out);
-    if (rows.evidence[0] != nullptr) selectEvidence(rows, u, centre, scale, out);
+    const Floats centre = centreOf(rows, columns[i]), scale = scaleOf(rows, centre);
+    selectPlane(rows, columns[i], centre, scale, out);
+    if (rows.evidence[0] != nullptr) selectEvidence(rows, columns[i], centre, scale, out);
   }
 }
 
@@ -239,6 +249,7 @@ void sumRows(const float* const* in, const float* weights, int taps, int width, 
 
 extern const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET);
 const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET) = {
-    residualRow, columnMoments, rowMoments, selectedMoments, solvePlanes, judgePlanes, sumRows};
+    residualRow,     columnMoments, rowMoments,  markMixed,
+    selectedMoments, solvePlanes,   judgePlanes, sumRows};
 
 }  // namespace softscope

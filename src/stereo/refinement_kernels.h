@@ -69,9 +69,6 @@ struct SelectedRows {
   const float* tolerance;
   bool relative;  // the tolerance is a share of the centre's value
   int radius;
-  /// Of the row v. Not null: windows are looked at first, and where one holds no pixel of another
-  /// surface its column becomes 0 and its moments stay. Null: all columns given hold some.
-  unsigned char* mixed;
 };
 
 struct RefinementKernels {
@@ -83,6 +80,9 @@ struct RefinementKernels {
   /// The same along the row, of what columnMoments() gave; readable `radius` beyond both ends.
   void (*rowMoments)(const float* const* in, const float* window, int radius, int width,
                      const MomentRow& out);
+  /// mixed[u] = 1 for those of `count` columns u whose windows hold pixels of another surface, else
+  /// 0; the rest of `mixed` stays.
+  void (*markMixed)(const SelectedRows& rows, const int* columns, int count, unsigned char* mixed);
   /// Replaces the moments of `count` columns, whose windows hold pixels of another surface.
   void (*selectedMoments)(const SelectedRows& rows, const int* columns, int count,
                           const MomentRow& out);

@@ -71,7 +71,7 @@ class Band {
     Plane& next;
     Plane* sigma;                 // null but in the last step, which is a whole one and is judged
     Raster<std::uint8_t>& mixed;  // windows that may hold two surfaces; after the first step: do
-    bool first;
+    bool first;                   // mixed windows, slow to solve, wait for the next step
   };
 
   Band(const Setting& setting, const Step& step)
@@ -135,6 +135,8 @@ class Band {
                        next_.row(v),
                        sigma_ != nullptr ? sigma_->row(v) : nullptr};
     refinementKernels().solvePlanes(row);
+    if (holdsMixed())
+      for (const int u : near_) next_.row(v)[u] = disparity_.row(v)[u];
     if (sigma_ != nullptr) refinementKernels().judgePlanes(row);
   }
 
@@ -164,11 +166,11 @@ class Band {
     }
   }
 
+  bool holdsMixed() const { return first_ && sigma_ == nullptr; }
+
+  /// Lists the mixed windows of a row and, unless they wait, sums the pixels of their own surface.
   void selectWindows(int v, const MomentRow& moments) {
-    const std::uint8_t* mixed = mixed_.row(v);
-    near_.clear();
-    for (int u = 0; u < width_; ++u)
-      if (mixed[u] != 0 && !std::isnan(disparity_.row(v)[u])) near_.push_back(u);
+    listNear(v);
     if (near_.empty()) return;
     std::array<RowsOfWindow, kPixelPlanes> rows;
     for (std::size_t plane = 0; plane < pixels_.size(); ++plane)
@@ -183,12 +185,24 @@ class Band {
                           setting_.selection_window.data(),
                           setting_.selection_tolerance.data(),
                           false,
-                          radius_,
-                          first_ ? mixed_.row(v) : nullptr};
+                          radius_};
     for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
       selected.evidence[m] = rows[static_cast<std::size_t>(kResidualSq + m)].data();
-    refinementKernels().selectedMoments(selected, near_.data(), static_cast<int>(near_.size()),
-                                        moments);
+    if (first_) {
+      refinementKernels().markMixed(selected, near_.data(), static_cast<int>(near_.size()),
+                                    mixed_.row(v));
+      listNear(v);
+    }
+    if (!holdsMixed())
+      refinementKernels().selectedMoments(selected, near_.data(), static_cast<int>(near_.size()),
+                                          moments);
+  }
+
+  void listNear(int v) {
+    const std::uint8_t* mixed = mixed_.row(v);
+    near_.clear();
+    for (int u = 0; u < width_; ++u)
+      if (mixed[u] != 0 && !std::isnan(disparity_.row(v)[u])) near_.push_back(u);
   }
 
   const Setting& setting_;

@@ -61,6 +61,18 @@ void printPairs() {
   }
 }
 
+/// A real clip's frames with a usable reference, one by one.
+void printFrames(const SequenceScore& score) {
+  std::printf(
+      "\n| real clip, frame | rows off px | median mm | signed median mm | P95 mm | coverage %% |\n"
+      "|---|---|---|---|---|---|\n");
+  for (const FrameScore& f : score.frames)
+    if (f.errors.known_count > 0)
+      std::printf("| %06d | %.2f | %.2f | %+.2f | %.1f | %.1f |\n", f.frame,
+                  f.rows.mean_row_difference_px, f.errors.absolute_mm.median,
+                  f.errors.signed_mm.median, f.errors.absolute_mm.p95, f.errors.coverage_percent);
+}
+
 void printSequences() {
   std::printf(
       "\n| sequence | frames | median mm | mean mm | P95 mm | coverage %% | worst frame: median "
@@ -80,6 +92,7 @@ void printSequences() {
                 s.frames.size(), s.pooled_mm.median, s.pooled_mm.mean, s.pooled_mm.p95,
                 s.mean_coverage_percent, worst->frame, worst->errors.absolute_mm.median,
                 worst->errors.coverage_percent);
+    if (name == std::string("endonerf_pulling")) printFrames(s);
   }
 }
 

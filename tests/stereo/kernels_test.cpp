@@ -114,24 +114,27 @@ TEST_F(EveryInstructionSet, SumsMomentsAlike) {
 }
 
 TEST_F(EveryInstructionSet, SelectsWindowsAlike) {
-  const int radius = 6, stride = 384;
+  const int stride = 384;
   const Floats in = randomFloats(static_cast<std::size_t>(stride) * 91, 0, 30, 15);
   const auto rows = rowsOf(in, stride, 91);
   const Floats window(13 * kSelectLanes, 0.5f), tolerance(13 * kSelectLanes, 0.5f);
   const std::vector<int> columns = {0, 7, 100, 101, 332};
+  SelectedRows selected{};
+  selected.disparity = &rows[0];
+  selected.information = &rows[13];
+  selected.target = &rows[26];
+  for (std::size_t m = 0; m < 4; ++m) selected.evidence[m] = &rows[39 + 13 * m];
+  selected.window = window.data();
+  selected.tolerance = tolerance.data();
+  selected.relative = true;
+  selected.radius = 6;
   expectEqual([&](const KernelSet& set) {
     Floats out(static_cast<std::size_t>(stride) * kMomentCount);
-    std::vector<unsigned char> mixed(stride, 1);
-    set.refinement->selectedMoments({&rows[0],
-                                     &rows[13],
-                                     &rows[26],
-                                     {&rows[39], &rows[52], &rows[65], &rows[78]},
-                                     window.data(),
-                                     tolerance.data(),
-                                     true,
-                                     radius,
-                                     mixed.data()},
-                                    columns.data(), 5, momentsIn(out, stride));
+    std::vector<unsigned char> mixed(stride, 7);
+    set.refinement->markMixed(selected, columns.data(), 5, mixed.data());
+    set.refinement->selectedMoments(selected, columns.data(), 5, momentsIn(out, stride));
+    EXPECT_EQ(mixed[332], 1);  // half of 0 to 30 lie farther off than half of the centre
+    EXPECT_EQ(mixed[331], 7);
     EXPECT_NE(out[12 * stride + 332], 0);  // the last moment of the last column was written
     out.insert(out.end(), mixed.begin(), mixed.end());
     return out;

@@ -53,7 +53,14 @@ TEST(DepthAccuracy, OfARealClip) {
   EXPECT_EQ(score.frames.size(), 63u);
   EXPECT_EQ(score.failed_frames, 0);
   EXPECT_LE(score.pooled_mm.median, 1.5);  // the reference itself is good to 1 or 2 mm
-  EXPECT_GE(score.mean_coverage_percent, 85);
+  EXPECT_GE(score.mean_coverage_percent, 90);
+  for (const FrameScore& f : score.frames) {
+    if (f.errors.known_count == 0) continue;
+    EXPECT_GE(f.errors.coverage_percent, 80) << f.frame;
+    // Frame 35: tissue moves between the exposures, and the reference lies 0.8 px off what the
+    // pictures show (docs/benchmarks.md).
+    EXPECT_LE(f.errors.absolute_mm.median, f.frame == 35 ? 2.5 : 1.5) << f.frame;
+  }
 }
 
 TEST(DepthAccuracy, OfRenderedSequences) {
