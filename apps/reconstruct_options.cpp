@@ -198,6 +198,7 @@ void bindFusion(SettingsBinder& binder, ReconstructOptions& options) {
   binder.bind(at + "along_ray", points.along_ray, "points move along their ray alone");
   binder.bind(at + "contradiction_loss", points.contradiction_loss,
               "share of its weight that a point seen through loses");
+  binder.bind(at + "buried_mm", points.buried_mm, "points less than this behind the surface go");
   binder.bind(at + "confirmed_weight", points.confirmed_weight, "lighter points must be found");
   auto& [spacing_mm, insert_sigma_mm, band_mm, confirm] = fusion.insertion;
   binder.bind(at + "insert_spacing_mm", spacing_mm, "between new points");
@@ -266,8 +267,6 @@ void ReconstructOptions::resolve() {
 
 void bindReconstructOptions(SettingsBinder& binder, ReconstructOptions& options) {
   bindFrameDepthOptions(binder, options.method.depth);
-  binder.bind("depth.level_disparity", options.method.level_disparity,
-              "take off what a frame's disparities differ by together, while the scope stands");
   bindSequenceOptions(binder, options.sequence);
   bindTissue(binder, options.method.tissue);
   bindModelView(binder, options.method.model_view);

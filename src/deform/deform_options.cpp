@@ -62,6 +62,7 @@ DeformOptions DeformOptions::paper() {
   options.correspondence_weight = 1;
   options.data_robust.loss = RobustLoss::kNone;
   options.correspondence_robust.loss = RobustLoss::kNone;
+  options.association.max_distance_mm = 2;
   options.association.reference_sigma_mm = 0;
   return options;
 }

@@ -31,7 +31,7 @@ struct GraphOptions {
 
 /// Which model points the depth map may pull, and where: docs/energy.md (9) to (11).
 struct AssociationOptions {
-  double max_distance_mm = 2.0;      // epsilon_d
+  double max_distance_mm = 5.0;      // epsilon_d
   double max_angle_deg = 45.0;       // epsilon_n
   double reference_sigma_mm = 0.15;  // depth this sure weighs 1, others by inverse variance;
                                      // 0: all depths weigh 1
@@ -67,10 +67,10 @@ struct SolverOptions {
 struct DeformOptions {
   NodeModel node_model = NodeModel::kRigid;
   double rotation_weight = 40.0;        // w_rot; has no effect on rigid nodes
-  double regularisation_weight = 60.0;  // w_reg
-  double data_weight = 1.0;             // w_data
+  double regularisation_weight = 30.0;  // w_reg
+  double data_weight = 3.0;             // w_data
   double correspondence_weight = 60.0;  // w_corr
-  RobustOptions data_robust{RobustLoss::kHuber, 0.3};
+  RobustOptions data_robust{RobustLoss::kHuber, 1.0};
   RobustOptions correspondence_robust{RobustLoss::kHuber, 0.3};
   AssociationOptions association;
   SolverOptions solver;

@@ -48,6 +48,7 @@ void PointFusionOptions::validate() const {
   requirePositive(max_measurement_weight, "fusion.points.max_measurement_weight");
   requirePositive(node_spacing_mm, "fusion.points.node_spacing_mm");
   requireNotNegative(warp_sigma_mm, "fusion.points.warp_sigma_mm");
+  require(buried_mm >= 0, "fusion.points.buried_mm", buried_mm, "can't be negative");
   require(contradiction_loss >= 0 && contradiction_loss <= 1, "fusion.points.contradiction_loss",
           contradiction_loss, "must be 0 to 1");
   requireNotNegative(confirmed_weight, "fusion.points.confirmed_weight");
@@ -79,6 +80,7 @@ void DensityOptions::validate() const {
 FusionOptions FusionOptions::paper() {
   FusionOptions options;
   options.points.soft_truncation = false;
+  options.points.buried_mm = 0;
   options.points.reference_sigma_mm = 0;
   options.points.node_trust = NodeTrust::kPaper;
   options.colour.compensate_gain = false;

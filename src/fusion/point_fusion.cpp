@@ -39,7 +39,9 @@ class Fuser {
         camera_(posedCamera(observation.left, observation.world_from_left)),
         truncation_mm_(static_cast<float>(options.truncation_mm)),
         reference_mm_(static_cast<float>(options.reference_sigma_mm)),
-        confirmed_weight_(static_cast<float>(options.confirmed_weight)) {
+        confirmed_weight_(static_cast<float>(options.confirmed_weight)),
+        unseen_mm_(static_cast<float>(options.truncation_mm)),
+        buried_mm_(static_cast<float>(options.buried_mm)) {
     const double reference = options.reference_sigma_mm > 0 ? options.reference_sigma_mm : 0.1;
     const double ratio = options.warp_sigma_mm / reference;
     warp_noise_ = static_cast<float>(ratio * ratio);
@@ -47,6 +49,9 @@ class Fuser {
 
   bool contradicts(std::size_t i, const PointSight& point) const {
     if (point.sight == Sight::kSeenThrough) return true;
+    if (point.sight == Sight::kHidden && point.ahead_mm < -unseen_mm_ &&
+        point.ahead_mm > -buried_mm_)
+      return true;
     if (model_.weights[i] >= confirmed_weight_) return false;
     return point.sight == Sight::kHidden || point.sight == Sight::kTurned;
   }
@@ -135,7 +140,7 @@ class Fuser {
   const ColourGain gain_;
   PointModel& model_;
   const PosedCamera camera_;
-  const float truncation_mm_, reference_mm_, confirmed_weight_;
+  const float truncation_mm_, reference_mm_, confirmed_weight_, unseen_mm_, buried_mm_;
   float warp_noise_ = 0;
 };
 

@@ -133,8 +133,6 @@ void visit(Archive& archive, Whole& checkpoint) {
   archive.pose(checkpoint.state.world_from_left);
   archive.array(checkpoint.state.key_views);
   archive.value(checkpoint.state.lost);
-  archive.value(checkpoint.state.mean_offset_px);
-  archive.value(checkpoint.state.offsets);
 }
 
 }  // namespace

@@ -14,13 +14,10 @@
 #include "pipeline/frame_depth.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
-#include "stereo/depth_from_disparity.h"
 #include "stereo/stage_clock.h"
 
 namespace softscope {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 void addTo(Mask& mask, const Mask& more) {
   for (std::size_t i = 0; i < mask.size(); ++i)
@@ -69,8 +66,7 @@ class CpuBackend : public ReconstructionBackend {
 
   DepthSummary measure(const Frame& frame) override;
   MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) override;
-  PoseSummary estimatePose() override;
-  void shiftDisparity(double offset_px) override;
+  PoseSummary estimatePose(const Eigen::Isometry3d& last) override;
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
   void acceptWarp() override;
   void rejectWarp() override;
@@ -84,7 +80,8 @@ class CpuBackend : public ReconstructionBackend {
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
-  void refine(PoseSummary* summary);
+  void scaleTo(double median_sigma_mm);
+  void refine(const Eigen::Isometry3d& last, PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
 
@@ -98,10 +95,11 @@ class CpuBackend : public ReconstructionBackend {
 
   // Of the frame at hand.
   MeasuredFrame measured_;
+  AssociationOptions association_;  // scaled to its depths
+  FusionOptions fusion_;
   Mask not_tissue_;
   MatchPicture live_;
   std::vector<LiftedMatch> matches_;
-  Eigen::Isometry3d viewed_from_ = Eigen::Isometry3d::Identity();
   RigidPose pose_;
   StageClock clock_;
 };
@@ -133,13 +131,23 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
     if (!measured_.depth.sigma_mm.empty()) sigmas.push_back(measured_.depth.sigma_mm.values[i]);
   }
   summary.median_sigma_mm = medianOf(std::move(sigmas));
+  scaleTo(summary.median_sigma_mm);
   if (measured_.rows.known()) summary.row_difference_px = measured_.rows.mean_row_difference_px;
   clock_.lap("mask");
   return summary;
 }
 
+/// Weights compare a depth with the typical one of its frame: where all depths are worse, because
+/// the tissue is far or the pictures are poor, they still pull the model together.
+void CpuBackend::scaleTo(double median_sigma_mm) {
+  association_ = options_.deform.association;
+  fusion_ = options_.fusion;
+  if (!std::isfinite(median_sigma_mm)) return;
+  for (double* sigma_mm : {&association_.reference_sigma_mm, &fusion_.points.reference_sigma_mm})
+    if (*sigma_mm > 0) *sigma_mm = std::max(*sigma_mm, median_sigma_mm);
+}
+
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach reach) {
-  viewed_from_ = viewed_from;
   const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
   clock_.lap("view");
   FeatureMatcher& matcher = reach == MatchReach::kNear ? *near_matcher_ : *whole_matcher_;
@@ -150,7 +158,7 @@ MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach 
   return {static_cast<int>(found.size()), static_cast<int>(matches_.size())};
 }
 
-PoseSummary CpuBackend::estimatePose() {
+PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last) {
   PointPairs pairs;
   for (const LiftedMatch& match : matches_) {
     pairs.sources_mm.push_back(match.target_left_mm);
@@ -163,12 +171,12 @@ PoseSummary CpuBackend::estimatePose() {
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;
-  if (pose_.found) refine(&summary);
+  if (pose_.found) refine(last, &summary);
   clock_.lap("pose");
   return summary;
 }
 
-void CpuBackend::refine(PoseSummary* summary) {
+void CpuBackend::refine(const Eigen::Isometry3d& last, PoseSummary* summary) {
   summary->world_from_left = pose_.target_from_source;
   summary->inliers = pose_.inliers;
   summary->rms_mm = pose_.rms_mm;
@@ -186,7 +194,7 @@ void CpuBackend::refine(PoseSummary* summary) {
                      sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
   }
   const RefinedPose best =
-      refinePose(pairs, rig, pose_.target_from_source, viewed_from_, options_.refine_pose);
+      refinePose(pairs, rig, pose_.target_from_source, last, options_.refine_pose);
   summary->world_from_left = best.world_from_left;
   summary->stands = best.stands;
   summary->disparity_offset_px = best.disparity_offset_px;
@@ -203,7 +211,7 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
   seen.surface = &surface;
   seen.visible = &visible;
   if (!options_.use_correspondences) return seen;
-  const double reference_mm = options_.deform.association.reference_sigma_mm;
+  const double reference_mm = association_.reference_sigma_mm;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     const LiftedMatch& match = matches_[i];
     if (pose_.found && pose_.inlier[i] == 0) continue;
@@ -223,32 +231,16 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
   return seen;
 }
 
-void CpuBackend::shiftDisparity(double offset_px) {
-  const RectifiedRig& rig = depth_.rig();
-  const double focal_baseline = rig.left.fx_px * rig.baseline_mm;
-  for (float& depth_mm : measured_.depth.depth_mm.values) {
-    const double disparity_px = focal_baseline / depth_mm - offset_px;
-    depth_mm = disparity_px > 0 ? static_cast<float>(focal_baseline / disparity_px) : kNan;
-  }
-  for (LiftedMatch& match : matches_) {
-    const double depth_mm = match.target_left_mm.z();
-    const double disparity_px = focal_baseline / depth_mm - offset_px;
-    match.target_left_mm *= static_cast<float>(focal_baseline / disparity_px / depth_mm);
-  }
-  measured_.normals = normalsFromDepth(measured_.depth.depth_mm, rig.left);
-  clock_.lap("depth");
-}
-
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   growGraph(options_.graph, &state_.model, &state_.graph);
   state_.tracked.anchor(state_.model);
   clock_.lap("graph");
   const Observation observation = observe(world_from_left);
-  const Raster<PixelState> states = judgePixels(observation, options_.fusion.pixels);
+  const Raster<PixelState> states = judgePixels(observation, fusion_.pixels);
   const std::vector<std::int32_t> visible =
-      findVisible(state_.model, observation, states, options_.fusion.visibility).seen();
+      findVisible(state_.model, observation, states, fusion_.visibility).seen();
   const DepthTarget surface(measured_.depth, measured_.normals, left(), world_from_left.inverse(),
-                            options_.deform.association);
+                            association_);
   clock_.lap("visible");
   WarpSummary summary;
   summary.in_sight = static_cast<int>(visible.size());
@@ -272,13 +264,13 @@ void CpuBackend::rejectWarp() {
 
 FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
-  const Raster<PixelState> states = judgePixels(observation, options_.fusion.pixels);
+  const Raster<PixelState> states = judgePixels(observation, fusion_.pixels);
   if (empty()) seedTracks(world_from_left);
   FusionSummary summary;
   summary.predicted = backProjectionError(state_.model, observation, states);
   clock_.lap("check");
   const ModelUpdateSummary update =
-      updateModel(observation, state_.graph, options_.fusion, &state_.memory, &state_.model);
+      updateModel(observation, state_.graph, fusion_, &state_.memory, &state_.model);
   state_.tracked.renumber(update.index_map, state_.model);
   state_.tracked.settle(state_.model);
   clock_.lap("fuse");
@@ -305,7 +297,7 @@ bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
             v = static_cast<int>(std::lround(pixel.y()));
   if (!not_tissue_.contains(u, v) || not_tissue_.at(u, v) != 0) return false;
   const float depth_mm = measured_.depth.depth_mm.at(u, v);
-  return !(point_left.z() - depth_mm > options_.fusion.visibility.occlusion_mm);
+  return !(point_left.z() - depth_mm > fusion_.visibility.occlusion_mm);
 }
 
 std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_from_left) const {

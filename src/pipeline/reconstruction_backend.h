@@ -84,10 +84,8 @@ class ReconstructionBackend {
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 and 3: draws the model from that pose, finds its pixels in the live picture.
   virtual MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) = 0;
-  /// Stage 4: from the last matches.
-  virtual PoseSummary estimatePose() = 0;
-  /// Takes `offset_px` off all disparities of this frame, and off the matches.
-  virtual void shiftDisparity(double offset_px) = 0;
+  /// Stage 4: from the last matches; `last` is where the scope was in the frame before.
+  virtual PoseSummary estimatePose(const Eigen::Isometry3d& last) = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
   virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
   /// Carries points, nodes and tracked points to the live shape.

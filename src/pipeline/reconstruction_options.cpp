@@ -20,7 +20,6 @@ ReconstructionOptions ReconstructionOptions::paper() {
   options.deform = DeformOptions::paper();
   options.fusion = FusionOptions::paper();
   options.refine_pose.iterations = 0;
-  options.level_disparity = false;
   return options;
 }
 

@@ -17,7 +17,7 @@ namespace softscope {
 /// Which frames are good enough to change the model.
 struct GateOptions {
   double min_coverage = 0.1;      // share of the unmasked pixels that have depth
-  double max_residual_mm = 0.6;   // mean distance of the warped model from the depth
+  double max_residual_mm = 2.0;   // mean distance of the warped model from the depth
   double min_explained = 0.3;     // share of the points in sight that the depth still pulls
   int max_key_views = 12;         // poses kept to find the model again after a loss
   double key_view_step_mm = 10;   // the scope moved this far from all of them …
@@ -45,7 +45,6 @@ struct ReconstructionOptions {
   RefinePoseOptions refine_pose;  // 0 iterations: RANSAC's fit is the pose
   GraphOptions graph;
   DeformOptions deform;
-  bool level_disparity = true;      // while the scope stands still: see Reconstructor
   bool use_correspondences = true;  // false: matches give the pose, but don't pull the warp
   FusionOptions fusion;
   GateOptions gate;

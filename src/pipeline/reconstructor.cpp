@@ -32,7 +32,6 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
                              const ReconstructionOptions& options)
     : backend_(std::move(backend)),
       gate_(options.gate),
-      leveling_(options.level_disparity),
       matching_(options.matcher.method != "surf-off") {
   options.validate();
 }
@@ -68,7 +67,6 @@ void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
   const bool was_lost = lost_;
   if (!locate(record) && !findAgain(record)) return;
-  level(record);
   if (!deform(record)) return;
   fuse(was_lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
 }
@@ -88,7 +86,7 @@ bool Reconstructor::locate(FrameRecord& record) {
     record.pose.world_from_left = world_from_left_;
     return true;
   }
-  record.pose = backend_->estimatePose();
+  record.pose = backend_->estimatePose(world_from_left_);
   if (record.pose.found) world_from_left_ = record.pose.world_from_left;
   return record.pose.found;
 }
@@ -100,7 +98,7 @@ bool Reconstructor::findAgain(FrameRecord& record) {
   views.insert(views.end(), key_views_.rbegin(), key_views_.rend());
   for (const Eigen::Isometry3d& view : views) {
     backend_->match(view, MatchReach::kWhole);
-    const PoseSummary pose = backend_->estimatePose();
+    const PoseSummary pose = backend_->estimatePose(world_from_left_);
     if (pose.found && pose.inliers > best.inliers) best = pose;
   }
   lost_ = true;
@@ -111,24 +109,13 @@ bool Reconstructor::findAgain(FrameRecord& record) {
              record.pose.failure.empty() ? "no view of it matches" : record.pose.failure));
   // Once more from near, for matches that the warp may trust.
   record.matches = backend_->match(best.world_from_left, MatchReach::kNear);
-  record.pose = backend_->estimatePose();
+  record.pose = backend_->estimatePose(world_from_left_);
   if (!record.pose.found)
     return reject(record, FrameStatus::kLost,
                   text("found, but not confirmed: ", record.pose.failure));
   world_from_left_ = record.pose.world_from_left;
   lost_ = false;
   return true;
-}
-
-// Exposure times and rectification that change from frame to frame shift all disparities together.
-// On average over the run the calibration is right, so only what differs from the mean is taken
-// off.
-void Reconstructor::level(FrameRecord& record) {
-  if (!leveling_ || !record.pose.stands) return;
-  ++offsets_;
-  mean_offset_px_ += (record.pose.disparity_offset_px - mean_offset_px_) / offsets_;
-  const double shift_px = record.pose.disparity_offset_px - mean_offset_px_;
-  if (shift_px != 0) backend_->shiftDisparity(shift_px);
 }
 
 bool Reconstructor::deform(FrameRecord& record) {
@@ -167,7 +154,7 @@ void Reconstructor::rememberView() {
 }
 
 ReconstructionState Reconstructor::state() const {
-  return {backend_->state(), world_from_left_, key_views_, lost_, mean_offset_px_, offsets_};
+  return {backend_->state(), world_from_left_, key_views_, lost_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
@@ -175,8 +162,6 @@ void Reconstructor::restore(ReconstructionState state) {
   world_from_left_ = state.world_from_left;
   key_views_ = std::move(state.key_views);
   lost_ = state.lost;
-  mean_offset_px_ = state.mean_offset_px;
-  offsets_ = state.offsets;
 }
 
 }  // namespace softscope

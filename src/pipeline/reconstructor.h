@@ -16,8 +16,6 @@ struct ReconstructionState {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
   bool lost = false;
-  double mean_offset_px = 0;
-  int offsets = 1;
 };
 
 /// Owns the order of the stages; the back end owns what they work on.
@@ -45,20 +43,16 @@ class Reconstructor {
   bool measure(const Frame& frame, FrameRecord& record);
   bool locate(FrameRecord& record);
   bool findAgain(FrameRecord& record);
-  void level(FrameRecord& record);
   bool deform(FrameRecord& record);
   void fuse(FrameStatus status, FrameRecord& record);
   void rememberView();
 
   std::unique_ptr<ReconstructionBackend> backend_;
   GateOptions gate_;
-  bool leveling_;
   bool matching_;  // false: nothing tells where the scope is, so it is taken to stand still
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views_;
   bool lost_ = false;
-  double mean_offset_px_ = 0;  // of the disparities against the model, over all located frames
-  int offsets_ = 1;            // the first frame has none
 };
 
 }  // namespace softscope

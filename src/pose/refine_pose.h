@@ -14,8 +14,8 @@ struct RefinePoseOptions {
   double noise_px = 0.1;             // floor of what matching and the model's places err by
   double disparity_noise_px = 0.25;  // floor of what the live disparity errs by
   double robust_scale = 1.5;         // of the median residual: what moves more is tissue
-  double standing_mm = 0.5;          // where less than this moved across the rays, and …
-  double standing_share = 0.25;      // … a rigid motion leaves more than this share of it, the
+  double standing_mm = 2.0;          // where less than this moved across the rays, and …
+  double standing_share = 0.15;      // … a rigid motion leaves more than this share of it, the
                                      // scope stands still and the tissue moves
 
   /// Throws OptionError: the field, its value, the rule it breaks.

@@ -35,8 +35,9 @@ TEST(DepthTarget, GivesThePixelsPlane) {
 }
 
 TEST(DepthTarget, KeepsToItsThresholds) {
-  const PlaneView view;
-  EXPECT_EQ(view.ask({0, 0, 52.1f}).reliability, 0);  // epsilon_d = 2 mm
+  PlaneView view;
+  view.options.max_distance_mm = 2;
+  EXPECT_EQ(view.ask({0, 0, 52.1f}).reliability, 0);
   EXPECT_GT(view.ask({0, 0, 51.9f}).reliability, 0);
   EXPECT_EQ(view.ask({0, 0, 50}, Eigen::Vector3f(1, 0, -0.9f).normalized()).reliability, 0);
   EXPECT_GT(view.ask({0, 0, 50}, Eigen::Vector3f(1, 0, -1.1f).normalized()).reliability, 0);

@@ -119,6 +119,26 @@ TEST(FreeSpace, ForgivesSingleWrongFrames) {
   for (const Eigen::Vector3f& p : model.positions_mm) EXPECT_NEAR(p.z(), 55, 1e-3);
 }
 
+// Tissue that came nearer by more than the warp could follow: its old place must not stay behind.
+TEST(Burying, RemovesWhatTheSurfaceLeftBehind) {
+  PointModel model;
+  InsertionMemory memory;
+  for (int k = 0; k < 12; ++k) update(takeShot(plane(55), smallCamera()), {}, &memory, &model);
+  for (int k = 0; k < 8; ++k) update(takeShot(plane(51), smallCamera()), {}, &memory, &model);
+  ASSERT_GT(model.size(), 1000);
+  for (const Eigen::Vector3f& p : model.positions_mm) EXPECT_LT(p.z(), 52);
+}
+
+// A second organ far behind the first one is hidden, not gone.
+TEST(Burying, KeepsWhatIsFarBehind) {
+  PointModel model;
+  InsertionMemory memory;
+  for (int k = 0; k < 12; ++k) update(takeShot(plane(60), smallCamera()), {}, &memory, &model);
+  const std::size_t before = model.size();
+  for (int k = 0; k < 8; ++k) update(takeShot(plane(45), smallCamera()), {}, &memory, &model);
+  EXPECT_GT(model.size(), before + 1000);
+}
+
 TEST(Masks, KeepInstrumentsOut) {
   Shot shot = takeShot(ballBeforeWall(), smallCamera(128, 96));
   shot.mask = Mask(128, 96);

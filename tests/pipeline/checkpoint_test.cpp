@@ -1,0 +1,54 @@
+// tests/pipeline/checkpoint_test.cpp: a state survives, a damaged file doesn't pass.
+#include "pipeline/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+Checkpoint someCheckpoint() {
+  Checkpoint checkpoint;
+  checkpoint.settings = "digest";
+  checkpoint.next_frame = 17;
+  ModelState& model = checkpoint.state.model;
+  model.model.add({1, 2, 3}, {0, 0, -1}, {4, 5, 6}, 7);
+  model.graph.positions_mm = {{1, 2, 3}, {4, 5, 6}};
+  model.graph.transforms.resize(2);
+  model.graph.edges = {{0, 1, 0.5}};
+  model.graph.stencils = {{0, 1, 1, 1}};
+  model.memory.unexplained_mm = Raster<float>(3, 2, 8.0f);
+  model.tracked.points.push_back({9, 0, {1, 2, 3}});
+  checkpoint.state.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
+  checkpoint.state.key_views.resize(2, checkpoint.state.world_from_left);
+  checkpoint.state.lost = true;
+  return checkpoint;
+}
+
+TEST(Checkpoint, ComesBackAsItWas) {
+  const Checkpoint before = someCheckpoint();
+  const std::string bytes = checkpointBytes(before);
+  const Checkpoint after = parseCheckpoint(bytes, "c");
+  EXPECT_EQ(after.settings, "digest");
+  EXPECT_EQ(after.next_frame, 17);
+  EXPECT_EQ(after.state.model.model.positions_mm[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(after.state.model.graph.edges[0].weight, 0.5);
+  EXPECT_EQ(after.state.model.memory.unexplained_mm.at(2, 1), 8.0f);
+  EXPECT_EQ(after.state.model.tracked.points[0].id, 9);
+  EXPECT_TRUE(after.state.lost);
+  EXPECT_EQ(checkpointBytes(after), bytes);
+}
+
+TEST(Checkpoint, EveryDamageIsNoticed) {
+  const std::string bytes = checkpointBytes(someCheckpoint());
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::string damaged = bytes;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    EXPECT_THROW(parseCheckpoint(damaged, "c"), InputError) << i;
+    EXPECT_THROW(parseCheckpoint(std::string_view(bytes).substr(0, i), "c"), InputError) << i;
+  }
+}
+
+}  // namespace
+}  // namespace softscope

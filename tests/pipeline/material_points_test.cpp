@@ -1,0 +1,69 @@
+// tests/pipeline/material_points_test.cpp: points go where their tissue goes.
+#include "pipeline/material_points.h"
+
+#include <gtest/gtest.h>
+
+#include "deform/graph_builder.h"
+
+namespace softscope {
+namespace {
+
+/// A plane at 50 mm, 0.2 mm between points.
+PointModel flatModel(float shift_mm = 0) {
+  PointModel model;
+  for (int v = -40; v <= 40; ++v)
+    for (int u = -40; u <= 40; ++u)
+      model.add({0.2f * u, 0.2f * v, 50 + shift_mm}, {0, 0, -1}, {100, 50, 50}, 5);
+  return model;
+}
+
+const PinholeCamera kLeft{100, 80, 100, 100, 50, 40};
+
+TEST(MaterialPoints, BeginWhereTheirRayMeetsTheDepth) {
+  MaterialPoints tracked;
+  tracked.add(3, {55.5, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
+  ASSERT_EQ(tracked.points.size(), 1u);
+  EXPECT_EQ(tracked.points[0].id, 3);
+  EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(2.75, 0, 50)).norm(), 1e-5);
+}
+
+TEST(MaterialPoints, TakeDepthFromNearbyOrStayUnknown) {
+  Raster<float> depth_mm(100, 80, std::numeric_limits<float>::quiet_NaN());
+  depth_mm.at(54, 40) = 40;
+  MaterialPoints tracked;
+  tracked.add(0, {50, 40}, kLeft, depth_mm, Eigen::Isometry3d::Identity());
+  tracked.add(1, {10, 40}, kLeft, depth_mm, Eigen::Isometry3d::Identity());
+  EXPECT_NEAR(tracked.points[0].position_mm.z(), 40, 1e-6);
+  EXPECT_FALSE(tracked.points[1].position_mm.allFinite());
+  PointModel model = flatModel();
+  tracked.anchor(model);  // and nothing that follows minds
+  tracked.settle(model);
+  EXPECT_EQ(tracked.points[1].model_point, -1);
+}
+
+TEST(MaterialPoints, FollowTheWarp) {
+  PointModel model = flatModel();
+  WarpGraph graph;
+  growGraph(GraphOptions(), &model, &graph);
+  MaterialPoints tracked;
+  tracked.add(0, {51, 41}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
+  tracked.anchor(model);
+  for (NodeTransform& transform : graph.transforms) transform.translation_mm = {1, 2, -3};
+  tracked.warp(graph, model);
+  EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(1.5, 2.5, 47)).norm(), 1e-5);
+}
+
+// Fusion moved the surface by 0.2 mm; 3 mm are another surface.
+TEST(MaterialPoints, LieOnTheModelsSurface) {
+  for (const auto& [shift_mm, expected_mm] : {std::pair(0.2f, 50.2), std::pair(3.0f, 50.0)}) {
+    MaterialPoints tracked;
+    tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
+    tracked.anchor(flatModel());
+    tracked.settle(flatModel(shift_mm));
+    EXPECT_NEAR(tracked.points[0].position_mm.z(), expected_mm, 1e-5);
+    EXPECT_NEAR(tracked.points[0].position_mm.x(), 0, 1e-5) << "slid along the surface";
+  }
+}
+
+}  // namespace
+}  // namespace softscope

@@ -1,0 +1,212 @@
+// tests/pipeline/reconstructor_test.cpp: the whole method on a clip whose truth is known.
+#include "pipeline/reconstructor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "pipeline/checkpoint.h"
+#include "short_clip.h"
+
+namespace softscope::test {
+namespace {
+
+/// Mean distance of tracked points from the truth, in the current camera frame.
+double trackErrorMm(const FrameRecord& record, const SimulatedFrame& truth) {
+  double sum = 0;
+  int count = 0;
+  for (const TrackedPosition& point : record.tracked) {
+    if (!point.position_mm.allFinite()) continue;
+    const Eigen::Vector3d found = record.world_from_left.inverse() * point.position_mm;
+    const Eigen::Vector3d right = truth.pose.world_from_left.inverse() *
+                                  truth.tracks_world_mm[static_cast<std::size_t>(point.id)];
+    sum += (found - right).norm();
+    ++count;
+  }
+  EXPECT_GT(count, static_cast<int>(0.8 * record.tracked.size()));
+  return sum / count;
+}
+
+double motionMm(const SimulatedFrame& from, const SimulatedFrame& to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < from.tracks_world_mm.size(); ++i)
+    sum += (to.pose.world_from_left.inverse() * to.tracks_world_mm[i] -
+            from.pose.world_from_left.inverse() * from.tracks_world_mm[i])
+               .norm();
+  return sum / static_cast<double>(from.tracks_world_mm.size());
+}
+
+// One pixel is 0.25 mm here; tissue is followed to a fraction of it while it moves by more.
+TEST(Reconstructor, FollowsMaterialPoints) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  reconstructor.track(clip.seeds);
+  FrameRecord record;
+  for (const Frame& frame : clip.frames) record = reconstructor.process(frame);
+  EXPECT_EQ(record.status, FrameStatus::kFused) << record.reason;
+  const double moved_mm = motionMm(clip.truth.front(), clip.truth.back());
+  const double error_mm = trackErrorMm(record, clip.truth.back());
+  EXPECT_LT(error_mm, 0.35);
+  EXPECT_LT(error_mm, 0.5 * moved_mm) << "no better than points that don't move";
+  EXPECT_LT(record.fusion.corrected.mean_mm, 0.15);
+}
+
+TEST(Reconstructor, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const ShortClip& clip = shortClip();
+  std::string first;
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+    for (int i = 0; i < 3; ++i) reconstructor.process(clip.frames[static_cast<std::size_t>(i)]);
+    const std::string bytes = bytesOf(reconstructor.state().model.model);
+    ASSERT_FALSE(bytes.empty());
+    if (first.empty()) first = bytes;
+    EXPECT_TRUE(first == bytes);
+  }
+}
+
+// Through a checkpoint's bytes, as after a stop.
+TEST(Reconstructor, GoesOnFromACheckpointAsIfItHadNotStopped) {
+  const ShortClip& clip = shortClip();
+  Reconstructor whole = reconstructorOf(clip, smallOptions());
+  Reconstructor before = reconstructorOf(clip, smallOptions());
+  whole.track(clip.seeds);
+  before.track(clip.seeds);
+  for (int i = 0; i < 2; ++i) {
+    whole.process(clip.frames[static_cast<std::size_t>(i)]);
+    before.process(clip.frames[static_cast<std::size_t>(i)]);
+  }
+  const std::string bytes = checkpointBytes({"same", 2, before.state()});
+  Reconstructor after = reconstructorOf(clip, smallOptions());
+  after.restore(parseCheckpoint(bytes, "checkpoint.bin").state);
+  FrameRecord a, b;
+  for (int i = 2; i < 5; ++i) {
+    a = whole.process(clip.frames[static_cast<std::size_t>(i)]);
+    b = after.process(clip.frames[static_cast<std::size_t>(i)]);
+  }
+  EXPECT_TRUE(bytesOf(whole.state().model.model) == bytesOf(after.state().model.model));
+  EXPECT_EQ(a.world_from_left.matrix(), b.world_from_left.matrix());
+  ASSERT_EQ(a.tracked.size(), b.tracked.size());
+  for (std::size_t i = 0; i < a.tracked.size(); ++i) {
+    if (!a.tracked[i].position_mm.allFinite()) continue;
+    EXPECT_EQ(a.tracked[i].position_mm, b.tracked[i].position_mm);
+  }
+}
+
+class UselessFrame : public testing::TestWithParam<int> {};
+
+// Black, grey and saturated pictures: reported, and the model stays byte for byte.
+TEST_P(UselessFrame, IsSkippedAndLeavesTheModelAlone) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  for (int i = 0; i < 2; ++i) reconstructor.process(clip.frames[static_cast<std::size_t>(i)]);
+  const std::string before = bytesOf(reconstructor.state().model.model);
+  const FrameRecord bad =
+      reconstructor.process(flatFrame(clip, 2, static_cast<std::uint8_t>(GetParam())));
+  EXPECT_EQ(bad.status, FrameStatus::kSkippedDepth);
+  EXPECT_FALSE(bad.reason.empty());
+  EXPECT_TRUE(before == bytesOf(reconstructor.state().model.model));
+  const FrameRecord next = reconstructor.process(clip.frames[2]);
+  EXPECT_TRUE(next.fused()) << next.reason;
+}
+
+INSTANTIATE_TEST_SUITE_P(Levels, UselessFrame, testing::Values(0, 128, 255));
+
+TEST(Reconstructor, WaitsForAFirstFrameThatHasDepth) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  EXPECT_EQ(reconstructor.process(flatFrame(clip, 0, 0)).status, FrameStatus::kSkippedDepth);
+  EXPECT_TRUE(reconstructor.backend().empty());
+  EXPECT_EQ(reconstructor.process(clip.frames[1]).status, FrameStatus::kStarted);
+}
+
+// A frozen picture adds nothing and moves nothing.
+TEST(Reconstructor, StaysStillOnAFrozenPicture) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  reconstructor.track(clip.seeds);
+  const FrameRecord first = reconstructor.process(clip.frames[0]);
+  FrameRecord last;
+  for (int i = 0; i < 4; ++i) last = reconstructor.process(clip.frames[0]);
+  EXPECT_TRUE(last.fused()) << last.reason;
+  EXPECT_LT(last.world_from_left.translation().norm(), 0.02);
+  for (std::size_t i = 0; i < first.tracked.size(); ++i) {
+    if (!first.tracked[i].position_mm.allFinite()) continue;
+    EXPECT_LT((first.tracked[i].position_mm - last.tracked[i].position_mm).norm(), 0.1);
+  }
+}
+
+// The scope looks at something else, then comes back.
+TEST(Reconstructor, FindsTheModelAgainAfterALoss) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  for (int i = 0; i < 2; ++i) reconstructor.process(clip.frames[static_cast<std::size_t>(i)]);
+  Frame elsewhere = clip.frames[2];  // upside down: depth, but no tissue that is known
+  for (ColourImage* picture : {&elsewhere.pair.left, &elsewhere.pair.right}) {
+    const ColourImage upright = *picture;
+    for (int v = 0; v < upright.height_px; ++v)
+      std::copy_n(upright.row(upright.height_px - 1 - v), upright.width_px, picture->row(v));
+  }
+  const FrameRecord lost = reconstructor.process(elsewhere);
+  EXPECT_EQ(lost.status, FrameStatus::kLost) << toString(lost.status);
+  const FrameRecord found = reconstructor.process(clip.frames[2]);
+  EXPECT_EQ(found.status, FrameStatus::kRecovered) << found.reason;
+}
+
+TEST(Reconstructor, KeepsInstrumentsOutOfTheModel) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  for (Frame frame : {clip.frames[0], clip.frames[1], clip.frames[2]}) {
+    frame.mask = Mask(240, 180, 0);
+    for (int v = 0; v < 180; ++v)
+      for (int u = 90; u < 150; ++u) frame.mask.at(u, v) = 255;
+    for (ColourImage* picture : {&frame.pair.left, &frame.pair.right})
+      for (int v = 0; v < 180; ++v)
+        for (int u = 90; u < 150; ++u) picture->at(u, v) = {0, 255, 0};
+    reconstructor.process(frame);
+  }
+  const PointModel model = reconstructor.state().model.model;
+  ASSERT_GT(model.size(), 1000u);
+  for (const Rgb8& colour : model.colours)
+    EXPECT_FALSE(colour.green > 200 && colour.red < 60 && colour.blue < 60);
+}
+
+TEST(Reconstructor, ThePapersPresetRunsToo) {
+  const ShortClip& clip = shortClip();
+  ReconstructionOptions options = ReconstructionOptions::paper();
+  options.depth.stereo.disparity_max_px = 63;
+  Reconstructor reconstructor = reconstructorOf(clip, options);
+  reconstructor.process(clip.frames[0]);
+  const FrameRecord record = reconstructor.process(clip.frames[1]);
+  EXPECT_EQ(record.status, FrameStatus::kFused) << record.reason;
+  EXPECT_LT(record.fusion.corrected.mean_mm, 0.3);
+}
+
+TEST(Reconstructor, WithoutAMatcherTheScopeIsTakenToStand) {
+  const ShortClip& clip = shortClip();
+  ReconstructionOptions options = smallOptions();
+  options.matcher.method = "surf-off";
+  Reconstructor reconstructor = reconstructorOf(clip, options);
+  reconstructor.process(clip.frames[0]);
+  const FrameRecord record = reconstructor.process(clip.frames[1]);
+  EXPECT_TRUE(record.fused()) << record.reason;
+  EXPECT_EQ(record.matches.matches, 0);
+  EXPECT_EQ(record.world_from_left.matrix(), Eigen::Matrix4d::Identity());
+}
+
+TEST(ReconstructionOptions, NameTheFieldThatIsWrong) {
+  ReconstructionOptions options;
+  options.gate.min_coverage = 2;
+  try {
+    options.validate();
+    FAIL() << "a share of 2 passed";
+  } catch (const OptionError& error) {
+    EXPECT_NE(std::string(error.what()).find("gate.min_coverage is 2"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace softscope::test

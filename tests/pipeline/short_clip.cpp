@@ -1,0 +1,74 @@
+#include "short_clip.h"
+
+#include "eval/simulation/organ_mesh.h"
+#include "pipeline/cpu_backend.h"
+
+namespace softscope::test {
+namespace {
+
+constexpr int kFrames = 6;
+
+ShortClip makeClip() {
+  SimulationOptions options;
+  options.scope.width_px = 240;
+  options.scope.height_px = 180;
+  options.organ.cells_per_side = 40;
+  Simulator simulator(makeOrganMesh(options.organ, 1), options);
+  ShortClip clip;
+  clip.calibration.rectified = true;
+  clip.calibration.left.pinhole = clip.calibration.right.pinhole = simulator.rig().left;
+  clip.calibration.right_from_left.translation().x() = -simulator.rig().baseline_mm;
+  clip.calibration.source = "simulated";
+  for (int i = 0; i < kFrames; ++i) {
+    clip.truth.push_back(simulator.frame(i));
+    Frame frame;
+    frame.index = i;
+    frame.time_s = clip.truth.back().pose.time_s;
+    frame.pair = clip.truth.back().pictures;
+    clip.frames.push_back(std::move(frame));
+  }
+  for (std::size_t i = 0; i < simulator.trackPoints().size(); ++i) {
+    const Eigen::Vector2d pixel =
+        projectPoint<double>(simulator.rig().left, clip.truth.front().tracks_world_mm[i]);
+    clip.seeds.push_back({static_cast<int>(i), pixel.x(), pixel.y()});
+  }
+  return clip;
+}
+
+}  // namespace
+
+const ShortClip& shortClip() {
+  static const ShortClip clip = makeClip();
+  return clip;
+}
+
+ReconstructionOptions smallOptions() {
+  ReconstructionOptions options;
+  options.depth.stereo.disparity_max_px = 63;
+  return options;
+}
+
+Reconstructor reconstructorOf(const ShortClip& clip, const ReconstructionOptions& options) {
+  return {makeCpuBackend(clip.calibration, options), options};
+}
+
+Frame flatFrame(const ShortClip& clip, int index, std::uint8_t level) {
+  Frame frame = clip.frames.front();
+  frame.index = index;
+  for (ColourImage* picture : {&frame.pair.left, &frame.pair.right})
+    for (Rgb8& pixel : picture->values) pixel = {level, level, level};
+  return frame;
+}
+
+std::string bytesOf(const PointModel& model) {
+  std::string bytes;
+  const auto add = [&](const auto& values) {
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
+  };
+  add(model.positions_mm);
+  add(model.colours);
+  add(model.weights);
+  return bytes;
+}
+
+}  // namespace softscope::test

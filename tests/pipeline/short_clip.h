@@ -1,0 +1,36 @@
+// tests/pipeline/short_clip.h: a small simulated clip with its truth, and a run over it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/frame.h"
+#include "core/stereo_rig.h"
+#include "eval/simulation/simulator.h"
+#include "pipeline/reconstructor.h"
+
+namespace softscope::test {
+
+/// 240 x 180 pixels of a breathing, pushed organ before a moving scope.
+struct ShortClip {
+  StereoCalibration calibration;
+  std::vector<Frame> frames;
+  std::vector<SimulatedFrame> truth;
+  std::vector<TrackSeed> seeds;
+};
+
+/// Made once a program.
+const ShortClip& shortClip();
+
+/// What a clip of this size wants: fewer disparities, smaller search.
+ReconstructionOptions smallOptions();
+
+Reconstructor reconstructorOf(const ShortClip& clip, const ReconstructionOptions& options);
+
+/// A frame without anything to match on: every pixel has this grey level.
+Frame flatFrame(const ShortClip& clip, int index, std::uint8_t level);
+
+/// Bytes of positions, colours and weights, to compare runs.
+std::string bytesOf(const PointModel& model);
+
+}  // namespace softscope::test
