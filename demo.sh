@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Builds softscope on a bare Debian 12 and measures the depth of the small stereo pair in data/.
+# Builds softscope on a bare Debian 12, measures the depth of a stereo pair, and reconstructs a clip
+# whose truth is known.
 set -euo pipefail
 
 usage() {
   cat <<'EOF'
 usage: ./demo.sh [--no-install] [--help]
   Installs what is missing of packages.txt (as root or by sudo), builds build/release, examines the
-  machine, measures the depth of data/demo_pair and names the pictures to look at in out/demo.
+  machine, measures the depth of data/demo_pair, simulates a clip of a living organ, reconstructs it
+  and measures the error; ends by naming what to look at in out/demo.
   What was done before is not done again.
   --no-install   never calls apt-get
 EOF
@@ -22,7 +24,7 @@ for argument in "$@"; do
 done
 
 source "$(dirname "${BASH_SOURCE[0]}")/cmake/steps.sh"
-step_count=5
+step_count=8
 softscope=build/release/apps/softscope
 pair=data/demo_pair
 out=out/demo
@@ -41,6 +43,25 @@ else
   "$softscope" depth "$pair/left/000000.png" "$pair/right/000000.png" \
     --calibration "$pair/calibration.yaml" --out "$out" --force
 fi
+
+clip=$out/clip
+step "A clip of a breathing, pushed organ, with its truth: softscope simulate"
+if [ -e "$clip/groundtruth/trajectory.txt" ] && [ "$clip/groundtruth/trajectory.txt" -nt "$softscope" ]; then
+  say "simulated before, and nothing has changed since"
+else
+  "$softscope" simulate --out "$clip" --frames 40 --size 480x360 --force
+fi
+
+run=$out/run
+step "Its live model: softscope reconstruct"
+if [ -e "$run/run.json" ] && [ "$run/run.json" -nt "$clip/groundtruth/trajectory.txt" ]; then
+  say "reconstructed before, and nothing has changed since"
+else
+  "$softscope" reconstruct "$clip" --out "$run" --save-every 5 --track "$clip/track_points.csv" --force
+fi
+
+step "Its error: softscope evaluate"
+"$softscope" evaluate "$run" --reference "$clip" --out "$out/error" --force
 finish_step
 
 echo
@@ -50,7 +71,9 @@ cat <<EOF
   $out/disparity.png    how far each pixel moved between the two pictures
   $out/confidence.png   how sure each pixel is
   $out/cloud.ply        the tissue as coloured points in mm, for any mesh viewer
-  $out/summary.json     coverage, range and times, for programs
+  $out/run/model.ply    the last model of the clip, for MeshLab
+  $out/run/models.pvd   the model as it moves, for ParaView
+  $out/error/error_series.png   its distance from the truth, frame by frame
 EOF
-echo "and measure a pair of your own by"
-echo "  $softscope depth LEFT.png RIGHT.png --calibration CALIBRATION.yaml --out out/mine"
+echo "and try a clip of your own by"
+echo "  $softscope reconstruct LEFT.mp4 RIGHT.mp4 --calibration CALIBRATION.yaml --out out/mine"

@@ -1,0 +1,153 @@
+// tests/apps/test_reconstruct.cpp: `softscope reconstruct` as a user meets it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <thread>
+
+#include "tests/apps/run_softscope.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string bytesOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+int linesOf(const fs::path& file) {
+  const std::string bytes = bytesOf(file);
+  return static_cast<int>(std::count(bytes.begin(), bytes.end(), '\n'));
+}
+
+class Reconstruct : public InFolder {
+ protected:
+  /// A simulated clip of `frames` frames, 160 x 120.
+  std::string makeClip(int frames) const {
+    const Outcome made = run({"simulate", "--out", at("clip"), "--frames", std::to_string(frames),
+                              "--size", "160x120", "--set", "organ.cells_per_side=30", "--quiet"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return at("clip");
+  }
+  Outcome reconstruct(std::vector<std::string> more) const {
+    std::vector<std::string> all{"reconstruct", at("clip"), "--quiet", "--set",
+                                 "stereo.disparity_max_px=63"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  }
+};
+
+TEST_F(Reconstruct, WritesTheRunThatOthersRead) {
+  const std::string clip = makeClip(5);
+  const Outcome done = reconstruct(
+      {"--out", at("run"), "--save-every", "2", "--track", clip + "/track_points.csv", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.json()["frames_fused"], 5);
+  EXPECT_LT(double(done.json()["mean_backprojection_mm"]), 0.2);
+  for (const char* name : {"model.ply", "models/000000.ply", "models/000002.ply",
+                           "models/000004.vtp", "models.pvd", "run.json"})
+    EXPECT_TRUE(fs::exists(at("run") + "/" + name)) << name;
+  EXPECT_FALSE(fs::exists(at("run") + "/checkpoint.bin")) << "nothing is left to resume";
+  EXPECT_EQ(linesOf(at("run/frames.csv")), 1 + 5);
+  EXPECT_EQ(linesOf(at("run/trajectory.txt")), 1 + 5);
+  EXPECT_EQ((linesOf(at("run/tracks.csv")) - 1) % 5, 0);
+  EXPECT_THAT(bytesOf(at("run/model.ply")), HasSubstr("property float weight"));
+  const auto record = nlohmann::json::parse(bytesOf(at("run/run.json")));
+  EXPECT_EQ(std::string(record["inputs"]["calibration"]["sha256"]).size(), 64u);
+  EXPECT_EQ(record["configuration"]["stereo.disparity_max_px"], 63);
+}
+
+TEST_F(Reconstruct, ResumesToTheSameBytes) {
+  makeClip(8);
+  ASSERT_EQ(reconstruct({"--out", at("whole")}).exit_code, 0);
+  const std::string out = at("stopped");
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(executable().c_str(), "softscope", "reconstruct", at("clip").c_str(), "--out",
+          out.c_str(), "--quiet", "--set", "stereo.disparity_max_px=63", "--checkpoint-every", "1",
+          nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 3000 && !fs::exists(out + "/checkpoint.bin"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 0) GTEST_SKIP() << "the run was over before the signal came";
+  ASSERT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(nlohmann::json::parse(bytesOf(out + "/run.json"))["interrupted"]);
+  ASSERT_EQ(reconstruct({"--out", out, "--set", "graph.node_spacing_mm=5", "--resume"}).exit_code,
+            2)
+      << "other settings can't be gone on with";
+  const Outcome resumed = reconstruct({"--out", out, "--checkpoint-every", "1", "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  for (const char* name : {"model.ply", "trajectory.txt", "models/000000.ply"})
+    EXPECT_TRUE(bytesOf(out + "/" + name) == bytesOf(at("whole") + "/" + name)) << name;
+  EXPECT_EQ(linesOf(out + "/frames.csv"), 1 + 8);
+}
+
+TEST_F(Reconstruct, NeverOverwritesUnasked) {
+  makeClip(2);
+  ASSERT_EQ(reconstruct({"--out", at("run")}).exit_code, 0);
+  const std::string before = bytesOf(at("run/model.ply"));
+  const Outcome again = reconstruct({"--out", at("run")});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--force"));
+  EXPECT_EQ(bytesOf(at("run/model.ply")), before);
+  EXPECT_EQ(reconstruct({"--out", at("run"), "--force", "--frames", "0:1"}).exit_code, 0);
+  EXPECT_EQ(linesOf(at("run/frames.csv")), 2);
+}
+
+TEST_F(Reconstruct, TellsWhatIsWrongWithItsArguments) {
+  makeClip(2);
+  const auto expect = [&](const std::vector<std::string>& more, int code, const char* text) {
+    const Outcome outcome = reconstruct(more);
+    EXPECT_EQ(outcome.exit_code, code) << text;
+    EXPECT_THAT(outcome.err, HasSubstr(text));
+  };
+  expect({"--out", at("r"), "--backend", "cuda"}, 4, "--backend cuda");
+  expect({"--out", at("r"), "--backend", "gpu"}, 2, "must be auto, cpu or cuda");
+  expect({"--out", at("r"), "--preset", "papr"}, 2, "must be default or paper");
+  expect({"--out", at("r"), "--matcher", "orb"}, 2, "matcher.method is orb");
+  expect({"--out", at("r"), "--set", "deform.node_modle=rigid"}, 2, "deform.node_model");
+  expect({"--out", at("r"), "--resume"}, 2, "start the run without --resume");
+  expect({"--out", write("file", "x")}, 2, "is a file, but must be a folder");
+  expect({"--out", at("r"), "--track", write("t.csv", "id,u_px\n")}, 3, "id,u_px,v_px");
+  EXPECT_FALSE(fs::exists(at("r"))) << "half-written";
+}
+
+// Bytes of pictures, calibration and settings are damaged at random: a clear error or skipped
+// frames, never a crash.
+TEST_F(Reconstruct, SurvivesDamagedInput) {
+  const fs::path clip = makeClip(3);
+  const std::vector<std::string> victims{"left/000001.png", "right/000002.png", "left/000000.png",
+                                         "calibration.yaml"};
+  std::mt19937 random(4);
+  for (int round = 0; round < 12; ++round) {
+    const fs::path victim = clip / victims[static_cast<std::size_t>(round) % victims.size()];
+    const std::string good = bytesOf(victim);
+    std::string bad = good;
+    for (int k = 0; k < 8; ++k) bad[random() % bad.size()] = static_cast<char>(random());
+    if (round % 3 == 0) bad.resize(random() % bad.size());
+    std::ofstream(victim, std::ios::binary) << bad;
+    const Outcome outcome = reconstruct({"--out", at("run"), "--force"});
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3)
+        << victim << " ended with " << outcome.exit_code << ": " << outcome.err;
+    EXPECT_TRUE(outcome.exit_code == 0 || !outcome.err.empty());
+    std::ofstream(victim, std::ios::binary) << good;
+  }
+}
+
+}  // namespace
+}  // namespace softscope::test
