@@ -16,10 +16,7 @@ if(SOFTSCOPE_SANITIZE)
     list(APPEND softscope_sanitizers -fsanitize=fuzzer-no-link)
   endif()
   target_compile_options(softscope_flags INTERFACE
-    ${softscope_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer
-    # The checks make Eigen's one-line functions too large for clang to inline by itself. Inlined
-    # all the same, the simulator runs 5 times as fast and compiles 10 % slower.
-    $<$<CXX_COMPILER_ID:Clang>:SHELL:-mllvm -inline-threshold=2000>)
+    ${softscope_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_compile_definitions(softscope_flags INTERFACE
     _GLIBCXX_ASSERTIONS EIGEN_INITIALIZE_MATRICES_BY_NAN)
   target_link_options(softscope_flags INTERFACE ${softscope_sanitizers})
