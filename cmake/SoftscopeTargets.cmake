@@ -23,20 +23,38 @@ function(softscope_inline name)
   endif()
 endfunction()
 
-# softscope_test(<folder> SOURCES … LINKS …): one test program a folder, one ctest entry a test;
-# under sanitizers, which start slowly, one entry a program. Label: the folder.
+# softscope_test(<folder> SOURCES … LINKS … [SHARDS <count>]): one test program a folder, one ctest
+# entry a test; under sanitizers, which start slowly, one entry a program, or as many as SHARDS says
+# where one would keep the others waiting. Label: the folder.
 function(softscope_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${ARG_LINKS} GTest::gtest_main softscope_flags)
   target_include_directories(test_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
   if(SOFTSCOPE_SANITIZE)
-    add_test(NAME ${name} COMMAND test_${name})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 1200 LABELS ${name})
+    softscope_test_shards(${name} ${ARG_SHARDS})
   else()
     gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
       PROPERTIES TIMEOUT 600 LABELS ${name})
   endif()
+endfunction()
+
+# softscope_test_shards(<folder> [count])
+function(softscope_test_shards name)
+  set(count 1)
+  if(ARGC GREATER 1)
+    set(count ${ARGV1})
+  endif()
+  foreach(number RANGE 1 ${count})
+    set(entry ${name})
+    if(count GREATER 1)
+      set(entry ${name}.${number})
+    endif()
+    math(EXPR index "${number} - 1")
+    add_test(NAME ${entry} COMMAND test_${name})
+    set_tests_properties(${entry} PROPERTIES TIMEOUT 1200 LABELS ${name}
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index}")
+  endforeach()
 endfunction()
 
 # softscope_fuzz(<reader> SOURCES … LINKS … CORPUS <folder> [RUNS <count>]): a reader that must
