@@ -1,4 +1,5 @@
 // apps/main.cpp: softscope <command>; the one place where failures become exit codes.
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
@@ -34,8 +35,17 @@ std::string tell(const std::filesystem::filesystem_error& error) {
              ". Check the path and the rights of its folders.");
 }
 
+/// Every frame needs the same buffers again; the C library would hand each back to the system and
+/// fault its pages in anew, a tenth of a frame's time (docs/benchmarks.md).
+void keepMemoryAtHand() {
+  constexpr int kLargestBuffer = 256 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestBuffer);
+  mallopt(M_TRIM_THRESHOLD, kLargestBuffer);
+}
+
 int runAndReport(const std::vector<std::string>& words) {
   setUpLog({});
+  keepMemoryAtHand();
   try {
     return runLine(words);
   } catch (const OptionError& error) {

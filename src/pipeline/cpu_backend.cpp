@@ -19,6 +19,8 @@
 namespace softscope {
 namespace {
 
+constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
+
 void addTo(Mask& mask, const Mask& more) {
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (more.values[i] != 0) mask.values[i] = 1;
@@ -183,7 +185,9 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, PoseSummary* summary) {
   if (options_.refine_pose.iterations == 0) return;
   const RectifiedRig& rig = depth_.rig();
   std::vector<PosePair> pairs;
-  for (std::size_t i = 0; i < matches_.size(); ++i) {
+  // Neighbouring matches err alike; an even choice of them says as much.
+  const std::size_t step = 1 + matches_.size() / kPosePairs;
+  for (std::size_t i = 0; i < matches_.size(); i += step) {
     if (pose_.inlier[i] == 0) continue;
     const LiftedMatch& match = matches_[i];
     const Eigen::Vector3d live = match.target_left_mm.cast<double>();
