@@ -107,9 +107,14 @@ void RunFolder::takeOver(int next_frame) {
                      " frames, trajectory.txt " + std::to_string(trajectory_.size()) +
                      "; they don't belong together. Start again without --resume");
   trajectory_.resize(frames);
-  for (std::size_t i = 0; i < frames && fs::exists(file(kModels)); ++i)
-    if (const int frame = static_cast<int>(i); fs::exists(file(kModels) / numbered(frame, ".ply")))
-      saved_.push_back({frame, trajectory_[i].time_s});
+  std::size_t line = 0;
+  for (const std::string_view text : linesOf(frames_csv_)) {
+    if (line >= frames) break;
+    const int frame = std::atoi(std::string(text.substr(0, text.find(','))).c_str());
+    if (fs::exists(file(kModels) / numbered(frame, ".ply")))
+      saved_.push_back({frame, trajectory_[line].time_s});
+    ++line;
+  }
 }
 
 void RunFolder::begin() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/file_bytes.h"
 #include "io/folder.h"
 #include "io/message.h"
 
@@ -60,6 +61,7 @@ std::vector<fs::path> regularFilesIn(const fs::path& folder) {
 std::string sha256Of(const fs::path& path) {
   Sha256 hash;
   if (!fs::is_directory(path)) {
+    requireFile(path);
     hash.addFile(path);
     return hash.hexadecimal();
   }

@@ -92,7 +92,7 @@ TEST_F(Reconstruct, ResumesToTheSameBytes) {
       << "other settings can't be gone on with";
   const Outcome resumed = reconstruct({"--out", out, "--checkpoint-every", "1", "--resume"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  for (const char* name : {"model.ply", "trajectory.txt", "models/000000.ply"})
+  for (const char* name : {"model.ply", "trajectory.txt", "models/000000.ply", "models.pvd"})
     EXPECT_TRUE(bytesOf(out + "/" + name) == bytesOf(at("whole") + "/" + name)) << name;
   EXPECT_EQ(linesOf(out + "/frames.csv"), 1 + 8);
 }
