@@ -207,7 +207,7 @@ void ReconstructCommand::reconstructAll(SequenceReader& reader, Reconstructor& r
       spdlog::warn("frame {}: {}: {}", frame.frame, toString(frame.status), frame.reason);
     folder.add(frame);
     record.add(frame);
-    if (!reconstructor.backend().empty())
+    if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
       folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model.model);
     checkpoint.next_frame = frame.frame + 1;
     if (++since_flush >= checkpoint_every_ && !reconstructor.backend().empty()) {

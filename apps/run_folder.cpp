@@ -141,7 +141,6 @@ void RunFolder::add(const FrameRecord& record) {
 }
 
 void RunFolder::saveModel(int frame, double time_s, const PointModel& model) {
-  if (options_.save_every == 0 || frame % options_.save_every != 0) return;
   begin();
   fs::create_directories(file(kModels));
   const PointCloud cloud = cloudOf(model);

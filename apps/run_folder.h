@@ -35,7 +35,11 @@ class RunFolder {
   void takeOver(int next_frame);
 
   void add(const FrameRecord& record);
-  /// models/NNNNNN.ply and .vtp, if it is this frame's turn.
+  /// Whether it is this frame's turn to have its model saved.
+  bool savesModel(int frame) const {
+    return options_.save_every > 0 && frame % options_.save_every == 0;
+  }
+  /// models/NNNNNN.ply and .vtp.
   void saveModel(int frame, double time_s, const PointModel& model);
   void flush(const PointModel& model, const Checkpoint& checkpoint);
   /// The run is complete: nothing will be resumed.
