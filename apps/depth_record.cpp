@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "apps/frame_statistics.h"
-#include "apps/run_record.h"
+#include "apps/setting_json.h"
 #include "apps/version.h"
 
 namespace softscope {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "apps/machine.h"
+#include "apps/setting_json.h"
 #include "apps/version.h"
 #include "core/parallel.h"
 #include "io/file_hash.h"
@@ -49,12 +50,6 @@ Json rigJson(const RectifiedRig& rig) {
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
-
-Json valueOf(const SettingInfo& setting) {
-  if (setting.type == "text") return setting.current_text;
-  const Json value = Json::parse(setting.current_text, nullptr, /*allow_exceptions=*/false);
-  return value.is_discarded() ? Json(setting.current_text) : value;
-}
 
 RunRecord::RunRecord(const SequencePaths& paths, const StereoCalibration& calibration,
                      const ReconstructionBackend& backend,

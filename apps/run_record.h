@@ -39,7 +39,4 @@ class RunRecord {
   int frames_ = 0, points_ = 0, nodes_ = 0;
 };
 
-/// A setting's text as the JSON value that it stands for.
-FactSheet::Json valueOf(const SettingInfo& setting);
-
 }  // namespace softscope

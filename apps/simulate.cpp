@@ -9,6 +9,7 @@
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
+#include "apps/setting_json.h"
 #include "apps/simulate_options.h"
 #include "apps/simulate_outputs.h"
 #include "apps/version.h"
@@ -99,11 +100,7 @@ void SimulateCommand::readOptions(SettingsBinder& binder, SimulateOptions& optio
 FactSheet::Json SimulateCommand::record(const SettingsBinder& binder) const {
   FactSheet::Json json{
       {"schema_version", 1}, {"softscope", versionText()}, {"command", "simulate"}};
-  for (const SettingInfo& setting : binder.list()) {
-    const auto value = FactSheet::Json::parse(setting.current_text, nullptr, false);
-    const bool is_text = setting.type == "text" || value.is_discarded();
-    json["options"][setting.key] = is_text ? FactSheet::Json(setting.current_text) : value;
-  }
+  for (const SettingInfo& setting : binder.list()) json["options"][setting.key] = valueOf(setting);
   return json;
 }
 

@@ -1,0 +1,13 @@
+// apps/setting_json.cpp: numbers stay numbers, texts stay texts.
+#include "apps/setting_json.h"
+
+namespace softscope {
+
+FactSheet::Json valueOf(const SettingInfo& setting) {
+  using Json = FactSheet::Json;
+  if (setting.type == "text") return setting.current_text;
+  const Json value = Json::parse(setting.current_text, nullptr, /*allow_exceptions=*/false);
+  return value.is_discarded() ? Json(setting.current_text) : value;
+}
+
+}  // namespace softscope
