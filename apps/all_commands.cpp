@@ -10,6 +10,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeSimulateCommand());
   commands.push_back(makeEvaluateCommand());
   commands.push_back(makeCompareCommand());
+  commands.push_back(makeStudyCommand());
   commands.push_back(makeInfoCommand());
   commands.push_back(makeDoctorCommand());
   return commands;

@@ -110,7 +110,8 @@ int SimulateCommand::run() {
   readOptions(binder, options);
   const TruthKinds truth = TruthKinds::parse(truth_);
   Simulator simulator(readOrgan(options), options.simulation);
-  SimulateOutputs outputs({out_, truth, options.pictures, force_}, jsonText(record(binder)));
+  SimulateOutputs outputs({out_, truth, options.pictures, options.input_depth, force_},
+                          jsonText(record(binder)));
   const auto start = std::chrono::steady_clock::now();
   const int done = simulateAll(simulator, outputs, options);
   if (done == 0) return kInterrupted;

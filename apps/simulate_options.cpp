@@ -97,6 +97,7 @@ void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {
   binder.bind("frames_per_second", simulation.frames_per_second, "");
   binder.bind("seed", simulation.seed, "of everything that chance decides");
   binder.bind("pictures", options.pictures, "png or jpg");
+  binder.bind("input_depth", options.input_depth, "true depth as depth/, which replaces stereo");
   binder.bind("truth_every", options.truth_every, "frames between true meshes and depths");
   binder.bind("track_spacing_px", simulation.track_spacing_px, "between tracked points");
   bindOrgan(binder, options);

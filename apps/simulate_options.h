@@ -14,6 +14,7 @@ struct SimulateOptions {
   std::string organ = "builtin";  // or a mesh file
   double organ_unit_mm = 1;       // of a mesh file
   std::string pictures = "png";   // or jpg
+  bool input_depth = false;       // write the true depth of every frame as the sequence's own
   SimulationOptions simulation;
 
   /// Throws OptionError.

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRecord = "simulation.json";
-constexpr const char* kFrameFolders[] = {"left", "right", "groundtruth/depth", "groundtruth/mesh"};
+constexpr const char* kFrameFolders[] = {"left", "right", "depth", "groundtruth/depth",
+                                         "groundtruth/mesh"};
 constexpr double kDepthStepMm = 0.01;
 
 bool isNumberedFrame(const fs::path& file) {
@@ -87,6 +88,7 @@ SimulateOutputs::SimulateOutputs(SimulateOutputOptions options, const std::strin
   requireUsableFolder(options_.folder, options_.overwrite);
   if (options_.overwrite) removeEarlierFrames(options_.folder);
   for (const char* name : {"left", "right"}) fs::create_directories(options_.folder / name);
+  if (options_.input_depth) fs::create_directories(options_.folder / "depth");
   if (options_.truth.depth) fs::create_directories(options_.folder / "groundtruth/depth");
   if (options_.truth.mesh) fs::create_directories(options_.folder / "groundtruth/mesh");
   if (options_.truth.trajectory || options_.truth.tracks)
@@ -124,6 +126,8 @@ void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
   const bool force = options_.overwrite;
   parallelInvoke([&] { writePicture("left", index, frame.pictures.left); },
                  [&] { writePicture("right", index, frame.pictures.right); });
+  if (options_.input_depth)
+    writeDepthPng(numbered("depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
   if (with_truth && options_.truth.depth)
     writeDepthPng(numbered("groundtruth/depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
   if (with_truth && options_.truth.mesh)

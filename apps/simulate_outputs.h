@@ -14,6 +14,7 @@ struct SimulateOutputOptions {
   std::filesystem::path folder;
   TruthKinds truth;
   std::string pictures = "png";
+  bool input_depth = false;
   bool overwrite = false;
 };
 

@@ -1,0 +1,197 @@
+// apps/study.cpp: `softscope study`: many cases, one table.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <iostream>
+#include <list>
+
+#include "apps/child_process.h"
+#include "apps/command.h"
+#include "apps/exit_codes.h"
+#include "apps/interrupt.h"
+#include "apps/machine.h"
+#include "apps/progress_bar.h"
+#include "apps/result_output.h"
+#include "apps/study_case.h"
+#include "apps/study_outputs.h"
+#include "core/error.h"
+#include "io/message.h"
+
+namespace softscope {
+namespace {
+
+using Json = FactSheet::Json;
+
+const char* const kDetails =
+    "FILE names cases: a sequence that exists or is simulated, settings of `reconstruct`, what it\n"
+    "is judged by; variants and sweeps multiply them (docs/studies.md, data/studies). Each case "
+    "is\n"
+    "a process; one that fails is told and doesn't stop the others; one that is done is not run\n"
+    "again unless its settings or inputs changed. Ctrl-C stops cleanly, the same line goes on.\n"
+    "Writes DIR/study.json, table.csv, table.md, report.html, plots/, and cases/NAME/\n"
+    "with each case's run, evaluation and log.txt. Exit code 1: a case failed.\n"
+    "--list, --case and --table are what a workflow manager needs (data/studies/Snakefile).";
+
+class StudyCommand : public Command {
+ public:
+  std::string name() const override { return "study"; }
+  std::string summary() const override {
+    return "many simulated or real cases to one table of errors";
+  }
+  std::string details() const override { return kDetails; }
+  std::string example() const override {
+    return "softscope study data/studies/stress.toml --out stress --jobs 4";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  int runOne(const StudyCase& study_case, const StudyFolder& folder);
+  int runAll(const Study& study, const StudyFolder& folder);
+  std::vector<const StudyCase*> pending(const Study& study, const StudyFolder& folder) const;
+  ChildProcess start(const StudyCase& study_case, const StudyFolder& folder, int threads) const;
+  int writeAll(const Study& study, const StudyFolder& folder) const;
+  int jobCount(std::size_t cases) const;
+  std::string commandLine() const;
+
+  std::string file_, out_, case_;
+  int jobs_ = 0;
+  bool list_ = false, table_ = false, force_ = false;
+};
+
+void StudyCommand::declare(ArgumentList& arguments) {
+  arguments.positional("FILE", file_, "the study (TOML)", true);
+  arguments.option("--out", "DIR", out_, "folder for everything; an earlier study in it goes on");
+  arguments.option("--jobs", "N", jobs_,
+                   "cases at the same time, which share --threads (0: one a core, the default)");
+  arguments.flag("--list", list_, "print the names of all cases, run nothing");
+  arguments.option("--case", "NAME", case_, "run this case alone, write no table");
+  arguments.flag("--table", table_, "run nothing, write the table of what is there");
+  arguments.flag("--force", force_, "run cases that are done again");
+}
+
+/// As text that a shell would take, without options that decide no result.
+std::string StudyCommand::commandLine() const {
+  return "softscope study " + file_ + " --out " + out_;
+}
+
+int StudyCommand::run() {
+  require(jobs_ >= 0 && jobs_ <= 1024, "--jobs", jobs_, "must be 0 (one a core) to 1024");
+  if (int(list_) + int(table_) + int(!case_.empty()) > 1)
+    throw OptionError("--list, --case and --table exclude each other; give one");
+  const Study study = readStudy(file_);
+  if (list_) {
+    for (const StudyCase& one : study.cases) std::cout << one.name << "\n";
+    return kDone;
+  }
+  if (out_.empty()) throw OptionError("softscope study: --out is missing: folder for everything");
+  const StudyFolder folder{out_};
+  folder.requireUsable();
+  if (table_) return writeAll(study, folder);
+  if (!case_.empty()) return runOne(study.caseNamed(case_), folder);
+  const int code = runAll(study, folder);
+  return code == kInterrupted ? code : writeAll(study, folder);
+}
+
+int StudyCommand::runOne(const StudyCase& study_case, const StudyFolder& folder) {
+  if (!force_ && finishedRecord(study_case, folder).is_object()) return kDone;
+  const InterruptGuard interrupt;
+  const int threads = common.threads > 0 ? common.threads : describeMachine().cores;
+  const Json record = runCase(study_case, folder, threads, [&] { return interrupt.requested(); });
+  if (!record.is_object()) return kInterrupted;
+  const std::string status = record["status"], reason = record["reason"];
+  if (status == "skipped") spdlog::warn("{} is skipped: {}", study_case.name, reason);
+  if (status == "failed") spdlog::error("{}: {}", study_case.name, reason);
+  return status == "failed" ? kThresholdFailed : kDone;
+}
+
+/// Cases with a sequence of their own come first: those that share one needn't wait for it then.
+std::vector<const StudyCase*> StudyCommand::pending(const Study& study,
+                                                    const StudyFolder& folder) const {
+  std::vector<const StudyCase*> first, later;
+  std::vector<std::pair<std::string, StudyValues>> sequences;
+  for (const StudyCase& one : study.cases) {
+    if (!force_ && finishedRecord(one, folder).is_object()) continue;
+    const std::pair<std::string, StudyValues> sequence{one.sequence, one.simulate};
+    const bool known = std::find(sequences.begin(), sequences.end(), sequence) != sequences.end();
+    if (!known) sequences.push_back(sequence);
+    (known ? later : first).push_back(&one);
+  }
+  first.insert(first.end(), later.begin(), later.end());
+  return first;
+}
+
+int StudyCommand::jobCount(std::size_t cases) const {
+  const int jobs = jobs_ > 0 ? jobs_ : describeMachine().cores;
+  return std::max(1, std::min(jobs, static_cast<int>(cases)));
+}
+
+ChildProcess StudyCommand::start(const StudyCase& study_case, const StudyFolder& folder,
+                                 int threads) const {
+  std::filesystem::create_directories(folder.ofCase(study_case.name));
+  std::vector<std::string> words{ownExecutable().string(), "study",  file_, "--case",
+                                 study_case.name,          "--out",  out_,  "--threads",
+                                 std::to_string(threads),  "--quiet"};
+  if (force_) words.emplace_back("--force");
+  return ChildProcess(words, folder.root / "cases" / "study_log.txt");
+}
+
+int StudyCommand::runAll(const Study& study, const StudyFolder& folder) {
+  const auto waiting = pending(study, folder);
+  const std::size_t finished = study.cases.size() - waiting.size();
+  if (waiting.empty()) return kDone;
+  if (finished > 0) spdlog::info("{} of {} cases are done already", finished, study.cases.size());
+  const int jobs = jobCount(waiting.size());
+  const int cores = common.threads > 0 ? common.threads : describeMachine().cores;
+  const InterruptGuard interrupt;
+  ProgressBar progress("study", static_cast<int>(waiting.size()), progressStyle(common.quiet),
+                       std::cerr);
+  std::list<ChildProcess> running;
+  std::size_t next = 0;
+  bool told = false;
+  while (!running.empty() || (next < waiting.size() && !interrupt.requested())) {
+    while (next < waiting.size() && static_cast<int>(running.size()) < jobs &&
+           !interrupt.requested())
+      running.push_back(start(*waiting[next++], folder, std::max(1, cores / jobs)));
+    if (interrupt.requested() && !told) {
+      for (ChildProcess& child : running) child.interrupt();
+      told = true;
+    }
+    for (auto child = running.begin(); child != running.end();) {
+      const bool ended = child->ended().has_value();
+      if (ended && !told) progress.advance();
+      child = ended ? running.erase(child) : std::next(child);
+    }
+    waitAMoment();
+  }
+  if (!interrupt.requested()) return kDone;
+  spdlog::warn("interrupted: cases that are done stay; the same line goes on");
+  return kInterrupted;
+}
+
+int StudyCommand::writeAll(const Study& study, const StudyFolder& folder) const {
+  std::vector<Json> records;
+  int failed = 0;
+  for (const StudyCase& one : study.cases) {
+    records.push_back(recordOf(one, folder));
+    const bool bad = !records.back().is_object() || records.back()["status"] == "failed";
+    failed += bad ? 1 : 0;
+    if (bad)
+      spdlog::warn("{}: {}; {} tells more", one.name,
+                   records.back().is_object() ? records.back()["reason"].get<std::string>()
+                                              : std::string("has not been run"),
+                   shown(folder.ofCase(one.name) / "log.txt"));
+  }
+  writeStudy(study, records, commandLine(), folder);
+  if (common.json)
+    printJson(studyJson(study, records, commandLine()));
+  else
+    std::cout << studyTable(study, records).markdown() << "\nwritten to " << out_ << "\n";
+  return failed > 0 ? kThresholdFailed : kDone;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeStudyCommand() { return std::make_unique<StudyCommand>(); }
+
+}  // namespace softscope

@@ -1,0 +1,276 @@
+// apps/study_case.cpp: three commands, one record.
+#include "apps/study_case.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "apps/child_process.h"
+#include "apps/exit_codes.h"
+#include "apps/result_output.h"
+#include "apps/study_settings.h"
+#include "apps/version.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/file_hash.h"
+#include "io/message.h"
+#include "io/trajectory_file.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = FactSheet::Json;
+
+constexpr std::size_t kFolderLetters = 12;  // of a sequence's hash
+
+struct Interrupted {};
+
+struct StepFailed {
+  std::string step, reason;
+};
+
+Json readJson(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+}
+
+/// Held by one process at a time, for as long as it lives.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& file)
+      : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {}
+  ~FolderLock() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+  bool tryToHold() const { return descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0; }
+
+ private:
+  int descriptor_;
+};
+
+/// Content of a sequence: whatever lies in it, one folder deep.
+std::string sequenceDigest(const fs::path& sequence) {
+  std::string all = sha256Of(sequence);
+  for (const char* name :
+       {"left", "right", "mask", "depth", "groundtruth", "groundtruth/mesh", "groundtruth/depth"})
+    if (fs::is_directory(sequence / name)) all += name + sha256Of(sequence / name);
+  return sha256OfBytes(all);
+}
+
+std::string simulationDigest(const StudyCase& study_case) {
+  std::string all = versionText() + "\n" + simulationText(study_case);
+  const auto mesh = study_case.simulate.find("organ.mesh");
+  if (mesh != study_case.simulate.end() && mesh->second != "builtin") all += sha256Of(mesh->second);
+  return sha256OfBytes(all);
+}
+
+/// The last line of a log that says `error`, else its last line.
+std::string lastComplaint(const fs::path& log) {
+  std::ifstream file(log);
+  std::string last, complaint;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty()) last = line;
+    if (line.rfind("error: ", 0) == 0) complaint = line.substr(7);
+  }
+  return complaint.empty() ? last : complaint;
+}
+
+/// What a table may show; the rest stays in the case's own folder.
+Json withoutDetails(Json json) {
+  if (!json.is_object()) return json;
+  for (const char* name : {"frames", "configuration", "inputs", "thresholds"})
+    if (json.contains(name) && !json[name].is_number()) json.erase(name);
+  return json;
+}
+
+class CaseRunner {
+ public:
+  CaseRunner(const StudyCase& study_case, const StudyFolder& folder, int threads,
+             std::function<bool()> interrupted)
+      : case_(study_case),
+        folder_(folder),
+        threads_(threads),
+        interrupted_(std::move(interrupted)),
+        home_(folder.ofCase(study_case.name)) {}
+
+  Json run();
+
+ private:
+  void step(const std::string& name, std::vector<std::string> words);
+  fs::path sequence();
+  void simulate(const fs::path& target);
+  void waitFor(const FolderLock& lock) const;
+  std::string referenceOf(const fs::path& sequence) const;
+  Json begunRecord() const;
+  void judge(Json& record);
+
+  const StudyCase& case_;
+  const StudyFolder& folder_;
+  int threads_;
+  std::function<bool()> interrupted_;
+  fs::path home_;
+  Json seconds_ = Json::object();
+};
+
+void CaseRunner::step(const std::string& name, std::vector<std::string> words) {
+  words.insert(words.begin(), ownExecutable().string());
+  for (const std::string& word : {std::string("--threads"), std::to_string(threads_)})
+    words.push_back(word);
+  words.emplace_back("--quiet");
+  const fs::path log = home_ / "log.txt";
+  std::ofstream(log, std::ios::app) << "# " << name << "\n";
+  const auto start = std::chrono::steady_clock::now();
+  const int code = runToEnd(ChildProcess(words, log), interrupted_);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  seconds_[name + "_s"] = elapsed.count();
+  if (code == kInterrupted || interrupted_()) throw Interrupted();
+  if (code == kDone) return;
+  const std::string complaint = lastComplaint(log);
+  throw StepFailed{name, complaint.empty() || complaint[0] == '#'
+                             ? "ended with exit code " + std::to_string(code)
+                             : complaint};
+}
+
+void CaseRunner::waitFor(const FolderLock& lock) const {
+  while (!lock.tryToHold()) {
+    if (interrupted_()) throw Interrupted();
+    waitAMoment();
+  }
+}
+
+/// Under a name of its own first: what another process finds is complete.
+void CaseRunner::simulate(const fs::path& target) {
+  const fs::path part = target.string() + ".part-" + std::to_string(getpid());
+  try {
+    step("simulate", simulateWords(case_, part.string()));
+  } catch (...) {
+    fs::remove_all(part);
+    throw;
+  }
+  std::error_code taken;  // by a process that didn't see the lock: the same bytes
+  fs::rename(part, target, taken);
+  if (taken) fs::remove_all(part);
+}
+
+fs::path CaseRunner::sequence() {
+  if (!case_.sequence.empty()) return case_.sequence;
+  fs::create_directories(folder_.sequences());
+  const fs::path target = folder_.sequences() / simulationDigest(case_).substr(0, kFolderLetters);
+  const FolderLock lock(target.string() + ".lock");
+  waitFor(lock);
+  if (!fs::exists(target)) simulate(target);
+  return target;
+}
+
+std::string CaseRunner::referenceOf(const fs::path& sequence) const {
+  const auto named = case_.evaluate.find("reference");
+  if (named != case_.evaluate.end()) return named->second;
+  return fs::exists(sequence / "groundtruth") ? sequence.string() : "";
+}
+
+Json CaseRunner::begunRecord() const {
+  Json record{{"schema_version", 1}, {"softscope", versionText()}, {"name", case_.name}};
+  record["case"] = case_.base;
+  record["variant"] = case_.variant;
+  record["sweep"] = case_.sweep;
+  record["level"] = case_.sweep.empty() ? Json() : Json(case_.level);
+  record["status"] = "failed";
+  record["reason"] = "";
+  record["notes"] = case_.notes;
+  record["threads"] = threads_;
+  return record;
+}
+
+void CaseRunner::judge(Json& record) {
+  const fs::path where = sequence();
+  const fs::path run = home_ / "run", evaluation = home_ / "evaluation";
+  step("reconstruct", reconstructWords(case_, where.string(), run.string()));
+  record["run"] = withoutDetails(readJson(run / "run.json"));
+  record["run"]["fused_share"] =
+      record["run"].value("frames_fused", 0.0) / std::max(1.0, record["run"].value("frames", 0.0));
+  const Trajectory path = readTrajectory(run / "trajectory.txt");
+  if (path.size() > 1)
+    record["run"]["scope_moved_mm"] =
+        (path.back().world_from_left.translation() - path.front().world_from_left.translation())
+            .norm();
+  const std::string reference = referenceOf(where);
+  if (reference.empty()) return;
+  step("evaluate", evaluateWords(case_, run.string(), reference, evaluation.string()));
+  record["evaluation"] = withoutDetails(readJson(evaluation / "evaluation.json"));
+}
+
+Json CaseRunner::run() {
+  fs::create_directories(home_);
+  fs::remove(folder_.record(case_.name));
+  fs::remove(home_ / "log.txt");
+  Json record = begunRecord();
+  try {
+    if (case_.skip.empty()) {
+      record["digest"] = digestOf(case_);
+      record["executable_sha256"] = sha256Of(ownExecutable());
+      judge(record);
+      record["status"] = "done";
+    } else {
+      record["status"] = "skipped";
+      record["reason"] = case_.skip;
+    }
+  } catch (const Interrupted&) {
+    return {};
+  } catch (const StepFailed& failure) {
+    record["reason"] = failure.step + ": " + failure.reason;
+  } catch (const Error& error) {
+    record["reason"] = error.what();
+  }
+  record["seconds"] = seconds_;
+  writeFile(folder_.record(case_.name), jsonText(record), true);
+  return record;
+}
+
+}  // namespace
+
+void StudyFolder::requireUsable() const {
+  if (!fs::exists(root)) return;
+  if (!fs::is_directory(root))
+    throw OptionError("--out: " + shown(root) + " is a file, but must be a folder");
+  if (fs::is_empty(root) || fs::exists(root / "cases")) return;
+  throw OptionError("--out: " + shown(root) +
+                    " holds something that is no study; choose another folder");
+}
+
+std::string digestOf(const StudyCase& study_case) {
+  std::string all = versionText() + "\n";
+  all += study_case.sequence.empty() ? simulationDigest(study_case)
+                                     : sequenceDigest(study_case.sequence);
+  all += "\n" + reconstructionText(study_case) + evaluationText(study_case);
+  for (const StudyValues* values : {&study_case.reconstruct, &study_case.evaluate})
+    for (const char* key : {"right", "calibration", "mask", "reference"})
+      if (const auto file = values->find(key); file != values->end()) all += sha256Of(file->second);
+  return sha256OfBytes(all);
+}
+
+Json recordOf(const StudyCase& study_case, const StudyFolder& folder) {
+  const Json record = readJson(folder.record(study_case.name));
+  return record.is_object() && record.contains("status") ? record : Json();
+}
+
+Json finishedRecord(const StudyCase& study_case, const StudyFolder& folder) {
+  if (!study_case.skip.empty()) return {};
+  const Json record = recordOf(study_case, folder);
+  if (!record.is_object() || record["status"] != "done") return {};
+  return record.value("digest", "") == digestOf(study_case) ? record : Json();
+}
+
+Json runCase(const StudyCase& study_case, const StudyFolder& folder, int threads,
+             const std::function<bool()>& interrupted) {
+  return CaseRunner(study_case, folder, threads, interrupted).run();
+}
+
+}  // namespace softscope

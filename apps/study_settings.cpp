@@ -1,0 +1,143 @@
+// apps/study_settings.cpp: options by their flags, settings by --set.
+#include "apps/study_settings.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/reconstruct_options.h"
+#include "apps/simulate_options.h"
+#include "core/error.h"
+#include "io/message.h"
+#include "io/nearest_name.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kReconstructOptions{"preset", "backend",     "frames", "save_every",
+                                                   "right",  "calibration", "mask"};
+const std::vector<std::string> kEvaluateOptions{"reference", "align"};
+
+bool isOption(const std::string& key, const std::vector<std::string>& options) {
+  return std::find(options.begin(), options.end(), key) != options.end();
+}
+
+std::string flagOf(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return "--" + key;
+}
+
+void addWord(std::vector<std::string>& words, const std::string& flag, const std::string& value) {
+  words.push_back(flag);
+  words.push_back(value);
+}
+
+Settings settingsOf(const StudyCase& study_case, const StudyValues& values,
+                    const std::vector<std::string>& options) {
+  Settings settings;
+  for (const auto& [key, value] : values) {
+    if (isOption(key, options)) continue;
+    addAssignment(settings, key + "=" + value);
+    settings[key].origin = "case " + study_case.name;
+  }
+  return settings;
+}
+
+std::string lines(const SettingsBinder& binder) {
+  std::string text;
+  for (const SettingInfo& setting : binder.list())
+    text += setting.key + "=" + setting.current_text + "\n";
+  return text;
+}
+
+std::string valueOr(const StudyValues& values, const std::string& key, const std::string& other) {
+  const auto found = values.find(key);
+  return found == values.end() ? other : found->second;
+}
+
+}  // namespace
+
+std::vector<std::string> simulateWords(const StudyCase& study_case, const std::string& folder) {
+  std::vector<std::string> words{"simulate"};
+  for (const auto& [key, value] : study_case.simulate)
+    if (key == "scenario")
+      addWord(words, "--scenario", value);
+    else
+      addWord(words, "--set", key + "=" + value);
+  addWord(words, "--out", folder);
+  return words;
+}
+
+std::vector<std::string> reconstructWords(const StudyCase& study_case, const std::string& sequence,
+                                          const std::string& run) {
+  std::vector<std::string> words{"reconstruct", sequence};
+  if (const std::string right = valueOr(study_case.reconstruct, "right", ""); !right.empty())
+    words.push_back(right);
+  if (study_case.reconstruct.count("save_every") == 0) addWord(words, "--save-every", "5");
+  for (const auto& [key, value] : study_case.reconstruct)
+    if (isOption(key, kReconstructOptions) && key != "right")
+      addWord(words, flagOf(key), value);
+    else if (key != "right")
+      addWord(words, "--set", key + "=" + value);
+  const fs::path tracks = fs::path(sequence) / "track_points.csv";
+  if (fs::exists(tracks)) addWord(words, "--track", tracks.string());
+  addWord(words, "--out", run);
+  words.emplace_back("--force");
+  return words;
+}
+
+std::vector<std::string> evaluateWords(const StudyCase& study_case, const std::string& run,
+                                       const std::string& reference, const std::string& out) {
+  std::vector<std::string> words{"evaluate", run};
+  for (const auto& [key, value] : study_case.evaluate)
+    if (key != "reference") addWord(words, flagOf(key), value);
+  addWord(words, "--reference", reference);
+  addWord(words, "--out", out);
+  words.emplace_back("--force");
+  return words;
+}
+
+std::string simulationText(const StudyCase& study_case) {
+  StudyValues values = study_case.simulate;
+  Settings settings;
+  if (const std::string scenario = valueOr(values, "scenario", ""); !scenario.empty())
+    settings = readSettings(scenario);
+  values.erase("scenario");
+  for (auto& [key, setting] : settingsOf(study_case, values, {})) settings[key] = setting;
+  SimulateOptions options;
+  SettingsBinder binder;
+  bindSimulateOptions(binder, options);
+  binder.apply(settings);
+  options.validate();
+  return lines(binder);
+}
+
+std::string reconstructionText(const StudyCase& study_case) {
+  const StudyValues& values = study_case.reconstruct;
+  const std::string preset = valueOr(values, "preset", "default");
+  ReconstructOptions options(preset);
+  SettingsBinder binder;
+  bindReconstructOptions(binder, options);
+  binder.apply(settingsOf(study_case, values, kReconstructOptions));
+  options.resolve();
+  return "preset=" + preset + "\nframes=" + valueOr(values, "frames", "") +
+         "\nsave_every=" + valueOr(values, "save_every", "5") +
+         "\nbackend=" + valueOr(values, "backend", "auto") + "\n" + lines(binder);
+}
+
+std::string evaluationText(const StudyCase& study_case) {
+  std::string text;
+  for (const auto& [key, value] : study_case.evaluate) {
+    if (!isOption(key, kEvaluateOptions)) {
+      const std::string nearest = nearestName(key, kEvaluateOptions);
+      throw OptionError(say("case ", study_case.name, ": evaluate.", key, " is no such key",
+                            nearest.empty() ? "" : " (did you mean `evaluate." + nearest + "`?)",
+                            "; there are evaluate.reference and evaluate.align"));
+    }
+    text += key + "=" + value + "\n";
+  }
+  return text;
+}
+
+}  // namespace softscope

@@ -1,0 +1,16 @@
+// src/io/toml_tree.h: a TOML file whose lists and tables matter, as a tree.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace softscope {
+
+/// Tables become objects, lists arrays; lists keep their order, keys are sorted.
+/// Throws InputError where the file is missing or no TOML, OptionError where it holds a date.
+nlohmann::ordered_json readTomlTree(const std::filesystem::path& file);
+nlohmann::ordered_json parseTomlTree(std::string_view toml, const std::string& name);
+
+}  // namespace softscope

@@ -1,0 +1,147 @@
+// tests/apps/test_study.cpp: `softscope study` from a file to a table.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "tests/apps/run_softscope.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Simulated clips of two frames, 160 x 120: half a second a case.
+const std::string kSmall =
+    "[simulate]\nframes = 2\nscope.width_px = 160\nscope.height_px = 120\n"
+    "organ.cells_per_side = 20\ntruth_every = 1\n"
+    "[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 1\n";
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class StudyCommand : public InFolder {
+ protected:
+  Outcome study(const std::string& toml, std::vector<std::string> more = {}) const {
+    std::vector<std::string> line{"study", write("study.toml", toml), "--out", at("out"),
+                                  "--quiet"};
+    line.insert(line.end(), more.begin(), more.end());
+    return run(line);
+  }
+  nlohmann::json result() const { return nlohmann::json::parse(contentOf(at("out/study.json"))); }
+  nlohmann::json record(const std::string& name) const {
+    return nlohmann::json::parse(contentOf(at("out/cases/" + name + "/case.json")));
+  }
+};
+
+TEST_F(StudyCommand, RunsItsCasesAndWritesTheTable) {
+  const Outcome done = study(kSmall +
+                             "[[variant]]\nname = 'surf'\n"
+                             "[[variant]]\nname = 'loose'\nreconstruct.deform.use_correspondences "
+                             "= false\n");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto json = result();
+  ASSERT_EQ(json["cases"].size(), 2u);
+  for (const auto& one : json["cases"]) {
+    EXPECT_EQ(one["status"], "done");
+    EXPECT_GT(one["evaluation"]["tracks"]["n"], 0) << "material points were judged";
+  }
+  EXPECT_THAT(done.out, HasSubstr("| surf |"));
+  EXPECT_EQ(contentOf(at("out/table.md")), done.out.substr(0, done.out.find("\nwritten to")));
+  for (const char* name :
+       {"table.csv", "report.html", "plots/points.svg", "plots/points.pdf", "cases/surf/log.txt",
+        "cases/surf/run/model.ply", "cases/surf/evaluation/evaluation.json"})
+    EXPECT_TRUE(fs::exists(at("out/" + std::string(name)))) << name;
+  int sequences = 0;
+  for (const auto& entry : fs::directory_iterator(at("out/sequences")))
+    sequences += entry.is_directory();
+  EXPECT_EQ(sequences, 1) << "both variants look at the same clip";
+}
+
+TEST_F(StudyCommand, RunsACaseAgainOnlyWhereItsSettingsChanged) {
+  const std::string cases = "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
+  ASSERT_EQ(study(kSmall + cases).exit_code, 0);
+  const auto a = fs::last_write_time(at("out/cases/a/case.json"));
+  const auto b = fs::last_write_time(at("out/cases/b/case.json"));
+  ASSERT_EQ(study("# a remark changes nothing\n" + kSmall + cases).exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(at("out/cases/b/case.json")), b);
+  ASSERT_EQ(study(kSmall + cases + "reconstruct.fusion.max_weight = 5\n").exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(at("out/cases/a/case.json")), a);
+  EXPECT_NE(fs::last_write_time(at("out/cases/b/case.json")), b);
+}
+
+TEST_F(StudyCommand, AFailedCaseIsToldAndDoesNotStopTheOthers) {
+  write("empty/left/notes.txt", "no picture");
+  const std::string toml = kSmall +
+                           "[[case]]\nname = 'broken'\nsequence = 'empty'\n"
+                           "[[case]]\nname = 'absent'\nsequence = 'nowhere'\n"
+                           "[[case]]\nname = 'fine'\n";
+  const Outcome done = study(toml);
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_THAT(done.err, HasSubstr("broken: reconstruct: "));
+  EXPECT_EQ(record("broken")["status"], "failed");
+  EXPECT_EQ(record("absent")["status"], "skipped");
+  EXPECT_EQ(record("fine")["status"], "done");
+  EXPECT_THAT(contentOf(at("out/table.md")), HasSubstr("- absent: nowhere is not here"));
+}
+
+TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
+  const std::string toml = kSmall + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
+  const Outcome names = run({"study", write("s.toml", toml), "--list"});
+  EXPECT_EQ(names.out, "a\nb\n");
+  ASSERT_EQ(study(toml, {"--case", "a"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(at("out/study.json")));
+  EXPECT_EQ(study(toml, {"--table"}).exit_code, 1) << "b is still to be run";
+  EXPECT_EQ(result()["cases"][0]["status"], "done");
+  EXPECT_EQ(result()["cases"][1]["status"], "not run");
+}
+
+TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
+  const auto expectOneLine = [](const Outcome& outcome, const char* says) {
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(says));
+  };
+  expectOneLine(study("[[case]]\nname = 'heart'\n", {"--case", "haert"}), "did you mean `heart`");
+  expectOneLine(study("[simulate]\nfrmes = 3\n"), "frames");
+  expectOneLine(study("", {"--table", "--list"}), "exclude each other");
+  EXPECT_FALSE(fs::exists(at("out")));
+  write("out/photograph.png", "mine");
+  expectOneLine(study(kSmall), "holds something that is no study");
+}
+
+TEST_F(StudyCommand, CtrlCStopsCleanlyAndTheSameLineGoesOn) {
+  std::string toml = kSmall;
+  for (const char* name : {"a", "b", "c"}) toml += "[[case]]\nname = '" + std::string(name) + "'\n";
+  const std::string file = write("study.toml", toml), out = at("out");
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(executable().c_str(), "softscope", "study", file.c_str(), "--out", out.c_str(), "--jobs",
+          "1", "--quiet", nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 3000 && !fs::exists(out + "/cases/b"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(record("a")["status"], "done");
+  EXPECT_FALSE(fs::exists(at("out/cases/c/case.json")));
+  EXPECT_FALSE(fs::exists(at("out/study.json")));
+  const auto a = fs::last_write_time(at("out/cases/a/case.json"));
+  ASSERT_EQ(study(toml).exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(at("out/cases/a/case.json")), a) << "what was done stays";
+  EXPECT_EQ(record("c")["status"], "done");
+}
+
+}  // namespace
+}  // namespace softscope::test
