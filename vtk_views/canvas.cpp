@@ -1,55 +1,15 @@
 // vtk_views/canvas.cpp: cairo behind our own words.
 #include "vtk_views/canvas.h"
 
-#include <cairo/cairo.h>
-
 #include <cmath>
-#include <cstring>
-#include <vector>
 
-#include "core/error.h"
+#include "vtk_views/cairo_picture.h"
 #include "vtk_views/fonts.h"
 
 namespace softscope {
-namespace {
-
-struct Destroy {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
-using Context = std::unique_ptr<cairo_t, Destroy>;
-
-Surface newSurface(int width_px, int height_px) {
-  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px));
-  const cairo_status_t status = cairo_surface_status(surface.get());
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw Error("figure of " + std::to_string(width_px) + " x " + std::to_string(height_px) +
-                " pixels: " + cairo_status_to_string(status));
-  return surface;
-}
-
-/// cairo's RGB24: one 32-bit word a pixel, blue in the lowest byte.
-Surface toSurface(const ColourImage& picture) {
-  Surface surface = newSurface(picture.width_px, picture.height_px);
-  cairo_surface_flush(surface.get());
-  unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  for (int v = 0; v < picture.height_px; ++v)
-    for (int u = 0; u < picture.width_px; ++u) {
-      const Rgb8 c = picture.at(u, v);
-      const std::uint32_t word = std::uint32_t(c.red) << 16 | std::uint32_t(c.green) << 8 | c.blue;
-      std::memcpy(data + std::size_t(v) * stride + std::size_t(u) * 4, &word, 4);
-    }
-  cairo_surface_mark_dirty(surface.get());
-  return surface;
-}
-
-}  // namespace
-
 struct Canvas::Cairo {
-  Surface surface;
-  Context context;
+  CairoSurface surface;
+  CairoContext context;
 
   void setColour(Rgb8 colour) {
     cairo_set_source_rgb(context.get(), colour.red / 255.0, colour.green / 255.0,
@@ -63,7 +23,7 @@ struct Canvas::Cairo {
 };
 
 Canvas::Canvas(int width_px, int height_px) : cairo_(std::make_unique<Cairo>()) {
-  cairo_->surface = newSurface(width_px, height_px);
+  cairo_->surface = newCairoPixels(width_px, height_px);
   cairo_->context.reset(cairo_create(cairo_->surface.get()));
   cairo_->setColour({255, 255, 255});
   cairo_paint(cairo_->context.get());
@@ -106,7 +66,7 @@ void Canvas::triangle(double x0, double y0, double x1, double y1, double x2, dou
 
 void Canvas::picture(const ColourImage& picture, const Box& box, bool smooth) {
   if (picture.empty()) return;
-  const Surface source = toSurface(picture);
+  const CairoSurface source = toCairo(picture);
   cairo_t* context = cairo_->context.get();
   cairo_save(context);
   cairo_rectangle(context, box.x_px, box.y_px, box.width_px, box.height_px);
@@ -143,19 +103,6 @@ double Canvas::textWidth(const std::string& text, const TextStyle& style) const 
   return extents.x_advance;
 }
 
-ColourImage Canvas::pixels() const {
-  cairo_surface_flush(cairo_->surface.get());
-  const unsigned char* data = cairo_image_surface_get_data(cairo_->surface.get());
-  const int stride = cairo_image_surface_get_stride(cairo_->surface.get());
-  ColourImage picture(cairo_image_surface_get_width(cairo_->surface.get()),
-                      cairo_image_surface_get_height(cairo_->surface.get()));
-  for (int v = 0; v < picture.height_px; ++v)
-    for (int u = 0; u < picture.width_px; ++u) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, data + std::size_t(v) * stride + std::size_t(u) * 4, 4);
-      picture.at(u, v) = {std::uint8_t(word >> 16), std::uint8_t(word >> 8), std::uint8_t(word)};
-    }
-  return picture;
-}
+ColourImage Canvas::pixels() const { return fromCairo(cairo_->surface.get()); }
 
 }  // namespace softscope

@@ -141,7 +141,7 @@ bool looksLikeDicom(const std::string& path) {
   return false;
 }
 
-VolumeSummary summariseDicom(const std::string& path, bool with_patient) {
+LoadedVolume loadDicom(const std::string& path, bool with_patient) {
   std::vector<std::string> warnings;
   vtkNew<vtkDICOMReader> reader;
   reader->SetMemoryRowOrderToFileNative();  // voxel (0, 0, 0) is the first pixel in the file
@@ -150,7 +150,10 @@ VolumeSummary summariseDicom(const std::string& path, bool with_patient) {
   else
     reader->SetFileName(path.c_str());
   updateOrThrow(*reader, path);
-  VolumeSummary summary = imageFacts(*reader->GetOutput(), "DICOM", path);
+  LoadedVolume loaded;
+  loaded.image = reader->GetOutput();
+  VolumeSummary& summary = loaded.summary;
+  summary = imageFacts(*reader->GetOutput(), "DICOM", path);
   summary.warnings = std::move(warnings);
   summary.file_space = "LPS";
   Eigen::Matrix4d lps_from_voxel = toEigen(*reader->GetPatientMatrix());
@@ -162,7 +165,7 @@ VolumeSummary summariseDicom(const std::string& path, bool with_patient) {
   checkTilt(axes, summary.warnings);
   describe(reader->GetMetaData(), summary);
   if (with_patient) describePatient(reader->GetMetaData(), summary);
-  return summary;
+  return loaded;
 }
 
 }  // namespace softscope

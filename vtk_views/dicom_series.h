@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "vtk_views/volume_summary.h"
+#include "vtk_views/volume_files.h"
 
 namespace softscope {
 
 /// True for a file with DICOM's preamble, or a folder with such a file directly in it.
 bool looksLikeDicom(const std::string& path);
 
-/// summariseVolume() for a DICOM file or folder.
-VolumeSummary summariseDicom(const std::string& path, bool with_patient);
+/// loadVolume() for a DICOM file or folder; values are rescaled already (HU).
+LoadedVolume loadDicom(const std::string& path, bool with_patient);
 
 }  // namespace softscope

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -88,6 +90,48 @@ std::string shortSpace(std::string name) {
   return name.size() == 3 ? name : "unknown";
 }
 
+int bytesOf(const std::string& element_type) {
+  for (const auto& [name, bytes] :
+       std::initializer_list<std::pair<const char*, int>>{{"CHAR", 1},
+                                                          {"SHORT", 2},
+                                                          {"INT", 4},
+                                                          {"LONG_LONG", 8},
+                                                          {"LONG", 4},
+                                                          {"FLOAT", 4},
+                                                          {"DOUBLE", 8}}) {
+    const auto at = element_type.find(name);
+    if (at != std::string::npos) return bytes;
+  }
+  return 0;
+}
+
+/// What the voxels of a binary MetaImage take; 0 where the header doesn't say it.
+double voxelBytes(const std::string& path, const Fields& fields) {
+  const auto has = [&](const char* key, const char* value) {
+    const auto found = fields.find(key);
+    return found != fields.end() && found->second == value;
+  };
+  if (has("CompressedData", "True")) return numbersOr(path, fields, "CompressedDataSize", {0})[0];
+  if (!has("BinaryData", "True")) return 0;
+  double bytes = bytesOf(fields.at("ElementType"));
+  for (const double size : numbersOr(path, fields, "DimSize", {0, 0, 0})) bytes *= size;
+  return bytes * numbersOr(path, fields, "ElementNumberOfChannels", {1})[0];
+}
+
+/// VTK's reader would say so on stdout and hand out what it has.
+void requireAllVoxels(const std::string& path, const Fields& fields) {
+  namespace fs = std::filesystem;
+  const std::string& data = fields.at("ElementDataFile");
+  const bool local = data == "LOCAL";
+  const fs::path file = local ? fs::path(path) : fs::path(path).parent_path() / data;
+  std::error_code problem;
+  const auto there = static_cast<double>(fs::file_size(file, problem));
+  if (problem) return;  // a list or a pattern of files: VTK's to judge
+  if (there < voxelBytes(path, fields))
+    throw InputError(file.string() +
+                     ": is cut short: its voxels end before its header says. Copy it again");
+}
+
 const std::vector<double> kIdentity{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 }  // namespace
@@ -115,6 +159,7 @@ HeaderGeometry readMetaImageGeometry(const std::string& path) {
   const Fields fields = readFields(path, '=', "ElementDataFile");
   for (const char* key : {"NDims", "DimSize", "ElementType", "ElementDataFile"})
     requireField(path, fields, key);
+  requireAllVoxels(path, fields);
   HeaderGeometry geometry;
   const char* origin_key = fields.count("Offset")     ? "Offset"
                            : fields.count("Position") ? "Position"

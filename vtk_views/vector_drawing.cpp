@@ -3,32 +3,20 @@
 #include "vtk_views/vector_drawing.h"
 
 #include <cairo/cairo-pdf.h>
-#include <cairo/cairo.h>
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <memory>
 
 #include "core/error.h"
+#include "vtk_views/cairo_picture.h"
 #include "vtk_views/fonts.h"
 
 namespace softscope {
 namespace {
 
 constexpr double kDashOnPt = 3, kDashOffPt = 1.5;
-
-struct Destroy {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
-};
-using Surface = std::unique_ptr<cairo_surface_t, Destroy>;
-using Context = std::unique_ptr<cairo_t, Destroy>;
-
-void requireGood(cairo_status_t status) {
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw Error(std::string("figure: ") + cairo_status_to_string(status));
-}
+constexpr double kRimShare = 0.22;  // of the letters' height; half of it lies under them
+constexpr Rgb8 kRim{0, 0, 0};
 
 void requireSize(const VectorDrawing& drawing) {
   if (!(drawing.width_pt > 0 && drawing.height_pt > 0 && drawing.width_pt < 1e5 &&
@@ -72,6 +60,22 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+std::string base64(const std::string& bytes) {
+  static const char* const kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(bytes.size() / 3 * 4 + 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? unsigned(static_cast<unsigned char>(bytes[i + k])) : 0u;
+    };
+    const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (int shift = 18; shift >= 0; shift -= 6) text += kDigits[three >> shift & 63];
+  }
+  const std::size_t missing = (3 - bytes.size() % 3) % 3;
+  return text.replace(text.size() - missing, missing, missing, '=');
+}
+
 std::string pathOf(const std::vector<PointPt>& points) {
   std::string path;
   for (const PointPt& p : points)
@@ -101,9 +105,27 @@ struct SvgWriter {
             number(t.size_pt) + "\" fill=\"" + hex(t.colour) + "\" text-anchor=\"" +
             anchors[static_cast<int>(t.anchor)] + "\"";
     if (t.bold) text += " font-weight=\"bold\"";
+    if (t.dark_rim)
+      text += " stroke=\"" + hex(kRim) + "\" stroke-width=\"" + number(kRimShare * t.size_pt) +
+              "\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     if (t.upwards)
       text += " transform=\"rotate(-90 " + number(t.at.x_pt) + " " + number(t.at.y_pt) + ")\"";
     text += ">" + escaped(t.text) + "</text>\n";
+  }
+  /// Lines of no length with round ends: the shortest way to say it.
+  void operator()(const DrawnDots& dots) {
+    text += "<path d=\"";
+    for (const PointPt& p : dots.centres)
+      text += "M" + number(p.x_pt) + "," + number(p.y_pt) + "h0";
+    text += "\" fill=\"none\" stroke=\"" + hex(dots.colour) + "\" stroke-width=\"" +
+            number(dots.diameter_pt) + "\" stroke-linecap=\"round\"/>\n";
+  }
+  void operator()(const DrawnPicture& p) {
+    text += "<image x=\"" + number(p.top_left.x_pt) + "\" y=\"" + number(p.top_left.y_pt) +
+            "\" width=\"" + number(p.bottom_right.x_pt - p.top_left.x_pt) + "\" height=\"" +
+            number(p.bottom_right.y_pt - p.top_left.y_pt) +
+            "\" preserveAspectRatio=\"none\" href=\"data:image/png;base64," +
+            base64(pngBytes(p.picture)) + "\"/>\n";
   }
 };
 
@@ -149,15 +171,57 @@ struct CairoPainter {
     cairo_translate(context, text.at.x_pt, text.at.y_pt);
     if (text.upwards) cairo_rotate(context, -M_PI / 2);
     const double width_pt = setFont(context, text);
+    const double x_pt = -width_pt * static_cast<int>(text.anchor) / 2;
+    if (text.dark_rim) drawRim(text, x_pt);
     setColour(context, text.colour);
-    cairo_move_to(context, -width_pt * static_cast<int>(text.anchor) / 2, 0);
+    cairo_move_to(context, x_pt, 0);
     cairo_show_text(context, text.text.c_str());
+    cairo_restore(context);
+  }
+  void drawRim(const DrawnText& text, double x_pt) const {
+    setColour(context, kRim);
+    cairo_new_path(context);
+    cairo_move_to(context, x_pt, 0);
+    cairo_text_path(context, text.text.c_str());
+    cairo_set_dash(context, nullptr, 0, 0);
+    cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(context, kRimShare * text.size_pt);
+    cairo_stroke(context);
+  }
+  void operator()(const DrawnDots& dots) const {
+    cairo_save(context);
+    setColour(context, dots.colour);
+    cairo_set_dash(context, nullptr, 0, 0);
+    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(context, dots.diameter_pt);
+    cairo_new_path(context);
+    for (const PointPt& p : dots.centres) {
+      cairo_move_to(context, p.x_pt, p.y_pt);
+      cairo_line_to(context, p.x_pt, p.y_pt);
+    }
+    cairo_stroke(context);
+    cairo_restore(context);
+  }
+  void operator()(const DrawnPicture& p) const {
+    if (p.picture.empty()) return;
+    const double width_pt = p.bottom_right.x_pt - p.top_left.x_pt;
+    const double height_pt = p.bottom_right.y_pt - p.top_left.y_pt;
+    const CairoSurface source = toCairo(p.picture);
+    cairo_save(context);
+    cairo_rectangle(context, p.top_left.x_pt, p.top_left.y_pt, width_pt, height_pt);
+    cairo_clip(context);
+    cairo_translate(context, p.top_left.x_pt, p.top_left.y_pt);
+    cairo_scale(context, width_pt / p.picture.width_px, height_pt / p.picture.height_px);
+    cairo_set_source_surface(context, source.get(), 0, 0);
+    cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);  // no pale rim
+    cairo_pattern_set_filter(cairo_get_source(context), CAIRO_FILTER_GOOD);
+    cairo_paint(context);
     cairo_restore(context);
   }
 };
 
 void paint(const VectorDrawing& drawing, cairo_surface_t* surface, double scale) {
-  const Context context(cairo_create(surface));
+  const CairoContext context(cairo_create(surface));
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);  // widths scale
   cairo_set_font_options(context.get(), options);
@@ -166,13 +230,7 @@ void paint(const VectorDrawing& drawing, cairo_surface_t* surface, double scale)
   cairo_set_source_rgb(context.get(), 1, 1, 1);
   cairo_paint(context.get());
   for (const auto& part : drawing.parts) std::visit(CairoPainter{context.get()}, part);
-  requireGood(cairo_status(context.get()));
-}
-
-Surface newPixels(int width_px, int height_px) {
-  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_px, height_px));
-  requireGood(cairo_surface_status(surface.get()));
-  return surface;
+  requireGoodCairo(cairo_status(context.get()));
 }
 
 cairo_status_t appendTo(void* bytes, const unsigned char* data, unsigned int length) {
@@ -183,8 +241,8 @@ cairo_status_t appendTo(void* bytes, const unsigned char* data, unsigned int len
 }  // namespace
 
 double textWidthPt(const DrawnText& text) {
-  const Surface surface = newPixels(1, 1);
-  const Context context(cairo_create(surface.get()));
+  const CairoSurface surface = newCairoPixels(1, 1);
+  const CairoContext context(cairo_create(surface.get()));
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   cairo_set_font_options(context.get(), options);
@@ -209,14 +267,14 @@ std::string svgBytes(const VectorDrawing& drawing) {
 std::string pdfBytes(const VectorDrawing& drawing) {
   requireSize(drawing);
   std::string bytes;
-  const Surface surface(
+  const CairoSurface surface(
       cairo_pdf_surface_create_for_stream(appendTo, &bytes, drawing.width_pt, drawing.height_pt));
   // The time of day would make every file another one.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2000-01-01T00:00:00Z");
   paint(drawing, surface.get(), 1);
   cairo_surface_finish(surface.get());
-  requireGood(cairo_surface_status(surface.get()));
+  requireGoodCairo(cairo_surface_status(surface.get()));
   return bytes;
 }
 
@@ -226,19 +284,9 @@ ColourImage rasterise(const VectorDrawing& drawing, double dots_per_inch) {
   if (!(scale > 0)) throw Error("figure: the resolution must be above 0 dots an inch");
   const int width_px = static_cast<int>(std::lround(drawing.width_pt * scale));
   const int height_px = static_cast<int>(std::lround(drawing.height_pt * scale));
-  const Surface surface = newPixels(width_px, height_px);
+  const CairoSurface surface = newCairoPixels(width_px, height_px);
   paint(drawing, surface.get(), scale);
-  cairo_surface_flush(surface.get());
-  const unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  ColourImage picture(width_px, height_px);
-  for (int v = 0; v < height_px; ++v)
-    for (int u = 0; u < width_px; ++u) {
-      std::uint32_t word = 0;  // cairo's RGB24: blue in the lowest byte
-      std::memcpy(&word, data + std::size_t(v) * std::size_t(stride) + std::size_t(u) * 4, 4);
-      picture.at(u, v) = {std::uint8_t(word >> 16), std::uint8_t(word >> 8), std::uint8_t(word)};
-    }
-  return picture;
+  return fromCairo(surface.get());
 }
 
 }  // namespace softscope

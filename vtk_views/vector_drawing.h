@@ -42,19 +42,34 @@ struct DrawnText {
   bool bold = false;
   bool upwards = false;  // reads from the bottom to the top
   Rgb8 colour{20, 20, 20};
+  bool dark_rim = false;  // around each letter, so that white text is read over any picture
+};
+
+/// Round dots of one size and colour.
+struct DrawnDots {
+  std::vector<PointPt> centres;
+  double diameter_pt = 1;
+  Rgb8 colour{20, 20, 20};
+};
+
+/// Pixels, stretched over the box between two corners; smooth between pixels.
+struct DrawnPicture {
+  PointPt top_left, bottom_right;
+  ColourImage picture;
 };
 
 /// Later parts lie over earlier ones, on white.
 struct VectorDrawing {
   double width_pt = 0, height_pt = 0;
-  std::vector<std::variant<DrawnLine, DrawnShape, DrawnText>> parts;
+  std::vector<std::variant<DrawnLine, DrawnShape, DrawnText, DrawnDots, DrawnPicture>> parts;
 };
 
 /// In the font that every figure is set in.
 double textWidthPt(const DrawnText& text);
 
 // The same drawing gives the same bytes. Lines are lines and text stays text in SVG and PDF; a PDF
-// carries its font. All throw Error for a drawing without a size, or one that cairo refuses.
+// carries its font, and both carry their pictures. All throw Error for a drawing without a size, or
+// one that cairo refuses.
 
 std::string svgBytes(const VectorDrawing& drawing);
 std::string pdfBytes(const VectorDrawing& drawing);

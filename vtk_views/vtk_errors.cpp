@@ -4,10 +4,13 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
+
+#include <cstring>
 
 #include "core/error.h"
 
@@ -52,24 +55,39 @@ class ErrorListener {
   unsigned long warning_tag_ = 0;
 };
 
-/// Swallows what readers say without an event (vtkGenericWarningMacro).
+/// Hears what readers say without an event (vtkGenericWarningMacro): so they report short files.
 class SilentOutput : public vtkOutputWindow {
  public:
   static SilentOutput* New();
   vtkTypeMacro(SilentOutput, vtkOutputWindow)
-  void DisplayText(const char*) override {}
+  void DisplayText(const char* text) override {
+    if (std::strstr(text, "File operation failed") != nullptr) cut_short = true;
+  }
+
+  bool cut_short = false;
 };
 vtkStandardNewMacro(SilentOutput);
 
+/// VTK's warnings go to its window and to its log: to neither while this lives.
 class Silence {
  public:
-  Silence() : before_(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(silent_); }
-  ~Silence() { vtkOutputWindow::SetInstance(before_); }
+  Silence()
+      : before_(vtkOutputWindow::GetInstance()), log_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkOutputWindow::SetInstance(silent_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~Silence() {
+    vtkOutputWindow::SetInstance(before_);
+    vtkLogger::SetStderrVerbosity(log_);
+  }
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
 
+  bool heardOfShortFile() const { return silent_->cut_short; }
+
  private:
   vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity log_;
   vtkNew<SilentOutput> silent_;
 };
 
@@ -82,6 +100,9 @@ void updateOrThrow(vtkAlgorithm& reader, const std::string& source) {
   reader.Update();
   const std::string& error =
       of_reader.first_error.empty() ? of_executive.first_error : of_reader.first_error;
+  if (silence.heardOfShortFile())
+    throw InputError(source +
+                     ": is cut short: its voxels end before its header says. Copy it again");
   if (!error.empty() || reader.GetErrorCode() != 0)
     throw InputError(source + ": can't be read: " + (error.empty() ? "broken file" : error) +
                      ". Is it complete, and of the kind its name says?");

@@ -78,7 +78,7 @@ class DicomFolder : public testing::Test {
   /// Of the slice at this place in the stack, by its position in the file.
   void removeSlice(int place) const {
     for (const auto& entry : fs::directory_iterator(folder)) {
-      const VolumeSummary one = summariseDicom(entry.path(), false);
+      const VolumeSummary one = loadDicom(entry.path(), false).summary;
       const Eigen::Vector3d offset =
           one.lps_from_voxel.topRightCorner<3, 1>() - Eigen::Vector3d(10, 20, 30);
       if (std::lround(offset.norm() / 1.25) == place) {
@@ -93,7 +93,7 @@ class DicomFolder : public testing::Test {
 };
 
 TEST_F(DicomFolder, ShuffledObliqueSlicesAreSortedAndPlaced) {
-  const VolumeSummary summary = summariseDicom(folder, false);
+  const VolumeSummary summary = loadDicom(folder, false).summary;
   EXPECT_EQ(summary.size_voxels, (std::array<int, 3>{5, 4, 6}));
   EXPECT_NEAR(summary.spacing_mm[0], 0.5, 1e-9) << "column and row spacing must not be swapped";
   EXPECT_NEAR(summary.spacing_mm[1], 0.6, 1e-9);
@@ -107,18 +107,18 @@ TEST_F(DicomFolder, ShuffledObliqueSlicesAreSortedAndPlaced) {
 }
 
 TEST_F(DicomFolder, PatientFieldsComeOnlyWhenAsked) {
-  const VolumeSummary quiet = summariseDicom(folder, false);
+  const VolumeSummary quiet = loadDicom(folder, false).summary;
   EXPECT_TRUE(quiet.patient.empty());
   for (const auto& [name, value] : quiet.details)
     EXPECT_EQ(value.find("Doe"), std::string::npos) << name;
-  const VolumeSummary asked = summariseDicom(folder, true);
+  const VolumeSummary asked = loadDicom(folder, true).summary;
   ASSERT_FALSE(asked.patient.empty());
   EXPECT_EQ(asked.patient[0].second, "Doe^Jane");
 }
 
 TEST_F(DicomFolder, AMissingSliceIsNoticed) {
   removeSlice(3);
-  const VolumeSummary summary = summariseDicom(folder, false);
+  const VolumeSummary summary = loadDicom(folder, false).summary;
   ASSERT_EQ(summary.warnings.size(), 1u);
   EXPECT_NE(summary.warnings[0].find("1 slices are missing"), std::string::npos)
       << summary.warnings[0];
@@ -127,7 +127,7 @@ TEST_F(DicomFolder, AMissingSliceIsNoticed) {
 TEST_F(DicomFolder, ATruncatedSliceIsAnInputError) {
   const auto first = fs::directory_iterator(folder)->path();
   fs::resize_file(first, fs::file_size(first) - 10);
-  EXPECT_THROW(summariseDicom(folder, false), InputError);
+  EXPECT_THROW(loadDicom(folder, false).summary, InputError);
 }
 
 TEST_F(DicomFolder, IsRecognisedByItsFilesNotTheirNames) {

@@ -1,5 +1,5 @@
-// vtk_views/volume_summary.cpp: four formats, one answer.
-#include "vtk_views/volume_summary.h"
+// vtk_views/volume_files.cpp: four formats, one answer.
+#include "vtk_views/volume_files.h"
 
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
@@ -65,33 +65,39 @@ Eigen::Matrix4d rasFromNifti(vtkNIFTIImageReader* reader, VolumeSummary& summary
   return toEigen(sform ? *sform : *qform);
 }
 
-VolumeSummary summariseNifti(const std::string& path) {
+LoadedVolume loadNifti(const std::string& path) {
   vtkNew<vtkNIFTIImageReader> reader;
   reader->SetFileName(path.c_str());
   updateOrThrow(*reader, path);
-  VolumeSummary summary = imageFacts(*reader->GetOutput(), "NIfTI", path);
+  LoadedVolume loaded;
+  loaded.image = reader->GetOutput();
+  loaded.slope = reader->GetRescaleSlope();
+  loaded.intercept = reader->GetRescaleIntercept();
+  VolumeSummary& summary = loaded.summary;
+  summary = imageFacts(*reader->GetOutput(), "NIfTI", path);
   summary.file_space = "unknown";
   const double unit_mm = unitOf(reader->GetNIFTIHeader(), summary.warnings);
   Eigen::Matrix4d space_from_voxel = rasFromNifti(reader, summary);
   for (int axis = 0; axis < 3; ++axis)
     space_from_voxel.col(axis) *= summary.spacing_mm[std::size_t(axis)];
   space_from_voxel.topRows<3>() *= unit_mm;
-  for (double& value : summary.value_range)
-    value = value * reader->GetRescaleSlope() + reader->GetRescaleIntercept();
+  for (double& value : summary.value_range) value = value * loaded.slope + loaded.intercept;
   placeInSpace(space_from_voxel, summary);
-  return summary;
+  return loaded;
 }
 
 template <class Reader>
-VolumeSummary summariseWithHeader(const std::string& path, const std::string& format,
-                                  const HeaderGeometry& geometry) {
+LoadedVolume loadWithHeader(const std::string& path, const std::string& format,
+                            const HeaderGeometry& geometry) {
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   updateOrThrow(*reader, path);
-  VolumeSummary summary = imageFacts(*reader->GetOutput(), format, path);
-  summary.file_space = geometry.space;
-  placeInSpace(geometry.space_from_voxel, summary);
-  return summary;
+  LoadedVolume loaded;
+  loaded.image = reader->GetOutput();
+  loaded.summary = imageFacts(*reader->GetOutput(), format, path);
+  loaded.summary.file_space = geometry.space;
+  placeInSpace(geometry.space_from_voxel, loaded.summary);
+  return loaded;
 }
 
 void checkPlausible(VolumeSummary& summary) {
@@ -112,12 +118,12 @@ void checkPlausible(VolumeSummary& summary) {
     summary.warnings.emplace_back("every voxel has the same value");
 }
 
-VolumeSummary summariseAny(const std::string& path, bool with_patient) {
-  if (isNifti(path)) return summariseNifti(path);
-  if (isNrrd(path)) return summariseWithHeader<vtkNrrdReader>(path, "NRRD", readNrrdGeometry(path));
+LoadedVolume loadAny(const std::string& path, bool with_patient) {
+  if (isNifti(path)) return loadNifti(path);
+  if (isNrrd(path)) return loadWithHeader<vtkNrrdReader>(path, "NRRD", readNrrdGeometry(path));
   if (isMetaImage(path))
-    return summariseWithHeader<vtkMetaImageReader>(path, "MetaImage", readMetaImageGeometry(path));
-  if (looksLikeDicom(path)) return summariseDicom(path, with_patient);
+    return loadWithHeader<vtkMetaImageReader>(path, "MetaImage", readMetaImageGeometry(path));
+  if (looksLikeDicom(path)) return loadDicom(path, with_patient);
   throw InputError(path +
                    ": no volume that softscope reads. Accepted: NIfTI (.nii, .nii.gz), NRRD "
                    "(.nrrd, .nhdr), MetaImage (.mha, .mhd), a DICOM file or folder");
@@ -129,11 +135,15 @@ bool looksLikeVolume(const std::string& path) {
   return isNifti(path) || isNrrd(path) || isMetaImage(path) || looksLikeDicom(path);
 }
 
-VolumeSummary summariseVolume(const std::string& path, bool with_patient) {
+LoadedVolume loadVolume(const std::string& path, bool with_patient) {
   if (!std::filesystem::exists(path)) throw InputError(path + ": does not exist");
-  VolumeSummary summary = summariseAny(path, with_patient);
-  checkPlausible(summary);
-  return summary;
+  LoadedVolume loaded = loadAny(path, with_patient);
+  checkPlausible(loaded.summary);
+  return loaded;
+}
+
+VolumeSummary summariseVolume(const std::string& path, bool with_patient) {
+  return loadVolume(path, with_patient).summary;
 }
 
 }  // namespace softscope

@@ -1,0 +1,94 @@
+// apps/figure_options.cpp: names, ranges, endings.
+#include "apps/figure_options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/text_lines.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+void requireEnding(const std::string& file) {
+  const std::string ending = fs::path(file).extension().string();
+  if (ending != ".png" && ending != ".pdf" && ending != ".svg")
+    throw OptionError("--out is `" + file + "`, but must end in .png, .pdf or .svg");
+}
+
+}  // namespace
+
+Eigen::Vector3d parseVector(const std::string& text, const std::string& option) {
+  const auto words = wordsOf(text);
+  Eigen::Vector3d vector;
+  bool good = words.size() == 3;
+  for (std::size_t i = 0; good && i < 3; ++i) {
+    const auto value = numberOf(words[i]);
+    good = value && std::isfinite(*value);
+    if (good) vector[Eigen::Index(i)] = *value;
+  }
+  if (!good)
+    throw OptionError(option + " is `" + text + "`, but must be three numbers, e.g. 1,2,3");
+  return vector;
+}
+
+void FigureOptions::declare(ArgumentList& arguments) {
+  arguments.option("--out", "FILE", out, "figure: .png, .pdf or .svg; repeatable", true);
+  arguments.option("--at", "X,Y,Z", at,
+                   "point that the planes go through, mm (default: the middle of the surfaces)");
+  arguments.option("--field-mm", "N", field_mm,
+                   "tissue that a panel's width shows (default: the surfaces and some room)");
+  arguments.option("--window", "NAME", window,
+                   "greys: auto, soft-tissue, lung, bone, liver, vessels, or WIDTH,LEVEL");
+  arguments.option("--dots-within-mm", "N", dot_reach_mm,
+                   "points this near to a plane are drawn in it (default 1)");
+  arguments.option("--unit-mm", "N", unit_mm,
+                   "what one unit of the surfaces' files measures: 1000 for metres");
+  arguments.option("--style", "NAME", style, "ieee (default), nature, elsevier or slides");
+  arguments.option("--width-mm", "N", width_mm,
+                   "of the figure (default: the style's column; 183 for two)");
+  arguments.option("--dpi", "N", dots_per_inch, "of a PNG (default: the style's)");
+  arguments.flag("--neurological", neurological,
+                 "patient's left on the left (default: radiological, left on the right)");
+  arguments.flag("--force", force, "overwrite what is there");
+}
+
+void FigureOptions::validate() const {
+  for (const std::string& file : out) {
+    requireEnding(file);
+    requireWritable(file, force);
+  }
+  requireWritable(recordFile(), force);
+  const auto positive = [](const char* name, double value) {
+    require(value == 0 || (value > 0 && std::isfinite(value)), name, value, "must be above 0");
+  };
+  positive("--field-mm", field_mm);
+  require(dot_reach_mm > 0, "--dots-within-mm", dot_reach_mm, "must be above 0");
+  require(width_mm == 0 || (width_mm >= 40 && width_mm <= 1000), "--width-mm", width_mm,
+          "must be 40 to 1000");
+  require(dots_per_inch == 0 || (dots_per_inch >= 30 && dots_per_inch <= 2400), "--dpi",
+          dots_per_inch, "must be 30 to 2400");
+  figureStyle();
+  centre();
+}
+
+FigureStyle FigureOptions::figureStyle() const {
+  FigureStyle chosen = softscope::figureStyle(style);
+  if (width_mm > 0) chosen.width_mm = width_mm;
+  if (dots_per_inch > 0) chosen.dots_per_inch = dots_per_inch;
+  return chosen;
+}
+
+std::optional<Eigen::Vector3d> FigureOptions::centre() const {
+  if (at.empty()) return std::nullopt;
+  return parseVector(at, "--at");
+}
+
+fs::path FigureOptions::recordFile() const {
+  return out.empty() ? fs::path() : fs::path(out.front()).replace_extension(".json");
+}
+
+}  // namespace softscope

@@ -1,0 +1,41 @@
+// apps/figure_options.h: what `slice` and `figure` have in common on the command line.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/argument_list.h"
+#include "vtk_views/figure_style.h"
+#include "vtk_views/view_plane.h"
+
+namespace softscope {
+
+/// As the user wrote them; the members below read them.
+struct FigureOptions {
+  std::vector<std::string> out;
+  std::string window = "auto", at, style = "ieee";
+  double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 1, unit_mm = 1;
+  bool neurological = false, force = false;
+
+  void declare(ArgumentList& arguments);
+  /// Throws OptionError: a value out of its range, an unknown ending, a file that is there.
+  void validate() const;
+
+  /// The style with its width and resolution as asked for. Throws OptionError.
+  FigureStyle figureStyle() const;
+  SideRule sideRule() const {
+    return neurological ? SideRule::kNeurological : SideRule::kRadiological;
+  }
+  /// Of --at; none for the middle of what is shown. Throws OptionError.
+  std::optional<Eigen::Vector3d> centre() const;
+  /// Beside the first figure.
+  std::filesystem::path recordFile() const;
+};
+
+/// "1,2,-3.5". Throws OptionError naming the option.
+Eigen::Vector3d parseVector(const std::string& text, const std::string& option);
+
+}  // namespace softscope

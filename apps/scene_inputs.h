@@ -1,0 +1,46 @@
+// apps/scene_inputs.h: from files to a scene, with a record of what was read and assumed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/fact_sheet.h"
+#include "vtk_views/scene.h"
+
+namespace softscope {
+
+/// Reads what a figure shows, into LPS.
+class SceneInputs {
+ public:
+  explicit SceneInputs(double unit_mm) : unit_mm_(unit_mm) {}
+
+  /// Throws InputError; OptionError where the window doesn't suit the volume.
+  void addVolume(const std::string& path, const std::string& window);
+  /// A surface or points; from RAS to LPS where its file says RAS. Throws InputError.
+  SceneSurface& addSurface(const std::string& path, const std::string& role,
+                           const std::string& legend, Rgb8 colour);
+  /// Warns where a surface lies beside the volume, or has another unit by the looks of it.
+  void checkPlaces();
+
+  Scene& scene() { return scene_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  void warn(const std::string& text) { warnings_.push_back(text); }
+  /// Remembers a file or folder without reading it.
+  void note(const std::string& role, const std::string& path);
+  /// Role, path, SHA-256 of each input; reads them again.
+  FactSheet::Json inputsJson() const;
+  /// Geometry and greys; null without a volume.
+  FactSheet::Json volumeJson() const;
+  FactSheet::Json surfacesJson() const;
+
+ private:
+  struct Source {
+    std::string role, path;
+  };
+  double unit_mm_;
+  Scene scene_;
+  std::vector<Source> sources_;
+  std::vector<std::string> surface_paths_, assumptions_, warnings_;  // one a surface; any
+};
+
+}  // namespace softscope

@@ -1,0 +1,133 @@
+// tests/apps/test_figure.cpp: `softscope figure` from files to figures and their records.
+#include <fstream>
+
+#include "tests/apps/evaluate_fixture.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A box of quads with corners at `low` and `high`.
+std::string boxObj(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                   const std::string& head = "") {
+  std::string text = head;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d p((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
+                            (i & 4) != 0 ? high.z() : low.z());
+    text += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " +
+            std::to_string(p.z()) + "\n";
+  }
+  return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+}
+
+/// 40 x 30 x 20 voxels of 2 mm from (-40, -30, -20) on, all 50 HU but the first, air.
+std::string ctMha() {
+  std::string voxels(40 * 30 * 20 * 2, '\0');
+  for (std::size_t i = 0; i < voxels.size(); i += 2) voxels[i] = 50;
+  voxels[0] = char(0x18);  // -1000
+  voxels[1] = char(0xfc);
+  voxels[2] = char(0xe8);  // 1000
+  voxels[3] = char(0x03);
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+         "Offset = -40 -30 -20\nElementSpacing = 2 2 2\nDimSize = 40 30 20\n"
+         "ElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+         voxels;
+}
+
+class Figure : public InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    write("ct.mha", ctMha());
+    write("reference.obj", boxObj({-20, -10, -8}, {20, 10, 8}, "# SPACE=LPS\n"));
+    write("model.obj", boxObj({-20, -10, -8}, {20.5, 10, 8}));
+  }
+  Outcome figure(std::vector<std::string> more) const {
+    more.insert(more.begin(), "figure");
+    return softscope::test::run(more);
+  }
+};
+
+TEST_F(Figure, FourPanelsInThreeFormatsWithTheirRecord) {
+  const Outcome outcome =
+      figure({"--ct", at("ct.mha"), "--reference", at("reference.obj"), "--test", at("model.obj"),
+              "--out", at("f.png"), "--out", at("f.pdf"), "--out", at("f.svg"), "--dpi", "100",
+              "--range-mm", "1", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(textOf(at("f.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(textOf(at("f.pdf")).substr(0, 5), "%PDF-");
+  const std::string svg = textOf(at("f.svg"));
+  for (const char* part : {">R<", ">S<", ">10 mm<", ">(a) axial, S 0.0 mm<", ">reference<",
+                           ">distance to the surface [mm]<", "<polyline", "<image"})
+    EXPECT_THAT(svg, HasSubstr(part));
+  const Json record = Json::parse(textOf(at("f.json")));
+  EXPECT_EQ(record, outcome.json());
+  EXPECT_EQ(record["inputs"].size(), 3u);
+  EXPECT_EQ(record["inputs"][0]["sha256"].get<std::string>().size(), 64u);
+  EXPECT_EQ(record["errors"]["range_mm"], (Json{0.0, 1.0}));
+  EXPECT_EQ(record["errors"]["distance"]["n"], 8);
+  EXPECT_NEAR(record["errors"]["distance"]["max_mm"], 0.5, 1e-6);
+  EXPECT_EQ(record["views"][0]["side_right"], "L");
+  EXPECT_EQ(record["volume"]["window"]["name"], "soft-tissue");
+}
+
+TEST_F(Figure, TheSameInputsGiveTheSameBytes) {
+  for (const char* name : {"a", "b"})
+    for (const char* ending : {".png", ".pdf", ".svg"})
+      ASSERT_EQ(figure({"--ct", at("ct.mha"), "--reference", at("reference.obj"), "--dpi", "100",
+                        "--force", "--out", at(std::string(name) + ending)})
+                    .exit_code,
+                0);
+  for (const char* ending : {".png", ".pdf", ".svg", ".json"})
+    EXPECT_EQ(textOf(at(std::string("a") + ending)), textOf(at(std::string("b") + ending)))
+        << ending;
+}
+
+TEST_F(Figure, ARasMeshIsTurnedAndADistantOneTold) {
+  write("ras.obj", boxObj({-20, -10, -8}, {20, 25, 8}, "# SPACE=RAS\n"));
+  ASSERT_EQ(figure({"--reference", at("ras.obj"), "--out", at("ras.svg")}).exit_code, 0);
+  const Json record = Json::parse(textOf(at("ras.json")));
+  EXPECT_EQ(record["surfaces"][0]["low_mm"][1], -25.0);
+  EXPECT_THAT(record["surfaces"][0]["space"].dump(), HasSubstr("negated"));
+  write("far.obj", boxObj({500, 0, 0}, {520, 10, 8}));
+  const Outcome outcome =
+      figure({"--ct", at("ct.mha"), "--reference", at("far.obj"), "--out", at("far.svg")});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("beside the volume"));
+}
+
+TEST_F(Figure, BadInputEndsInOneLine) {
+  write("cut.mha", ctMha().substr(0, 9000));
+  const auto oneLine = [](const Outcome& outcome, int code) {
+    EXPECT_EQ(outcome.exit_code, code) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  };
+  oneLine(figure({"--ct", at("cut.mha"), "--out", at("x.png")}), 3);
+  oneLine(figure({"--ct", at("none"), "--out", at("x.png")}), 3);
+  oneLine(figure({"--reference", at("ct.mha"), "--out", at("x.png")}), 3);
+  const std::vector<std::string> good{"--reference", at("reference.obj"), "--out", at("x.png")};
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--style", "iee"},
+                                             {"--width-mm", "3"},
+                                             {"--dpi", "-1"},
+                                             {"--at", "1,2"},
+                                             {"--errors", "some"},
+                                             {"--columns", "3"},
+                                             {"--out", at("x.jpg")},
+                                             {"--ct", at("ct.mha"), "--window", "bones"},
+                                             {"--eye", "0,0,0"}}) {
+    std::vector<std::string> line = good;
+    line.insert(line.end(), wrong.begin(), wrong.end());
+    oneLine(figure(line), 2);
+  }
+  oneLine(figure({"--out", at("x.png")}), 2);
+  EXPECT_FALSE(fs::exists(at("x.png"))) << "nothing half-made";
+  EXPECT_EQ(figure(good).exit_code, 0);
+  oneLine(figure(good), 2);  // it is there now
+}
+
+}  // namespace
+}  // namespace softscope::test

@@ -1,0 +1,345 @@
+// tests/vtk_views/test_four_panels.cpp: figures that a flipped axis, a lost bar or a wrong range
+// would fail.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "mesh/mesh_reader.h"
+#include "tests/support/data_folder.h"
+#include "vtk_views/colour_map.h"
+#include "vtk_views/four_panels.h"
+#include "vtk_views/plane_contours.h"
+#include "vtk_views/slice_panel.h"
+#include "vtk_views/surface_picture.h"
+
+namespace softscope {
+namespace {
+
+/// A box from (0, 0, 0) to `size`, its faces outwards.
+TriangleMesh boxMesh(const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices_mm.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
+                                  i & 4 ? high.z() : low.z());
+  for (const auto& q : {std::array<int, 4>{0, 2, 3, 1},
+                        {4, 5, 7, 6},
+                        {0, 1, 5, 4},
+                        {2, 6, 7, 3},
+                        {0, 4, 6, 2},
+                        {1, 3, 7, 5}}) {
+    mesh.triangles.push_back({q[0], q[1], q[2]});
+    mesh.triangles.push_back({q[0], q[2], q[3]});
+  }
+  return mesh;
+}
+
+/// A long box with a small one at the patient's left, front and head end of it.
+Scene lopsidedScene() {
+  Scene scene;
+  scene.surfaces.push_back({"reference", boxMesh({-20, -10, -5}, {20, 10, 5}), {240, 165, 0}, {}});
+  scene.surfaces.push_back({"model", boxMesh({12, -9, -4}, {19, -5, 4}), {0, 0, 255}, {}});
+  return scene;
+}
+
+FourPanelOptions optionsFor(const Scene& scene) {
+  FourPanelOptions options;
+  options.style.dots_per_inch = 150;
+  options.centre_mm = {15, -7, 0};  // all three planes cut both boxes
+  options.width_mm = sceneWidthMm(scene);
+  return options;
+}
+
+template <class Part>
+std::vector<Part> partsOf(const VectorDrawing& drawing) {
+  std::vector<Part> parts;
+  for (const auto& part : drawing.parts)
+    if (std::holds_alternative<Part>(part)) parts.push_back(std::get<Part>(part));
+  return parts;
+}
+
+std::multiset<std::string> wordsOfDrawing(const VectorDrawing& drawing) {
+  std::multiset<std::string> words;
+  for (const DrawnText& text : partsOf<DrawnText>(drawing)) words.insert(text.text);
+  return words;
+}
+
+PointPt middleOf(const DrawnLine& line) {
+  double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
+  for (const PointPt& p : line.points) {
+    x0 = std::min(x0, p.x_pt), x1 = std::max(x1, p.x_pt);
+    y0 = std::min(y0, p.y_pt), y1 = std::max(y1, p.y_pt);
+  }
+  return {(x0 + x1) / 2, (y0 + y1) / 2};
+}
+
+TEST(SlicePanel, ContoursLieOnTheirSidesOfThePanel) {
+  const Scene scene = lopsidedScene();
+  const PanelPlace place{{0, 0}, 200, 200};
+  struct Case {
+    ViewPlane view;
+    int right, up;  // where the small box lies from the big one's middle
+  };
+  const auto patient = SceneFrame::kPatient;
+  for (const Case& c : {Case{axialView({0, 0, 0}, patient, SideRule::kRadiological), 1, 1},
+                        Case{axialView({0, 0, 0}, patient, SideRule::kNeurological), -1, 1},
+                        Case{coronalView({0, -7, 0}, patient, SideRule::kRadiological), 1, 0},
+                        Case{sagittalView({15, 0, 0}, patient), -1, 0}}) {
+    SCOPED_TRACE(c.view.name);
+    VectorDrawing drawing;
+    drawSlicePanel(scene, c.view, 60, place, {}, drawing);
+    const auto lines = partsOf<DrawnLine>(drawing);
+    ASSERT_GE(lines.size(), 2u);
+    const PointPt big = middleOf(lines[0]), small = middleOf(lines[1]);
+    EXPECT_EQ(int(std::lround((small.x_pt - big.x_pt) / 20)),
+              c.right * (c.view.name == "sagittal" ? 1 : 3))
+        << "7 mm to the front are 23 pt, 15.5 mm to the left 52";
+    EXPECT_EQ(int(std::lround((big.y_pt - small.y_pt) / 20)), c.up);
+  }
+}
+
+TEST(SlicePanel, TheScaleBarIsAsLongAsItSays) {
+  EXPECT_EQ(scaleBarLengthMm(60), 10);
+  EXPECT_EQ(scaleBarLengthMm(269), 50);
+  EXPECT_EQ(scaleBarLengthMm(90), 20);
+  VectorDrawing drawing;
+  drawScaleBar(60, {{0, 0}, 300, 300}, {0, 0, 0}, {}, drawing);
+  const DrawnLine bar = partsOf<DrawnLine>(drawing).at(0);
+  EXPECT_NEAR(bar.points[1].x_pt - bar.points[0].x_pt, 10.0 / 60 * 300, 1e-9);
+  EXPECT_EQ(partsOf<DrawnText>(drawing).at(0).text, "10 mm");
+}
+
+TEST(FourPanels, CarryLettersBarsCaptionsAndLegend) {
+  const Scene scene = lopsidedScene();
+  const VectorDrawing drawing = drawFourPanels(scene, optionsFor(scene));
+  const auto words = wordsOfDrawing(drawing);
+  for (const auto& [word, times] :
+       std::initializer_list<std::pair<const char*, std::size_t>>{{"R", 2},
+                                                                  {"L", 2},
+                                                                  {"A", 2},
+                                                                  {"P", 2},
+                                                                  {"S", 2},
+                                                                  {"I", 2},
+                                                                  {"10 mm", 4},
+                                                                  {"(a) axial, S 0.0 mm", 1},
+                                                                  {"(b) coronal, A 7.0 mm", 1},
+                                                                  {"(c) sagittal, L 15.0 mm", 1},
+                                                                  {"(d) 3-D", 1},
+                                                                  {"reference", 1},
+                                                                  {"model", 1}})
+    EXPECT_EQ(words.count(word), times) << word;
+  EXPECT_EQ(partsOf<DrawnPicture>(drawing).size(), 1u) << "no CT: only 3-D is pixels";
+}
+
+TEST(FourPanels, NothingIsDrawnBeyondTheSheet) {
+  Scene scene = lopsidedScene();
+  for (const double width_mm : {89.0, 183.0}) {
+    FourPanelOptions options = optionsFor(scene);
+    options.style.width_mm = width_mm;
+    options.width_mm = 25;  // contours leave the panels
+    const VectorDrawing drawing = drawFourPanels(scene, options);
+    for (const DrawnLine& line : partsOf<DrawnLine>(drawing))
+      for (const PointPt& p : line.points) {
+        EXPECT_GE(p.x_pt, -1e-6);
+        EXPECT_LE(p.x_pt, drawing.width_pt + 1e-6);
+        EXPECT_LE(p.y_pt, drawing.height_pt);
+      }
+    for (const DrawnText& text : partsOf<DrawnText>(drawing)) {
+      const double width_pt = textWidthPt(text);
+      EXPECT_LE(text.at.x_pt + width_pt * (1 - static_cast<int>(text.anchor) / 2.0),
+                drawing.width_pt)
+          << text.text;
+    }
+  }
+}
+
+TEST(FourPanels, TheColourBarSpansTheRangeOfTheErrors) {
+  Scene scene = lopsidedScene();
+  scene.surfaces[1].errors_mm.assign(8, 0.5);
+  FourPanelOptions options = optionsFor(scene);
+  options.colours = ErrorColours{false, 2};
+  options.bar.any_above = true;
+  const auto words = wordsOfDrawing(drawFourPanels(scene, options));
+  for (const char* word : {"0.0", "0.5", "1.0", "1.5", "2.0", "distance to the surface [mm]"})
+    EXPECT_EQ(words.count(word), 1u) << word;
+  options.colours = ErrorColours{true, 2};
+  EXPECT_EQ(wordsOfDrawing(drawFourPanels(scene, options)).count("-2"), 1u);
+}
+
+TEST(ErrorColours, MeanTheSameInPictureAndBar) {
+  const ErrorColours signed_colours{true, 2}, absolute{false, 2};
+  EXPECT_EQ(signed_colours.colour(0), (Rgb8{247, 247, 247}));
+  EXPECT_GT(signed_colours.colour(1).red, signed_colours.colour(1).blue + 50) << "outside is red";
+  EXPECT_GT(signed_colours.colour(-1).blue, signed_colours.colour(-1).red + 50);
+  EXPECT_EQ(absolute.colour(2), viridis(1));
+  EXPECT_EQ(absolute.colour(9), viridis(1));
+  EXPECT_EQ(absolute.colour(NAN), kUnmeasuredGrey);
+}
+
+/// A sheet that faces the patient's front, 40 mm wide and 20 mm high, of 1 mm squares.
+TriangleMesh coronalSheet() {
+  TriangleMesh mesh;
+  for (int k = 0; k <= 20; ++k)
+    for (int i = 0; i <= 40; ++i) mesh.vertices_mm.emplace_back(i - 20.0f, 0.0f, k - 10.0f);
+  for (int k = 0; k < 20; ++k)
+    for (int i = 0; i < 40; ++i) {
+      const int a = k * 41 + i;
+      mesh.triangles.push_back({a, a + 1, a + 42});
+      mesh.triangles.push_back({a, a + 42, a + 41});
+    }
+  return mesh;
+}
+
+bool alike(Rgb8 a, Rgb8 b) {  // to two steps: drivers round, the table has 256 colours
+  return std::abs(a.red - b.red) <= 2 && std::abs(a.green - b.green) <= 2 &&
+         std::abs(a.blue - b.blue) <= 2;
+}
+
+TEST(SurfacePicture, ShowsErrorsInTheirColoursOnTheirSide) {
+  std::vector<SceneSurface> surfaces{{"", coronalSheet(), {255, 0, 0}, {}}};
+  for (const Eigen::Vector3f& p : surfaces[0].mesh.vertices_mm)
+    surfaces[0].errors_mm.push_back(p.x() < -15 ? NAN : p.x() / 10);  // most to the left
+  SurfacePictureOptions options;
+  options.width_px = options.height_px = 100;  // of 50 mm
+  options.width_mm = 50;
+  const ViewPlane front = coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological);
+  const ErrorColours colours{true, 2};
+  const ColourImage picture = drawSurfaces(surfaces, colours, front, options);
+  for (const double x_mm : {-10.25, -0.25, 4.75, 14.75})
+    EXPECT_TRUE(alike(picture.at(int(50 + 2 * x_mm), 50), colours.colour(x_mm / 10)))
+        << "unlit: the bar's colour at " << x_mm << " mm";
+  EXPECT_TRUE(alike(picture.at(14, 50), kUnmeasuredGrey)) << "not observed";
+  EXPECT_TRUE(alike(picture.at(50, 28), {255, 255, 255})) << "11 mm up is above the sheet";
+  surfaces[0].errors_mm.pop_back();
+  EXPECT_THROW(drawSurfaces(surfaces, colours, front, options), Error);
+}
+
+TEST(SurfacePicture, ShowsTheHeadEndUp) {
+  TriangleMesh mesh = coronalSheet();
+  mesh.triangles.resize(mesh.triangles.size() / 2);  // its lower half
+  SurfacePictureOptions options;
+  options.width_px = options.height_px = 100;
+  options.width_mm = 50;
+  const ColourImage picture =
+      drawSurfaces({{"", mesh, {255, 0, 0}, {}}}, {},
+                   coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological), options);
+  EXPECT_TRUE(alike(picture.at(50, 40), {255, 255, 255}));
+  EXPECT_FALSE(alike(picture.at(50, 60), {255, 255, 255}));
+}
+
+TEST(SurfacePicture, GivesTheSamePixelsTwice) {
+  const Scene scene = lopsidedScene();
+  const VectorDrawing first = drawFourPanels(scene, optionsFor(scene));
+  const VectorDrawing second = drawFourPanels(scene, optionsFor(scene));
+  EXPECT_EQ(svgBytes(first), svgBytes(second));
+  EXPECT_EQ(pdfBytes(first), pdfBytes(second));
+}
+
+/// How the grey values change across a contour: 4 mm inside and outside of each of its points.
+struct EdgeValues {
+  double inside_median = 0, share_with_step = 0;
+};
+
+EdgeValues acrossContour(const Volume& volume, const TriangleMesh& mesh, const ViewPlane& view) {
+  std::vector<float> inside;
+  int points = 0, steps = 0;
+  for (const ContourLine& line :
+       planeContours(mesh, CutPlane{view.centre_mm, view.towardsViewer()})) {
+    double area = 0;  // its sign: which way the line runs
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const Eigen::Vector2d a = view.project(line[i - 1].cast<double>()),
+                            b = view.project(line[i].cast<double>());
+      area += a.x() * b.y() - a.y() * b.x();
+    }
+    for (std::size_t i = 3; i + 3 < line.size(); i += 3) {
+      const Eigen::Vector3d along = (line[i + 3] - line[i - 3]).cast<double>();
+      if (along.norm() < 1e-6) continue;
+      const Eigen::Vector3d inwards =
+          (area > 0 ? 1 : -1) * view.towardsViewer().cross(along).normalized();
+      const Eigen::Vector3d p = line[i].cast<double>();
+      const float in = volume.atPoint(p + 4 * inwards), out = volume.atPoint(p - 4 * inwards);
+      if (std::isnan(in) || std::isnan(out)) continue;
+      inside.push_back(in);
+      ++points;
+      steps += std::abs(out - in) > 40;
+    }
+  }
+  std::sort(inside.begin(), inside.end());
+  return {inside.empty() ? NAN : inside[inside.size() / 2], double(steps) / std::max(points, 1)};
+}
+
+struct CtCase {
+  const char *volume, *mesh;
+  double low_hu, high_hu;  // of the organ
+};
+class ContourOnCt : public testing::TestWithParam<CtCase> {};
+
+TEST_P(ContourOnCt, LiesOnTheOrgansEdgeInAllThreePlanes) {
+  SOFTSCOPE_DATA_OR_SKIP(ct, "ct");
+  const Volume volume = readVolume(ct / GetParam().volume);
+  TriangleMesh mesh = readMesh(ct / GetParam().mesh);
+  const Eigen::Vector3d centre = boxOf({{"", mesh, {}, {}}}).center();
+  const auto views = [&] {
+    return std::vector<ViewPlane>{
+        axialView(centre, SceneFrame::kPatient, SideRule::kRadiological),
+        coronalView(centre, SceneFrame::kPatient, SideRule::kRadiological),
+        sagittalView(centre, SceneFrame::kPatient)};
+  };
+  double share = 0, mirrored_share = 0;
+  for (const ViewPlane& view : views()) {
+    const EdgeValues edge = acrossContour(volume, mesh, view);
+    EXPECT_GT(edge.inside_median, GetParam().low_hu) << view.name;
+    EXPECT_LT(edge.inside_median, GetParam().high_hu) << view.name;
+    share += edge.share_with_step / 3;
+  }
+  for (Eigen::Vector3f& p : mesh.vertices_mm) p.x() = float(2 * centre.x()) - p.x();
+  for (const ViewPlane& view : views())
+    mirrored_share += acrossContour(volume, mesh, view).share_with_step / 3;
+  RecordProperty("share", std::to_string(share));
+  // Organs touch others of like values, so not every point of the edge has a step.
+  EXPECT_GT(share, 0.6) << "mirrored: " << mirrored_share;
+  EXPECT_GT(share, mirrored_share + 0.1) << "left and right must not be exchangeable";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Organs, ContourOnCt,
+    testing::Values(
+        CtCase{"chaos_dicom", "chaos_set3_liver_LPSmm.ply", 80, 160},
+        CtCase{"chaos_set3_ct_256x256x78.mha", "chaos_set3_liver_LPSmm.ply", 80, 160},
+        CtCase{"chaos_set3_ct_256x256x78.nrrd", "chaos_set3_liver_LPSmm.ply", 80, 160},
+        CtCase{"chaos_set3_ct_256x256x78.nii.gz", "chaos_set3_liver_LPSmm.ply", 80, 160},
+        CtCase{"totalseg_cta.nii.gz", "totalseg_heart_1p5mm_LPS.ply", 60, 600},
+        CtCase{"totalseg_abdomen.nii.gz", "totalseg_example_kidney_right_3mm_LPS.ply", 0, 60}));
+
+TEST(FourPanels, OneCtInFourFormatsGivesOnePicture) {
+  SOFTSCOPE_DATA_OR_SKIP(ct, "ct");
+  const TriangleMesh mesh = readMesh(ct / "chaos_set3_liver_LPSmm.ply");
+  std::vector<std::vector<std::vector<PointPt>>> contours;
+  for (const char* name : {"chaos_dicom", "chaos_set3_ct_256x256x78.mha",
+                           "chaos_set3_ct_256x256x78.nrrd", "chaos_set3_ct_256x256x78.nii.gz"}) {
+    Scene scene;
+    scene.volume = readVolume(ct / name);
+    scene.window = parseWindow("auto", *scene.volume);
+    scene.surfaces.push_back({"reference", mesh, surfaceColour(0), {}});
+    VectorDrawing drawing;
+    FigureStyle coarse;
+    coarse.dots_per_inch = 60;
+    drawSlicePanel(scene,
+                   coronalView(sceneCentre(scene), SceneFrame::kPatient, SideRule::kRadiological),
+                   200, {{0, 0}, 200, 200}, coarse, drawing);
+    contours.emplace_back();
+    for (const DrawnLine& line : partsOf<DrawnLine>(drawing))
+      contours.back().push_back(line.points);
+    ASSERT_EQ(contours.back().size(), contours.front().size()) << name;
+    for (std::size_t i = 0; i < contours.back().size(); ++i)
+      for (std::size_t k = 0; k < contours.back()[i].size(); ++k) {
+        EXPECT_NEAR(contours.back()[i][k].x_pt, contours[0][i][k].x_pt, 1e-3) << name;
+        EXPECT_NEAR(contours.back()[i][k].y_pt, contours[0][i][k].y_pt, 1e-3) << name;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace softscope

@@ -1,0 +1,47 @@
+// vtk_views/scene.h: what a figure shows, in one frame.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+#include "vtk_views/error_colours.h"
+#include "vtk_views/grey_window.h"
+#include "vtk_views/view_plane.h"
+#include "vtk_views/volume.h"
+
+namespace softscope {
+
+/// A surface, or points where the mesh has no triangles.
+struct SceneSurface {
+  std::string name;  // as the legend has it; empty: not in the legend
+  TriangleMesh mesh;
+  Rgb8 colour{230, 159, 0};
+  /// Measured elsewhere: empty, or one a vertex, mm; NaN = not observed.
+  std::vector<double> errors_mm;
+
+  bool isPoints() const { return mesh.triangles.empty(); }
+};
+
+/// Everything in mm, in one frame.
+struct Scene {
+  SceneFrame frame = SceneFrame::kPatient;
+  std::optional<Volume> volume;  // in LPS: for kPatient
+  GreyWindow window;
+  std::vector<SceneSurface> surfaces;  // later ones are drawn over earlier ones
+  double dot_reach_mm = 1;             // points farther from a plane aren't drawn in it
+};
+
+/// Of all finite vertices; empty where there are none.
+Eigen::AlignedBox3d boxOf(const std::vector<SceneSurface>& surfaces);
+/// Of the voxels' outer faces, in LPS.
+Eigen::AlignedBox3d boxOf(const Volume& volume);
+
+/// Colours that are told apart on CT, on white and by the colour-blind (Okabe and Ito): `index`
+/// counts the surfaces of a figure.
+Rgb8 surfaceColour(std::size_t index);
+inline constexpr Rgb8 kScanRed{235, 30, 35};
+
+}  // namespace softscope

@@ -1,0 +1,23 @@
+// vtk_views/surface_picture.h: surfaces and points in three dimensions, off screen.
+#pragma once
+
+#include "core/image.h"
+#include "vtk_views/scene.h"
+#include "vtk_views/view_plane.h"
+
+namespace softscope {
+
+struct SurfacePictureOptions {
+  int width_px = 600, height_px = 600;
+  double width_mm = 100;       // what the picture's width shows
+  double point_size_mm = 0.8;  // diameter of points
+  bool see_through = false;    // the first surface, if others are there too
+};
+
+/// Parallel projection on white: sizes in the picture are true everywhere. A surface with errors
+/// has their colours, unlit, so that they are the bar's; the others are lit in their own. The same
+/// scene gives the same pixels on one driver. Throws BackendError where nothing renders.
+ColourImage drawSurfaces(const std::vector<SceneSurface>& surfaces, const ErrorColours& colours,
+                         const ViewPlane& camera, const SurfacePictureOptions& options);
+
+}  // namespace softscope
