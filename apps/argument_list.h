@@ -17,6 +17,10 @@ struct Argument {
   bool required = false;
 
   bool isPositional() const { return name[0] != '-'; }
+  /// Takes every word that belongs to no option.
+  bool isPositionalList() const {
+    return isPositional() && std::holds_alternative<std::vector<std::string>*>(target);
+  }
 };
 
 class ArgumentList {
@@ -34,6 +38,12 @@ class ArgumentList {
   void positional(const std::string& name, std::string& target, const std::string& help,
                   bool required) {
     arguments_.push_back({name, name, &target, help, required});
+  }
+
+  /// One or more words that belong to no option.
+  void positionals(const std::string& name, std::vector<std::string>& target,
+                   const std::string& help) {
+    arguments_.push_back({name, name + "...", &target, help, true});
   }
 
   const std::vector<Argument>& all() const { return arguments_; }

@@ -32,6 +32,7 @@ std::unique_ptr<Command> makeEvaluateCommand();
 std::unique_ptr<Command> makeFigureCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeReconstructCommand();
+std::unique_ptr<Command> makeReportCommand();
 std::unique_ptr<Command> makeSimulateCommand();
 std::unique_ptr<Command> makeStudyCommand();
 

@@ -8,6 +8,7 @@
 #include "apps/compare_inputs.h"
 #include "apps/compare_outputs.h"
 #include "apps/compare_record.h"
+#include "apps/evaluate_plots.h"
 #include "apps/evaluate_thresholds.h"
 #include "apps/exit_codes.h"
 #include "apps/result_output.h"
@@ -147,6 +148,7 @@ int CompareCommand::run() {
   FactSheet::Json record = comparisonJson(result);
   const auto outcomes = checkThresholds(thresholds, record, "accuracy");
   record["thresholds"] = thresholdsJson(outcomes);
+  record["error_histogram"] = histogramJson(result.comparison.accuracy.each_mm);
   if (outputs) outputs->write(result, test, record);
   FactSheet facts = comparisonFacts(result);
   if (!out_.empty()) facts.addLine("written to", out_);

@@ -9,6 +9,7 @@
 #include "apps/command.h"
 #include "apps/evaluate_origin.h"
 #include "apps/evaluate_outputs.h"
+#include "apps/evaluate_plots.h"
 #include "apps/evaluate_record.h"
 #include "apps/evaluate_thresholds.h"
 #include "apps/exit_codes.h"
@@ -185,6 +186,7 @@ int EvaluateCommand::finish(EvaluationResult result, const EvaluateOutputs* outp
   FactSheet::Json record = evaluationJson(result);
   const auto outcomes = checkThresholds(thresholds_, record, kPreferred);
   record["thresholds"] = thresholdsJson(outcomes);
+  record["error_histogram"] = histogramJson(result.surface.pool.all_mm());
   record["frames"] = frames.json();
   if (outputs != nullptr) outputs->write(result, frames, record);
   report(result, record);

@@ -1,12 +1,17 @@
 // apps/evaluate_outputs.cpp: numbers first, figures after them.
 #include "apps/evaluate_outputs.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include "apps/evaluate_plots.h"
 #include "apps/result_output.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/image_writer.h"
 #include "io/message.h"
+#include "io/text_lines.h"
 
 namespace softscope {
 namespace {
@@ -18,7 +23,26 @@ constexpr double kDotsPerInch = 300;
 const char* const kFiles[] = {"evaluation.json",     "frames.csv",          "tracks.csv",
                               "error_series.svg",    "error_series.pdf",    "error_series.png",
                               "error_histogram.svg", "error_histogram.pdf", "error_histogram.png",
-                              "worst_frames.svg",    "worst_frames.pdf",    "worst_frames.png"};
+                              "worst_frames.svg",    "worst_frames.pdf",    "worst_frames.png",
+                              "errors.pvd"};
+
+std::string mapName(const ErrorMap& map) {
+  char name[32];
+  std::snprintf(name, sizeof name, "errors/%06d.vtp", map.frame);
+  return name;
+}
+
+/// ParaView's list of the maps over time, or over frames where no time is known.
+std::string mapsPvd(const std::vector<ErrorMap>& maps) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const ErrorMap& map : maps)
+    text += "<DataSet timestep=\"" +
+            exactText(std::isfinite(map.time_s) ? map.time_s : double(map.frame)) + "\" file=\"" +
+            mapName(map) + "\"/>\n";
+  return text + "</Collection>\n</VTKFile>\n";
+}
 
 }  // namespace
 
@@ -40,6 +64,18 @@ void EvaluateOutputs::putFigure(const std::string& name, const VectorDrawing& fi
   writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), overwrite_);
 }
 
+/// What an earlier evaluation left is removed, for it may have judged other frames.
+void EvaluateOutputs::putMaps(const std::vector<ErrorMap>& maps) const {
+  if (overwrite_ && fs::is_directory(folder_ / "errors"))
+    for (const fs::path& file : filesIn(folder_ / "errors", {".vtp"}))
+      if (file.stem().string().find_first_not_of("0123456789") == std::string::npos)
+        fs::remove(file);
+  if (maps.empty()) return;
+  fs::create_directories(folder_ / "errors");
+  for (const ErrorMap& map : maps) put(mapName(map), errorMapVtp(map));
+  put("errors.pvd", mapsPvd(maps));
+}
+
 void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& frames,
                             const FactSheet::Json& record) const {
   fs::create_directories(folder_);
@@ -52,6 +88,7 @@ void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& fr
               drawErrorHistogram(histogramOf(result.surface.pool.all_mm(), title)));
     putFigure("worst_frames", drawWorstFrames(worstFramesData(result)));
   }
+  putMaps(result.surface.maps);
   put("evaluation.json", jsonText(record));  // last: who finds it finds the others
 }
 

@@ -18,12 +18,14 @@ class EvaluateOutputs {
   EvaluateOutputs(std::filesystem::path folder, bool overwrite);
 
   /// evaluation.json, frames.csv, tracks.csv where tracks were judged, and the figures
-  /// error_series, error_histogram and worst_frames as SVG, PDF and PNG where a surface was.
+  /// error_series, error_histogram and worst_frames as SVG, PDF and PNG where a surface was, with
+  /// errors/NNNNNN.vtp of some of its moments.
   void write(const EvaluationResult& result, const FrameTable& frames,
              const FactSheet::Json& record) const;
 
  private:
   void put(const std::string& name, const std::string& bytes) const;
+  void putMaps(const std::vector<ErrorMap>& maps) const;
   void putFigure(const std::string& name, const VectorDrawing& figure) const;
 
   std::filesystem::path folder_;

@@ -69,10 +69,23 @@ WorstFramesData worstFramesData(const EvaluationResult& result) {
   return data;
 }
 
+Histogram countErrors(const std::vector<double>& errors_mm) {
+  const double p99_mm = percentiles(errors_mm, {99})[0];
+  return histogram(errors_mm, 0, roundUp(std::max(p99_mm, 1e-3)), kBins);
+}
+
+FactSheet::Json histogramJson(const std::vector<double>& errors_mm) {
+  if (statistics(errors_mm).count == 0) return nullptr;
+  const Histogram counted = countErrors(errors_mm);
+  return {{"low_mm", counted.low},
+          {"high_mm", counted.high},
+          {"counts", counted.counts},
+          {"beyond", counted.above}};
+}
+
 ErrorHistogramData histogramOf(const std::vector<double>& errors_mm, const std::string& title) {
   const Statistics all = statistics(errors_mm);
-  const double p99_mm = percentiles(errors_mm, {99})[0];
-  const Histogram counted = histogram(errors_mm, 0, roundUp(std::max(p99_mm, 1e-3)), kBins);
+  const Histogram counted = countErrors(errors_mm);
   ErrorHistogramData data;
   data.title = title;
   data.high = counted.high;

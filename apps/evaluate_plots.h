@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/evaluate_result.h"
+#include "apps/fact_sheet.h"
 #include "vtk_views/series_plot.h"
 #include "vtk_views/worst_frames_plot.h"
 
@@ -18,6 +19,9 @@ WorstFramesData worstFramesData(const EvaluationResult& result);
 
 /// From 0 to a round number above the 99th percentile. At least one value is a number.
 ErrorHistogramData histogramOf(const std::vector<double>& errors_mm, const std::string& title);
+
+/// The same bins as JSON, for reports; null where no value is a number.
+FactSheet::Json histogramJson(const std::vector<double>& errors_mm);
 
 /// "run against reference", by the last parts of their paths.
 std::string comparisonTitle(const std::string& test, const std::string& reference);

@@ -20,6 +20,7 @@ namespace {
 struct Moment {
   ModelFile file;                          // in the run's world
   std::vector<Eigen::Vector3f> points_mm;  // in the true one
+  TriangleMesh mesh;
   std::unique_ptr<TriangleTree> surface;
   Raster<float> depth_mm;
   Eigen::Isometry3d world_from_left;
@@ -30,9 +31,9 @@ Moment readMoment(const JudgedRun& run, const SequenceTruth& truth, int frame,
   Moment moment;
   moment.file = readModel(run.models.at(frame));
   moment.points_mm = movePoints(truth_from_run, moment.file.model.positions_mm);
-  const TriangleMesh mesh = readMesh(truth.meshes.at(frame));
-  moment.surface = std::make_unique<TriangleTree>(mesh);
-  moment.depth_mm = trueDepth(truth, frame, mesh);
+  moment.mesh = readMesh(truth.meshes.at(frame));
+  moment.surface = std::make_unique<TriangleTree>(moment.mesh);
+  moment.depth_mm = trueDepth(truth, frame, moment.mesh);
   moment.world_from_left = truth.trajectory[static_cast<std::size_t>(frame)].world_from_left;
   return moment;
 }
@@ -100,6 +101,7 @@ SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth, bool
   if (views) view_judge.emplace(truth);
   SurfaceSeries series;
   series.pool = ErrorPool(frames.size());
+  ErrorMaps maps(frames.size());
   const auto read = [&](std::size_t i) {
     return readMoment(run, truth, frames[i], moves.at(frames[i]));
   };
@@ -123,12 +125,14 @@ SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth, bool
           if (i + 1 < frames.size()) next = read(i + 1);
         });
     const double time_s = truth.trajectory[static_cast<std::size_t>(frames[i])].time_s;
+    maps.add(frames[i], time_s, now.points_mm, errors, now.mesh, now.world_from_left);
     keep(frames[i], time_s, std::move(errors), series).view = std::move(view);
     if (!after_model()) {
       series.interrupted = true;
       return series;
     }
   }
+  series.maps = maps.kept();
   sumUp(series);
   return series;
 }
@@ -141,6 +145,7 @@ AlignedSeries judgeAgainstMesh(const JudgedRun& run, const FrameFiles& models,
   const RectifiedRig no_rig;
   AlignedSeries result;
   result.surface.pool = ErrorPool(models.size());
+  ErrorMaps maps(models.size());
   Eigen::Isometry3d mesh_from_run = Eigen::Isometry3d::Identity();
   for (const auto& [frame, file] : models) {
     const std::vector<Eigen::Vector3f> points_mm = readModel(file).model.positions_mm;
@@ -149,14 +154,16 @@ AlignedSeries judgeAgainstMesh(const JudgedRun& run, const FrameFiles& models,
       result.alignments.push_back(alignToSurface(points_mm, surface, {}, mesh_from_run));
       mesh_from_run = result.alignments.back().surface_from_points;
     }
-    keep(frame, timeOf(run, frame),
-         modelErrors(movePoints(mesh_from_run, points_mm), {surface, no_depth, no_rig, {}}),
-         result.surface);
+    const std::vector<Eigen::Vector3f> moved_mm = movePoints(mesh_from_run, points_mm);
+    ModelErrors errors = modelErrors(moved_mm, {surface, no_depth, no_rig, {}});
+    maps.add(frame, timeOf(run, frame), moved_mm, errors, mesh, mesh_from_run);
+    keep(frame, timeOf(run, frame), std::move(errors), result.surface);
     if (!after_model()) {
       result.surface.interrupted = true;
       return result;
     }
   }
+  result.surface.maps = maps.kept();
   sumUp(result.surface);
   return result;
 }

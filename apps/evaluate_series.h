@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/evaluate_folders.h"
+#include "apps/evaluate_maps.h"
 #include "apps/evaluate_view.h"
 #include "core/triangle_mesh.h"
 #include "eval/error_pool.h"
@@ -36,6 +37,7 @@ struct SurfaceSeries {
   std::vector<double> second_differences_mm;      // of the mean errors, one a model
   double jitter_rms_mm = Statistics::kNone;       // root mean square of these
   bool interrupted = false;                       // then nothing but `models` is right
+  std::vector<ErrorMap> maps;                     // of some of the models, in their order
 
   /// The mean over the models of one of their values, NaNs left out.
   double meanOf(const std::function<double(const ModelErrors&)>& value) const;

@@ -26,7 +26,7 @@ std::string entry(const std::string& left, const std::string& help) {
 std::string usage(const Command& command, const ArgumentList& arguments) {
   std::string line = "usage: softscope " + command.name();
   for (const Argument& a : arguments.all())
-    if (a.isPositional()) line += a.required ? " " + a.name : " [" + a.name + "]";
+    if (a.isPositional()) line += a.required ? " " + a.value_name : " [" + a.name + "]";
   for (const Argument& a : arguments.all())
     if (!a.isPositional() && a.required) line += " " + a.name + " " + a.value_name;
   return line + " [options]\n";

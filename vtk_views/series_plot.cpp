@@ -70,7 +70,8 @@ DrawnText markText(const PlotAxes& axes, double value, const char* name, double 
   return text;
 }
 
-/// Dashed lines at the median and the 95th percentile, named above the frame, side by side.
+/// Dashed lines at the median and the 95th percentile, named above the frame: in their middles where
+/// there is room, else side by side.
 void drawMarks(const ErrorHistogramData& data, const PlotAxes& axes, double font_pt,
                VectorDrawing& drawing) {
   if (!std::isfinite(data.median) || !std::isfinite(data.p95)) return;
@@ -79,9 +80,13 @@ void drawMarks(const ErrorHistogramData& data, const PlotAxes& axes, double font
   for (const DrawnText& text : {median, p95})
     drawing.parts.emplace_back(DrawnLine{
         {{text.at.x_pt, axes.top()}, {text.at.x_pt, axes.bottom()}}, 0.6, kVermilion, true});
-  if (p95.at.x_pt - median.at.x_pt < (textWidthPt(median) + textWidthPt(p95)) / 2 + font_pt) {
-    median.anchor = TextAnchor::kEnd;
-    p95.anchor = TextAnchor::kStart;
+  const double first_pt = textWidthPt(median), second_pt = textWidthPt(p95);
+  if (p95.at.x_pt - median.at.x_pt < (first_pt + second_pt) / 2 + font_pt) {
+    const double both_pt = first_pt + font_pt + second_pt;
+    median.anchor = p95.anchor = TextAnchor::kStart;
+    median.at.x_pt = std::clamp((median.at.x_pt + p95.at.x_pt - both_pt) / 2, axes.left(),
+                                std::max(axes.left(), axes.right() - both_pt));
+    p95.at.x_pt = median.at.x_pt + first_pt + font_pt;
   }
   drawing.parts.emplace_back(median);
   drawing.parts.emplace_back(p95);

@@ -144,7 +144,7 @@ TEST_F(Evaluate, WritesNumbersTablesAndFigures) {
   const Outcome outcome = evaluate({"--out", at("out"), "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.json(), Json::parse(textOf(at("out/evaluation.json"))));
-  EXPECT_EQ(countFiles(at("out")), 12) << "temporary files stayed, or something lacks";
+  EXPECT_EQ(countFiles(at("out")), 19) << "temporary files stayed, or something lacks";
   EXPECT_THAT(textOf(at("out/error_series.svg")), HasSubstr(">run against truth</text>"));
   EXPECT_THAT(textOf(at("out/error_histogram.pdf")), testing::StartsWith("%PDF"));
   const NumberTable frames(textOf(at("out/frames.csv")), "frames.csv",

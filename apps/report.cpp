@@ -1,0 +1,107 @@
+// apps/report.cpp: `softscope report`: evaluations as one page for people.
+#include <cmath>
+#include <filesystem>
+
+#include "apps/command.h"
+#include "apps/evaluate_thresholds.h"
+#include "apps/report_document.h"
+#include "apps/result_output.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/message.h"
+#include "vtk_views/report_html.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kDetails =
+    "CASE is a folder that `evaluate --out` or `compare --out` wrote; several make a cohort.\n"
+    "The page opens from disk in any browser and asks the network for nothing: what was compared,\n"
+    "how it was aligned, the result and how sure it is, a map of the errors that turns, limits,\n"
+    "methods, provenance, and all metrics as JSON inside.\n"
+    "Names of files and folders stay out unless --with-paths asks for them; cases are numbered, "
+    "or\n"
+    "named by --name. docs/report.md tells how to read it.";
+
+class ReportCommand : public Command {
+ public:
+  std::string name() const override { return "report"; }
+  std::string summary() const override {
+    return "evaluations and comparisons as one page for people";
+  }
+  std::string details() const override { return kDetails; }
+  std::string example() const override {
+    return "softscope report evaluation --out report.html --fail-if 'p95_mm>2'";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  std::vector<ReportCase> readCases() const;
+
+  std::vector<std::string> folders_, names_, fail_if_;
+  std::string out_, title_;
+  double limit_mm_ = 0;
+  int seed_ = 1;
+  bool with_paths_ = false, force_ = false;
+};
+
+void ReportCommand::declare(ArgumentList& arguments) {
+  arguments.positionals("CASE", folders_, "folders that evaluate or compare wrote");
+  arguments.option("--out", "FILE", out_, "the page, .html", true);
+  arguments.option("--name", "TEXT", names_, "of each case, in their order; repeatable");
+  arguments.option("--title", "TEXT", title_, "of the page");
+  arguments.option("--limit-mm", "N", limit_mm_,
+                   "where the colours end (default: a round number above the largest P95)");
+  arguments.option("--seed", "N", seed_, "of resampling for confidence intervals (default 1)");
+  arguments.option("--fail-if", "LIMIT", fail_if_,
+                   "e.g. p95_mm>2: exit code 1 where it holds for a case; repeatable");
+  arguments.flag("--with-paths", with_paths_, "show the paths of inputs");
+  arguments.flag("--force", force_, "overwrite what is there");
+}
+
+std::vector<ReportCase> ReportCommand::readCases() const {
+  if (!names_.empty() && names_.size() != folders_.size())
+    throw OptionError(say("--name is given ", names_.size(), " times, but there are ",
+                          folders_.size(), " cases; name all or none"));
+  std::vector<ReportCase> cases;
+  for (std::size_t i = 0; i < folders_.size(); ++i) {
+    cases.push_back(readReportCase(folders_[i]));
+    cases.back().name = !names_.empty() ? names_[i] : say("Case ", i + 1);
+  }
+  return cases;
+}
+
+int ReportCommand::run() {
+  require(limit_mm_ >= 0 && std::isfinite(limit_mm_), "--limit-mm", limit_mm_, "must be above 0");
+  require(seed_ >= 0, "--seed", seed_, "must be 0 or more");
+  std::vector<Threshold> thresholds;
+  for (const std::string& text : fail_if_) thresholds.push_back(parseThreshold(text));
+  requireWritable(out_, force_);
+
+  ReportRequest request;
+  request.cases = readCases();
+  request.title = title_;
+  request.limit_mm = limit_mm_;
+  request.choices = {with_paths_, static_cast<std::uint64_t>(seed_)};
+  for (const ReportCase& c : request.cases)
+    request.outcomes.push_back(checkThresholds(thresholds, c.record, c.mainPart()));
+  const ReportDocument document = makeReport(std::move(request));
+  writeFile(out_, reportHtml(document.page), force_);
+  if (common.json) {
+    printJson(document.metrics);
+  } else {
+    FactSheet facts = document.facts;
+    facts.addLine("written to", out_);
+    printFacts(facts, false);
+  }
+  return exitCodeOf(document.outcomes);
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeReportCommand() { return std::make_unique<ReportCommand>(); }
+
+}  // namespace softscope

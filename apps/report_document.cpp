@@ -1,0 +1,132 @@
+// apps/report_document.cpp: sections in clinical reading order.
+#include "apps/report_document.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/report_privacy.h"
+#include "apps/report_words.h"
+#include "apps/version.h"
+
+namespace softscope {
+namespace {
+
+using Json = FactSheet::Json;
+
+const char* const kNotice = "Research use only, not for diagnosis.";
+
+/// A round number at or above the largest 95th percentile: the colours then end where the reader's
+/// interest does, the same for all cases.
+double colourLimit(const std::vector<ReportCase>& cases) {
+  double largest_mm = 0;
+  for (const ReportCase& c : cases)
+    if (std::isfinite(c.main("p95_mm"))) largest_mm = std::max(largest_mm, c.main("p95_mm"));
+  if (!(largest_mm > 1e-6)) return 1;
+  const double power = std::pow(10.0, std::floor(std::log10(largest_mm)));
+  for (const double leading : {1.0, 2.0, 5.0})
+    if (largest_mm <= leading * power) return leading * power;
+  return 10 * power;
+}
+
+ReportPart outcomesTable(const ReportRequest& request) {
+  ReportTable table{"Limits of this report (--fail-if)",
+                    {"case", "fails if", "metric", "value", "outcome"},
+                    {},
+                    /*words=*/true};
+  for (std::size_t i = 0; i < request.cases.size(); ++i)
+    for (const ThresholdOutcome& o : request.outcomes[i])
+      table.rows.push_back({request.cases[i].name, o.threshold.text(), o.path, numberText(o.value),
+                            o.failed ? "FAILED" : "kept"});
+  return table;
+}
+
+bool hasOutcomes(const ReportRequest& request) {
+  return std::any_of(request.outcomes.begin(), request.outcomes.end(),
+                     [](const auto& outcomes) { return !outcomes.empty(); });
+}
+
+void append(std::vector<ReportPart> more, std::vector<ReportPart>& parts) {
+  for (ReportPart& part : more) parts.push_back(std::move(part));
+}
+
+std::vector<ReportPart> pictureParts(const ReportCase& c) {
+  std::vector<ReportPart> parts;
+  for (const auto& [caption, png] : c.pictures) parts.emplace_back(ReportPicture{png, caption});
+  return parts;
+}
+
+ReportMapPlace mapPlace(double limit_mm) {
+  return {"Error map. Colours run to " + millimetresText(limit_mm) +
+          " for every case and moment; the bar tells where they end. Drag to turn, wheel to zoom, "
+          "shift and drag to move, click to read. Colours are not shaded."};
+}
+
+std::vector<ReportSection> caseSections(const ReportRequest& request, double limit_mm) {
+  const ReportCase& c = request.cases.front();
+  std::vector<ReportSection> sections;
+  sections.push_back({"compared", "What was compared", {comparedTable(c, request.choices)}});
+  append(alignmentParts(c), sections.back().parts);
+  sections.push_back({"result", "Result, and how sure it is", {}});
+  if (hasOutcomes(request)) sections.back().parts.push_back(outcomesTable(request));
+  append(resultParts(c, request.choices), sections.back().parts);
+  sections.push_back({"pictures", "Pictures", {}});
+  if (!c.maps.empty()) sections.back().parts.emplace_back(mapPlace(limit_mm));
+  append(plotParts(c), sections.back().parts);
+  append(pictureParts(c), sections.back().parts);
+  sections.push_back({"limits", "Limits", {limitsList(c, request.choices)}});
+  sections.push_back({"methods", "Methods", {methodsList(c)}});
+  sections.push_back({"provenance", "Provenance", {provenanceTable(c, request.choices)}});
+  return sections;
+}
+
+Json metricsOf(const ReportRequest& request, double limit_mm) {
+  Json metrics{{"schema_version", 1},
+               {"kind", "softscope_report"},
+               {"softscope", versionText()},
+               {"colour_limit_mm", limit_mm},
+               {"seed", request.choices.seed}};
+  metrics["cases"] = Json::array();
+  for (std::size_t i = 0; i < request.cases.size(); ++i) {
+    const ReportCase& c = request.cases[i];
+    Json entry{{"name", c.name}};
+    entry["record"] = request.choices.with_paths ? c.record : withoutPaths(c.record);
+    entry["thresholds"] = thresholdsJson(request.outcomes[i]);
+    for (const auto& [what, hash] : c.hashes) entry["sha256"][what] = hash;
+    metrics["cases"].push_back(std::move(entry));
+  }
+  return metrics;
+}
+
+std::string titleOf(const ReportRequest& request) {
+  if (!request.title.empty()) return request.title;
+  if (request.cases.size() > 1) return "Surface accuracy of several cases";
+  return request.cases.front().kind == ReportCase::Kind::kPair ? "Accuracy of a surface model"
+                                                               : "Accuracy of a live surface model";
+}
+
+}  // namespace
+
+ReportDocument makeReport(ReportRequest request) {
+  fitIntoPage(request.cases);
+  ReportDocument document;
+  ReportPage& page = document.page;
+  page.limit_mm = request.limit_mm > 0 ? request.limit_mm : colourLimit(request.cases);
+  page.title = titleOf(request);
+  page.notice = kNotice;
+  page.subtitle = request.cases.size() == 1 ? request.cases.front().name
+                                            : std::to_string(request.cases.size()) + " cases";
+  page.sections = caseSections(request, page.limit_mm);
+  document.metrics = metricsOf(request, page.limit_mm);
+  page.metrics_json = document.metrics.dump(1, ' ', false, Json::error_handler_t::replace);
+  document.facts = FactSheet(page.title + ", " + page.subtitle);
+  for (ReportCase& c : request.cases) {
+    document.facts.addLine(c.name, "mean " + millimetresText(c.main("mean_mm")) + ", P95 " +
+                                       millimetresText(c.main("p95_mm")));
+    if (!c.maps.empty()) page.maps.push_back({c.name, std::move(c.maps)});
+  }
+  for (const auto& outcomes : request.outcomes)
+    document.outcomes.insert(document.outcomes.end(), outcomes.begin(), outcomes.end());
+  return document;
+}
+
+}  // namespace softscope

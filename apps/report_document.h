@@ -1,0 +1,32 @@
+// apps/report_document.h: cases to page, metrics and lines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/evaluate_thresholds.h"
+#include "apps/fact_sheet.h"
+#include "apps/report_case.h"
+#include "apps/report_sections.h"
+#include "vtk_views/report_page.h"
+
+namespace softscope {
+
+struct ReportRequest {
+  std::vector<ReportCase> cases;                        // one or more
+  std::vector<std::vector<ThresholdOutcome>> outcomes;  // one list a case
+  std::string title;                                    // empty: by what was compared
+  double limit_mm = 0;                                  // of colours; 0: chosen
+  ReportChoices choices;
+};
+
+struct ReportDocument {
+  ReportPage page;
+  FactSheet::Json metrics;  // schema_version 1; without paths unless they were asked for
+  FactSheet facts{"report"};
+  std::vector<ThresholdOutcome> outcomes;  // of all cases
+};
+
+ReportDocument makeReport(ReportRequest request);
+
+}  // namespace softscope

@@ -1,0 +1,21 @@
+// apps/report_plots.h: the plots of one case, from its record.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/report_case.h"
+#include "vtk_views/vector_drawing.h"
+
+namespace softscope {
+
+using CaptionedFigure = std::pair<VectorDrawing, std::string>;
+
+/// Error over the judged moments; none for a pair, a single moment, or a record without frames.
+std::optional<CaptionedFigure> seriesFigure(const ReportCase& c);
+
+/// How the distances are spread; none where the record has no histogram.
+std::optional<CaptionedFigure> histogramFigure(const ReportCase& c);
+
+}  // namespace softscope

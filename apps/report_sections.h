@@ -1,0 +1,31 @@
+// apps/report_sections.h: one case in words, tables and plots, in the order in which it is read.
+#pragma once
+
+#include <vector>
+
+#include "apps/report_case.h"
+#include "vtk_views/report_page.h"
+
+namespace softscope {
+
+struct ReportChoices {
+  bool with_paths = false;  // else files and folders stay out
+  std::uint64_t seed = 1;   // of resampling
+};
+
+/// What was compared and how it was aligned, as rows of a table.
+ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices);
+/// Before and after; empty where nothing was aligned.
+std::vector<ReportPart> alignmentParts(const ReportCase& c);
+/// The sentence, the large numbers, the tables; what the numbers rest on.
+std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices);
+/// Error over time, histogram.
+std::vector<ReportPart> plotParts(const ReportCase& c);
+/// What the numbers don't say.
+ReportList limitsList(const ReportCase& c, const ReportChoices& choices);
+/// Definitions of what is in the tables.
+ReportList methodsList(const ReportCase& c);
+/// Program, settings, hashes.
+ReportTable provenanceTable(const ReportCase& c, const ReportChoices& choices);
+
+}  // namespace softscope

@@ -1,0 +1,173 @@
+// tests/apps/test_report.cpp: `softscope report` on what evaluate and compare wrote.
+#include "tests/apps/evaluate_fixture.h"
+#include "vtk_views/error_map.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+/// What evaluate leaves of a model that is `mean_mm` off, with a map of three points at one moment.
+void writeCase(const fs::path& case_folder, double mean_mm) {
+  fs::create_directories(case_folder / "errors");
+  Json record{{"schema_version", 1}, {"softscope", "0.1.0"}, {"command", "evaluate"}};
+  record["inputs"] = {{"run", case_folder / "run"}, {"reference", case_folder / "truth"}};
+  record["comparison"] = {{"reference_kind", "sequence"}, {"alignment", "none"}};
+  record["surface"] = {{"mean_mm", mean_mm},
+                       {"sd_mm", 0.1},
+                       {"rmse_mm", mean_mm + 0.1},
+                       {"median_mm", mean_mm},
+                       {"p95_mm", 2 * mean_mm},
+                       {"max_mm", 3 * mean_mm},
+                       {"n", 3},
+                       {"models_judged", 2},
+                       {"signed", {{"mean_mm", -mean_mm}, {"n", 3}}}};
+  record["frames"] = Json::array();
+  for (int frame = 0; frame < 4; ++frame)
+    record["frames"].push_back({{"frame", frame},
+                                {"time_s", 0.1 * frame},
+                                {"mean_mm", mean_mm + 0.01 * frame},
+                                {"median_mm", mean_mm},
+                                {"p95_mm", 2 * mean_mm}});
+  record["error_histogram"] = {
+      {"low_mm", 0}, {"high_mm", 4 * mean_mm}, {"counts", {1, 2}}, {"beyond", 0}};
+  record["warnings"] = {(case_folder / "run").string() + ": is old"};
+  std::ofstream(case_folder / "evaluation.json") << record.dump();
+  ErrorMap map;
+  map.surface.vertices_mm = {{0, 0, 50}, {10, 0, 50}, {0, 10, 51}};
+  map.absolute_mm = {float(mean_mm), 0, float(3 * mean_mm)};
+  map.signed_mm = {float(-mean_mm), 0, float(3 * mean_mm)};
+  std::ofstream(case_folder / "errors/000002.vtp", std::ios::binary) << errorMapVtp(map);
+}
+
+class Report : public InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    writeCase(at("result"), 0.5);
+  }
+  Outcome report(std::vector<std::string> more, const std::string& out = "page.html") const {
+    more.insert(more.begin(), "report");
+    more.insert(more.end(), {"--out", at(out)});
+    return softscope::test::run(more);
+  }
+  std::string page(std::vector<std::string> more) const {
+    more.push_back("--force");
+    const Outcome outcome = report(std::move(more));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return textOf(at("page.html"));
+  }
+  static void expectRefused(const std::vector<std::string>& parts, const Outcome& outcome) {
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
+    for (const std::string& part : parts) EXPECT_THAT(outcome.err, HasSubstr(part));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.out.empty());
+  }
+};
+
+TEST_F(Report, TellsAnEvaluationInReadingOrder) {
+  const std::string html = page({at("result")});
+  std::size_t place = html.find("Research use only, not for diagnosis.");
+  for (const char* title : {"What was compared", "Result, and how sure it is", "Pictures", "Limits",
+                            "Methods", "Provenance"}) {
+    const std::size_t next = html.find("<h2>" + std::string(title), place);
+    ASSERT_NE(next, std::string::npos) << title;
+    place = next;
+  }
+  EXPECT_THAT(html, HasSubstr("id=\"maps\""));
+  EXPECT_THAT(html, HasSubstr("Error over time"));
+  EXPECT_THAT(html, HasSubstr("Spread of the distances"));
+  EXPECT_THAT(html, Not(HasSubstr("http:")));
+}
+
+TEST_F(Report, PathsStayOutUnlessTheyAreAskedFor) {
+  const std::string folder_name = folder.filename();
+  EXPECT_THAT(page({at("result")}), Not(HasSubstr(folder_name)));
+  EXPECT_THAT(page({at("result"), "--with-paths"}), HasSubstr(at("run")));
+}
+
+TEST_F(Report, JsonHoldsTheNumbersOfTheEvaluation) {
+  const Outcome outcome = report({at("result"), "--json", "--name", "<b>first</b>"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json metrics = outcome.json(), record = Json::parse(textOf(at("result/evaluation.json")));
+  EXPECT_EQ(metrics["schema_version"], 1);
+  EXPECT_EQ(metrics["cases"][0]["name"], "<b>first</b>");
+  EXPECT_EQ(metrics["cases"][0]["record"]["surface"], record["surface"]);
+  EXPECT_FALSE(metrics["cases"][0]["record"].contains("inputs"));
+  EXPECT_THAT(textOf(at("page.html")), Not(HasSubstr("<b>first")));
+  EXPECT_THAT(textOf(at("page.html")), HasSubstr("&lt;b&gt;first"));
+}
+
+TEST_F(Report, ALimitThatFailsSetsTheExitCodeAndIsInThePage) {
+  EXPECT_EQ(report({at("result"), "--fail-if", "p95_mm>50"}).exit_code, 0);
+  EXPECT_THAT(textOf(at("page.html")), HasSubstr("kept"));
+  const Outcome failed = report({at("result"), "--force", "--fail-if", "p95_mm>0.001"});
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_THAT(textOf(at("page.html")), HasSubstr("FAILED"));
+  EXPECT_EQ(report({at("result"), "--force", "--fail-if", "p59_mm>1"}).exit_code, 2);
+}
+
+TEST_F(Report, NothingIsOverwrittenUnlessAsked) {
+  write("page.html", "mine");
+  EXPECT_EQ(report({at("result")}).exit_code, 2);
+  EXPECT_EQ(textOf(at("page.html")), "mine");
+}
+
+TEST_F(Report, BadInputsAreNamedAndLeaveNoPage) {
+  fs::create_directories(at("empty"));
+  fs::create_directories(at("broken"));
+  write("broken/evaluation.json", "{\"schema_version\": 1, ");
+  fs::create_directories(at("foreign"));
+  write("foreign/evaluation.json", "{\"schema_version\": 1, \"command\": \"<b>\"}");
+  fs::create_directories(at("newer"));
+  write("newer/evaluation.json", "{\"schema_version\": 2, \"command\": \"evaluate\"}");
+  fs::create_directories(at("hollow"));
+  write("hollow/evaluation.json", "{\"schema_version\": 1, \"command\": \"evaluate\"}");
+  expectRefused({"nowhere", "is not there"}, report({at("nowhere")}));
+  expectRefused({"empty", "holds no evaluation.json"}, report({at("empty")}));
+  expectRefused({"broken/evaluation.json", "is no JSON"}, report({at("broken")}));
+  expectRefused({"foreign/evaluation.json", "written by `<b>`"}, report({at("foreign")}));
+  expectRefused({"newer/evaluation.json", "schema_version 2"}, report({at("newer")}));
+  expectRefused({"hollow/evaluation.json", "no part `surface`"}, report({at("hollow")}));
+  fs::create_directories(at("run"));
+  write("run/trajectory.txt", "");
+  expectRefused({"run", "has not been judged yet"}, report({at("run")}));
+  write("result/errors/000002.vtp", "not VTK");
+  expectRefused({"000002.vtp"}, report({at("result")}));
+  EXPECT_FALSE(fs::exists(at("page.html")));
+}
+
+TEST_F(Evaluate, ReportReadsWhatEvaluateAndCompareWrite) {
+  ASSERT_EQ(evaluate({"--out", at("result"), "--no-views"}).exit_code, 0);
+  const Outcome of_run =
+      softscope::test::run({"report", at("result"), "--out", at("run.html"), "--json"});
+  ASSERT_EQ(of_run.exit_code, 0) << of_run.err;
+  EXPECT_EQ(of_run.json()["cases"][0]["record"]["surface"],
+            Json::parse(textOf(at("result/evaluation.json")))["surface"]);
+  EXPECT_EQ(of_run.json()["cases"][0]["sha256"].size(), 1u + kFrames) << "a map a frame";
+  const std::string mesh = at("truth/groundtruth/mesh/000000.ply");
+  ASSERT_EQ(softscope::test::run({"compare", "--reference", mesh, "--test", mesh, "--align", "icp",
+                                  "--out", at("pair")})
+                .exit_code,
+            0);
+  const Outcome of_pair = softscope::test::run({"report", at("pair"), "--out", at("pair.html")});
+  ASSERT_EQ(of_pair.exit_code, 0) << of_pair.err;
+  EXPECT_THAT(textOf(at("pair.html")), HasSubstr("before the alignment"));
+  EXPECT_THAT(textOf(at("pair.html")), HasSubstr("\"triangles\""));
+}
+
+TEST_F(Report, ARecordWithOddTypesIsReportedAsNotMeasured) {
+  write("result/evaluation.json",
+        R"({"schema_version":1,"command":"evaluate","surface":{"mean_mm":"1","p95_mm":null},)"
+        R"("frames":[3,{"mean_mm":1}],"warnings":[7,"a <b> in secret/place.ply"],)"
+        R"("error_histogram":{"low_mm":0,"high_mm":1,"counts":["x"]},"thresholds":[1]})");
+  const std::string html = page({at("result")});
+  EXPECT_THAT(html, HasSubstr("not measured"));
+  EXPECT_THAT(html, HasSubstr("a &lt;b&gt; in [file]"));
+  EXPECT_THAT(html, Not(HasSubstr("secret")));
+}
+
+}  // namespace
+}  // namespace softscope::test
