@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "vtk_views/colour_map.h"
+#include "vtk_views/error_colours.h"
 #include "vtk_views/html_text.h"
 
 namespace softscope {
@@ -19,32 +19,6 @@ namespace {
 constexpr std::uint16_t kNoError = 65535;
 constexpr double kLargestSteps = 65000;
 constexpr int kPalette = 256;
-
-constexpr std::array<Rgb8, 9> kDiverging{{{12, 44, 110},
-                                          {36, 92, 164},
-                                          {92, 148, 200},
-                                          {172, 204, 228},
-                                          {246, 246, 246},
-                                          {244, 194, 166},
-                                          {220, 122, 92},
-                                          {176, 48, 48},
-                                          {104, 8, 28}}};
-
-std::uint8_t between(std::uint8_t a, std::uint8_t b, double part) {
-  return static_cast<std::uint8_t>(std::lround(a + (b - a) * part));
-}
-
-/// -1 to 1.
-Rgb8 divergingColour(double position) {
-  constexpr int kLast = static_cast<int>(kDiverging.size()) - 1;
-  const double place = (std::clamp(position, -1.0, 1.0) + 1) / 2 * kLast;
-  const int below = std::min(static_cast<int>(place), kLast - 1);
-  const double part = place - below;
-  const Rgb8& a = kDiverging[std::size_t(below)];
-  const Rgb8& b = kDiverging[std::size_t(below) + 1];
-  return {between(a.red, b.red, part), between(a.green, b.green, part),
-          between(a.blue, b.blue, part)};
-}
 
 std::string number(double value) {
   char text[32];
@@ -186,7 +160,7 @@ std::string paletteJson(bool is_signed) {
   std::string bytes;
   for (int i = 0; i < kPalette; ++i) {
     const double part = double(i) / (kPalette - 1);
-    const Rgb8 c = is_signed ? divergingColour(2 * part - 1) : viridis(part);
+    const Rgb8 c = is_signed ? blueWhiteRed(2 * part - 1) : viridis(part);
     bytes += {static_cast<char>(c.red), static_cast<char>(c.green), static_cast<char>(c.blue)};
   }
   return jsonQuoted(base64(bytes));

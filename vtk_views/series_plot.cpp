@@ -70,8 +70,8 @@ DrawnText markText(const PlotAxes& axes, double value, const char* name, double 
   return text;
 }
 
-/// Dashed lines at the median and the 95th percentile, named above the frame: in their middles where
-/// there is room, else side by side.
+/// Dashed lines at the median and the 95th percentile, named above the frame: in their middles
+/// where there is room, else side by side.
 void drawMarks(const ErrorHistogramData& data, const PlotAxes& axes, double font_pt,
                VectorDrawing& drawing) {
   if (!std::isfinite(data.median) || !std::isfinite(data.p95)) return;

@@ -85,7 +85,7 @@ TEST_F(Report, TellsAnEvaluationInReadingOrder) {
 TEST_F(Report, PathsStayOutUnlessTheyAreAskedFor) {
   const std::string folder_name = folder.filename();
   EXPECT_THAT(page({at("result")}), Not(HasSubstr(folder_name)));
-  EXPECT_THAT(page({at("result"), "--with-paths"}), HasSubstr(at("run")));
+  EXPECT_THAT(page({at("result"), "--with-paths"}), HasSubstr(at("result/run")));
 }
 
 TEST_F(Report, JsonHoldsTheNumbersOfTheEvaluation) {
