@@ -140,6 +140,7 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
     progress.advance();
     return !interrupt.requested();
   });
+  result.revisits = judgeRevisits(folder, truth, result);
   result.warnings = sequenceWarnings(folder, truth, result);
   result.warnings.insert(result.warnings.end(), origin.begin(), origin.end());
   return result;

@@ -109,10 +109,19 @@ Json tracksJson(const TrackErrors& tracks) {
   json["no_motion"] = statisticsJson(tracks.control_mm, "_mm");
   json["visible"] = statisticsJson(tracks.visible_mm, "_mm");
   json["hidden"] = statisticsJson(tracks.hidden_mm, "_mm");
+  json["observed"] = statisticsJson(tracks.observed_mm, "_mm");
+  json["predicted"] = statisticsJson(tracks.predicted_mm, "_mm");
   json["reported"] = tracks.reported_share;
   json["lost"] = tracks.lost;
   json["without_truth"] = tracks.without_truth;
   return json;
+}
+
+Json revisitsJson(const Revisits& revisits) {
+  return {{"count", revisits.count},
+          {"first_visit_mean_mm", revisits.first_mm},
+          {"revisit_mean_mm", revisits.again_mm},
+          {"growth_mm", revisits.growth_mm}};
 }
 
 Json alignmentJson(const SurfaceAlignment& alignment) {
@@ -196,6 +205,17 @@ void addTrackFacts(const TrackErrors& tracks, FactSheet& facts) {
   facts.addLine("  no motion", spreadText(tracks.control_mm) + ", had nothing been tracked");
 }
 
+void addRevisitFacts(const RevisitResult& revisits, FactSheet& facts) {
+  const auto add = [&](const char* label, const Revisits& of) {
+    if (of.count > 0)
+      facts.addLine(label, "mean " + fixed(of.first_mm, 3) + " mm at the first visit, " +
+                               fixed(of.again_mm, 3) + " mm when the scope is back, " +
+                               std::to_string(of.count) + " times");
+  };
+  add("revisits", revisits.surface);
+  add("  tracks", revisits.tracks);
+}
+
 void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
   using V = const ViewErrors&;
   const SurfaceSeries& surface = result.surface;
@@ -239,6 +259,8 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
   if (!result.against_mesh) {
     json["camera"] = cameraJson(result.camera.value_or(CameraResult()));
     json["tracks"] = tracksJson(result.tracks.value_or(TrackErrors()));
+    json["revisit"] = {{"surface", revisitsJson(result.revisits.surface)},
+                       {"tracks", revisitsJson(result.revisits.tracks)}};
     json["depth"] = drawnDepthJson(result.surface);
     json["view"] = viewJson(result.surface);
     json["backprojection"] = statisticsJson(backprojectionOf(result), "_mm");
@@ -254,6 +276,7 @@ FactSheet evaluationFacts(const EvaluationResult& result) {
   addSurfaceFacts(result, facts);
   if (result.camera) addCameraFacts(*result.camera, facts);
   if (result.tracks) addTrackFacts(*result.tracks, facts);
+  addRevisitFacts(result.revisits, facts);
   if (!result.against_mesh) addDrawnFacts(result, facts);
   for (const std::string& warning : result.warnings) facts.warn(warning);
   return facts;

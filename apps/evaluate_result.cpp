@@ -34,16 +34,39 @@ CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
 std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth) {
   if (run.tracks.empty() || truth.tracks.empty()) return std::nullopt;
   TrueTracks true_tracks;
-  for (const TrackSample& sample : readTracks(truth.tracks))
-    if (sample.position_mm.allFinite()) true_tracks[{sample.frame, sample.id}] = sample.position_mm;
+  UnseenTracks unseen;
+  for (const TrackSample& sample : readTracks(truth.tracks)) {
+    if (!sample.position_mm.allFinite()) continue;
+    true_tracks[{sample.frame, sample.id}] = sample.position_mm;
+    if (!sample.visible) unseen.insert({sample.frame, sample.id});
+  }
   const std::vector<TrackSample> tracks = readTracks(run.tracks);
-  TrackErrors errors = trackErrors(true_tracks, tracks, truthFromRun(run, truth));
+  TrackErrors errors = trackErrors(true_tracks, tracks, truthFromRun(run, truth), unseen);
   if (!tracks.empty() && errors.without_truth == tracks.size())
     throw InputError(say(shown(run.tracks), ": has no frame and id in common with ",
                          shown(truth.tracks),
                          "; tracks of other points? Give --track the "
                          "sequence's track_points.csv"));
   return errors;
+}
+
+RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
+                            const EvaluationResult& result) {
+  std::vector<Eigen::Isometry3d> poses;
+  std::map<int, std::vector<double>> tracks_mm;
+  if (result.tracks)
+    for (const TrackError& e : result.tracks->each) tracks_mm[e.frame].push_back(e.error_mm);
+  std::map<int, double> surface_mm;
+  for (const JudgedModel& model : result.surface.models)
+    surface_mm[model.frame] = model.errors.observed_mm.mean;
+  std::vector<double> of_tracks, of_surface;
+  for (const int frame : run.frames) {
+    poses.push_back(truth.trajectory[static_cast<std::size_t>(frame)].world_from_left);
+    of_tracks.push_back(statistics(tracks_mm[frame]).mean);
+    const auto model = surface_mm.find(frame);
+    of_surface.push_back(model == surface_mm.end() ? Statistics::kNone : model->second);
+  }
+  return {revisits(poses, of_surface, {}), revisits(poses, of_tracks, {})};
 }
 
 std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTruth& truth,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/evaluate_series.h"
+#include "eval/revisit.h"
 #include "eval/track_errors.h"
 #include "eval/trajectory_errors.h"
 
@@ -19,6 +20,11 @@ struct CameraResult {
   TrajectoryErrors errors;
 };
 
+/// Errors when the scope is back where it was: of what it sees, and of tracks.
+struct RevisitResult {
+  Revisits surface, tracks;
+};
+
 struct EvaluationResult {
   std::string run, reference;  // as the user named them
   bool against_mesh = false;   // else against a sequence's ground truth
@@ -27,6 +33,7 @@ struct EvaluationResult {
   SurfaceSeries surface;
   std::optional<CameraResult> camera;
   std::optional<TrackErrors> tracks;
+  RevisitResult revisits;
   std::map<int, double> backprojection_mm;  // by frame, as the run itself measured it
   std::vector<std::string> warnings;
 };
@@ -38,6 +45,10 @@ CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth);
 /// Throws InputError where the run's tracks have nothing in common with the true ones. None where
 /// either lacks tracks.csv.
 std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth);
+
+/// Of a result that holds surface and tracks already.
+RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
+                            const EvaluationResult& result);
 
 /// What a reader of the result should know: frames without a model, parts that lack, a model that
 /// is suspiciously far away. Nothing of it keeps the rest from being right.

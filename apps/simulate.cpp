@@ -28,7 +28,8 @@ const char* const kDetails =
     "the left camera at the first frame, mm), and simulation.json with every setting.\n"
     "The same settings and seed give the same bytes on any number of threads.\n"
     "Keys of a scenario: frames, seed, truth_every, pictures, organ.*, texture.*, breathing.*,\n"
-    "heartbeat.*, push.*, scope.*, camera.*, light.*, sensor.*; data/scenario.toml has them all.\n"
+    "heartbeat.*, push.*, scope.*, camera.*, instrument.*, smoke, light.*, sensor.*;\n"
+    "data/scenario.toml has them all.\n"
     "--frames, --size, --seed and --organ are stronger than --set, --set than --scenario.";
 
 /// The mesh, turned inside out where it faces inwards.
@@ -79,7 +80,7 @@ void SimulateCommand::declare(ArgumentList& arguments) {
   arguments.option("--size", "WxH", size_, "of the pictures (default 640x480)");
   arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
   arguments.option("--truth", "LIST", truth_,
-                   "some of mesh,depth,trajectory,tracks, or none (default: all)");
+                   "some of mesh,depth,trajectory,tracks (the default), normals,flow; or none");
   arguments.flag("--force", force_, "overwrite an earlier simulation");
 }
 
@@ -110,7 +111,8 @@ int SimulateCommand::run() {
   readOptions(binder, options);
   const TruthKinds truth = TruthKinds::parse(truth_);
   Simulator simulator(readOrgan(options), options.simulation);
-  SimulateOutputs outputs({out_, truth, options.pictures, options.input_depth, force_},
+  SimulateOutputs outputs({out_, truth, options.pictures, options.jpeg_quality, options.masks,
+                           options.input_depth, force_},
                           jsonText(record(binder)));
   const auto start = std::chrono::steady_clock::now();
   const int done = simulateAll(simulator, outputs, options);
@@ -131,7 +133,8 @@ int SimulateCommand::simulateAll(Simulator& simulator, SimulateOutputs& outputs,
       return i;
     }
     const bool with_truth = i % options.truth_every == 0 || i + 1 == options.frames;
-    outputs.addFrame(i, simulator.frame(i), simulator.triangles(), with_truth);
+    outputs.addFrame(i, simulator.frame(i, outputs.wantsFlow() && with_truth),
+                     simulator.triangles(), with_truth);
     progress.advance();
   }
   return options.frames;

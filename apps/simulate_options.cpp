@@ -26,6 +26,7 @@ void bindTexture(SettingsBinder& binder, SimulationOptions& options) {
   binder.bind("texture.contrast", texture.contrast, "0: one colour, 1: healthy abdomen");
   binder.bind("texture.fat", texture.fat, "share of the surface under fat, roughly");
   binder.bind("texture.wetness", texture.wetness, "strength of highlights");
+  binder.bind("texture.blood", texture.blood, "share of the surface under fresh blood, roughly");
   binder.bind("texture.trunk_spacing_mm", texture.vessels.trunk_spacing_mm,
               "between neighbouring vessel trunks");
   binder.bind("texture.trunk_radius_mm", texture.vessels.trunk_radius_mm,
@@ -42,6 +43,7 @@ void bindDeformation(SettingsBinder& binder, DeformationOptions& deformation) {
   bindMotion(binder, "breathing", deformation.breathing);
   bindMotion(binder, "heartbeat", deformation.heartbeat);
   bindMotion(binder, "push", deformation.push);
+  binder.bind("push.kind", deformation.push_kind, "gaussian (let go), or arap (it stays)");
   binder.bind("push.spread_mm", deformation.push_spread_mm, "standard deviation of the fall-off");
 }
 
@@ -52,16 +54,27 @@ void bindScope(SettingsBinder& binder, ScopeOptions& scope) {
   binder.bind("scope.cx_px", scope.cx_px, "negative: the middle");
   binder.bind("scope.cy_px", scope.cy_px, "negative: the middle");
   binder.bind("scope.baseline_mm", scope.baseline_mm, "between the cameras");
+  binder.bind("scope.row_error_px", scope.row_error_px, "of the right picture, uncalibrated");
+  binder.bind("scope.roll_error_deg", scope.roll_error_deg, "of the right picture, uncalibrated");
 }
 
 void bindCamera(SettingsBinder& binder, CameraPathOptions& camera) {
-  binder.bind("camera.path", camera.path, "still, sweep or orbit");
+  binder.bind("camera.path", camera.path, "still, sweep, orbit or jerk");
   binder.bind("camera.amplitude_mm", camera.amplitude_mm, "of the way");
   binder.bind("camera.period_s", camera.period_s, "");
   binder.bind("camera.tremor_mm", camera.tremor_mm, "of the hand; 0: off");
   binder.bind("camera.distance_mm", camera.distance_mm, "to the tissue");
   binder.bind("camera.azimuth_deg", camera.azimuth_deg, "where the scope comes from");
   binder.bind("camera.elevation_deg", camera.elevation_deg, "");
+}
+
+void bindInstrument(SettingsBinder& binder, ScopeToolOptions& instrument) {
+  binder.bind("instrument.radius_mm", instrument.radius_mm, "of its shaft; 0: none");
+  binder.bind("instrument.side_deg", instrument.side_deg, "where it comes from; 90: from below");
+  binder.bind("instrument.reach", instrument.reach, "of its tip: 0 middle, 1 border");
+  binder.bind("instrument.height_mm", instrument.height_mm, "of its tip above the tissue");
+  binder.bind("instrument.amplitude_mm", instrument.amplitude_mm, "to and fro along its shaft");
+  binder.bind("instrument.period_s", instrument.period_s, "");
 }
 
 void bindLightAndSensor(SettingsBinder& binder, LightOptions& light, SensorOptions& sensor) {
@@ -75,6 +88,7 @@ void bindLightAndSensor(SettingsBinder& binder, LightOptions& light, SensorOptio
   binder.bind("sensor.exposure_period_s", sensor.exposure_period_s, "");
   binder.bind("sensor.vignetting", sensor.vignetting, "loss of light in the corners");
   binder.bind("sensor.blur_px", sensor.blur_px, "standard deviation of the lens");
+  binder.bind("sensor.shutter", sensor.shutter, "share of a frame's time that it is open");
   binder.bind("sensor.noise", sensor.noise, "standard deviation at black; white = 1");
   binder.bind("sensor.shot_noise", sensor.shot_noise, "and what light adds to it at white");
 }
@@ -85,6 +99,8 @@ void SimulateOptions::validate() const {
   require(frames >= 1 && frames <= 1000000, "frames", frames, "must be 1 to 1000000");
   require(truth_every >= 1, "truth_every", truth_every, "must be 1 or more");
   require(pictures == "png" || pictures == "jpg", "pictures", pictures, "must be png or jpg");
+  require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality,
+          "must be 1 to 100");
   require(!organ.empty(), "organ.mesh", "``", "must be builtin or a file");
   require(organ_unit_mm > 0 && organ_unit_mm <= 1e6, "organ.unit_mm", organ_unit_mm,
           "must be above 0, at most 1e6");
@@ -97,6 +113,8 @@ void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {
   binder.bind("frames_per_second", simulation.frames_per_second, "");
   binder.bind("seed", simulation.seed, "of everything that chance decides");
   binder.bind("pictures", options.pictures, "png or jpg");
+  binder.bind("jpeg_quality", options.jpeg_quality, "1 small to 100 good");
+  binder.bind("masks", options.masks, "mask/ of the instrument in the left picture");
   binder.bind("input_depth", options.input_depth, "true depth as depth/, which replaces stereo");
   binder.bind("truth_every", options.truth_every, "frames between true meshes and depths");
   binder.bind("track_spacing_px", simulation.track_spacing_px, "between tracked points");
@@ -105,6 +123,8 @@ void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {
   bindDeformation(binder, simulation.deformation);
   bindScope(binder, simulation.scope);
   bindCamera(binder, simulation.camera);
+  bindInstrument(binder, simulation.instrument);
+  binder.bind("smoke", simulation.smoke, "0: clear air, 1: half of the contrast");
   bindLightAndSensor(binder, simulation.light, simulation.sensor);
 }
 
@@ -122,10 +142,11 @@ void setPictureSize(const std::string& text, ScopeOptions& scope) {
 
 TruthKinds TruthKinds::parse(const std::string& list) {
   if (list.empty()) return {};
-  TruthKinds kinds{false, false, false, false};
+  TruthKinds kinds{false, false, false, false, false, false};
   if (list == "none") return kinds;
-  const std::vector<std::string> names{"mesh", "depth", "trajectory", "tracks"};
-  bool* const fields[] = {&kinds.mesh, &kinds.depth, &kinds.trajectory, &kinds.tracks};
+  const std::vector<std::string> names{"mesh", "depth", "trajectory", "tracks", "normals", "flow"};
+  bool* const fields[] = {&kinds.mesh,   &kinds.depth,   &kinds.trajectory,
+                          &kinds.tracks, &kinds.normals, &kinds.flow};
   std::istringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
     const auto found = std::find(names.begin(), names.end(), word);
@@ -133,7 +154,7 @@ TruthKinds TruthKinds::parse(const std::string& list) {
       const std::string nearest = nearestName(word, names);
       throw OptionError("--truth: `" + word + "` is no kind of truth" +
                         (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
-                        ". Give some of mesh,depth,trajectory,tracks, or none");
+                        ". Give some of mesh,depth,trajectory,tracks,normals,flow, or none");
     }
     *fields[found - names.begin()] = true;
   }

@@ -14,6 +14,8 @@ struct SimulateOptions {
   std::string organ = "builtin";  // or a mesh file
   double organ_unit_mm = 1;       // of a mesh file
   std::string pictures = "png";   // or jpg
+  int jpeg_quality = 95;          // of jpg
+  bool masks = true;              // mask/, where there is an instrument
   bool input_depth = false;       // write the true depth of every frame as the sequence's own
   SimulationOptions simulation;
 
@@ -31,8 +33,9 @@ void setPictureSize(const std::string& text, ScopeOptions& scope);
 /// Which truth is written.
 struct TruthKinds {
   bool mesh = true, depth = true, trajectory = true, tracks = true;
+  bool normals = false, flow = false;
 
-  /// "mesh,depth"; empty = all, "none" = none. Throws OptionError with the nearest name.
+  /// "mesh,depth"; empty = the usual four, "none" = none. Throws OptionError with the nearest name.
   static TruthKinds parse(const std::string& list);
 };
 

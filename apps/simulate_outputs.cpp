@@ -2,6 +2,8 @@
 #include "apps/simulate_outputs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 
@@ -20,14 +22,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRecord = "simulation.json";
-constexpr const char* kFrameFolders[] = {"left", "right", "depth", "groundtruth/depth",
-                                         "groundtruth/mesh"};
+constexpr const char* kFrameFolders[] = {"left",
+                                         "right",
+                                         "depth",
+                                         "mask",
+                                         "groundtruth/depth",
+                                         "groundtruth/mesh",
+                                         "groundtruth/normals",
+                                         "groundtruth/flow"};
 constexpr double kDepthStepMm = 0.01;
 
 bool isNumberedFrame(const fs::path& file) {
   const std::string stem = file.stem().string(), end = file.extension().string();
   return stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos &&
-         (end == ".png" || end == ".jpg" || end == ".ply");
+         (end == ".png" || end == ".jpg" || end == ".ply" || end == ".pfm" || end == ".flo");
 }
 
 void removeEarlierFrames(const fs::path& folder) {
@@ -83,6 +91,25 @@ std::string meshPly(const std::vector<Eigen::Vector3f>& vertices_world_mm,
   return bytes;
 }
 
+std::string vectorPfm(const Raster<Eigen::Vector3f>& vectors) {
+  std::string bytes = say("PF\n", vectors.width_px, " ", vectors.height_px, "\n-1.0\n");
+  for (int v = vectors.height_px - 1; v >= 0; --v)
+    for (int u = 0; u < vectors.width_px; ++u)
+      for (int axis = 0; axis < 3; ++axis) append(bytes, vectors.at(u, v)[axis]);
+  return bytes;
+}
+
+std::string flowBytes(const Raster<Eigen::Vector2f>& flow_px) {
+  constexpr float kUnknown = 1e10F;
+  std::string bytes = "PIEH";
+  append(bytes, std::int32_t(flow_px.width_px));
+  append(bytes, std::int32_t(flow_px.height_px));
+  for (const Eigen::Vector2f& flow : flow_px.values)
+    for (int axis = 0; axis < 2; ++axis)
+      append(bytes, std::isfinite(flow[axis]) ? flow[axis] : kUnknown);
+  return bytes;
+}
+
 SimulateOutputs::SimulateOutputs(SimulateOutputOptions options, const std::string& record_json)
     : options_(std::move(options)) {
   requireUsableFolder(options_.folder, options_.overwrite);
@@ -91,6 +118,8 @@ SimulateOutputs::SimulateOutputs(SimulateOutputOptions options, const std::strin
   if (options_.input_depth) fs::create_directories(options_.folder / "depth");
   if (options_.truth.depth) fs::create_directories(options_.folder / "groundtruth/depth");
   if (options_.truth.mesh) fs::create_directories(options_.folder / "groundtruth/mesh");
+  if (options_.truth.normals) fs::create_directories(options_.folder / "groundtruth/normals");
+  if (options_.truth.flow) fs::create_directories(options_.folder / "groundtruth/flow");
   if (options_.truth.trajectory || options_.truth.tracks)
     fs::create_directories(options_.folder / "groundtruth");
   writeFile(options_.folder / kRecord, record_json, options_.overwrite);
@@ -104,10 +133,9 @@ fs::path SimulateOutputs::numbered(const char* folder, int index, const std::str
 
 void SimulateOutputs::writePicture(const char* folder, int index,
                                    const ColourImage& picture) const {
-  constexpr int kJpegQuality = 95;
   const fs::path file = numbered(folder, index, options_.pictures);
   if (options_.pictures == "jpg")
-    writeJpeg(file, picture, kJpegQuality, options_.overwrite);
+    writeJpeg(file, picture, options_.jpeg_quality, options_.overwrite);
   else
     writePng(file, picture, options_.overwrite);
 }
@@ -116,9 +144,24 @@ void SimulateOutputs::addTracks(int index, const SimulatedFrame& frame) {
   for (std::size_t id = 0; id < frame.tracks_world_mm.size(); ++id) {
     const Eigen::Vector3d& p = frame.tracks_world_mm[id];
     char row[128];
-    std::snprintf(row, sizeof row, "%d,%zu,%.4f,%.4f,%.4f\n", index, id, p.x(), p.y(), p.z());
+    std::snprintf(row, sizeof row, "%d,%zu,%.4f,%.4f,%.4f,%d\n", index, id, p.x(), p.y(), p.z(),
+                  frame.tracks_visible[id] ? 1 : 0);
     tracks_csv_ += row;
   }
+}
+
+void SimulateOutputs::writeTruth(int index, const SimulatedFrame& frame,
+                                 const std::vector<Triangle>& triangles) const {
+  const bool force = options_.overwrite;
+  if (options_.truth.depth)
+    writeDepthPng(numbered("groundtruth/depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
+  if (options_.truth.mesh)
+    writeFile(numbered("groundtruth/mesh", index, "ply"),
+              meshPly(frame.vertices_world_mm, triangles), force);
+  if (options_.truth.normals)
+    writeFile(numbered("groundtruth/normals", index, "pfm"), vectorPfm(frame.normals), force);
+  if (options_.truth.flow)
+    writeFile(numbered("groundtruth/flow", index, "flo"), flowBytes(frame.flow_px), force);
 }
 
 void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
@@ -128,11 +171,11 @@ void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
                  [&] { writePicture("right", index, frame.pictures.right); });
   if (options_.input_depth)
     writeDepthPng(numbered("depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
-  if (with_truth && options_.truth.depth)
-    writeDepthPng(numbered("groundtruth/depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
-  if (with_truth && options_.truth.mesh)
-    writeFile(numbered("groundtruth/mesh", index, "ply"),
-              meshPly(frame.vertices_world_mm, triangles), force);
+  if (options_.masks && !frame.instrument.empty()) {
+    fs::create_directories(options_.folder / "mask");
+    writePng(numbered("mask", index, "png"), frame.instrument, force);
+  }
+  if (with_truth) writeTruth(index, frame, triangles);
   trajectory_.push_back(frame.pose);
   addTracks(index, frame);
 }

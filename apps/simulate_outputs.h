@@ -14,6 +14,8 @@ struct SimulateOutputOptions {
   std::filesystem::path folder;
   TruthKinds truth;
   std::string pictures = "png";
+  int jpeg_quality = 95;
+  bool masks = true;
   bool input_depth = false;
   bool overwrite = false;
 };
@@ -29,18 +31,28 @@ class SimulateOutputs {
   void addFrame(int index, const SimulatedFrame& frame, const std::vector<Triangle>& triangles,
                 bool with_truth);
 
+  bool wantsFlow() const { return options_.truth.flow; }
+
   /// For the frames that were added.
   void finish(const Simulator& simulator);
 
  private:
   std::filesystem::path numbered(const char* folder, int index, const std::string& end) const;
   void writePicture(const char* folder, int index, const ColourImage& picture) const;
+  void writeTruth(int index, const SimulatedFrame& frame,
+                  const std::vector<Triangle>& triangles) const;
   void addTracks(int index, const SimulatedFrame& frame);
 
   SimulateOutputOptions options_;
   Trajectory trajectory_;
-  std::string tracks_csv_ = "frame,id,x_mm,y_mm,z_mm\n";
+  std::string tracks_csv_ = "frame,id,x_mm,y_mm,z_mm,visible\n";
 };
+
+/// Three floats a pixel, "PF", lowest row first.
+std::string vectorPfm(const Raster<Eigen::Vector3f>& vectors);
+
+/// Middlebury's .flo: two floats a pixel; 1e10 where there is none.
+std::string flowBytes(const Raster<Eigen::Vector2f>& flow_px);
 
 /// Binary little-endian PLY, float x y z, in the world frame.
 std::string meshPly(const std::vector<Eigen::Vector3f>& vertices_world_mm,

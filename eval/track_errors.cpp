@@ -5,16 +5,19 @@ namespace softscope {
 namespace {
 
 void summarise(TrackErrors& errors, int last_frame) {
-  std::vector<double> all, visible, hidden, control, last;
+  std::vector<double> all, visible, hidden, observed, predicted, control, last;
   for (const TrackError& e : errors.each) {
     all.push_back(e.error_mm);
     control.push_back(e.control_mm);
     (e.visible ? visible : hidden).push_back(e.error_mm);
+    (e.unseen ? predicted : observed).push_back(e.error_mm);
     if (e.frame == last_frame) last.push_back(e.error_mm);
   }
   errors.error_mm = statistics(all);
   errors.visible_mm = statistics(visible);
   errors.hidden_mm = statistics(hidden);
+  errors.observed_mm = statistics(observed);
+  errors.predicted_mm = statistics(predicted);
   errors.control_mm = statistics(control);
   errors.last_frame_mm = statistics(last);
 }
@@ -22,7 +25,7 @@ void summarise(TrackErrors& errors, int last_frame) {
 }  // namespace
 
 TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
-                        const TruthFromEstimate& moves) {
+                        const TruthFromEstimate& moves, const UnseenTracks& unseen) {
   TrackErrors errors;
   if (moves.empty()) return errors;
   for (const TrackSample& sample : estimate) {
@@ -37,7 +40,7 @@ TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>&
       errors.each.push_back(
           {sample.frame, sample.id, (move->second * sample.position_mm - found->second).norm(),
            start == truth.end() ? Statistics::kNone : (found->second - start->second).norm(),
-           sample.visible});
+           sample.visible, unseen.count({sample.frame, sample.id}) > 0});
     }
   }
   if (!truth.empty())

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct TrackError {
   double error_mm = 0;
   double control_mm = 0;  // of an estimate that never moves: |truth now - truth at the start|
   bool visible = true;    // as the estimate says
+  bool unseen = false;    // as truth says
 };
 
 struct TrackErrors {
@@ -33,6 +35,8 @@ struct TrackErrors {
   Statistics error_mm;
   Statistics visible_mm;                      // of those that the estimate calls visible
   Statistics hidden_mm;                       // of the others
+  Statistics observed_mm;                     // of tissue that the camera truly sees now
+  Statistics predicted_mm;                    // of the rest: carried by the warp alone
   Statistics control_mm;                      // the no-motion control
   Statistics last_frame_mm;                   // in the last frame that is judged
   double reported_share = Statistics::kNone;  // estimates with a truth / all true positions
@@ -43,12 +47,15 @@ struct TrackErrors {
 /// True positions in the world's frame, by (frame, id).
 using TrueTracks = std::map<std::pair<int, int>, Eigen::Vector3d>;
 
+/// Frames and ids of points that the camera doesn't see.
+using UnseenTracks = std::set<std::pair<int, int>>;
+
 /// What brings an estimate of a frame into the true world, by way of the camera of that frame.
 using TruthFromEstimate = std::map<int, Eigen::Isometry3d>;
 
 /// Judges the frames that `moves` knows; estimates of others count as without truth. The control
 /// starts at the first of these frames.
 TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
-                        const TruthFromEstimate& moves);
+                        const TruthFromEstimate& moves, const UnseenTracks& unseen = {});
 
 }  // namespace softscope

@@ -1,6 +1,7 @@
 // eval/simulation/camera_path.cpp: sums of sines, all at rest at 0 s.
 #include "eval/simulation/camera_path.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -9,6 +10,7 @@
 namespace softscope {
 namespace {
 
+constexpr double kJerk_s = 0.25;           // a quick move lasts this long
 constexpr double kTremorRadPerMm = 0.004;  // the scope tilts in the hand as it shakes
 
 /// x right, y down, z towards the tissue; y of the organ is up.
@@ -35,8 +37,8 @@ Eigen::Isometry3d turned(double pitch_rad, double yaw_rad) {
 }  // namespace
 
 void CameraPathOptions::validate() const {
-  require(path == "still" || path == "sweep" || path == "orbit", "camera.path", path,
-          "must be still, sweep or orbit");
+  require(path == "still" || path == "sweep" || path == "orbit" || path == "jerk", "camera.path",
+          path, "must be still, sweep, orbit or jerk");
   require(amplitude_mm >= 0 && amplitude_mm <= distance_mm, "camera.amplitude_mm", amplitude_mm,
           "must be 0 to camera.distance_mm");
   require(period_s > 0 && period_s <= 1000, "camera.period_s", period_s,
@@ -58,7 +60,7 @@ Eigen::Vector3d scopeDirection(const CameraPathOptions& options) {
 
 CameraPath::CameraPath(const CameraPathOptions& options, const Eigen::Vector3d& target_body_mm,
                        double baseline_mm, std::uint64_t seed)
-    : options_(options), baseline_mm_(baseline_mm) {
+    : options_(options), baseline_mm_(baseline_mm), seed_(seed) {
   options.validate();
   const Eigen::Vector3d to_scope = scopeDirection(options);
   body_from_start_ = Eigen::Isometry3d::Identity();
@@ -82,7 +84,29 @@ Eigen::Isometry3d CameraPath::wayAt(double time_s) const {
   if (options_.path == "orbit")
     return moved(0, 0, d_mm) * turned(a_mm / d_mm * along, -a_mm / d_mm * across) *
            moved(0, 0, -d_mm);
+  if (options_.path == "jerk") return jerkAt(time_s);
   return Eigen::Isometry3d::Identity();
+}
+
+/// Where the scope rests after a jerk; number 0 is the start.
+Eigen::Vector2d CameraPath::restNumber(int number) const {
+  if (number <= 0) return Eigen::Vector2d::Zero();
+  SeededRandom random(seed_ + 16 + static_cast<std::uint64_t>(number));
+  const double angle_rad = random.uniform(0, 2 * M_PI), share = random.uniform(0.5, 1);
+  return options_.amplitude_mm * share * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+}
+
+/// Once a period the hand moves on to another place, quickly, and looks half-way back at the
+/// target.
+Eigen::Isometry3d CameraPath::jerkAt(double time_s) const {
+  const int number = static_cast<int>(std::floor(time_s / options_.period_s));
+  const double age_s = time_s - number * options_.period_s;
+  const double t = std::min(1.0, age_s / std::min(kJerk_s, options_.period_s));
+  const double share = t * t * (3 - 2 * t);
+  const Eigen::Vector2d at_mm =
+      restNumber(number - 1) + share * (restNumber(number) - restNumber(number - 1));
+  const double half_per_mm = 0.5 / options_.distance_mm;
+  return moved(at_mm.x(), at_mm.y(), 0) * turned(half_per_mm * at_mm.y(), -half_per_mm * at_mm.x());
 }
 
 Eigen::Isometry3d CameraPath::tremorAt(double time_s) const {

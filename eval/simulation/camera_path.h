@@ -8,7 +8,8 @@
 namespace softscope {
 
 struct CameraPathOptions {
-  std::string path = "sweep";  // still, sweep (to and fro), orbit (around the tissue)
+  std::string path = "sweep";  // still, sweep (to and fro), orbit (around the tissue),
+                               // jerk (now and then, quickly, to another place)
   double amplitude_mm = 4;     // of the way, measured at the scope
   double period_s = 6;
   double tremor_mm = 0.15;   // of the hand, 5 to 11 Hz; 0 switches it off
@@ -34,11 +35,14 @@ class CameraPath {
 
  private:
   Eigen::Isometry3d wayAt(double time_s) const;  // start_from_now, around the start's rig middle
+  Eigen::Isometry3d jerkAt(double time_s) const;
+  Eigen::Vector2d restNumber(int number) const;
   Eigen::Isometry3d tremorAt(double time_s) const;
 
   CameraPathOptions options_;
   Eigen::Isometry3d body_from_start_;  // middle of the rig, at rest
   double baseline_mm_;
+  std::uint64_t seed_;
   Eigen::Array<double, 6, 1> tremor_hz_, tremor_share_;
 };
 

@@ -11,6 +11,8 @@ namespace {
 
 // Light seeps around edges, the red most of all.
 const Eigen::Array3f kSeep(0.28F, 0.12F, 0.10F);
+const Eigen::Vector3f kSteel(0.30F, 0.31F, 0.33F);
+constexpr float kBrightest = 4;       // near the scope, in lights of the tissue's distance
 constexpr float kReflected = 0.028F;  // water, seen straight on
 
 /// x^(2^doublings), by multiplication alone: fast and the same everywhere.
@@ -60,6 +62,20 @@ Eigen::Vector3f ScopeLight::shade(const LitPoint& point, const Eigen::Vector3f& 
         point.wetness * reflected * facing * (0.75F * lobe(halfway, 9) + 0.6F * lobe(halfway, 5));
   }
   return (strength * sent).matrix();
+}
+
+Eigen::Vector3f ScopeLight::shadeSteel(const Eigen::Vector3f& position_mm,
+                                       const Eigen::Vector3f& normal,
+                                       const Eigen::Vector3f& eye_mm) const {
+  const Eigen::Vector3f to_light = position_mm_ - position_mm;
+  const float distance2 = std::max(to_light.squaredNorm(), 1.0F);
+  const Eigen::Vector3f light = to_light / std::sqrt(distance2);
+  const float facing = std::max(0.0F, normal.dot(light));
+  const float halfway =
+      std::max(0.0F, normal.dot((light + (eye_mm - position_mm).normalized()).normalized()));
+  const float strength = std::min(reference2_mm2_ / distance2, kBrightest);
+  const float gloss = 0.35F * powerOfTwo(halfway, 3) + 1.6F * powerOfTwo(halfway, 6);
+  return strength * ((0.06F + 0.7F * facing) * kSteel + gloss * Eigen::Vector3f::Ones());
 }
 
 }  // namespace softscope

@@ -33,6 +33,10 @@ class ScopeLight {
   /// inverse square of the distance, and two glossy lobes (Blinn 1977).
   Eigen::Vector3f shade(const LitPoint& point, const Eigen::Vector3f& eye_mm) const;
 
+  /// The same of brushed steel.
+  Eigen::Vector3f shadeSteel(const Eigen::Vector3f& position_mm, const Eigen::Vector3f& normal,
+                             const Eigen::Vector3f& eye_mm) const;
+
  private:
   Eigen::Vector3f position_mm_;
   float reference2_mm2_;

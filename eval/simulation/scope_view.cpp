@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/parallel.h"
 #include "eval/simulation/surface_normals.h"
@@ -16,17 +17,22 @@ Eigen::Vector3f rayThrough(const PinholeCamera& camera, double u_px, double v_px
 }
 
 /// Four rays a pixel, a quarter pixel off its centre.
-Raster<PacketHits> castViews(const ScopeScene& scene, const PinholeCamera& camera,
-                             const Eigen::Vector3f& eye_mm) {
-  Raster<PacketHits> hits(camera.width_px, camera.height_px);
-  parallelRows(camera.height_px, [&](int v) {
-    for (int u = 0; u < camera.width_px; ++u)
-      hits.at(u, v) = scene.tree.cast(eye_mm, RayPacket{rayThrough(camera, u - 0.25, v - 0.25),
-                                                        rayThrough(camera, u + 0.25, v - 0.25),
-                                                        rayThrough(camera, u - 0.25, v + 0.25),
-                                                        rayThrough(camera, u + 0.25, v + 0.25)});
+RayPacket raysOf(const ScopeEye& eye, int u, int v) {
+  return {eye.ray(u - 0.25, v - 0.25), eye.ray(u + 0.25, v - 0.25), eye.ray(u - 0.25, v + 0.25),
+          eye.ray(u + 0.25, v + 0.25)};
+}
+
+Raster<PacketHits> castViews(const ScopeScene& scene, const ScopeEye& eye) {
+  Raster<PacketHits> hits(eye.camera.width_px, eye.camera.height_px);
+  parallelRows(hits.height_px, [&](int v) {
+    for (int u = 0; u < hits.width_px; ++u)
+      hits.at(u, v) = scene.tree.cast(eye.centre_mm, raysOf(eye, u, v));
   });
   return hits;
+}
+
+float limitOf(const RayHit& hit) {
+  return hit.met() ? hit.distance : std::numeric_limits<float>::max();
 }
 
 std::vector<std::int32_t> seenTriangles(const Raster<PacketHits>& hits, std::size_t triangles) {
@@ -49,14 +55,19 @@ Eigen::Vector3f slopeOf(const Eigen::Vector3f& ab, const Eigen::Vector3f& ac, fl
   return ((cc * rise_ab - bc * rise_ac) * ab + (bb * rise_ac - bc * rise_ab) * ac) / determinant;
 }
 
+Eigen::Vector3f smoothNormal(const ScopeScene& scene, const RayHit& hit) {
+  const Triangle& t = scene.triangles[hit.triangle];
+  return (1 - hit.u - hit.v) * scene.normals[t[0]] + hit.u * scene.normals[t[1]] +
+         hit.v * scene.normals[t[2]];
+}
+
 LitPoint litPoint(const ScopeScene& scene, const TissueSkin& skin, float relief,
                   const RayHit& hit) {
   const Triangle& t = scene.triangles[hit.triangle];
   const Eigen::Vector3f& a = scene.vertices_mm[t[0]];
   const Eigen::Vector3f ab = scene.vertices_mm[t[1]] - a, ac = scene.vertices_mm[t[2]] - a;
   const SkinSample tissue = skin.sample(hit.triangle, hit.u, hit.v);
-  const Eigen::Vector3f smooth = ((1 - hit.u - hit.v) * scene.normals[t[0]] +
-                                  hit.u * scene.normals[t[1]] + hit.v * scene.normals[t[2]]);
+  const Eigen::Vector3f smooth = smoothNormal(scene, hit);
   const Eigen::Vector3f slope = slopeOf(ab, ac, tissue.rise_along_ab_mm, tissue.rise_along_ac_mm);
   LitPoint point;
   point.position_mm = a + hit.u * ab + hit.v * ac;
@@ -76,19 +87,45 @@ ScopeScene::ScopeScene(std::vector<Eigen::Vector3f> vertices_left_mm,
       tree(vertices_mm, triangles) {}
 
 Raster<Eigen::Vector3f> renderView(const ScopeScene& scene, TissueSkin& skin,
-                                   const ScopeLight& light, double relief,
-                                   const PinholeCamera& camera, const Eigen::Vector3f& eye_mm) {
-  const Raster<PacketHits> hits = castViews(scene, camera, eye_mm);
+                                   const ScopeSurroundings& around, const ScopeEye& eye) {
+  const Raster<PacketHits> hits = castViews(scene, eye);
   skin.paint(seenTriangles(hits, scene.triangles.size()));
-  const auto strength = static_cast<float>(relief);
-  Raster<Eigen::Vector3f> view(camera.width_px, camera.height_px, Eigen::Vector3f::Zero());
-  parallelRows(camera.height_px, [&](int v) {
-    for (int u = 0; u < camera.width_px; ++u)
-      for (const RayHit& hit : hits.at(u, v))
-        if (hit.met())
-          view.at(u, v) += 0.25F * light.shade(litPoint(scene, skin, strength, hit), eye_mm);
+  const auto relief = static_cast<float>(around.relief);
+  const auto seen = [&](const RayHit& hit, const Eigen::Vector3f& ray) -> Eigen::Vector3f {
+    if (around.instrument.there())
+      if (const auto steel = around.instrument.meet(eye.centre_mm, ray, limitOf(hit)))
+        return around.light.shadeSteel(eye.centre_mm + steel->distance * ray, steel->normal,
+                                       eye.centre_mm);
+    if (!hit.met()) return Eigen::Vector3f::Zero();
+    return around.light.shade(litPoint(scene, skin, relief, hit), eye.centre_mm);
+  };
+  Raster<Eigen::Vector3f> view(hits.width_px, hits.height_px, Eigen::Vector3f::Zero());
+  parallelRows(view.height_px, [&](int v) {
+    for (int u = 0; u < view.width_px; ++u) {
+      const RayPacket rays = raysOf(eye, u, v);
+      for (int i = 0; i < 4; ++i) view.at(u, v) += 0.25F * seen(hits.at(u, v)[i], rays[i]);
+    }
   });
   return view;
+}
+
+Raster<Eigen::Vector3f> normalsOf(const Raster<RayHit>& hits, const ScopeScene& scene) {
+  Raster<Eigen::Vector3f> normals(hits.width_px, hits.height_px, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (hits.values[i].met()) normals.values[i] = smoothNormal(scene, hits.values[i]).normalized();
+  return normals;
+}
+
+Mask instrumentMask(const Raster<RayHit>& hits, const ScopeTool& instrument,
+                    const PinholeCamera& left) {
+  Mask mask(hits.width_px, hits.height_px, 0);
+  if (!instrument.there()) return mask;
+  parallelRows(mask.height_px, [&](int v) {
+    for (int u = 0; u < mask.width_px; ++u)
+      if (instrument.meet(Eigen::Vector3f::Zero(), rayThrough(left, u, v), limitOf(hits.at(u, v))))
+        mask.at(u, v) = 255;
+  });
+  return mask;
 }
 
 Raster<RayHit> castCentres(const ScopeScene& scene, const PinholeCamera& left) {

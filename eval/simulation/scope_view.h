@@ -8,6 +8,7 @@
 #include "core/triangle_mesh.h"
 #include "eval/simulation/ray_tree.h"
 #include "eval/simulation/scope_shading.h"
+#include "eval/simulation/scope_tool.h"
 #include "eval/simulation/tissue_skin.h"
 
 namespace softscope {
@@ -22,15 +23,39 @@ struct ScopeScene {
   RayTree tree;
 };
 
-/// Linear light, red green blue, of a camera whose axes are the left one's and whose centre lies at
-/// `eye_mm` in the left frame. Mean of 2 x 2 rays a pixel; black where no tissue is.
+/// One camera of the scope, in the left one's frame.
+struct ScopeEye {
+  PinholeCamera camera;
+  Eigen::Vector3f centre_mm = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f left_from_eye = Eigen::Matrix3f::Identity();
+
+  /// Through a pixel, in the left camera's frame.
+  Eigen::Vector3f ray(double u_px, double v_px) const {
+    return left_from_eye * liftPixel<double>(camera, u_px, v_px, 1.0).cast<float>();
+  }
+};
+
+/// What is before the eye besides tissue, and what lights both.
+struct ScopeSurroundings {
+  const ScopeLight& light;
+  double relief = 1;
+  const ScopeTool& instrument;
+};
+
+/// Linear light, red green blue. Mean of 2 x 2 rays a pixel; black where nothing is.
 /// Paints what is new to `skin`.
 Raster<Eigen::Vector3f> renderView(const ScopeScene& scene, TissueSkin& skin,
-                                   const ScopeLight& light, double relief,
-                                   const PinholeCamera& camera, const Eigen::Vector3f& eye_mm);
+                                   const ScopeSurroundings& around, const ScopeEye& eye);
 
 /// What the ray through the centre of each pixel of the left camera meets.
 Raster<RayHit> castCentres(const ScopeScene& scene, const PinholeCamera& left);
+
+/// Of the tissue at such hits, interpolated between its vertices; 0 where nothing was met.
+Raster<Eigen::Vector3f> normalsOf(const Raster<RayHit>& hits, const ScopeScene& scene);
+
+/// Non-zero where the instrument hides what such a ray would meet.
+Mask instrumentMask(const Raster<RayHit>& hits, const ScopeTool& instrument,
+                    const PinholeCamera& left);
 
 /// Depth in mm of such hits, computed in double; NaN where nothing was met.
 Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene,

@@ -88,6 +88,7 @@ void SensorOptions::validate() const {
           exposure_period_s, "must be above 0, at most 1000");
   require(vignetting >= 0 && vignetting <= 1, "sensor.vignetting", vignetting, "must be 0 to 1");
   require(blur_px >= 0 && blur_px <= 20, "sensor.blur_px", blur_px, "must be 0 to 20");
+  require(shutter >= 0 && shutter <= 1, "sensor.shutter", shutter, "must be 0 to 1");
   require(noise >= 0 && noise <= 0.5, "sensor.noise", noise, "must be 0 to 0.5");
   require(shot_noise >= 0 && shot_noise <= 0.5, "sensor.shot_noise", shot_noise,
           "must be 0 to 0.5");

@@ -14,6 +14,7 @@ struct SensorOptions {
   double exposure_period_s = 2;
   double vignetting = 0.45;   // loss of light in the corners, 0 to 1
   double blur_px = 0.45;      // standard deviation of the lens; 0: none
+  double shutter = 0;         // share of a frame's time that it is open; 0: too short to blur
   double noise = 0.006;       // standard deviation at black, white = 1
   double shot_noise = 0.012;  // and at white, from the light itself
 

@@ -1,6 +1,8 @@
 // eval/simulation/simulation_options.cpp: checks, and the rig.
 #include "eval/simulation/simulation_options.h"
 
+#include <cmath>
+
 #include "core/error.h"
 
 namespace softscope {
@@ -20,6 +22,8 @@ void ScopeOptions::validate() const {
           "must be below the height, or negative (middle)");
   require(baseline_mm >= 0.5 && baseline_mm <= 50, "scope.baseline_mm", baseline_mm,
           "must be 0.5 to 50");
+  require(std::abs(row_error_px) <= 20, "scope.row_error_px", row_error_px, "must be -20 to 20");
+  require(std::abs(roll_error_deg) <= 5, "scope.roll_error_deg", roll_error_deg, "must be -5 to 5");
 }
 
 RectifiedRig ScopeOptions::rig() const {
@@ -49,6 +53,8 @@ void SimulationOptions::validate() const {
   scope.validate();
   camera.validate();
   light.validate();
+  instrument.validate();
+  require(smoke >= 0 && smoke <= 3, "smoke", smoke, "must be 0 to 3");
   sensor.validate();
 }
 

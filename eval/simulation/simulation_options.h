@@ -5,13 +5,14 @@
 #include "eval/simulation/camera_path.h"
 #include "eval/simulation/organ_mesh.h"
 #include "eval/simulation/scope_shading.h"
+#include "eval/simulation/scope_tool.h"
 #include "eval/simulation/sensor.h"
 #include "eval/simulation/tissue_deformation.h"
 #include "eval/simulation/tissue_texture.h"
 
 namespace softscope {
 
-/// The cameras: parallel, rows aligned, no distortion.
+/// The cameras: parallel, no distortion; rows aligned but for what the calibration doesn't know.
 struct ScopeOptions {
   int width_px = 640;
   int height_px = 480;
@@ -19,6 +20,8 @@ struct ScopeOptions {
   double cx_px = -1;    // negative: the middle of the picture
   double cy_px = -1;
   double baseline_mm = 5.2;
+  double row_error_px = 0;  // rows of the right picture lie lower by this than the calibration says
+  double roll_error_deg = 0;  // and it is turned by this
 
   /// Throws OptionError.
   void validate() const;
@@ -36,6 +39,8 @@ struct SimulationOptions {
   ScopeOptions scope;
   CameraPathOptions camera;
   LightOptions light;
+  ScopeToolOptions instrument;
+  double smoke = 0;  // 0: clear air, 1: half of the contrast
   SensorOptions sensor;
 
   /// Throws OptionError.

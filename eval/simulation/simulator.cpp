@@ -2,15 +2,24 @@
 #include "eval/simulation/simulator.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "eval/simulation/random.h"
+#include "eval/simulation/smoke.h"
 
 namespace softscope {
 namespace {
 
 // One seed a part, so that changing one part leaves the others as they were.
 enum Part : std::uint64_t { kTexture = 1, kMotion = 2, kPath = 3, kNoise = 4 };
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr int kShutterMoments = 7;      // that motion blur is made of
+constexpr double kSmokeShare = 0.5;     // smoke hangs half-way to the tissue
+constexpr double kSeenWithin_mm = 0.3;  // of the depth at the nearest pixel: slopes between pixels
 
 std::uint64_t seedOf(const SimulationOptions& options, Part part) {
   return mixBits(static_cast<std::uint64_t>(options.seed) * 16 + part);
@@ -49,9 +58,26 @@ std::vector<Eigen::Vector3f> transformed(const std::vector<Eigen::Vector3f>& poi
   return result;
 }
 
+/// Tissue that lies no deeper than what the nearest pixel sees.
+bool isSeen(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_mm,
+            const PinholeCamera& left) {
+  if (point_left_mm.z() <= 0) return false;
+  const double u = left.fx_px * point_left_mm.x() / point_left_mm.z() + left.cx_px;
+  const double v = left.fy_px * point_left_mm.y() / point_left_mm.z() + left.cy_px;
+  if (!(u >= 0 && v >= 0 && u <= left.width_px - 1 && v <= left.height_px - 1)) return false;
+  const float seen_mm = depth_mm.at(int(std::lround(u)), int(std::lround(v)));
+  return point_left_mm.z() <= seen_mm + kSeenWithin_mm;  // false where it is NaN
+}
+
 const SimulationOptions& validated(const SimulationOptions& options) {
   options.validate();
   return options;
+}
+
+void addShare(const Raster<Eigen::Vector3f>& part, float share, Raster<Eigen::Vector3f>& sum) {
+  if (sum.empty())
+    sum = Raster<Eigen::Vector3f>(part.width_px, part.height_px, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum.values[i] += share * part.values[i];
 }
 
 }  // namespace
@@ -72,7 +98,7 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
   track_points_ = chooseTrackPoints(castCentres(first, rig_.left), options.track_spacing_px);
 }
 
-std::vector<Eigen::Vector3f> Simulator::worldVertices(double time_s) const {
+std::vector<Eigen::Vector3f> Simulator::worldVertices(double time_s) {
   return transformed(deformation_.verticesAt(time_s), world_from_body_);
 }
 
@@ -81,32 +107,103 @@ TimedPose Simulator::poseAt(double time_s) const {
   return {time_s, world_from_body_ * path_.bodyFromLeft(time_s)};
 }
 
-StereoPair Simulator::takePair(const ScopeScene& scene, double time_s, int index) {
-  const auto view = [&](float eye_x_mm, std::uint64_t number) {
-    const auto light = renderView(scene, skin_, light_, options_.light.relief, rig_.left,
-                                  Eigen::Vector3f(eye_x_mm, 0, 0));
-    const std::uint64_t seed = mixBits(seedOf(options_, kNoise) + number);
-    return takePicture(light, options_.sensor, time_s, seed);
-  };
-  const auto first = 2 * static_cast<std::uint64_t>(index);
-  StereoPair pair;
-  pair.left = view(0, first);
-  pair.right = view(static_cast<float>(rig_.baseline_mm), first + 1);
+ScopeScene Simulator::sceneAt(const std::vector<Eigen::Vector3f>& vertices_world_mm,
+                              double time_s) const {
+  return {transformed(vertices_world_mm, poseAt(time_s).world_from_left.inverse()),
+          mesh_.triangles};
+}
+
+ScopeTool Simulator::instrumentAt(double time_s) const {
+  return {options_.instrument, rig_.left, options_.camera.distance_mm, time_s};
+}
+
+Simulator::LightPair Simulator::lightOf(const ScopeScene& scene, double time_s) {
+  const ScopeTool instrument = instrumentAt(time_s);
+  const ScopeSurroundings around{light_, options_.light.relief, instrument};
+  ScopeEye right{rig_.left};
+  right.camera.cy_px += options_.scope.row_error_px;
+  right.centre_mm.x() = static_cast<float>(rig_.baseline_mm);
+  const auto roll_rad = static_cast<float>(options_.scope.roll_error_deg * M_PI / 180);
+  right.left_from_eye = Eigen::AngleAxisf(roll_rad, Eigen::Vector3f::UnitZ()).toRotationMatrix();
+  LightPair pair{renderView(scene, skin_, around, {rig_.left}),
+                 renderView(scene, skin_, around, right)};
+  const double cloud_mm = kSmokeShare * options_.camera.distance_mm;
+  addSmoke(pair.left, options_.smoke, time_s, 0);
+  addSmoke(pair.right, options_.smoke, time_s, rig_.left.fx_px * rig_.baseline_mm / cloud_mm);
   return pair;
 }
 
-SimulatedFrame Simulator::frame(int index) {
+StereoPair Simulator::develop(const LightPair& light, double time_s, int index) const {
+  const auto picture = [&](const Raster<Eigen::Vector3f>& view, std::uint64_t number) {
+    return takePicture(view, options_.sensor, time_s, mixBits(seedOf(options_, kNoise) + number));
+  };
+  const auto first = 2 * static_cast<std::uint64_t>(index);
+  return {picture(light.left, first), picture(light.right, first + 1)};
+}
+
+void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame& frame) const {
+  const Raster<RayHit> hits = castCentres(scene, rig_.left);
+  frame.depth_mm = depthOf(hits, scene, rig_.left);
+  frame.normals = normalsOf(hits, scene);
+  if (options_.instrument.there()) {
+    frame.instrument = instrumentMask(hits, instrumentAt(time_s), rig_.left);
+    for (std::size_t i = 0; i < frame.instrument.size(); ++i)
+      if (frame.instrument.values[i] != 0) frame.depth_mm.values[i] = kNan;
+  }
+  const Eigen::Isometry3d left_from_world = frame.pose.world_from_left.inverse();
+  for (const TrackPoint& point : track_points_) {
+    frame.tracks_world_mm.push_back(positionOf(point, frame.vertices_world_mm, mesh_.triangles));
+    frame.tracks_visible.push_back(
+        isSeen(left_from_world * frame.tracks_world_mm.back(), frame.depth_mm, rig_.left));
+  }
+}
+
+/// Where the tissue of each pixel is seen at `time_s`, less where it is seen now.
+Raster<Eigen::Vector2f> Simulator::flowTo(double time_s, const Raster<RayHit>& hits,
+                                          const Mask& hidden) {
+  const ScopeScene next = sceneAt(worldVertices(time_s), time_s);
+  Raster<Eigen::Vector2f> flow(hits.width_px, hits.height_px, Eigen::Vector2f::Constant(kNan));
+  parallelRows(flow.height_px, [&](int v) {
+    for (int u = 0; u < flow.width_px; ++u) {
+      const RayHit& hit = hits.at(u, v);
+      if (!hit.met() || (!hidden.empty() && hidden.at(u, v) != 0)) continue;
+      const Triangle& t = mesh_.triangles[hit.triangle];
+      const Eigen::Vector3f p = (1 - hit.u - hit.v) * next.vertices_mm[t[0]] +
+                                hit.u * next.vertices_mm[t[1]] + hit.v * next.vertices_mm[t[2]];
+      if (p.z() <= 0) continue;
+      const PinholeCamera& c = rig_.left;
+      flow.at(u, v) = {static_cast<float>(c.fx_px * p.x() / p.z() + c.cx_px - u),
+                       static_cast<float>(c.fy_px * p.y() / p.z() + c.cy_px - v)};
+    }
+  });
+  return flow;
+}
+
+/// With an open shutter, the mean of moments around the frame's own; truth is of the middle one.
+SimulatedFrame Simulator::frame(int index, bool flow) {
   require(index >= 0, "frame", index, "must be 0 or above");
-  const double time_s = index / options_.frames_per_second;
+  const double frame_s = 1 / options_.frames_per_second,
+               time_s = index / options_.frames_per_second;
+  const int moments = options_.sensor.shutter > 0 ? kShutterMoments : 1, middle = moments / 2;
   SimulatedFrame frame;
   frame.pose = poseAt(time_s);
-  frame.vertices_world_mm = worldVertices(time_s);
-  const ScopeScene scene(transformed(frame.vertices_world_mm, frame.pose.world_from_left.inverse()),
-                         mesh_.triangles);
-  frame.pictures = takePair(scene, time_s, index);
-  frame.depth_mm = depthOf(castCentres(scene, rig_.left), scene, rig_.left);
-  for (const TrackPoint& point : track_points_)
-    frame.tracks_world_mm.push_back(positionOf(point, frame.vertices_world_mm, mesh_.triangles));
+  LightPair light;
+  Raster<RayHit> hits;
+  for (int moment = 0; moment < moments; ++moment) {  // in order of time: pushes add up
+    const double off_s = options_.sensor.shutter * frame_s * (moment - middle) / moments;
+    const double moment_s = moment == middle ? time_s : std::max(0.0, time_s + off_s);
+    const std::vector<Eigen::Vector3f> vertices = worldVertices(moment_s);
+    const ScopeScene scene = sceneAt(vertices, moment_s);
+    const LightPair part = lightOf(scene, moment_s);
+    addShare(part.left, 1.0F / float(moments), light.left);
+    addShare(part.right, 1.0F / float(moments), light.right);
+    if (moment != middle) continue;
+    frame.vertices_world_mm = vertices;
+    addTruth(scene, time_s, frame);
+    if (flow) hits = castCentres(scene, rig_.left);
+  }
+  frame.pictures = develop(light, time_s, index);
+  if (flow) frame.flow_px = flowTo(time_s + frame_s, hits, frame.instrument);
   return frame;
 }
 

@@ -21,7 +21,11 @@ struct SimulatedFrame {
   TimedPose pose;
   std::vector<Eigen::Vector3f> vertices_world_mm;  // vertex i is the same tissue in every frame
   Raster<float> depth_mm;                          // of the left camera, exact; NaN: no tissue
+  Mask instrument;                                 // of the left camera; empty where there is none
+  Raster<Eigen::Vector3f> normals;                 // left camera's frame, unit; 0: no tissue
   std::vector<Eigen::Vector3d> tracks_world_mm;    // one a track point
+  std::vector<bool> tracks_visible;                // to the left camera
+  Raster<Eigen::Vector2f> flow_px;                 // to the next frame, of tissue; NaN: none
 };
 
 /// The same options and mesh give the same frames, in any order, on any number of threads.
@@ -32,16 +36,26 @@ class Simulator {
   /// surface that a ray can meet.
   Simulator(TriangleMesh rest_mesh, const SimulationOptions& options);
 
-  SimulatedFrame frame(int index);
+  /// `flow` costs the next frame's state as well; without it that field stays empty.
+  SimulatedFrame frame(int index, bool flow = false);
 
   const RectifiedRig& rig() const { return rig_; }
   const std::vector<Triangle>& triangles() const { return mesh_.triangles; }
   const std::vector<TrackPoint>& trackPoints() const { return track_points_; }
 
  private:
-  std::vector<Eigen::Vector3f> worldVertices(double time_s) const;
+  std::vector<Eigen::Vector3f> worldVertices(double time_s);
   TimedPose poseAt(double time_s) const;
-  StereoPair takePair(const ScopeScene& scene, double time_s, int index);
+  /// What both cameras receive at one moment.
+  struct LightPair {
+    Raster<Eigen::Vector3f> left, right;
+  };
+  ScopeScene sceneAt(const std::vector<Eigen::Vector3f>& vertices_world_mm, double time_s) const;
+  ScopeTool instrumentAt(double time_s) const;
+  LightPair lightOf(const ScopeScene& scene, double time_s);
+  StereoPair develop(const LightPair& light, double time_s, int index) const;
+  void addTruth(const ScopeScene& scene, double time_s, SimulatedFrame& frame) const;
+  Raster<Eigen::Vector2f> flowTo(double time_s, const Raster<RayHit>& hits, const Mask& hidden);
 
   SimulationOptions options_;
   TriangleMesh mesh_;  // at rest, in the organ's frame

@@ -14,8 +14,9 @@ namespace {
 
 constexpr float kBreathingWave_mm = 45;  // breathing bends the tissue this gently
 constexpr float kHeartReach_mm = 14;
-constexpr double kPushReach = 2.2;  // pushes land within this many spreads of the focus
-constexpr int kPushPeriods = 3;     // one to push, two to let go
+constexpr double kPushReach = 2.2;      // pushes land within this many spreads of the focus
+constexpr std::size_t kStatesKept = 5;  // so that going back a little costs nothing
+constexpr int kPushPeriods = 3;         // one to push, two to let go
 
 void requireMotion(const PeriodicMotion& motion, const std::string& name) {
   require(motion.amplitude_mm >= 0 && motion.amplitude_mm <= 20, name + ".amplitude_mm",
@@ -48,6 +49,8 @@ double pushAt(double age_periods) {
 }  // namespace
 
 void DeformationOptions::validate() const {
+  require(push_kind == "gaussian" || push_kind == "arap", "push.kind", push_kind,
+          "must be gaussian or arap");
   requireMotion(breathing, "breathing");
   requireMotion(heartbeat, "heartbeat");
   requireMotion(push, "push");
@@ -76,18 +79,21 @@ TissueDeformation::TissueDeformation(const TriangleMesh& rest_mesh, const Eigen:
     if (distance2 < reach2) push_sites_.push_back(static_cast<std::int32_t>(i));
   }
   if (push_sites_.empty()) push_sites_.push_back(0);  // a mesh coarser than the reach
+  if (options.push_kind == "arap" && options.push.amplitude_mm > 0)
+    arap_ = std::make_unique<ArapPushes>(rest_mesh,
+                                         ArapOptions{ArapOptions().tip_mm, options.push_spread_mm});
 }
 
 TissueDeformation::Push TissueDeformation::pushNumber(int number) const {
   SeededRandom random(seed_ + 1 + static_cast<std::uint64_t>(number));
   const std::int32_t vertex = push_sites_[random.below(static_cast<int>(push_sites_.size()))];
   const double size_mm = options_.push.amplitude_mm * random.uniform(0.8, 1.2);
-  return {rest_mm_[vertex], (size_mm * random.direction()).cast<float>()};
+  return {vertex, rest_mm_[vertex], (size_mm * random.direction()).cast<float>()};
 }
 
 std::vector<TissueDeformation::Push> TissueDeformation::pushesAt(double time_s) const {
   std::vector<Push> active;
-  if (options_.push.amplitude_mm == 0) return active;
+  if (options_.push.amplitude_mm == 0 || arap_) return active;
   const double periods = time_s / options_.push.period_s;
   const int newest = static_cast<int>(std::floor(periods));
   for (int number = std::max(0, newest - kPushPeriods + 1); number <= newest; ++number) {
@@ -97,15 +103,45 @@ std::vector<TissueDeformation::Push> TissueDeformation::pushesAt(double time_s) 
   return active;
 }
 
-std::vector<Eigen::Vector3f> TissueDeformation::verticesAt(double time_s) const {
+/// Holds until the next call but one.
+const std::vector<Eigen::Vector3f>& TissueDeformation::stateAfter(int pushes) {
+  if (states_.empty() || pushes < oldest_) {
+    oldest_ = 0;
+    states_.assign(1, rest_mm_);
+  }
+  for (int done = oldest_ + static_cast<int>(states_.size()) - 1; done < pushes; ++done) {
+    const Push next = pushNumber(done);
+    states_.push_back(arap_->push(states_.back(), next.vertex, next.shift_mm.cast<double>()));
+    if (states_.size() <= kStatesKept) continue;
+    states_.pop_front();
+    ++oldest_;
+  }
+  return states_[static_cast<std::size_t>(pushes - oldest_)];
+}
+
+std::vector<Eigen::Vector3f> TissueDeformation::restingAt(double time_s) {
+  if (!arap_) return rest_mm_;
+  const double periods = time_s / options_.push.period_s;
+  const int number = static_cast<int>(std::floor(periods));
+  const std::vector<Eigen::Vector3f>& before_mm = stateAfter(number);
+  const float share = smoothStep(0, 1, static_cast<float>(periods - number));
+  if (share == 0) return before_mm;
+  const std::vector<Eigen::Vector3f>& after_mm = stateAfter(number + 1);
+  std::vector<Eigen::Vector3f> now(rest_mm_.size());
+  for (std::size_t i = 0; i < now.size(); ++i)
+    now[i] = before_mm[i] + share * (after_mm[i] - before_mm[i]);
+  return now;
+}
+
+std::vector<Eigen::Vector3f> TissueDeformation::verticesAt(double time_s) {
   const auto breath = static_cast<float>(breathAt(time_s, options_.breathing));
   const auto beat = static_cast<float>(beatAt(time_s, options_.heartbeat));
   const auto spread_mm = static_cast<float>(options_.push_spread_mm);
   const std::vector<Push> pushes = pushesAt(time_s);
-  std::vector<Eigen::Vector3f> moved(rest_mm_.size());
+  std::vector<Eigen::Vector3f> moved = restingAt(time_s);
   parallelRanges(static_cast<int>(moved.size()), 2048, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      moved[i] = rest_mm_[i] + breath * breathing_mm_[i] + beat * heartbeat_mm_[i];
+      moved[i] += breath * breathing_mm_[i] + beat * heartbeat_mm_[i];
       for (const Push& push : pushes)
         moved[i] += gaussian((rest_mm_[i] - push.site_mm).squaredNorm(), spread_mm) * push.shift_mm;
     }

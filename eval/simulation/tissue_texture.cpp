@@ -17,6 +17,7 @@ const Eigen::Vector3f kFascia(0.70F, 0.36F, 0.30F);
 const Eigen::Vector3f kFat(0.76F, 0.36F, 0.110F);
 const Eigen::Vector3f kPaleFat(0.82F, 0.49F, 0.20F);
 const Eigen::Vector3f kBlood(0.40F, 0.022F, 0.024F);
+const Eigen::Vector3f kFreshBlood(0.21F, 0.010F, 0.009F);
 const Eigen::Vector3f kVein(0.24F, 0.055F, 0.085F);
 const Eigen::Vector3f kMean(0.60F, 0.23F, 0.17F);
 
@@ -32,6 +33,7 @@ Eigen::Vector3f mix(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float sh
 void TextureOptions::validate() const {
   require(contrast >= 0 && contrast <= 2, "texture.contrast", contrast, "must be 0 to 2");
   require(fat >= 0 && fat <= 1, "texture.fat", fat, "must be 0 to 1");
+  require(blood >= 0 && blood <= 1, "texture.blood", blood, "must be 0 to 1");
   require(wetness >= 0 && wetness <= 5, "texture.wetness", wetness, "must be 0 to 5");
   vessels.validate();
 }
@@ -94,6 +96,13 @@ void TissueTexture::addVessels(Layer& layer, const Eigen::Vector3f& rest_mm) con
   layer.relief_mm += cover.raised_mm;
 }
 
+float TissueTexture::bloodShare(const Eigen::Vector3f& warped_mm) const {
+  if (options_.blood == 0) return 0;
+  const float where = fractalNoise(warped_mm / 11, 4, seed_ + 14);
+  const float level = 0.34F - 0.68F * float(options_.blood);  // as with fat
+  return smoothStep(level, level + 0.05F, where);
+}
+
 TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm) const {
   const Eigen::Vector3f warped_mm = rest_mm + 1.1F * vectorNoise(rest_mm / 4, seed_ + 12);
   Layer layer = serosa(warped_mm, rest_mm);
@@ -104,12 +113,15 @@ TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm) const {
   }
   layer.albedo = mix(layer.albedo, kBlood, 0.42F * capillaries(warped_mm));
   addVessels(layer, rest_mm);
+  const float blood = bloodShare(warped_mm);
+  layer.albedo = mix(layer.albedo, kFreshBlood, 0.93F * blood);
+  layer.relief_mm *= 1 - 0.7F * blood;  // it fills what is fine
   const float wet = 0.55F + 0.45F * fractalNoise(rest_mm / 7, 2, seed_ + 13) * 2;
   TissuePoint point;
   point.albedo = kMean + float(options_.contrast) * (layer.albedo - kMean);
   point.albedo = point.albedo.cwiseMax(0.005F).cwiseMin(0.95F);
   point.relief_mm = layer.relief_mm;
-  point.wetness = float(options_.wetness) * std::clamp(wet, 0.1F, 1.0F);
+  point.wetness = float(options_.wetness) * std::clamp(wet + blood, 0.1F, 1.0F + blood);
   return point;
 }
 

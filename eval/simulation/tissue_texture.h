@@ -13,6 +13,7 @@ struct TextureOptions {
   double contrast = 1.0;  // 0: one colour all over, 1: as in a healthy abdomen
   double fat = 0.3;       // share of the surface that fat covers, roughly
   double wetness = 1.0;   // strength of highlights; 0: dull
+  double blood = 0;       // share of the surface under fresh blood, roughly
   VesselOptions vessels;
 
   /// Throws OptionError.
@@ -42,6 +43,7 @@ class TissueTexture {
   Layer serosa(const Eigen::Vector3f& warped_mm, const Eigen::Vector3f& rest_mm) const;
   Layer fat(const Eigen::Vector3f& warped_mm) const;
   float fatShare(const Eigen::Vector3f& warped_mm) const;
+  float bloodShare(const Eigen::Vector3f& warped_mm) const;
   float capillaries(const Eigen::Vector3f& warped_mm) const;
   void addVessels(Layer& layer, const Eigen::Vector3f& rest_mm) const;
 

@@ -92,6 +92,22 @@ TEST_F(Simulate, OnlyTheTruthThatIsAskedForIsWritten) {
   EXPECT_FALSE(fs::exists(at("none/groundtruth")));
 }
 
+TEST_F(Simulate, MasksDepthNormalsAndFlowAreWrittenWhereTheyAreAskedFor) {
+  const Outcome done =
+      simulate(at("s"), {"--truth", "depth,normals,flow", "--set", "instrument.radius_mm=4",
+                         "--set", "input_depth=true", "--set", "pictures=jpg"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto files = contentOf(at("s"));
+  for (const char* name : {"mask/000001.png", "depth/000001.png", "left/000001.jpg",
+                           "groundtruth/depth/000002.png"})
+    EXPECT_EQ(files.count(name), 1u) << name;
+  EXPECT_EQ(files.at("groundtruth/normals/000002.pfm").size(), 3u + 6 + 5 + 64 * 48 * 12);
+  EXPECT_EQ(files.at("groundtruth/flow/000002.flo").size(), 12u + 64 * 48 * 8);
+  EXPECT_EQ(files.at("depth/000002.png"), files.at("groundtruth/depth/000002.png"));
+  simulate(at("bare"), {"--set", "instrument.radius_mm=4", "--set", "masks=false"});
+  EXPECT_FALSE(fs::exists(at("bare/mask")));
+}
+
 TEST_F(Simulate, AScenarioIsWeakerThanTheLine) {
   const std::string scenario = write("scenario.toml", "frames = 9\n[scope]\nbaseline_mm = 4.5\n");
   ASSERT_EQ(simulate(at("s"), {"--scenario", scenario}).exit_code, 0);

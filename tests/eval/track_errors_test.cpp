@@ -19,8 +19,10 @@ TEST(TrackErrors, MovesEstimatesIntoTheTrueWorldAndSetsTheControlBesideThem) {
                                           {0, 1, {9, 0, 0}, true},
                                           {1, 0, {-2, 3, 1}, true},   // shifted by 2: 1 mm off
                                           {1, 1, {7, 0, 2}, false}};  // 2 mm off
-  const TrackErrors errors = trackErrors(truth, estimate, {{0, shift(0)}, {1, shift(2)}});
+  const TrackErrors errors = trackErrors(truth, estimate, {{0, shift(0)}, {1, shift(2)}}, {{1, 0}});
   ASSERT_EQ(errors.each.size(), 4u);
+  EXPECT_NEAR(errors.predicted_mm.mean, 1, kRounding) << "what truth calls unseen";
+  EXPECT_NEAR(errors.observed_mm.mean, 2.0 / 3, kRounding);
   EXPECT_NEAR(errors.each[2].error_mm, 1, kRounding);
   EXPECT_NEAR(errors.each[2].control_mm, 3, kRounding);
   EXPECT_NEAR(errors.error_mm.mean, 0.75, kRounding);

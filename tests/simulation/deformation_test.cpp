@@ -72,6 +72,42 @@ TEST_F(Deformation, IsSmoothInSpaceAndTime) {
     EXPECT_LT(largestShift(at({}, time_s), at({}, time_s + 0.01)), 0.25);
 }
 
+TEST_F(Deformation, RigidPushesStayAndAddUp) {
+  DeformationOptions pushed = still();
+  pushed.push = {2.5, 0.1};
+  pushed.push_kind = "arap";
+  TissueDeformation tissue(organ_, kFocus_mm, pushed, 7);
+  const auto first = tissue.verticesAt(0.1), second = tissue.verticesAt(0.2);
+  // A push is 2 to 3 mm where the tip holds; the elastic bed takes a tenth of it at most.
+  for (const float moved_mm :
+       {largestShift(first, organ_.vertices_mm), largestShift(second, first)}) {
+    EXPECT_GE(moved_mm, 1.8F);
+    EXPECT_LE(moved_mm, 3.0F);
+  }
+  EXPECT_EQ(tissue.verticesAt(0.1), first) << "any frame can be asked for again";
+  EXPECT_EQ(at(pushed, 0.2), second);
+}
+
+TEST_F(Deformation, RigidPushesKeepLengthsAndLeaveWhatIsFarAway) {
+  DeformationOptions pushed = still();
+  pushed.push = {2.5, 0.1};
+  pushed.push_kind = "arap";
+  const auto moved = at(pushed, 0.1);
+  double strain = 0, edges = 0;
+  for (const Triangle& t : organ_.triangles) {
+    const float rest = (organ_.vertices_mm[t[1]] - organ_.vertices_mm[t[0]]).norm();
+    const float change = std::abs((moved[t[1]] - moved[t[0]]).norm() / rest - 1);
+    EXPECT_LT(change, 0.5);
+    strain += change;
+    ++edges;
+  }
+  EXPECT_LT(strain / edges, 0.01) << "lengths stay";
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Eigen::Vector3f& rest = organ_.vertices_mm[i];  // 2.2 spreads to the site, 4 beyond it
+    EXPECT_TRUE((rest - kFocus_mm).norm() < 55 || (moved[i] - rest).norm() < 0.1F);
+  }
+}
+
 TEST_F(Deformation, RefusesWhatWouldFoldTheSurface) {
   DeformationOptions options;
   options.push_spread_mm = 2;
