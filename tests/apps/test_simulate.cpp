@@ -98,8 +98,8 @@ TEST_F(Simulate, MasksDepthNormalsAndFlowAreWrittenWhereTheyAreAskedFor) {
                          "--set", "input_depth=true", "--set", "pictures=jpg"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const auto files = contentOf(at("s"));
-  for (const char* name : {"mask/000001.png", "depth/000001.png", "left/000001.jpg",
-                           "groundtruth/depth/000002.png"})
+  for (const char* name :
+       {"mask/000001.png", "depth/000001.png", "left/000001.jpg", "groundtruth/depth/000002.png"})
     EXPECT_EQ(files.count(name), 1u) << name;
   EXPECT_EQ(files.at("groundtruth/normals/000002.pfm").size(), 3u + 6 + 5 + 64 * 48 * 12);
   EXPECT_EQ(files.at("groundtruth/flow/000002.flo").size(), 12u + 64 * 48 * 8);
