@@ -34,6 +34,7 @@ std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeReconstructCommand();
 std::unique_ptr<Command> makeReportCommand();
 std::unique_ptr<Command> makeSimulateCommand();
+std::unique_ptr<Command> makeSliceCommand();
 std::unique_ptr<Command> makeStudyCommand();
 
 /// In the order in which help lists them.

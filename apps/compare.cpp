@@ -27,7 +27,9 @@ const char* const kDetails =
     "reference.\n"
     "With --out DIR it writes comparison.json, metrics.csv, errors.vtp (the test in the "
     "reference's\n"
-    "place with arrays Signed, Absolute and ToReference) and error_histogram as SVG, PDF and PNG.\n"
+    "place with arrays Signed, Absolute and ToReference), error_histogram and error_map as SVG, "
+    "PDF\n"
+    "and PNG.\n"
     "Landmarks: CSV test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm.\n"
     "docs/evaluation.md defines every value.";
 
@@ -69,18 +71,24 @@ class CompareCommand : public Command {
 
   std::string reference_, test_, out_, align_, landmarks_, taus_ = "0.5,1,2";
   std::vector<std::string> fail_if_;
+  ErrorMapOptions picture_;
   double reference_unit_mm_ = 1, test_unit_mm_ = 1;
   bool force_ = false;
 };
 
 void CompareCommand::declare(ArgumentList& arguments) {
-  arguments.option("--reference", "MESH", reference_, "surface to judge by (STL, PLY, OBJ)", true);
+  arguments.option("--reference", "MESH", reference_, "surface to judge by (STL, PLY, OBJ, VTP)",
+                   true);
   arguments.option("--test", "MODEL", test_, "surface, or points as reconstruct writes them", true);
   arguments.option("--align", "HOW", align_,
                    "none (the default), landmarks, or icp, which begins at the landmarks if given");
   arguments.option("--landmarks", "FILE", landmarks_, "pairs of points; alone: --align landmarks");
   arguments.option("--tau", "LIST", taus_, "thresholds in mm (default 0.5,1,2)");
   arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
+  arguments.option("--errors", "KIND", picture_.kind,
+                   "colours of error_map: absolute (default) or signed");
+  arguments.option("--range-mm", "N", picture_.range_mm,
+                   "end of its colour bar (default: a round number, not below the P95)");
   arguments.option("--fail-if", "LIMIT", fail_if_,
                    "e.g. accuracy.p95_mm>2: then exit code 1; repeatable");
   arguments.option("--reference-unit-mm", "N", reference_unit_mm_,
@@ -124,6 +132,8 @@ void CompareCommand::align(const TriangleMesh& reference, TriangleMesh& test,
 
 int CompareCommand::run() {
   requireAlignment();
+  require(picture_.kind != "none", "--errors", picture_.kind, "must be absolute or signed");
+  picture_.validate();
   const std::vector<double> taus_mm = parseTaus(taus_);
   std::vector<Threshold> thresholds;
   for (const std::string& text : fail_if_) thresholds.push_back(parseThreshold(text));
@@ -149,7 +159,10 @@ int CompareCommand::run() {
   const auto outcomes = checkThresholds(thresholds, record, "accuracy");
   record["thresholds"] = thresholdsJson(outcomes);
   record["error_histogram"] = histogramJson(result.comparison.accuracy.each_mm);
-  if (outputs) outputs->write(result, test, record);
+  if (outputs)
+    if (const std::string problem = outputs->write(result, reference, test, picture_, record);
+        !problem.empty())
+      result.warnings.push_back(problem);
   FactSheet facts = comparisonFacts(result);
   if (!out_.empty()) facts.addLine("written to", out_);
   if (common.json)

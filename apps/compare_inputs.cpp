@@ -1,4 +1,4 @@
-// apps/compare_inputs.cpp: by content, as everywhere.
+// apps/compare_inputs.cpp: by content, as everywhere; VTK's own files by their name.
 #include "apps/compare_inputs.h"
 
 #include "apps/evaluate_points.h"
@@ -8,6 +8,7 @@
 #include "io/file_bytes.h"
 #include "io/message.h"
 #include "mesh/mesh_reader.h"
+#include "vtk_views/vtp_surface.h"
 
 namespace softscope {
 namespace {
@@ -28,11 +29,19 @@ TriangleMesh pointsFrom(const std::string& bytes, const std::string& name, doubl
   return points;
 }
 
+TriangleMesh vtkSurface(const std::filesystem::path& file, double unit_mm) {
+  requireFile(file);
+  TriangleMesh mesh = readVtkSurface(file.string());
+  for (Eigen::Vector3f& p : mesh.vertices_mm) p = (p.cast<double>() * unit_mm).cast<float>();
+  return mesh;
+}
+
 }  // namespace
 
 TriangleMesh readSurfaceOrPoints(const std::filesystem::path& file, double unit_mm) {
   const MeshReadOptions options{unit_mm};
   options.validate();
+  if (looksLikeVtkSurface(file.string())) return vtkSurface(file, unit_mm);
   const std::string bytes = readBytes(file, std::uintmax_t{2} << 30), name = shown(file);
   return isPlyOfPoints(bytes, name) ? pointsFrom(bytes, name, unit_mm)
                                     : parseMesh(bytes, name, options);

@@ -10,8 +10,8 @@
 
 namespace softscope {
 
-/// STL, PLY or OBJ; a PLY without faces, as `reconstruct` writes its models, becomes a mesh without
-/// triangles. Throws InputError.
+/// STL, PLY, OBJ, VTP or VTK; a PLY without faces, as `reconstruct` writes its models, becomes a
+/// mesh without triangles. Throws InputError.
 TriangleMesh readSurfaceOrPoints(const std::filesystem::path& file, double unit_mm);
 
 /// Pairs of points, mm.

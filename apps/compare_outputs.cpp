@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "apps/compare_picture.h"
 #include "apps/evaluate_plots.h"
 #include "apps/evaluate_thresholds.h"
 #include "apps/result_output.h"
@@ -40,24 +41,40 @@ CompareOutputs::CompareOutputs(fs::path folder, bool overwrite)
     throw OptionError("--out " + shown(folder_) +
                       ": is a file, but must be a folder, there or not yet");
   for (const char* name : {"comparison.json", "metrics.csv", "errors.vtp", "error_histogram.svg",
-                           "error_histogram.pdf", "error_histogram.png"})
+                           "error_histogram.pdf", "error_histogram.png", "error_map.svg",
+                           "error_map.pdf", "error_map.png"})
     requireWritable(folder_ / name, overwrite_);
 }
 
-void CompareOutputs::write(const ComparisonResult& result, const TriangleMesh& test,
-                           const FactSheet::Json& record) const {
+void CompareOutputs::put(const std::string& name, const std::string& bytes) const {
+  writeFile(folder_ / name, bytes, overwrite_);
+}
+
+void CompareOutputs::putFigure(const std::string& name, const VectorDrawing& figure) const {
+  put(name + ".svg", svgBytes(figure));
+  put(name + ".pdf", pdfBytes(figure));
+  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), overwrite_);
+}
+
+std::string CompareOutputs::write(const ComparisonResult& result, const TriangleMesh& reference,
+                                  const TriangleMesh& test, const ErrorMapOptions& picture,
+                                  const FactSheet::Json& record) const {
   fs::create_directories(folder_);
-  const auto put = [&](const char* name, const std::string& bytes) {
-    writeFile(folder_ / name, bytes, overwrite_);
-  };
   put("metrics.csv", metricsCsv(record));
   put("errors.vtp", errorSurfaceVtp(test, vertexErrors(test, result.comparison)));
-  const VectorDrawing figure = drawErrorHistogram(histogramOf(
-      result.comparison.accuracy.each_mm, comparisonTitle(result.test, result.reference)));
-  put("error_histogram.svg", svgBytes(figure));
-  put("error_histogram.pdf", pdfBytes(figure));
-  writePng(folder_ / "error_histogram.png", rasterise(figure, kDotsPerInch), overwrite_);
+  putFigure("error_histogram",
+            drawErrorHistogram(histogramOf(result.comparison.accuracy.each_mm,
+                                           comparisonTitle(result.test, result.reference))));
+  std::string not_drawn;
+  try {
+    FigureStyle style;
+    style.dots_per_inch = kDotsPerInch;
+    putFigure("error_map", drawErrorMap(result, reference, test, picture, style));
+  } catch (const BackendError& error) {
+    not_drawn = std::string("no error_map: ") + error.what();
+  }
   put("comparison.json", jsonText(record));  // last: who finds it finds the others
+  return not_drawn;
 }
 
 std::string metricsCsv(const FactSheet::Json& record) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "apps/compare_record.h"
+#include "apps/error_map.h"
 #include "core/triangle_mesh.h"
+#include "vtk_views/vector_drawing.h"
 
 namespace softscope {
 
@@ -15,11 +18,16 @@ class CompareOutputs {
   /// is false.
   CompareOutputs(std::filesystem::path folder, bool overwrite);
 
-  /// `test`: in the reference's place.
-  void write(const ComparisonResult& result, const TriangleMesh& test,
-             const FactSheet::Json& record) const;
+  /// `test`: in the reference's place. Returns what could not be drawn, empty where all was: a
+  /// machine without a renderer still gets the numbers.
+  std::string write(const ComparisonResult& result, const TriangleMesh& reference,
+                    const TriangleMesh& test, const ErrorMapOptions& picture,
+                    const FactSheet::Json& record) const;
 
  private:
+  void put(const std::string& name, const std::string& bytes) const;
+  void putFigure(const std::string& name, const VectorDrawing& figure) const;
+
   std::filesystem::path folder_;
   bool overwrite_;
 };

@@ -44,7 +44,7 @@ void FigureOptions::declare(ArgumentList& arguments) {
   arguments.option("--window", "NAME", window,
                    "greys: auto, soft-tissue, lung, bone, liver, vessels, or WIDTH,LEVEL");
   arguments.option("--dots-within-mm", "N", dot_reach_mm,
-                   "points this near to a plane are drawn in it (default 1)");
+                   "points this near to a plane are drawn in it (default 0.5)");
   arguments.option("--unit-mm", "N", unit_mm,
                    "what one unit of the surfaces' files measures: 1000 for metres");
   arguments.option("--style", "NAME", style, "ieee (default), nature, elsevier or slides");

@@ -17,7 +17,7 @@ namespace softscope {
 struct FigureOptions {
   std::vector<std::string> out;
   std::string window = "auto", at, style = "ieee";
-  double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 1, unit_mm = 1;
+  double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = 1;
   bool neurological = false, force = false;
 
   void declare(ArgumentList& arguments);

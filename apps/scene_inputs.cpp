@@ -50,6 +50,15 @@ SceneSurface& SceneInputs::addSurface(const std::string& path, const std::string
   return scene_.surfaces.back();
 }
 
+SceneSurface& SceneInputs::addMade(SceneSurface surface, const std::string& role,
+                                   const std::filesystem::path& path) {
+  assumptions_.push_back("camera frame");
+  surface_paths_.push_back(path.string());
+  note(role, path.string());
+  scene_.surfaces.push_back(std::move(surface));
+  return scene_.surfaces.back();
+}
+
 void SceneInputs::checkPlaces() {
   for (std::size_t i = 0; i < surface_paths_.size(); ++i) {
     const TriangleMesh& mesh = scene_.surfaces[i].mesh;

@@ -1,6 +1,7 @@
 // apps/scene_inputs.h: from files to a scene, with a record of what was read and assumed.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ class SceneInputs {
   /// A surface or points; from RAS to LPS where its file says RAS. Throws InputError.
   SceneSurface& addSurface(const std::string& path, const std::string& role,
                            const std::string& legend, Rgb8 colour);
+  /// What was read elsewhere from `path`, in the scene's frame.
+  SceneSurface& addMade(SceneSurface surface, const std::string& role,
+                        const std::filesystem::path& path);
   /// Warns where a surface lies beside the volume, or has another unit by the looks of it.
   void checkPlaces();
 

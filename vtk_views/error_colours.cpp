@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kStrips = 128;
 constexpr double kBarHeight = 0.9, kHeight = 3.7, kTip = 0.8;  // in heights of letters
-const char* const kMissing = "not observed";
 
 std::uint8_t between(std::uint8_t a, std::uint8_t b, double part) {
   return static_cast<std::uint8_t>(std::lround(a + (b - a) * part));
@@ -75,10 +74,23 @@ void drawNumbers(const ErrorColours& colours, const std::string& label, const Ba
   drawing.parts.emplace_back(text);
 }
 
+double widestNumberPt(const ErrorColours& colours, double font_pt) {
+  const Ticks ticks = niceTicks(colours.low_mm(), colours.limit_mm, 4);
+  double widest_pt = 0;
+  for (const double value : ticks.values) {
+    DrawnText text;
+    text.text = ticks.label(value);
+    text.size_pt = font_pt;
+    widest_pt = std::max(widest_pt, textWidthPt(text));
+  }
+  return widest_pt;
+}
+
 /// A grey patch at the right end; returns the width it took.
-double drawMissing(PointPt top_right, double font_pt, VectorDrawing& drawing) {
+double drawMissing(const std::string& meaning, PointPt top_right, double font_pt,
+                   VectorDrawing& drawing) {
   DrawnText text;
-  text.text = kMissing;
+  text.text = meaning;
   text.size_pt = font_pt;
   text.anchor = TextAnchor::kEnd;
   const double width_pt = textWidthPt(text), side = kBarHeight * font_pt;
@@ -119,9 +131,10 @@ double drawColourBar(const ErrorColours& colours, const ColourBarText& text, Poi
   if (!(colours.limit_mm > 0)) throw Error("colour bar: its range must be above 0");
   double right = top_left.x_pt + width_pt;
   if (text.any_missing)
-    right -= drawMissing({right, top_left.y_pt}, font_pt, drawing) + 1.5 * font_pt;
+    right -= drawMissing(text.missing, {right, top_left.y_pt}, font_pt, drawing) + 1.5 * font_pt;
   const double tip_pt = kTip * font_pt;
-  const Bar bar{top_left.x_pt + tip_pt, right - tip_pt, top_left.y_pt,
+  const double inset_pt = std::max(tip_pt, 0.55 * widestNumberPt(colours, font_pt));
+  const Bar bar{top_left.x_pt + inset_pt, right - inset_pt, top_left.y_pt,
                 top_left.y_pt + kBarHeight * font_pt};
   drawStrips(colours, bar, drawing);
   drawArrows(colours, text, bar, tip_pt, drawing);

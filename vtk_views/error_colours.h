@@ -25,7 +25,8 @@ Rgb8 blueWhiteRed(double position);
 struct ColourBarText {
   std::string label = "distance to the surface [mm]";
   bool any_below = false, any_above = false;  // values beyond the range: an arrow at that end
-  bool any_missing = false;                   // a grey patch "not observed" beside the bar
+  bool any_missing = false;                   // a grey patch beside the bar, and what it means
+  std::string missing = "not observed";
 };
 
 /// A horizontal bar with numbers below and its label under them; `width_pt` of all of it. Returns

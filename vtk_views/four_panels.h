@@ -1,32 +1,47 @@
-// vtk_views/four_panels.h: axial, coronal, sagittal and 3-D in one figure.
+// vtk_views/four_panels.h: axial, coronal, sagittal and 3-D in one figure; and single slices.
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "vtk_views/figure_style.h"
+#include "vtk_views/panel_grid.h"
 #include "vtk_views/scene.h"
 #include "vtk_views/vector_drawing.h"
 
 namespace softscope {
 
-struct FourPanelOptions {
+/// What a figure with panels needs besides its scene.
+struct PanelOptions {
   FigureStyle style;
+  double width_mm = 200;  // of tissue, that each panel shows
+  int columns = 0;        // 0: as many as there is room for
+  FigureFoot foot;        // its legend is the scene's where empty
+};
+
+struct FourPanelOptions : PanelOptions {
   SideRule rule = SideRule::kRadiological;
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  // where the three planes meet
-  double width_mm = 200;                                // of tissue, that each panel shows
   Eigen::Vector3d eye = {0.45, -0.8, 0.4};              // side that the 3-D panel is seen from
-  int columns = 0;                                      // 0: two, or four where there is room
-  std::optional<ErrorColours> colours;                  // with errors: their bar
-  ColourBarText bar;
 };
+
+/// The three planes and the camera of the fourth panel.
+std::vector<ViewPlane> fourViews(const Scene& scene, const FourPanelOptions& options);
 
 /// Throws BackendError where nothing renders.
 VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options);
 
-/// The centre of the surfaces' box, and what a panel shows so that they fit with some room around.
+/// A panel a plane. At least one.
+VectorDrawing drawSlices(const Scene& scene, const std::vector<ViewPlane>& planes,
+                         const PanelOptions& options);
+
+/// The surfaces alone, in 3-D, a panel a camera. At least one.
+VectorDrawing drawSurfaceViews(const Scene& scene, const std::vector<ViewPlane>& cameras,
+                               const PanelOptions& options);
+
+/// The middle of the surfaces' box (the median of those that the figure is about, where any are
+/// marked so), and what a panel shows so that they fit with some room around.
 Eigen::Vector3d sceneCentre(const Scene& scene);
 double sceneWidthMm(const Scene& scene);
 

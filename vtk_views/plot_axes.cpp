@@ -152,6 +152,9 @@ void drawLegend(const std::vector<LegendEntry>& entries, PointPt left_middle, do
                                              {x + sample_pt, y + 0.4 * font_pt},
                                              {x, y + 0.4 * font_pt}},
                                             entry.colour});
+    else if (entry.dotted)
+      drawing.parts.emplace_back(DrawnDots{
+          {{x + 0.4 * font_pt, y}, {x + font_pt, y}, {x + 1.6 * font_pt, y}}, 1.6, entry.colour});
     else
       drawing.parts.emplace_back(
           DrawnLine{{{x, y}, {x + sample_pt, y}}, 1.2, entry.colour, entry.dashed});

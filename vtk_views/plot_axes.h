@@ -74,6 +74,7 @@ struct LegendEntry {
   Rgb8 colour;
   bool filled = false;
   bool dashed = false;
+  bool dotted = false;  // a few points
 };
 
 /// Entries side by side, from `left_middle` on.

@@ -20,11 +20,6 @@ int pixelsOf(double length_pt, const FigureStyle& style) {
   return std::clamp(static_cast<int>(std::lround(wanted)), 1, kMostPicturePx);
 }
 
-/// Pale on white paper would be hard to see.
-Rgb8 darker(Rgb8 c) {
-  return {std::uint8_t(c.red * 3 / 4), std::uint8_t(c.green * 3 / 4), std::uint8_t(c.blue * 3 / 4)};
-}
-
 PointPt onPage(const Eigen::Vector2d& p_mm, double width_mm, const PanelPlace& place) {
   const double height_mm = width_mm * place.height_pt / place.width_pt;
   return place.at(p_mm.x() / width_mm, p_mm.y() / height_mm);
@@ -53,7 +48,7 @@ void drawDots(const SceneSurface& surface, const ViewPlane& plane, double reach_
   const CutPlane cut{plane.centre_mm, plane.towardsViewer()};
   const double half_height_mm = width_mm * place.height_pt / place.width_pt / 2;
   DrawnDots dots;
-  dots.diameter_pt = line_pt;
+  dots.diameter_pt = surface.dot_scale * line_pt;
   dots.colour = colour;
   for (const Eigen::Vector3f& p : pointsNearPlane(surface.mesh.vertices_mm, cut, reach_mm)) {
     const Eigen::Vector2d at = plane.project(p.cast<double>());
@@ -88,7 +83,7 @@ void drawSideNames(const ViewPlane& plane, SceneFrame frame, const PanelPlace& p
   text.size_pt = style.font_pt;
   text.bold = frame == SceneFrame::kPatient;
   text.colour = colour;
-  text.dark_rim = colour == kOnCt;
+  text.rim = colour == kOnCt ? Rgb8{0, 0, 0} : Rgb8{255, 255, 255};
   const double inset_pt = 0.35 * style.font_pt, half_pt = 0.36 * style.font_pt;
   const auto put = [&](const Eigen::Vector3d& direction, PointPt at, TextAnchor anchor) {
     text.text = sideName(direction, frame);
@@ -111,9 +106,9 @@ void drawScaleBar(double width_mm, const PanelPlace& place, Rgb8 colour, const F
                      place.bottom() - 0.5 * style.font_pt};
   const PointPt right{left.x_pt + length_pt, left.y_pt};
   const double thick_pt = std::max(1.2, 1.5 * style.line_pt);
-  if (colour == kOnCt)
-    drawing.parts.emplace_back(DrawnLine{
-        {{left.x_pt - 0.5, left.y_pt}, {right.x_pt + 0.5, right.y_pt}}, thick_pt + 1, {0, 0, 0}});
+  const Rgb8 rim = colour == kOnCt ? Rgb8{0, 0, 0} : Rgb8{255, 255, 255};
+  drawing.parts.emplace_back(
+      DrawnLine{{{left.x_pt - 0.5, left.y_pt}, {right.x_pt + 0.5, right.y_pt}}, thick_pt + 1, rim});
   drawing.parts.emplace_back(DrawnLine{{left, right}, thick_pt, colour});
   char label[32];
   std::snprintf(label, sizeof label, "%g mm", length_mm);
@@ -122,7 +117,7 @@ void drawScaleBar(double width_mm, const PanelPlace& place, Rgb8 colour, const F
   text.text = label;
   text.size_pt = 0.9 * style.font_pt;
   text.colour = colour;
-  text.dark_rim = colour == kOnCt;
+  text.rim = colour == kOnCt ? Rgb8{0, 0, 0} : Rgb8{255, 255, 255};
   drawing.parts.emplace_back(text);
 }
 
@@ -137,7 +132,7 @@ void drawSlicePanel(const Scene& scene, const ViewPlane& plane, double width_mm,
   const bool on_ct = scene.volume.has_value();
   if (on_ct) drawVolume(scene, plane, width_mm, place, style, drawing);
   for (const SceneSurface& surface : scene.surfaces) {
-    const Rgb8 colour = on_ct ? surface.colour : darker(surface.colour);
+    const Rgb8 colour = on_ct ? surface.colour : onWhite(surface.colour);
     if (surface.isPoints())
       drawDots(surface, plane, scene.dot_reach_mm, width_mm, place, style.line_pt, colour, drawing);
     else

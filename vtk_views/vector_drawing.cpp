@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kDashOnPt = 3, kDashOffPt = 1.5;
 constexpr double kRimShare = 0.22;  // of the letters' height; half of it lies under them
-constexpr Rgb8 kRim{0, 0, 0};
 
 void requireSize(const VectorDrawing& drawing) {
   if (!(drawing.width_pt > 0 && drawing.height_pt > 0 && drawing.width_pt < 1e5 &&
@@ -105,8 +104,8 @@ struct SvgWriter {
             number(t.size_pt) + "\" fill=\"" + hex(t.colour) + "\" text-anchor=\"" +
             anchors[static_cast<int>(t.anchor)] + "\"";
     if (t.bold) text += " font-weight=\"bold\"";
-    if (t.dark_rim)
-      text += " stroke=\"" + hex(kRim) + "\" stroke-width=\"" + number(kRimShare * t.size_pt) +
+    if (t.rim)
+      text += " stroke=\"" + hex(*t.rim) + "\" stroke-width=\"" + number(kRimShare * t.size_pt) +
               "\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     if (t.upwards)
       text += " transform=\"rotate(-90 " + number(t.at.x_pt) + " " + number(t.at.y_pt) + ")\"";
@@ -172,14 +171,14 @@ struct CairoPainter {
     if (text.upwards) cairo_rotate(context, -M_PI / 2);
     const double width_pt = setFont(context, text);
     const double x_pt = -width_pt * static_cast<int>(text.anchor) / 2;
-    if (text.dark_rim) drawRim(text, x_pt);
+    if (text.rim) drawRim(text, x_pt);
     setColour(context, text.colour);
     cairo_move_to(context, x_pt, 0);
     cairo_show_text(context, text.text.c_str());
     cairo_restore(context);
   }
   void drawRim(const DrawnText& text, double x_pt) const {
-    setColour(context, kRim);
+    setColour(context, *text.rim);
     cairo_new_path(context);
     cairo_move_to(context, x_pt, 0);
     cairo_text_path(context, text.text.c_str());

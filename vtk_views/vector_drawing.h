@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -42,7 +43,8 @@ struct DrawnText {
   bool bold = false;
   bool upwards = false;  // reads from the bottom to the top
   Rgb8 colour{20, 20, 20};
-  bool dark_rim = false;  // around each letter, so that white text is read over any picture
+  /// Around each letter, so that it is read over lines and pictures.
+  std::optional<Rgb8> rim = std::nullopt;
 };
 
 /// Round dots of one size and colour.

@@ -24,9 +24,9 @@ ViewPlane make(const char* name, const Vector3d& centre_mm, const Vector3d& righ
 /// Up for a picture that is looked at from `towards_viewer`.
 Vector3d upFor(const Vector3d& towards_viewer, SceneFrame frame) {
   const Vector3d usual =
-      frame == SceneFrame::kPatient ? Vector3d(Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
+      frame != SceneFrame::kCamera ? Vector3d(Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
   const Vector3d other =
-      frame == SceneFrame::kPatient ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
+      frame != SceneFrame::kCamera ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
   // Within 45 degrees of the axis a picture is read as an axial one (of a scope: one from above).
   const Vector3d& hint = std::abs(towards_viewer.dot(usual)) > std::sqrt(0.5) ? other : usual;
   return (hint - hint.dot(towards_viewer) * towards_viewer).normalized();
@@ -36,6 +36,16 @@ ViewPlane lookFrom(const char* name, const Vector3d& centre_mm, const Vector3d& 
                    SceneFrame frame) {
   const Vector3d up = upFor(towards_viewer, frame);
   return make(name, centre_mm, up.cross(towards_viewer), up);
+}
+
+using SideNames = std::array<std::array<const char*, 2>, 3>;  // by axis, then sign
+
+const SideNames& namesOf(SceneFrame frame) {
+  static const SideNames kLetters{{{"R", "L"}, {"A", "P"}, {"I", "S"}}};
+  static const SideNames kWords{{{"left", "right"}, {"up", "down"}, {"near", "far"}}};
+  static const SideNames kSigns{{{"-x", "+x"}, {"-y", "+y"}, {"-z", "+z"}}};
+  if (frame == SceneFrame::kPatient) return kLetters;
+  return frame == SceneFrame::kCamera ? kWords : kSigns;
 }
 
 Vector3d unitOf(const Vector3d& direction) {
@@ -85,10 +95,6 @@ ViewPlane cameraView(const Vector3d& centre_mm, const Vector3d& towards_viewer, 
 }
 
 std::string sideName(const Vector3d& direction, SceneFrame frame) {
-  static const std::array<std::array<const char*, 2>, 3> kLetters{
-      {{"R", "L"}, {"A", "P"}, {"I", "S"}}};
-  static const std::array<std::array<const char*, 2>, 3> kWords{
-      {{"left", "right"}, {"up", "down"}, {"near", "far"}}};
   const Vector3d unit = direction.normalized();
   std::array<int, 3> order{0, 1, 2};
   std::stable_sort(order.begin(), order.end(),
@@ -96,9 +102,8 @@ std::string sideName(const Vector3d& direction, SceneFrame frame) {
   std::string name;
   for (const int axis : order) {
     if (std::abs(unit[axis]) < kNamed) continue;
-    const auto sides = (frame == SceneFrame::kPatient ? kLetters : kWords)[std::size_t(axis)];
-    if (frame == SceneFrame::kCamera && !name.empty()) name += "-";
-    name += sides[unit[axis] > 0 ? 1 : 0];
+    if (frame != SceneFrame::kPatient && !name.empty()) break;  // words are long: the strongest
+    name += namesOf(frame)[std::size_t(axis)][unit[axis] > 0 ? 1 : 0];
   }
   return name;
 }

@@ -10,6 +10,7 @@ namespace softscope {
 enum class SceneFrame {
   kPatient,  // LPS: x to the patient's left, y to the back, z to the head
   kCamera,   // a scope's: x right, y down, z away from it
+  kAxes,     // not said: looked at as a patient, but sides are called +x, -x …
 };
 
 /// Whose left is on the left of the picture.
@@ -52,7 +53,7 @@ ViewPlane cameraView(const Eigen::Vector3d& centre_mm, const Eigen::Vector3d& to
                      SceneFrame frame);
 
 /// The side that a direction leads to: of a patient one to three of R L A P S I, the strongest
-/// first ("L", "SA"); of a camera's frame words ("right", "far").
+/// first ("L", "SA"); of a camera's frame the strongest in a word ("right", "far").
 std::string sideName(const Eigen::Vector3d& direction, SceneFrame frame);
 
 /// Where along its normal a plane lies, "S 1602.3 mm", "x -4.0 mm"; empty for an oblique one.

@@ -61,7 +61,8 @@ class SilentOutput : public vtkOutputWindow {
   static SilentOutput* New();
   vtkTypeMacro(SilentOutput, vtkOutputWindow)
   void DisplayText(const char* text) override {
-    if (std::strstr(text, "File operation failed") != nullptr) cut_short = true;
+    for (const char* sign : {"File operation failed", "Error reading"})
+      if (std::strstr(text, sign) != nullptr) cut_short = true;
   }
 
   bool cut_short = false;
@@ -101,8 +102,7 @@ void updateOrThrow(vtkAlgorithm& reader, const std::string& source) {
   const std::string& error =
       of_reader.first_error.empty() ? of_executive.first_error : of_reader.first_error;
   if (silence.heardOfShortFile())
-    throw InputError(source +
-                     ": is cut short: its voxels end before its header says. Copy it again");
+    throw InputError(source + ": is cut short: its data end before its header says. Copy it again");
   if (!error.empty() || reader.GetErrorCode() != 0)
     throw InputError(source + ": can't be read: " + (error.empty() ? "broken file" : error) +
                      ". Is it complete, and of the kind its name says?");

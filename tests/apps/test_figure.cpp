@@ -1,4 +1,5 @@
 // tests/apps/test_figure.cpp: `softscope figure` from files to figures and their records.
+#include <cmath>
 #include <fstream>
 
 #include "tests/apps/evaluate_fixture.h"
@@ -83,6 +84,97 @@ TEST_F(Figure, TheSameInputsGiveTheSameBytes) {
   for (const char* ending : {".png", ".pdf", ".svg", ".json"})
     EXPECT_EQ(textOf(at(std::string("a") + ending)), textOf(at(std::string("b") + ending)))
         << ending;
+}
+
+class RunFigure : public Evaluate {
+ protected:
+  Outcome figure(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"figure", at("run"), "--reference", at("truth")});
+    return softscope::test::run(more);
+  }
+};
+
+TEST_F(RunFigure, TheModelIsShownBesideTheTruthInItsCamera) {
+  const Outcome all = figure({"--out", at("a.svg"), "--dpi", "100", "--json"});
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  const Json record = all.json();
+  EXPECT_EQ(record["frame"], kFrames - 1);
+  EXPECT_NEAR(record["errors"]["distance"]["max_mm"], 0.4, kFloats) << "unseen, last frame";
+  EXPECT_EQ(record["errors"]["range_mm"][1], 0.5);
+  EXPECT_EQ(record["views"][0]["name"], "from the scope");
+  // The wall is 50 mm away and 2.5 nearer by then; seen points lie 0.2 mm before it.
+  EXPECT_NEAR(record["surfaces"][0]["low_mm"][2], 47.5, 1e-3);
+  EXPECT_NEAR(record["surfaces"][2]["high_mm"][2], 47.3, 1e-3);
+  const std::string svg = textOf(at("a.svg"));
+  for (const char* word : {">true surface<", ">model<", ">scan of this frame<", ">near<", ">far<"})
+    EXPECT_THAT(svg, HasSubstr(word));
+  EXPECT_THAT(svg, testing::Not(HasSubstr(">R<"))) << "a scope's scene has no patient's sides";
+
+  const Outcome seen =
+      figure({"--out", at("b.svg"), "--dpi", "100", "--observed", "--frame", "2", "--json"});
+  ASSERT_EQ(seen.exit_code, 0) << seen.err;
+  EXPECT_NEAR(seen.json()["errors"]["distance"]["max_mm"], 0.14, kFloats);
+  EXPECT_THAT(textOf(at("b.svg")), HasSubstr(">not observed<"));
+}
+
+TEST_F(RunFigure, WhatCantBeShownIsTold) {
+  const Outcome frame = figure({"--out", at("a.svg"), "--frame", "77"});
+  EXPECT_EQ(frame.exit_code, 2);
+  EXPECT_THAT(frame.err, HasSubstr("--frame is 77"));
+  EXPECT_EQ(figure({"--out", at("a.svg"), "--test", at("run/model.ply")}).exit_code, 2);
+  fs::remove_all(at("run/models"));
+  expectRefused({"no frame has both"}, figure({"--out", at("a.svg")}));
+}
+
+class Slice : public Figure {
+ protected:
+  Outcome slice(std::vector<std::string> more) const {
+    more.insert(more.begin(), "slice");
+    return softscope::test::run(more);
+  }
+};
+
+TEST_F(Slice, APlaneHasAPanelAtEachPosition) {
+  const Outcome outcome = slice({at("ct.mha"), "--surface", at("reference.obj"), "--plane", "axial",
+                                 "--positions", "-6:6:6", "--out", at("s.svg"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json record = outcome.json();
+  ASSERT_EQ(record["views"].size(), 3u);
+  EXPECT_EQ(record["views"][0]["centre_mm"][2], -6.0);
+  EXPECT_EQ(record["views"][2]["side_right"], "L");
+  const std::string svg = textOf(at("s.svg"));
+  for (const char* part : {">(a) axial, I 6.0 mm<", ">(c) axial, S 6.0 mm<", ">reference.obj<"})
+    EXPECT_THAT(svg, HasSubstr(part));
+}
+
+TEST_F(Slice, ObliquePlanesAndSideRulesAreHonoured) {
+  const Outcome outcome =
+      slice({at("ct.mha"), "--plane", "oblique", "--normal", "0,1,1", "--positions", "0,2", "--at",
+             "1,2,3", "--neurological", "--out", at("o.png"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json view = outcome.json()["views"][1];
+  EXPECT_EQ(view["name"], "oblique, +2.0 mm");
+  EXPECT_NEAR(view["centre_mm"][1], 2 + std::sqrt(2.0), 1e-9);
+  EXPECT_EQ(outcome.json()["sides"], "neurological");
+  EXPECT_EQ(view["side_right"], "R");
+}
+
+TEST_F(Slice, BadLinesAreRefused) {
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"--plane", "axiall"},
+           {"--plane", "oblique"},
+           {"--plane", "axial", "--plane", "coronal", "--positions", "1,2"},
+           {"--plane", "axial", "--positions", "1:2"},
+           {"--plane", "axial", "--positions", "0:1000:1"},
+           {"--plane", "axial", "--positions", "a"},
+           {"--columns", "-1"}}) {
+    std::vector<std::string> line{at("ct.mha"), "--out", at("x.svg")};
+    line.insert(line.end(), wrong.begin(), wrong.end());
+    const Outcome outcome = slice(line);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong[1] << outcome.err;
+    EXPECT_FALSE(fs::exists(at("x.svg")));
+  }
+  EXPECT_EQ(slice({"--out", at("y.svg")}).exit_code, 2) << "nothing to slice";
 }
 
 TEST_F(Figure, ARasMeshIsTurnedAndADistantOneTold) {

@@ -106,7 +106,7 @@ TEST(SlicePanel, TheScaleBarIsAsLongAsItSays) {
   EXPECT_EQ(scaleBarLengthMm(90), 20);
   VectorDrawing drawing;
   drawScaleBar(60, {{0, 0}, 300, 300}, {0, 0, 0}, {}, drawing);
-  const DrawnLine bar = partsOf<DrawnLine>(drawing).at(0);
+  const DrawnLine bar = partsOf<DrawnLine>(drawing).at(1);  // over its rim
   EXPECT_NEAR(bar.points[1].x_pt - bar.points[0].x_pt, 10.0 / 60 * 300, 1e-9);
   EXPECT_EQ(partsOf<DrawnText>(drawing).at(0).text, "10 mm");
 }
@@ -159,12 +159,12 @@ TEST(FourPanels, TheColourBarSpansTheRangeOfTheErrors) {
   Scene scene = lopsidedScene();
   scene.surfaces[1].errors_mm.assign(8, 0.5);
   FourPanelOptions options = optionsFor(scene);
-  options.colours = ErrorColours{false, 2};
-  options.bar.any_above = true;
+  options.foot.colours = ErrorColours{false, 2};
+  options.foot.bar.any_above = true;
   const auto words = wordsOfDrawing(drawFourPanels(scene, options));
   for (const char* word : {"0.0", "0.5", "1.0", "1.5", "2.0", "distance to the surface [mm]"})
     EXPECT_EQ(words.count(word), 1u) << word;
-  options.colours = ErrorColours{true, 2};
+  options.foot.colours = ErrorColours{true, 2};
   EXPECT_EQ(wordsOfDrawing(drawFourPanels(scene, options)).count("-2"), 1u);
 }
 

@@ -53,7 +53,8 @@ TEST(ViewPlane, LettersComeFromTheDirection) {
   EXPECT_EQ(sideName({-1, 0.5, 0}, kPatient), "RP");
   EXPECT_EQ(sideName({-1, 0.9, 0.8}, kPatient), "RPS");
   EXPECT_EQ(sideName({0, 0, 1}, SceneFrame::kCamera), "far");
-  EXPECT_EQ(sideName({1, -0.9, 0}, SceneFrame::kCamera), "right-up");
+  EXPECT_EQ(sideName({0, -1, 0.5}, SceneFrame::kAxes), "-y");
+  EXPECT_EQ(sideName({1, -0.9, 0}, SceneFrame::kCamera), "right");
 }
 
 TEST(ViewPlane, PositionsCarryTheirSide) {

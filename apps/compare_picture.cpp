@@ -1,0 +1,77 @@
+// apps/compare_picture.cpp: two views, one bar, one line of numbers.
+#include "apps/compare_picture.h"
+
+#include <Eigen/Geometry>
+
+#include "apps/evaluate_json.h"
+#include "vtk_views/four_panels.h"
+
+namespace softscope {
+namespace {
+
+const Eigen::Vector3d kFromTheFront(0.45, -0.8, 0.4);
+constexpr double kFacesOneSide = 0.3;  // mean of unit normals: 0 of a closed surface, 1 of a plane
+
+/// The way that the part of the reference near the test faces; nothing of a surface all around.
+Eigen::Vector3d facing(const TriangleMesh& reference, const std::vector<ClosestPoint>& closest) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (const ClosestPoint& c : closest) {
+    if (c.triangle < 0) continue;
+    const Triangle& t = reference.triangles[std::size_t(c.triangle)];
+    const Eigen::Vector3f& a = reference.vertices_mm[std::size_t(t[0])];
+    const Eigen::Vector3f normal = (reference.vertices_mm[std::size_t(t[1])] - a)
+                                       .cross(reference.vertices_mm[std::size_t(t[2])] - a);
+    if (normal.norm() > 0) sum += normal.normalized().cast<double>();
+    ++count;
+  }
+  return count == 0 ? kFromTheFront : Eigen::Vector3d(sum / double(count));
+}
+
+/// Both spaces are the reference's by now; drawings of patients are in LPS.
+TriangleMesh inLps(TriangleMesh mesh) {
+  if (mesh.space == "RAS")
+    for (Eigen::Vector3f& p : mesh.vertices_mm) p.head<2>() = -p.head<2>();
+  return mesh;
+}
+
+Scene sceneOf(const TriangleMesh& reference, const TriangleMesh& test,
+              const std::vector<double>& errors_mm) {
+  Scene scene;
+  scene.frame = reference.space.empty() ? SceneFrame::kAxes : SceneFrame::kPatient;
+  TriangleMesh placed = test;
+  placed.space = reference.space;
+  scene.surfaces.push_back({"reference", inLps(reference), {175, 175, 175}, {}});
+  scene.surfaces.push_back({"", inLps(placed), surfaceColour(1), errors_mm});
+  scene.surfaces.back().in_focus = true;
+  return scene;
+}
+
+ViewPlane viewFrom(const Eigen::Vector3d& eye, const Scene& scene) {
+  ViewPlane view = cameraView(sceneCentre(scene), eye, scene.frame);
+  view.name = "seen from " + sideName(eye, scene.frame);
+  return view;
+}
+
+}  // namespace
+
+VectorDrawing drawErrorMap(const ComparisonResult& result, const TriangleMesh& reference,
+                           const TriangleMesh& test, const ErrorMapOptions& options,
+                           const FigureStyle& style) {
+  const ErrorMap map = makeErrorMap(result.comparison.closest, options);
+  const Scene scene = sceneOf(reference, test, map.each_mm);
+  Eigen::Vector3d eye = facing(inLps(reference), result.comparison.closest);
+  if (eye.norm() < kFacesOneSide) eye = kFromTheFront;
+  PanelOptions panels;
+  panels.style = style;
+  panels.width_mm = sceneWidthMm(scene);
+  map.explainIn(panels.foot);
+  if (map.colours.with_sign) panels.foot.bar.missing = "beyond the border";
+  panels.foot.legend = {{"reference", scene.surfaces[0].colour, /*filled=*/true}};
+  const Statistics& errors = result.comparison.accuracy.vertices_mm;
+  panels.foot.notes = {spreadText(errors), std::to_string(errors.count) + " vertices; alignment: " +
+                                               result.alignment + ". Research use only."};
+  return drawSurfaceViews(scene, {viewFrom(eye, scene), viewFrom(-eye, scene)}, panels);
+}
+
+}  // namespace softscope

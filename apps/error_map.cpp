@@ -1,0 +1,60 @@
+// apps/error_map.cpp: one range, stated; what lies beyond it has an arrow.
+#include "apps/error_map.h"
+
+#include <cmath>
+
+#include "apps/evaluate_json.h"
+#include "core/error.h"
+#include "eval/statistics.h"
+
+namespace softscope {
+
+void ErrorMapOptions::validate() const {
+  require(kind == "absolute" || kind == "signed" || kind == "none", "--errors", kind,
+          "must be absolute, signed or none");
+  require(range_mm >= 0 && std::isfinite(range_mm), "--range-mm", range_mm, "must be above 0");
+}
+
+double roundUp(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 1;
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double leading : {1.0, 2.0, 5.0})
+    if (value <= leading * power * (1 + 1e-9)) return leading * power;
+  return 10 * power;
+}
+
+ErrorMap makeErrorMap(const std::vector<double>& distance_mm, const std::vector<double>& signed_mm,
+                      const ErrorMapOptions& options) {
+  const Statistics of_distance = statistics(distance_mm);
+  ErrorMap map;
+  map.colours.with_sign = options.kind == "signed";
+  map.colours.limit_mm = options.range_mm > 0 ? options.range_mm : roundUp(of_distance.p95);
+  map.each_mm = map.colours.with_sign ? signed_mm : distance_mm;
+  for (const double error_mm : map.each_mm) {
+    map.bar.any_above |= error_mm > map.colours.limit_mm;
+    map.bar.any_below |= error_mm < map.colours.low_mm();
+    map.bar.any_missing |= std::isnan(error_mm);
+  }
+  if (map.colours.with_sign) map.bar.label = "signed distance, outside positive [mm]";
+  map.json = {{"kind", options.kind},
+              {"range_mm", {map.colours.low_mm(), map.colours.limit_mm}},
+              {"distance", statisticsJson(of_distance, "_mm")}};
+  if (map.colours.with_sign) map.json["signed"] = statisticsJson(statistics(signed_mm), "_mm");
+  return map;
+}
+
+ErrorMap makeErrorMap(const std::vector<ClosestPoint>& closest, const ErrorMapOptions& options) {
+  std::vector<double> distance_mm, signed_mm;
+  for (const ClosestPoint& c : closest) {
+    distance_mm.push_back(c.distance_mm);
+    signed_mm.push_back(c.signed_distance_mm);
+  }
+  return makeErrorMap(distance_mm, signed_mm, options);
+}
+
+void ErrorMap::explainIn(FigureFoot& foot) const {
+  foot.colours = colours;
+  foot.bar = bar;
+}
+
+}  // namespace softscope
