@@ -48,11 +48,18 @@ void bindRefinement(SettingsBinder& binder, RefinementOptions& options) {
   binder.bind(at + "max_sigma_px", max_sigma_px, "less certain pixels are dropped");
 }
 
+void bindSmoothing(SettingsBinder& binder, SmoothingOptions& options) {
+  auto& [block_px, reach_blocks] = options;
+  const std::string at = "stereo.smoothing.";
+  binder.bind(at + "block_px", block_px, "squares whose means stand for their pixels");
+  binder.bind(at + "reach_blocks", reach_blocks, "of a window, to each side; 0: no smoothing");
+}
+
 }  // namespace
 
 void bindStereoOptions(SettingsBinder& binder, StereoOptions& options) {
   auto& [method, disparity_min_px, disparity_max_px, darkest_gray, dark_margin_px, erode_edges_px,
-         edge_step_px, border_px, elas, refinement, sgbm_block_px] = options;
+         edge_step_px, border_px, elas, refinement, smoothing, sgbm_block_px] = options;
   const std::string at = "stereo.";
   binder.bind(at + "method", method, "elas or sgbm");
   binder.bind(at + "disparity_min_px", disparity_min_px, "smallest disparity sought");
@@ -66,6 +73,7 @@ void bindStereoOptions(SettingsBinder& binder, StereoOptions& options) {
   binder.bind(at + "sgbm_block_px", sgbm_block_px, "block of OpenCV's SGBM");
   bindElas(binder, elas);
   bindRefinement(binder, refinement);
+  bindSmoothing(binder, smoothing);
 }
 
 }  // namespace softscope

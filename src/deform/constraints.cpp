@@ -145,6 +145,7 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
                   match.target_mm, static_cast<float>(match_weight));
     ++set->matches;
   }
+  set->stiffness.assign(graph.edges.size(), 1);
   listActive(set);
 }
 

@@ -59,9 +59,11 @@ struct ConstraintSet {
   int matches = 0;
   int matches_dropped = 0;  // not finite, or their model point unbound
   int points = 0;
+  std::vector<double> stiffness;  // one an edge of the graph, 1 = as stiff as unseen tissue
 };
 
-/// Room for all candidates, and the matches' rows. Renews *constraints, whose memory is used again.
+/// Room for all candidates, and the matches' rows; all edges stiff. Renews *constraints, whose
+/// memory is used again.
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
                      const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
                      double match_weight, ConstraintSet* constraints);

@@ -58,6 +58,7 @@ DeformOptions DeformOptions::paper() {
   options.node_model = NodeModel::kAffine;
   options.rotation_weight = 1e3;
   options.regularisation_weight = 1e4;
+  options.seen_stiffness = 1;
   options.data_weight = 1;
   options.correspondence_weight = 1;
   options.data_robust.loss = RobustLoss::kNone;
@@ -70,6 +71,8 @@ DeformOptions DeformOptions::paper() {
 void DeformOptions::validate() const {
   requireNotNegative("deform.rotation_weight", rotation_weight);
   requireNotNegative("deform.regularisation_weight", regularisation_weight);
+  require(seen_stiffness > 0 && seen_stiffness <= 1, "deform.seen_stiffness", seen_stiffness,
+          "must be above 0 and at most 1");
   requireNotNegative("deform.data_weight", data_weight);
   requireNotNegative("deform.correspondence_weight", correspondence_weight);
   validateRobust(data_robust, "deform.data_robust");

@@ -85,14 +85,16 @@ void evaluateConstraints(const WarpGraph& graph, const ConstraintSet& constraint
   }
 }
 
-double edgeEnergy(const WarpGraph& graph) {
+double edgeEnergy(const WarpGraph& graph, const std::vector<double>& stiffness) {
   double sum = 0;
-  for (const GraphEdge& edge : graph.edges) {
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const GraphEdge& edge = graph.edges[e];
     const auto& g = graph.positions_mm;
     const auto& m = graph.transforms;
     const int j = edge.first, k = edge.second;
-    sum += edge.weight * (edgeResidual(g[j], m[j], g[k], m[k]).squaredNorm() +
-                          edgeResidual(g[k], m[k], g[j], m[j]).squaredNorm());
+    sum += stiffness[e] * edge.weight *
+           (edgeResidual(g[j], m[j], g[k], m[k]).squaredNorm() +
+            edgeResidual(g[k], m[k], g[j], m[j]).squaredNorm());
   }
   return sum;
 }
@@ -125,7 +127,8 @@ void evaluateEnergy(const WarpGraph& graph, const ConstraintSet& constraints,
   value->terms = EnergyTerms();
   value->data_abs_sum_mm = 0;
   evaluateConstraints(graph, constraints, options, value);
-  value->terms.regularisation = options.regularisation_weight * edgeEnergy(graph);
+  value->terms.regularisation =
+      options.regularisation_weight * edgeEnergy(graph, constraints.stiffness);
   if (options.node_model == NodeModel::kAffine)
     value->terms.rotation = options.rotation_weight * rotationEnergy(graph);
 }

@@ -109,7 +109,7 @@ template <class Node>
 void NormalEquations<Node>::assemble(const WarpGraph& graph, const ConstraintSet& constraints,
                                      const EnergyValue& value, const DeformOptions& options) {
   assembleStencils(graph, constraints, value);
-  assembleEdges(graph, options.regularisation_weight);
+  assembleEdges(graph, constraints.stiffness, options.regularisation_weight);
   if constexpr (hasRotationTerm(kUnknowns)) assembleRotations(graph, options.rotation_weight);
   gather(constraints);
 }
@@ -133,12 +133,13 @@ void NormalEquations<Node>::assembleStencils(const WarpGraph& graph,
 }
 
 template <class Node>
-void NormalEquations<Node>::assembleEdges(const WarpGraph& graph, double weight) {
+void NormalEquations<Node>::assembleEdges(const WarpGraph& graph,
+                                          const std::vector<double>& stiffness, double weight) {
   const std::size_t first_block = static_cast<std::size_t>(stencils_) * kStencilBlocks;
   const std::size_t first_gradient = static_cast<std::size_t>(stencils_) * kNodesPerPoint;
   parallelRanges(edges_, 64, [&](int begin, int end) {
     for (int e = begin; e < end; ++e) {
-      const EdgeSystem<Node> system(graph, graph.edges[e], weight);
+      const EdgeSystem<Node> system(graph, graph.edges[e], weight * stiffness[e]);
       double* blocks = part_blocks_.data() + (first_block + e * std::size_t{kEdgeBlocks}) * kBlock;
       std::copy_n(system.first.data(), kBlock, blocks);
       std::copy_n(system.cross.data(), kBlock, blocks + kBlock);

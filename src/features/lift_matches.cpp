@@ -62,6 +62,7 @@ std::vector<LiftedMatch> liftMatches(const std::vector<PixelMatch>& matches, con
     out.target_left_mm = liftPixel(live_camera, match.live_px.x(), match.live_px.y(), live_mm);
     out.across_mm = match.sigma_px * live_mm / static_cast<float>(live_camera.fx_px);
     out.along_mm = sigmaAt(live_depth, match.live_px);
+    out.similarity = match.similarity;
     out.match = static_cast<int>(i);
     lifted.push_back(out);
   }

@@ -26,7 +26,8 @@ struct LiftedMatch {
   Eigen::Vector3f target_left_mm;   // measured, in the live left camera's frame
   float across_mm = 0;              // predicted standard errors of the target: across …
   float along_mm = 0;               // … and along the live camera's ray; NaN if depth has none
-  int match = 0;                    // index of the pixel match
+  float similarity = 0;             // of the pixel match
+  int match = 0;                    // its index
 };
 
 /// Depth at a sub-pixel place, bilinear in the inverse depth (exact on planes); NaN where one of

@@ -48,15 +48,15 @@ struct PointFusionOptions {
                                         // 0: all depths weigh 1
   double max_measurement_weight = 2.0;  // no depth weighs more than this
   NodeTrust node_trust = NodeTrust::kWarpNoise;
-  double node_spacing_mm = 4.0;     // epsilon of the paper
-  double warp_sigma_mm = 0.02;      // error of one warp, half a node spacing away from all nodes
-  bool along_ray = true;            // false: the full position is averaged with the pixel's
-  double contradiction_loss = 0.7;  // share of its weight, and half as much again of one
-                                    // measurement's, that a point seen through loses a frame
-  double buried_mm = 6.0;           // points less than this behind the measured surface lose weight
-                                    // too: the surface came nearer, and they are what it was
-  double confirmed_weight = 3.0;    // below it, a point that isn't found again where it should be
-                                    // loses weight in the same way
+  double node_spacing_mm = 4.0;      // epsilon of the paper
+  double warp_sigma_mm = 0.02;       // error of one warp, half a node spacing away from all nodes
+  bool along_ray = true;             // false: the full position is averaged with the pixel's
+  double contradiction_loss = 0.85;  // share of its weight, and half as much again of one
+                                     // measurement's, that a point seen through loses a frame
+  double buried_mm = 6.0;         // points less than this behind the measured surface lose weight
+                                  // too: the surface came nearer, and they are what it was
+  double confirmed_weight = 3.0;  // below it, a point that isn't found again where it should be
+                                  // loses weight in the same way
 
   void validate() const;
 };

@@ -218,11 +218,13 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
   const double reference_mm = association_.reference_sigma_mm;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     const LiftedMatch& match = matches_[i];
-    if (pose_.found && pose_.inlier[i] == 0) continue;
+    // Outliers are tissue that moves by itself, if the windows agree; else they are mistakes.
+    if (pose_.found && pose_.inlier[i] == 0 && !(match.similarity > 0)) continue;
     KeyPointMatch pull;
     pull.model_point = match.model_point;
     pull.source_mm = match.source_world_mm;
     pull.target_mm = (world_from_left * match.target_left_mm.cast<double>()).cast<float>();
+    if ((pull.target_mm - pull.source_mm).norm() > association_.max_distance_mm) continue;
     if (std::isfinite(match.along_mm) && reference_mm > 0) {
       const Eigen::Vector3f ray =
           (world_from_left.linear() * match.target_left_mm.cast<double>().normalized())

@@ -11,7 +11,7 @@ namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §6
+constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §7
 
 }  // namespace
 

@@ -56,6 +56,11 @@ void RefinementOptions::validate() const {
   requireAbove("stereo.refinement.max_sigma_px", max_sigma_px, 0);
 }
 
+void SmoothingOptions::validate() const {
+  requireAtLeast("stereo.smoothing.block_px", block_px, 2);
+  requireAtLeast("stereo.smoothing.reach_blocks", reach_blocks, 0);
+}
+
 void StereoOptions::validate() const {
   require(method == "elas" || method == "sgbm", "stereo.method", method, "must be elas or sgbm");
   requireAtLeast("stereo.disparity_min_px", disparity_min_px, 0);
@@ -72,6 +77,7 @@ void StereoOptions::validate() const {
           "must be odd and 1 or more");
   elas.validate();
   refinement.validate();
+  smoothing.validate();
 }
 
 }  // namespace softscope

@@ -1,6 +1,7 @@
 // src/stereo/stereo_options.h: how disparity is found; one place for every default.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 namespace softscope {
@@ -52,8 +53,20 @@ struct RefinementOptions {
   double max_difference = 0.5;    // (R - L)² as a share of R² + L²; unrelated pictures have 1
   double max_sigma_px = 2.0;      // pixels whose predicted standard error is larger are dropped
 
+  /// Standard deviation of the window's Gaussian, and the area within which errors are alike.
+  double windowSigmaPx() const { return 0.55 * radius_px; }
+  double independentPx2() const { return 4 * M_PI * windowSigmaPx() * windowSigmaPx(); }
+
   static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row
   void validate() const;                      // see StereoOptions::validate()
+};
+
+/// Smoothing: every pixel moves towards the plane that its neighbours agree on.
+struct SmoothingOptions {
+  int block_px = 8;      // squares whose means stand for their pixels
+  int reach_blocks = 2;  // of a window, to each side; 0: no smoothing
+
+  void validate() const;  // see StereoOptions::validate()
 };
 
 /// What any matcher needs.
@@ -68,6 +81,7 @@ struct StereoOptions {
   int border_px = 2;          // pixels this near to the picture's border are dropped
   ElasOptions elas;
   RefinementOptions refinement;
+  SmoothingOptions smoothing;
   int sgbm_block_px = 5;
 
   static constexpr int kLargestDisparityPx = 1023;

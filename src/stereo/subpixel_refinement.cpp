@@ -16,7 +16,6 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr double kWindowSigma = 0.55;    // of the radius
 constexpr float kFarthestStepPx = 1.5f;  // a fit that wanders farther has lost its pixel
 constexpr float kStepPx = 1.0f;          // neighbours of one surface differ by at most this …
 constexpr float kSlope = 0.4f;           // … and this much more for every pixel between them
@@ -40,7 +39,7 @@ struct Setting {
         width(left_image.width_px),
         left(bandPass(left_image, refinement.highpass_sigma_px)),
         right(bandPass(right_image, refinement.highpass_sigma_px)),
-        window(gaussian(kWindowSigma * refinement.radius_px, refinement.radius_px)) {
+        window(gaussian(refinement.windowSigmaPx(), refinement.radius_px)) {
     const int radius = options.radius_px;
     for (int y = -radius; y <= radius; ++y)
       for (int i = 0; i < kSelectLanes; ++i) {
@@ -127,7 +126,7 @@ class Band {
                        kFarthestStepPx,
                        setting_.priorWeight(),
                        squared(options.noise_floor_gray),
-                       static_cast<float>(4 * M_PI) * squared(kWindowSigma * radius_),
+                       static_cast<float>(options.independentPx2()),
                        squared(options.model_sigma_px),
                        squared(options.max_sigma_px),
                        static_cast<float>(options.max_difference),

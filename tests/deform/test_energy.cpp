@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "deform/block_pattern.h"
+#include "deform/edge_stiffness.h"
 #include "deform/energy.h"
 #include "deform/node_terms.h"
 #include "deform/normal_equations.h"
@@ -147,9 +148,40 @@ struct BentHill {
         graph.transforms[j].linear(0, 1) += 0.02 * std::sin(5 * s);
     }
     associate(graph, candidates, &target, options.data_weight, &constraints);
+    for (std::size_t e = 0; e < constraints.stiffness.size(); ++e)
+      constraints.stiffness[e] = 1 / (1.0 + static_cast<double>(e % 5));
     evaluateEnergy(graph, constraints, options, &value);
   }
 };
+
+TEST(EdgeStiffness, IsFullWhereNothingIsSeenAndLeastWhereAllIs) {
+  PointModel model = scenes::makeHill(24, 20, 0.6);
+  const WarpGraph graph = scenes::bindGraph(&model);
+  const auto stiffness = [&](const std::vector<int>* visible) {
+    CandidatePoints candidates;
+    collectCandidates(model, graph, visible, 0, &candidates);
+    std::vector<double> result(graph.edges.size(), 1);
+    softenWhereSeen(model, graph, candidates, 0.2, &result);
+    return result;
+  };
+  const std::vector<int> nothing;
+  for (const double one : stiffness(&nothing)) EXPECT_EQ(one, 1);
+  for (const double one : stiffness(nullptr)) EXPECT_NEAR(one, 0.2, 1e-9);
+  std::vector<int> left;
+  for (std::size_t i = 0; i < model.size(); ++i)
+    if (model.positions_mm[i].x() < 0) left.push_back(static_cast<int>(i));
+  const std::vector<double> half = stiffness(&left);
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const double x = std::max(graph.positions_mm[graph.edges[e].first].x(),
+                              graph.positions_mm[graph.edges[e].second].x());
+    if (x > 8) {  // two spacings into the dark
+      EXPECT_EQ(half[e], 1);
+    }
+    if (x < -8) {  // two spacings into the light
+      EXPECT_NEAR(half[e], 0.2, 1e-9);
+    }
+  }
+}
 
 DeformOptions testOptions(NodeModel model, RobustLoss loss) {
   DeformOptions options = unitWeights(model);
@@ -228,15 +260,19 @@ Eigen::MatrixXd denseSystem(const BentHill& scene, const DeformOptions& options)
       sum += scene.value.weights[i] * row * row.transpose();
     }
   }
-  for (const GraphEdge& edge : graph.edges)
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const GraphEdge& edge = graph.edges[e];
+    const double weight =
+        options.regularisation_weight * scene.constraints.stiffness[e] * edge.weight;
     for (const auto& [own, other] :
          {std::pair{edge.first, edge.second}, std::pair{edge.second, edge.first}}) {
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, size);
       rows.middleCols<n>(own * n) = Node::leverJacobian(
           graph.transforms[own], graph.positions_mm[other] - graph.positions_mm[own]);
       rows.middleCols<3>(other * n + n - 3) = -Eigen::Matrix3d::Identity();
-      sum += options.regularisation_weight * edge.weight * rows.transpose() * rows;
+      sum += weight * rows.transpose() * rows;
     }
+  }
   if (n == 12)
     for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(graph.size()); ++j) {
       const Eigen::Matrix<double, 6, 12> rows = rotationJacobian(graph.transforms[j].linear);
