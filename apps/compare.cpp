@@ -71,7 +71,7 @@ class CompareCommand : public Command {
 
   std::string reference_, test_, out_, align_, landmarks_, taus_ = "0.5,1,2";
   std::vector<std::string> fail_if_;
-  ErrorMapOptions picture_;
+  ErrorColourOptions picture_;
   double reference_unit_mm_ = 1, test_unit_mm_ = 1;
   bool force_ = false;
 };

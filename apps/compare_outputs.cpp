@@ -57,7 +57,7 @@ void CompareOutputs::putFigure(const std::string& name, const VectorDrawing& fig
 }
 
 std::string CompareOutputs::write(const ComparisonResult& result, const TriangleMesh& reference,
-                                  const TriangleMesh& test, const ErrorMapOptions& picture,
+                                  const TriangleMesh& test, const ErrorColourOptions& picture,
                                   const FactSheet::Json& record) const {
   fs::create_directories(folder_);
   put("metrics.csv", metricsCsv(record));
@@ -69,7 +69,7 @@ std::string CompareOutputs::write(const ComparisonResult& result, const Triangle
   try {
     FigureStyle style;
     style.dots_per_inch = kDotsPerInch;
-    putFigure("error_map", drawErrorMap(result, reference, test, picture, style));
+    putFigure("error_map", drawComparison(result, reference, test, picture, style));
   } catch (const BackendError& error) {
     not_drawn = std::string("no error_map: ") + error.what();
   }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/compare_record.h"
-#include "apps/error_map.h"
+#include "apps/surface_error_map.h"
 #include "core/triangle_mesh.h"
 #include "vtk_views/vector_drawing.h"
 
@@ -21,7 +21,7 @@ class CompareOutputs {
   /// `test`: in the reference's place. Returns what could not be drawn, empty where all was: a
   /// machine without a renderer still gets the numbers.
   std::string write(const ComparisonResult& result, const TriangleMesh& reference,
-                    const TriangleMesh& test, const ErrorMapOptions& picture,
+                    const TriangleMesh& test, const ErrorColourOptions& picture,
                     const FactSheet::Json& record) const;
 
  private:

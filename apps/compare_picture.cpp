@@ -55,10 +55,10 @@ ViewPlane viewFrom(const Eigen::Vector3d& eye, const Scene& scene) {
 
 }  // namespace
 
-VectorDrawing drawErrorMap(const ComparisonResult& result, const TriangleMesh& reference,
-                           const TriangleMesh& test, const ErrorMapOptions& options,
-                           const FigureStyle& style) {
-  const ErrorMap map = makeErrorMap(result.comparison.closest, options);
+VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh& reference,
+                             const TriangleMesh& test, const ErrorColourOptions& options,
+                             const FigureStyle& style) {
+  const SurfaceErrorMap map = colourErrors(result.comparison.closest, options);
   const Scene scene = sceneOf(reference, test, map.each_mm);
   Eigen::Vector3d eye = facing(inLps(reference), result.comparison.closest);
   if (eye.norm() < kFacesOneSide) eye = kFromTheFront;

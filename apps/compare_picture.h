@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/compare_record.h"
-#include "apps/error_map.h"
+#include "apps/surface_error_map.h"
 #include "core/triangle_mesh.h"
 #include "vtk_views/figure_style.h"
 #include "vtk_views/vector_drawing.h"
@@ -12,8 +12,8 @@ namespace softscope {
 /// The test, in the reference's place, coloured by its distances, over the reference in grey: seen
 /// from the side that most of it faces, and from the other. Throws BackendError where nothing
 /// renders.
-VectorDrawing drawErrorMap(const ComparisonResult& result, const TriangleMesh& reference,
-                           const TriangleMesh& test, const ErrorMapOptions& options,
-                           const FigureStyle& style);
+VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh& reference,
+                             const TriangleMesh& test, const ErrorColourOptions& options,
+                             const FigureStyle& style);
 
 }  // namespace softscope

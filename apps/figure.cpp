@@ -4,13 +4,13 @@
 #include <filesystem>
 
 #include "apps/command.h"
-#include "apps/error_map.h"
 #include "apps/exit_codes.h"
 #include "apps/figure_options.h"
 #include "apps/figure_outputs.h"
 #include "apps/figure_run.h"
 #include "apps/result_output.h"
 #include "apps/scene_inputs.h"
+#include "apps/surface_error_map.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "vtk_views/four_panels.h"
@@ -52,7 +52,7 @@ class FigureCommand : public Command {
   FigureOptions options_;
   std::string run_, ct_, reference_, test_, eye_;
   std::vector<std::string> surfaces_, scans_;
-  ErrorMapOptions errors_;
+  ErrorColourOptions errors_;
   int columns_ = 0, frame_ = -1;
   bool observed_ = false;
 };
@@ -124,7 +124,7 @@ void FigureCommand::addErrors(Scene& scene, FigureFoot& foot, Json& record) cons
   if (reference.isPoints())
     throw InputError(reference_ +
                      ": is a set of points, but a reference is a surface; give a mesh");
-  const ErrorMap map = makeErrorMap(
+  const SurfaceErrorMap map = colourErrors(
       TriangleTree(reference.mesh).closestPoints(scene.surfaces[1].mesh.vertices_mm), errors_);
   scene.surfaces[1].errors_mm = map.each_mm;
   map.explainIn(foot);

@@ -60,12 +60,12 @@ void dropUnobserved(const ModelErrors& errors, std::vector<double>& values) {
     if (errors.each_observed[i] == 0) values[i] = std::nan("");
 }
 
-ErrorMap errorMapOf(ModelErrors& errors, const RunMomentOptions& options) {
+SurfaceErrorMap errorMapOf(ModelErrors& errors, const RunMomentOptions& options) {
   if (options.observed_only) {
     dropUnobserved(errors, errors.each_mm);
     dropUnobserved(errors, errors.each_signed_mm);
   }
-  return makeErrorMap(errors.each_mm, errors.each_signed_mm, options.errors);
+  return colourErrors(errors.each_mm, errors.each_signed_mm, options.errors);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ Json addRunMoment(const RunMomentOptions& options, SceneInputs& inputs, FigureFo
   record["left_from_true_world"] = matrixJson(left_from_world);
   record["observed_share"] = errors.observed_share;
   if (options.errors.kind != "none") {
-    const ErrorMap map = errorMapOf(errors, options);
+    const SurfaceErrorMap map = errorMapOf(errors, options);
     shown_model.errors_mm = map.each_mm;
     map.explainIn(foot);
     record["errors"] = map.json;

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "apps/error_map.h"
 #include "apps/fact_sheet.h"
 #include "apps/scene_inputs.h"
+#include "apps/surface_error_map.h"
 
 namespace softscope {
 
@@ -13,7 +13,7 @@ struct RunMomentOptions {
   std::string run, sequence;   // folders
   int frame = -1;              // -1: the last one with a model and a true mesh
   bool observed_only = false;  // points that the scope doesn't see now count as not observed
-  ErrorMapOptions errors;
+  ErrorColourOptions errors;
 };
 
 /// Adds the true surface, the model with its errors, and the tissue that the scope sees now (the

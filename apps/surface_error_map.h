@@ -1,4 +1,4 @@
-// apps/error_map.h: from distances that eval measured to the colours of a figure.
+// apps/surface_error_map.h: from distances that eval measured to the colours of a figure.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace softscope {
 
 /// What the user asked for.
-struct ErrorMapOptions {
+struct ErrorColourOptions {
   std::string kind = "absolute";  // or "signed" or "none"
   double range_mm = 0;            // 0: a round number, not below the 95th percentile
 
@@ -19,7 +19,7 @@ struct ErrorMapOptions {
   void validate() const;
 };
 
-struct ErrorMap {
+struct SurfaceErrorMap {
   std::vector<double> each_mm;  // one a vertex; NaN = not observed, or no side is outside
   ErrorColours colours;
   ColourBarText bar;
@@ -30,9 +30,11 @@ struct ErrorMap {
 };
 
 /// Of distances and signed distances, one a vertex.
-ErrorMap makeErrorMap(const std::vector<double>& distance_mm, const std::vector<double>& signed_mm,
-                      const ErrorMapOptions& options);
-ErrorMap makeErrorMap(const std::vector<ClosestPoint>& closest, const ErrorMapOptions& options);
+SurfaceErrorMap colourErrors(const std::vector<double>& distance_mm,
+                             const std::vector<double>& signed_mm,
+                             const ErrorColourOptions& options);
+SurfaceErrorMap colourErrors(const std::vector<ClosestPoint>& closest,
+                             const ErrorColourOptions& options);
 
 /// 1, 2 or 5 times a power of ten, not below `value`; 1 for a value that isn't above 0.
 double roundUp(double value);

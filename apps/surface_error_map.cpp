@@ -1,5 +1,5 @@
-// apps/error_map.cpp: one range, stated; what lies beyond it has an arrow.
-#include "apps/error_map.h"
+// apps/surface_error_map.cpp: one range, stated; what lies beyond it has an arrow.
+#include "apps/surface_error_map.h"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-void ErrorMapOptions::validate() const {
+void ErrorColourOptions::validate() const {
   require(kind == "absolute" || kind == "signed" || kind == "none", "--errors", kind,
           "must be absolute, signed or none");
   require(range_mm >= 0 && std::isfinite(range_mm), "--range-mm", range_mm, "must be above 0");
@@ -23,10 +23,11 @@ double roundUp(double value) {
   return 10 * power;
 }
 
-ErrorMap makeErrorMap(const std::vector<double>& distance_mm, const std::vector<double>& signed_mm,
-                      const ErrorMapOptions& options) {
+SurfaceErrorMap colourErrors(const std::vector<double>& distance_mm,
+                             const std::vector<double>& signed_mm,
+                             const ErrorColourOptions& options) {
   const Statistics of_distance = statistics(distance_mm);
-  ErrorMap map;
+  SurfaceErrorMap map;
   map.colours.with_sign = options.kind == "signed";
   map.colours.limit_mm = options.range_mm > 0 ? options.range_mm : roundUp(of_distance.p95);
   map.each_mm = map.colours.with_sign ? signed_mm : distance_mm;
@@ -43,16 +44,17 @@ ErrorMap makeErrorMap(const std::vector<double>& distance_mm, const std::vector<
   return map;
 }
 
-ErrorMap makeErrorMap(const std::vector<ClosestPoint>& closest, const ErrorMapOptions& options) {
+SurfaceErrorMap colourErrors(const std::vector<ClosestPoint>& closest,
+                             const ErrorColourOptions& options) {
   std::vector<double> distance_mm, signed_mm;
   for (const ClosestPoint& c : closest) {
     distance_mm.push_back(c.distance_mm);
     signed_mm.push_back(c.signed_distance_mm);
   }
-  return makeErrorMap(distance_mm, signed_mm, options);
+  return colourErrors(distance_mm, signed_mm, options);
 }
 
-void ErrorMap::explainIn(FigureFoot& foot) const {
+void SurfaceErrorMap::explainIn(FigureFoot& foot) const {
   foot.colours = colours;
   foot.bar = bar;
 }
