@@ -37,8 +37,8 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& covariance) {
 
 }  // namespace
 
-ArapPushes::ArapPushes(const TriangleMesh& rest_mesh, const ArapOptions& options)
-    : options_(options),
+ArapPushes::ArapPushes(const TriangleMesh& rest_mesh, double spread_mm)
+    : spread_mm_(spread_mm),
       neighbours_(neighboursOf(rest_mesh)),
       rotations_(rest_mesh.vertices_mm.size(), Eigen::Matrix3d::Identity()) {
   double edges2_mm2 = 0, edges = 0;
@@ -50,8 +50,7 @@ ArapPushes::ArapPushes(const TriangleMesh& rest_mesh, const ArapOptions& options
       entries.emplace_back(int(i), int(i), 1);
       entries.emplace_back(int(i), j, -1);
     }
-  bed_ = kSixNeighbours * edges2_mm2 / std::max(1.0, edges) /
-         (options_.spread_mm * options_.spread_mm);
+  bed_ = kSixNeighbours * edges2_mm2 / std::max(1.0, edges) / (spread_mm * spread_mm);
   const auto n = static_cast<int>(neighbours_.size());
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, bed_);
   springs_.resize(n, n);
@@ -62,7 +61,7 @@ ArapPushes::ArapPushes(const TriangleMesh& rest_mesh, const ArapOptions& options
 Eigen::VectorXd ArapPushes::tipWeights(const Points& last_mm, int vertex) const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(last_mm.rows());
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    const double share = (last_mm.row(i) - last_mm.row(vertex)).norm() / options_.tip_mm;
+    const double share = (last_mm.row(i) - last_mm.row(vertex)).norm() / spread_mm_;
     if (share < 1) weights[i] = kTipHold * std::pow(1 - share * share, 2);
   }
   return weights;

@@ -12,11 +12,6 @@
 
 namespace softscope {
 
-struct ArapOptions {
-  double tip_mm = 6;     // radius of what pushes; its hold fades to 0 at its rim
-  double spread_mm = 9;  // away from there, tissue gives in over about this length
-};
-
 /// Tissue on an elastic bed. A push moves the surroundings of one vertex from where the last push
 /// left them; the rest follows by minimising, over positions p and a rotation R_i a vertex,
 ///   sum_edges |p_i - p_j - R_i (l_i - l_j)|^2 + a sum_i |p_i - l_i|^2 + sum_tip b_i |p_i - l_i -
@@ -24,7 +19,9 @@ struct ArapOptions {
 /// with l the last state and s the push (Sorkine and Alexa 2007; the paper's own simulation).
 class ArapPushes {
  public:
-  ArapPushes(const TriangleMesh& rest_mesh, const ArapOptions& options);
+  /// `spread_mm`: radius of what pushes, whose hold fades to 0 at its rim; beyond, tissue gives in
+  /// over about the same length. So 0.6 of the push is left at this distance, as with a Gaussian.
+  ArapPushes(const TriangleMesh& rest_mesh, double spread_mm);
 
   /// The state after one more push, `last_mm` being the state before. The same bytes on any number
   /// of threads.
@@ -39,7 +36,7 @@ class ArapPushes {
   void fitRotations(const Points& last_mm, const Points& now_mm);
   Points edgeForces(const Points& last_mm) const;
 
-  ArapOptions options_;
+  double spread_mm_;
   std::vector<std::vector<std::int32_t>> neighbours_;
   Matrix springs_;  // graph Laplacian, and the bed on its diagonal
   double bed_ = 0;

@@ -80,8 +80,7 @@ TissueDeformation::TissueDeformation(const TriangleMesh& rest_mesh, const Eigen:
   }
   if (push_sites_.empty()) push_sites_.push_back(0);  // a mesh coarser than the reach
   if (options.push_kind == "arap" && options.push.amplitude_mm > 0)
-    arap_ = std::make_unique<ArapPushes>(rest_mesh,
-                                         ArapOptions{ArapOptions().tip_mm, options.push_spread_mm});
+    arap_ = std::make_unique<ArapPushes>(rest_mesh, options.push_spread_mm);
 }
 
 TissueDeformation::Push TissueDeformation::pushNumber(int number) const {

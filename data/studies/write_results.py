@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Writes docs/results.md and its pictures from what studies left; nothing in it is typed by hand.
+
+usage: data/studies/write_results.py --softscope build/release/apps/softscope DIR...
+Each DIR is the folder of a finished study. Refuses results of another build than the one named, and
+a working tree that differs from its commit: the commit that is written is the one that was built."""
+import argparse
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs/results.md"
+PICTURES = ROOT / "docs/images/results"
+
+HEAD = """# Results
+Every number on this page was measured by `softscope study` ([studies](studies.md)) and written by `data/studies/write_results.py` from the studies' `study.json`; nothing is typed by hand. What each column means: [evaluation](evaluation.md). Research use only, not for diagnosis.
+"""
+
+
+def git(*words):
+    return subprocess.run(["git", "-C", str(ROOT), *words], check=True, text=True,
+                          stdout=subprocess.PIPE).stdout.strip()
+
+
+def fail(text):
+    sys.exit(f"write_results.py: {text}")
+
+
+def read_study(folder):
+    file = folder / "study.json"
+    if not file.is_file():
+        fail(f"{file} is missing; run the study first")
+    study = json.loads(file.read_text(encoding="utf-8"))
+    study["folder"] = folder
+    return study
+
+
+def check_build(study, digest):
+    """Every case must come from the build whose commit will be named."""
+    for case in study["cases"]:
+        if case.get("executable_sha256", digest) != digest:
+            fail(f"{study['folder']}: case {case['name']} was run by another build; run the study "
+                 "again with --force")
+        if case["status"] == "not run":
+            fail(f"{study['folder']}: case {case['name']} has not been run")
+
+
+def cell(text):
+    return text.replace("|", "\\|")
+
+
+def table_of(study):
+    table = study["table"]
+    lines = ["| " + " | ".join(map(cell, table["headings"])) + " |",
+             "|" + "---|" * len(table["headings"])]
+    lines += ["| " + " | ".join(map(cell, row)) + " |" for row in table["rows"]]
+    return "\n".join(lines)
+
+
+def copy_pictures(study, name):
+    """The plots of the first metric, and how the page shows them."""
+    shown = []
+    for plot in sorted((study["folder"] / "plots").glob("*.svg")):
+        if study["sweeps"] and not plot.stem.endswith("_points"):
+            continue
+        target = PICTURES / f"{name}_{plot.name}"
+        shutil.copyfile(plot, target)
+        shown.append(f"![{plot.stem.replace('_', ', ')}](images/results/{target.name})")
+    return " ".join(shown)
+
+
+def seconds_of(study):
+    return sum(sum(case.get("seconds", {}).values()) for case in study["cases"])
+
+
+def section(study, commit):
+    name = re.sub(r"\W+", "_", Path(study["command"].split()[2]).stem)
+    parts = [f"## {study['title']}", study["about"], table_of(study)]
+    notes = study["table"]["notes"]
+    if notes:
+        parts.append("\n".join(f"- {cell(note)}" for note in notes))
+    pictures = copy_pictures(study, name)
+    if pictures:
+        parts.append(pictures)
+    machine = study["machine"]
+    parts.append(f"`{study['command']}`, softscope {study['softscope']} ({study['compiler']}) at "
+                 f"commit {commit}, {machine['processor']}, {machine['cores']} cores; "
+                 f"{seconds_of(study):.0f} s of all cases together.")
+    return "\n\n".join(part for part in parts if part)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--softscope", required=True, type=Path, help="the program that ran them")
+    parser.add_argument("folders", nargs="+", type=Path, metavar="DIR")
+    options = parser.parse_args()
+    changed = [line for line in git("status", "--porcelain", "--untracked-files=no").splitlines()
+               if "docs/" not in line]
+    if changed:
+        fail("the working tree differs from its commit: " + changed[0])
+    digest = hashlib.sha256(options.softscope.read_bytes()).hexdigest()
+    studies = [read_study(folder) for folder in options.folders]
+    for study in studies:
+        check_build(study, digest)
+    if PICTURES.exists():
+        shutil.rmtree(PICTURES)
+    PICTURES.mkdir(parents=True)
+    commit = git("rev-parse", "--short", "HEAD")
+    sections = [section(study, commit) for study in studies]
+    PAGE.write_text(HEAD + "\n" + "\n\n".join(sections) + "\n", encoding="utf-8")
+    print(f"wrote {PAGE.relative_to(ROOT)} and {len(list(PICTURES.iterdir()))} pictures")
+
+
+if __name__ == "__main__":
+    main()
