@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/message.h"
 #include "vtk_views/report_html.h"
+#include "vtk_views/report_pdf.h"
 
 namespace softscope {
 namespace {
@@ -42,7 +43,7 @@ class ReportCommand : public Command {
   std::vector<ReportCase> readCases() const;
 
   std::vector<std::string> folders_, names_, fail_if_;
-  std::string out_, title_;
+  std::string out_, pdf_, title_;
   double limit_mm_ = 0;
   int seed_ = 1;
   bool with_paths_ = false, force_ = false;
@@ -51,6 +52,7 @@ class ReportCommand : public Command {
 void ReportCommand::declare(ArgumentList& arguments) {
   arguments.positionals("CASE", folders_, "folders that evaluate or compare wrote");
   arguments.option("--out", "FILE", out_, "the page, .html", true);
+  arguments.option("--pdf", "FILE", pdf_, "the same on paper");
   arguments.option("--name", "TEXT", names_, "of each case, in their order; repeatable");
   arguments.option("--title", "TEXT", title_, "of the page");
   arguments.option("--limit-mm", "N", limit_mm_,
@@ -80,6 +82,8 @@ int ReportCommand::run() {
   std::vector<Threshold> thresholds;
   for (const std::string& text : fail_if_) thresholds.push_back(parseThreshold(text));
   requireWritable(out_, force_);
+  if (!pdf_.empty()) requireWritable(pdf_, force_);
+  if (out_ == pdf_) throw OptionError("--out and --pdf name the same file; give two");
 
   ReportRequest request;
   request.cases = readCases();
@@ -89,12 +93,16 @@ int ReportCommand::run() {
   for (const ReportCase& c : request.cases)
     request.outcomes.push_back(checkThresholds(thresholds, c.record, c.mainPart()));
   const ReportDocument document = makeReport(std::move(request));
-  writeFile(out_, reportHtml(document.page), force_);
+  const std::string html = reportHtml(document.page);
+  const std::string pdf = pdf_.empty() ? "" : reportPdf(document.page);
+  writeFile(out_, html, force_);
+  if (!pdf_.empty()) writeFile(pdf_, pdf, force_);
   if (common.json) {
     printJson(document.metrics);
   } else {
     FactSheet facts = document.facts;
     facts.addLine("written to", out_);
+    if (!pdf_.empty()) facts.addLine("", pdf_);
     printFacts(facts, false);
   }
   return exitCodeOf(document.outcomes);

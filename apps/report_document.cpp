@@ -1,12 +1,16 @@
 // apps/report_document.cpp: sections in clinical reading order.
 #include "apps/report_document.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "apps/report_privacy.h"
 #include "apps/report_words.h"
 #include "apps/version.h"
+#include "core/error.h"
+#include "vtk_views/error_map_figure.h"
 
 namespace softscope {
 namespace {
@@ -56,9 +60,36 @@ std::vector<ReportPart> pictureParts(const ReportCase& c) {
 }
 
 ReportMapPlace mapPlace(double limit_mm) {
-  return {"Error map. Colours run to " + millimetresText(limit_mm) +
-          " for every case and moment; the bar tells where they end. Drag to turn, wheel to zoom, "
-          "shift and drag to move, click to read. Colours are not shaded."};
+  const std::string same = "Colours run to " + millimetresText(limit_mm) +
+                           " for every case and moment, and are not shaded; ";
+  return {"Error map. " + same +
+              "grey is the reference where no model lies before it. Drag to turn, wheel to zoom, "
+              "shift and drag to move, click to read.",
+          "Error maps, last moment. " + same +
+              "arrows at the bar: some values lie beyond. Grey: the reference where no model lies "
+              "before it."};
+}
+
+/// Of one case both kinds of distance, of several each one's distance; none where nothing on this
+/// machine renders.
+std::optional<VectorDrawing> mapFigure(const std::vector<ReportMap>& maps, double limit_mm) {
+  constexpr std::size_t kMostCells = 12;
+  std::vector<ErrorMapCell> cells;
+  for (const ReportMap& map : maps) {
+    if (cells.size() == kMostCells) break;
+    cells.push_back({maps.size() == 1 ? "Distance" : map.name, &map.moments.back(), false});
+    if (maps.size() == 1) cells.push_back({"Signed distance", &map.moments.back(), true});
+  }
+  if (cells.empty()) return std::nullopt;
+  ErrorMapFigureStyle style;
+  style.limit_mm = limit_mm;
+  style.columns = maps.size() <= 2 ? 2 : 3;
+  try {
+    return drawErrorMaps(cells, style);
+  } catch (const BackendError& error) {
+    spdlog::warn("the report has no picture of its map: {}", error.what());
+    return std::nullopt;
+  }
 }
 
 std::vector<ReportSection> caseSections(const ReportRequest& request, double limit_mm) {
@@ -124,6 +155,7 @@ ReportDocument makeReport(ReportRequest request) {
                                        millimetresText(c.main("p95_mm")));
     if (!c.maps.empty()) page.maps.push_back({c.name, std::move(c.maps)});
   }
+  page.map_figure = mapFigure(page.maps, page.limit_mm);
   for (const auto& outcomes : request.outcomes)
     document.outcomes.insert(document.outcomes.end(), outcomes.begin(), outcomes.end());
   return document;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "vtk_views/cairo_picture.h"
 #include "vtk_views/html_text.h"
 
 namespace softscope {
@@ -19,6 +20,8 @@ extern const char* const report_review_js;
 }  // namespace embedded
 
 namespace {
+
+constexpr double kDotsPerInch = 140;
 
 /// Replaces each {{name}}, in one pass: what was put in is not looked at again.
 std::string filled(const std::string& frame, const std::map<std::string, std::string>& values) {
@@ -102,9 +105,9 @@ struct PartWriter {
   }
   std::string operator()(const ReportMapPlace& place) const {
     const std::string picture =
-        page.map_picture.empty()
+        !page.map_figure
             ? element("p", "No picture: nothing on the machine that made this page could draw one.")
-            : imageOf(page.map_picture, place.caption);
+            : imageOf(pngBytes(rasterise(*page.map_figure, kDotsPerInch)), place.paper_caption);
     return filled(embedded::report_viewer_html,
                   {{"picture", picture}, {"caption", htmlEscaped(place.caption)}});
   }

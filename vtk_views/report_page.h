@@ -1,6 +1,7 @@
 // vtk_views/report_page.h: what a report says, for paper and for the screen alike.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -53,7 +54,7 @@ struct ReportPicture {
 
 /// Where the page's map stands; on paper its picture.
 struct ReportMapPlace {
-  std::string caption;
+  std::string caption, paper_caption;
 };
 
 /// Keys to go through the cases, to grade them and to save what was found; on paper nothing.
@@ -73,9 +74,9 @@ struct ReportSection {
 struct ReportPage {
   std::string title, subtitle, notice;  // the notice stands on every page of paper
   std::vector<ReportSection> sections;
-  std::vector<ReportMap> maps;  // empty: no map
-  double limit_mm = 1;          // of the maps' colours, the same for all
-  std::string map_picture;      // PNG of the maps, where something could draw it
+  std::vector<ReportMap> maps;              // empty: no map
+  double limit_mm = 1;                      // of the maps' colours, the same for all
+  std::optional<VectorDrawing> map_figure;  // of the maps, where something could draw it
   std::string metrics_json;
 };
 

@@ -264,14 +264,23 @@ std::string svgBytes(const VectorDrawing& drawing) {
 }
 
 std::string pdfBytes(const VectorDrawing& drawing) {
-  requireSize(drawing);
+  return pdfBytes(std::vector<VectorDrawing>{drawing});
+}
+
+std::string pdfBytes(const std::vector<VectorDrawing>& pages) {
+  if (pages.empty()) throw Error("figure: a PDF needs a page");
   std::string bytes;
   const CairoSurface surface(
-      cairo_pdf_surface_create_for_stream(appendTo, &bytes, drawing.width_pt, drawing.height_pt));
+      cairo_pdf_surface_create_for_stream(appendTo, &bytes, pages[0].width_pt, pages[0].height_pt));
   // The time of day would make every file another one.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2000-01-01T00:00:00Z");
-  paint(drawing, surface.get(), 1);
+  for (const VectorDrawing& page : pages) {
+    requireSize(page);
+    cairo_pdf_surface_set_size(surface.get(), page.width_pt, page.height_pt);
+    paint(page, surface.get(), 1);
+    cairo_surface_show_page(surface.get());
+  }
   cairo_surface_finish(surface.get());
   requireGoodCairo(cairo_surface_status(surface.get()));
   return bytes;

@@ -75,6 +75,8 @@ double textWidthPt(const DrawnText& text);
 
 std::string svgBytes(const VectorDrawing& drawing);
 std::string pdfBytes(const VectorDrawing& drawing);
+/// One page a drawing; at least one.
+std::string pdfBytes(const std::vector<VectorDrawing>& pages);
 ColourImage rasterise(const VectorDrawing& drawing, double dots_per_inch);
 
 }  // namespace softscope

@@ -1,0 +1,130 @@
+// vtk_views/error_map_figure.cpp: pictures in a grid, bars below.
+#include "vtk_views/error_map_figure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "vtk_views/error_colours.h"
+#include "vtk_views/report_maps.h"
+#include "vtk_views/surface_picture.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kHeightShare = 0.72;  // of a cell's width
+constexpr double kPixelsPerPt = 2.2;   // 160 dots an inch
+constexpr double kMargin = 1.08;       // around the surface
+constexpr double kPushShare = 0.03;    // the reference lies back by this much of its size
+constexpr Rgb8 kReference{200, 200, 200};
+
+ViewPlane cameraOf(const ErrorMap& map) {
+  ViewPlane camera;
+  const Eigen::Vector3d back = -map.look.cast<double>().normalized();
+  camera.right = map.up.cast<double>().cross(back).normalized();
+  camera.up = back.cross(camera.right);
+  return camera;
+}
+
+/// Sets the centre; returns the width that shows the whole surface in a picture of this shape.
+double fit(const ErrorMap& map, double height_share, ViewPlane& camera) {
+  Eigen::AlignedBox3d box;
+  const Eigen::Vector3d back = camera.towardsViewer();
+  for (const Eigen::Vector3f& p : map.surface.vertices_mm) {
+    const Eigen::Vector3d q = p.cast<double>();
+    box.extend(Eigen::Vector3d(camera.right.dot(q), camera.up.dot(q), back.dot(q)));
+  }
+  const Eigen::Vector3d middle = box.center();
+  camera.centre_mm = middle.x() * camera.right + middle.y() * camera.up + middle.z() * back;
+  return kMargin * std::max({box.sizes().x(), box.sizes().y() / height_share, 1e-3});
+}
+
+std::vector<SceneSurface> surfacesOf(const ErrorMapCell& cell) {
+  const ErrorMap& map = *cell.map;
+  std::vector<SceneSurface> surfaces;
+  if (!map.reference.empty()) {
+    SceneSurface reference;
+    reference.mesh = map.reference;
+    reference.colour = kReference;
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& p : map.reference.vertices_mm) box.extend(p);
+    const auto push_mm = static_cast<float>(kPushShare) * box.diagonal().norm();
+    for (Eigen::Vector3f& p : reference.mesh.vertices_mm) p += push_mm * map.look.normalized();
+    surfaces.push_back(std::move(reference));
+  }
+  SceneSurface surface;
+  surface.mesh = map.surface;
+  const std::vector<float>& errors = cell.with_sign ? map.signed_mm : map.absolute_mm;
+  surface.errors_mm.assign(errors.begin(), errors.end());
+  surfaces.push_back(std::move(surface));
+  return surfaces;
+}
+
+void drawCell(const ErrorMapCell& cell, PointPt top_left, double width_pt,
+              const ErrorMapFigureStyle& style, VectorDrawing& drawing) {
+  const double height_pt = kHeightShare * width_pt, title_pt = 1.6 * style.font_pt;
+  ViewPlane camera = cameraOf(*cell.map);
+  SurfacePictureOptions options;
+  options.width_mm = fit(*cell.map, kHeightShare, camera);
+  options.width_px = static_cast<int>(std::lround(width_pt * kPixelsPerPt));
+  options.height_px = static_cast<int>(std::lround(height_pt * kPixelsPerPt));
+  options.point_size_mm = 1.7 * pointSpacingMm(*cell.map);
+  const ColourImage picture =
+      drawSurfaces(surfacesOf(cell), {cell.with_sign, style.limit_mm}, camera, options);
+  const PointPt from{top_left.x_pt, top_left.y_pt + title_pt};
+  const PointPt to{from.x_pt + width_pt, from.y_pt + height_pt};
+  drawing.parts.emplace_back(DrawnPicture{from, to, picture});
+  drawing.parts.emplace_back(DrawnLine{
+      {from, {to.x_pt, from.y_pt}, to, {from.x_pt, to.y_pt}, from}, 0.4, {190, 190, 190}});
+  DrawnText title;
+  title.at = {top_left.x_pt, top_left.y_pt + 1.1 * style.font_pt};
+  title.text = cell.title;
+  title.size_pt = style.font_pt;
+  title.bold = true;
+  drawing.parts.emplace_back(title);
+}
+
+ColourBarText barText(const std::vector<ErrorMapCell>& cells, bool with_sign, double limit_mm) {
+  ColourBarText text;
+  text.label = with_sign ? "signed distance [mm], + = outside" : "distance [mm]";
+  for (const ErrorMapCell& cell : cells) {
+    if (cell.with_sign != with_sign) continue;
+    for (const float e : with_sign ? cell.map->signed_mm : cell.map->absolute_mm) {
+      text.any_above = text.any_above || double(e) > limit_mm;
+      text.any_below = text.any_below || (with_sign && double(e) < -limit_mm);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+VectorDrawing drawErrorMaps(const std::vector<ErrorMapCell>& cells,
+                            const ErrorMapFigureStyle& style) {
+  if (cells.empty()) throw Error("error maps: at least one");
+  const int columns = std::clamp(style.columns, 1, static_cast<int>(cells.size()));
+  const int rows = (static_cast<int>(cells.size()) + columns - 1) / columns;
+  VectorDrawing drawing;
+  drawing.width_pt = style.width_mm * kPtPerMm;
+  const double gap_pt = style.font_pt;
+  const double width_pt = (drawing.width_pt - (columns - 1) * gap_pt) / columns;
+  const double row_pt = kHeightShare * width_pt + 1.6 * style.font_pt + gap_pt;
+  drawing.height_pt = rows * row_pt + colourBarHeightPt(style.font_pt) + 0.5 * style.font_pt;
+  for (int i = 0; i < static_cast<int>(cells.size()); ++i)
+    drawCell(cells[static_cast<std::size_t>(i)],
+             {i % columns * (width_pt + gap_pt), i / columns * row_pt}, width_pt, style, drawing);
+  const double half_pt = (drawing.width_pt - gap_pt) / 2;
+  double x_pt = 0;
+  for (const bool with_sign : {false, true}) {
+    if (std::none_of(cells.begin(), cells.end(),
+                     [&](const ErrorMapCell& c) { return c.with_sign == with_sign; }))
+      continue;
+    drawColourBar({with_sign, style.limit_mm}, barText(cells, with_sign, style.limit_mm),
+                  {x_pt, rows * row_pt}, half_pt, style.font_pt, drawing);
+    x_pt += half_pt + gap_pt;
+  }
+  return drawing;
+}
+
+}  // namespace softscope
