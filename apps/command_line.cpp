@@ -55,7 +55,7 @@ void addTo(CLI::App& app, const ArgumentList& arguments) {
       option = app.add_option(argument.name)->expected(1);
     if (std::holds_alternative<std::vector<std::string>*>(argument.target))
       option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    if (argument.isPositionalList()) option->expected(1, CLI::detail::expected_max_vector_size);
+    if (argument.isPositionalList()) option->allow_extra_args();
   }
 }
 

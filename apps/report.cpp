@@ -41,8 +41,9 @@ class ReportCommand : public Command {
 
  private:
   std::vector<ReportCase> readCases() const;
+  std::vector<ReportCase> readVersus() const;
 
-  std::vector<std::string> folders_, names_, fail_if_;
+  std::vector<std::string> folders_, versus_, names_, fail_if_;
   std::string out_, pdf_, title_;
   double limit_mm_ = 0;
   int seed_ = 1;
@@ -54,6 +55,8 @@ void ReportCommand::declare(ArgumentList& arguments) {
   arguments.option("--out", "FILE", out_, "the page, .html", true);
   arguments.option("--pdf", "FILE", pdf_, "the same on paper");
   arguments.option("--name", "TEXT", names_, "of each case, in their order; repeatable");
+  arguments.option("--versus", "CASE", versus_,
+                   "another method's result of each case, in their order; repeatable");
   arguments.option("--title", "TEXT", title_, "of the page");
   arguments.option("--limit-mm", "N", limit_mm_,
                    "where the colours end (default: a round number above the largest P95)");
@@ -62,6 +65,17 @@ void ReportCommand::declare(ArgumentList& arguments) {
                    "e.g. p95_mm>2: exit code 1 where it holds for a case; repeatable");
   arguments.flag("--with-paths", with_paths_, "show the paths of inputs");
   arguments.flag("--force", force_, "overwrite what is there");
+}
+
+std::vector<ReportCase> ReportCommand::readVersus() const {
+  if (versus_.empty()) return {};
+  if (versus_.size() != folders_.size() || folders_.size() < 2)
+    throw OptionError(say("--versus is given ", versus_.size(), " times, but there are ",
+                          folders_.size(),
+                          " cases; it takes two cases or more, and one --versus for each"));
+  std::vector<ReportCase> cases;
+  for (const std::string& folder : versus_) cases.push_back(readReportCase(folder));
+  return cases;
 }
 
 std::vector<ReportCase> ReportCommand::readCases() const {
@@ -87,6 +101,7 @@ int ReportCommand::run() {
 
   ReportRequest request;
   request.cases = readCases();
+  request.versus = readVersus();
   request.title = title_;
   request.limit_mm = limit_mm_;
   request.choices = {with_paths_, static_cast<std::uint64_t>(seed_)};

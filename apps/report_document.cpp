@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/report_cohort.h"
 #include "apps/report_privacy.h"
 #include "apps/report_words.h"
 #include "apps/version.h"
@@ -110,6 +111,60 @@ std::vector<ReportSection> caseSections(const ReportRequest& request, double lim
   return sections;
 }
 
+void addLimits(const ReportCase& c, const ReportChoices& choices, ReportList& list) {
+  for (const std::string& item : limitsList(c, choices).items)
+    if (std::find(list.items.begin(), list.items.end(), item) == list.items.end())
+      list.items.push_back(item);
+}
+
+/// Once for each kind of comparison among the cases.
+ReportList methodsOf(const ReportRequest& request) {
+  ReportList list;
+  for (const ReportCase& c : request.cases)
+    for (const std::string& item : methodsList(c).items)
+      if (std::find(list.items.begin(), list.items.end(), item) == list.items.end())
+        list.items.push_back(item);
+  for (const std::string& item : cohortMethods(!request.versus.empty()).items)
+    list.items.push_back(item);
+  return list;
+}
+
+std::vector<ReportSection> cohortSections(const ReportRequest& request, double limit_mm) {
+  const ReportChoices& choices = request.choices;
+  std::vector<ReportSection> sections;
+  sections.push_back({"compared", "What was compared", {cohortComparedTable(request.cases)}});
+  sections.push_back({"result", "Result, and how sure it is", {}});
+  if (hasOutcomes(request)) sections.back().parts.push_back(outcomesTable(request));
+  append(cohortParts(request.cases, choices), sections.back().parts);
+  if (!request.versus.empty())
+    append(pairedParts(request.cases, request.versus, choices), sections.back().parts);
+  sections.push_back({"pictures", "Pictures", {}});
+  ReportSection review{"grading", "Review", {}}, each{"each", "Each case", {}},
+      provenance{"provenance", "Provenance", {}};
+  ReportList limits;
+  ReportReview reviewed;
+  const bool mapped = std::any_of(request.cases.begin(), request.cases.end(),
+                                  [](const ReportCase& c) { return !c.maps.empty(); });
+  if (mapped) sections.back().parts.emplace_back(mapPlace(limit_mm));
+  for (const ReportCase& c : request.cases) {
+    reviewed.cases.push_back(c.name);
+    each.parts.emplace_back(distancesTable(c, c.name));
+    append(plotParts(c), each.parts);
+    append(pictureParts(c), each.parts);
+    addLimits(c, choices, limits);
+    ReportTable table = provenanceTable(c, choices);
+    table.caption = c.name;
+    provenance.parts.emplace_back(std::move(table));
+  }
+  review.parts.emplace_back(reviewed);
+  sections.push_back(std::move(review));
+  sections.push_back(std::move(each));
+  sections.push_back({"limits", "Limits", {limits}});
+  sections.push_back({"methods", "Methods", {methodsOf(request)}});
+  sections.push_back(std::move(provenance));
+  return sections;
+}
+
 Json metricsOf(const ReportRequest& request, double limit_mm) {
   Json metrics{{"schema_version", 1},
                {"kind", "softscope_report"},
@@ -125,6 +180,8 @@ Json metricsOf(const ReportRequest& request, double limit_mm) {
     for (const auto& [what, hash] : c.hashes) entry["sha256"][what] = hash;
     metrics["cases"].push_back(std::move(entry));
   }
+  if (request.cases.size() > 1)
+    metrics["cohort"] = cohortJson(request.cases, request.versus, request.choices);
   return metrics;
 }
 
@@ -146,7 +203,8 @@ ReportDocument makeReport(ReportRequest request) {
   page.notice = kNotice;
   page.subtitle = request.cases.size() == 1 ? request.cases.front().name
                                             : std::to_string(request.cases.size()) + " cases";
-  page.sections = caseSections(request, page.limit_mm);
+  page.sections = request.cases.size() == 1 ? caseSections(request, page.limit_mm)
+                                            : cohortSections(request, page.limit_mm);
   document.metrics = metricsOf(request, page.limit_mm);
   page.metrics_json = document.metrics.dump(1, ' ', false, Json::error_handler_t::replace);
   document.facts = FactSheet(page.title + ", " + page.subtitle);

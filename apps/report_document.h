@@ -14,6 +14,7 @@ namespace softscope {
 
 struct ReportRequest {
   std::vector<ReportCase> cases;                        // one or more
+  std::vector<ReportCase> versus;                       // empty, or as many as the cases
   std::vector<std::vector<ThresholdOutcome>> outcomes;  // one list a case
   std::string title;                                    // empty: by what was compared
   double limit_mm = 0;                                  // of colours; 0: chosen

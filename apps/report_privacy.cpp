@@ -42,7 +42,16 @@ bool isUnit(const std::string& word) {
          std::count(word.begin(), word.end(), '/') == 1;
 }
 
+/// What softscope itself calls its files tells nothing of anyone.
+bool isOurName(const std::string& word) {
+  constexpr std::array<const char*, 7> kOurs{
+      "tracks.csv",     "frames.csv",       "model.ply",        "run.json",
+      "trajectory.txt", "track_points.csv", "models/NNNNNN.ply"};
+  return std::find(kOurs.begin(), kOurs.end(), word) != kOurs.end();
+}
+
 bool namesFile(const std::string& word) {
+  if (isOurName(word)) return false;
   if (word.find_first_of("/\\") != std::string::npos) return !isUnit(word);
   constexpr std::array<const char*, 15> kEndings{".ply", ".stl",  ".obj", ".vtp", ".vtk",
                                                  ".csv", ".txt",  ".png", ".jpg", ".dcm",

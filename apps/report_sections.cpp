@@ -235,7 +235,7 @@ std::vector<ReportPart> alignmentParts(const ReportCase& c) {
 std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices) {
   std::vector<ReportPart> parts{headline(c), tiles(c), confidence(c, choices)};
   addTable(thresholdsTable(c), parts);
-  addTable(statisticsTable("Distances [mm]", c.record, distanceParts(c)), parts);
+  addTable(distancesTable(c, "Distances [mm]"), parts);
   addTable(bothWaysTable(c), parts);
   addTable(scoresTable(c), parts);
   addTable(motionTable(c), parts);
@@ -245,6 +245,10 @@ std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& ch
                        {"jitter, rms of second differences [mm]", "surface.jitter_rms_mm"}}),
            parts);
   return parts;
+}
+
+ReportTable distancesTable(const ReportCase& c, const std::string& caption) {
+  return statisticsTable(caption, c.record, distanceParts(c));
 }
 
 std::vector<ReportPart> plotParts(const ReportCase& c) {

@@ -1,6 +1,8 @@
 // apps/report_sections.h: one case in words, tables and plots, in the order in which it is read.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "apps/report_case.h"
@@ -19,6 +21,8 @@ ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices);
 std::vector<ReportPart> alignmentParts(const ReportCase& c);
 /// The sentence, the large numbers, the tables; what the numbers rest on.
 std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices);
+/// Mean, SD and so on of every part that was measured.
+ReportTable distancesTable(const ReportCase& c, const std::string& caption);
 /// Error over time, histogram.
 std::vector<ReportPart> plotParts(const ReportCase& c);
 /// What the numbers don't say.

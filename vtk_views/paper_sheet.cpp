@@ -29,17 +29,6 @@ std::size_t fittingLength(const std::string& word, double width_pt, double size_
   return length;
 }
 
-std::vector<std::string> wordsIn(const std::string& text) {
-  std::vector<std::string> words{""};
-  for (const char c : text)
-    if (static_cast<unsigned char>(c) <= 0x20)
-      words.emplace_back();
-    else
-      words.back() += c;
-  words.erase(std::remove(words.begin(), words.end(), ""), words.end());
-  return words;
-}
-
 /// The same part, moved.
 struct Mover {
   PointPt by;
@@ -74,10 +63,21 @@ struct Mover {
 
 }  // namespace
 
+std::vector<std::string> wordsOfText(const std::string& text) {
+  std::vector<std::string> words{""};
+  for (const char c : validUtf8(text))
+    if (static_cast<unsigned char>(c) <= 0x20)
+      words.emplace_back();
+    else
+      words.back() += c;
+  words.erase(std::remove(words.begin(), words.end(), ""), words.end());
+  return words;
+}
+
 std::vector<std::string> brokenLines(const std::string& text, double width_pt, double size_pt,
                                      bool bold) {
   std::vector<std::string> lines{""};
-  for (std::string word : wordsIn(validUtf8(text))) {
+  for (std::string word : wordsOfText(text)) {
     const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
     if (widthOf(longer, size_pt, bold) <= width_pt) {
       lines.back() = longer;

@@ -47,6 +47,9 @@ class PaperSheet {
   double y_pt_ = 0;
 };
 
+/// Parted by blanks; bytes that are no UTF-8 replaced.
+std::vector<std::string> wordsOfText(const std::string& text);
+
 /// Lines no wider than `width_pt`.
 std::vector<std::string> brokenLines(const std::string& words, double width_pt, double size_pt,
                                      bool bold);

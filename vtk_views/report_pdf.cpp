@@ -11,6 +11,7 @@ namespace softscope {
 namespace {
 
 constexpr double kTextPt = 9, kTablePt = 7.6, kRowPt = 11.5, kCellGapPt = 9;
+constexpr double kTogetherPt = 250;  // lower tables are not torn apart
 constexpr Rgb8 kInk{20, 20, 20}, kGrey{95, 95, 95}, kPale{222, 222, 222}, kBlue{0, 81, 127},
     kBad{161, 18, 18}, kSoft{244, 245, 247};
 
@@ -22,7 +23,7 @@ DrawnText textAt(PointPt at, const std::string& words, double size_pt) {
   return text;
 }
 
-/// One table: columns as wide as their longest cell, the widest one narrowed where the page ends.
+/// One table: columns as wide as their longest cell, narrower where the page ends.
 class TableSetter {
  public:
   TableSetter(const ReportTable& table, PaperSheet& sheet) : table_(table), sheet_(sheet) {
@@ -30,6 +31,8 @@ class TableSetter {
   }
 
   void set() {
+    const double all_pt = (kRowPt + 1) * static_cast<double>(table_.rows.size() + 2) + 8;
+    if (all_pt < kTogetherPt) sheet_.ensure(all_pt);
     if (!table_.caption.empty()) sheet_.text(table_.caption, {kTextPt, /*bold=*/true, 0, 1, kInk});
     if (!table_.headings.empty()) setRow(table_.headings, /*heading=*/true);
     for (const auto& row : table_.rows) setRow(row, false);
@@ -48,11 +51,29 @@ class TableSetter {
         cell.bold = row == &table_.headings;
         widths_[i] = std::max(widths_[i], textWidthPt(cell) + kCellGapPt);
       }
-    double total = 0;
-    for (const double width : widths_) total += width;
-    if (total <= PaperSheet::kTextWidthPt) return;
-    const auto widest = std::max_element(widths_.begin(), widths_.end());
-    *widest = std::max(*widest - (total - PaperSheet::kTextWidthPt), 60.0);
+    narrow(rows);
+  }
+
+  /// Where the columns are too wide together, those with more than one word give way.
+  void narrow(const std::vector<const std::vector<std::string>*>& rows) {
+    double excess_pt = -PaperSheet::kTextWidthPt, slack_pt = 0;
+    for (const double width : widths_) excess_pt += width;
+    if (excess_pt <= 0) return;
+    std::vector<double> least(widths_.size(), 24);
+    for (const auto* row : rows)
+      for (std::size_t i = 0; i < row->size(); ++i)
+        for (const std::string& word : wordsOfText((*row)[i])) {
+          DrawnText text = textAt({}, word, kTablePt);
+          text.bold = row == &table_.headings;
+          least[i] = std::max(least[i], std::min(textWidthPt(text) + kCellGapPt, widths_[i]));
+        }
+    for (std::size_t i = 0; i < widths_.size(); ++i) slack_pt += widths_[i] - least[i];
+    const double part = slack_pt > 0 ? std::min(1.0, excess_pt / slack_pt) : 0;
+    for (std::size_t i = 0; i < widths_.size(); ++i) widths_[i] -= part * (widths_[i] - least[i]);
+    if (excess_pt > slack_pt) {  // words without blanks: the widest column is broken inside them
+      const auto widest = std::max_element(widths_.begin(), widths_.end());
+      *widest = std::max(*widest - (excess_pt - slack_pt), 60.0);
+    }
   }
 
   void setRow(const std::vector<std::string>& cells, bool heading) {
@@ -223,6 +244,24 @@ struct PartSetter {
   }
 };
 
+/// What must stand on the same page as a section's title.
+double heightWithTitle(const ReportPage& page, const ReportSection& section) {
+  if (section.parts.empty()) return 0;
+  const ReportPart& first = section.parts.front();
+  if (std::holds_alternative<ReportMapPlace>(first) && page.map_figure)
+    return page.map_figure->height_pt + 60;
+  if (const auto* figures = std::get_if<ReportFigures>(&first);
+      figures != nullptr && !figures->figures.empty())
+    return figures->figures.front().first.height_pt + 70;
+  return 90;
+}
+
+bool isForPaper(const ReportSection& section) {
+  return std::any_of(section.parts.begin(), section.parts.end(), [](const ReportPart& part) {
+    return !std::holds_alternative<ReportReview>(part);
+  });
+}
+
 }  // namespace
 
 std::string reportPdf(const ReportPage& page) {
@@ -230,13 +269,14 @@ std::string reportPdf(const ReportPage& page) {
   sheet.text(page.title, {17, /*bold=*/true, 0, 0, kInk});
   sheet.text(page.subtitle, {10, false, 0, 6, kGrey});
   for (const ReportSection& section : page.sections) {
-    sheet.ensure(90);  // a title never stands alone at the end of a page
+    if (!isForPaper(section)) continue;
+    sheet.ensure(heightWithTitle(page, section));
     sheet.skip(6);
     sheet.text(section.title, {12, /*bold=*/true, 0, 1, kInk});
     sheet.rule(kBlue, 1.2);
     for (const ReportPart& part : section.parts) std::visit(PartSetter{page, sheet}, part);
   }
-  return pdfBytes(sheet.finished(page.notice));
+  return pdfOfPages(sheet.finished(page.notice));
 }
 
 }  // namespace softscope

@@ -263,11 +263,9 @@ std::string svgBytes(const VectorDrawing& drawing) {
   return writer.text + "</svg>\n";
 }
 
-std::string pdfBytes(const VectorDrawing& drawing) {
-  return pdfBytes(std::vector<VectorDrawing>{drawing});
-}
+std::string pdfBytes(const VectorDrawing& drawing) { return pdfOfPages({drawing}); }
 
-std::string pdfBytes(const std::vector<VectorDrawing>& pages) {
+std::string pdfOfPages(const std::vector<VectorDrawing>& pages) {
   if (pages.empty()) throw Error("figure: a PDF needs a page");
   std::string bytes;
   const CairoSurface surface(

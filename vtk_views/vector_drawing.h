@@ -76,7 +76,7 @@ double textWidthPt(const DrawnText& text);
 std::string svgBytes(const VectorDrawing& drawing);
 std::string pdfBytes(const VectorDrawing& drawing);
 /// One page a drawing; at least one.
-std::string pdfBytes(const std::vector<VectorDrawing>& pages);
+std::string pdfOfPages(const std::vector<VectorDrawing>& pages);
 ColourImage rasterise(const VectorDrawing& drawing, double dots_per_inch);
 
 }  // namespace softscope

@@ -1,6 +1,6 @@
 // tests/apps/test_report.cpp: `softscope report` on what evaluate and compare wrote.
 #include "tests/apps/evaluate_fixture.h"
-#include "vtk_views/error_map.h"
+#include "tests/apps/made_case.h"
 
 namespace softscope::test {
 namespace {
@@ -8,39 +8,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-
-/// What evaluate leaves of a model that is `mean_mm` off, with a map of three points at one moment.
-void writeCase(const fs::path& case_folder, double mean_mm) {
-  fs::create_directories(case_folder / "errors");
-  Json record{{"schema_version", 1}, {"softscope", "0.1.0"}, {"command", "evaluate"}};
-  record["inputs"] = {{"run", case_folder / "run"}, {"reference", case_folder / "truth"}};
-  record["comparison"] = {{"reference_kind", "sequence"}, {"alignment", "none"}};
-  record["surface"] = {{"mean_mm", mean_mm},
-                       {"sd_mm", 0.1},
-                       {"rmse_mm", mean_mm + 0.1},
-                       {"median_mm", mean_mm},
-                       {"p95_mm", 2 * mean_mm},
-                       {"max_mm", 3 * mean_mm},
-                       {"n", 3},
-                       {"models_judged", 2},
-                       {"signed", {{"mean_mm", -mean_mm}, {"n", 3}}}};
-  record["frames"] = Json::array();
-  for (int frame = 0; frame < 4; ++frame)
-    record["frames"].push_back({{"frame", frame},
-                                {"time_s", 0.1 * frame},
-                                {"mean_mm", mean_mm + 0.01 * frame},
-                                {"median_mm", mean_mm},
-                                {"p95_mm", 2 * mean_mm}});
-  record["error_histogram"] = {
-      {"low_mm", 0}, {"high_mm", 4 * mean_mm}, {"counts", {1, 2}}, {"beyond", 0}};
-  record["warnings"] = {(case_folder / "run").string() + ": is old"};
-  std::ofstream(case_folder / "evaluation.json") << record.dump();
-  ErrorMap map;
-  map.surface.vertices_mm = {{0, 0, 50}, {10, 0, 50}, {0, 10, 51}};
-  map.absolute_mm = {float(mean_mm), 0, float(3 * mean_mm)};
-  map.signed_mm = {float(-mean_mm), 0, float(3 * mean_mm)};
-  std::ofstream(case_folder / "errors/000002.vtp", std::ios::binary) << errorMapVtp(map);
-}
 
 class Report : public InFolder {
  protected:
@@ -137,6 +104,43 @@ TEST_F(Report, BadInputsAreNamedAndLeaveNoPage) {
   write("result/errors/000002.vtp", "not VTK");
   expectRefused({"000002.vtp"}, report({at("result")}));
   EXPECT_FALSE(fs::exists(at("page.html")));
+}
+
+TEST_F(Report, SeveralCasesBecomeACohort) {
+  for (int i = 0; i < 4; ++i) writeCase(at("case" + std::to_string(i)), 0.1 * (i + 1));
+  const std::vector<std::string> cases{at("case0"), at("case1"), at("case2"), at("case3")};
+  std::vector<std::string> line = cases;
+  line.insert(line.end(), {"--json", "--pdf", at("page.pdf")});
+  const Outcome outcome = report(line);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json cohort = outcome.json()["cohort"];
+  EXPECT_NEAR(cohort["mean_mm"]["mean"], 0.25, 1e-12);
+  EXPECT_NEAR(cohort["mean_mm"]["sd"], std::sqrt(0.05 / 3), 1e-12);
+  EXPECT_NEAR(cohort["p95_mm"]["median"], 0.5, 1e-12);
+  EXPECT_NEAR(cohort["agreement"]["bias_mm"], -0.25, 1e-12);
+  const std::string html = textOf(at("page.html"));
+  for (const char* part : {"Bland-Altman", "id=\"review\"", "Case 4", "id=\"cases\""})
+    EXPECT_THAT(html, HasSubstr(part));
+  EXPECT_EQ(outcome.json()["colour_limit_mm"], 1) << "above the largest P95, 0.8, for all cases";
+  EXPECT_THAT(textOf(at("page.pdf")), testing::StartsWith("%PDF"));
+}
+
+TEST_F(Report, TwoMethodsArePairedCaseByCase) {
+  std::vector<std::string> line;
+  for (int i = 0; i < 3; ++i) {
+    writeCase(at("a" + std::to_string(i)), 0.2 + 0.1 * i);
+    writeCase(at("b" + std::to_string(i)), 0.3 + 0.1 * i);
+    line.insert(line.end(), {at("a" + std::to_string(i)), "--versus", at("b" + std::to_string(i))});
+  }
+  line.push_back("--json");
+  const Outcome outcome = report(line);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json versus = outcome.json()["cohort"]["mean_mm"]["versus"];
+  EXPECT_NEAR(versus["mean_difference"], -0.1, 1e-12);
+  EXPECT_NEAR(versus["signed_rank_p"], 0.25, 1e-12) << "2 of 8 signs";
+  EXPECT_THAT(textOf(at("page.html")), HasSubstr("Two methods, the same cases"));
+  EXPECT_EQ(report({at("a0"), at("a1"), "--versus", at("b0"), "--force"}).exit_code, 2);
+  EXPECT_EQ(report({at("a0"), at("a1"), "--name", "one", "--force"}).exit_code, 2);
 }
 
 TEST_F(Evaluate, ReportReadsWhatEvaluateAndCompareWrite) {

@@ -37,7 +37,7 @@ ReportPage madePage(const std::string& word) {
                     "Second",
                     {ReportTable{word, {word, "b"}, {{word, "1"}}, false},
                      ReportTiles{{{word, word, word}}}, ReportFigures{{{drawing, word}}}}},
-                   {"third", "Third", {ReportMapPlace{word}, ReportReview{{word, "b"}}}}};
+                   {"third", "Third", {ReportMapPlace{word, word}, ReportReview{{word, "b"}}}}};
   return page;
 }
 
@@ -121,6 +121,14 @@ TEST(ReportHtml, MapsKeepPlacesAndErrorsWithinTheirSteps) {
     }
   EXPECT_NEAR(shortAt(errors, 1) * map["step_mm"].get<double>(), 0.5, map["step_mm"]);
   EXPECT_EQ(flags, std::string("\x01\x02\x05", 3)) << "observed, inside, no side";
+}
+
+TEST(ReportHtml, ThePictureStandsWhereNothingDrawsTheMap) {
+  ReportPage page = madePage("case");
+  EXPECT_THAT(reportHtml(page), HasSubstr("No picture"));
+  page.map_figure = VectorDrawing{};
+  page.map_figure->width_pt = page.map_figure->height_pt = 20;
+  EXPECT_THAT(reportHtml(page), HasSubstr("src=\"data:image/png;base64,iVBOR"));
 }
 
 TEST(ReportHtml, TheSamePageGivesTheSameBytes) {

@@ -18,6 +18,11 @@ class Review {
       this.showTable();
     });
     document.addEventListener("keydown", event => this.onKey(event));
+    viewer?.root.addEventListener("case", event => {
+      const chosen = this.cases.findIndex(entry => entry.case === event.detail);
+      if (chosen >= 0) this.index = chosen;
+      this.show();
+    });
     this.show();
   }
 

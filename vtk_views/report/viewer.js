@@ -115,6 +115,7 @@ class Viewer {
   selectMap(index) {
     this.index = index;
     this.map = this.data.maps[index];
+    this.root.dispatchEvent(new CustomEvent("case", {detail: this.map.name}));
     this.control("case").value = index;
     const time = this.control("time");
     time.max = this.map.moments.length - 1;
