@@ -46,10 +46,13 @@ ViewJudge::ViewJudge(const SequenceTruth& truth)
   const SequencePaths paths = pathsOrNone(truth.folder);
   pictures_ = picturesIn(paths.left);
   masks_ = picturesIn(paths.mask);
+  if (!paths.stereo.empty() || isVideo(paths.left))
+    video_ = std::make_unique<FrameLoader>(paths, SequenceOptions());
 }
 
-std::optional<ColourImage> ViewJudge::photograph(int frame) const {
+std::optional<ColourImage> ViewJudge::photograph(int frame) {
   const auto i = static_cast<std::size_t>(frame);
+  if (video_ && frame < video_->count()) return rectifier_.rectify(video_->load(frame).pair).left;
   if (i >= pictures_.size()) return std::nullopt;
   ColourImage raw = readColourImage(pictures_[i]);
   requireSize(raw.width_px, raw.height_px, rig_.left, pictures_[i]);
@@ -65,7 +68,7 @@ Mask ViewJudge::instruments(int frame) const {
 }
 
 ViewErrors ViewJudge::judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left,
-                            int frame, const Raster<float>& true_depth_mm) const {
+                            int frame, const Raster<float>& true_depth_mm) {
   const ModelView view = renderModelView(file.model, rig_.left, run_from_left, {});
   const Mask ignore = instruments(frame);
   ViewErrors errors;

@@ -111,8 +111,8 @@ int SimulateCommand::run() {
   readOptions(binder, options);
   const TruthKinds truth = TruthKinds::parse(truth_);
   Simulator simulator(readOrgan(options), options.simulation);
-  SimulateOutputs outputs({out_, truth, options.pictures, options.jpeg_quality, options.masks,
-                           options.input_depth, force_},
+  SimulateOutputs outputs({out_, truth, options.pictures, options.simulation.frames_per_second,
+                           options.jpeg_quality, options.masks, options.input_depth, force_},
                           jsonText(record(binder)));
   const auto start = std::chrono::steady_clock::now();
   const int done = simulateAll(simulator, outputs, options);

@@ -98,7 +98,8 @@ void bindLightAndSensor(SettingsBinder& binder, LightOptions& light, SensorOptio
 void SimulateOptions::validate() const {
   require(frames >= 1 && frames <= 1000000, "frames", frames, "must be 1 to 1000000");
   require(truth_every >= 1, "truth_every", truth_every, "must be 1 or more");
-  require(pictures == "png" || pictures == "jpg", "pictures", pictures, "must be png or jpg");
+  require(pictures == "png" || pictures == "jpg" || pictures == "mp4", "pictures", pictures,
+          "must be png, jpg or mp4");
   require(jpeg_quality >= 1 && jpeg_quality <= 100, "jpeg_quality", jpeg_quality,
           "must be 1 to 100");
   require(!organ.empty(), "organ.mesh", "``", "must be builtin or a file");
@@ -112,7 +113,7 @@ void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {
   binder.bind("frames", options.frames, "how many");
   binder.bind("frames_per_second", simulation.frames_per_second, "");
   binder.bind("seed", simulation.seed, "of everything that chance decides");
-  binder.bind("pictures", options.pictures, "png or jpg");
+  binder.bind("pictures", options.pictures, "png, jpg, or mp4: left.mp4, right.mp4");
   binder.bind("jpeg_quality", options.jpeg_quality, "1 small to 100 good");
   binder.bind("masks", options.masks, "mask/ of the instrument in the left picture");
   binder.bind("input_depth", options.input_depth, "true depth as depth/, which replaces stereo");

@@ -46,8 +46,9 @@ void removeEarlierFrames(const fs::path& folder) {
       if (isNumberedFrame(entry.path())) earlier.push_back(entry.path());
     for (const fs::path& file : earlier) fs::remove(file);
   }
-  for (const char* name : {"groundtruth/trajectory.txt", "groundtruth/tracks.csv",
-                           "track_points.csv", "timestamps.txt", "calibration.yaml"})
+  for (const char* name :
+       {"groundtruth/trajectory.txt", "groundtruth/tracks.csv", "track_points.csv",
+        "timestamps.txt", "calibration.yaml", "left.mp4", "right.mp4"})
     fs::remove(folder / name);
 }
 
@@ -114,7 +115,9 @@ SimulateOutputs::SimulateOutputs(SimulateOutputOptions options, const std::strin
     : options_(std::move(options)) {
   requireUsableFolder(options_.folder, options_.overwrite);
   if (options_.overwrite) removeEarlierFrames(options_.folder);
-  for (const char* name : {"left", "right"}) fs::create_directories(options_.folder / name);
+  fs::create_directories(options_.folder);
+  if (options_.pictures != "mp4")
+    for (const char* name : {"left", "right"}) fs::create_directories(options_.folder / name);
   if (options_.input_depth) fs::create_directories(options_.folder / "depth");
   if (options_.truth.depth) fs::create_directories(options_.folder / "groundtruth/depth");
   if (options_.truth.mesh) fs::create_directories(options_.folder / "groundtruth/mesh");
@@ -138,6 +141,20 @@ void SimulateOutputs::writePicture(const char* folder, int index,
     writeJpeg(file, picture, options_.jpeg_quality, options_.overwrite);
   else
     writePng(file, picture, options_.overwrite);
+}
+
+void SimulateOutputs::addToVideos(const StereoPair& pair) {
+  for (const char* name : {"left.mp4", "right.mp4"})
+    if (videos_.size() < 2)
+      videos_.emplace_back(options_.folder / name, pair.left.width_px, pair.left.height_px,
+                           options_.frames_per_second, options_.overwrite);
+  parallelInvoke([&] { videos_[0].add(pair.left); }, [&] { videos_[1].add(pair.right); });
+}
+
+void SimulateOutputs::writePictures(int index, const StereoPair& pair) {
+  if (options_.pictures == "mp4") return addToVideos(pair);
+  parallelInvoke([&] { writePicture("left", index, pair.left); },
+                 [&] { writePicture("right", index, pair.right); });
 }
 
 void SimulateOutputs::addTracks(int index, const SimulatedFrame& frame) {
@@ -167,8 +184,7 @@ void SimulateOutputs::writeTruth(int index, const SimulatedFrame& frame,
 void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
                                const std::vector<Triangle>& triangles, bool with_truth) {
   const bool force = options_.overwrite;
-  parallelInvoke([&] { writePicture("left", index, frame.pictures.left); },
-                 [&] { writePicture("right", index, frame.pictures.right); });
+  writePictures(index, frame.pictures);
   if (options_.input_depth)
     writeDepthPng(numbered("depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
   if (options_.masks && !frame.instrument.empty()) {
@@ -182,6 +198,7 @@ void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
 
 void SimulateOutputs::finish(const Simulator& simulator) {
   const bool force = options_.overwrite;
+  for (VideoWriter& video : videos_) video.finish();
   if (options_.truth.trajectory)
     writeTrajectory(options_.folder / "groundtruth/trajectory.txt", trajectory_, force);
   if (options_.truth.tracks) {

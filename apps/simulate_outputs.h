@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "apps/simulate_options.h"
 #include "core/trajectory.h"
 #include "eval/simulation/simulator.h"
+#include "io/video_writer.h"
 
 namespace softscope {
 
@@ -14,6 +16,7 @@ struct SimulateOutputOptions {
   std::filesystem::path folder;
   TruthKinds truth;
   std::string pictures = "png";
+  double frames_per_second = 25;  // of mp4
   int jpeg_quality = 95;
   bool masks = true;
   bool input_depth = false;
@@ -38,13 +41,16 @@ class SimulateOutputs {
 
  private:
   std::filesystem::path numbered(const char* folder, int index, const std::string& end) const;
+  void writePictures(int index, const StereoPair& pair);
   void writePicture(const char* folder, int index, const ColourImage& picture) const;
+  void addToVideos(const StereoPair& pair);
   void writeTruth(int index, const SimulatedFrame& frame,
                   const std::vector<Triangle>& triangles) const;
   void addTracks(int index, const SimulatedFrame& frame);
 
   SimulateOutputOptions options_;
   Trajectory trajectory_;
+  std::vector<VideoWriter> videos_;  // left, right; of pictures as mp4
   std::string tracks_csv_ = "frame,id,x_mm,y_mm,z_mm,visible\n";
 };
 

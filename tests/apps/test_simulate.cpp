@@ -108,6 +108,26 @@ TEST_F(Simulate, MasksDepthNormalsAndFlowAreWrittenWhereTheyAreAskedFor) {
   EXPECT_FALSE(fs::exists(at("bare/mask")));
 }
 
+TEST_F(Simulate, VideosAreReconstructedAndJudgedAsPicturesAre) {
+  const std::vector<std::string> size{"--size", "160x120", "--set", "truth_every=1"};
+  std::map<std::string, nlohmann::json> view;
+  for (const std::string kind : {"png", "mp4"}) {
+    std::vector<std::string> more = size;
+    more.insert(more.end(), {"--set", "pictures=" + kind});
+    ASSERT_EQ(simulate(at(kind), more).exit_code, 0);
+    const Outcome run_made = run({"reconstruct", at(kind), "--out", at(kind + "_run"),
+                                  "--save-every", "1", "--set", "stereo.disparity_max_px=63"});
+    ASSERT_EQ(run_made.exit_code, 0) << run_made.err;
+    view[kind] =
+        run({"evaluate", at(kind + "_run"), "--reference", at(kind), "--json"}).json()["view"];
+  }
+  EXPECT_TRUE(fs::exists(at("mp4/left.mp4")));
+  EXPECT_FALSE(fs::exists(at("mp4/left")));
+  // Compression takes noise away, from the judged picture and from the model: both look alike.
+  EXPECT_NEAR(view["mp4"]["psnr_db"], view["png"]["psnr_db"], 3);
+  EXPECT_GT(view["mp4"]["ssim"], 0.5);
+}
+
 TEST_F(Simulate, AScenarioIsWeakerThanTheLine) {
   const std::string scenario = write("scenario.toml", "frames = 9\n[scope]\nbaseline_mm = 4.5\n");
   ASSERT_EQ(simulate(at("s"), {"--scenario", scenario}).exit_code, 0);
