@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "apps/compare_map.h"
 #include "apps/compare_picture.h"
 #include "apps/evaluate_plots.h"
 #include "apps/evaluate_thresholds.h"
@@ -40,9 +41,9 @@ CompareOutputs::CompareOutputs(fs::path folder, bool overwrite)
   if (fs::exists(folder_) && !fs::is_directory(folder_))
     throw OptionError("--out " + shown(folder_) +
                       ": is a file, but must be a folder, there or not yet");
-  for (const char* name : {"comparison.json", "metrics.csv", "errors.vtp", "error_histogram.svg",
-                           "error_histogram.pdf", "error_histogram.png", "error_map.svg",
-                           "error_map.pdf", "error_map.png"})
+  for (const char* name : {"comparison.json", "metrics.csv", "errors.vtp", "error_map.vtp",
+                           "error_histogram.svg", "error_histogram.pdf", "error_histogram.png",
+                           "error_map.svg", "error_map.pdf", "error_map.png"})
     requireWritable(folder_ / name, overwrite_);
 }
 
@@ -62,6 +63,7 @@ std::string CompareOutputs::write(const ComparisonResult& result, const Triangle
   fs::create_directories(folder_);
   put("metrics.csv", metricsCsv(record));
   put("errors.vtp", errorSurfaceVtp(test, vertexErrors(test, result.comparison)));
+  put("error_map.vtp", errorMapVtp(comparisonMap(result, reference, test)));
   putFigure("error_histogram",
             drawErrorHistogram(histogramOf(result.comparison.accuracy.each_mm,
                                            comparisonTitle(result.test, result.reference))));

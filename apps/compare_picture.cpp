@@ -55,13 +55,18 @@ ViewPlane viewFrom(const Eigen::Vector3d& eye, const Scene& scene) {
 
 }  // namespace
 
+Eigen::Vector3d comparisonEye(const TriangleMesh& reference,
+                              const std::vector<ClosestPoint>& closest) {
+  const Eigen::Vector3d eye = facing(reference, closest);
+  return eye.norm() < kFacesOneSide ? kFromTheFront : eye;
+}
+
 VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh& reference,
                              const TriangleMesh& test, const ErrorColourOptions& options,
                              const FigureStyle& style) {
   const SurfaceErrorMap map = colourErrors(result.comparison.closest, options);
   const Scene scene = sceneOf(reference, test, map.each_mm);
-  Eigen::Vector3d eye = facing(inLps(reference), result.comparison.closest);
-  if (eye.norm() < kFacesOneSide) eye = kFromTheFront;
+  const Eigen::Vector3d eye = comparisonEye(inLps(reference), result.comparison.closest);
   PanelOptions panels;
   panels.style = style;
   panels.width_mm = sceneWidthMm(scene);

@@ -9,6 +9,11 @@
 
 namespace softscope {
 
+/// From where a comparison is best looked at: before the part of the reference near the test, or,
+/// of a surface all around, before a patient.
+Eigen::Vector3d comparisonEye(const TriangleMesh& reference,
+                              const std::vector<ClosestPoint>& closest);
+
 /// The test, in the reference's place, coloured by its distances, over the reference in grey: seen
 /// from the side that most of it faces, and from the other. Throws BackendError where nothing
 /// renders.

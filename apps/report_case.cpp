@@ -62,9 +62,11 @@ Json readRecord(const fs::path& file, const std::string& bytes) {
 }
 
 std::vector<fs::path> mapFiles(const fs::path& folder, ReportCase::Kind kind) {
-  if (kind == ReportCase::Kind::kPair)
-    return isThere(folder / "errors.vtp") ? std::vector{folder / "errors.vtp"}
-                                          : std::vector<fs::path>();
+  if (kind == ReportCase::Kind::kPair) {
+    for (const char* name : {"error_map.vtp", "errors.vtp"})  // with the reference, or without
+      if (isThere(folder / name)) return {folder / name};
+    return {};
+  }
   return isThere(folder / "errors") ? filesIn(folder / "errors", {".vtp"})
                                     : std::vector<fs::path>();
 }

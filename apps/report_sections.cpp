@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 #include "apps/report_plots.h"
 #include "apps/report_privacy.h"
@@ -86,6 +87,19 @@ std::string motionText(const ReportCase& c) {
          millimetresText(matrix.topRightCorner<3, 1>().norm());
 }
 
+/// How well the error at places without a landmark is known; empty where it isn't.
+std::string targetErrorText(const ReportCase& c) {
+  const auto value = [&](const char* key) {
+    return numberAt(c.record, std::string("alignment.tre_leave_one_out.") + key);
+  };
+  const double n = value("n"), mean_mm = value("mean_mm"), sd_mm = value("sd_mm");
+  if (!(n >= 2 && n < 1e9) || !std::isfinite(mean_mm) || !std::isfinite(sd_mm)) return {};
+  const double half_mm = studentQuantile(0.975, n - 1) * sd_mm / std::sqrt(n - 1);  // sd is over n
+  return "At a place that was not fitted the error is " + millimetresText(mean_mm) +
+         " on average (TRE over " + whole(n) + " landmarks, 95 % confidence " +
+         intervalText({mean_mm - half_mm, mean_mm + half_mm}) + " mm, by Student's t).";
+}
+
 std::vector<NamedPart> distanceParts(const ReportCase& c) {
   if (c.kind == Kind::kPair)
     return {{"model to reference, each vertex", "accuracy"},
@@ -144,6 +158,22 @@ ReportParagraph headline(const ReportCase& c) {
   return {text, /*important=*/true};
 }
 
+/// The share of the model within the distance asked for that is nearest to 1 mm.
+std::optional<ReportTile> withinTile(const ReportCase& c) {
+  if (!c.record.contains("scores") || !c.record["scores"].is_array()) return std::nullopt;
+  double best_mm = Statistics::kNone, precision = Statistics::kNone;
+  for (const auto& score : c.record["scores"]) {
+    const double tau_mm = numberAt(score, "tau_mm");
+    if (!(std::abs(tau_mm - 1) >= std::abs(best_mm - 1))) {
+      best_mm = tau_mm;
+      precision = numberAt(score, "precision");
+    }
+  }
+  if (!std::isfinite(best_mm) || !std::isfinite(precision)) return std::nullopt;
+  return ReportTile{"Within " + millimetresText(best_mm), percentText(precision),
+                    "of the model's points"};
+}
+
 ReportTiles tiles(const ReportCase& c) {
   ReportTiles tiles;
   tiles.tiles.push_back({"Mean distance", millimetresText(c.main("mean_mm")),
@@ -158,10 +188,8 @@ ReportTiles tiles(const ReportCase& c) {
   if (std::isfinite(completeness))
     tiles.tiles.push_back({"Reconstructed", percentText(completeness),
                            "of the tissue that both cameras see, within 1 mm"});
-  else if (c.kind == Kind::kPair)
-    tiles.tiles.push_back({"HD95, larger of both",
-                           millimetresText(numberAt(c.record, "hausdorff.hd95_max_of_directed_mm")),
-                           "both directions"});
+  else if (auto within = withinTile(c))
+    tiles.tiles.push_back(std::move(*within));
   return tiles;
 }
 
@@ -223,6 +251,8 @@ std::vector<ReportPart> alignmentParts(const ReportCase& c) {
             {"landmarks: FRE, what the fit leaves at them", "alignment.fre"},
             {"landmarks: TRE, each left out in turn", "alignment.tre_leave_one_out"}};
     addTable(statisticsTable("Distances [mm]", c.record, rows), parts);
+    if (const std::string tre = targetErrorText(c); !tre.empty())
+      parts.emplace_back(ReportParagraph{tre});
   } else if (c.record.contains(FactSheet::Json::json_pointer("/comparison/alignments/0"))) {
     const auto& first = c.record["comparison"]["alignments"][0];
     addTable(statisticsTable("Distances of the first model [mm]", first,

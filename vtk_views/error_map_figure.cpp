@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "vtk_views/error_colours.h"
-#include "vtk_views/report_maps.h"
+#include "vtk_views/map_view.h"
 #include "vtk_views/surface_picture.h"
 
 namespace softscope {
@@ -15,29 +15,19 @@ namespace {
 
 constexpr double kHeightShare = 0.72;  // of a cell's width
 constexpr double kPixelsPerPt = 2.2;   // 160 dots an inch
-constexpr double kMargin = 1.08;       // around the surface
 constexpr double kPushShare = 0.03;    // the reference lies back by this much of its size
 constexpr Rgb8 kReference{200, 200, 200};
 
-ViewPlane cameraOf(const ErrorMap& map) {
+/// Also sets the width that shows nearly all of the surface in a picture of this shape.
+ViewPlane cameraOf(const ErrorMap& map, double height_share, double& width_mm) {
+  const Eigen::Matrix3d axes = viewAxes(map).cast<double>();
+  const Eigen::AlignedBox3d box = mostOfPoints(map, {&map}).cast<double>();
+  width_mm = std::max({box.sizes().x(), box.sizes().y() / height_share, 1e-3});
   ViewPlane camera;
-  const Eigen::Vector3d back = -map.look.cast<double>().normalized();
-  camera.right = map.up.cast<double>().cross(back).normalized();
-  camera.up = back.cross(camera.right);
+  camera.right = axes.col(0);
+  camera.up = axes.col(1);
+  camera.centre_mm = axes * box.center();
   return camera;
-}
-
-/// Sets the centre; returns the width that shows the whole surface in a picture of this shape.
-double fit(const ErrorMap& map, double height_share, ViewPlane& camera) {
-  Eigen::AlignedBox3d box;
-  const Eigen::Vector3d back = camera.towardsViewer();
-  for (const Eigen::Vector3f& p : map.surface.vertices_mm) {
-    const Eigen::Vector3d q = p.cast<double>();
-    box.extend(Eigen::Vector3d(camera.right.dot(q), camera.up.dot(q), back.dot(q)));
-  }
-  const Eigen::Vector3d middle = box.center();
-  camera.centre_mm = middle.x() * camera.right + middle.y() * camera.up + middle.z() * back;
-  return kMargin * std::max({box.sizes().x(), box.sizes().y() / height_share, 1e-3});
 }
 
 std::vector<SceneSurface> surfacesOf(const ErrorMapCell& cell) {
@@ -64,9 +54,8 @@ std::vector<SceneSurface> surfacesOf(const ErrorMapCell& cell) {
 void drawCell(const ErrorMapCell& cell, PointPt top_left, double width_pt,
               const ErrorMapFigureStyle& style, VectorDrawing& drawing) {
   const double height_pt = kHeightShare * width_pt, title_pt = 1.6 * style.font_pt;
-  ViewPlane camera = cameraOf(*cell.map);
   SurfacePictureOptions options;
-  options.width_mm = fit(*cell.map, kHeightShare, camera);
+  const ViewPlane camera = cameraOf(*cell.map, kHeightShare, options.width_mm);
   options.width_px = static_cast<int>(std::lround(width_pt * kPixelsPerPt));
   options.height_px = static_cast<int>(std::lround(height_pt * kPixelsPerPt));
   options.point_size_mm = 1.7 * pointSpacingMm(*cell.map);

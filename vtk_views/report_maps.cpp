@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <set>
 
 #include "core/error.h"
 #include "vtk_views/colour_map.h"
 #include "vtk_views/error_colours.h"
 #include "vtk_views/html_text.h"
+#include "vtk_views/map_view.h"
 
 namespace softscope {
 namespace {
@@ -111,41 +111,26 @@ std::string momentJson(const ErrorMap& map, const ErrorMap& first, const Scale& 
   return json + "}";
 }
 
-/// Columns: right, up, towards the viewer, for one who looks along the map's `look`.
-Eigen::Matrix3f axesOf(const ErrorMap& map) {
-  Eigen::Matrix3f axes;
-  axes.col(2) = -map.look.normalized();
-  axes.col(0) = map.up.cross(axes.col(2)).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return axes;
-}
-
-Eigen::AlignedBox3f seenAlong(const ErrorMap& view, const std::vector<ErrorMap>& moments) {
-  const Eigen::Matrix3f axes = axesOf(view);
-  Eigen::AlignedBox3f box;
-  for (const ErrorMap& moment : moments)
-    for (const Eigen::Vector3f& p : moment.surface.vertices_mm) box.extend(axes.transpose() * p);
-  return box;
-}
-
 std::string mapJson(const ReportMap& map) {
   if (map.moments.empty()) throw Error("report: a case without a map");
   const ErrorMap& first = map.moments.front();
   const Scale scale(map.moments);
   double spacing_mm = 0;
   bool observed = false;
+  std::vector<const ErrorMap*> moments;
   for (const ErrorMap& moment : map.moments) {
+    moments.push_back(&moment);
     spacing_mm = std::max(spacing_mm, pointSpacingMm(moment));
     observed = observed || !moment.observed.empty();
   }
-  const Eigen::AlignedBox3f seen = seenAlong(first, map.moments);  // right, up, towards the viewer
+  const Eigen::AlignedBox3f seen = mostOfPoints(first, moments);  // right, up, towards the viewer
   const Eigen::Vector3f half = (seen.sizes() / 2).cwiseMax(1e-3f);
   const double depth_mm = std::max(double(scale.box.diagonal().norm()), 1e-3);
   std::string json =
       "{\"name\":" + jsonQuoted(map.name) + ",\"low_mm\":" + vectorJson(scale.box.min()) +
       ",\"size_mm\":" + vectorJson(scale.box.sizes()) + ",\"step_mm\":" + number(scale.step_mm) +
       ",\"look\":" + vectorJson(first.look) + ",\"up\":" + vectorJson(first.up) +
-      ",\"centre_mm\":" + vectorJson(axesOf(first) * seen.center()) + ",\"half_mm\":[" +
+      ",\"centre_mm\":" + vectorJson(viewAxes(first) * seen.center()) + ",\"half_mm\":[" +
       number(half.x()) + "," + number(half.y()) + "],\"depth_mm\":" + number(depth_mm) +
       ",\"point_mm\":" + number(2 * spacing_mm) + ",\"push_mm\":" + number(0.02 * depth_mm) +
       ",\"space\":" +
@@ -176,22 +161,6 @@ double largestErrorMm(const std::vector<ReportMap>& maps) {
 }
 
 }  // namespace
-
-double pointSpacingMm(const ErrorMap& map) {
-  const Eigen::Matrix3f axes = axesOf(map);
-  Eigen::AlignedBox2f box;
-  std::vector<Eigen::Vector2f> flat;
-  for (const Eigen::Vector3f& p : map.surface.vertices_mm) {
-    flat.emplace_back((axes.transpose() * p).head<2>());
-    box.extend(flat.back());
-  }
-  if (flat.size() < 2) return 1;
-  const float cell = std::max(box.sizes().maxCoeff() / 64, 1e-4f);
-  std::set<std::pair<int, int>> cells;
-  for (const Eigen::Vector2f& p : flat)
-    cells.emplace(int((p.x() - box.min().x()) / cell), int((p.y() - box.min().y()) / cell));
-  return std::max(double(cell) * std::sqrt(double(cells.size()) / double(flat.size())), 1e-3);
-}
 
 std::string reportMapsJson(const std::vector<ReportMap>& maps, double limit_mm) {
   std::string json = "{\"limit_mm\":" + number(limit_mm) +

@@ -14,9 +14,6 @@ struct ReportMap {
   std::vector<ErrorMap> moments;  // at least one
 };
 
-/// About how far neighbouring points lie apart, mm, seen along the map's `look`.
-double pointSpacingMm(const ErrorMap& map);
-
 /// JSON for viewer.js: places as 16 bits of the case's box (of 0.3 m: 5 um), errors as 16 bits of
 /// the case's largest (of 60 mm: 1 um), base64; and the two palettes.
 std::string reportMapsJson(const std::vector<ReportMap>& maps, double limit_mm);

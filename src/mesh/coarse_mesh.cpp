@@ -3,9 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -14,28 +12,33 @@
 namespace softscope {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
-
 /// The group of each vertex, numbered in the order of the cells.
 struct Groups {
   std::vector<std::int32_t> of_vertex;
   std::size_t count = 0;
 };
 
-Groups groupByCell(const std::vector<Eigen::Vector3f>& vertices_mm, double cell_mm) {
-  std::map<Cell, std::int32_t> numbers;
-  std::vector<Cell> cells;
+/// `low_mm`: the box's corner. At most 2^20 cells along an axis.
+Groups groupByCell(const std::vector<Eigen::Vector3f>& vertices_mm, const Eigen::Vector3d& low_mm,
+                   double cell_mm) {
+  std::vector<std::uint64_t> cells;
   cells.reserve(vertices_mm.size());
   for (const Eigen::Vector3f& p : vertices_mm) {
-    const Eigen::Vector3d q = (p.cast<double>() / cell_mm).array().floor();
-    cells.push_back({std::int64_t(q.x()), std::int64_t(q.y()), std::int64_t(q.z())});
-    numbers.emplace(cells.back(), 0);
+    std::uint64_t cell = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double place = std::floor((double(p[k]) - low_mm[k]) / cell_mm);
+      cell = cell << 21 | static_cast<std::uint64_t>(std::clamp(place, 0.0, 1048575.0));
+    }
+    cells.push_back(cell);
   }
-  std::int32_t next = 0;
-  for (auto& entry : numbers) entry.second = next++;
-  Groups groups{{}, numbers.size()};
+  std::vector<std::uint64_t> known = cells;
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  Groups groups{{}, known.size()};
   groups.of_vertex.reserve(cells.size());
-  for (const Cell& cell : cells) groups.of_vertex.push_back(numbers.at(cell));
+  for (const std::uint64_t cell : cells)
+    groups.of_vertex.push_back(static_cast<std::int32_t>(
+        std::lower_bound(known.begin(), known.end(), cell) - known.begin()));
   return groups;
 }
 
@@ -82,12 +85,6 @@ CoarseMesh join(const TriangleMesh& fine, const Groups& groups) {
   return coarse;
 }
 
-double diagonalOf(const std::vector<Eigen::Vector3f>& vertices_mm) {
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& p : vertices_mm) box.extend(p);
-  return box.isEmpty() ? 0 : box.diagonal().cast<double>().norm();
-}
-
 }  // namespace
 
 TriangleMesh CoarseMesh::at(const std::vector<Eigen::Vector3f>& fine_vertices_mm) const {
@@ -107,12 +104,16 @@ CoarseMesh coarsen(const TriangleMesh& fine, std::size_t most_vertices) {
     same.triangles = fine.triangles;
     return same;
   }
-  // A surface fills at least about this many cells of a grid as wide as its diagonal / side.
-  double cell_mm = diagonalOf(fine.vertices_mm) / std::sqrt(2.0 * double(most_vertices));
-  Groups groups = groupByCell(fine.vertices_mm, std::max(cell_mm, 1e-6));
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : fine.vertices_mm) box.extend(p);
+  const Eigen::Vector3d low_mm = box.min().cast<double>();
+  // So fine that most surfaces fill more cells than wanted; then coarser.
+  double cell_mm =
+      std::max(double(box.diagonal().norm()) / std::sqrt(2.0 * double(most_vertices)), 1e-6);
+  Groups groups = groupByCell(fine.vertices_mm, low_mm, cell_mm);
   while (groups.count > most_vertices) {
     cell_mm *= 1.25;
-    groups = groupByCell(fine.vertices_mm, std::max(cell_mm, 1e-6));
+    groups = groupByCell(fine.vertices_mm, low_mm, cell_mm);
   }
   return join(fine, groups);
 }

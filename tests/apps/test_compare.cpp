@@ -105,7 +105,7 @@ TEST_F(Compare, UnitsAndSpacesAreMatchedAndTold) {
 TEST_F(Compare, WritesNumbersSurfaceAndFigure) {
   const Json result = compared("above.obj", {"--out", at("out")});
   EXPECT_EQ(result, Json::parse(textOf(at("out/comparison.json"))));
-  EXPECT_EQ(countFiles(at("out")), 9);
+  EXPECT_EQ(countFiles(at("out")), 10);
   EXPECT_THAT(textOf(at("out/error_map.svg")), HasSubstr("distance to the surface [mm]"));
   EXPECT_THAT(textOf(at("out/metrics.csv")), HasSubstr("\nhausdorff.hd95_pooled_mm,0.75"));
   const std::string vtp = textOf(at("out/errors.vtp"));
