@@ -60,13 +60,15 @@ std::vector<ReportPart> pictureParts(const ReportCase& c) {
   return parts;
 }
 
-ReportMapPlace mapPlace(double limit_mm) {
+ReportMapPlace mapPlace(const std::vector<ReportCase>& cases, double limit_mm) {
+  const bool series = std::any_of(cases.begin(), cases.end(),
+                                  [](const ReportCase& c) { return c.maps.size() > 1; });
   const std::string same = "Colours run to " + millimetresText(limit_mm) +
                            " for every case and moment, and are not shaded; ";
   return {"Error map. " + same +
               "grey is the reference where no model lies before it. Drag to turn, wheel to zoom, "
               "shift and drag to move, click to read.",
-          "Error maps, last moment. " + same +
+          (series ? "Error maps, last moment. " : "Error maps. ") + same +
               "arrows at the bar: some values lie beyond. Grey: the reference where no model lies "
               "before it."};
 }
@@ -102,7 +104,7 @@ std::vector<ReportSection> caseSections(const ReportRequest& request, double lim
   if (hasOutcomes(request)) sections.back().parts.push_back(outcomesTable(request));
   append(resultParts(c, request.choices), sections.back().parts);
   sections.push_back({"pictures", "Pictures", {}});
-  if (!c.maps.empty()) sections.back().parts.emplace_back(mapPlace(limit_mm));
+  if (!c.maps.empty()) sections.back().parts.emplace_back(mapPlace(request.cases, limit_mm));
   append(plotParts(c), sections.back().parts);
   append(pictureParts(c), sections.back().parts);
   sections.push_back({"limits", "Limits", {limitsList(c, request.choices)}});
@@ -145,7 +147,7 @@ std::vector<ReportSection> cohortSections(const ReportRequest& request, double l
   ReportReview reviewed;
   const bool mapped = std::any_of(request.cases.begin(), request.cases.end(),
                                   [](const ReportCase& c) { return !c.maps.empty(); });
-  if (mapped) sections.back().parts.emplace_back(mapPlace(limit_mm));
+  if (mapped) sections.back().parts.emplace_back(mapPlace(request.cases, limit_mm));
   for (const ReportCase& c : request.cases) {
     reviewed.cases.push_back(c.name);
     each.parts.emplace_back(distancesTable(c, c.name));

@@ -309,8 +309,8 @@ ReportList limitsList(const ReportCase& c, const ReportChoices& choices) {
         "The reference does not move. Where tissue moved between its scan and the video, that "
         "motion counts as an error.");
   list.items.push_back(
-      "The map shows at most 20 000 points a moment of a series, and a reference with fewer "
-      "triangles than was measured against; the numbers are of the full data.");
+      "The map shows fewer points than were measured (at most 20 000 a moment of a series, 60 000 "
+      "of a single surface) and a coarser reference; the numbers are of the full data.");
   if (c.record.contains("warnings") && c.record["warnings"].is_array())
     for (const auto& warning : c.record["warnings"])
       if (warning.is_string()) {

@@ -134,7 +134,7 @@ std::string mapJson(const ReportMap& map) {
       number(half.x()) + "," + number(half.y()) + "],\"depth_mm\":" + number(depth_mm) +
       ",\"point_mm\":" + number(2 * spacing_mm) + ",\"push_mm\":" + number(0.02 * depth_mm) +
       ",\"space\":" +
-      jsonQuoted(first.surface.space.empty() ? "the files' frame" : first.surface.space) +
+      jsonQuoted(first.surface.space.empty() ? "the reference's frame" : first.surface.space) +
       ",\"has_observed\":" + (observed ? "true" : "false") + ",\"moments\":[";
   for (const ErrorMap& moment : map.moments)
     json += (&moment == &first ? "" : ",\n") + momentJson(moment, first, scale);

@@ -2,6 +2,7 @@
 #include "vtk_views/report_pdf.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "vtk_views/cairo_picture.h"
 #include "vtk_views/html_text.h"
@@ -54,26 +55,36 @@ class TableSetter {
     narrow(rows);
   }
 
-  /// Where the columns are too wide together, those with more than one word give way.
+  /// The widths with none above `most_pt`, unless a word needs it.
+  std::vector<double> capped(double most_pt, const std::vector<double>& least_pt) const {
+    std::vector<double> widths = widths_;
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      widths[i] = std::max(std::min(widths[i], most_pt), least_pt[i]);
+    return widths;
+  }
+
+  /// Where the columns are too wide together, the widest give way, down to their longest word.
   void narrow(const std::vector<const std::vector<std::string>*>& rows) {
-    double excess_pt = -PaperSheet::kTextWidthPt, slack_pt = 0;
-    for (const double width : widths_) excess_pt += width;
-    if (excess_pt <= 0) return;
-    std::vector<double> least(widths_.size(), 24);
+    const auto fits = [](const std::vector<double>& widths) {
+      return std::accumulate(widths.begin(), widths.end(), 0.0) <= PaperSheet::kTextWidthPt;
+    };
+    if (fits(widths_)) return;
+    std::vector<double> least_pt(widths_.size(), 24);
     for (const auto* row : rows)
       for (std::size_t i = 0; i < row->size(); ++i)
         for (const std::string& word : wordsOfText((*row)[i])) {
           DrawnText text = textAt({}, word, kTablePt);
           text.bold = row == &table_.headings;
-          least[i] = std::max(least[i], std::min(textWidthPt(text) + kCellGapPt, widths_[i]));
+          least_pt[i] = std::max(least_pt[i], textWidthPt(text) + kCellGapPt);
         }
-    for (std::size_t i = 0; i < widths_.size(); ++i) slack_pt += widths_[i] - least[i];
-    const double part = slack_pt > 0 ? std::min(1.0, excess_pt / slack_pt) : 0;
-    for (std::size_t i = 0; i < widths_.size(); ++i) widths_[i] -= part * (widths_[i] - least[i]);
-    if (excess_pt > slack_pt) {  // words without blanks: the widest column is broken inside them
-      const auto widest = std::max_element(widths_.begin(), widths_.end());
-      *widest = std::max(*widest - (excess_pt - slack_pt), 60.0);
+    if (!fits(capped(0, least_pt)))  // words without blanks are broken
+      for (double& least : least_pt) least = std::min(least, 40.0);
+    double low_pt = 0, high_pt = PaperSheet::kTextWidthPt;
+    for (int i = 0; i < 40; ++i) {
+      const double middle_pt = (low_pt + high_pt) / 2;
+      (fits(capped(middle_pt, least_pt)) ? low_pt : high_pt) = middle_pt;
     }
+    widths_ = capped(low_pt, least_pt);
   }
 
   void setRow(const std::vector<std::string>& cells, bool heading) {
