@@ -11,7 +11,7 @@ namespace softscope {
 namespace {
 
 constexpr double kRoomAround = 1.4;  // of the surfaces' longest side
-constexpr int kMost3dPx = 1100;      // a side
+constexpr int kMost3dPx = 800;       // a side
 constexpr Rgb8 kDark{40, 40, 40};
 
 FigureFoot footOf(const Scene& scene, const PanelOptions& options) {

@@ -12,12 +12,16 @@
 namespace softscope {
 namespace {
 
-constexpr int kMostPicturePx = 1200;  // a side; finer than a CT's voxels by far
+constexpr int kLeastPicturePx = 400;  // a side, where the page has as many dots
 constexpr Rgb8 kOnCt{255, 255, 255}, kOnWhite{40, 40, 40};
 
-int pixelsOf(double length_pt, const FigureStyle& style) {
-  const double wanted = length_pt / 72 * std::min(style.dots_per_inch, 600.0);
-  return std::clamp(static_cast<int>(std::lround(wanted)), 1, kMostPicturePx);
+/// As many as the page has dots, but no finer than half a voxel: more would only take time.
+int pixelsOf(double length_pt, double length_mm, const Volume& volume, const FigureStyle& style) {
+  const auto& spacing = volume.facts.spacing_mm;
+  const double finest_mm = *std::min_element(spacing.begin(), spacing.end()) / 2;
+  const double dots = length_pt / 72 * style.dots_per_inch;
+  const double useful = std::max<double>(kLeastPicturePx, length_mm / finest_mm);
+  return std::max(1, static_cast<int>(std::lround(std::min(dots, useful))));
 }
 
 PointPt onPage(const Eigen::Vector2d& p_mm, double width_mm, const PanelPlace& place) {
@@ -61,11 +65,12 @@ void drawDots(const SceneSurface& surface, const ViewPlane& plane, double reach_
 void drawVolume(const Scene& scene, const ViewPlane& plane, double width_mm,
                 const PanelPlace& place, const FigureStyle& style, VectorDrawing& drawing) {
   const SliceField field{width_mm, width_mm * place.height_pt / place.width_pt};
-  drawing.parts.emplace_back(DrawnPicture{
-      place.top_left,
-      {place.right(), place.bottom()},
-      slicePicture(*scene.volume, plane, field, scene.window, pixelsOf(place.width_pt, style),
-                   pixelsOf(place.height_pt, style))});
+  drawing.parts.emplace_back(
+      DrawnPicture{place.top_left,
+                   {place.right(), place.bottom()},
+                   slicePicture(*scene.volume, plane, field, scene.window,
+                                pixelsOf(place.width_pt, field.width_mm, *scene.volume, style),
+                                pixelsOf(place.height_pt, field.height_mm, *scene.volume, style))});
 }
 
 }  // namespace
