@@ -47,10 +47,9 @@ Scene sceneOf(const TriangleMesh& reference, const TriangleMesh& test,
   return scene;
 }
 
-ViewPlane viewFrom(const Eigen::Vector3d& eye, const Scene& scene) {
-  ViewPlane view = cameraView(sceneCentre(scene), eye, scene.frame);
-  view.name = "seen from " + sideName(eye, scene.frame);
-  return view;
+ScenePanel panelFrom(const Eigen::Vector3d& eye, const Scene& scene) {
+  return {&scene, cameraView(sceneCentre(scene), eye, scene.frame),
+          "seen from " + sideName(eye, scene.frame)};
 }
 
 }  // namespace
@@ -76,7 +75,7 @@ VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh&
   const Statistics& errors = result.comparison.accuracy.vertices_mm;
   panels.foot.notes = {spreadText(errors), std::to_string(errors.count) + " vertices; alignment: " +
                                                result.alignment + ". Research use only."};
-  return drawSurfaceViews(scene, {viewFrom(eye, scene), viewFrom(-eye, scene)}, panels);
+  return drawScenes({panelFrom(eye, scene), panelFrom(-eye, scene)}, panels);
 }
 
 }  // namespace softscope

@@ -1,10 +1,12 @@
 // apps/figure.cpp: `softscope figure`: axial, coronal, sagittal and 3-D in one picture.
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
+#include "apps/figure_kinds.h"
 #include "apps/figure_options.h"
 #include "apps/figure_outputs.h"
 #include "apps/figure_run.h"
@@ -13,6 +15,7 @@
 #include "apps/surface_error_map.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "io/text_lines.h"
 #include "vtk_views/four_panels.h"
 
 namespace softscope {
@@ -27,6 +30,8 @@ const char* const kDetails =
     "--ct contours lie on white. Views are radiological; letters come from the axes of the data.\n"
     "With a RUN and its sequence as --reference: the model beside the true surface, as the scope\n"
     "sees them at the last frame that has both, or at --frame.\n"
+    "Of whole runs: --kind frames shows the model at some frames, --kind series its error maps\n"
+    "over time with the series of all frames, --kind compare two runs side by side.\n"
     "Beside the figure lies a JSON file with inputs, hashes, views, range and counts. The same\n"
     "inputs give the same bytes. Research use only.";
 
@@ -45,11 +50,15 @@ class FigureCommand : public Command {
 
  private:
   void validate() const;
+  void validateKind() const;
+  int runOfKind();
+  int finish(const VectorDrawing& drawing, const SceneInputs& inputs, Json& record) const;
   void readFiles(SceneInputs& inputs) const;
   void addErrors(Scene& scene, FigureFoot& foot, Json& record) const;
   FourPanelOptions panelsFor(const Scene& scene) const;
 
   FigureOptions options_;
+  std::string kind_ = "four", other_, frames_;
   std::string run_, ct_, reference_, test_, eye_;
   std::vector<std::string> surfaces_, scans_;
   ErrorColourOptions errors_;
@@ -66,6 +75,10 @@ void FigureCommand::declare(ArgumentList& arguments) {
   arguments.option("--test", "MODEL", test_, "surface or points to show with it");
   arguments.option("--surface", "MESH", surfaces_, "one more surface or model; repeatable");
   arguments.option("--scan", "POINTS", scans_, "points to draw in red; repeatable");
+  arguments.option("--kind", "NAME", kind_, "four (default), or of a RUN: frames, series, compare");
+  arguments.option("--other", "RUN", other_, "of --kind compare: the second run");
+  arguments.option("--frames", "LIST", frames_,
+                   "of the panels, e.g. 0,10,20 (default: up to four, evenly spread)");
   arguments.option("--frame", "N", frame_, "of a RUN (default: the last one that can be judged)");
   arguments.option("--errors", "KIND", errors_.kind,
                    "of the test from the reference: absolute (default), signed or none");
@@ -78,6 +91,18 @@ void FigureCommand::declare(ArgumentList& arguments) {
   options_.declare(arguments);
 }
 
+/// "0,10,20". Throws OptionError.
+std::vector<int> parseFrames(const std::string& text) {
+  std::vector<int> frames;
+  for (const std::string_view word : wordsOf(text)) {
+    const auto frame = numberOf(word);
+    if (!frame || !(*frame >= 0 && *frame < 1e9) || *frame != std::floor(*frame))
+      throw OptionError("--frames is `" + text + "`, but must be numbers of frames, e.g. 0,10,20");
+    frames.push_back(static_cast<int>(*frame));
+  }
+  return frames;
+}
+
 void FigureCommand::validate() const {
   options_.validate();
   errors_.validate();
@@ -86,6 +111,8 @@ void FigureCommand::validate() const {
   require(frame_ >= -1, "--frame", frame_, "must be 0 or more");
   if (!eye_.empty() && parseVector(eye_, "--eye").norm() == 0)
     throw OptionError("--eye is `" + eye_ + "`, but must be a direction");
+  validateKind();
+  if (kind_ != "four") return;
   if (run_.empty()) {
     require(frame_ < 0, "--frame", frame_, "needs a RUN");
     require(!observed_, "--observed", "given", "needs a RUN, whose scope sees a part");
@@ -145,9 +172,64 @@ FourPanelOptions FigureCommand::panelsFor(const Scene& scene) const {
   return panels;
 }
 
+void FigureCommand::validateKind() const {
+  require(kind_ == "four" || kind_ == "frames" || kind_ == "series" || kind_ == "compare", "--kind",
+          kind_, "must be four, frames, series or compare");
+  parseFrames(frames_);
+  if (kind_ == "four") {
+    require(frames_.empty(), "--frames", frames_, "needs --kind frames, series or compare");
+    require(other_.empty(), "--other", other_, "needs --kind compare");
+    return;
+  }
+  if (run_.empty()) throw OptionError("--kind " + kind_ + " needs a RUN");
+  if (kind_ == "series" && reference_.empty())
+    throw OptionError("--kind series needs --reference SEQUENCE, with its ground truth");
+  require((kind_ == "compare") == !other_.empty(), "--other", other_.empty() ? "missing" : other_,
+          "belongs to --kind compare, which needs it");
+  if (!ct_.empty() || !test_.empty() || !surfaces_.empty() || !scans_.empty())
+    throw OptionError("--kind " + kind_ +
+                      " shows runs alone; leave --ct, --test, --surface and "
+                      "--scan out");
+}
+
+int FigureCommand::runOfKind() {
+  SceneInputs inputs(1);
+  RunFigureOptions options;
+  options.kind = kind_;
+  options.run = run_;
+  options.other = other_;
+  options.sequence = reference_;
+  options.frames = parseFrames(frames_);
+  if (frame_ >= 0) options.frames = {frame_};
+  options.observed_only = observed_;
+  options.errors = errors_;
+  if (options.errors.kind == "none") options.errors.kind = "absolute";
+  if (!eye_.empty()) options.eye = parseVector(eye_, "--eye");
+  options.panels.style = options_.figureStyle();
+  options.panels.width_mm = options_.field_mm;
+  options.panels.columns = columns_;
+  RunFigure figure = drawRunFigure(options, inputs);
+  Json record = figureRecord("figure", options_);
+  record["kind"] = kind_;
+  record.update(figure.record);
+  record["inputs"] = inputs.inputsJson();
+  return finish(figure.drawing, inputs, record);
+}
+
+int FigureCommand::finish(const VectorDrawing& drawing, const SceneInputs& inputs,
+                          Json& record) const {
+  record["warnings"] = inputs.warnings();
+  for (const std::string& warning : inputs.warnings()) spdlog::warn("{}", warning);
+  writeFigure(drawing, options_, record);
+  if (common.json) printJson(record);
+  return kDone;
+}
+
 int FigureCommand::run() {
   validate();
+  if (kind_ != "four") return runOfKind();
   Json record = figureRecord("figure", options_);
+  record["kind"] = kind_;
   SceneInputs inputs(options_.unit_mm);
   Scene& scene = inputs.scene();
   scene.dot_reach_mm = options_.dot_reach_mm;
@@ -167,11 +249,7 @@ int FigureCommand::run() {
   record["surfaces"] = inputs.surfacesJson();
   for (const ViewPlane& view : fourViews(scene, panels))
     record["views"].push_back(viewJson(view, scene.frame, panels.width_mm));
-  record["warnings"] = inputs.warnings();
-  for (const std::string& warning : inputs.warnings()) spdlog::warn("{}", warning);
-  writeFigure(drawing, options_, record);
-  if (common.json) printJson(record);
-  return kDone;
+  return finish(drawing, inputs, record);
 }
 
 }  // namespace

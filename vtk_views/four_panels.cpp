@@ -116,14 +116,13 @@ VectorDrawing drawSlices(const Scene& scene, const std::vector<ViewPlane>& plane
   return drawing;
 }
 
-VectorDrawing drawSurfaceViews(const Scene& scene, const std::vector<ViewPlane>& cameras,
-                               const PanelOptions& options) {
-  const FigureFoot foot = footOf(scene, options);
-  const PanelGrid grid = layOutPanels(cameras.size(), options.columns, options.style, foot);
+VectorDrawing drawScenes(const std::vector<ScenePanel>& panels, const PanelOptions& options) {
+  const FigureFoot foot = footOf(*panels.at(0).scene, options);
+  const PanelGrid grid = layOutPanels(panels.size(), options.columns, options.style, foot);
   VectorDrawing drawing = newSheet(grid);
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    draw3d(scene, cameras[i], options, grid.panels[i], drawing);
-    drawCaption(i, cameras[i].name, grid.panels[i], options.style, drawing);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    draw3d(*panels[i].scene, panels[i].camera, options, grid.panels[i], drawing);
+    drawCaption(i, panels[i].caption, grid.panels[i], options.style, drawing);
   }
   drawFoot(foot, grid, options.style, drawing);
   return drawing;

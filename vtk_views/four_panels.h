@@ -36,9 +36,15 @@ VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options
 VectorDrawing drawSlices(const Scene& scene, const std::vector<ViewPlane>& planes,
                          const PanelOptions& options);
 
-/// The surfaces alone, in 3-D, a panel a camera. At least one.
-VectorDrawing drawSurfaceViews(const Scene& scene, const std::vector<ViewPlane>& cameras,
-                               const PanelOptions& options);
+/// The surfaces of a scene in 3-D, as one panel of several.
+struct ScenePanel {
+  const Scene* scene = nullptr;
+  ViewPlane camera;
+  std::string caption;
+};
+
+/// A panel each, all at one scale; the legend is the first scene's. At least one.
+VectorDrawing drawScenes(const std::vector<ScenePanel>& panels, const PanelOptions& options);
 
 /// The middle of the surfaces' box (the median of those that the figure is about, where any are
 /// marked so), and what a panel shows so that they fit with some room around.

@@ -65,6 +65,17 @@ vtkSmartPointer<vtkDoubleArray> scalarsOf(const std::vector<double>& errors_mm) 
   return array;
 }
 
+vtkSmartPointer<vtkUnsignedCharArray> textureOf(const std::vector<Rgb8>& colours) {
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(colours.size()));
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const unsigned char rgb[] = {colours[i].red, colours[i].green, colours[i].blue};
+    array->SetTypedTuple(static_cast<vtkIdType>(i), rgb);
+  }
+  return array;
+}
+
 /// The bar's colours in steps too small to see.
 vtkSmartPointer<vtkLookupTable> tableOf(const ErrorColours& colours) {
   auto table = vtkSmartPointer<vtkLookupTable>::New();
@@ -96,7 +107,10 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const SceneSurface& surface) {
     data->SetPolys(cells);
     data->GetPointData()->SetNormals(normalsOf(surface.mesh));
   }
-  if (!surface.errors_mm.empty()) data->GetPointData()->SetScalars(scalarsOf(surface.errors_mm));
+  if (!surface.errors_mm.empty())
+    data->GetPointData()->SetScalars(scalarsOf(surface.errors_mm));
+  else if (surface.mesh.colours.size() == surface.mesh.vertices_mm.size())
+    data->GetPointData()->SetScalars(textureOf(surface.mesh.colours));
   return data;
 }
 

@@ -15,8 +15,9 @@ struct SurfacePictureOptions {
 };
 
 /// Parallel projection on white: sizes in the picture are true everywhere. A surface with errors
-/// has their colours, unlit, so that they are the bar's; the others are lit in their own. The same
-/// scene gives the same pixels on one driver. Throws BackendError where nothing renders.
+/// has their colours, unlit, so that they are the bar's; one with a colour at each vertex has
+/// these, the others are lit in their own. The same scene gives the same pixels on one driver.
+/// Throws BackendError where nothing renders.
 ColourImage drawSurfaces(const std::vector<SceneSurface>& surfaces, const ErrorColours& colours,
                          const ViewPlane& camera, const SurfacePictureOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include <cairo/cairo-pdf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -128,6 +129,25 @@ struct SvgWriter {
   }
 };
 
+struct MoveDown {
+  double down_pt;
+
+  void operator()(DrawnLine& line) const {
+    for (PointPt& p : line.points) p.y_pt += down_pt;
+  }
+  void operator()(DrawnShape& shape) const {
+    for (PointPt& p : shape.points) p.y_pt += down_pt;
+  }
+  void operator()(DrawnText& text) const { text.at.y_pt += down_pt; }
+  void operator()(DrawnDots& dots) const {
+    for (PointPt& p : dots.centres) p.y_pt += down_pt;
+  }
+  void operator()(DrawnPicture& picture) const {
+    picture.top_left.y_pt += down_pt;
+    picture.bottom_right.y_pt += down_pt;
+  }
+};
+
 void setColour(cairo_t* context, Rgb8 colour) {
   cairo_set_source_rgb(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
@@ -238,6 +258,16 @@ cairo_status_t appendTo(void* bytes, const unsigned char* data, unsigned int len
 }
 
 }  // namespace
+
+void appendBelow(const VectorDrawing& below, double gap_pt, VectorDrawing& drawing) {
+  const double down_pt = drawing.height_pt + gap_pt;
+  for (auto part : below.parts) {
+    std::visit(MoveDown{down_pt}, part);
+    drawing.parts.push_back(std::move(part));
+  }
+  drawing.height_pt = down_pt + below.height_pt;
+  drawing.width_pt = std::max(drawing.width_pt, below.width_pt);
+}
 
 double textWidthPt(const DrawnText& text) {
   const CairoSurface surface = newCairoPixels(1, 1);

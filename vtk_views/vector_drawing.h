@@ -66,6 +66,9 @@ struct VectorDrawing {
   std::vector<std::variant<DrawnLine, DrawnShape, DrawnText, DrawnDots, DrawnPicture>> parts;
 };
 
+/// Puts `below` under `drawing`, which grows; the sheet keeps the wider width.
+void appendBelow(const VectorDrawing& below, double gap_pt, VectorDrawing& drawing);
+
 /// In the font that every figure is set in.
 double textWidthPt(const DrawnText& text);
 

@@ -126,6 +126,45 @@ TEST_F(RunFigure, WhatCantBeShownIsTold) {
   expectRefused({"no frame has both"}, figure({"--out", at("a.svg")}));
 }
 
+TEST_F(RunFigure, WholeRunsHaveFiguresToo) {
+  const auto kind = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"figure", at("run"), "--dpi", "100", "--force", "--json"});
+    const Outcome outcome = softscope::test::run(more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.exit_code == 0 ? outcome.json() : Json();
+  };
+  const Json frames = kind({"--kind", "frames", "--frames", "0,2,5", "--out", at("f.svg")});
+  EXPECT_EQ(frames["frames"], (Json{0, 2, 5}));
+  EXPECT_EQ(frames["inputs"].size(), 3u);
+  EXPECT_THAT(textOf(at("f.svg")), HasSubstr(">(c) frame 5"));
+
+  const Json series =
+      kind({"--kind", "series", "--reference", at("truth"), "--observed", "--out", at("s.svg")});
+  EXPECT_EQ(series["frames"].size(), 4u) << "evenly spread";
+  EXPECT_EQ(series["errors"][3]["range_mm"], series["errors"][0]["range_mm"]) << "one range";
+  EXPECT_NEAR(series["errors"][3]["distance"]["max_mm"], 0.2, kFloats);
+  for (const char* word : {">up to P95<", ">time [s]<", ">not observed<"})
+    EXPECT_THAT(textOf(at("s.svg")), HasSubstr(word));
+
+  makeWallRun(at("later"), kFrames, 1);
+  const Json two = kind({"--kind", "compare", "--other", at("later"), "--reference", at("truth"),
+                         "--out", at("c.svg")});
+  EXPECT_EQ(two["errors"].size(), 2u);
+  for (const char* word : {">(a) run<", ">(b) later<", ">(d) later, errors<"})
+    EXPECT_THAT(textOf(at("c.svg")), HasSubstr(word));
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--kind", "film"},
+                                             {"--kind", "series"},
+                                             {"--kind", "compare"},
+                                             {"--kind", "frames", "--frames", "0,99"},
+                                             {"--kind", "frames", "--frames", "1.5"},
+                                             {"--frames", "0"}}) {
+    std::vector<std::string> line{"figure", at("run"), "--out", at("w.svg")};
+    line.insert(line.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(softscope::test::run(line).exit_code, 2) << wrong.back();
+  }
+}
+
 class Slice : public Figure {
  protected:
   Outcome slice(std::vector<std::string> more) const {
