@@ -163,7 +163,8 @@ void CaseRunner::simulate(const fs::path& target) {
 fs::path CaseRunner::sequence() {
   if (!case_.sequence.empty()) return case_.sequence;
   fs::create_directories(folder_.sequences());
-  const fs::path target = folder_.sequences() / simulationDigest(case_).substr(0, kFolderLetters);
+  const std::string made_by = simulationDigest(case_) + sha256Of(ownExecutable());
+  const fs::path target = folder_.sequences() / sha256OfBytes(made_by).substr(0, kFolderLetters);
   const FolderLock lock(target.string() + ".lock");
   waitFor(lock);
   if (!fs::exists(target)) simulate(target);

@@ -2,8 +2,9 @@
 """Writes docs/results.md and its pictures from what studies left; nothing in it is typed by hand.
 
 usage: data/studies/write_results.py --softscope build/release/apps/softscope DIR...
-Each DIR is the folder of a finished study. Refuses results of another build than the one named, and
-a working tree that differs from its commit: the commit that is written is the one that was built."""
+Each DIR is the folder of a finished study. --softscope names the program that ran them, more than
+once where several did; the commit that is written is that of the checkout it lies in. Refuses a
+checkout that differs from its commit, and cases that none of these programs ran."""
 import argparse
 import hashlib
 import json
@@ -22,9 +23,19 @@ Every number on this page was measured by `softscope study` ([studies](studies.m
 """
 
 
-def git(*words):
-    return subprocess.run(["git", "-C", str(ROOT), *words], check=True, text=True,
+def git(folder, *words):
+    return subprocess.run(["git", "-C", str(folder), *words], check=True, text=True,
                           stdout=subprocess.PIPE).stdout.strip()
+
+
+def commit_of(program):
+    """Of the checkout that a program was built in."""
+    folder = program.resolve().parent
+    changed = [line for line in git(folder, "status", "--porcelain",
+                                    "--untracked-files=no").splitlines() if "docs/" not in line]
+    if changed:
+        fail(f"the checkout of {program} differs from its commit: {changed[0]}")
+    return git(folder, "rev-parse", "--short", "HEAD")
 
 
 def fail(text):
@@ -40,14 +51,21 @@ def read_study(folder):
     return study
 
 
-def check_build(study, digest):
-    """Every case must come from the build whose commit will be named."""
+def commits_of(study, builds):
+    """"5faef8c", or "5faef8c (occlusion-2, occlusion-4: 1234567)" where several builds ran it."""
+    cases = {}
     for case in study["cases"]:
-        if case.get("executable_sha256", digest) != digest:
-            fail(f"{study['folder']}: case {case['name']} was run by another build; run the study "
-                 "again with --force")
         if case["status"] == "not run":
             fail(f"{study['folder']}: case {case['name']} has not been run")
+        if "executable_sha256" not in case:
+            continue
+        if case["executable_sha256"] not in builds:
+            fail(f"{study['folder']}: case {case['name']} was run by another build; name it by "
+                 "--softscope, or run the study again with --force")
+        cases.setdefault(builds[case["executable_sha256"]], []).append(case["name"])
+    commits = sorted(cases, key=lambda commit: -len(cases[commit]))
+    others = "; ".join(f"{', '.join(cases[c])}: {c}" for c in commits[1:])
+    return commits[0] + (f" ({others})" if others else "")
 
 
 def cell(text):
@@ -96,22 +114,18 @@ def section(study, commit):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--softscope", required=True, type=Path, help="the program that ran them")
+    parser.add_argument("--softscope", required=True, type=Path, action="append",
+                        help="the program that ran them; repeatable")
     parser.add_argument("folders", nargs="+", type=Path, metavar="DIR")
     options = parser.parse_args()
-    changed = [line for line in git("status", "--porcelain", "--untracked-files=no").splitlines()
-               if "docs/" not in line]
-    if changed:
-        fail("the working tree differs from its commit: " + changed[0])
-    digest = hashlib.sha256(options.softscope.read_bytes()).hexdigest()
+    builds = {hashlib.sha256(program.read_bytes()).hexdigest(): commit_of(program)
+              for program in options.softscope}
     studies = [read_study(folder) for folder in options.folders]
-    for study in studies:
-        check_build(study, digest)
+    commits = [commits_of(study, builds) for study in studies]
     if PICTURES.exists():
         shutil.rmtree(PICTURES)
     PICTURES.mkdir(parents=True)
-    commit = git("rev-parse", "--short", "HEAD")
-    sections = [section(study, commit) for study in studies]
+    sections = [section(study, commit) for study, commit in zip(studies, commits)]
     PAGE.write_text(HEAD + "\n" + "\n\n".join(sections) + "\n", encoding="utf-8")
     print(f"wrote {PAGE.relative_to(ROOT)} and {len(list(PICTURES.iterdir()))} pictures")
 

@@ -95,7 +95,11 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
       light_(options.light, rig_.baseline_mm, options.camera.distance_mm),
       world_from_body_(path_.bodyFromLeft(0).inverse()) {
   const ScopeScene first(worldVertices(0), mesh_.triangles);
-  track_points_ = chooseTrackPoints(castCentres(first, rig_.left), options.track_spacing_px);
+  Raster<RayHit> hits = castCentres(first, rig_.left);
+  const Mask hidden = instrumentMask(hits, instrumentAt(0), rig_.left);
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (hidden.values[i] != 0) hits.values[i] = {};  // nobody can point at what isn't seen
+  track_points_ = chooseTrackPoints(hits, options.track_spacing_px);
 }
 
 std::vector<Eigen::Vector3f> Simulator::worldVertices(double time_s) {
