@@ -50,12 +50,18 @@ Eigen::Vector3d eyeOf(const RunFigureOptions& options) {
   return options.eye.norm() > 0 ? options.eye : kFromTheScope;
 }
 
-std::string captionOf(int frame, double time_s) {
-  if (!std::isfinite(time_s) || time_s == frame)  // a sequence without a clock counts frames
-    return "frame " + std::to_string(frame);
+/// A sequence without a clock counts frames: then a time says nothing.
+std::string captionOf(int frame, double time_s, bool with_clock) {
+  if (!with_clock || !std::isfinite(time_s)) return "frame " + std::to_string(frame);
   char text[64];
   std::snprintf(text, sizeof text, "frame %d, %.2f s", frame, time_s);
   return text;
+}
+
+bool hasClock(const JudgedRun& run) {
+  for (std::size_t i = 0; i < run.frames.size(); ++i)
+    if (run.trajectory[i].time_s != run.frames[i]) return true;
+  return false;
 }
 
 double timeOf(const JudgedRun& run, int frame) {
@@ -100,7 +106,7 @@ RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   auto scene = scenes.begin();
   for (const int frame : frames)
     panels.push_back({&*scene++, cameraView(centre_mm, eyeOf(options), SceneFrame::kCamera),
-                      captionOf(frame, timeOf(run, frame))});
+                      captionOf(frame, timeOf(run, frame), hasClock(run))});
   return {drawScenes(panels, panelsFor(options, scenes)),
           {{"run", options.run}, {"frames", frames}}};
 }
@@ -181,7 +187,7 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
     explainToo(map, foot);
     scenes.push_back(errorScene(moment, map));
     panels.push_back(
-        panelOf(scenes.back(), eyeOf(options), captionOf(moment.frame, moment.time_s)));
+        panelOf(scenes.back(), eyeOf(options), captionOf(moment.frame, moment.time_s, true)));
     figure.record["errors"].push_back(map.json);
   }
   PanelOptions sheet = panelsFor(options, scenes);

@@ -28,6 +28,8 @@ namespace {
 
 constexpr int kFiner = 2;  // pixels are drawn this much smaller each way, then averaged
 constexpr int kSteps = 256;
+constexpr double kNearer = 0.02;  // of the picture's width
+constexpr Rgb8 kNeutral{205, 205, 205};
 constexpr double kSeeThrough = 0.35;  // opacity
 
 vtkSmartPointer<vtkPoints> pointsOf(const TriangleMesh& mesh) {
@@ -114,8 +116,16 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const SceneSurface& surface) {
   return data;
 }
 
+/// How a surface is drawn beside the others.
+struct Role {
+  double point_size_px = 1;
+  bool see_through = false;  // only the first one, and never beside errors
+  bool neutral = false;      // grey: another surface has the colours of errors
+  Eigen::Vector3d shift_mm = Eigen::Vector3d::Zero();
+};
+
 vtkSmartPointer<vtkActor> actorOf(const SceneSurface& surface, const ErrorColours& colours,
-                                  double point_size_px, bool see_through) {
+                                  const Role& role) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(polyDataOf(surface));
   if (!surface.errors_mm.empty()) {
@@ -123,16 +133,13 @@ vtkSmartPointer<vtkActor> actorOf(const SceneSurface& surface, const ErrorColour
     mapper->UseLookupTableScalarRangeOn();
     mapper->InterpolateScalarsBeforeMappingOn();  // between vertices errors are mixed, not colours
   }
-  if (surface.isPoints()) {  // over a surface that they lie on
-    mapper->SetResolveCoincidentTopologyToPolygonOffset();
-    mapper->SetRelativeCoincidentTopologyPointOffsetParameter(-8);
-  }
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   vtkProperty* look = actor->GetProperty();
-  look->SetColor(surface.colour.red / 255.0, surface.colour.green / 255.0,
-                 surface.colour.blue / 255.0);
-  look->SetPointSize(float(point_size_px));
+  const Rgb8 colour = role.neutral ? kNeutral : surface.colour;
+  look->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  look->SetPointSize(float(role.point_size_px));
+  actor->SetPosition(role.shift_mm.x(), role.shift_mm.y(), role.shift_mm.z());
   if (surface.isPoints() || !surface.errors_mm.empty()) {
     look->LightingOff();  // shading would change the colours that the bar promises
   } else {
@@ -141,7 +148,7 @@ vtkSmartPointer<vtkActor> actorOf(const SceneSurface& surface, const ErrorColour
     look->SetSpecular(0.15);
     look->SetSpecularPower(20);
   }
-  if (see_through) {
+  if (role.see_through) {
     look->SetOpacity(kSeeThrough);
     look->BackfaceCullingOn();  // one layer only: right without sorting
   }
@@ -188,15 +195,23 @@ ColourImage readPixels(vtkRenderWindow* window, int width_px, int height_px) {
 ColourImage drawSurfaces(const std::vector<SceneSurface>& surfaces, const ErrorColours& colours,
                          const ViewPlane& camera, const SurfacePictureOptions& options) {
   const double pixels_per_mm = kFiner * options.width_px / options.width_mm;
+  const bool with_errors = std::any_of(surfaces.begin(), surfaces.end(),
+                                       [](const auto& s) { return !s.errors_mm.empty(); });
+  const Eigen::Vector3d shift_mm =
+      std::max(kNearer * options.width_mm, with_errors ? 2 * colours.limit_mm : 0) *
+      camera.towardsViewer();
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const SceneSurface& surface = surfaces[i];
     if (!surface.errors_mm.empty() && surface.errors_mm.size() != surface.mesh.vertices_mm.size())
       throw Error("error map: every vertex needs one error");
-    renderer->AddActor(actorOf(surface, colours,
-                               std::max(1.0, options.point_size_mm * pixels_per_mm),
-                               options.see_through && i == 0 && surfaces.size() > 1));
+    Role role;
+    role.point_size_px = std::max(1.0, options.point_size_mm * pixels_per_mm);
+    role.see_through = options.see_through && i == 0 && surfaces.size() > 1 && !with_errors;
+    role.neutral = with_errors && surface.errors_mm.empty();
+    if (i > 0) role.shift_mm = shift_mm;
+    renderer->AddActor(actorOf(surface, colours, role));
   }
   const auto window = makeOffscreenWindow(kFiner * options.width_px, kFiner * options.height_px);
   window->AddRenderer(renderer);

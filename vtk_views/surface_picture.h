@@ -14,10 +14,12 @@ struct SurfacePictureOptions {
   bool see_through = false;    // the first surface, if others are there too
 };
 
-/// Parallel projection on white: sizes in the picture are true everywhere. A surface with errors
-/// has their colours, unlit, so that they are the bar's; one with a colour at each vertex has
-/// these, the others are lit in their own. The same scene gives the same pixels on one driver.
-/// Throws BackendError where nothing renders.
+/// Parallel projection on white: sizes in the picture are true everywhere, and later surfaces can
+/// be drawn a little nearer to the eye, so that the first doesn't hide what lies just inside it. A
+/// surface with errors has their colours, unlit, so that they are the bar's; one with a colour at
+/// each vertex has these, the others are lit in their own, or in grey beside errors, which no tint
+/// may falsify. The same scene gives the same pixels on one driver. Throws BackendError where
+/// nothing renders.
 ColourImage drawSurfaces(const std::vector<SceneSurface>& surfaces, const ErrorColours& colours,
                          const ViewPlane& camera, const SurfacePictureOptions& options);
 

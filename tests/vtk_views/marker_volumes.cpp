@@ -151,8 +151,9 @@ std::vector<MarkerFile> writeMarkerVolumes(const fs::path& folder) {
   for (const auto& [name, turn] :
        {std::pair<std::string, Eigen::Matrix3d>{"flipped", flipped}, {"oblique", oblique}}) {
     const Eigen::Matrix4d m = lpsFromVoxel(turn);
-    const auto add = [&](const std::string& what, const std::string& ending) {
-      files.push_back({what + ", " + name, folder / (name + ending)});
+    const auto add = [&files, &folder, suffix = name](const std::string& what,
+                                                      const std::string& ending) {
+      files.push_back({what + ", " + suffix, folder / (suffix + ending)});
       return files.back().path;
     };
     writeNrrd(add("NRRD in LPS", "_lps.nrrd"), m, false);

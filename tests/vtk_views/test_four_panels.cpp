@@ -216,6 +216,23 @@ TEST(SurfacePicture, ShowsErrorsInTheirColoursOnTheirSide) {
   EXPECT_THROW(drawSurfaces(surfaces, colours, front, options), Error);
 }
 
+TEST(SurfacePicture, AReferenceNeitherHidesNorTintsTheErrorsJustBehindIt) {
+  TriangleMesh reference = coronalSheet(), test = coronalSheet();
+  for (Eigen::Vector3f& p : test.vertices_mm) p.y() = 0.8f;  // behind it, as seen from the front
+  std::vector<SceneSurface> surfaces{{"", reference, {240, 165, 0}, {}},
+                                     {"", test, {0, 0, 255}, {}}};
+  surfaces[1].errors_mm.assign(test.vertices_mm.size(), 0.8);
+  SurfacePictureOptions options;
+  options.width_px = options.height_px = 100;
+  options.width_mm = 50;
+  options.see_through = true;
+  const ErrorColours colours{false, 1};
+  const ColourImage picture =
+      drawSurfaces(surfaces, colours,
+                   coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological), options);
+  EXPECT_TRUE(alike(picture.at(50, 50), colours.colour(0.8)));
+}
+
 TEST(SurfacePicture, ShowsTheHeadEndUp) {
   TriangleMesh mesh = coronalSheet();
   mesh.triangles.resize(mesh.triangles.size() / 2);  // its lower half
