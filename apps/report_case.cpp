@@ -71,11 +71,19 @@ std::vector<fs::path> mapFiles(const fs::path& folder, ReportCase::Kind kind) {
                                     : std::vector<fs::path>();
 }
 
+constexpr std::uintmax_t kPictureLimitBytes = std::uintmax_t{64} << 20;
+
 void readPictures(const fs::path& folder, ReportCase& result) {
-  for (const auto& [file, caption] :
+  for (const auto& [name, caption] :
        {std::pair{"four_panels.png", "Axial, coronal, sagittal and 3-D view"},
-        std::pair{"figure.png", "Figure"}})
-    if (isThere(folder / file)) result.pictures.emplace_back(caption, readBytes(folder / file));
+        std::pair{"figure.png", "Figure"}}) {
+    if (!isThere(folder / name)) continue;
+    std::string png = readBytes(folder / name, kPictureLimitBytes);
+    if (png.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0)
+      throw InputError(shown(folder / name) +
+                       ": is no PNG picture, but would be shown; make it again or move it away");
+    result.pictures.emplace_back(caption, std::move(png));
+  }
 }
 
 template <class Value>

@@ -64,6 +64,9 @@ std::string alignmentText(const ReportCase& c) {
     return "ICP: the model was fitted to the reference by the closest points; whatever a rigid "
            "motion explains is not in the errors below";
   if (how == "landmarks") return "landmarks: fitted by named pairs of points";
+  if (how == "landmarks, then icp")
+    return "landmarks, then ICP: fitted by named pairs of points, then by the closest points; "
+           "whatever a rigid motion explains is not in the errors below";
   return how;
 }
 
@@ -83,8 +86,14 @@ std::string motionText(const ReportCase& c) {
       matrix(int(i), int(j)) = rows[i][j].get<double>();
     }
   const double angle_rad = Eigen::AngleAxisd(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).angle();
-  return "turned by " + fixed(angle_rad * 180 / M_PI, 2) + " degrees, shifted by " +
-         millimetresText(matrix.topRightCorner<3, 1>().norm());
+  const std::string turn = "turned by " + fixed(angle_rad * 180 / M_PI, 2) + " degrees";
+  if (c.maps.empty()) return turn;
+  // About the origin a turn would look like a shift: of the model's middle it doesn't.
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : c.maps.front().surface.vertices_mm) middle += p.cast<double>();
+  middle /= double(c.maps.front().surface.vertices_mm.size());
+  const Eigen::Vector3d before = matrix.inverse().topRows<3>() * middle.homogeneous();
+  return turn + ", and its middle shifted by " + millimetresText((middle - before).norm());
 }
 
 /// How well the error at places without a landmark is known; empty where it isn't.
@@ -135,6 +144,10 @@ ReportTable motionTable(const ReportCase& c) {
                           {"back-projection, by the run itself", "backprojection"}});
 }
 
+std::string shareText(double value) {
+  return std::isfinite(value) ? fixed(value, 3) : numberText(value);
+}
+
 ReportTable scoresTable(const ReportCase& c) {
   ReportTable table{
       "Within a distance", {"", "precision", "recall", "F", "surface Dice"}, {}, false};
@@ -142,8 +155,8 @@ ReportTable scoresTable(const ReportCase& c) {
   for (const auto& score : c.record["scores"])
     table.rows.push_back(
         {"within " + millimetresText(numberAt(score, "tau_mm")),
-         numberText(numberAt(score, "precision")), numberText(numberAt(score, "recall")),
-         numberText(numberAt(score, "f_score")), numberText(numberAt(score, "surface_dice"))});
+         shareText(numberAt(score, "precision")), shareText(numberAt(score, "recall")),
+         shareText(numberAt(score, "f_score")), shareText(numberAt(score, "surface_dice"))});
   return table;
 }
 

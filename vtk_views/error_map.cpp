@@ -23,6 +23,7 @@
 namespace softscope {
 namespace {
 
+constexpr float kFarthestMm = 1e6f;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 void addScalars(const char* name, const std::vector<float>& values, std::size_t reference_count,
@@ -112,7 +113,8 @@ void readGeometry(vtkPolyData* data, std::size_t model_points, const std::string
     double p[3];
     data->GetPoint(static_cast<vtkIdType>(i), p);
     const Eigen::Vector3f place = Eigen::Vector3d(p[0], p[1], p[2]).cast<float>();
-    if (!place.allFinite()) throw InputError(name + ": a point is not finite; is it damaged?");
+    if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kFarthestMm)
+      throw InputError(name + ": a point is not finite, or beyond 1 km; is it damaged?");
     (i < model_points ? map.surface : map.reference).vertices_mm.push_back(place);
   }
   vtkNew<vtkIdList> corners;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.h"
 #include "vtk_views/error_colours.h"
@@ -51,6 +52,45 @@ std::vector<SceneSurface> surfacesOf(const ErrorMapCell& cell) {
   return surfaces;
 }
 
+void drawLabel(PointPt at, const std::string& words, TextAnchor anchor, double font_pt,
+               VectorDrawing& drawing) {
+  DrawnText text;
+  text.at = at;
+  text.text = words;
+  text.size_pt = font_pt;
+  text.anchor = anchor;
+  drawing.parts.emplace_back(std::move(text));
+}
+
+/// Letters of the patient's sides at the right and upper edge, where the space is known.
+void drawSides(const ErrorMap& map, const ViewPlane& camera, PointPt from, PointPt to,
+               double font_pt, VectorDrawing& drawing) {
+  if (map.surface.space.empty()) return;
+  const auto name = [&](Eigen::Vector3d direction) {
+    if (map.surface.space == "RAS") direction.head<2>() *= -1;
+    return sideName(direction, SceneFrame::kPatient);
+  };
+  drawLabel({to.x_pt - 3, (from.y_pt + to.y_pt) / 2}, name(camera.right), TextAnchor::kEnd, font_pt,
+            drawing);
+  drawLabel({(from.x_pt + to.x_pt) / 2, from.y_pt + 1.2 * font_pt}, name(camera.up),
+            TextAnchor::kMiddle, font_pt, drawing);
+}
+
+/// The longest of 1, 2, 5, 10, … mm that takes at most a quarter of the width.
+void drawRuler(double pt_per_mm, PointPt from, PointPt to, double font_pt, VectorDrawing& drawing) {
+  const double most_mm = (to.x_pt - from.x_pt) / 4 / pt_per_mm;
+  const double power = std::pow(10.0, std::floor(std::log10(most_mm)));
+  double length_mm = power;
+  for (const double leading : {2.0, 5.0})
+    if (leading * power <= most_mm) length_mm = leading * power;
+  const double left = from.x_pt + font_pt, y_pt = to.y_pt - 0.8 * font_pt;
+  drawing.parts.emplace_back(
+      DrawnLine{{{left, y_pt}, {left + length_mm * pt_per_mm, y_pt}}, 1.5, {20, 20, 20}});
+  char words[32];
+  std::snprintf(words, sizeof words, "%g mm", length_mm);
+  drawLabel({left, y_pt - 0.4 * font_pt}, words, TextAnchor::kStart, font_pt, drawing);
+}
+
 void drawCell(const ErrorMapCell& cell, PointPt top_left, double width_pt,
               const ErrorMapFigureStyle& style, VectorDrawing& drawing) {
   const double height_pt = kHeightShare * width_pt, title_pt = 1.6 * style.font_pt;
@@ -66,6 +106,8 @@ void drawCell(const ErrorMapCell& cell, PointPt top_left, double width_pt,
   drawing.parts.emplace_back(DrawnPicture{from, to, picture});
   drawing.parts.emplace_back(DrawnLine{
       {from, {to.x_pt, from.y_pt}, to, {from.x_pt, to.y_pt}, from}, 0.4, {190, 190, 190}});
+  drawSides(*cell.map, camera, from, to, style.font_pt, drawing);
+  drawRuler(width_pt / options.width_mm, from, to, style.font_pt, drawing);
   DrawnText title;
   title.at = {top_left.x_pt, top_left.y_pt + 1.1 * style.font_pt};
   title.text = cell.title;

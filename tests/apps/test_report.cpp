@@ -103,6 +103,9 @@ TEST_F(Report, BadInputsAreNamedAndLeaveNoPage) {
   expectRefused({"run", "has not been judged yet"}, report({at("run")}));
   write("result/errors/000002.vtp", "not VTK");
   expectRefused({"000002.vtp"}, report({at("result")}));
+  writeCase(at("pictured"), 1);
+  write("pictured/figure.png", "<svg onload=alert(1)>");
+  expectRefused({"figure.png", "is no PNG"}, report({at("pictured")}));
   EXPECT_FALSE(fs::exists(at("page.html")));
 }
 

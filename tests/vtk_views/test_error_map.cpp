@@ -69,6 +69,9 @@ TEST(ErrorMap, BrokenFilesAreRefusedByName) {
       EXPECT_THAT(error.what(), HasSubstr("broken.vtp"));
     }
   }
+  ErrorMap far = madeMap();
+  far.surface.vertices_mm[1].x() = 1e30f;
+  EXPECT_THROW(parseErrorMap(errorMapVtp(far), "far.vtp"), InputError);
   ErrorMap uneven = madeMap();
   uneven.signed_mm.pop_back();
   EXPECT_THROW(errorMapVtp(uneven), Error);

@@ -53,9 +53,13 @@ class Viewer {
     listen("case", "change", c => this.selectMap(Number(c.value)));
     listen("home", "click", () => this.resetView());
     listen("play", "click", () => this.togglePlay());
-    this.control("limit").max = this.control("above").max = this.data.largest_mm;
-    this.control("limit").min = this.data.largest_mm / 200;
-    for (const name of ["limit", "above"]) this.control(name).step = this.data.largest_mm / 200;
+    // Stray points far off would leave no room on the slider for what matters.
+    const end = Math.min(this.data.largest_mm, 10 * this.data.limit_mm);
+    for (const name of ["limit", "above"]) {
+      this.control(name).max = end;
+      this.control(name).step = end / 200;
+    }
+    this.control("limit").min = end / 200;
     this.data.maps.forEach((map, i) => this.control("case").add(new Option(map.name, i)));
     this.root.querySelector(".only-cases").hidden = this.data.maps.length < 2;
   }
@@ -170,6 +174,8 @@ class Viewer {
                  this.style);
     this.drawBar();
     this.showMark();
+    this.showSides();
+    this.showRuler();
     this.control("limit").value = this.style.limit_mm;
     this.root.querySelector(".limit-value").textContent = millimetres(this.style.limit_mm);
     this.root.querySelector(".above-value").textContent =
@@ -190,6 +196,24 @@ class Viewer {
     });
     bar.querySelector(".title").textContent =
       this.style.signed ? "signed distance [mm], + = outside" : "distance [mm]";
+  }
+
+  /** Letters of a patient's sides at the picture's edges; nothing where the space isn't known. */
+  showSides() {
+    const [right, up] = this.look.view, minus = v => v.map(x => -x);
+    const at = {left: minus(right), right, top: up, bottom: minus(up)};
+    for (const [edge, direction] of Object.entries(at))
+      this.root.querySelector(".side." + edge).textContent = sideName(direction, this.map.space);
+  }
+
+  /** The longest of 1, 2, 5, 10, ... mm that takes at most a quarter of the picture's width. */
+  showRuler() {
+    const most = this.canvas.clientWidth / 4 * this.look.mmPerPxCss;
+    const power = 10 ** Math.floor(Math.log10(most));
+    const length = [5, 2, 1].find(leading => leading * power <= most) * power;
+    const ruler = this.root.querySelector(".ruler");
+    ruler.querySelector("i").style.width = length / this.look.mmPerPxCss + "px";
+    ruler.querySelector("span").textContent = Number(length.toPrecision(1)) + " mm";
   }
 
   position(i) {
@@ -268,6 +292,14 @@ class Viewer {
     mark.style.left = this.canvas.clientWidth / 2 + p[0] / this.look.mmPerPxCss + "px";
     mark.style.top = this.canvas.clientHeight / 2 - p[1] / this.look.mmPerPxCss + "px";
   }
+}
+
+/** One to three of R L A P S I, the strongest first. */
+function sideName(direction, space) {
+  const letters = {LPS: ["RL", "AP", "IS"], RAS: ["LR", "PA", "IS"]}[space];
+  if (!letters) return "";
+  return direction.map((v, k) => [Math.abs(v), letters[k][v > 0 ? 1 : 0]])
+      .filter(([size]) => size > 0.3).sort((a, b) => b[0] - a[0]).map(([, letter]) => letter).join("");
 }
 
 const millimetres = value => value.toFixed(value < 1 ? 3 : 2) + " mm";
