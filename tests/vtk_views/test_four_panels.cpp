@@ -315,6 +315,7 @@ TEST_P(ContourOnCt, LiesOnTheOrgansEdgeInAllThreePlanes) {
   for (const ViewPlane& view : views())
     mirrored_share += acrossContour(volume, mesh, view).share_with_step / 3;
   RecordProperty("share", std::to_string(share));
+  RecordProperty("mirrored_share", std::to_string(mirrored_share));
   // Organs touch others of like values, so not every point of the edge has a step.
   EXPECT_GT(share, 0.6) << "mirrored: " << mirrored_share;
   EXPECT_GT(share, mirrored_share + 0.1) << "left and right must not be exchangeable";
