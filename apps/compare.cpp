@@ -24,7 +24,8 @@ const char* const kDetails =
     "(the reference from the test), by vertex and by area; signed; three HD95 by name; precision,\n"
     "recall, F and surface Dice at each tau. The test may be a mesh or a model of points.\n"
     "Completeness and what is built on it mean little where the test shows a part of the "
-    "reference.\n"
+    "reference:\n"
+    "with --observed SCAN the values are split into what was seen and what was not.\n"
     "With --out DIR it writes comparison.json, metrics.csv, errors.vtp (the test in the "
     "reference's\n"
     "place with arrays Signed, Absolute and ToReference), error_histogram and error_map as SVG, "
@@ -67,11 +68,14 @@ class CompareCommand : public Command {
 
  private:
   void requireAlignment() const;
+  ObservedSplit split(const TriangleMesh& reference, const SurfaceComparison& comparison) const;
   void align(const TriangleMesh& reference, TriangleMesh& test, ComparisonResult& result) const;
 
   std::string reference_, test_, out_, align_, landmarks_, taus_ = "0.5,1,2";
   std::vector<std::string> fail_if_;
   ErrorColourOptions picture_;
+  std::string observed_;
+  double observed_reach_mm_ = 2;
   double reference_unit_mm_ = 1, test_unit_mm_ = 1;
   bool force_ = false;
 };
@@ -85,6 +89,10 @@ void CompareCommand::declare(ArgumentList& arguments) {
   arguments.option("--landmarks", "FILE", landmarks_, "pairs of points; alone: --align landmarks");
   arguments.option("--tau", "LIST", taus_, "thresholds in mm (default 0.5,1,2)");
   arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
+  arguments.option("--observed", "SCAN", observed_,
+                   "what was seen, points or surface in the reference's place: splits the values");
+  arguments.option("--observed-within-mm", "N", observed_reach_mm_,
+                   "the reference counts as seen this near to it (default 2)");
   arguments.option("--errors", "KIND", picture_.kind,
                    "colours of error_map: absolute (default) or signed");
   arguments.option("--range-mm", "N", picture_.range_mm,
@@ -130,10 +138,19 @@ void CompareCommand::align(const TriangleMesh& reference, TriangleMesh& test,
   test.vertices_mm = movePoints(result.reference_from_test, test.vertices_mm);
 }
 
+ObservedSplit CompareCommand::split(const TriangleMesh& reference,
+                                    const SurfaceComparison& comparison) const {
+  TriangleMesh observed = readSurfaceOrPoints(observed_, reference_unit_mm_);
+  matchSpaces(reference, observed);
+  return splitByObserved(reference, observed, comparison, observed_reach_mm_);
+}
+
 int CompareCommand::run() {
   requireAlignment();
   require(picture_.kind != "none", "--errors", picture_.kind, "must be absolute or signed");
   picture_.validate();
+  require(observed_reach_mm_ > 0 && std::isfinite(observed_reach_mm_), "--observed-within-mm",
+          observed_reach_mm_, "must be above 0");
   const std::vector<double> taus_mm = parseTaus(taus_);
   std::vector<Threshold> thresholds;
   for (const std::string& text : fail_if_) thresholds.push_back(parseThreshold(text));
@@ -154,6 +171,7 @@ int CompareCommand::run() {
   result.space = matchSpaces(reference, test);
   align(reference, test, result);
   result.comparison = compareSurfaces(reference, test, taus_mm);
+  if (!observed_.empty()) result.observed = split(reference, result.comparison);
 
   FactSheet::Json record = comparisonJson(result);
   const auto outcomes = checkThresholds(thresholds, record, "accuracy");

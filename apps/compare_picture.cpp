@@ -2,6 +2,7 @@
 #include "apps/compare_picture.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "apps/evaluate_json.h"
 #include "vtk_views/four_panels.h"
@@ -47,6 +48,18 @@ Scene sceneOf(const TriangleMesh& reference, const TriangleMesh& test,
   return scene;
 }
 
+/// Grey where nothing was observed, if the user said what was.
+SurfaceErrorMap mapOf(const ComparisonResult& result, const ErrorColourOptions& options) {
+  std::vector<double> distance_mm, signed_mm;
+  const auto& closest = result.comparison.closest;
+  for (std::size_t i = 0; i < closest.size(); ++i) {
+    const bool shown = !result.observed || result.observed->each_observed[i] != 0;
+    distance_mm.push_back(shown ? closest[i].distance_mm : std::nan(""));
+    signed_mm.push_back(shown ? closest[i].signed_distance_mm : std::nan(""));
+  }
+  return colourErrors(distance_mm, signed_mm, options);
+}
+
 ScenePanel panelFrom(const Eigen::Vector3d& eye, const Scene& scene) {
   return {&scene, cameraView(sceneCentre(scene), eye, scene.frame),
           "seen from " + sideName(eye, scene.frame)};
@@ -63,14 +76,14 @@ Eigen::Vector3d comparisonEye(const TriangleMesh& reference,
 VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh& reference,
                              const TriangleMesh& test, const ErrorColourOptions& options,
                              const FigureStyle& style) {
-  const SurfaceErrorMap map = colourErrors(result.comparison.closest, options);
+  const SurfaceErrorMap map = mapOf(result, options);
   const Scene scene = sceneOf(reference, test, map.each_mm);
   const Eigen::Vector3d eye = comparisonEye(inLps(reference), result.comparison.closest);
   PanelOptions panels;
   panels.style = style;
   panels.width_mm = sceneWidthMm(scene);
   map.explainIn(panels.foot);
-  if (map.colours.with_sign) panels.foot.bar.missing = "beyond the border";
+  if (map.colours.with_sign && !result.observed) panels.foot.bar.missing = "beyond the border";
   panels.foot.legend = {{"reference", scene.surfaces[0].colour, /*filled=*/true}};
   const Statistics& errors = result.comparison.accuracy.vertices_mm;
   panels.foot.notes = {spreadText(errors), std::to_string(errors.count) + " vertices; alignment: " +

@@ -38,6 +38,27 @@ Json hausdorffJson(const HausdorffDistances& d) {
           {"masd_mm", d.masd_mm}};
 }
 
+Json observedJson(const ObservedSplit& split) {
+  return {{"reach_mm", split.reach_mm},
+          {"reference_share", split.reference_share},
+          {"test_share", split.test_share},
+          {"accuracy", statisticsJson(split.observed_mm, "_mm")},
+          {"predicted", statisticsJson(split.predicted_mm, "_mm")},
+          {"completeness", statisticsJson(split.completeness_mm, "_mm")},
+          {"not_reconstructed_share", split.not_reconstructed_share},
+          {"hausdorff", hausdorffJson(split.hausdorff)}};
+}
+
+void addObservedFacts(const ObservedSplit& split, FactSheet& facts) {
+  facts.addLine("observed", fixed(100 * split.test_share, 1) + " % of the test, " +
+                                fixed(100 * split.reference_share, 1) + " % of the reference");
+  facts.addLine("  accuracy", spreadText(split.observed_mm));
+  facts.addLine("  predicted", spreadText(split.predicted_mm) + ", of the test's other vertices");
+  facts.addLine("  completeness", spreadText(split.completeness_mm) + "; " +
+                                      fixed(100 * split.not_reconstructed_share, 1) +
+                                      " % not reconstructed");
+}
+
 Json alignmentJson(const ComparisonResult& result) {
   Json json{{"method", result.alignment},
             {"reference_from_test", matrixJson(result.reference_from_test)}};
@@ -84,6 +105,7 @@ Json comparisonJson(const ComparisonResult& result) {
   json["signed"]["border_vertices"] = c.signed_mm.nan_count;
   json["hausdorff"] = hausdorffJson(c.hausdorff);
   json["scores"] = scoresJson(c.scores);
+  if (result.observed) json["observed"] = observedJson(*result.observed);
   json["warnings"] = result.warnings;
   return json;
 }
@@ -110,6 +132,7 @@ FactSheet comparisonFacts(const ComparisonResult& result) {
                       fixed(s.f_score, 3) +
                       (std::isnan(s.surface_dice) ? std::string()
                                                   : ", surface Dice " + fixed(s.surface_dice, 3)));
+  if (result.observed) addObservedFacts(*result.observed, facts);
   for (const std::string& warning : result.warnings) facts.warn(warning);
   return facts;
 }

@@ -7,6 +7,7 @@
 
 #include "apps/fact_sheet.h"
 #include "eval/landmark_errors.h"
+#include "eval/observed_split.h"
 #include "eval/surface_alignment.h"
 #include "eval/surface_comparison.h"
 
@@ -21,6 +22,7 @@ struct ComparisonResult {
   std::optional<SurfaceAlignment> icp;
   std::optional<Statistics> before_mm;  // the test's distances before any alignment
   SurfaceComparison comparison;
+  std::optional<ObservedSplit> observed;  // where the user said what was seen
   std::vector<std::string> warnings;
 };
 

@@ -1,5 +1,7 @@
 // tests/apps/test_compare.cpp: `softscope compare` on squares whose distances are known.
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 
 #include "io/ply_writer.h"
 #include "tests/apps/evaluate_fixture.h"
@@ -70,6 +72,37 @@ TEST_F(Compare, PointsAreComparedToo) {
   EXPECT_NEAR(result["signed"]["mean_mm"], -0.5, 1e-6) << "below is inside";
   EXPECT_TRUE(result["accuracy"]["by_area"]["mean_mm"].is_null());
   EXPECT_TRUE(result["scores"][0]["surface_dice"].is_null());
+}
+
+TEST_F(Compare, WhatWasObservedIsJudgedByItself) {
+  // The test is 0.75 mm off where x < 10 and 3 mm off beyond; only x <= 9 was seen.
+  std::string step;
+  std::istringstream lines(squareObj(0, 0.75));
+  for (std::string line; std::getline(lines, line);) {
+    double x = 0, y = 0, z = 0;
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3)
+      line = "v " + std::to_string(x) + " " + std::to_string(y) + (x < 10 ? " 0.75" : " 3");
+    step += line + "\n";
+  }
+  write("step.obj", step);
+  PointCloud scan;
+  for (int x = 0; x <= 9; ++x)
+    for (int y = 0; y <= 20; ++y) scan.points_mm.emplace_back(float(x), float(y), 0.0f);
+  writePly(at("scan.ply"), scan, {"world", ""});
+  const Json result = compared("step.obj", {"--observed", at("scan.ply"), "--observed-within-mm",
+                                            "0.5", "--out", at("seen")});
+  const Json seen = result["observed"];
+  EXPECT_NEAR(seen["test_share"], 10 / 21.0, 1e-9);
+  EXPECT_NEAR(seen["reference_share"], 10 / 21.0, 1e-9);
+  EXPECT_NEAR(seen["accuracy"]["max_mm"], 0.75, 1e-6);
+  EXPECT_NEAR(seen["predicted"]["mean_mm"], 3, 1e-6);
+  EXPECT_LE(seen["hausdorff"]["hd_mm"], 0.7501);
+  EXPECT_EQ(seen["not_reconstructed_share"], 1) << "0.75 mm is beyond the reach of 0.5";
+  EXPECT_THAT(textOf(at("seen/error_map.svg")), HasSubstr("not observed"));
+  EXPECT_EQ(
+      compare("step.obj", {"--observed", at("scan.ply"), "--observed-within-mm", "0"}).exit_code,
+      2);
+  EXPECT_EQ(compare("step.obj", {"--observed", at("none.ply")}).exit_code, 3);
 }
 
 TEST_F(Compare, AnAlignmentIsToldWithTheErrorsBefore) {

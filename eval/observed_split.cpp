@@ -1,0 +1,64 @@
+// eval/observed_split.cpp: near to what was seen, or not.
+#include "eval/observed_split.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "eval/point_tree.h"
+
+namespace softscope {
+namespace {
+
+std::vector<double> distancesFrom(const TriangleMesh& observed,
+                                  const std::vector<Eigen::Vector3f>& points_mm) {
+  if (observed.empty()) return PointTree(observed.vertices_mm).distances_mm(points_mm);
+  std::vector<double> distances_mm;
+  for (const ClosestPoint& closest : TriangleTree(observed).closestPoints(points_mm))
+    distances_mm.push_back(closest.distance_mm);
+  return distances_mm;
+}
+
+std::vector<std::uint8_t> within(const std::vector<double>& distances_mm, double reach_mm) {
+  std::vector<std::uint8_t> inside;
+  for (const double distance_mm : distances_mm) inside.push_back(distance_mm <= reach_mm);
+  return inside;
+}
+
+std::vector<double> chosen(const std::vector<double>& values, const std::vector<std::uint8_t>& in,
+                           bool wanted) {
+  std::vector<double> some;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if ((in[i] != 0) == wanted) some.push_back(values[i]);
+  return some;
+}
+
+double shareOf(std::size_t part, std::size_t whole) {
+  return whole == 0 ? Statistics::kNone : double(part) / double(whole);
+}
+
+}  // namespace
+
+ObservedSplit splitByObserved(const TriangleMesh& reference, const TriangleMesh& observed,
+                              const SurfaceComparison& comparison, double reach_mm) {
+  require(reach_mm > 0 && std::isfinite(reach_mm), "observed reach", reach_mm, "must be above 0");
+  if (observed.vertices_mm.empty())
+    throw InputError("what was observed has no points; give the scan, or a part of the surface");
+  std::vector<Eigen::Vector3f> closest_mm;
+  for (const ClosestPoint& c : comparison.closest) closest_mm.push_back(c.point_mm.cast<float>());
+  ObservedSplit split;
+  split.reach_mm = reach_mm;
+  split.each_observed = within(distancesFrom(observed, closest_mm), reach_mm);
+  const auto reference_in = within(distancesFrom(observed, reference.vertices_mm), reach_mm);
+  const auto seen_mm = chosen(comparison.accuracy.each_mm, split.each_observed, true);
+  const auto back_mm = chosen(comparison.completeness.each_mm, reference_in, true);
+  split.observed_mm = statistics(seen_mm);
+  split.predicted_mm = statistics(chosen(comparison.accuracy.each_mm, split.each_observed, false));
+  split.completeness_mm = statistics(back_mm);
+  split.hausdorff = hausdorffDistances(seen_mm, back_mm);
+  split.test_share = shareOf(seen_mm.size(), split.each_observed.size());
+  split.reference_share = shareOf(back_mm.size(), reference_in.size());
+  split.not_reconstructed_share = percentAbove(back_mm, reach_mm) / 100;
+  return split;
+}
+
+}  // namespace softscope

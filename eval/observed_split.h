@@ -1,0 +1,34 @@
+// eval/observed_split.h: a comparison where only a part of the reference was seen.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+#include "eval/hausdorff.h"
+#include "eval/statistics.h"
+#include "eval/surface_comparison.h"
+
+namespace softscope {
+
+/// The reference counts as observed within `reach_mm` of what was seen; a vertex of the test where
+/// its closest point on the reference is.
+struct ObservedSplit {
+  double reach_mm = 0;
+  double reference_share = Statistics::kNone;  // of the reference's vertices: observed
+  double test_share = Statistics::kNone;       // of the test's vertices: observed
+  Statistics observed_mm;                      // of the test's observed vertices
+  Statistics predicted_mm;                     // of its others: carried along, unseen
+  Statistics completeness_mm;                  // of the observed reference's vertices
+  /// Of the observed reference's vertices: farther than reach_mm from the test.
+  double not_reconstructed_share = Statistics::kNone;
+  HausdorffDistances hausdorff;             // of observed vertices, both ways
+  std::vector<std::uint8_t> each_observed;  // one a vertex of the test
+};
+
+/// `comparison`: of reference and test. `observed`: a surface, or points; all in one frame, mm.
+/// Throws InputError where it is empty or broken, OptionError for a reach that isn't above 0.
+ObservedSplit splitByObserved(const TriangleMesh& reference, const TriangleMesh& observed,
+                              const SurfaceComparison& comparison, double reach_mm);
+
+}  // namespace softscope
