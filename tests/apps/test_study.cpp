@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 /// Simulated clips of two frames, 160 x 120: half a second a case.
-const std::string kSmall =
+const std::string kSimulated =
     "[simulate]\nframes = 2\nscope.width_px = 160\nscope.height_px = 120\n"
     "organ.cells_per_side = 20\ntruth_every = 1\n"
     "[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 1\n";
@@ -35,6 +35,11 @@ class StudyCommand : public InFolder {
     line.insert(line.end(), more.begin(), more.end());
     return run(line);
   }
+  /// Of two frames that exist and have no truth: the fastest cases.
+  std::string small() const {
+    return "sequence = '" + makeSequence("clip", 2) +
+           "'\n[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 0\n";
+  }
   nlohmann::json result() const { return nlohmann::json::parse(contentOf(at("out/study.json"))); }
   nlohmann::json record(const std::string& name) const {
     return nlohmann::json::parse(contentOf(at("out/cases/" + name + "/case.json")));
@@ -42,7 +47,7 @@ class StudyCommand : public InFolder {
 };
 
 TEST_F(StudyCommand, RunsItsCasesAndWritesTheTable) {
-  const Outcome done = study(kSmall +
+  const Outcome done = study(kSimulated +
                              "[[variant]]\nname = 'surf'\n"
                              "[[variant]]\nname = 'loose'\nreconstruct.deform.use_correspondences "
                              "= false\n");
@@ -66,20 +71,20 @@ TEST_F(StudyCommand, RunsItsCasesAndWritesTheTable) {
 }
 
 TEST_F(StudyCommand, RunsACaseAgainOnlyWhereItsSettingsChanged) {
-  const std::string cases = "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
-  ASSERT_EQ(study(kSmall + cases).exit_code, 0);
+  const std::string clip = small(), cases = "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
+  ASSERT_EQ(study(clip + cases).exit_code, 0);
   const auto a = fs::last_write_time(at("out/cases/a/case.json"));
   const auto b = fs::last_write_time(at("out/cases/b/case.json"));
-  ASSERT_EQ(study("# a remark changes nothing\n" + kSmall + cases).exit_code, 0);
+  ASSERT_EQ(study("# a remark changes nothing\n" + clip + cases).exit_code, 0);
   EXPECT_EQ(fs::last_write_time(at("out/cases/b/case.json")), b);
-  ASSERT_EQ(study(kSmall + cases + "reconstruct.fusion.max_weight = 5\n").exit_code, 0);
+  ASSERT_EQ(study(clip + cases + "reconstruct.fusion.max_weight = 5\n").exit_code, 0);
   EXPECT_EQ(fs::last_write_time(at("out/cases/a/case.json")), a);
   EXPECT_NE(fs::last_write_time(at("out/cases/b/case.json")), b);
 }
 
 TEST_F(StudyCommand, AFailedCaseIsToldAndDoesNotStopTheOthers) {
   write("empty/left/notes.txt", "no picture");
-  const std::string toml = kSmall +
+  const std::string toml = small() +
                            "[[case]]\nname = 'broken'\nsequence = 'empty'\n"
                            "[[case]]\nname = 'absent'\nsequence = 'nowhere'\n"
                            "[[case]]\nname = 'fine'\n";
@@ -93,7 +98,7 @@ TEST_F(StudyCommand, AFailedCaseIsToldAndDoesNotStopTheOthers) {
 }
 
 TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
-  const std::string toml = kSmall + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
+  const std::string toml = small() + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
   const Outcome names = run({"study", write("s.toml", toml), "--list"});
   EXPECT_EQ(names.out, "a\nb\n");
   ASSERT_EQ(study(toml, {"--case", "a"}).exit_code, 0);
@@ -114,11 +119,11 @@ TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
   expectOneLine(study("", {"--table", "--list"}), "exclude each other");
   EXPECT_FALSE(fs::exists(at("out")));
   write("out/photograph.png", "mine");
-  expectOneLine(study(kSmall), "holds something that is no study");
+  expectOneLine(study(kSimulated), "holds something that is no study");
 }
 
 TEST_F(StudyCommand, CtrlCStopsCleanlyAndTheSameLineGoesOn) {
-  std::string toml = kSmall;
+  std::string toml = small();
   for (const char* name : {"a", "b", "c"}) toml += "[[case]]\nname = '" + std::string(name) + "'\n";
   const std::string file = write("study.toml", toml), out = at("out");
   const pid_t child = fork();
