@@ -30,7 +30,7 @@ const char* const kDetails =
     "reference's\n"
     "place with arrays Signed, Absolute and ToReference), error_histogram and error_map as SVG, "
     "PDF\n"
-    "and PNG.\n"
+    "and PNG, and error_map.vtp; `softscope report DIR` makes a page of it all.\n"
     "Landmarks: CSV test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm.\n"
     "docs/evaluation.md defines every value.";
 

@@ -36,9 +36,9 @@ const char* const kDetails =
     "from the run's pose beside true depth and picture (PSNR, SSIM).\n"
     "Against a mesh (STL, PLY, OBJ; a CT's, say) the last model, or each one, is compared.\n"
     "With --out DIR it writes evaluation.json, frames.csv, tracks.csv, and the figures\n"
-    "error_series, error_histogram and worst_frames as SVG, PDF and PNG. docs/evaluation.md "
-    "defines every "
-    "value.\n"
+    "error_series, error_histogram and worst_frames as SVG, PDF and PNG; errors.pvd shows the\n"
+    "error of every point in ParaView, `softscope report DIR` makes a page of it all.\n"
+    "docs/evaluation.md defines every value.\n"
     "--fail-if METRIC>LIMIT ends with exit code 1 where that holds, or the metric isn't known;\n"
     "METRIC is a path in evaluation.json (surface.observed.p95_mm), or its last part.";
 

@@ -65,9 +65,7 @@ ReportMapPlace mapPlace(const std::vector<ReportCase>& cases, double limit_mm) {
                                   [](const ReportCase& c) { return c.maps.size() > 1; });
   const std::string same = "Colours run to " + millimetresText(limit_mm) +
                            " for every case and moment, and are not shaded; ";
-  return {"Error map. " + same +
-              "grey is the reference where no model lies before it. Drag to turn, wheel to zoom, "
-              "shift and drag to move, click to read.",
+  return {"Error map. " + same + "grey is the reference where no model lies before it.",
           (series ? "Error maps, last moment. " : "Error maps. ") + same +
               "arrows at the bar: some values lie beyond. Grey: the reference where no model lies "
               "before it."};

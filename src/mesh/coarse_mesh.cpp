@@ -67,6 +67,16 @@ Triangle turned(Triangle t) {
   return t;
 }
 
+/// Whether a triangle was folded over on its way to `joined`: it would show as a dark spot.
+bool facesBack(const Triangle& fine, const std::vector<Eigen::Vector3f>& vertices_mm,
+               const Triangle& joined) {
+  const auto normalOf = [&](const Triangle& t) {
+    const Eigen::Vector3f& a = vertices_mm[std::size_t(t[0])];
+    return (vertices_mm[std::size_t(t[1])] - a).cross(vertices_mm[std::size_t(t[2])] - a).eval();
+  };
+  return normalOf(fine).dot(normalOf(joined)) < 0;
+}
+
 CoarseMesh join(const TriangleMesh& fine, const Groups& groups) {
   const std::vector<std::int32_t> members = membersOf(groups, fine.vertices_mm);
   CoarseMesh coarse{members, {}};
@@ -80,6 +90,10 @@ CoarseMesh join(const TriangleMesh& fine, const Groups& groups) {
   for (const Triangle& t : fine.triangles) {
     const Triangle joined = turned({placeOf(t[0]), placeOf(t[1]), placeOf(t[2])});
     if (joined[0] == joined[1] || joined[1] == joined[2] || joined[2] == joined[0]) continue;
+    if (facesBack(t, fine.vertices_mm,
+                  {coarse.vertices[std::size_t(joined[0])], coarse.vertices[std::size_t(joined[1])],
+                   coarse.vertices[std::size_t(joined[2])]}))
+      continue;
     if (known.insert(joined).second) coarse.triangles.push_back(joined);
   }
   return coarse;

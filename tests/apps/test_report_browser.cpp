@@ -10,6 +10,9 @@
 namespace softscope::test {
 namespace {
 
+using testing::HasSubstr;
+using testing::Not;
+
 /// Empty where none is installed.
 std::string findBrowser() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
@@ -32,31 +35,43 @@ ErrorMap risingMap() {
   return map;
 }
 
-using ReportInBrowser = InFolder;
+class ReportInBrowser : public InFolder {
+ protected:
+  /// Makes page.html of these cases. Made where nothing renders, it has no picture to fall back on:
+  /// what is seen is WebGL's.
+  void makePage(std::vector<std::string> cases) const {
+    cases.insert(cases.begin(), "report");
+    cases.insert(cases.end(), {"--out", at("page.html")});
+    setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1);
+    const Outcome made = softscope::test::run(cases);
+    unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    ASSERT_THAT(textOf(at("page.html")), HasSubstr("No picture"));
+  }
+  /// Opens page.html with software WebGL, where no name can be resolved, so that a request would
+  /// fail aloud. Standard output goes to the file `out`, complaints to `log`.
+  void open(const std::string& browser, const std::string& what_to_do) const {
+    const std::string command =
+        "timeout 120 " + browser +
+        " --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader"
+        " --enable-unsafe-swiftshader --hide-scrollbars --window-size=1000,2600"
+        " --virtual-time-budget=3000 --host-resolver-rules='MAP * ~NOTFOUND'"
+        " --enable-logging=stderr --user-data-dir='" +
+        at("profile") + "' " + what_to_do + " 'file://" + at("page.html") + "' >'" + at("out") +
+        "' 2>'" + at("log") + "'";
+    if (std::system(command.c_str()) != 0) ADD_FAILURE() << browser << ": " << textOf(at("log"));
+    EXPECT_THAT(textOf(at("log")), Not(HasSubstr("CONSOLE"))) << "a script or a request failed";
+  }
+};
+
+const char* const kNoBrowser = "no Chromium is installed: the page was not looked at";
 
 TEST_F(ReportInBrowser, DrawsTheMapInItsColoursAndComplainsOfNothing) {
   const std::string browser = findBrowser();
-  if (browser.empty()) GTEST_SKIP() << "no Chromium is installed: the page was not looked at";
+  if (browser.empty()) GTEST_SKIP() << kNoBrowser;
   writeCase(at("result"), 0.5, risingMap());
-  // Made where nothing renders, the page has no picture to fall back on: colours are WebGL's.
-  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1);
-  const Outcome made = softscope::test::run({"report", at("result"), "--out", at("page.html")});
-  unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  ASSERT_THAT(textOf(at("page.html")), testing::HasSubstr("No picture"));
-  // Software WebGL; nothing can be resolved, so that a request would fail aloud.
-  const std::string command =
-      "timeout 120 " + browser +
-      " --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader"
-      " --enable-unsafe-swiftshader --hide-scrollbars --window-size=1000,2600"
-      " --virtual-time-budget=3000 --host-resolver-rules='MAP * ~NOTFOUND'"
-      " --enable-logging=stderr --user-data-dir='" +
-      at("profile") + "' --screenshot='" + at("page.png") + "' 'file://" + at("page.html") +
-      "' >'" + at("log") + "' 2>&1";
-  std::system(command.c_str());
-  const std::string log = textOf(at("log"));
-  ASSERT_TRUE(std::filesystem::exists(at("page.png"))) << browser << " made no picture: " << log;
-  EXPECT_THAT(log, testing::Not(testing::HasSubstr("CONSOLE"))) << "a script or a request failed";
+  ASSERT_NO_FATAL_FAILURE(makePage({at("result")}));
+  open(browser, "--screenshot='" + at("page.png") + "'");
   const ColourImage picture = readColourImage(at("page.png"));
   // Viridis: dark violet at 0, yellow at the end; no other part of the page has as much of them.
   int violet = 0, yellow = 0;
@@ -66,6 +81,57 @@ TEST_F(ReportInBrowser, DrawsTheMapInItsColoursAndComplainsOfNothing) {
   }
   EXPECT_GT(violet, 15000) << "of a map of 480 x 480 pixels a tenth has the lowest colours";
   EXPECT_GT(yellow, 5000);
+}
+
+/// Turns, picks, clips, plays and grades as a reader would, and writes down what came of it.
+const char* const kReader = R"(<script>
+addEventListener("load", () => {
+  const told = {}, press = key => document.dispatchEvent(new KeyboardEvent("keydown", {key}));
+  const canvas = viewer.canvas, middle = [canvas.clientWidth / 2, canvas.clientHeight / 2];
+  viewer.pick(...middle);
+  told.picked = document.querySelector(".reading").textContent;
+  viewer.control("above").value = viewer.control("above").max;
+  viewer.control("above").dispatchEvent(new Event("input"));
+  viewer.pick(...middle);
+  told.clipped = viewer.picked === null;
+  const before = viewer.look.view[0][0];
+  canvas.dispatchEvent(new KeyboardEvent("keydown", {key: "ArrowLeft"}));
+  told.turned = viewer.look.view[0][0] !== before;
+  press("4"); press("n"); press("2"); press("o");
+  told.hidden = !viewer.style.model;
+  told.shown = viewer.map.name;
+  told.review = JSON.parse(review.text());
+  const out = document.createElement("pre");
+  out.id = "told";
+  out.textContent = JSON.stringify(told);
+  document.body.append(out);
+});
+</script></body>)";
+
+TEST_F(ReportInBrowser, AnswersClicksAndKeys) {
+  const std::string browser = findBrowser();
+  if (browser.empty()) GTEST_SKIP() << kNoBrowser;
+  writeCase(at("first"), 0.5, risingMap());
+  writeCase(at("second"), 0.4, risingMap());
+  ASSERT_NO_FATAL_FAILURE(makePage({at("first"), at("second"), "--name", "A", "--name", "B"}));
+  std::string html = textOf(at("page.html"));
+  html.replace(html.rfind("</body>"), 7, kReader);
+  write("page.html", html);
+  open(browser, "--dump-dom");
+  const std::string dom = textOf(at("out")), begin = "<pre id=\"told\">";
+  ASSERT_THAT(dom, HasSubstr(begin));
+  const auto from = dom.find(begin) + begin.size();
+  const Json told = Json::parse(dom.substr(from, dom.find("</pre>", from) - from));
+  // The middle of a square of 0 to 59 mm, where the error is half of 1 mm, within a spacing or two.
+  const std::string picked = told["picked"];
+  EXPECT_NEAR(std::stod(picked), 0.5, 0.06) << picked;
+  EXPECT_THAT(picked, HasSubstr("outside the reference"));
+  EXPECT_EQ(told["clipped"], true) << "nothing is above the largest error";
+  EXPECT_EQ(told["turned"], true);
+  EXPECT_EQ(told["hidden"], true);
+  EXPECT_EQ(told["shown"], "B");
+  EXPECT_EQ(told["review"]["grades"][0]["grade"], 4);
+  EXPECT_EQ(told["review"]["grades"][1]["grade"], 2);
 }
 
 }  // namespace
