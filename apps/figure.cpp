@@ -15,6 +15,7 @@
 #include "apps/surface_error_map.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "io/message.h"
 #include "io/text_lines.h"
 #include "vtk_views/four_panels.h"
 
@@ -129,7 +130,7 @@ void FigureCommand::validate() const {
 }
 
 std::string legendOfFile(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
+  return shown(std::filesystem::path(path).filename());
 }
 
 void FigureCommand::readFiles(SceneInputs& inputs) const {

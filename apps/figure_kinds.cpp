@@ -202,7 +202,7 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
 
 std::string nameOf(const std::string& run) {
   const std::filesystem::path path = std::filesystem::path(run).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
+  return shown((path.has_filename() ? path : path.parent_path()).filename());
 }
 
 RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs) {

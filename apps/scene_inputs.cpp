@@ -1,6 +1,10 @@
 // apps/scene_inputs.cpp: spaces, units, overlaps.
 #include "apps/scene_inputs.h"
 
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
 #include "apps/compare_inputs.h"
 #include "core/error.h"
 #include "io/file_hash.h"
@@ -20,6 +24,18 @@ std::string bringToLps(TriangleMesh& mesh) {
   const std::string was = mesh.space;
   mesh.space = "LPS";
   return was + "; x and y negated";
+}
+
+/// "world", "left" …, where a PLY that softscope wrote says so; these are a scope's frames.
+std::string frameOf(const std::string& path) {
+  char head[512] = {};
+  std::ifstream(path, std::ios::binary).read(head, sizeof head - 1);
+  const std::string_view text(head);
+  constexpr std::string_view kKey = "comment frame ";
+  const auto at = text.find(kKey);
+  if (text.substr(0, 3) != "ply" || at == text.npos) return {};
+  const std::string_view rest = text.substr(at + kKey.size());
+  return std::string(rest.substr(0, rest.find('\n')));
 }
 
 Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -43,7 +59,9 @@ SceneSurface& SceneInputs::addSurface(const std::string& path, const std::string
   surface.name = legend;
   surface.mesh = readSurfaceOrPoints(path, unit_mm_);
   surface.colour = colour;
-  assumptions_.push_back(bringToLps(surface.mesh));
+  frames_.push_back(surface.mesh.space.empty() ? frameOf(path) : "");
+  assumptions_.push_back(frames_.back().empty() ? bringToLps(surface.mesh)
+                                                : "a scope's frame: " + frames_.back());
   surface_paths_.push_back(path);
   note(role, path);
   scene_.surfaces.push_back(std::move(surface));
@@ -52,6 +70,7 @@ SceneSurface& SceneInputs::addSurface(const std::string& path, const std::string
 
 SceneSurface& SceneInputs::addMade(SceneSurface surface, const std::string& role,
                                    const std::filesystem::path& path) {
+  frames_.emplace_back();
   assumptions_.push_back("camera frame");
   surface_paths_.push_back(path.string());
   note(role, path.string());
@@ -59,7 +78,21 @@ SceneSurface& SceneInputs::addMade(SceneSurface surface, const std::string& role
   return scene_.surfaces.back();
 }
 
+void SceneInputs::checkFrames() {
+  const auto of_scope = [](const std::string& frame) { return !frame.empty(); };
+  if (!scene_.volume && !frames_.empty() && std::all_of(frames_.begin(), frames_.end(), of_scope)) {
+    scene_.frame = SceneFrame::kCamera;
+    return;
+  }
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    if (of_scope(frames_[i]))
+      warn(surface_paths_[i] + ": lies in a scope's frame (" + frames_[i] +
+           "), so its place among the others means nothing unless it was registered; then write "
+           "SPACE=LPS into its header");
+}
+
 void SceneInputs::checkPlaces() {
+  checkFrames();
   for (std::size_t i = 0; i < surface_paths_.size(); ++i) {
     const TriangleMesh& mesh = scene_.surfaces[i].mesh;
     if (!mesh.empty()) {

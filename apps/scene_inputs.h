@@ -23,7 +23,8 @@ class SceneInputs {
   /// What was read elsewhere from `path`, in the scene's frame.
   SceneSurface& addMade(SceneSurface surface, const std::string& role,
                         const std::filesystem::path& path);
-  /// Warns where a surface lies beside the volume, or has another unit by the looks of it.
+  /// Warns where a surface lies beside the volume, has another unit by the looks of it, or lies in
+  /// a scope's frame by its header; where all do and there is no volume, the scene is the scope's.
   void checkPlaces();
 
   Scene& scene() { return scene_; }
@@ -44,7 +45,10 @@ class SceneInputs {
   double unit_mm_;
   Scene scene_;
   std::vector<Source> sources_;
-  std::vector<std::string> surface_paths_, assumptions_, warnings_;  // one a surface; any
+  void checkFrames();
+
+  std::vector<std::string> surface_paths_, assumptions_, frames_;  // one a surface
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace softscope

@@ -12,6 +12,7 @@
 #include "apps/scene_inputs.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "io/message.h"
 #include "io/text_lines.h"
 #include "vtk_views/four_panels.h"
 
@@ -101,7 +102,7 @@ void SliceCommand::read(SceneInputs& inputs) const {
   if (!ct_.empty()) inputs.addVolume(ct_, options_.window);
   std::size_t colour = 0;
   for (const std::string& path : surfaces_)
-    inputs.addSurface(path, "surface", std::filesystem::path(path).filename().string(),
+    inputs.addSurface(path, "surface", shown(std::filesystem::path(path).filename()),
                       surfaceColour(colour++));
   for (const std::string& path : scans_)
     inputs.addSurface(path, "scan", "scan", kScanRed).mesh.triangles.clear();

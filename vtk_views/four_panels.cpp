@@ -90,15 +90,18 @@ std::vector<ViewPlane> fourViews(const Scene& scene, const FourPanelOptions& opt
 
 VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options) {
   const FigureFoot foot = footOf(scene, options);
-  const PanelGrid grid = layOutPanels(4, options.columns, options.style, foot);
+  const bool in_3d = !surfacesIn3d(scene).empty();
+  const PanelGrid grid = layOutPanels(in_3d ? 4 : 3, options.columns, options.style, foot);
   VectorDrawing drawing = newSheet(grid);
   const std::vector<ViewPlane> views = fourViews(scene, options);
   for (std::size_t i = 0; i < 3; ++i) {
     drawSlicePanel(scene, views[i], options.width_mm, grid.panels[i], options.style, drawing);
     drawCaption(i, captionOf(views[i], scene.frame), grid.panels[i], options.style, drawing);
   }
-  draw3d(scene, views[3], options, grid.panels[3], drawing);
-  drawCaption(3, views[3].name, grid.panels[3], options.style, drawing);
+  if (in_3d) {
+    draw3d(scene, views[3], options, grid.panels[3], drawing);
+    drawCaption(3, views[3].name, grid.panels[3], options.style, drawing);
+  }
   drawFoot(foot, grid, options.style, drawing);
   return drawing;
 }

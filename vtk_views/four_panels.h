@@ -29,7 +29,7 @@ struct FourPanelOptions : PanelOptions {
 /// The three planes and the camera of the fourth panel.
 std::vector<ViewPlane> fourViews(const Scene& scene, const FourPanelOptions& options);
 
-/// Throws BackendError where nothing renders.
+/// Three panels where no surface is to be shown in 3-D. Throws BackendError where nothing renders.
 VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options);
 
 /// A panel a plane. At least one.

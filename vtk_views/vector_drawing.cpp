@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "vtk_views/cairo_picture.h"
 #include "vtk_views/fonts.h"
+#include "vtk_views/html_text.h"
 
 namespace softscope {
 namespace {
@@ -60,22 +61,6 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string base64(const std::string& bytes) {
-  static const char* const kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(bytes.size() / 3 * 4 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return i + k < bytes.size() ? unsigned(static_cast<unsigned char>(bytes[i + k])) : 0u;
-    };
-    const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (int shift = 18; shift >= 0; shift -= 6) text += kDigits[three >> shift & 63];
-  }
-  const std::size_t missing = (3 - bytes.size() % 3) % 3;
-  return text.replace(text.size() - missing, missing, missing, '=');
-}
-
 std::string pathOf(const std::vector<PointPt>& points) {
   std::string path;
   for (const PointPt& p : points)
@@ -110,7 +95,7 @@ struct SvgWriter {
               "\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     if (t.upwards)
       text += " transform=\"rotate(-90 " + number(t.at.x_pt) + " " + number(t.at.y_pt) + ")\"";
-    text += ">" + escaped(t.text) + "</text>\n";
+    text += ">" + escaped(validUtf8(t.text)) + "</text>\n";
   }
   /// Lines of no length with round ends: the shortest way to say it.
   void operator()(const DrawnDots& dots) {
@@ -162,7 +147,7 @@ double setFont(cairo_t* context, const DrawnText& text) {
                          text.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, text.size_pt);
   cairo_text_extents_t extents;
-  cairo_text_extents(context, text.text.c_str(), &extents);
+  cairo_text_extents(context, validUtf8(text.text).c_str(), &extents);
   return extents.x_advance;
 }
 
@@ -194,14 +179,14 @@ struct CairoPainter {
     if (text.rim) drawRim(text, x_pt);
     setColour(context, text.colour);
     cairo_move_to(context, x_pt, 0);
-    cairo_show_text(context, text.text.c_str());
+    cairo_show_text(context, validUtf8(text.text).c_str());
     cairo_restore(context);
   }
   void drawRim(const DrawnText& text, double x_pt) const {
     setColour(context, *text.rim);
     cairo_new_path(context);
     cairo_move_to(context, x_pt, 0);
-    cairo_text_path(context, text.text.c_str());
+    cairo_text_path(context, validUtf8(text.text).c_str());
     cairo_set_dash(context, nullptr, 0, 0);
     cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_width(context, kRimShare * text.size_pt);

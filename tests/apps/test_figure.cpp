@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "io/ply_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 
 namespace softscope::test {
@@ -227,6 +228,25 @@ TEST_F(Figure, ARasMeshIsTurnedAndADistantOneTold) {
       figure({"--ct", at("ct.mha"), "--reference", at("far.obj"), "--out", at("far.svg")});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, HasSubstr("beside the volume"));
+}
+
+TEST_F(Figure, AModelInItsScopesFrameIsTold) {
+  PointCloud cloud;
+  for (int i = 0; i < 50; ++i) cloud.points_mm.emplace_back(float(i % 10), float(i / 10), 50.0f);
+  writePly(at("model.ply"), cloud, {"world", ""});
+  ASSERT_EQ(figure({"--test", at("model.ply"), "--dpi", "100", "--out", at("m.svg")}).exit_code, 0);
+  EXPECT_THAT(textOf(at("m.svg")), HasSubstr("from the scope, z 50.0 mm<"));
+  const Outcome outcome = figure(
+      {"--ct", at("ct.mha"), "--test", at("model.ply"), "--dpi", "100", "--out", at("n.svg")});
+  EXPECT_THAT(outcome.err, HasSubstr("lies in a scope's frame (world)"));
+}
+
+TEST_F(Figure, AStrangeNameAndACtAloneAreDrawn) {
+  const std::string name = "bad\xff<b>&.obj";
+  write(name, boxObj({-5, -5, -5}, {5, 5, 5}));
+  EXPECT_EQ(figure({"--surface", at(name), "--dpi", "60", "--out", at("a.png")}).exit_code, 0);
+  ASSERT_EQ(figure({"--ct", at("ct.mha"), "--dpi", "60", "--out", at("b.svg")}).exit_code, 0);
+  EXPECT_THAT(textOf(at("b.svg")), testing::Not(HasSubstr("(d)"))) << "nothing to show in 3-D";
 }
 
 TEST_F(Figure, BadInputEndsInOneLine) {
