@@ -12,6 +12,7 @@
 #include <random>
 #include <thread>
 
+#include "io/image_writer.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
@@ -139,9 +140,10 @@ constexpr int kDamages = SOFTSCOPE_SANITIZED ? 25 : 100;  // a round takes six t
 TEST_F(Reconstruct, SurvivesDamagedInput) {
   const fs::path clip = makeClip(3);
   fs::create_directories(clip / "mask");
+  Mask tool(160, 120, 0);  // in a corner
+  for (int v = 0; v < 40; ++v) std::fill_n(tool.row(v), 30, std::uint8_t{255});
   for (const char* frame : {"000000", "000001", "000002"})
-    fs::copy_file(clip / "left" / (std::string(frame) + ".png"),
-                  clip / "mask" / (std::string(frame) + ".png"));
+    writePng(clip / "mask" / (std::string(frame) + ".png"), tool);
   const std::string settings = write("settings.toml", "[stereo]\ndisparity_max_px = 63\n");
   const std::vector<fs::path> victims{clip / "left/000001.png",  clip / "right/000002.png",
                                       clip / "left/000000.png",  clip / "mask/000001.png",
