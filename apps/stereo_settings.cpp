@@ -49,10 +49,11 @@ void bindRefinement(SettingsBinder& binder, RefinementOptions& options) {
 }
 
 void bindSmoothing(SettingsBinder& binder, SmoothingOptions& options) {
-  auto& [block_px, reach_blocks] = options;
+  auto& [block_px, reach_blocks, relief_px] = options;
   const std::string at = "stereo.smoothing.";
-  binder.bind(at + "block_px", block_px, "squares whose means stand for their pixels");
+  binder.bind(at + "block_px", block_px, "squares averaged; 0: an 80th of the width");
   binder.bind(at + "reach_blocks", reach_blocks, "of a window, to each side; 0: no smoothing");
+  binder.bind(at + "relief_px", relief_px, "that tissue has and no patch follows");
 }
 
 }  // namespace

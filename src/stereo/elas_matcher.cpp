@@ -7,7 +7,7 @@
 #include "stereo/dense_matching.h"
 #include "stereo/disparity_filter.h"
 #include "stereo/gradient_image.h"
-#include "stereo/plane_smoothing.h"
+#include "stereo/patch_smoothing.h"
 #include "stereo/pyramid.h"
 #include "stereo/stage_clock.h"
 #include "stereo/subpixel_refinement.h"
@@ -111,7 +111,7 @@ DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
       matchPyramid(left, right, options_, options_.elas.coarser_levels, kEverything, clock);
   removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
   clock.lap("dark");
-  smoothByPlanes(options_.smoothing, options_.refinement, map);
+  smoothByPatches(options_.smoothing, options_.refinement, map);
   clock.lap("smooth");
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
   clock.lap("erode");

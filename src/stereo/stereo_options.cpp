@@ -57,8 +57,10 @@ void RefinementOptions::validate() const {
 }
 
 void SmoothingOptions::validate() const {
-  requireAtLeast("stereo.smoothing.block_px", block_px, 2);
+  require(block_px == 0 || block_px >= kSmallestBlockPx, "stereo.smoothing.block_px", block_px,
+          "must be 0 or at least 4");
   requireAtLeast("stereo.smoothing.reach_blocks", reach_blocks, 0);
+  requireAtLeast("stereo.smoothing.relief_px", relief_px, 0);
 }
 
 void StereoOptions::validate() const {

@@ -1,6 +1,7 @@
 // src/stereo/stereo_options.h: how disparity is found; one place for every default.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -61,11 +62,17 @@ struct RefinementOptions {
   void validate() const;                      // see StereoOptions::validate()
 };
 
-/// Smoothing: every pixel moves towards the plane that its neighbours agree on.
+/// Smoothing: every pixel moves towards the curved patch that its neighbours agree on.
 struct SmoothingOptions {
-  int block_px = 8;      // squares whose means stand for their pixels
-  int reach_blocks = 2;  // of a window, to each side; 0: no smoothing
+  int block_px = 0;        // squares whose means stand for their pixels; 0: an 80th of the width
+  int reach_blocks = 2;    // of a window, to each side; 0: no smoothing
+  double relief_px = 0.1;  // that tissue has and no patch follows
 
+  static constexpr int kSmallestBlockPx = 4;
+  /// In pictures of this width.
+  int blockPx(int width_px) const {
+    return block_px > 0 ? block_px : std::max(kSmallestBlockPx, (width_px + 40) / 80);
+  }
   void validate() const;  // see StereoOptions::validate()
 };
 

@@ -1,4 +1,4 @@
-#include "stereo/plane_smoothing.h"
+#include "stereo/patch_smoothing.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace softscope {
 namespace {
 
-constexpr int kFits = 3;            // the first to what is near, the others to what agrees
+constexpr int kFits = 2;            // first to what is near, then to what agrees
 constexpr float kStepPx = 0.5f;     // neighbours of one surface differ by at most this …
 constexpr float kSlope = 0.25f;     // … and this much more for every pixel between them
 constexpr float kAgree = 2.5f;      // standard errors at which a neighbour counts a quarter
 constexpr float kFewestPixels = 4;  // of a block, for it to have a say
-constexpr float kRidge = 1e-3f;     // of the weights: planes through a line stay level
+constexpr float kRidge = 1e-3f;     // of the weights: patches through a line stay level
 
 /// The mean of a square of pixels.
 struct Block {
@@ -26,13 +26,26 @@ struct Block {
   bool known() const { return information > 0; }
 };
 
-/// d(u, v) = disparity + a (u - u0) + b (v - v0).
-struct LocalPlane {
-  float u0 = 0, v0 = 0, disparity_px = 0, a = 0, b = 0;
-  float variance = 0;  // of what it predicts for a pixel; 0: there is no plane
+using Coefficients = Eigen::Matrix<float, 6, 1>;
+using PaddedRow = Eigen::Matrix<float, 8, 1>;  // two registers of four; the last two are 0
+
+/// d(u, v) = c . (1, x, y, x², xy, y²), x and y from (u0, v0) in windows.
+struct Patch {
+  float u0 = 0, v0 = 0, scale = 1;
+  Coefficients c = Coefficients::Zero();
+  float variance = 0;  // of what it predicts for a pixel; 0: there is no patch
 
   bool known() const { return variance > 0; }
-  float at(float u, float v) const { return disparity_px + a * (u - u0) + b * (v - v0); }
+  PaddedRow row(float u, float v) const {
+    const float x = (u - u0) * scale, y = (v - v0) * scale;
+    PaddedRow r;
+    r << 1, x, y, x * x, x * y, y * y, 0, 0;
+    return r;
+  }
+  float at(float u, float v) const {
+    const float x = (u - u0) * scale, y = (v - v0) * scale;
+    return c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y;
+  }
 };
 
 Block meanOf(const DisparityMap& map, int u0, int v0, int size) {
@@ -54,17 +67,18 @@ Block meanOf(const DisparityMap& map, int u0, int v0, int size) {
   return {static_cast<float>(u0) + wu / w, static_cast<float>(v0) + wv / w, wd / w, w, count / w};
 }
 
-class Planes {
+class Patches {
  public:
-  Planes(const SmoothingOptions& options, const RefinementOptions& refinement,
-         const DisparityMap& map)
-      : size_(options.block_px),
+  Patches(const SmoothingOptions& options, const RefinementOptions& refinement,
+          const DisparityMap& map)
+      : size_(options.blockPx(map.disparity_px.width_px)),
         reach_(options.reach_blocks),
         independent_px2_(static_cast<float>(refinement.independentPx2())),
-        floor_(static_cast<float>(refinement.model_sigma_px * refinement.model_sigma_px)),
+        floor_(static_cast<float>(refinement.model_sigma_px * refinement.model_sigma_px +
+                                  options.relief_px * options.relief_px)),
         blocks_((map.disparity_px.width_px + size_ - 1) / size_,
                 (map.disparity_px.height_px + size_ - 1) / size_),
-        planes_(blocks_.width_px, blocks_.height_px) {
+        patches_(blocks_.width_px, blocks_.height_px) {
     parallelRows(blocks_.height_px, [&](int y) {
       for (int x = 0; x < blocks_.width_px; ++x)
         blocks_.at(x, y) = meanOf(map, x * size_, y * size_, size_);
@@ -75,11 +89,11 @@ class Planes {
         window_.push_back(
             std::exp(-0.5f * static_cast<float>(dx * dx + dy * dy) / (spread * spread)));
     parallelRows(blocks_.height_px, [&](int y) {
-      for (int x = 0; x < blocks_.width_px; ++x) planes_.at(x, y) = fit(x, y);
+      for (int x = 0; x < blocks_.width_px; ++x) patches_.at(x, y) = fit(x, y);
     });
   }
 
-  /// What the four planes around a pixel say, each as far as the pixel agrees with it.
+  /// What the four patches around a pixel say, each as far as the pixel agrees with it.
   void smooth(int u, int v, float& disparity_px, float& sigma_px) const {
     const float x = (static_cast<float>(u) + 0.5f) / static_cast<float>(size_) - 0.5f,
                 y = (static_cast<float>(v) + 0.5f) / static_cast<float>(size_) - 0.5f;
@@ -88,20 +102,20 @@ class Planes {
     float weights = 0, sum_d = 0, sum_variance = 0;
     for (int k = 0; k < 4; ++k) {
       const int bx = x0 + k % 2, by = y0 + k / 2;
-      if (!planes_.contains(bx, by) || !planes_.at(bx, by).known()) continue;
-      const LocalPlane& plane = planes_.at(bx, by);
-      const float predicted = plane.at(static_cast<float>(u), static_cast<float>(v));
+      if (!patches_.contains(bx, by) || !patches_.at(bx, by).known()) continue;
+      const Patch& patch = patches_.at(bx, by);
+      const float predicted = patch.at(static_cast<float>(u), static_cast<float>(v));
       const float weight = (1 - std::abs(x - static_cast<float>(bx))) *
                            (1 - std::abs(y - static_cast<float>(by))) *
-                           agreement(disparity_px - predicted, plane.variance + variance);
+                           agreement(disparity_px - predicted, patch.variance + variance);
       weights += weight;
       sum_d += weight * predicted;
-      sum_variance += weight * plane.variance;
+      sum_variance += weight * patch.variance;
     }
     if (!(weights > 0)) return;
-    // As sure of the planes as the pixel agrees with them.
-    const float plane_variance = sum_variance / weights / std::min(weights, 1.0f);
-    const float share = plane_variance / (plane_variance + variance);
+    // As sure of the patches as the pixel agrees with them.
+    const float patch_variance = sum_variance / weights / std::min(weights, 1.0f);
+    const float share = patch_variance / (patch_variance + variance);
     disparity_px += (1 - share) * (sum_d / weights - disparity_px);
     sigma_px *= std::sqrt(share);
   }
@@ -113,79 +127,81 @@ class Planes {
   }
 
   /// Least squares, reweighted by who agrees.
-  LocalPlane fit(int x, int y) const {
+  Patch fit(int x, int y) const {
     const Block& centre = blocks_.at(x, y);
     if (!centre.known()) return {};
-    LocalPlane plane{centre.u, centre.v, centre.disparity_px, 0, 0, 0};
+    Patch patch;
+    patch.u0 = centre.u;
+    patch.v0 = centre.v;
+    patch.scale = 1 / static_cast<float>(reach_ * size_);
+    patch.c[0] = centre.disparity_px;
     for (int i = 0; i < kFits; ++i)
-      if (!refit(x, y, i == 0, plane)) return {};
-    return plane;
+      if (!refit(x, y, i == 0, patch)) return {};
+    return patch;
   }
 
-  bool refit(int x, int y, bool first, LocalPlane& plane) const {
-    Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
-    Eigen::Vector3f right = Eigen::Vector3f::Zero();
-    float weights = 0, squares = 0, noise = 0, information = 0;
+  bool refit(int x, int y, bool first, Patch& patch) const {
+    Eigen::Matrix<float, 8, 6> sums = Eigen::Matrix<float, 8, 6>::Zero();
+    PaddedRow right_sums = PaddedRow::Zero();
+    float weights = 0, squares = 0, noise = 0;
     for (int dy = -reach_; dy <= reach_; ++dy) {
       if (y + dy < 0 || y + dy >= blocks_.height_px) continue;
       for (int dx = -reach_; dx <= reach_; ++dx) {
         if (x + dx < 0 || x + dx >= blocks_.width_px) continue;
         const Block& other = blocks_.at(x + dx, y + dy);
         if (!other.known()) continue;
-        const float du = other.u - plane.u0, dv = other.v - plane.v0;
-        const float residual =
-            other.disparity_px - plane.disparity_px - plane.a * du - plane.b * dv;
+        const PaddedRow row = patch.row(other.u, other.v);
+        const float residual = other.disparity_px - patch.c.dot(row.head<6>());
         float trust =
             window_[static_cast<std::size_t>((dy + reach_) * (2 * reach_ + 1) + dx + reach_)];
         if (first) {
+          const float du = other.u - patch.u0, dv = other.v - patch.v0;
           if (std::abs(residual) > kStepPx + kSlope * std::sqrt(du * du + dv * dv)) continue;
         } else {
-          trust *= agreement(residual, plane.variance + other.variance);
+          trust *= agreement(residual, patch.variance + other.variance);
         }
         const float weight = trust * other.information;
-        const Eigen::Vector3f row(1, du, dv);
-        normal.noalias() += weight * row * row.transpose();
-        right += weight * residual * row;
+        for (int k = 0; k < 6; ++k) sums.col(k) += (weight * row[k]) * row;
+        right_sums += (weight * residual) * row;
         weights += weight;
         squares += weight * residual * residual;
         noise += weight * other.variance;
-        information += trust * other.information;
       }
     }
     if (!(weights > 0)) return false;
-    const float ridge = kRidge * weights * static_cast<float>(size_ * size_);
-    normal(1, 1) += ridge;
-    normal(2, 2) += ridge;
-    const Eigen::LDLT<Eigen::Matrix3f> solver(normal);
-    const Eigen::Vector3f step = solver.solve(right);
+    Eigen::Matrix<float, 6, 6> normal = sums.topRows<6>();
+    const Coefficients right = right_sums.head<6>();
+    normal.diagonal().tail<5>().array() += kRidge * weights;
+    const Eigen::LDLT<Eigen::Matrix<float, 6, 6>> solver(normal);
+    const Coefficients step = solver.solve(right);
     // The residuals that are left, by the normal equations.
     const float left = std::max(squares - step.dot(right), 0.0f) / weights;
     const float relief = std::max(left - noise / weights, 0.0f);
-    plane.disparity_px += step[0];
-    plane.a += step[1];
-    plane.b += step[2];
-    plane.variance = floor_ + relief + independent_px2_ / information;
-    return true;
+    patch.c += step;
+    // Of the centre: how much the fit leaves undetermined, for independent measurements.
+    const float undetermined = solver.solve(Coefficients::Unit(0))[0];
+    patch.variance = floor_ + relief + independent_px2_ * undetermined;
+    return step.allFinite();
   }
 
   int size_, reach_;
   float independent_px2_, floor_;
   Raster<Block> blocks_;
-  Raster<LocalPlane> planes_;
+  Raster<Patch> patches_;
   std::vector<float> window_;
 };
 
 }  // namespace
 
-void smoothByPlanes(const SmoothingOptions& options, const RefinementOptions& refinement,
-                    DisparityMap& map) {
+void smoothByPatches(const SmoothingOptions& options, const RefinementOptions& refinement,
+                     DisparityMap& map) {
   if (options.reach_blocks == 0) return;
-  const Planes planes(options, refinement, map);
+  const Patches patches(options, refinement, map);
   parallelRows(map.disparity_px.height_px, [&](int v) {
     float* disparity = map.disparity_px.row(v);
     float* sigma = map.sigma_px.row(v);
     for (int u = 0; u < map.disparity_px.width_px; ++u)
-      if (!std::isnan(disparity[u]) && sigma[u] > 0) planes.smooth(u, v, disparity[u], sigma[u]);
+      if (!std::isnan(disparity[u]) && sigma[u] > 0) patches.smooth(u, v, disparity[u], sigma[u]);
   });
 }
 

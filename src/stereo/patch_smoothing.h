@@ -1,4 +1,4 @@
-// src/stereo/plane_smoothing.h: disparity drawn to the planes that its neighbours agree on.
+// src/stereo/patch_smoothing.h: disparity drawn to the patches that its neighbours agree on.
 #pragma once
 
 #include "core/depth_map.h"
@@ -6,12 +6,12 @@
 
 namespace softscope {
 
-/// Tissue is nearly flat over a few millimetres; noise isn't. Every pixel moves towards the plane
-/// through its neighbourhood, by as much as its own standard error says against the plane's, which
+/// Tissue is smooth over a few millimetres; noise isn't. Every pixel moves towards a quadric
+/// through its neighbourhood, by as much as its own standard error says against the patch's, which
 /// holds how far the neighbours lie off it beyond their noise: relief that was really measured
 /// stays (docs/stereo.md, §6). Both rasters change; what is NaN stays NaN. `refinement` made the
 /// map: pixels within one of its windows err alike, and no neighbour removes its `model_sigma_px`.
-void smoothByPlanes(const SmoothingOptions& options, const RefinementOptions& refinement,
-                    DisparityMap& map);
+void smoothByPatches(const SmoothingOptions& options, const RefinementOptions& refinement,
+                     DisparityMap& map);
 
 }  // namespace softscope
