@@ -54,7 +54,7 @@ void CompareOutputs::put(const std::string& name, const std::string& bytes) cons
 void CompareOutputs::putFigure(const std::string& name, const VectorDrawing& figure) const {
   put(name + ".svg", svgBytes(figure));
   put(name + ".pdf", pdfBytes(figure));
-  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), overwrite_);
+  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_);
 }
 
 std::string CompareOutputs::write(const ComparisonResult& result, const TriangleMesh& reference,

@@ -19,11 +19,12 @@ Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 }  // namespace
 
 void writeFigure(const VectorDrawing& drawing, const FigureOptions& options, const Json& record) {
+  const double dots_per_inch = options.figureStyle().dots_per_inch;
   for (const std::string& name : options.out) {
     const fs::path file = name;
     if (file.has_parent_path()) fs::create_directories(file.parent_path());
     if (file.extension() == ".png")
-      writePng(file, rasterise(drawing, options.figureStyle().dots_per_inch), options.force);
+      writePng(file, rasterise(drawing, dots_per_inch), dots_per_inch, options.force);
     else
       writeFile(file, file.extension() == ".pdf" ? pdfBytes(drawing) : svgBytes(drawing),
                 options.force);

@@ -1,7 +1,9 @@
 #include "io/image_writer.h"
 
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -25,7 +27,46 @@ void write(const fs::path& file, const char* extension, const cv::Mat& image, bo
   writeFile(file, encodeImage(extension, image, parameters), overwrite);
 }
 
+void appendBigEndian(std::uint32_t value, std::string& bytes) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += char(value >> shift & 255);
+}
+
+/// The PNG specification's cyclic redundancy check, annex D.
+std::uint32_t checkSum(const std::string& bytes) {
+  std::uint32_t crc = 0xffffffffu;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1) != 0 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
+  }
+  return ~crc;
+}
+
+/// The chunk of physical dimensions; it stands before the pixels.
+std::string dimensionsChunk(double dots_per_inch) {
+  const auto dots_per_metre = static_cast<std::uint32_t>(std::lround(dots_per_inch / 0.0254));
+  std::string content = "pHYs";
+  appendBigEndian(dots_per_metre, content);
+  appendBigEndian(dots_per_metre, content);
+  content += '\1';  // the unit is the metre
+  std::string chunk;
+  appendBigEndian(static_cast<std::uint32_t>(content.size() - 4), chunk);
+  chunk += content;
+  appendBigEndian(checkSum(content), chunk);
+  return chunk;
+}
+
 }  // namespace
+
+void writePng(const fs::path& file, const ColourImage& image, double dots_per_inch,
+              bool overwrite) {
+  require(dots_per_inch >= 1 && dots_per_inch <= 1e5, "dots per inch", dots_per_inch,
+          "must be 1 to 100000");
+  requireWritable(file, overwrite);
+  std::string bytes = encodeImage(".png", bgrOf(image), {});
+  constexpr std::size_t kBehindHeader = 33;  // of eight bytes of signature and the IHDR chunk
+  bytes.insert(kBehindHeader, dimensionsChunk(dots_per_inch));
+  writeFile(file, bytes, overwrite);
+}
 
 void writePng(const fs::path& file, const GrayImage& image, bool overwrite) {
   write(file, ".png", matrixView(image, CV_8U), overwrite);

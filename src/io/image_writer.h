@@ -16,6 +16,10 @@ void writePng(const std::filesystem::path& file, const ColourImage& image, bool 
 void writePng(const std::filesystem::path& file, const Raster<std::uint16_t>& image,
               bool overwrite = false);
 
+/// A PNG that says how large it is on paper. Throws OptionError unless 1 to 100 000 dots an inch.
+void writePng(const std::filesystem::path& file, const ColourImage& image, double dots_per_inch,
+              bool overwrite);
+
 /// `quality`: 1 (small) to 100 (good).
 void writeJpeg(const std::filesystem::path& file, const ColourImage& image, int quality = 95,
                bool overwrite = false);

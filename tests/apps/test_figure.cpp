@@ -59,6 +59,13 @@ TEST_F(Figure, FourPanelsInThreeFormatsWithTheirRecord) {
               "--range-mm", "1", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(textOf(at("f.png")).substr(1, 3), "PNG");
+  // 100 dots an inch are 3937 = 0x0f61 a metre; the check sum is zlib's.
+  EXPECT_EQ(textOf(at("f.png")).substr(33, 21),
+            std::string("\0\0\0\x09pHYs\0\0\x0f\x61\0\0\x0f\x61\1", 17) +
+                "\xa8"
+                "\x3f"
+                "\xa7"
+                "\x69");
   EXPECT_EQ(textOf(at("f.pdf")).substr(0, 5), "%PDF-");
   const std::string svg = textOf(at("f.svg"));
   for (const char* part : {">R<", ">S<", ">10 mm<", ">(a) axial, S 0.0 mm<", ">reference<",
