@@ -7,8 +7,8 @@ usage() {
   cat <<'EOF'
 usage: ./demo.sh [--no-install] [--help]
   Installs what is missing of packages.txt (as root or by sudo), builds build/release, examines the
-  machine, measures the depth of data/demo_pair, simulates a clip of a living organ, reconstructs it
-  and measures the error; ends by naming what to look at in out/demo.
+  machine, measures the depth of data/demo_pair, simulates a clip of a living organ, reconstructs it,
+  measures the error, draws it and writes a report; ends by naming what to look at in out/demo.
   What was done before is not done again.
   --no-install   never calls apt-get
 EOF
@@ -24,7 +24,7 @@ for argument in "$@"; do
 done
 
 source "$(dirname "${BASH_SOURCE[0]}")/cmake/steps.sh"
-step_count=8
+step_count=10
 softscope=build/release/apps/softscope
 pair=data/demo_pair
 out=out/demo
@@ -62,11 +62,21 @@ fi
 
 step "Its error: softscope evaluate"
 "$softscope" evaluate "$run" --reference "$clip" --out "$out/error" --force
+
+step "Four panels of it beside the truth: softscope figure"
+"$softscope" figure "$run" --reference "$clip" --observed --width-mm 183 --force \
+  --out "$out/four_panels.png" --out "$out/four_panels.pdf" ||
+  say "3-D can't be drawn here; everything else is there"
+
+step "A report for people: softscope report"
+"$softscope" report "$out/error" --out "$out/report.html" --force
 finish_step
 
 echo
 echo "Done in $SECONDS s. Look at"
 cat <<EOF
+  $out/report.html      the error of the clip's model, for any browser, with a map that turns
+  $out/four_panels.png  the last model, from three sides and in 3-D, coloured by its error
   $out/picture.png      the photograph and its depth, with a scale in mm
   $out/disparity.png    how far each pixel moved between the two pictures
   $out/confidence.png   how sure each pixel is
