@@ -16,6 +16,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr double kConvergedMm = 1e-4;
 constexpr double kTypicalDepthMm = 50;  // turns a rotation into a shift, to judge convergence
 constexpr double kCostScaleSq = 9;      // three standard errors
+constexpr double kExplainedSigmas = 3;  // of a pair that a pose explains
+constexpr double kTellingShare = 0.5;   // where no motion explains half as many, there was one
 
 /// Whitened residuals of one pair (u, v, disparity) and their slopes by a twist of the pose.
 struct Residual {
@@ -101,6 +103,19 @@ class Pairs {
     return medianOf(std::move(shifts));
   }
 
+  /// Share of the pairs that a pose puts where they were found, to three standard errors.
+  double explainedBy(const Eigen::Isometry3d& left_from_world) const {
+    int pairs = 0, explained = 0;
+    for (const PosePair& pair : pairs_) {
+      const Eigen::Vector3d p = left_from_world * pair.model_world_mm;
+      if (!(p.z() > 0)) continue;
+      ++pairs;
+      explained += (projectPoint(rig_.left, p) - pair.live_px).norm() <
+                   kExplainedSigmas * std::hypot(options_.noise_px, pair.sigma_px);
+    }
+    return pairs > 0 ? static_cast<double>(explained) / pairs : 0;
+  }
+
   double disparityOffsetPx(const Eigen::Isometry3d& left_from_world) const {
     std::vector<double> offsets;
     for (const PosePair& pair : pairs_) {
@@ -154,6 +169,8 @@ void RefinePoseOptions::validate() const {
           "must be above 0");
   require(robust_scale > 0, "pose.refine.robust_scale", robust_scale, "must be above 0");
   require(standing_mm >= 0, "pose.refine.standing_mm", standing_mm, "can't be negative");
+  require(moving_share >= 0 && moving_share <= 1, "pose.refine.moving_share", moving_share,
+          "must be 0 to 1");
   require(standing_share >= 0 && standing_share <= 1, "pose.refine.standing_share", standing_share,
           "must be 0 to 1");
 }
@@ -169,8 +186,11 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   RefinedPose refined;
   refined.moved_mm = seen.shiftMm(last.inverse());
   refined.left_mm = seen.shiftMm(best);
+  const double explained = seen.explainedBy(best);
+  const bool one_motion = explained >= options.moving_share &&
+                          seen.explainedBy(last.inverse()) < kTellingShare * explained;
   refined.stands = refined.moved_mm < options.standing_mm &&
-                   refined.left_mm > options.standing_share * refined.moved_mm;
+                   refined.left_mm > options.standing_share * refined.moved_mm && !one_motion;
   refined.world_from_left = refined.stands ? last : best.inverse();
   if (refined.stands) refined.disparity_offset_px = seen.disparityOffsetPx(last.inverse());
   return refined;

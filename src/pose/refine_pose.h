@@ -16,7 +16,9 @@ struct RefinePoseOptions {
   double robust_scale = 1.5;         // of the median residual: what moves more is tissue
   double standing_mm = 2.0;          // where less than this moved across the rays, and …
   double standing_share = 0.15;      // … a rigid motion leaves more than this share of it, the
-                                     // scope stands still and the tissue moves
+                                     // scope stands still and the tissue moves, …
+  double moving_share = 0.8;         // … but where one motion explains so many pairs, and none
+                                     // less than half as many, the scope moves all the same
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;
