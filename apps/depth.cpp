@@ -188,7 +188,7 @@ void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimat
   fs::create_directories(out_);
   const auto start = std::chrono::steady_clock::now();
   outputs.write(prefixOf(result.index), measured, *range_,
-                titleOf(estimator.method(), left_, is_sequence_ ? result.index : -1));
+                titleOf(measured.method, left_, is_sequence_ ? result.index : -1));
   const std::chrono::duration<double, std::milli> write = std::chrono::steady_clock::now() - start;
   record.addFrame(result.index, result.frame.time_s, measured, write.count());
 }

@@ -21,7 +21,6 @@ class DepthEstimator {
       : depth_(calibration, options.measurement), raw_left_(raw_left) {}
 
   const RectifiedRig& rig() const { return depth_.rig(); }
-  std::string method() const { return depth_.method(); }  // elas, sgbm or files
 
   /// Throws InputError where the frame doesn't fit.
   DepthResult measure(const Frame& frame);

@@ -12,7 +12,7 @@ void DepthOptions::validate() const {
 
 void bindFrameDepthOptions(SettingsBinder& binder, FrameDepthOptions& options) {
   binder.bind("depth.source", options.source,
-              "stereo: match the views; files: take the sequence's depth/");
+              "auto: the sequence's depth/, else the views; stereo; files");
   binder.bind("depth.align_rows", options.align_rows,
               "remove what rows differ by after rectification, above 0.2 px");
   bindStereoOptions(binder, options.stereo);

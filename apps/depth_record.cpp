@@ -32,7 +32,6 @@ DepthRecord::DepthRecord(const std::map<std::string, std::string>& inputs,
   json_["softscope"] = versionText();
   json_["command"] = "depth";
   json_["inputs"] = inputs;
-  json_["method"] = estimator.method();
   json_["calibration"] = calibrationJson(calibration, estimator.rig());
   json_["cloud_frame"] = raw_left ? "raw left" : "left";
   json_["interrupted"] = false;
@@ -44,6 +43,7 @@ void DepthRecord::addSettings(const std::vector<SettingInfo>& settings) {
 }
 
 void DepthRecord::addFrame(int index, double time_s, const DepthResult& measured, double write_ms) {
+  json_["method"] = measured.method;
   Json frame{{"frame", index}};
   if (std::isfinite(time_s)) frame["time_s"] = time_s;
   frame.update(frameJson(measured));

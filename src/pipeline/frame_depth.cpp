@@ -28,27 +28,36 @@ void dropMasked(MeasuredFrame& measured) {
 }  // namespace
 
 void FrameDepthOptions::validate() const {
-  require(source == "stereo" || source == "files", "depth.source", source,
-          "must be stereo or files");
+  require(source == "auto" || source == "stereo" || source == "files", "depth.source", source,
+          "must be auto, stereo or files");
   stereo.validate();
 }
 
 FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options)
-    : options_(options), rectifier_(calibration), matcher_(makeStereoMatcher(options.stereo)) {
+    : options_(options),
+      calibration_source_(calibration.source),
+      rectified_(calibration.rectified),
+      rectifier_(calibration),
+      matcher_(makeStereoMatcher(options.stereo)) {
   options.validate();
-  if (options.source == "files" && !calibration.rectified)
-    throw InputError(calibration.source +
-                     ": depth.source is files, but depth files belong to rectified pictures. Are "
-                     "these? Then write `rectified: 1`; else leave depth.source at stereo");
+  if (options.source == "files") requireRectified();
 }
 
-std::string FrameDepth::method() const {
-  return options_.source == "files" ? "files" : matcher_->name();
+/// Depth files belong to the pictures as they are.
+void FrameDepth::requireRectified() const {
+  if (!rectified_)
+    throw InputError(calibration_source_ +
+                     ": the sequence has depth/, but depth files belong to rectified pictures. Are "
+                     "these? Then write `rectified: 1`; else set depth.source=stereo");
+}
+
+bool FrameDepth::takesFile(const Frame& frame) const {
+  return options_.source == "files" || (options_.source == "auto" && !frame.depth_mm.empty());
 }
 
 MeasuredFrame FrameDepth::measure(const Frame& frame) {
   MeasuredFrame measured;
-  if (options_.source == "files")
+  if (takesFile(frame))
     takeFile(frame, measured);
   else
     match(frame, measured);
@@ -62,7 +71,9 @@ MeasuredFrame FrameDepth::measure(const Frame& frame) {
 
 void FrameDepth::takeFile(const Frame& frame, MeasuredFrame& measured) const {
   if (frame.depth_mm.empty())
-    throw InputError("depth.source is files, but there is no depth/. Leave it at stereo");
+    throw InputError("depth.source is files, but there is no depth/. Leave it at auto");
+  requireRectified();
+  measured.method = "files";
   measured.left = frame.pair.left;
   measured.mask = frame.mask;
   measured.depth.depth_mm = frame.depth_mm;
@@ -70,7 +81,7 @@ void FrameDepth::takeFile(const Frame& frame, MeasuredFrame& measured) const {
 
 void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   if (frame.pair.right.empty())
-    throw InputError("there is no right view to match. With depth/, set depth.source=files");
+    throw InputError("there is no right view to match, and no depth/ to take its place");
   StageClock clock;
   const StereoPair rectified = rectifier_.rectify(frame.pair);
   measured.mask = frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
@@ -88,6 +99,7 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   clock.lap("disparity");
   measured.depth = depthFromDisparity(measured.disparity, rig());
   measured.left = std::move(aligned.pair.left);
+  measured.method = matcher_->name();
   clock.lap("depth");
   measured.times = clock.laps();
   for (const auto& [stage, elapsed_ms] : matcher_->times())

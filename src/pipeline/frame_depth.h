@@ -15,8 +15,9 @@ namespace softscope {
 
 /// Where depth comes from.
 struct FrameDepthOptions {
-  std::string source = "stereo";  // or "files": the sequence's own depth/
-  bool align_rows = true;         // remove a residual row error where it is large enough
+  std::string source =
+      "auto";              // the sequence's own depth/ where there is one; or "stereo", "files"
+  bool align_rows = true;  // remove a residual row error where it is large enough
   StereoOptions stereo;
 
   /// Throws OptionError.
@@ -25,6 +26,7 @@ struct FrameDepthOptions {
 
 /// All rasters have the shape of the rectified left picture.
 struct MeasuredFrame {
+  std::string method;      // elas, sgbm or files
   ColourImage left;        // rectified
   Mask mask;               // instruments, and what the raw left picture didn't show; may be empty
   DisparityMap disparity;  // empty where depth came from a file
@@ -43,7 +45,6 @@ class FrameDepth {
 
   const RectifiedRig& rig() const { return rectifier_.rig(); }
   const Rectifier& rectifier() const { return rectifier_; }
-  std::string method() const;  // elas, sgbm or files
 
   /// Throws InputError where the frame doesn't fit.
   MeasuredFrame measure(const Frame& frame);
@@ -51,8 +52,12 @@ class FrameDepth {
  private:
   void match(const Frame& frame, MeasuredFrame& measured);
   void takeFile(const Frame& frame, MeasuredFrame& measured) const;
+  bool takesFile(const Frame& frame) const;
+  void requireRectified() const;
 
   FrameDepthOptions options_;
+  std::string calibration_source_;
+  bool rectified_;
   Rectifier rectifier_;
   std::unique_ptr<StereoMatcher> matcher_;
 };

@@ -215,11 +215,17 @@ TEST_F(Depth, DepthFilesMayReplaceStereo) {
   const std::string sequence = makeSequence("s", 1);
   fs::create_directories(sequence + "/depth");
   writeDepthPng(sequence + "/depth/000000.png", Raster<float>(160, 120, 42.5f));
-  const auto json =
-      run({"depth", sequence, "--out", at("out"), "--set", "depth.source=files", "--json"}).json();
-  EXPECT_EQ(json["method"], "files");
-  EXPECT_DOUBLE_EQ(json["frames"][0]["depth_mm"]["median"], 42.5);
-  EXPECT_FALSE(fs::exists(at("out/000000_disparity.png")));
+  for (const char* source : {"auto", "files"}) {
+    const auto json = run({"depth", sequence, "--out", at(source), "--set",
+                           std::string("depth.source=") + source, "--json"})
+                          .json();
+    EXPECT_EQ(json["method"], "files") << source;
+    EXPECT_DOUBLE_EQ(json["frames"][0]["depth_mm"]["median"], 42.5) << source;
+    EXPECT_FALSE(fs::exists(at(std::string(source) + "/000000_disparity.png"))) << source;
+  }
+  const auto stereo =
+      run({"depth", sequence, "--out", at("out"), "--set", "depth.source=stereo", "--json"}).json();
+  EXPECT_EQ(stereo["method"], "elas");
 }
 
 TEST_F(Depth, BothViewsInOnePictureAreParted) {
