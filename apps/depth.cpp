@@ -124,8 +124,7 @@ int DepthCommand::run() {
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
   DepthEstimator estimator(reader.calibration(), options, frame_ == "raw-left");
   is_sequence_ = reader.totalCount() > 1 || (right_.empty() && isFolder(left_));
-  const DepthOutputs outputs(
-      {out_, kinds, force_, frame_ == "raw-left", options.measurement.source == "stereo"});
+  const DepthOutputs outputs({out_, kinds, force_, frame_ == "raw-left"});
   requireFreeOutputs(outputs, reader);
 
   DepthRecord record(inputs(), reader.calibration(), estimator, frame_ == "raw-left");

@@ -54,10 +54,9 @@ DepthOutputKinds DepthOutputKinds::parse(const std::string& list) {
 
 std::vector<std::string> DepthOutputs::names() const {
   std::vector<std::string> names;
-  if (options_.kinds.disparity && options_.from_disparity)
-    names.insert(names.end(), {"disparity.pfm", "disparity.png"});
+  if (options_.kinds.disparity) names.insert(names.end(), {"disparity.pfm", "disparity.png"});
   if (options_.kinds.depth) names.insert(names.end(), {"depth.pfm", "depth.png"});
-  if (options_.kinds.confidence && options_.from_disparity) names.emplace_back("confidence.png");
+  if (options_.kinds.confidence) names.emplace_back("confidence.png");
   if (options_.kinds.cloud) names.emplace_back("cloud.ply");
   if (options_.kinds.picture) names.emplace_back("picture.png");
   return names;
@@ -73,8 +72,9 @@ void DepthOutputs::requireFree(const std::vector<std::string>& prefixes) const {
 void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
                          const DepthRange& range, const std::string& title) const {
   const bool force = options_.overwrite;
+  const bool matched = !measured.disparity.disparity_px.empty();  // else depth came from a file
   const auto rasters = [&] {
-    if (options_.kinds.disparity && options_.from_disparity) {
+    if (options_.kinds.disparity && matched) {
       writePfm(file(prefix, "disparity.pfm"), measured.disparity.disparity_px, force);
       writeDisparityPng(file(prefix, "disparity.png"), measured.disparity.disparity_px, force);
     }
@@ -82,7 +82,7 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
       writePfm(file(prefix, "depth.pfm"), measured.depth.depth_mm, force);
       writeDepthPng(file(prefix, "depth.png"), measured.depth.depth_mm, kDepthStepMm, force);
     }
-    if (options_.kinds.confidence && options_.from_disparity)
+    if (options_.kinds.confidence && matched)
       writePng(file(prefix, "confidence.png"), confidenceImage(measured.disparity), force);
   };
   const auto drawings = [&] {

@@ -23,8 +23,7 @@ struct DepthOutputOptions {
   std::filesystem::path folder;
   DepthOutputKinds kinds;
   bool overwrite = false;
-  bool raw_left = false;       // the frame that the cloud's header names
-  bool from_disparity = true;  // false: there is no disparity to write
+  bool raw_left = false;  // the frame that the cloud's header names
 };
 
 class DepthOutputs {
