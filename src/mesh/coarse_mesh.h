@@ -19,9 +19,9 @@ struct CoarseMesh {
 };
 
 /// Groups vertices by the cells of a grid, keeps of each group the one nearest to its mean, and the
-/// triangles whose corners are in three groups, but for those that would be folded over. The grid is
-/// about as fine as leaves at most `most_vertices` (> 0); a mesh that is small enough stays as it
-/// is.
+/// triangles whose corners are in three groups, but for those that would be folded over. The grid
+/// is about as fine as leaves at most `most_vertices` (> 0); a mesh that is small enough stays as
+/// it is.
 CoarseMesh coarsen(const TriangleMesh& fine, std::size_t most_vertices);
 
 }  // namespace softscope
