@@ -45,6 +45,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const fs::path
   pointers.push_back(nullptr);
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) throw Error(shown(log) + ": can't be written to; check the rights of its folder");
+  signal(SIGCHLD, SIG_DFL);  // who ignores it, as some parents make us, can't wait for anyone
   const int parent = getpid();
   id_ = fork();
   if (id_ == 0) become(pointers.data(), file, parent);
@@ -63,10 +64,11 @@ ChildProcess::~ChildProcess() {
 
 std::optional<int> ChildProcess::ended() {
   int status = 0;
-  if (id_ > 0 && waitpid(id_, &status, WNOHANG) == id_) {
-    exit_code_ = codeOf(status);
-    id_ = -1;
-  }
+  if (id_ <= 0) return exit_code_;
+  const int found = waitpid(id_, &status, WNOHANG);
+  if (found == id_) exit_code_ = codeOf(status);
+  if (found < 0 && errno != EINTR) exit_code_ = kCannotStart;  // somebody else waited for it
+  if (exit_code_) id_ = -1;
   return exit_code_;
 }
 

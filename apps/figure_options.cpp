@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -57,9 +59,12 @@ void FigureOptions::declare(ArgumentList& arguments) {
 }
 
 void FigureOptions::validate() const {
+  std::set<std::filesystem::path> files;
   for (const std::string& file : out) {
     requireEnding(file);
     requireWritable(file, force);
+    if (!files.insert(std::filesystem::path(file).lexically_normal()).second)
+      throw OptionError("--out names " + file + " twice; name each file once");
   }
   requireWritable(recordFile(), force);
   const auto positive = [](const char* name, double value) {

@@ -87,8 +87,10 @@ int StudyCommand::run() {
   if (out_.empty()) throw OptionError("softscope study: --out is missing: folder for everything");
   const StudyFolder folder{out_};
   folder.requireUsable();
+  const StudyCase* one = case_.empty() ? nullptr : &study.caseNamed(case_);
+  folder.claim();
   if (table_) return writeAll(study, folder);
-  if (!case_.empty()) return runOne(study.caseNamed(case_), folder);
+  if (one != nullptr) return runOne(*one, folder);
   const int code = runAll(study, folder);
   return code == kInterrupted ? code : writeAll(study, folder);
 }

@@ -241,9 +241,16 @@ void StudyFolder::requireUsable() const {
   if (!fs::exists(root)) return;
   if (!fs::is_directory(root))
     throw OptionError("--out: " + shown(root) + " is a file, but must be a folder");
-  if (fs::is_empty(root) || fs::exists(root / "cases")) return;
-  throw OptionError("--out: " + shown(root) +
-                    " holds something that is no study; choose another folder");
+  if (fs::exists(marker())) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root))
+    if (entry.path().filename() != "cases")  // workflows make it before us
+      throw OptionError("--out: " + shown(root) + " holds " + shown(entry.path().filename()) +
+                        ", but is no folder of a study; choose another one");
+}
+
+void StudyFolder::claim() const {
+  fs::create_directories(marker().parent_path());
+  if (!fs::exists(marker())) writeFile(marker(), "A folder of softscope study.\n", true);
 }
 
 std::string digestOf(const StudyCase& study_case) {

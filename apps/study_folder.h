@@ -16,8 +16,12 @@ struct StudyFolder {
   std::filesystem::path sequences() const { return root / "sequences"; }
   std::filesystem::path study() const { return root / "study.json"; }
 
-  /// Throws OptionError where it is a file, or holds something that is no study.
+  std::filesystem::path marker() const { return root / "cases" / ".softscope_study"; }
+
+  /// Throws OptionError where it is a file, or holds something that no study wrote.
   void requireUsable() const;
+  /// Makes it a study's, so that later calls may replace what lies in it.
+  void claim() const;
 };
 
 }  // namespace softscope

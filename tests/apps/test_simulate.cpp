@@ -123,8 +123,12 @@ TEST_F(Simulate, VideosAreReconstructedAndJudgedAsPicturesAre) {
   }
   EXPECT_TRUE(fs::exists(at("mp4/left.mp4")));
   EXPECT_FALSE(fs::exists(at("mp4/left")));
-  // Compression takes noise away, from the judged picture and from the model: both look alike.
-  EXPECT_NEAR(view["mp4"]["psnr_db"], view["png"]["psnr_db"], 3);
+  // Compression takes noise away, from the judged picture and from the model: a video may look
+  // better by what the noise was (about 4 dB here), and hardly worse. A wrong frame costs 10 dB.
+  const double gain_db =
+      static_cast<double>(view["mp4"]["psnr_db"]) - static_cast<double>(view["png"]["psnr_db"]);
+  EXPECT_GT(gain_db, -3);
+  EXPECT_LT(gain_db, 6);
   EXPECT_GT(view["mp4"]["ssim"], 0.5);
 }
 

@@ -119,7 +119,39 @@ TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
   expectOneLine(study("", {"--table", "--list"}), "exclude each other");
   EXPECT_FALSE(fs::exists(at("out")));
   write("out/photograph.png", "mine");
-  expectOneLine(study(kSimulated), "holds something that is no study");
+  expectOneLine(study(kSimulated), "is no folder of a study");
+}
+
+// A folder that happens to hold `cases` as well belongs to somebody.
+TEST_F(StudyCommand, LeavesFoldersOfOthersAlone) {
+  write("out/cases/one.txt", "mine");
+  write("out/plots/mine.txt", "mine");
+  const Outcome refused = study(small());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("plots"));
+  EXPECT_EQ(contentOf(at("out/plots/mine.txt")), "mine");
+}
+
+// An ignored SIGCHLD is inherited; then nobody could wait for a child.
+TEST_F(StudyCommand, WaitsForItsCasesWhereItsParentIgnoresChildren) {
+  const std::string file = write("study.toml", small()), out = at("out");
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGCHLD, SIG_IGN);
+    execl(executable().c_str(), "softscope", "study", file.c_str(), "--out", out.c_str(), "--quiet",
+          nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  pid_t ended = 0;
+  for (int i = 0; i < 6000 && ended == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ended = waitpid(child, &status, WNOHANG);
+  }
+  if (ended == 0) kill(child, SIGKILL);
+  ASSERT_EQ(ended, child) << "waits for ever";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(record("case")["status"], "done");
 }
 
 TEST_F(StudyCommand, CtrlCStopsCleanlyAndTheSameLineGoesOn) {
