@@ -55,8 +55,9 @@ if [ "$sanitize" = yes ]; then
   configure sanitize
   build sanitize
   step "Tests under sanitizers"
-  # The studies of accuracy run the same code as their stages' tests, over minutes of pictures.
-  run_suite sanitize --label-exclude 'stereo_study|features_data'
+  # The studies of accuracy run the same code as their stages' tests, over minutes of pictures; the
+  # workflows run the same program as the tests of apps.
+  run_suite sanitize --label-exclude 'stereo_study|features_data|studies'
 fi
 configure release
 build release
