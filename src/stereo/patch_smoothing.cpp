@@ -42,10 +42,6 @@ struct Patch {
     r << 1, x, y, x * x, x * y, y * y, 0, 0;
     return r;
   }
-  float at(float u, float v) const {
-    const float x = (u - u0) * scale, y = (v - v0) * scale;
-    return c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y;
-  }
 };
 
 Block meanOf(const DisparityMap& map, int u0, int v0, int size) {
@@ -88,39 +84,76 @@ class Patches {
       for (int dx = -reach_; dx <= reach_; ++dx)
         window_.push_back(
             std::exp(-0.5f * static_cast<float>(dx * dx + dy * dy) / (spread * spread)));
-    parallelRows(blocks_.height_px, [&](int y) {
-      for (int x = 0; x < blocks_.width_px; ++x) patches_.at(x, y) = fit(x, y);
+    parallelRanges(blocks_.height_px, 1, [&](int begin, int end) {  // a row is work enough
+      for (int y = begin; y < end; ++y)
+        for (int x = 0; x < blocks_.width_px; ++x) patches_.at(x, y) = fit(x, y);
     });
   }
 
-  /// What the four patches around a pixel say, each as far as the pixel agrees with it.
-  void smooth(int u, int v, float& disparity_px, float& sigma_px) const {
-    const float x = (static_cast<float>(u) + 0.5f) / static_cast<float>(size_) - 0.5f,
-                y = (static_cast<float>(v) + 0.5f) / static_cast<float>(size_) - 0.5f;
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const float variance = sigma_px * sigma_px;
-    float weights = 0, sum_d = 0, sum_variance = 0;
-    for (int k = 0; k < 4; ++k) {
-      const int bx = x0 + k % 2, by = y0 + k / 2;
-      if (!patches_.contains(bx, by) || !patches_.at(bx, by).known()) continue;
-      const Patch& patch = patches_.at(bx, by);
-      const float predicted = patch.at(static_cast<float>(u), static_cast<float>(v));
-      const float weight = (1 - std::abs(x - static_cast<float>(bx))) *
-                           (1 - std::abs(y - static_cast<float>(by))) *
-                           agreement(disparity_px - predicted, patch.variance + variance);
-      weights += weight;
-      sum_d += weight * predicted;
-      sum_variance += weight * patch.variance;
+  /// Draws a row of pixels to what the four patches around each say, as far as it agrees with them.
+  void smoothRow(int v, int width, float* disparity_px, float* sigma_px) const {
+    const float y = (static_cast<float>(v) + 0.5f) / static_cast<float>(size_) - 0.5f;
+    const int y0 = static_cast<int>(std::floor(y));
+    const float down = y - static_cast<float>(y0);
+    int held = -1;  // the cell of the first pixel
+    Quartet four = around(held, y0, down);
+    for (int u = 0; u < width; ++u) {
+      const float x = (static_cast<float>(u) + 0.5f) / static_cast<float>(size_) - 0.5f;
+      const int x0 = static_cast<int>(std::floor(x));
+      if (x0 != held) {
+        held = x0;
+        four = around(x0, y0, down);
+      }
+      if (!std::isnan(disparity_px[u]) && sigma_px[u] > 0)
+        smooth(four, x - static_cast<float>(x0), static_cast<float>(u), static_cast<float>(v),
+               disparity_px[u], sigma_px[u]);
     }
-    if (!(weights > 0)) return;
-    // As sure of the patches as the pixel agrees with them.
-    const float patch_variance = sum_variance / weights / std::min(weights, 1.0f);
-    const float share = patch_variance / (patch_variance + variance);
-    disparity_px += (1 - share) * (sum_d / weights - disparity_px);
-    sigma_px *= std::sqrt(share);
   }
 
  private:
+  using Array4f = Eigen::Array4f;
+
+  /// Four neighbouring patches side by side: left, right, below left, below right.
+  struct Quartet {
+    Array4f u0, v0, c[6], variance;
+    Array4f share_left, share_right;  // of each at the left and at the right end of the cell
+  };
+
+  Quartet around(int x0, int y0, float down) const {
+    Quartet four;
+    for (int k = 0; k < 4; ++k) {
+      const int x = x0 + k % 2, y = y0 + k / 2;
+      const bool known = patches_.contains(x, y) && patches_.at(x, y).known();
+      const Patch patch = known ? patches_.at(x, y) : Patch();
+      const float share = known ? (k < 2 ? 1 - down : down) : 0.0f;
+      four.u0[k] = patch.u0;
+      four.v0[k] = patch.v0;
+      for (int i = 0; i < 6; ++i) four.c[i][k] = patch.c[i];
+      four.variance[k] = known ? patch.variance : 1.0f;
+      four.share_left[k] = k % 2 == 0 ? share : 0.0f;
+      four.share_right[k] = k % 2 == 0 ? 0.0f : share;
+    }
+    return four;
+  }
+
+  void smooth(const Quartet& four, float right, float u, float v, float& disparity_px,
+              float& sigma_px) const {
+    const float scale = 1 / static_cast<float>(reach_ * size_), variance = sigma_px * sigma_px;
+    const Array4f x = (u - four.u0) * scale, y = (v - four.v0) * scale;
+    const Array4f predicted = four.c[0] + x * (four.c[1] + x * four.c[3] + y * four.c[4]) +
+                              y * (four.c[2] + y * four.c[5]);
+    const Array4f q =
+        1 + (disparity_px - predicted).square() / (kAgree * kAgree * (four.variance + variance));
+    const Array4f weight = (four.share_left * (1 - right) + four.share_right * right) / q.square();
+    const float weights = weight.sum();
+    if (!(weights > 0)) return;
+    // As sure of the patches as the pixel agrees with them.
+    const float patch_variance = (weight * four.variance).sum() / weights / std::min(weights, 1.0f);
+    const float share = patch_variance / (patch_variance + variance);
+    disparity_px += (1 - share) * ((weight * predicted).sum() / weights - disparity_px);
+    sigma_px *= std::sqrt(share);
+  }
+
   static float agreement(float residual, float variance) {
     const float q = 1 + residual * residual / (kAgree * kAgree * variance);
     return 1 / (q * q);
@@ -172,7 +205,8 @@ class Patches {
     Eigen::Matrix<float, 6, 6> normal = sums.topRows<6>();
     const Coefficients right = right_sums.head<6>();
     normal.diagonal().tail<5>().array() += kRidge * weights;
-    const Eigen::LDLT<Eigen::Matrix<float, 6, 6>> solver(normal);
+    const Eigen::LLT<Eigen::Matrix<float, 6, 6>> solver(normal);
+    if (solver.info() != Eigen::Success) return false;
     const Coefficients step = solver.solve(right);
     // The residuals that are left, by the normal equations.
     const float left = std::max(squares - step.dot(right), 0.0f) / weights;
@@ -198,10 +232,7 @@ void smoothByPatches(const SmoothingOptions& options, const RefinementOptions& r
   if (options.reach_blocks == 0) return;
   const Patches patches(options, refinement, map);
   parallelRows(map.disparity_px.height_px, [&](int v) {
-    float* disparity = map.disparity_px.row(v);
-    float* sigma = map.sigma_px.row(v);
-    for (int u = 0; u < map.disparity_px.width_px; ++u)
-      if (!std::isnan(disparity[u]) && sigma[u] > 0) patches.smooth(u, v, disparity[u], sigma[u]);
+    patches.smoothRow(v, map.disparity_px.width_px, map.disparity_px.row(v), map.sigma_px.row(v));
   });
 }
 
