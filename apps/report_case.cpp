@@ -112,32 +112,30 @@ void shrink(ErrorMap& map, std::size_t most) {
   keepOnly(coarse.vertices, map.observed);
 }
 
+/// What lies at "a.b.c"; null where there is nothing.
+const Json* valueAt(const Json& record, const std::string& path) {
+  const Json* at = &record;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    if (!at->is_object()) return nullptr;
+    const auto found = at->find(path.substr(begin, end - begin));
+    if (found == at->end()) return nullptr;
+    at = &*found;
+    begin = end + 1;
+  }
+  return at;
+}
+
 }  // namespace
 
 double numberAt(const Json& record, const std::string& path) {
-  const Json* at = &record;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    if (!at->is_object()) return Statistics::kNone;
-    const auto found = at->find(path.substr(begin, end - begin));
-    if (found == at->end()) return Statistics::kNone;
-    at = &*found;
-    begin = end + 1;
-  }
-  return at->is_number() ? at->get<double>() : Statistics::kNone;
+  const Json* found = valueAt(record, path);
+  return found != nullptr && found->is_number() ? found->get<double>() : Statistics::kNone;
 }
 
 std::string textAt(const Json& record, const std::string& path) {
-  const Json* at = &record;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    if (!at->is_object()) return {};
-    const auto found = at->find(path.substr(begin, end - begin));
-    if (found == at->end()) return {};
-    at = &*found;
-    begin = end + 1;
-  }
-  return at->is_string() ? at->get<std::string>() : std::string();
+  const Json* found = valueAt(record, path);
+  return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 std::vector<double> ReportCase::overFrames(const std::string& key) const {

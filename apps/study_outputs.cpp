@@ -8,6 +8,7 @@
 #include "apps/result_output.h"
 #include "io/atomic_file.h"
 #include "io/image_writer.h"
+#include "vtk_views/html_text.h"
 #include "vtk_views/level_plot.h"
 
 namespace softscope {
@@ -26,27 +27,6 @@ const char* const kStyle =
     "th:first-child,td:first-child{text-align:left}th{border-bottom:2px solid #888;"
     "vertical-align:bottom}.wide{overflow-x:auto}figure{display:inline-block;margin:1em 1.5em 0 0}"
     ".how{color:#555;font-size:13px}code{font-size:12px}</style>";
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  return safe;
-}
 
 std::vector<StudyPlot> plotsOf(const Study& study) {
   if (!study.plots.empty()) return study.plots;
@@ -102,17 +82,17 @@ bool anyMean(const LevelPlotData& data) {
 
 std::string pageTable(const StudyTable& table) {
   std::string html = "<div class=\"wide\"><table><thead><tr>";
-  for (const std::string& heading : table.headings) html += "<th>" + escaped(heading) + "</th>";
+  for (const std::string& heading : table.headings) html += "<th>" + htmlEscaped(heading) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {
     html += "<tr>";
-    for (const std::string& cell : row) html += "<td>" + escaped(cell) + "</td>";
+    for (const std::string& cell : row) html += "<td>" + htmlEscaped(cell) + "</td>";
     html += "</tr>\n";
   }
   html += "</tbody></table></div>\n";
   if (table.notes.empty()) return html;
   html += "<ul>";
-  for (const std::string& note : table.notes) html += "<li>" + escaped(note) + "</li>\n";
+  for (const std::string& note : table.notes) html += "<li>" + htmlEscaped(note) + "</li>\n";
   return html + "</ul>\n";
 }
 
@@ -141,16 +121,17 @@ std::vector<StudyFigure> studyFigures(const Study& study, const std::vector<Json
 std::string studyPage(const Study& study, const StudyTable& table,
                       const std::vector<StudyFigure>& figures, const Json& record) {
   std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-                     escaped(study.title) + "</title>" + kStyle + "</head><body>\n<h1>" +
-                     escaped(study.title) + "</h1>\n";
-  if (!study.about.empty()) html += "<p>" + escaped(study.about) + "</p>\n";
+                     htmlEscaped(study.title) + "</title>" + kStyle + "</head><body>\n<h1>" +
+                     htmlEscaped(study.title) + "</h1>\n";
+  if (!study.about.empty()) html += "<p>" + htmlEscaped(study.about) + "</p>\n";
   html += pageTable(table);
   for (const auto& [name, drawing] : figures)
     html += "<figure>" + inlineSvg(drawing) + "</figure>\n";
-  html += "<p class=\"how\">softscope " + escaped(record["softscope"]) + " (" +
-          escaped(record["compiler"]) + ") on " +
-          escaped(record["machine"]["processor"].get<std::string>()) + ", " +
-          record["machine"]["cores"].dump() + " cores: <code>" + escaped(record["command"]) +
+  html += "<p class=\"how\">softscope " + htmlEscaped(record["softscope"].get<std::string>()) +
+          " (" + htmlEscaped(record["compiler"].get<std::string>()) + ") on " +
+          htmlEscaped(record["machine"]["processor"].get<std::string>()) + ", " +
+          record["machine"]["cores"].dump() + " cores: <code>" +
+          htmlEscaped(record["command"].get<std::string>()) +
           "</code><br>Research use only, not for diagnosis.</p>\n</body></html>\n";
   return html;
 }

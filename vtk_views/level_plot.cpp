@@ -97,15 +97,6 @@ AxisRange errorRange(const LevelPlotData& data) {
   return {0, 1.06 * highest};
 }
 
-void drawBar(const PlotAxes& axes, double middle, double half_width, double value, Rgb8 colour,
-             VectorDrawing& drawing) {
-  if (!std::isfinite(value)) return;
-  drawing.parts.emplace_back(
-      DrawnShape{{axes.at(middle - half_width, 0), axes.at(middle - half_width, value),
-                  axes.at(middle + half_width, value), axes.at(middle + half_width, 0)},
-                 colour});
-}
-
 DrawnText nameBelow(const PlotAxes& axes, double middle, const std::string& name, double font_pt) {
   DrawnText text;
   text.text = name;
@@ -173,8 +164,8 @@ VectorDrawing drawCaseBars(const CaseBarsData& data, const PlotStyle& style) {
   for (std::size_t i = 0; i < data.bars.size(); ++i) {
     const CaseBar& bar = data.bars[i];
     const double middle = static_cast<double>(i) + 1;
-    drawBar(axes, middle, 0.36, bar.p95, kBand, drawing);
-    drawBar(axes, middle, 0.22, bar.mean, kColours[0], drawing);
+    axes.drawBar(middle, 0.36, bar.p95, kBand, drawing);
+    axes.drawBar(middle, 0.22, bar.mean, kColours[0], drawing);
     if (std::isfinite(bar.published))
       drawSpot(axes.at(middle, bar.published), 3, 4, kColours[1], drawing);
     drawing.parts.emplace_back(nameBelow(axes, middle, bar.name, style.font_pt));

@@ -120,6 +120,15 @@ void PlotAxes::drawCurve(const std::vector<double>& x, const std::vector<double>
   finishPiece();
 }
 
+void PlotAxes::drawBar(double middle, double half_width, double value, Rgb8 colour,
+                       VectorDrawing& drawing) const {
+  if (!std::isfinite(value)) return;
+  drawing.parts.emplace_back(
+      DrawnShape{{at(middle - half_width, 0), at(middle - half_width, value),
+                  at(middle + half_width, value), at(middle + half_width, 0)},
+                 colour});
+}
+
 VectorDrawing newPlotSheet(double width_mm, double height_mm) {
   VectorDrawing drawing;
   drawing.width_pt = width_mm * kPtPerMm;

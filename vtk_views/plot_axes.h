@@ -43,6 +43,10 @@ class PlotAxes {
   void drawCurve(const std::vector<double>& x, const std::vector<double>& y, const DrawnLine& style,
                  VectorDrawing& drawing) const;
 
+  /// From 0 to `value`, which may be NaN: then nothing.
+  void drawBar(double middle, double half_width, double value, Rgb8 colour,
+               VectorDrawing& drawing) const;
+
  private:
   void drawLeftNumbers(VectorDrawing& drawing) const;
   void drawBottomNumbers(VectorDrawing& drawing) const;

@@ -12,15 +12,6 @@ namespace {
 
 constexpr Rgb8 kBlue{0, 114, 178}, kBand{190, 212, 232};
 
-void drawBar(const PlotAxes& axes, double middle, double half_width, double value, Rgb8 colour,
-             VectorDrawing& drawing) {
-  if (!std::isfinite(value)) return;
-  drawing.parts.emplace_back(
-      DrawnShape{{axes.at(middle - half_width, 0), axes.at(middle - half_width, value),
-                  axes.at(middle + half_width, value), axes.at(middle + half_width, 0)},
-                 colour});
-}
-
 void drawNumber(const PlotAxes& axes, double middle, int frame, double font_pt,
                 VectorDrawing& drawing) {
   DrawnText number;
@@ -47,8 +38,8 @@ VectorDrawing drawWorstFrames(const WorstFramesData& data, const PlotStyle& styl
   axes.drawGrid(drawing);
   for (std::size_t i = 0; i < count; ++i) {
     const double middle = static_cast<double>(i) + 1;
-    drawBar(axes, middle, 0.4, data.p95[i], kBand, drawing);
-    drawBar(axes, middle, 0.25, data.mean[i], kBlue, drawing);
+    axes.drawBar(middle, 0.4, data.p95[i], kBand, drawing);
+    axes.drawBar(middle, 0.25, data.mean[i], kBlue, drawing);
     drawNumber(axes, middle, data.frames[i], style.font_pt, drawing);
   }
   axes.drawFrame("frame, worst mean first", data.error_label, drawing, /*x_numbers=*/false);

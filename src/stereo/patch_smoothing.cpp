@@ -31,12 +31,12 @@ using PaddedRow = Eigen::Matrix<float, 8, 1>;  // two registers of four; the las
 
 /// d(u, v) = c . (1, x, y, x², xy, y²), x and y from (u0, v0) in windows.
 struct Patch {
-  float u0 = 0, v0 = 0, scale = 1;
+  float u0 = 0, v0 = 0;
   Coefficients c = Coefficients::Zero();
   float variance = 0;  // of what it predicts for a pixel; 0: there is no patch
 
   bool known() const { return variance > 0; }
-  PaddedRow row(float u, float v) const {
+  PaddedRow row(float u, float v, float scale) const {
     const float x = (u - u0) * scale, y = (v - v0) * scale;
     PaddedRow r;
     r << 1, x, y, x * x, x * y, y * y, 0, 0;
@@ -69,6 +69,7 @@ class Patches {
           const DisparityMap& map)
       : size_(options.blockPx(map.disparity_px.width_px)),
         reach_(options.reach_blocks),
+        scale_(1 / static_cast<float>(reach_ * size_)),
         independent_px2_(static_cast<float>(refinement.independentPx2())),
         floor_(static_cast<float>(refinement.model_sigma_px * refinement.model_sigma_px +
                                   options.relief_px * options.relief_px)),
@@ -138,8 +139,8 @@ class Patches {
 
   void smooth(const Quartet& four, float right, float u, float v, float& disparity_px,
               float& sigma_px) const {
-    const float scale = 1 / static_cast<float>(reach_ * size_), variance = sigma_px * sigma_px;
-    const Array4f x = (u - four.u0) * scale, y = (v - four.v0) * scale;
+    const float variance = sigma_px * sigma_px;
+    const Array4f x = (u - four.u0) * scale_, y = (v - four.v0) * scale_;
     const Array4f predicted = four.c[0] + x * (four.c[1] + x * four.c[3] + y * four.c[4]) +
                               y * (four.c[2] + y * four.c[5]);
     const Array4f q =
@@ -166,7 +167,6 @@ class Patches {
     Patch patch;
     patch.u0 = centre.u;
     patch.v0 = centre.v;
-    patch.scale = 1 / static_cast<float>(reach_ * size_);
     patch.c[0] = centre.disparity_px;
     for (int i = 0; i < kFits; ++i)
       if (!refit(x, y, i == 0, patch)) return {};
@@ -183,7 +183,7 @@ class Patches {
         if (x + dx < 0 || x + dx >= blocks_.width_px) continue;
         const Block& other = blocks_.at(x + dx, y + dy);
         if (!other.known()) continue;
-        const PaddedRow row = patch.row(other.u, other.v);
+        const PaddedRow row = patch.row(other.u, other.v, scale_);
         const float residual = other.disparity_px - patch.c.dot(row.head<6>());
         float trust =
             window_[static_cast<std::size_t>((dy + reach_) * (2 * reach_ + 1) + dx + reach_)];
@@ -219,6 +219,7 @@ class Patches {
   }
 
   int size_, reach_;
+  float scale_;  // windows a pixel
   float independent_px2_, floor_;
   Raster<Block> blocks_;
   Raster<Patch> patches_;
