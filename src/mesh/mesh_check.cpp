@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
+
+#include "mesh/union_find.h"
 
 namespace softscope {
 namespace {
@@ -45,21 +46,6 @@ std::vector<Side> sortedSides(const TriangleMesh& mesh) {
   });
   return sides;
 }
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  std::int32_t find(std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::int32_t a, std::int32_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
 
 /// The corner of a side's triangle that names `vertex`, one of the side's two.
 std::int32_t cornerAt(const Side& side, std::int32_t vertex) {

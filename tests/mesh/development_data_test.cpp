@@ -5,8 +5,15 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cmath>
 
+#include "eval/statistics.h"
+#include "eval/triangle_tree.h"
+#include "io/calibration_reader.h"
+#include "io/depth_files.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
+#include "mesh/open_mesh_check.h"
+#include "mesh/surface_from_points.h"
+#include "stereo/depth_from_disparity.h"
 #include "support/data_folder.h"
 
 namespace softscope::test {
@@ -59,6 +66,47 @@ TEST(DevelopmentData, TheCtPatchOfOpenCasIsOpen) {
   EXPECT_TRUE(check.manifold() && check.oriented());
   EXPECT_EQ(check.components, 1u);
   EXPECT_TRUE(std::isnan(check.volume_mm3));
+}
+
+std::vector<Eigen::Vector3f> triangleCentres(const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3f> centres;
+  for (const Triangle& t : mesh.triangles) {
+    centres.emplace_back(0, 0, 0);
+    for (const std::int32_t v : t) centres.back() += mesh.vertices_mm[std::size_t(v)] / 3;
+  }
+  return centres;
+}
+
+Statistics distancesFrom(const TriangleTree& truth, const std::vector<Eigen::Vector3f>& points_mm) {
+  std::vector<double> distances_mm;
+  for (const ClosestPoint& closest : truth.closestPoints(points_mm))
+    distances_mm.push_back(closest.distance_mm);
+  return statistics(distances_mm);
+}
+
+/// Every second pixel of every second row: points 0.2 mm apart, as in a model.
+PointCloud pointsOfTrueDepth(const std::filesystem::path& sequence) {
+  const PinholeCamera camera = readCalibration(sequence).left.pinhole;
+  const Raster<float> depth_mm = readDepth(sequence / "groundtruth/depth/000000.png");
+  Mask mask(depth_mm.width_px, depth_mm.height_px, 1);
+  for (int v = 0; v < mask.height_px; v += 2)
+    for (int u = 0; u < mask.width_px; u += 2) mask.at(u, v) = 0;
+  const ColourImage colour(depth_mm.width_px, depth_mm.height_px);
+  return pointCloud(depth_mm, normalsFromDepth(depth_mm, camera), colour, camera, mask);
+}
+
+TEST(DevelopmentData, TheSurfaceOfAnOrgansDepthIsAsTrueAsItsPoints) {
+  SOFTSCOPE_DATA_OR_SKIP(data, "openhelp_heart");
+  const PointCloud cloud = pointsOfTrueDepth(data);
+  const PointSurface surface = surfaceFromPoints(cloud);
+  EXPECT_EQ(openMeshComplaint(surface.mesh), "");
+  EXPECT_TRUE(checkMesh(surface.mesh).oriented());
+  EXPECT_GT(surface.points.size(), cloud.points_mm.size() * 99 / 100);
+  const TriangleTree truth(readMesh(data / "groundtruth/mesh/000000.ply"));
+  const Statistics points = distancesFrom(truth, cloud.points_mm);
+  const Statistics triangles = distancesFrom(truth, triangleCentres(surface.mesh));
+  EXPECT_LE(triangles.mean, points.mean);  // between points that err, a triangle errs less
+  EXPECT_LE(triangles.p95, points.p95);
 }
 
 }  // namespace
