@@ -42,6 +42,7 @@ Json observedJson(const ObservedSplit& split) {
   return {{"reach_mm", split.reach_mm},
           {"reference_share", split.reference_share},
           {"test_share", split.test_share},
+          {"test_beyond_border_share", split.beyond_share},
           {"accuracy", statisticsJson(split.observed_mm, "_mm")},
           {"predicted", statisticsJson(split.predicted_mm, "_mm")},
           {"completeness", statisticsJson(split.completeness_mm, "_mm")},
@@ -54,6 +55,9 @@ void addObservedFacts(const ObservedSplit& split, FactSheet& facts) {
                                 fixed(100 * split.reference_share, 1) + " % of the reference");
   facts.addLine("  accuracy", spreadText(split.observed_mm));
   facts.addLine("  predicted", spreadText(split.predicted_mm) + ", of the test's other vertices");
+  if (split.beyond_share > 0)
+    facts.addLine("  beyond", fixed(100 * split.beyond_share, 1) +
+                                  " % of the test, past the reference's border: not judged");
   facts.addLine("  completeness", spreadText(split.completeness_mm) + "; " +
                                       fixed(100 * split.not_reconstructed_share, 1) +
                                       " % not reconstructed");

@@ -45,7 +45,8 @@ std::vector<Column> surfaceColumns() {
           ofModel("max_mm", [](E e) { return e.distance_mm.max; }),
           ofModel("signed_mean_mm", [](E e) { return e.signed_mm.mean; }),
           ofModel("signed_median_mm", [](E e) { return e.signed_mm.median; }),
-          ofModel("border_points", [](E e) { return static_cast<double>(e.border_count); })};
+          ofModel("border_points", [](E e) { return static_cast<double>(e.border_count); }),
+          ofModel("beyond_border_points", [](E e) { return static_cast<double>(e.beyond_count); })};
 }
 
 std::vector<Column> viewColumns() {

@@ -43,6 +43,7 @@ JudgedModel& keep(int frame, double time_s, ModelErrors errors, SurfaceSeries& s
   errors.each_mm = {};
   errors.each_signed_mm = {};
   errors.each_observed = {};
+  errors.each_beyond = {};
   series.models.push_back({frame, time_s, std::move(errors), std::nullopt});
   return series.models.back();
 }

@@ -22,7 +22,10 @@ void ErrorPool::add(const ModelErrors& errors) {
     all_mm_.push_back(errors.each_mm[i]);
     signed_mm_.push_back(errors.each_signed_mm[i]);
     if (errors.each_observed.empty()) continue;
-    (errors.each_observed[i] ? observed_mm_ : predicted_mm_).push_back(errors.each_mm[i]);
+    if (errors.each_observed[i] != 0)
+      observed_mm_.push_back(errors.each_mm[i]);
+    else if (errors.each_beyond.empty() || errors.each_beyond[i] == 0)
+      predicted_mm_.push_back(errors.each_mm[i]);
   }
 }
 

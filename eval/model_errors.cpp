@@ -19,6 +19,7 @@ std::vector<std::uint8_t> findObserved(const std::vector<ClosestPoint>& closest,
   parallelRanges(static_cast<int>(closest.size()), 4096, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
       observed[static_cast<std::size_t>(i)] =
+          !isBeyondBorder(closest[static_cast<std::size_t>(i)]) &&
           seesSurfacePoint(truth.depth_mm, truth.rig.left,
                            left_from_world * closest[static_cast<std::size_t>(i)].point_mm);
   });
@@ -48,7 +49,9 @@ void splitByView(const std::vector<Eigen::Vector3f>& points_mm, const TrueMoment
   const std::vector<double> observed_mm = chosen(errors.each_mm, errors.each_observed, true);
   errors.observed_mm = statistics(observed_mm);
   errors.observed_signed_mm = statistics(chosen(errors.each_signed_mm, errors.each_observed, true));
-  errors.predicted_mm = statistics(chosen(errors.each_mm, errors.each_observed, false));
+  std::vector<std::uint8_t> known = errors.each_beyond;
+  for (std::size_t i = 0; i < known.size(); ++i) known[i] |= errors.each_observed[i];
+  errors.predicted_mm = statistics(chosen(errors.each_mm, known, false));
   errors.observed_share =
       static_cast<double>(observed_mm.size()) / static_cast<double>(points_mm.size());
 
@@ -75,6 +78,8 @@ ModelErrors modelErrors(const std::vector<Eigen::Vector3f>& points_mm, const Tru
     errors.each_mm.push_back(c.distance_mm);
     errors.each_signed_mm.push_back(c.signed_distance_mm);
     errors.border_count += c.on_border;
+    errors.each_beyond.push_back(isBeyondBorder(c));
+    errors.beyond_count += errors.each_beyond.back();
   }
   errors.distance_mm = statistics(errors.each_mm);
   errors.signed_mm = statistics(errors.each_signed_mm);

@@ -34,9 +34,10 @@ struct ModelErrors {
   Statistics distance_mm;        // of every model point from the surface
   Statistics signed_mm;          // the same, positive = outside; NaN at the surface's border
   std::size_t border_count = 0;  // points whose closest point lies on that border
+  std::size_t beyond_count = 0;  // points beyond it, where no tissue is known
   Statistics observed_mm;        // of the points whose tissue the left camera sees now
   Statistics observed_signed_mm;
-  Statistics predicted_mm;                    // of all other points: unseen, carried by the warp
+  Statistics predicted_mm;  // of the others that aren't beyond: unseen, carried by the warp
   double observed_share = Statistics::kNone;  // of the points
   Completeness both;                          // tissue that both cameras see
   Completeness left;                          // tissue that the left camera sees
@@ -44,7 +45,8 @@ struct ModelErrors {
 
   /// One a model point, in its order.
   std::vector<double> each_mm, each_signed_mm;
-  std::vector<std::uint8_t> each_observed;  // empty where the depth is unknown
+  std::vector<std::uint8_t> each_observed;  // empty where the depth is unknown; 0 beyond the border
+  std::vector<std::uint8_t> each_beyond;
 };
 
 /// `points_mm`: the model, in the true world's frame. A piece of tissue counts as reconstructed

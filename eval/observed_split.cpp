@@ -9,26 +9,25 @@
 namespace softscope {
 namespace {
 
-std::vector<double> distancesFrom(const TriangleMesh& observed,
-                                  const std::vector<Eigen::Vector3f>& points_mm) {
-  if (observed.empty()) return PointTree(observed.vertices_mm).distances_mm(points_mm);
-  std::vector<double> distances_mm;
+using Marks = std::vector<std::uint8_t>;
+
+Marks findSeen(const TriangleMesh& observed, const std::vector<Eigen::Vector3f>& points_mm,
+               double reach_mm) {
+  Marks seen;
+  if (observed.empty()) {
+    for (const double distance_mm : PointTree(observed.vertices_mm).distances_mm(points_mm))
+      seen.push_back(distance_mm <= reach_mm);
+    return seen;
+  }
   for (const ClosestPoint& closest : TriangleTree(observed).closestPoints(points_mm))
-    distances_mm.push_back(closest.distance_mm);
-  return distances_mm;
+    seen.push_back(closest.distance_mm <= reach_mm && !isBeyondBorder(closest));
+  return seen;
 }
 
-std::vector<std::uint8_t> within(const std::vector<double>& distances_mm, double reach_mm) {
-  std::vector<std::uint8_t> inside;
-  for (const double distance_mm : distances_mm) inside.push_back(distance_mm <= reach_mm);
-  return inside;
-}
-
-std::vector<double> chosen(const std::vector<double>& values, const std::vector<std::uint8_t>& in,
-                           bool wanted) {
+std::vector<double> chosen(const std::vector<double>& values, const Marks& in) {
   std::vector<double> some;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if ((in[i] != 0) == wanted) some.push_back(values[i]);
+    if (in[i] != 0) some.push_back(values[i]);
   return some;
 }
 
@@ -47,12 +46,20 @@ ObservedSplit splitByObserved(const TriangleMesh& reference, const TriangleMesh&
   for (const ClosestPoint& c : comparison.closest) closest_mm.push_back(c.point_mm.cast<float>());
   ObservedSplit split;
   split.reach_mm = reach_mm;
-  split.each_observed = within(distancesFrom(observed, closest_mm), reach_mm);
-  const auto reference_in = within(distancesFrom(observed, reference.vertices_mm), reach_mm);
-  const auto seen_mm = chosen(comparison.accuracy.each_mm, split.each_observed, true);
-  const auto back_mm = chosen(comparison.completeness.each_mm, reference_in, true);
+  split.each_observed = findSeen(observed, closest_mm, reach_mm);
+  Marks predicted, beyond;
+  for (std::size_t i = 0; i < comparison.closest.size(); ++i) {
+    beyond.push_back(isBeyondBorder(comparison.closest[i]));
+    predicted.push_back(split.each_observed[i] == 0 && beyond[i] == 0);
+    if (beyond[i] != 0) split.each_observed[i] = 0;
+  }
+  const Marks reference_in = findSeen(observed, reference.vertices_mm, reach_mm);
+  const auto& each_mm = comparison.accuracy.each_mm;
+  const auto seen_mm = chosen(each_mm, split.each_observed);
+  const auto back_mm = chosen(comparison.completeness.each_mm, reference_in);
   split.observed_mm = statistics(seen_mm);
-  split.predicted_mm = statistics(chosen(comparison.accuracy.each_mm, split.each_observed, false));
+  split.predicted_mm = statistics(chosen(each_mm, predicted));
+  split.beyond_share = shareOf(chosen(each_mm, beyond).size(), each_mm.size());
   split.completeness_mm = statistics(back_mm);
   split.hausdorff = hausdorffDistances(seen_mm, back_mm);
   split.test_share = shareOf(seen_mm.size(), split.each_observed.size());

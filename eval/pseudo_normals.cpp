@@ -2,6 +2,7 @@
 #include "eval/pseudo_normals.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -101,6 +102,24 @@ PseudoNormals::Side PseudoNormals::ofEdge(std::int32_t from, std::int32_t to) co
   }
   side.on_border = balance != 0;
   return side;
+}
+
+double PseudoNormals::asideOfEdge(std::int32_t from, std::int32_t to,
+                                  const Eigen::Vector3d& away_mm) const {
+  double least_mm = away_mm.norm();
+  for (std::int32_t i = first_corner_[from]; i < first_corner_[from + 1]; ++i) {
+    const Triangle& t = triangles_[corners_[i] / 3];
+    if (t[0] == to || t[1] == to || t[2] == to)
+      least_mm = std::min(least_mm, away_mm.cross(face_normals_[corners_[i] / 3]).norm());
+  }
+  return least_mm;
+}
+
+double PseudoNormals::asideOfVertex(std::int32_t vertex, const Eigen::Vector3d& away_mm) const {
+  double least_mm = away_mm.norm();
+  for (std::int32_t i = first_corner_[vertex]; i < first_corner_[vertex + 1]; ++i)
+    least_mm = std::min(least_mm, away_mm.cross(face_normals_[corners_[i] / 3]).norm());
+  return least_mm;
 }
 
 }  // namespace softscope

@@ -29,6 +29,11 @@ class PseudoNormals {
     return {vertex_normals_[vertex], vertex_on_border_[vertex] != 0};
   }
 
+  /// How far `away_mm`, from a point of the edge or vertex, leads beside its triangles' normals: of
+  /// the triangle that it leaves most upright.
+  double asideOfEdge(std::int32_t from, std::int32_t to, const Eigen::Vector3d& away_mm) const;
+  double asideOfVertex(std::int32_t vertex, const Eigen::Vector3d& away_mm) const;
+
  private:
   void listCornersByVertex();
   void computeFaces(const TriangleMesh& mesh);

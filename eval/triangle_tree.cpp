@@ -35,7 +35,7 @@ const TriangleMesh& checked(const TriangleMesh& mesh) {
 }
 
 ClosestPoint noAnswer() {
-  return {Eigen::Vector3d::Constant(kNaN), kNaN, kNaN, -1, SurfaceFeature::kNone, false};
+  return {Eigen::Vector3d::Constant(kNaN), kNaN, kNaN, -1, SurfaceFeature::kNone, false, 0};
 }
 
 }  // namespace
@@ -75,6 +75,7 @@ ClosestPoint TriangleTree::describe(const TreeHit& hit, const Eigen::Vector3f& p
     answer.signed_distance_mm = hit.height_mm;
     answer.feature = SurfaceFeature::kFace;
     answer.on_border = false;
+    answer.aside_mm = 0;
     return answer;
   }
   const Triangle& corners = triangles_[hit.triangle];
@@ -82,12 +83,16 @@ ClosestPoint TriangleTree::describe(const TreeHit& hit, const Eigen::Vector3f& p
   const int i = hit.feature - (at_vertex ? kTreeVertex : kTreeEdge);
   const PseudoNormals::Side side =
       at_vertex ? sides_.ofVertex(corners[i]) : sides_.ofEdge(corners[i], corners[(i + 1) % 3]);
-  const bool inside = (point_mm.cast<double>() - answer.point_mm).dot(side.normal) < 0;
+  const Eigen::Vector3d away_mm = point_mm.cast<double>() - answer.point_mm;
+  const bool inside = away_mm.dot(side.normal) < 0;
   answer.signed_distance_mm = side.on_border ? kNaN
                               : inside       ? -answer.distance_mm
                                              : answer.distance_mm;
   answer.feature = at_vertex ? SurfaceFeature::kVertex : SurfaceFeature::kEdge;
   answer.on_border = side.on_border;
+  answer.aside_mm = !side.on_border ? 0
+                    : at_vertex     ? sides_.asideOfVertex(corners[i], away_mm)
+                                    : sides_.asideOfEdge(corners[i], corners[(i + 1) % 3], away_mm);
   return answer;
 }
 

@@ -14,6 +14,9 @@ namespace softscope {
 
 enum class SurfaceFeature : std::uint8_t { kFace, kEdge, kVertex, kNone };
 
+/// Beside a border by more than this there is no surface; less is rounding of floats near 300 mm.
+inline constexpr double kBeyondBorder_mm = 1e-3;
+
 /// The point of a surface that lies closest to a query point.
 struct ClosestPoint {
   Eigen::Vector3d point_mm;   // on the surface
@@ -22,7 +25,14 @@ struct ClosestPoint {
   std::int32_t triangle;      // index into the mesh; of equally close ones the lowest; -1 = none
   SurfaceFeature feature;     // what of the triangle the point lies on
   bool on_border;             // the feature belongs to an edge that is not closed
+  double aside_mm;            // on a border: how far beside the surface the point lies, else 0
 };
+
+/// Whether the point lies beyond the rim of an open surface, which says nothing of that place: a
+/// distance from the rim is no error.
+inline bool isBeyondBorder(const ClosestPoint& closest) {
+  return closest.aside_mm > kBeyondBorder_mm;
+}
 
 /// Finds closest points on the triangles of a mesh (not on its vertices alone). Exact: the search
 /// in float only proposes candidates, double decides. The answers depend neither on the number of

@@ -80,6 +80,20 @@ TEST(ModelErrors, APointFarBehindItsTissueIsStillObserved) {
   EXPECT_NEAR(errors.observed_signed_mm.mean, -10, 1e-5);
 }
 
+TEST(ModelErrors, BeyondTheRimOfAnOpenTruthNothingIsJudged) {
+  Moment moment;
+  TriangleMesh patch = makeRectangle(20, 20, 4, 4);
+  for (Eigen::Vector3f& v : patch.vertices_mm) v += Eigen::Vector3f(-10, -10, 50);
+  moment.surface = TriangleTree(patch);
+  // Over the middle, right over the rim, and 4 mm beside it, all in the picture.
+  const ModelErrors errors =
+      modelErrors({{0, 0, 49.5f}, {10, 0, 49.5f}, {14, 0, 49.5f}}, moment.truth());
+  EXPECT_EQ(errors.each_observed, (std::vector<std::uint8_t>{1, 1, 0}));
+  EXPECT_EQ(errors.beyond_count, 1u);
+  EXPECT_NEAR(errors.observed_mm.max, 0.5, 1e-6);
+  EXPECT_EQ(errors.predicted_mm.count, 0u);
+}
+
 TEST(ModelErrors, TissueBehindSomethingIsPredicted) {
   Moment moment;
   for (int v = 0; v < 64; ++v)
