@@ -1,6 +1,7 @@
 // apps/figure.cpp: `softscope figure`: axial, coronal, sagittal and 3-D in one picture.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -92,7 +93,7 @@ void FigureCommand::declare(ArgumentList& arguments) {
   options_.declare(arguments);
 }
 
-/// "0,10,20". Throws OptionError.
+/// "0,10,20", rising whatever the order. Throws OptionError.
 std::vector<int> parseFrames(const std::string& text) {
   std::vector<int> frames;
   for (const std::string_view word : wordsOf(text)) {
@@ -101,6 +102,9 @@ std::vector<int> parseFrames(const std::string& text) {
       throw OptionError("--frames is `" + text + "`, but must be numbers of frames, e.g. 0,10,20");
     frames.push_back(static_cast<int>(*frame));
   }
+  std::sort(frames.begin(), frames.end());
+  if (const auto twice = std::adjacent_find(frames.begin(), frames.end()); twice != frames.end())
+    throw OptionError(say("--frames names ", *twice, " twice; name each frame once"));
   return frames;
 }
 
@@ -176,7 +180,10 @@ FourPanelOptions FigureCommand::panelsFor(const Scene& scene) const {
 void FigureCommand::validateKind() const {
   require(kind_ == "four" || kind_ == "frames" || kind_ == "series" || kind_ == "compare", "--kind",
           kind_, "must be four, frames, series or compare");
-  parseFrames(frames_);
+  const std::size_t frames = parseFrames(frames_).size();
+  require(frame_ < 0 || frames == 0, "--frame", frame_, "excludes --frames; give one");
+  require(kind_ != "compare" || frames < 2, "--frames", "`" + frames_ + "`",
+          "of --kind compare must be one frame");
   if (kind_ == "four") {
     require(frames_.empty(), "--frames", frames_, "needs --kind frames, series or compare");
     require(other_.empty(), "--other", other_, "needs --kind compare");

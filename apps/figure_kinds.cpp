@@ -88,10 +88,15 @@ std::vector<int> framesFor(const RunFigureOptions& options, const std::vector<in
   return options.frames.empty() ? spread(there) : options.frames;
 }
 
+std::vector<int> keysOf(const FrameFiles& files) {
+  std::vector<int> keys;
+  for (const auto& [frame, file] : files) keys.push_back(frame);
+  return keys;
+}
+
 RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   const JudgedRun run = openJudgedRun(options.run);
-  std::vector<int> there;
-  for (const auto& [frame, file] : run.models) there.push_back(frame);
+  const std::vector<int> there = keysOf(run.models);
   if (there.empty())
     throw InputError(options.run +
                      ": has no models of single frames; reconstruct with --save-every N");
@@ -200,16 +205,54 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
   return figure;
 }
 
-std::string nameOf(const std::string& run) {
-  const std::filesystem::path path = std::filesystem::path(run).lexically_normal();
-  return shown((path.has_filename() ? path : path.parent_path()).filename());
+/// "results/paper/run" and "results/default/run": "paper" and "default".
+std::pair<std::string, std::string> distinctNames(const std::string& run,
+                                                  const std::string& other) {
+  namespace fs = std::filesystem;
+  const auto whole = [](const std::string& folder) {
+    const fs::path path = fs::absolute(folder).lexically_normal();
+    return path.has_filename() ? path : path.parent_path();
+  };
+  const fs::path first = whole(run), second = whole(other);
+  fs::path a = first, b = second;
+  while (a.filename() == b.filename() && a.has_relative_path() && b.has_relative_path()) {
+    a = a.parent_path();
+    b = b.parent_path();
+  }
+  const bool same = a.filename().empty() || b.filename().empty();
+  return same ? std::pair{shown(first.filename()), shown(second.filename())}
+              : std::pair{shown(a.filename()), shown(b.filename())};
+}
+
+/// Without a wish the last frame of both.
+int frameOfBoth(const RunFigureOptions& options, const std::vector<int>& first,
+                const std::vector<int>& second) {
+  std::vector<int> both;
+  std::set_intersection(first.begin(), first.end(), second.begin(), second.end(),
+                        std::back_inserter(both));
+  if (both.empty())
+    throw InputError(options.run + " and " + options.other +
+                     ": have no frame in common; reconstruct with --save-every 1");
+  if (options.frames.empty()) return both.back();
+  const int frame = options.frames[0];
+  if (!std::binary_search(both.begin(), both.end(), frame))
+    throw OptionError(say("--frame is ", frame, ", but the last one that both runs have is ",
+                          both.back(), "; reconstruct with --save-every 1 for all"));
+  return frame;
+}
+
+/// By frame; the last model stands where none was saved.
+FrameFiles allModels(const JudgedRun& run) {
+  FrameFiles models = run.models;
+  if (!run.last_model.empty() && !run.frames.empty())
+    models.emplace(run.frames.back(), run.last_model);
+  return models;
 }
 
 RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs) {
   const JudgedPair first(options.run, options.sequence), second(options.other, options.sequence);
-  const int wanted = options.frames.empty() ? -1 : options.frames[0];
-  const int frame = first.chooseFrame(wanted);
-  const RunMoment a = first.moment(frame), b = second.moment(second.chooseFrame(frame));
+  const int frame = frameOfBoth(options, first.frames(), second.frames());
+  const RunMoment a = first.moment(frame), b = second.moment(frame);
   const ErrorColourOptions errors = sharedRange(options, {&a, &b});
   RunFigure figure;
   figure.record = {
@@ -217,15 +260,16 @@ RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs)
   std::list<Scene> scenes;
   std::vector<ScenePanel> coloured, mapped;
   FigureFoot foot;
-  for (const auto& [moment, run] : {std::pair{&a, options.run}, {&b, options.other}}) {
+  const auto names = distinctNames(options.run, options.other);
+  for (const auto& [moment, name] : {std::pair{&a, names.first}, {&b, names.second}}) {
     noteMoment(*moment, inputs);
     const SurfaceErrorMap map = mapOf(*moment, options.observed_only, errors);
     explainToo(map, foot);
     figure.record["errors"].push_back(map.json);
     scenes.push_back(sceneOf(moment->model));
-    coloured.push_back(panelOf(scenes.back(), eyeOf(options), nameOf(run)));
+    coloured.push_back(panelOf(scenes.back(), eyeOf(options), name));
     scenes.push_back(errorScene(*moment, map));
-    mapped.push_back(panelOf(scenes.back(), eyeOf(options), nameOf(run) + ", errors"));
+    mapped.push_back(panelOf(scenes.back(), eyeOf(options), name + ", errors"));
   }
   coloured.insert(coloured.end(), mapped.begin(), mapped.end());
   PanelOptions sheet = panelsFor(options, scenes);
@@ -235,22 +279,20 @@ RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs)
 }
 
 RunFigure compareColoured(const RunFigureOptions& options, SceneInputs& inputs) {
+  const auto names = distinctNames(options.run, options.other);
+  const FrameFiles first = allModels(openJudgedRun(options.run));
+  const FrameFiles second = allModels(openJudgedRun(options.other));
+  const int frame = frameOfBoth(options, keysOf(first), keysOf(second));
   std::list<Scene> scenes;
   std::vector<ScenePanel> panels;
-  for (const std::string& folder : {options.run, options.other}) {
-    const JudgedRun run = openJudgedRun(folder);
-    std::filesystem::path file = run.last_model;
-    if (!options.frames.empty()) {
-      const auto found = run.models.find(options.frames[0]);
-      file = found == run.models.end() ? std::filesystem::path() : found->second;
-    }
-    if (file.empty())
-      throw InputError(folder + ": has no model of that frame; reconstruct with --save-every 1");
+  for (const auto& [models, name] : {std::pair{&first, names.first}, {&second, names.second}}) {
+    const std::filesystem::path file = models->at(frame);
     inputs.note("model", file.string());
     scenes.push_back(sceneOf(modelMesh(file)));
-    panels.push_back(panelOf(scenes.back(), eyeOf(options), nameOf(folder)));
+    panels.push_back(panelOf(scenes.back(), eyeOf(options), name));
   }
-  return {drawScenes(panels, panelsFor(options, scenes)), {{"runs", {options.run, options.other}}}};
+  return {drawScenes(panels, panelsFor(options, scenes)),
+          {{"runs", {options.run, options.other}}, {"frame", frame}}};
 }
 
 }  // namespace

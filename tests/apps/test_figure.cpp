@@ -173,6 +173,42 @@ TEST_F(RunFigure, WholeRunsHaveFiguresToo) {
   }
 }
 
+TEST_F(RunFigure, FramesInAnyOrderStandBesideTheirOwnErrors) {
+  const auto series = [&](const std::string& frames) {
+    return softscope::test::run({"figure", at("run"), "--kind", "series", "--reference",
+                                 at("truth"), "--frames", frames, "--out", at("s.svg"), "--dpi",
+                                 "50", "--force", "--json"});
+  };
+  const Json rising = series("0,4").json(), falling = series("4,0").json();
+  EXPECT_EQ(falling["frames"], (Json{0, 4}));
+  EXPECT_EQ(falling["errors"], rising["errors"]);
+  EXPECT_LT(falling["errors"][0]["distance"]["mean_mm"],
+            falling["errors"][1]["distance"]["mean_mm"])
+      << "the made run gets worse by 0.02 mm a frame";
+  EXPECT_EQ(series("4,4").exit_code, 2);
+}
+
+TEST_F(RunFigure, TwoRunsAreToldApartAndShownAtTheSameFrame) {
+  makeWallRun(at("paper/run"), 3);
+  makeWallRun(at("ours/run"), kFrames);
+  std::vector<std::string> line{"figure",       at("paper/run"), "--kind",    "compare", "--other",
+                                at("ours/run"), "--out",         at("c.svg"), "--dpi",   "50",
+                                "--force",      "--json"};
+  const Json coloured = softscope::test::run(line).json();
+  EXPECT_EQ(coloured["frame"], 2) << "the last one of the shorter run";
+  for (const char* word : {">(a) paper<", ">(b) ours<"})
+    EXPECT_THAT(textOf(at("c.svg")), HasSubstr(word));
+  line.insert(line.end(), {"--reference", at("truth")});
+  EXPECT_EQ(softscope::test::run(line).json()["frame"], 2);
+  EXPECT_THAT(textOf(at("c.svg")), HasSubstr(">(c) paper, errors<"));
+  line.insert(line.end(), {"--frames", "0,1"});
+  EXPECT_EQ(softscope::test::run(line).exit_code, 2) << "which one?";
+  line.back() = "5";
+  const Outcome beyond = softscope::test::run(line);
+  EXPECT_EQ(beyond.exit_code, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("the last one that both runs have is 2"));
+}
+
 class Slice : public Figure {
  protected:
   Outcome slice(std::vector<std::string> more) const {
