@@ -135,6 +135,16 @@ Json agreementJson(const BlandAltman& b) {
           {"high_limit_ci_mm", intervalJson(b.high_limit_ci)}};
 }
 
+/// By P95; a case without one is neither better nor worse. Null where none has one.
+const ReportCase* worstOf(const Cases& cases) {
+  const ReportCase* worst = nullptr;
+  for (const ReportCase& c : cases)
+    if (std::isfinite(c.main("p95_mm")) &&
+        (worst == nullptr || c.main("p95_mm") > worst->main("p95_mm")))
+      worst = &c;
+  return worst;
+}
+
 }  // namespace
 
 ReportTable cohortComparedTable(const Cases& cases) {
@@ -156,9 +166,7 @@ std::vector<ReportPart> cohortParts(const Cases& cases, const ReportChoices& cho
   const auto p95s = valuesOf(cases, metricNamed("p95_mm"));
   const CohortSummary mean = summariseCohort(means, choices.seed);
   const CohortSummary p95 = summariseCohort(p95s, choices.seed);
-  const auto worst = std::max_element(cases.begin(), cases.end(), [](const auto& a, const auto& b) {
-    return a.main("p95_mm") < b.main("p95_mm");
-  });
+  const ReportCase* worst = worstOf(cases);
   std::vector<ReportPart> parts;
   parts.emplace_back(ReportParagraph{
       "Over " + std::to_string(cases.size()) + " cases the model lies " + spread(mean) +
@@ -172,7 +180,8 @@ std::vector<ReportPart> cohortParts(const Cases& cases, const ReportChoices& cho
         std::isfinite(mean.mean_ci.low) ? "mm, bootstrap over the cases"
                                         : "it takes three cases or more"},
        {"95th percentile", numberText(p95.mean) + " mm", "median " + numberText(p95.median)},
-       {"Worst case by P95", worst->name, millimetresText(worst->main("p95_mm"))}}});
+       {"Worst case by P95", worst == nullptr ? "not measured" : worst->name,
+        worst == nullptr ? "" : millimetresText(worst->main("p95_mm"))}}});
   parts.emplace_back(summaryTable(cases, choices));
   parts.emplace_back(casesTable(cases));
   AgreementData data;

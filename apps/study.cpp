@@ -12,6 +12,7 @@
 #include "apps/machine.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
+#include "apps/shell_word.h"
 #include "apps/study_case.h"
 #include "apps/study_outputs.h"
 #include "core/error.h"
@@ -50,6 +51,7 @@ class StudyCommand : public Command {
   int runAll(const Study& study, const StudyFolder& folder);
   std::vector<const StudyCase*> pending(const Study& study, const StudyFolder& folder) const;
   ChildProcess start(const StudyCase& study_case, const StudyFolder& folder, int threads) const;
+  static bool tellIfBad(const StudyCase& one, const Json& record, const StudyFolder& folder);
   int writeAll(const Study& study, const StudyFolder& folder) const;
   int jobCount(std::size_t cases) const;
   std::string commandLine() const;
@@ -70,9 +72,14 @@ void StudyCommand::declare(ArgumentList& arguments) {
   arguments.flag("--force", force_, "run cases that are done again");
 }
 
-/// As text that a shell would take, without options that decide no result.
+/// As a shell takes it, without options that decide no result, and without the machine's folders.
 std::string StudyCommand::commandLine() const {
-  return "softscope study " + file_ + " --out " + out_;
+  const auto word = [](const std::filesystem::path& path) {
+    const auto whole = path.lexically_normal();
+    const auto name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+    return shellWord(path.is_absolute() ? name.string() : path.string());
+  };
+  return "softscope study " + word(file_) + " --out " + word(out_);
 }
 
 int StudyCommand::run() {
@@ -87,6 +94,9 @@ int StudyCommand::run() {
   if (out_.empty()) throw OptionError("softscope study: --out is missing: folder for everything");
   const StudyFolder folder{out_};
   folder.requireUsable();
+  if (table_ && !std::filesystem::exists(folder.marker()))
+    throw OptionError("--table: there is no study in " + shown(folder.root) +
+                      " yet; run it first, without --table");
   const StudyCase* one = case_.empty() ? nullptr : &study.caseNamed(case_);
   folder.claim();
   if (table_) return writeAll(study, folder);
@@ -171,18 +181,25 @@ int StudyCommand::runAll(const Study& study, const StudyFolder& folder) {
   return kInterrupted;
 }
 
+bool StudyCommand::tellIfBad(const StudyCase& one, const Json& record, const StudyFolder& folder) {
+  if (!record.is_object()) {
+    spdlog::warn("{}: has not been run", one.name);
+    return true;
+  }
+  const std::string status = record["status"], reason = record["reason"];
+  if (status == "outdated") spdlog::warn("{}: {}", one.name, reason);
+  if (status == "failed")
+    spdlog::warn("{}: {}; {} tells more", one.name, reason,
+                 shown(folder.ofCase(one.name) / "log.txt"));
+  return status == "outdated" || status == "failed";
+}
+
 int StudyCommand::writeAll(const Study& study, const StudyFolder& folder) const {
   std::vector<Json> records;
   int failed = 0;
   for (const StudyCase& one : study.cases) {
-    records.push_back(recordOf(one, folder));
-    const bool bad = !records.back().is_object() || records.back()["status"] == "failed";
-    failed += bad ? 1 : 0;
-    if (bad)
-      spdlog::warn("{}: {}; {} tells more", one.name,
-                   records.back().is_object() ? records.back()["reason"].get<std::string>()
-                                              : std::string("has not been run"),
-                   shown(folder.ofCase(one.name) / "log.txt"));
+    records.push_back(table_ ? currentRecord(one, folder) : recordOf(one, folder));
+    failed += tellIfBad(one, records.back(), folder) ? 1 : 0;
   }
   writeStudy(study, records, commandLine(), folder);
   if (common.json)

@@ -11,6 +11,7 @@
 
 #include "apps/child_process.h"
 #include "apps/exit_codes.h"
+#include "apps/path_words.h"
 #include "apps/result_output.h"
 #include "apps/study_settings.h"
 #include "apps/version.h"
@@ -56,7 +57,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Content of a sequence: whatever lies in it, one folder deep.
+/// Content of a sequence, or of one file: whatever lies in it, truth included.
 std::string sequenceDigest(const fs::path& sequence) {
   std::string all = sha256Of(sequence);
   for (const char* name :
@@ -91,6 +92,18 @@ Json withoutDetails(Json json) {
   return json;
 }
 
+Json recordWithStatus(const StudyCase& one, const char* status, const std::string& reason) {
+  Json record{{"schema_version", 1}, {"softscope", versionText()}, {"name", one.name}};
+  record["case"] = one.base;
+  record["variant"] = one.variant;
+  record["sweep"] = one.sweep;
+  record["level"] = one.sweep.empty() ? Json() : Json(one.level);
+  record["status"] = status;
+  record["reason"] = reason;
+  record["notes"] = one.notes;
+  return record;
+}
+
 class CaseRunner {
  public:
   CaseRunner(const StudyCase& study_case, const StudyFolder& folder, int threads,
@@ -109,7 +122,6 @@ class CaseRunner {
   void simulate(const fs::path& target);
   void waitFor(const FolderLock& lock) const;
   std::string referenceOf(const fs::path& sequence) const;
-  Json begunRecord() const;
   void judge(Json& record);
 
   const StudyCase& case_;
@@ -177,19 +189,6 @@ std::string CaseRunner::referenceOf(const fs::path& sequence) const {
   return fs::exists(sequence / "groundtruth") ? sequence.string() : "";
 }
 
-Json CaseRunner::begunRecord() const {
-  Json record{{"schema_version", 1}, {"softscope", versionText()}, {"name", case_.name}};
-  record["case"] = case_.base;
-  record["variant"] = case_.variant;
-  record["sweep"] = case_.sweep;
-  record["level"] = case_.sweep.empty() ? Json() : Json(case_.level);
-  record["status"] = "failed";
-  record["reason"] = "";
-  record["notes"] = case_.notes;
-  record["threads"] = threads_;
-  return record;
-}
-
 void CaseRunner::judge(Json& record) {
   const fs::path where = sequence();
   const fs::path run = home_ / "run", evaluation = home_ / "evaluation";
@@ -212,7 +211,8 @@ Json CaseRunner::run() {
   fs::create_directories(home_);
   fs::remove(folder_.record(case_.name));
   fs::remove(home_ / "log.txt");
-  Json record = begunRecord();
+  Json record = recordWithStatus(case_, "failed", "");
+  record["threads"] = threads_;
   try {
     if (case_.skip.empty()) {
       record["digest"] = digestOf(case_);
@@ -226,9 +226,9 @@ Json CaseRunner::run() {
   } catch (const Interrupted&) {
     return {};
   } catch (const StepFailed& failure) {
-    record["reason"] = failure.step + ": " + failure.reason;
+    record["reason"] = failure.step + ": " + withoutFolders(failure.reason, folder_.root.string());
   } catch (const Error& error) {
-    record["reason"] = error.what();
+    record["reason"] = withoutFolders(error.what(), folder_.root.string());
   }
   record["seconds"] = seconds_;
   writeFile(folder_.record(case_.name), jsonText(record), true);
@@ -260,13 +260,29 @@ std::string digestOf(const StudyCase& study_case) {
   all += "\n" + reconstructionText(study_case) + evaluationText(study_case);
   for (const StudyValues* values : {&study_case.reconstruct, &study_case.evaluate})
     for (const char* key : {"right", "calibration", "mask", "reference"})
-      if (const auto file = values->find(key); file != values->end()) all += sha256Of(file->second);
+      if (const auto file = values->find(key); file != values->end())
+        all += sequenceDigest(file->second);
   return sha256OfBytes(all);
 }
 
 Json recordOf(const StudyCase& study_case, const StudyFolder& folder) {
   const Json record = readJson(folder.record(study_case.name));
   return record.is_object() && record.contains("status") ? record : Json();
+}
+
+Json currentRecord(const StudyCase& study_case, const StudyFolder& folder) {
+  const Json record = recordOf(study_case, folder);
+  if (!record.is_object()) return record;
+  if (!study_case.skip.empty()) return recordWithStatus(study_case, "skipped", study_case.skip);
+  const std::string digest = record.value("digest", "");
+  std::string now;
+  try {
+    now = digestOf(study_case);
+  } catch (const Error&) {  // an input that can't be read: the run failed for it, or did so before
+  }
+  if (digest == now) return record;
+  return recordWithStatus(study_case, "outdated",
+                          "its settings or inputs changed since it was run; run the study again");
 }
 
 Json finishedRecord(const StudyCase& study_case, const StudyFolder& folder) {

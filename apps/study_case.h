@@ -13,8 +13,12 @@ namespace softscope {
 /// what it reads, softscope's version. Throws InputError where something can't be read.
 std::string digestOf(const StudyCase& study_case);
 
-/// What case.json says of a case, done or failed; null where there is none.
+/// What case.json says of a case, done, failed or skipped; null where there is none.
 FactSheet::Json recordOf(const StudyCase& study_case, const StudyFolder& folder);
+
+/// The same where it still holds. Of a case whose settings or inputs changed since: "status" is
+/// "outdated", with a reason and no values; of one that can't be run here: skipped.
+FactSheet::Json currentRecord(const StudyCase& study_case, const StudyFolder& folder);
 
 /// The same of a case that is done with the digest that it has now; else null.
 FactSheet::Json finishedRecord(const StudyCase& study_case, const StudyFolder& folder);

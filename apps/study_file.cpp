@@ -19,6 +19,11 @@ using Json = FactSheet::Json;
 
 const std::vector<std::string> kParts{"simulate", "reconstruct", "evaluate"};
 
+/// For the table: an absolute path by its last part.
+std::string notHere(const fs::path& path) {
+  return shown(path.is_absolute() ? path.filename() : path) + " is not here";
+}
+
 /// Reads one study; `where_` begins every complaint.
 class StudyReader {
  public:
@@ -167,7 +172,7 @@ void StudyReader::resolvePaths(StudyCase& target) const {
     const std::string path = expanded(text, known);
     const fs::path place =
         fs::path(path).is_absolute() || !known ? fs::path(path) : file_.parent_path() / path;
-    if ((!known || !fs::exists(place)) && target.skip.empty()) target.skip = text + " is not here";
+    if ((!known || !fs::exists(place)) && target.skip.empty()) target.skip = notHere(text);
     return place.string();
   };
   if (!target.sequence.empty()) target.sequence = resolved(target.sequence);
@@ -191,10 +196,10 @@ void StudyReader::resolveOrgan(StudyCase& target) const {
   if (known && fs::exists(place)) {
     mesh->second = place.string();
   } else if (otherwise == "builtin") {
-    target.notes.push_back("built-in organ, as " + mesh->second + " is not here");
+    target.notes.push_back("built-in organ, as " + notHere(mesh->second));
     mesh->second = "builtin";
   } else {
-    target.skip = mesh->second + " is not here";
+    target.skip = notHere(mesh->second);
   }
 }
 

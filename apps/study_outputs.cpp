@@ -40,10 +40,6 @@ bool anyFinite(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-bool wasRun(const Json& record) {
-  return record.is_object() && record.value("status", "") != "skipped";
-}
-
 LevelPlotData levelsOf(const Study& study, const std::vector<Json>& records,
                        const StudySweep& sweep, const StudyPlot& plot) {
   LevelPlotData data{study.title, sweep.label, plot.metric.label, {}, plot.limit};

@@ -2,6 +2,7 @@
 #include "apps/study_settings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "apps/reconstruct_options.h"
@@ -9,6 +10,8 @@
 #include "core/error.h"
 #include "io/message.h"
 #include "io/nearest_name.h"
+#include "io/sequence_options.h"
+#include "io/text_lines.h"
 
 namespace softscope {
 namespace {
@@ -54,6 +57,37 @@ std::string lines(const SettingsBinder& binder) {
 std::string valueOr(const StudyValues& values, const std::string& key, const std::string& other) {
   const auto found = values.find(key);
   return found == values.end() ? other : found->second;
+}
+
+void requireOneOf(const StudyCase& study_case, const std::string& key, const std::string& value,
+                  const std::vector<std::string>& known) {
+  if (isOption(value, known)) return;
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  const std::string nearest = nearestName(value, known);
+  throw OptionError("case " + study_case.name + ": " + key + " is " + excerpt(value) +
+                    ", but must be one of " + list +
+                    (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)"));
+}
+
+/// What `reconstruct` would refuse only when its turn comes.
+void checkReconstructValues(const StudyCase& study_case) {
+  const StudyValues& values = study_case.reconstruct;
+  requireOneOf(study_case, "reconstruct.backend", valueOr(values, "backend", "auto"),
+               {"auto", "cpu", "cuda"});
+  requireOneOf(study_case, "reconstruct.preset", valueOr(values, "preset", "default"),
+               {"default", "paper"});
+  const std::string save_every = valueOr(values, "save_every", "5");
+  const auto number = numberOf(save_every);
+  if (!number || *number < 0 || *number > 1e9 || *number != std::floor(*number))
+    throw OptionError("case " + study_case.name + ": reconstruct.save_every is " +
+                      excerpt(save_every) + ", but must be a whole number, 0 or more");
+  const std::string frames = valueOr(values, "frames", "");
+  try {
+    if (!frames.empty()) parseFrameRange(frames);
+  } catch (const OptionError& error) {
+    throw OptionError("case " + study_case.name + ": reconstruct.frames: " + error.what());
+  }
 }
 
 }  // namespace
@@ -115,6 +149,7 @@ std::string simulationText(const StudyCase& study_case) {
 
 std::string reconstructionText(const StudyCase& study_case) {
   const StudyValues& values = study_case.reconstruct;
+  checkReconstructValues(study_case);
   const std::string preset = valueOr(values, "preset", "default");
   ReconstructOptions options(preset);
   SettingsBinder binder;
@@ -127,6 +162,12 @@ std::string reconstructionText(const StudyCase& study_case) {
 }
 
 std::string evaluationText(const StudyCase& study_case) {
+  const std::string align = valueOr(study_case.evaluate, "align", "none");
+  requireOneOf(study_case, "evaluate.align", align, {"none", "rigid", "icp"});
+  const std::string reference = valueOr(study_case.evaluate, "reference", "");
+  if (align != "none" && (reference.empty() || fs::is_directory(reference)))
+    throw OptionError("case " + study_case.name +
+                      ": evaluate.align is for a mesh; name one as evaluate.reference");
   std::string text;
   for (const auto& [key, value] : study_case.evaluate) {
     if (!isOption(key, kEvaluateOptions)) {

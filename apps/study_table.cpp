@@ -73,6 +73,19 @@ std::vector<std::string> besideHeadings(const Study& study) {
   return {headings.begin(), headings.end()};
 }
 
+std::string listed(const std::vector<double>& levels) {
+  std::string text;
+  for (const double level : levels) text += (text.empty() ? "" : ", ") + shortest(level);
+  return text;
+}
+
+/// What wasn't run can neither hold nor break.
+std::string breakText(const StudyBreak& found) {
+  const std::string unknown = found.not_run.empty() ? "" : "; not run: " + listed(found.not_run);
+  if (found.broken) return "breaks at " + shortest(found.level) + unknown;
+  return found.not_run.empty() ? "holds at all levels" : "holds at " + listed(found.held) + unknown;
+}
+
 std::vector<std::string> notesOf(const Study& study, const std::vector<Json>& records) {
   std::vector<std::string> notes;
   std::set<std::string> builds;
@@ -87,8 +100,7 @@ std::vector<std::string> notesOf(const Study& study, const std::vector<Json>& re
   }
   for (const StudyBreak& found : breaksOf(study, records))
     notes.push_back(found.plot + ", " + found.sweep +
-                    (found.series.empty() ? "" : ", " + found.series) + ": " +
-                    (found.broken ? "breaks at " + shortest(found.level) : "holds at all levels"));
+                    (found.series.empty() ? "" : ", " + found.series) + ": " + breakText(found));
   if (builds.size() > 1)
     notes.push_back("the cases were run by " + std::to_string(builds.size()) +
                     " different builds of softscope; --force runs all of them again");
@@ -117,6 +129,27 @@ bool breaks(const Json& record, const StudyPlot& plot) {
          valueAt(record, "run.fused_share") < kLeastFusedShare;
 }
 
+/// Levels come in rising order: the first that breaks stays.
+void addLevel(const StudyCase& one, const Json& record, const StudyPlot& plot,
+              std::vector<StudyBreak>& found) {
+  const std::string series = seriesName(one);
+  auto entry = std::find_if(found.begin(), found.end(), [&](const StudyBreak& b) {
+    return b.plot == plot.name && b.series == series && b.sweep == one.sweep;
+  });
+  if (entry == found.end()) {
+    found.push_back({plot.name, series, one.sweep, false, 0, {}, {}});
+    entry = std::prev(found.end());
+  }
+  if (!wasRun(record)) {
+    entry->not_run.push_back(one.level);
+  } else if (!breaks(record, plot)) {
+    entry->held.push_back(one.level);
+  } else if (!entry->broken) {
+    entry->broken = true;
+    entry->level = one.level;
+  }
+}
+
 }  // namespace
 
 double valueAt(const Json& record, const std::string& path) {
@@ -133,28 +166,23 @@ std::string seriesName(const StudyCase& one) {
   return one.base + (one.base.empty() || one.variant.empty() ? "" : ", ") + one.variant;
 }
 
+bool wasRun(const Json& record) {
+  const std::string status = statusOf(record);
+  return status == "done" || status == "failed";
+}
+
 std::vector<StudyBreak> breaksOf(const Study& study, const std::vector<Json>& records) {
   std::vector<StudyBreak> found;
   for (const StudyPlot& plot : study.plots) {
     if (!(plot.limit > 0)) continue;
     for (std::size_t i = 0; i < study.cases.size(); ++i) {
       const StudyCase& one = study.cases[i];
-      if (one.sweep.empty() || statusOf(records[i]) == "not run" ||
-          statusOf(records[i]) == "skipped")
-        continue;
-      const std::string series = seriesName(one);
-      const auto same = std::find_if(found.begin(), found.end(), [&](const StudyBreak& b) {
-        return b.plot == plot.name && b.series == series && b.sweep == one.sweep;
-      });
-      StudyBreak& entry =
-          same != found.end()
-              ? *same
-              : found.emplace_back(StudyBreak{plot.name, series, one.sweep, false, 0});
-      if (entry.broken || !breaks(records[i], plot)) continue;
-      entry.broken = true;
-      entry.level = one.level;
+      if (!one.sweep.empty()) addLevel(one, records[i], plot, found);
     }
   }
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [](const StudyBreak& b) { return !b.broken && b.held.empty(); }),
+              found.end());
   return found;
 }
 
@@ -173,7 +201,8 @@ Json studyJson(const Study& study, const std::vector<Json>& records, const std::
     json["breaks"].push_back({{"plot", found.plot},
                               {"series", found.series},
                               {"sweep", found.sweep},
-                              {"level", found.broken ? Json(found.level) : Json()}});
+                              {"level", found.broken ? Json(found.level) : Json()},
+                              {"levels_not_run", found.not_run}});
   json["cases"] = Json::array();
   for (std::size_t i = 0; i < records.size(); ++i)
     json["cases"].push_back(caseJson(study.cases[i], records[i]));

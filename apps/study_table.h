@@ -13,7 +13,8 @@ namespace softscope {
 struct StudyBreak {
   std::string plot, series, sweep;
   bool broken = false;
-  double level = 0;  // if broken
+  double level = 0;                   // if broken
+  std::vector<double> held, not_run;  // levels that don't break; that nobody knows of
 };
 
 /// The whole study as study.json: its cases' records as they are, what breaks where, how and on
@@ -24,11 +25,14 @@ FactSheet::Json studyJson(const Study& study, const std::vector<FactSheet::Json>
 /// Number at a dotted path of a case's record; NaN where there is none.
 double valueAt(const FactSheet::Json& record, const std::string& path);
 
+/// Done or failed, so that it says something; not skipped, outdated or never begun.
+bool wasRun(const FactSheet::Json& record);
+
 /// "heart, paper": what a curve or bar stands for.
 std::string seriesName(const StudyCase& study_case);
 
-/// Where a level's metric is missing, above the plot's limit, or fewer than half of the frames
-/// were fused, the level breaks.
+/// Series of which no level was run are left out. Where a level's metric is missing, above the
+/// plot's limit, or fewer than half of the frames were fused, the level breaks.
 std::vector<StudyBreak> breaksOf(const Study& study, const std::vector<FactSheet::Json>& records);
 
 struct StudyTable {

@@ -128,6 +128,20 @@ TEST_F(Report, SeveralCasesBecomeACohort) {
   EXPECT_THAT(textOf(at("page.pdf")), testing::StartsWith("%PDF"));
 }
 
+TEST_F(Report, ACaseWithoutValuesIsNotTheWorst) {
+  writeCase(at("blank"), 0.1);
+  Json record = Json::parse(textOf(at("blank/evaluation.json")));
+  record["surface"]["p95_mm"] = nullptr;
+  write("blank/evaluation.json", record.dump());
+  writeCase(at("good"), 0.2);
+  writeCase(at("bad"), 0.4);
+  const std::string html = page(
+      {at("blank"), at("good"), at("bad"), "--name", "blank", "--name", "good", "--name", "bad"});
+  const std::size_t tile = html.find("Worst case by P95");
+  ASSERT_NE(tile, std::string::npos);
+  EXPECT_THAT(html.substr(tile, 120), HasSubstr("bad"));
+}
+
 TEST_F(Report, TwoMethodsArePairedCaseByCase) {
   std::vector<std::string> line;
   for (int i = 0; i < 3; ++i) {

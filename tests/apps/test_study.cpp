@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "apps/study_case.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
@@ -108,6 +109,54 @@ TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
   EXPECT_EQ(result()["cases"][1]["status"], "not run");
 }
 
+// A table of yesterday's numbers under today's settings would be believed.
+TEST_F(StudyCommand, TheTableLeavesOutWhatWasRunWithOtherSettings) {
+  const std::string toml = small() + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
+  ASSERT_EQ(study(toml).exit_code, 0);
+  const Outcome changed = study(toml + "reconstruct.fusion.max_weight = 5\n", {"--table"});
+  EXPECT_EQ(changed.exit_code, 1);
+  EXPECT_THAT(changed.err, HasSubstr("b: its settings or inputs changed"));
+  EXPECT_EQ(result()["cases"][0]["status"], "done");
+  EXPECT_EQ(result()["cases"][1]["status"], "outdated");
+  EXPECT_FALSE(result()["cases"][1].contains("run")) << "numbers of other settings";
+  EXPECT_EQ(study(toml, {"--table"}).exit_code, 0);
+  EXPECT_EQ(result()["cases"][1]["status"], "done");
+}
+
+TEST_F(StudyCommand, TruthThatChangedMakesACaseOutdated) {
+  const std::string toml = small();
+  write("clip/groundtruth/mesh/000000.ply", "one");
+  write("truth/groundtruth/mesh/000000.ply", "one");
+  const std::string with_reference = toml + "[evaluate]\nreference = 'truth'\n";
+  const auto digestNow = [&](const std::string& text) {
+    const Study read = readStudy(write("study.toml", text));
+    return digestOf(read.cases[0]);
+  };
+  const std::string own = digestNow(toml), named = digestNow(with_reference);
+  write("clip/groundtruth/mesh/000000.ply", "two");
+  EXPECT_NE(digestNow(toml), own);
+  const std::string named_later = digestNow(with_reference);
+  write("truth/groundtruth/mesh/000000.ply", "two");
+  EXPECT_NE(digestNow(with_reference), named_later);
+  EXPECT_NE(named, named_later);
+}
+
+TEST_F(StudyCommand, NoFoldersOfTheMachineInWhatItShows) {
+  write("clips of Jane Doe/broken/left/notes.txt", "no picture");
+  const Outcome done =
+      study("[[case]]\nname = 'broken'\nsequence = '" + at("clips of Jane Doe/broken") +
+            "'\n[[case]]\nname = 'absent'\n" + "sequence = '" + at("no where") + "'\n");
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_THAT(record("absent")["reason"], "no where is not here");
+  for (const char* name : {"report.html", "table.md", "table.csv", "study.json"}) {
+    EXPECT_THAT(contentOf(at("out/" + std::string(name))), testing::Not(HasSubstr(folder.string())))
+        << name;
+    EXPECT_THAT(contentOf(at("out/" + std::string(name))), testing::Not(HasSubstr("Doe"))) << name;
+  }
+  EXPECT_THAT(contentOf(at("out/report.html")),
+              HasSubstr("<code>softscope study study.toml --out out</code>"));
+}
+
 TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
   const auto expectOneLine = [](const Outcome& outcome, const char* says) {
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
@@ -117,6 +166,7 @@ TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
   expectOneLine(study("[[case]]\nname = 'heart'\n", {"--case", "haert"}), "did you mean `heart`");
   expectOneLine(study("[simulate]\nfrmes = 3\n"), "frames");
   expectOneLine(study("", {"--table", "--list"}), "exclude each other");
+  expectOneLine(study(kSimulated, {"--table"}), "there is no study in");
   EXPECT_FALSE(fs::exists(at("out")));
   write("out/photograph.png", "mine");
   expectOneLine(study(kSimulated), "is no folder of a study");

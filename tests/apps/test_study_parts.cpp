@@ -92,6 +92,12 @@ TEST_F(StudyFile, SaysWhatIsWrongBeforeAnyWork) {
               HasSubstr("a value for each of its 2 levels"));
   EXPECT_THAT(complaintAbout("[[sweep]]\nname = 's'\nlevels = [2, 1]\n"), HasSubstr("rise"));
   EXPECT_THAT(complaintAbout("[simulate]\nframes = [1, 2]\n"), HasSubstr("[[sweep]]"));
+  EXPECT_THAT(complaintAbout("[reconstruct]\nbackend = 'cdua'\n"), HasSubstr("mean `cuda`"));
+  EXPECT_THAT(complaintAbout("[reconstruct]\npreset = 'papr'\n"), HasSubstr("mean `paper`"));
+  EXPECT_THAT(complaintAbout("[reconstruct]\nsave_every = -1\n"), HasSubstr("0 or more"));
+  EXPECT_THAT(complaintAbout("[reconstruct]\nframes = '9-3'\n"), HasSubstr("reconstruct.frames"));
+  EXPECT_THAT(complaintAbout("[evaluate]\nalign = 'ridgid'\n"), HasSubstr("mean `rigid`"));
+  EXPECT_THAT(complaintAbout("[evaluate]\nalign = 'icp'\n"), HasSubstr("is for a mesh"));
 }
 
 /// One sweep of three levels with a mean of 0.1, 0.7 and none.
@@ -128,6 +134,20 @@ TEST(StudyTable, SaysWhereASweepBreaks) {
   EXPECT_EQ(breaksOf(swept.study, swept.records)[0].level, 3) << "a failed case is broken";
   swept.records[0]["run"]["fused_share"] = 0.4;
   EXPECT_EQ(breaksOf(swept.study, swept.records)[0].level, 1) << "most frames were not fused";
+}
+
+TEST(StudyTable, LevelsThatWereNotRunDoNotHold) {
+  Swept swept;
+  swept.study.plots[0].limit = 1;
+  swept.records[2] = Json();
+  EXPECT_THAT(studyTable(swept.study, swept.records).notes,
+              ElementsAre("points, noise: holds at 1, 2; not run: 3"));
+  swept.records[0] = {{"name", "noise-1"}, {"status", "outdated"}, {"reason", "changed"}};
+  swept.study.plots[0].limit = 0.5;
+  EXPECT_THAT(studyTable(swept.study, swept.records).notes,
+              ElementsAre("noise-1: changed", "points, noise: breaks at 2; not run: 1, 3"));
+  swept.records[1] = Json();
+  EXPECT_TRUE(breaksOf(swept.study, swept.records).empty()) << "nothing is known";
 }
 
 TEST(StudyTable, HasARowACaseAndNoEmptyColumns) {
