@@ -208,11 +208,11 @@ void ReconstructCommand::reconstructAll(SequenceReader& reader, Reconstructor& r
     folder.add(frame);
     record.add(frame);
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
-      folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model.model);
+      folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
     checkpoint.next_frame = frame.frame + 1;
     if (++since_flush >= checkpoint_every_ && !reconstructor.backend().empty()) {
       checkpoint.state = reconstructor.state();
-      folder.flush(checkpoint.state.model.model, checkpoint);
+      folder.flush(checkpoint);
       since_flush = 0;
     }
     progress.advance();
@@ -222,9 +222,9 @@ void ReconstructCommand::reconstructAll(SequenceReader& reader, Reconstructor& r
   if (reconstructor.backend().empty()) return;
   checkpoint.state = reconstructor.state();
   if (interrupted_)
-    folder.flush(checkpoint.state.model.model, checkpoint);
+    folder.flush(checkpoint);
   else
-    folder.finish(checkpoint.state.model.model);
+    folder.finish(checkpoint.state.model);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "fusion/illumination.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "io/message.h"
@@ -81,8 +82,13 @@ int countLines(const std::string& text) {
 
 }  // namespace
 
-PointCloud cloudOf(const PointModel& model) {
-  return {model.positions_mm, model.normals, model.colours, model.weights};
+PointCloud cloudOf(const ModelState& state) {
+  const PointModel& model = state.model;
+  PointCloud cloud{model.positions_mm, model.normals, model.colours, model.weights};
+  const ColourGain& exposure = state.exposure;
+  for (Rgb8& colour : cloud.colours)
+    colour = scaled(colour, exposure.red, exposure.green, exposure.blue);
+  return cloud;
 }
 
 RunFolder::RunFolder(RunFolderOptions options, bool resume) : options_(std::move(options)) {
@@ -134,27 +140,28 @@ void RunFolder::begin() {
 }
 
 void RunFolder::add(const FrameRecord& record) {
+  last_frame_ = record.frame;
   frames_csv_ += framesCsvLine(record);
   tracks_csv_ += tracksCsvLines(record);
   const double time_s = std::isfinite(record.time_s) ? record.time_s : record.frame;
   trajectory_.push_back({time_s, record.world_from_left});
 }
 
-void RunFolder::saveModel(int frame, double time_s, const PointModel& model) {
+void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   begin();
   fs::create_directories(file(kModels));
-  const PointCloud cloud = cloudOf(model);
+  const PointCloud cloud = cloudOf(state);
   writePly(file(kModels) / numbered(frame, ".ply"), cloud, {"world", ""}, true);
   writeFile(file(kModels) / numbered(frame, ".vtp"), pointCloudVtp(cloud), true);
   saved_.push_back({frame, std::isfinite(time_s) ? time_s : frame});
 }
 
-void RunFolder::writeTables(const PointModel& model) {
+void RunFolder::writeTables(const ModelState& state) {
   begin();
   writeFile(file("frames.csv"), framesCsvHeading() + "\n" + frames_csv_, true);
   if (options_.tracks) writeFile(file("tracks.csv"), tracksCsvHeading() + "\n" + tracks_csv_, true);
   if (!trajectory_.empty()) writeTrajectory(file("trajectory.txt"), trajectory_, true);
-  writePly(file("model.ply"), cloudOf(model), {"world", ""}, true);
+  writePly(file("model.ply"), cloudOf(state), {"world", ""}, true);
   if (options_.save_every == 0) return;
   std::string pvd =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
@@ -165,13 +172,15 @@ void RunFolder::writeTables(const PointModel& model) {
   writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
 }
 
-void RunFolder::flush(const PointModel& model, const Checkpoint& checkpoint) {
-  writeTables(model);
+void RunFolder::flush(const Checkpoint& checkpoint) {
+  writeTables(checkpoint.state.model);
   writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
 }
 
-void RunFolder::finish(const PointModel& model) {
-  writeTables(model);
+void RunFolder::finish(const ModelState& state) {
+  if (options_.save_every > 0 && last_frame_ >= 0 && !savesModel(last_frame_))
+    saveModel(last_frame_, trajectory_.back().time_s, state);
+  writeTables(state);
   fs::remove(file(kCheckpoint));
 }
 

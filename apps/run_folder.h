@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/point_cloud.h"
-#include "core/point_model.h"
 #include "core/trajectory.h"
 #include "pipeline/checkpoint.h"
 #include "pipeline/frame_record.h"
@@ -40,10 +39,10 @@ class RunFolder {
     return options_.save_every > 0 && frame % options_.save_every == 0;
   }
   /// models/NNNNNN.ply and .vtp.
-  void saveModel(int frame, double time_s, const PointModel& model);
-  void flush(const PointModel& model, const Checkpoint& checkpoint);
-  /// The run is complete: nothing will be resumed.
-  void finish(const PointModel& model);
+  void saveModel(int frame, double time_s, const ModelState& state);
+  void flush(const Checkpoint& checkpoint);
+  /// The run is complete: nothing will be resumed. The model of its last frame is saved too.
+  void finish(const ModelState& state);
   void writeRecord(const std::string& json);
 
  private:
@@ -52,17 +51,18 @@ class RunFolder {
     double time_s = 0;
   };
   void begin();
-  void writeTables(const PointModel& model);
+  void writeTables(const ModelState& state);
   std::filesystem::path file(const std::string& name) const { return options_.folder / name; }
 
   RunFolderOptions options_;
   bool begun_ = false;
+  int last_frame_ = -1;  // that was added
   std::string frames_csv_, tracks_csv_;
   Trajectory trajectory_;
   std::vector<SavedModel> saved_;
 };
 
-/// The model as a point cloud with weights, world frame.
-PointCloud cloudOf(const PointModel& model);
+/// The model as a point cloud with weights, world frame, in the light of the last fused picture.
+PointCloud cloudOf(const ModelState& state);
 
 }  // namespace softscope

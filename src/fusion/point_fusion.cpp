@@ -112,6 +112,30 @@ class Fuser {
     model_.normals[i] = ((1 - gain) * model_.normals[i] + gain * measured).normalized();
   }
 
+  /// The picture between its pixels. Places beyond the rim read the rim.
+  Rgb8 colourAt(const Eigen::Vector3f& left) const {
+    const ColourImage& picture = observation_.colour;
+    const auto inside = [](float at, int count) {
+      return std::clamp(at, 0.0f, static_cast<float>(count - 1));
+    };
+    const float column =
+        inside(camera_.fx_px * left.x() / left.z() + camera_.cx_px, picture.width_px);
+    const float row =
+        inside(camera_.fy_px * left.y() / left.z() + camera_.cy_px, picture.height_px);
+    const int u = static_cast<int>(column), v = static_cast<int>(row);
+    const float right = column - static_cast<float>(u), low = row - static_cast<float>(v);
+    const int next_u = std::min(u + 1, picture.width_px - 1);
+    const int next_v = std::min(v + 1, picture.height_px - 1);
+    const auto mix = [&](std::uint8_t Rgb8::*channel) {
+      const float top =
+          (1 - right) * picture.at(u, v).*channel + right * picture.at(next_u, v).*channel;
+      const float bottom = (1 - right) * picture.at(u, next_v).*channel +
+                           right * picture.at(next_u, next_v).*channel;
+      return toByte((1 - low) * top + low * bottom);
+    };
+    return {mix(&Rgb8::red), mix(&Rgb8::green), mix(&Rgb8::blue)};
+  }
+
   void updateColour(std::size_t i, std::int32_t pixel, float measured,
                     const Eigen::Vector3f& left) const {
     if (observation_.colour.empty()) return;
@@ -119,7 +143,8 @@ class Fuser {
     if (isHighlight(seen, colour_options_)) return;
     const float distance_mm = left.norm();
     const float cosine = -(camera_.left_from_world * model_.normals[i]).dot(left) / distance_mm;
-    const Rgb8 fresh = modelColour(seen, shading(colour_options_, distance_mm, cosine), gain_);
+    const Rgb8 fresh =
+        modelColour(colourAt(left), shading(colour_options_, distance_mm, cosine), gain_);
     Rgb8& known = model_.colours[i];
     const int limit = colour_options_.brightening_limit;
     const bool brightened = fresh.red - known.red >= limit && fresh.green - known.green >= limit &&

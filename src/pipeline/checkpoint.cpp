@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 1\n";
+constexpr std::string_view kMagic = "softscope checkpoint 2\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -130,6 +130,9 @@ void visit(Archive& archive, Whole& checkpoint) {
   visitGraph(archive, checkpoint.state.model.graph);
   visitMemory(archive, checkpoint.state.model.memory);
   archive.array(checkpoint.state.model.tracked.points);
+  archive.value(checkpoint.state.model.exposure.red);
+  archive.value(checkpoint.state.model.exposure.green);
+  archive.value(checkpoint.state.model.exposure.blue);
   archive.pose(checkpoint.state.world_from_left);
   archive.array(checkpoint.state.key_views);
   archive.value(checkpoint.state.lost);

@@ -277,6 +277,7 @@ FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   clock_.lap("check");
   const ModelUpdateSummary update =
       updateModel(observation, state_.graph, fusion_, &state_.memory, &state_.model);
+  state_.exposure = update.points.gain;
   state_.tracked.renumber(update.index_map, state_.model);
   state_.tracked.settle(state_.model);
   clock_.lap("fuse");

@@ -13,6 +13,7 @@
 #include "core/warp_graph.h"
 #include "deform/lm_solver.h"
 #include "fusion/back_projection_error.h"
+#include "fusion/colour_gain.h"
 #include "fusion/point_insertion.h"
 #include "pipeline/material_points.h"
 #include "stereo/stereo_matcher.h"
@@ -69,6 +70,7 @@ struct ModelState {
   WarpGraph graph;
   InsertionMemory memory;
   MaterialPoints tracked;
+  ColourGain exposure;  // of the last picture that was fused, against the model's colours
 };
 
 /// The working set of a run, and one verb a stage. The reconstructor owns the order. Poses are

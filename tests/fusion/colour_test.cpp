@@ -71,6 +71,39 @@ TEST(Colour, GetsRidOfAHighlightThatWasThereFirst) {
   EXPECT_LE(largestDifference(model, kTissue), 3);  // steps below half a level end the average
 }
 
+/// A plane whose red grows by 16 levels a pixel, fixed to the world, in the picture's middle.
+Shot rampShot(double camera_x_mm) {
+  Shot shot = takeShot(plane(55), smallCamera(), shifted(camera_x_mm, 0, 0));
+  for (int v = 0; v < 72; ++v)
+    for (int u = 0; u < 96; ++u) {
+      const double column = u + camera_x_mm * 560 / 55 - 40;
+      shot.colour.at(u, v).red = static_cast<std::uint8_t>(std::clamp(16 * column, 0.0, 240.0));
+    }
+  return shot;
+}
+
+// Half a pixel aside, the nearest pixel is 8 levels off; between pixels the ramp is exact, and
+// averages in steps of 8 bits stall within 2 levels.
+TEST(Colour, IsReadBetweenPixels) {
+  FusionOptions options;
+  options.colour.compensate_gain = false;
+  options.colour.highlight_level = 255;
+  InsertionMemory memory;
+  PointModel model;
+  update(rampShot(0), options, &memory, &model);
+  const PointModel before = model;
+  for (int k = 0; k < 20; ++k) update(rampShot(0.5 * 55 / 560), options, &memory, &model);
+  ASSERT_GE(model.size(), before.size());
+  int judged = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const int red = before.colours[i].red;
+    if (red < 32 || red > 208) continue;  // away from the ramp's ends
+    EXPECT_NEAR(model.colours[i].red, red, 3) << i;
+    ++judged;
+  }
+  EXPECT_GT(judged, 100);
+}
+
 TEST(Colour, ThePaperTakesTheLatest) {
   InsertionMemory memory;
   const FusionOptions paper = FusionOptions::paper();
