@@ -33,7 +33,7 @@ Raster<float> trueDepth(const SequenceTruth& truth, int frame, const TriangleMes
   const PinholeCamera& left = truth.rig.left;
   const auto& pose = truth.trajectory[static_cast<std::size_t>(frame)];
   const auto file = truth.depths.find(frame);
-  if (file == truth.depths.end())
+  if (file == truth.depths.end() || !truth.rectified)  // such a file is of the raw picture's pixels
     return castDepth(mesh_world, left, pose.world_from_left.inverse());
   Raster<float> depth_mm = readDepth(file->second, truth.depth_unit_mm);
   if (depth_mm.width_px != left.width_px || depth_mm.height_px != left.height_px)

@@ -93,6 +93,7 @@ SequenceTruth openSequenceTruth(const fs::path& sequence) {
   truth.tracks = fileOrNone(truth_folder / "tracks.csv");
   const StereoCalibration calibration = readCalibration(sequence);
   truth.rig = Rectifier(calibration).rig();
+  truth.rectified = calibration.rectified;
   truth.depth_unit_mm = calibration.depth_unit_mm;
   return truth;
 }

@@ -36,6 +36,7 @@ struct SequenceTruth {
   std::filesystem::path tracks;  // groundtruth/tracks.csv; empty where it is missing
   RectifiedRig rig;
   double depth_unit_mm = 0.01;
+  bool rectified = true;  // so are the pictures, and what is given for their pixels
 };
 
 /// Throws InputError: no such folder, no groundtruth in it, no true trajectory, no calibration.

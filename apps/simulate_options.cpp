@@ -54,6 +54,11 @@ void bindScope(SettingsBinder& binder, ScopeOptions& scope) {
   binder.bind("scope.cx_px", scope.cx_px, "negative: the middle");
   binder.bind("scope.cy_px", scope.cy_px, "negative: the middle");
   binder.bind("scope.baseline_mm", scope.baseline_mm, "between the cameras");
+  binder.bind("scope.k1", scope.k1, "lens distortion, OpenCV's; the pictures are raw then");
+  binder.bind("scope.k2", scope.k2, "");
+  binder.bind("scope.p1", scope.p1, "");
+  binder.bind("scope.p2", scope.p2, "");
+  binder.bind("scope.k3", scope.k3, "");
   binder.bind("scope.row_error_px", scope.row_error_px, "of the right picture, uncalibrated");
   binder.bind("scope.roll_error_deg", scope.roll_error_deg, "of the right picture, uncalibrated");
 }
@@ -106,6 +111,8 @@ void SimulateOptions::validate() const {
   require(organ_unit_mm > 0 && organ_unit_mm <= 1e6, "organ.unit_mm", organ_unit_mm,
           "must be above 0, at most 1e6");
   simulation.validate();
+  require(!input_depth || simulation.scope.lens().distortion.isZero(), "input_depth", "true",
+          "needs lenses without distortion: depth files belong to rectified pictures");
 }
 
 void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {

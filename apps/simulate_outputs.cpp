@@ -218,7 +218,7 @@ void SimulateOutputs::finish(const Simulator& simulator) {
     }
     writeFile(options_.folder / "timestamps.txt", times, force);
   }
-  writeCalibration(options_.folder / "calibration.yaml", calibrationOf(simulator.rig()), force);
+  writeCalibration(options_.folder / "calibration.yaml", simulator.calibration(), force);
 }
 
 }  // namespace softscope

@@ -12,10 +12,6 @@
 namespace softscope {
 namespace {
 
-Eigen::Vector3f rayThrough(const PinholeCamera& camera, double u_px, double v_px) {
-  return liftPixel<double>(camera, u_px, v_px, 1.0).cast<float>();
-}
-
 /// Four rays a pixel, a quarter pixel off its centre.
 RayPacket raysOf(const ScopeEye& eye, int u, int v) {
   return {eye.ray(u - 0.25, v - 0.25), eye.ray(u + 0.25, v - 0.25), eye.ray(u - 0.25, v + 0.25),
@@ -23,7 +19,7 @@ RayPacket raysOf(const ScopeEye& eye, int u, int v) {
 }
 
 Raster<PacketHits> castViews(const ScopeScene& scene, const ScopeEye& eye) {
-  Raster<PacketHits> hits(eye.camera.width_px, eye.camera.height_px);
+  Raster<PacketHits> hits(eye.lens.camera.width_px, eye.lens.camera.height_px);
   parallelRows(hits.height_px, [&](int v) {
     for (int u = 0; u < hits.width_px; ++u)
       hits.at(u, v) = scene.tree.cast(eye.centre_mm, raysOf(eye, u, v));
@@ -117,32 +113,33 @@ Raster<Eigen::Vector3f> normalsOf(const Raster<RayHit>& hits, const ScopeScene& 
 }
 
 Mask instrumentMask(const Raster<RayHit>& hits, const ScopeTool& instrument,
-                    const PinholeCamera& left) {
+                    const ScopeLens& left) {
   Mask mask(hits.width_px, hits.height_px, 0);
   if (!instrument.there()) return mask;
   parallelRows(mask.height_px, [&](int v) {
     for (int u = 0; u < mask.width_px; ++u)
-      if (instrument.meet(Eigen::Vector3f::Zero(), rayThrough(left, u, v), limitOf(hits.at(u, v))))
+      if (instrument.meet(Eigen::Vector3f::Zero(), left.ray(u, v).cast<float>(),
+                          limitOf(hits.at(u, v))))
         mask.at(u, v) = 255;
   });
   return mask;
 }
 
-Raster<RayHit> castCentres(const ScopeScene& scene, const PinholeCamera& left) {
-  Raster<RayHit> hits(left.width_px, left.height_px);
-  parallelRows(left.height_px, [&](int v) {
-    for (int u = 0; u < left.width_px; u += 4) {
+Raster<RayHit> castCentres(const ScopeScene& scene, const ScopeLens& left) {
+  const int width = left.camera.width_px;
+  Raster<RayHit> hits(width, left.camera.height_px);
+  parallelRows(hits.height_px, [&](int v) {
+    for (int u = 0; u < width; u += 4) {
       RayPacket rays;
-      for (int i = 0; i < 4; ++i) rays[i] = rayThrough(left, u + i, v);
+      for (int i = 0; i < 4; ++i) rays[i] = left.ray(u + i, v).cast<float>();
       const PacketHits found = scene.tree.cast(Eigen::Vector3f::Zero(), rays);
-      for (int i = 0; i < std::min(4, left.width_px - u); ++i) hits.at(u + i, v) = found[i];
+      for (int i = 0; i < std::min(4, width - u); ++i) hits.at(u + i, v) = found[i];
     }
   });
   return hits;
 }
 
-Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene,
-                      const PinholeCamera& left) {
+Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene, const ScopeLens& left) {
   Raster<float> depth_mm(hits.width_px, hits.height_px, std::numeric_limits<float>::quiet_NaN());
   for (int v = 0; v < hits.height_px; ++v)
     for (int u = 0; u < hits.width_px; ++u) {
@@ -152,7 +149,7 @@ Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene,
       const Eigen::Vector3d a = scene.vertices_mm[t[0]].cast<double>();
       const Eigen::Vector3d normal = (scene.vertices_mm[t[1]].cast<double>() - a)
                                          .cross(scene.vertices_mm[t[2]].cast<double>() - a);
-      const Eigen::Vector3d ray = liftPixel<double>(left, double(u), double(v), 1.0);
+      const Eigen::Vector3d ray = left.ray(u, v);
       depth_mm.at(u, v) = static_cast<float>(normal.dot(a) / normal.dot(ray));
     }
   return depth_mm;

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "core/camera.h"
 #include "core/raster.h"
 #include "core/triangle_mesh.h"
 #include "eval/simulation/ray_tree.h"
+#include "eval/simulation/scope_lens.h"
 #include "eval/simulation/scope_shading.h"
 #include "eval/simulation/scope_tool.h"
 #include "eval/simulation/tissue_skin.h"
@@ -25,13 +25,13 @@ struct ScopeScene {
 
 /// One camera of the scope, in the left one's frame.
 struct ScopeEye {
-  PinholeCamera camera;
+  ScopeLens lens;
   Eigen::Vector3f centre_mm = Eigen::Vector3f::Zero();
   Eigen::Matrix3f left_from_eye = Eigen::Matrix3f::Identity();
 
   /// Through a pixel, in the left camera's frame.
   Eigen::Vector3f ray(double u_px, double v_px) const {
-    return left_from_eye * liftPixel<double>(camera, u_px, v_px, 1.0).cast<float>();
+    return left_from_eye * lens.ray(u_px, v_px).cast<float>();
   }
 };
 
@@ -48,17 +48,15 @@ Raster<Eigen::Vector3f> renderView(const ScopeScene& scene, TissueSkin& skin,
                                    const ScopeSurroundings& around, const ScopeEye& eye);
 
 /// What the ray through the centre of each pixel of the left camera meets.
-Raster<RayHit> castCentres(const ScopeScene& scene, const PinholeCamera& left);
+Raster<RayHit> castCentres(const ScopeScene& scene, const ScopeLens& left);
 
 /// Of the tissue at such hits, interpolated between its vertices; 0 where nothing was met.
 Raster<Eigen::Vector3f> normalsOf(const Raster<RayHit>& hits, const ScopeScene& scene);
 
 /// Non-zero where the instrument hides what such a ray would meet.
-Mask instrumentMask(const Raster<RayHit>& hits, const ScopeTool& instrument,
-                    const PinholeCamera& left);
+Mask instrumentMask(const Raster<RayHit>& hits, const ScopeTool& instrument, const ScopeLens& left);
 
 /// Depth in mm of such hits, computed in double; NaN where nothing was met.
-Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene,
-                      const PinholeCamera& left);
+Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene, const ScopeLens& left);
 
 }  // namespace softscope

@@ -22,6 +22,8 @@ void ScopeOptions::validate() const {
           "must be below the height, or negative (middle)");
   require(baseline_mm >= 0.5 && baseline_mm <= 50, "scope.baseline_mm", baseline_mm,
           "must be 0.5 to 50");
+  require(lens().invertible(), "scope.k1", k1,
+          "so the lenses fold the picture over itself; bend it less");
   require(std::abs(row_error_px) <= 20, "scope.row_error_px", row_error_px, "must be -20 to 20");
   require(std::abs(roll_error_deg) <= 5, "scope.roll_error_deg", roll_error_deg, "must be -5 to 5");
 }
@@ -37,6 +39,22 @@ RectifiedRig ScopeOptions::rig() const {
               cy_px >= 0 ? cy_px : 0.5 * (height_px - 1)};
   rig.baseline_mm = baseline_mm;
   return rig;
+}
+
+ScopeLens ScopeOptions::lens() const {
+  ScopeLens lens{rig().left, {}};
+  lens.distortion.coefficients = {k1, k2, p1, p2, k3};
+  return lens;
+}
+
+StereoCalibration ScopeOptions::calibration() const {
+  StereoCalibration calibration;
+  calibration.left.pinhole = calibration.right.pinhole = rig().left;
+  calibration.left.distortion = calibration.right.distortion = lens().distortion;
+  calibration.right_from_left.translation() = Eigen::Vector3d(-baseline_mm, 0, 0);
+  calibration.rectified = lens().distortion.isZero();
+  calibration.form = "OpenCV";
+  return calibration;
 }
 
 void SimulationOptions::validate() const {
@@ -56,16 +74,6 @@ void SimulationOptions::validate() const {
   instrument.validate();
   require(smoke >= 0 && smoke <= 3, "smoke", smoke, "must be 0 to 3");
   sensor.validate();
-}
-
-StereoCalibration calibrationOf(const RectifiedRig& rig) {
-  StereoCalibration calibration;
-  calibration.left.pinhole = rig.left;
-  calibration.right.pinhole = rig.left;
-  calibration.right_from_left.translation() = Eigen::Vector3d(-rig.baseline_mm, 0, 0);
-  calibration.rectified = true;
-  calibration.form = "OpenCV";
-  return calibration;
 }
 
 }  // namespace softscope

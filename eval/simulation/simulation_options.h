@@ -4,6 +4,7 @@
 #include "core/stereo_rig.h"
 #include "eval/simulation/camera_path.h"
 #include "eval/simulation/organ_mesh.h"
+#include "eval/simulation/scope_lens.h"
 #include "eval/simulation/scope_shading.h"
 #include "eval/simulation/scope_tool.h"
 #include "eval/simulation/sensor.h"
@@ -12,7 +13,7 @@
 
 namespace softscope {
 
-/// The cameras: parallel, no distortion; rows aligned but for what the calibration doesn't know.
+/// The cameras: parallel, one kind of lens; rows aligned but for what the calibration doesn't know.
 struct ScopeOptions {
   int width_px = 640;
   int height_px = 480;
@@ -20,12 +21,20 @@ struct ScopeOptions {
   double cx_px = -1;    // negative: the middle of the picture
   double cy_px = -1;
   double baseline_mm = 5.2;
+  // OpenCV's coefficients of both lenses; any of them: the pictures are not rectified, and all
+  // truth a pixel has lies on the left picture as it is.
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
   double row_error_px = 0;  // rows of the right picture lie lower by this than the calibration says
   double roll_error_deg = 0;  // and it is turned by this
 
   /// Throws OptionError.
   void validate() const;
+  /// Without distortion.
   RectifiedRig rig() const;
+  /// The left camera's; the right one has the same.
+  ScopeLens lens() const;
+  /// What the calibration file says, mm.
+  StereoCalibration calibration() const;
 };
 
 struct SimulationOptions {
@@ -46,8 +55,5 @@ struct SimulationOptions {
   /// Throws OptionError.
   void validate() const;
 };
-
-/// The rig as a calibration file says it: rectified, mm.
-StereoCalibration calibrationOf(const RectifiedRig& rig);
 
 }  // namespace softscope

@@ -60,12 +60,13 @@ std::vector<Eigen::Vector3f> transformed(const std::vector<Eigen::Vector3f>& poi
 
 /// Tissue that lies no deeper than what the nearest pixel sees.
 bool isSeen(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_mm,
-            const PinholeCamera& left) {
+            const ScopeLens& left) {
   if (point_left_mm.z() <= 0) return false;
-  const double u = left.fx_px * point_left_mm.x() / point_left_mm.z() + left.cx_px;
-  const double v = left.fy_px * point_left_mm.y() / point_left_mm.z() + left.cy_px;
-  if (!(u >= 0 && v >= 0 && u <= left.width_px - 1 && v <= left.height_px - 1)) return false;
-  const float seen_mm = depth_mm.at(int(std::lround(u)), int(std::lround(v)));
+  const Eigen::Vector2d at = left.project(point_left_mm);
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() <= depth_mm.width_px - 1 &&
+        at.y() <= depth_mm.height_px - 1))
+    return false;
+  const float seen_mm = depth_mm.at(int(std::lround(at.x())), int(std::lround(at.y())));
   return point_left_mm.z() <= seen_mm + kSeenWithin_mm;  // false where it is NaN
 }
 
@@ -86,6 +87,7 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
     : options_(validated(options)),
       mesh_(std::move(rest_mesh)),
       rig_(options.scope.rig()),
+      lens_(options.scope.lens()),
       target_body_mm_(findTarget(mesh_, options.camera)),
       path_(options.camera, target_body_mm_, rig_.baseline_mm, seedOf(options, kPath)),
       deformation_(mesh_, target_body_mm_.cast<float>(), options.deformation,
@@ -95,8 +97,8 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
       light_(options.light, rig_.baseline_mm, options.camera.distance_mm),
       world_from_body_(path_.bodyFromLeft(0).inverse()) {
   const ScopeScene first(worldVertices(0), mesh_.triangles);
-  Raster<RayHit> hits = castCentres(first, rig_.left);
-  const Mask hidden = instrumentMask(hits, instrumentAt(0), rig_.left);
+  Raster<RayHit> hits = castCentres(first, lens_);
+  const Mask hidden = instrumentMask(hits, instrumentAt(0), lens_);
   for (std::size_t i = 0; i < hits.size(); ++i)
     if (hidden.values[i] != 0) hits.values[i] = {};  // nobody can point at what isn't seen
   track_points_ = chooseTrackPoints(hits, options.track_spacing_px);
@@ -124,12 +126,12 @@ ScopeTool Simulator::instrumentAt(double time_s) const {
 Simulator::LightPair Simulator::lightOf(const ScopeScene& scene, double time_s) {
   const ScopeTool instrument = instrumentAt(time_s);
   const ScopeSurroundings around{light_, options_.light.relief, instrument};
-  ScopeEye right{rig_.left};
-  right.camera.cy_px += options_.scope.row_error_px;
+  ScopeEye right{lens_};
+  right.lens.camera.cy_px += options_.scope.row_error_px;
   right.centre_mm.x() = static_cast<float>(rig_.baseline_mm);
   const auto roll_rad = static_cast<float>(options_.scope.roll_error_deg * M_PI / 180);
   right.left_from_eye = Eigen::AngleAxisf(roll_rad, Eigen::Vector3f::UnitZ()).toRotationMatrix();
-  LightPair pair{renderView(scene, skin_, around, {rig_.left}),
+  LightPair pair{renderView(scene, skin_, around, {lens_}),
                  renderView(scene, skin_, around, right)};
   const double cloud_mm = kSmokeShare * options_.camera.distance_mm;
   addSmoke(pair.left, options_.smoke, time_s, 0);
@@ -146,11 +148,11 @@ StereoPair Simulator::develop(const LightPair& light, double time_s, int index) 
 }
 
 void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame& frame) const {
-  const Raster<RayHit> hits = castCentres(scene, rig_.left);
-  frame.depth_mm = depthOf(hits, scene, rig_.left);
+  const Raster<RayHit> hits = castCentres(scene, lens_);
+  frame.depth_mm = depthOf(hits, scene, lens_);
   frame.normals = normalsOf(hits, scene);
   if (options_.instrument.there()) {
-    frame.instrument = instrumentMask(hits, instrumentAt(time_s), rig_.left);
+    frame.instrument = instrumentMask(hits, instrumentAt(time_s), lens_);
     for (std::size_t i = 0; i < frame.instrument.size(); ++i)
       if (frame.instrument.values[i] != 0) frame.depth_mm.values[i] = kNan;
   }
@@ -158,7 +160,7 @@ void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame&
   for (const TrackPoint& point : track_points_) {
     frame.tracks_world_mm.push_back(positionOf(point, frame.vertices_world_mm, mesh_.triangles));
     frame.tracks_visible.push_back(
-        isSeen(left_from_world * frame.tracks_world_mm.back(), frame.depth_mm, rig_.left));
+        isSeen(left_from_world * frame.tracks_world_mm.back(), frame.depth_mm, lens_));
   }
 }
 
@@ -175,9 +177,7 @@ Raster<Eigen::Vector2f> Simulator::flowTo(double time_s, const Raster<RayHit>& h
       const Eigen::Vector3f p = (1 - hit.u - hit.v) * next.vertices_mm[t[0]] +
                                 hit.u * next.vertices_mm[t[1]] + hit.v * next.vertices_mm[t[2]];
       if (p.z() <= 0) continue;
-      const PinholeCamera& c = rig_.left;
-      flow.at(u, v) = {static_cast<float>(c.fx_px * p.x() / p.z() + c.cx_px - u),
-                       static_cast<float>(c.fy_px * p.y() / p.z() + c.cy_px - v)};
+      flow.at(u, v) = (lens_.project(p.cast<double>()) - Eigen::Vector2d(u, v)).cast<float>();
     }
   });
   return flow;
@@ -204,7 +204,7 @@ SimulatedFrame Simulator::frame(int index, bool flow) {
     if (moment != middle) continue;
     frame.vertices_world_mm = vertices;
     addTruth(scene, time_s, frame);
-    if (flow) hits = castCentres(scene, rig_.left);
+    if (flow) hits = castCentres(scene, lens_);
   }
   frame.pictures = develop(light, time_s, index);
   if (flow) frame.flow_px = flowTo(time_s + frame_s, hits, frame.instrument);

@@ -40,6 +40,8 @@ class Simulator {
   SimulatedFrame frame(int index, bool flow = false);
 
   const RectifiedRig& rig() const { return rig_; }
+  /// As a calibration file says it: rectified, or with the lens's distortion.
+  StereoCalibration calibration() const { return options_.scope.calibration(); }
   const std::vector<Triangle>& triangles() const { return mesh_.triangles; }
   const std::vector<TrackPoint>& trackPoints() const { return track_points_; }
 
@@ -60,6 +62,7 @@ class Simulator {
   SimulationOptions options_;
   TriangleMesh mesh_;  // at rest, in the organ's frame
   RectifiedRig rig_;
+  ScopeLens lens_;  // of both cameras
   Eigen::Vector3d target_body_mm_;
   CameraPath path_;
   TissueDeformation deformation_;
