@@ -105,6 +105,11 @@ void bindMatcher(SettingsBinder& binder, MatcherOptions& options) {
   binder.bind(at + "consistency.min_share", min_share, "of them must agree; 0: no test");
 }
 
+void bindComparison(SettingsBinder& binder, ReconstructionOptions& options) {
+  binder.bind("matcher.last_picture", options.match_last_picture,
+              "frame to frame, for comparison: match the last picture, not the model");
+}
+
 void bindPose(SettingsBinder& binder, ReconstructOptions& options) {
   const std::string at = "pose.";
   RansacOptions& pose = options.method.pose;
@@ -274,6 +279,7 @@ void bindReconstructOptions(SettingsBinder& binder, ReconstructOptions& options)
   bindTissue(binder, options.method.tissue);
   bindModelView(binder, options.method.model_view);
   bindMatcher(binder, options.method.matcher);
+  bindComparison(binder, options.method);
   bindPose(binder, options);
   bindGraph(binder, options);
   bindDeform(binder, options);

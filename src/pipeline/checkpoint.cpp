@@ -122,6 +122,14 @@ void visitMemory(Archive& archive, Memory& memory) {
   archive.pose(memory.world_from_left);
 }
 
+template <class Archive, class Last>
+void visitLast(Archive& archive, Last& last) {
+  archive.value(last.left.width_px);
+  archive.value(last.left.height_px);
+  archive.array(last.left.values);
+  archive.pose(last.world_from_left);
+}
+
 template <class Archive, class Whole>
 void visit(Archive& archive, Whole& checkpoint) {
   archive.text(checkpoint.settings);
@@ -130,6 +138,7 @@ void visit(Archive& archive, Whole& checkpoint) {
   visitGraph(archive, checkpoint.state.model.graph);
   visitMemory(archive, checkpoint.state.model.memory);
   archive.array(checkpoint.state.model.tracked.points);
+  visitLast(archive, checkpoint.state.model.last);
   archive.value(checkpoint.state.model.exposure.red);
   archive.value(checkpoint.state.model.exposure.green);
   archive.value(checkpoint.state.model.exposure.blue);

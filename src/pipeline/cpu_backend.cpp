@@ -83,6 +83,7 @@ class CpuBackend : public ReconstructionBackend {
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
   void scaleTo(double median_sigma_mm);
+  const ColourImage& pictureOf(const ModelView& view) const;
   void refine(const Eigen::Isometry3d& last, PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
@@ -149,12 +150,19 @@ void CpuBackend::scaleTo(double median_sigma_mm) {
     if (*sigma_mm > 0) *sigma_mm = std::max(*sigma_mm, median_sigma_mm);
 }
 
+/// What is searched for: the model as drawn, or, for comparison, what the scope saw from there.
+const ColourImage& CpuBackend::pictureOf(const ModelView& view) const {
+  const LastPicture& last = state_.last;
+  const bool from_there = view.world_from_left.matrix() == last.world_from_left.matrix();
+  return from_there && !last.left.empty() ? last.left : view.colour;
+}
+
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach reach) {
   const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
   clock_.lap("view");
   FeatureMatcher& matcher = reach == MatchReach::kNear ? *near_matcher_ : *whole_matcher_;
   const std::vector<PixelMatch> found =
-      matcher.match({toGray(view.colour), unseen(view)}, live_, Eigen::Vector2f::Zero());
+      matcher.match({toGray(pictureOf(view)), unseen(view)}, live_, Eigen::Vector2f::Zero());
   matches_ = liftMatches(found, view, measured_.depth, left(), options_.lift);
   clock_.lap("match");
   return {static_cast<int>(found.size()), static_cast<int>(matches_.size())};
@@ -278,6 +286,7 @@ FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const ModelUpdateSummary update =
       updateModel(observation, state_.graph, fusion_, &state_.memory, &state_.model);
   state_.exposure = update.points.gain;
+  if (options_.match_last_picture) state_.last = {measured_.left, world_from_left};
   state_.tracked.renumber(update.index_map, state_.model);
   state_.tracked.settle(state_.model);
   clock_.lap("fuse");

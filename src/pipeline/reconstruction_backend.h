@@ -64,12 +64,19 @@ struct FusionSummary {
   BackProjectionError corrected;  // of the model as it is now: the paper's number
 };
 
+/// What the scope saw when the model last learned.
+struct LastPicture {
+  ColourImage left;  // rectified
+  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+};
+
 /// What must outlive the program for a run to go on as if it had never stopped.
 struct ModelState {
   PointModel model;
   WarpGraph graph;
   InsertionMemory memory;
   MaterialPoints tracked;
+  LastPicture last;     // kept only where it is matched
   ColourGain exposure;  // of the last picture that was fused, against the model's colours
 };
 

@@ -46,6 +46,8 @@ struct ReconstructionOptions {
   GraphOptions graph;
   DeformOptions deform;
   bool use_correspondences = true;  // false: matches give the pose, but don't pull the warp
+  bool match_last_picture = false;  // true: frame to frame, on the last picture's texture, not on
+                                    // the model's; errors add up. For comparison
   FusionOptions fusion;
   GateOptions gate;
 

@@ -20,6 +20,7 @@ Checkpoint someCheckpoint() {
   model.graph.stencils = {{0, 1, 1, 1}};
   model.memory.unexplained_mm = Raster<float>(3, 2, 8.0f);
   model.tracked.points.push_back({9, 0, {1, 2, 3}});
+  model.last.left = ColourImage(2, 1, {7, 8, 9});
   model.exposure = {0.9f, 1.1f, 1.2f};
   checkpoint.state.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
   checkpoint.state.key_views.resize(2, checkpoint.state.world_from_left);
@@ -38,6 +39,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.memory.unexplained_mm.at(2, 1), 8.0f);
   EXPECT_EQ(after.state.model.tracked.points[0].id, 9);
   EXPECT_EQ(after.state.model.exposure.green, 1.1f);
+  EXPECT_EQ(after.state.model.last.left.at(1, 0), (Rgb8{7, 8, 9}));
   EXPECT_TRUE(after.state.lost);
   EXPECT_EQ(checkpointBytes(after), bytes);
 }

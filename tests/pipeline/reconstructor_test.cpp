@@ -68,11 +68,15 @@ TEST(Reconstructor, GivesTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
-// Through a checkpoint's bytes, as after a stop.
-TEST(Reconstructor, GoesOnFromACheckpointAsIfItHadNotStopped) {
+class Resumed : public testing::TestWithParam<bool> {};
+
+// Through a checkpoint's bytes, as after a stop; model to frame, and frame to frame.
+TEST_P(Resumed, GoesOnAsIfItHadNotStopped) {
   const ShortClip& clip = shortClip();
-  Reconstructor whole = reconstructorOf(clip, smallOptions());
-  Reconstructor before = reconstructorOf(clip, smallOptions());
+  ReconstructionOptions options = smallOptions();
+  options.match_last_picture = GetParam();
+  Reconstructor whole = reconstructorOf(clip, options);
+  Reconstructor before = reconstructorOf(clip, options);
   whole.track(clip.seeds);
   before.track(clip.seeds);
   for (int i = 0; i < 2; ++i) {
@@ -80,7 +84,7 @@ TEST(Reconstructor, GoesOnFromACheckpointAsIfItHadNotStopped) {
     before.process(clip.frames[static_cast<std::size_t>(i)]);
   }
   const std::string bytes = checkpointBytes({"same", 2, before.state()});
-  Reconstructor after = reconstructorOf(clip, smallOptions());
+  Reconstructor after = reconstructorOf(clip, options);
   after.restore(parseCheckpoint(bytes, "checkpoint.bin").state);
   FrameRecord a, b;
   for (int i = 2; i < 5; ++i) {
@@ -95,6 +99,8 @@ TEST(Reconstructor, GoesOnFromACheckpointAsIfItHadNotStopped) {
     EXPECT_EQ(a.tracked[i].position_mm, b.tracked[i].position_mm);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(ModelOrFrameToFrame, Resumed, testing::Bool());
 
 class UselessFrame : public testing::TestWithParam<int> {};
 
