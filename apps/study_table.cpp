@@ -23,7 +23,7 @@ const std::vector<StudyMetric> kColumns{
     {"run.fused_share", "frames fused [share]", 2},
     {"evaluation.tracks.mean_mm", "material points mean [mm]", 3},
     {"evaluation.tracks.p95_mm", "material points P95 [mm]", 3},
-    {"evaluation.tracks.no_motion_control_mm", "had nothing moved [mm]", 2},
+    {"evaluation.tracks.no_motion_control_mm", "had nothing been tracked [mm]", 2},
     {"evaluation.surface.mean_mm", "surface mean [mm]", 3},
     {"evaluation.surface.p95_mm", "surface P95 [mm]", 3},
     {"evaluation.surface.completeness_1mm", "completeness [share]", 3},
