@@ -29,6 +29,7 @@ std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeDepthCommand();
 std::unique_ptr<Command> makeDoctorCommand();
 std::unique_ptr<Command> makeEvaluateCommand();
+std::unique_ptr<Command> makeExportCommand();
 std::unique_ptr<Command> makeFigureCommand();
 std::unique_ptr<Command> makeInfoCommand();
 std::unique_ptr<Command> makeReconstructCommand();

@@ -29,6 +29,22 @@ const PlyElement& verticesOf(const PlyHeader& header, const std::string& name) {
 
 using Names = std::array<const char*, 3>;
 
+std::size_t offsetOf(const PlyElement& vertices, int property) {
+  std::size_t offset = 0;
+  for (int i = 0; i < property; ++i)
+    offset +=
+        static_cast<std::size_t>(sizeOf(vertices.properties[static_cast<std::size_t>(i)].type));
+  return offset;
+}
+
+/// Where a float stands, in bytes from the point's first.
+std::optional<std::size_t> findFloat(const PlyElement& vertices, const char* name) {
+  const int place = vertices.find(name);
+  if (place < 0 || vertices.properties[static_cast<std::size_t>(place)].type != PlyType::kFloat)
+    return {};
+  return offsetOf(vertices, place);
+}
+
 /// Where three values of one type stand one after the other, in bytes from the point's first.
 std::optional<std::size_t> findTriple(const PlyElement& vertices, const Names& names,
                                       PlyType type) {
@@ -38,11 +54,7 @@ std::optional<std::size_t> findTriple(const PlyElement& vertices, const Names& n
     const PlyProperty& property = vertices.properties[static_cast<std::size_t>(first) + i];
     if (property.name != names[i] || property.type != type) return {};
   }
-  std::size_t offset = 0;
-  for (int i = 0; i < first; ++i)
-    offset +=
-        static_cast<std::size_t>(sizeOf(vertices.properties[static_cast<std::size_t>(i)].type));
-  return offset;
+  return offsetOf(vertices, first);
 }
 
 void requirePlausible(const Eigen::Vector3f& point_mm, std::size_t index, const std::string& name) {
@@ -63,6 +75,7 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
   const auto position = findTriple(vertices, {"x", "y", "z"}, PlyType::kFloat);
   const auto normal = findTriple(vertices, {"nx", "ny", "nz"}, PlyType::kFloat);
   const auto colour = findTriple(vertices, {"red", "green", "blue"}, PlyType::kUint8);
+  const auto weight = findFloat(vertices, "weight");
   if (!position)
     throw InputError(name +
                      ": its points have no x, y, z as floats one after the other; give a model "
@@ -71,6 +84,8 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
     throw InputError(name + ": holds no point; was the run lost from its first frame on?");
   ModelFile file;
   file.coloured = colour.has_value();
+  file.with_normals = normal.has_value();
+  file.weighted = weight.has_value();
   PointModel& model = file.model;
   model.positions_mm.resize(vertices.count);
   model.normals.assign(vertices.count, Eigen::Vector3f::Zero());
@@ -83,6 +98,7 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
     requirePlausible(model.positions_mm[i], i, name);
     if (normal) std::memcpy(model.normals[i].data(), at + *normal, 3 * sizeof(float));
     if (colour) std::memcpy(&model.colours[i], at + *colour, 3);
+    if (weight) std::memcpy(&model.weights[i], at + *weight, sizeof(float));
   }
   return file;
 }

@@ -1,0 +1,220 @@
+// tests/apps/test_export.cpp: `softscope export` as a user runs it.
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "apps/evaluate_points.h"
+#include "io/image_writer.h"
+#include "io/ply_writer.h"
+#include "mesh/mesh_check.h"
+#include "mesh/mesh_reader.h"
+#include "tests/apps/made_run.h"
+#include "tests/apps/run_softscope.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A wavy square of 10 mm, its points 0.25 mm apart.
+PointCloud wave() {
+  PointCloud cloud;
+  for (int v = 0; v < 40; ++v)
+    for (int u = 0; u < 40; ++u) {
+      const float x = 0.25f * float(u), y = 0.25f * float(v);
+      cloud.points_mm.emplace_back(x, y, 50 + 0.3f * std::sin(x));
+      cloud.normals.push_back(Eigen::Vector3f(0.3f * std::cos(x), 0, -1).normalized());
+      cloud.colours.push_back({std::uint8_t(5 * u), std::uint8_t(5 * v), 7});
+      cloud.weights.push_back(1.0f + float(u));
+    }
+  return cloud;
+}
+
+class Export : public InFolder {
+ protected:
+  std::string wavePly(const std::string& name = "wave.ply",
+                      const PlyComments& comments = {"", "RAS"}) const {
+    writePly(at(name), wave(), comments, true);
+    return at(name);
+  }
+  std::string readText(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(at(name), std::ios::binary).rdbuf();
+    return text.str();
+  }
+};
+
+TEST_F(Export, MakesASurfaceOfPointsWithTheirColours) {
+  const Outcome outcome = run({"export", wavePly(), "--out", at("a.ply"), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = outcome.json();
+  EXPECT_EQ(json.at("points"), 1600);
+  EXPECT_EQ(json.at("manifold"), true);
+  EXPECT_EQ(json.at("dropped_islands"), 0);
+  EXPECT_EQ(json.at("unit"), "mm");
+  const TriangleMesh mesh = readMesh(at("a.ply"));
+  EXPECT_EQ(int(mesh.triangles.size()), json.at("triangles"));
+  ASSERT_EQ(mesh.vertices_mm.size(), 1600u);
+  EXPECT_EQ(mesh.colours[41], (Rgb8{5, 5, 7}));
+  EXPECT_EQ(mesh.space, "RAS");
+  const MeshCheck check = checkMesh(mesh);
+  EXPECT_TRUE(check.manifold() && check.oriented());
+  EXPECT_NEAR(check.area_mm2, json.at("area_mm2"), 1e-3);
+  const ModelFile file = readModel(at("a.ply"));
+  EXPECT_EQ(file.model.weights[41], 2.0f);
+}
+
+TEST_F(Export, PointsStayPointsWhereAskedFor) {
+  ASSERT_EQ(run({"export", wavePly(), "--out", at("a.ply"), "--points"}).exit_code, 0);
+  const ModelFile file = readModel(at("a.ply"));
+  EXPECT_EQ(file.model.positions_mm, wave().points_mm);
+  EXPECT_EQ(file.model.normals, wave().normals);
+  EXPECT_EQ(file.model.weights, wave().weights);
+  EXPECT_THAT(run({"export", wavePly(), "--out", at("a.stl"), "--points"}).err,
+              HasSubstr("--points takes .ply"));
+}
+
+TEST_F(Export, AMeshBecomesAnotherFormatAndUnit) {
+  ASSERT_EQ(run({"export", wavePly(), "--out", at("a.ply")}).exit_code, 0);
+  ASSERT_EQ(run({"export", at("a.ply"), "--out", at("m.obj"), "--unit", "m"}).exit_code, 0);
+  ASSERT_EQ(run({"export", at("m.obj"), "--out", at("b.stl"), "--input-unit-mm", "1000"}).exit_code,
+            0);
+  const MeshCheck first = checkMesh(readMesh(at("a.ply"))), last = checkMesh(readMesh(at("b.stl")));
+  EXPECT_EQ(last.triangle_count, first.triangle_count);
+  EXPECT_NEAR(last.area_mm2, first.area_mm2, 1e-3);
+  EXPECT_EQ(readMesh(at("b.stl")).space, "RAS");
+}
+
+TEST_F(Export, TakesRunsTheirFramesAndTheirSeries) {
+  makeWallRun(at("run"), 4);  // its walls are too coarse for a surface, not for points
+  ASSERT_EQ(run({"export", at("run"), "--out", at("a.ply"), "--points"}).exit_code, 0);
+  ASSERT_EQ(run({"export", at("run"), "--frame", "2", "--out", at("b.ply"), "--points"}).exit_code,
+            0);
+  EXPECT_EQ(readModel(at("b.ply")).model.positions_mm, wallModel(2).points_mm);
+  const Outcome series =
+      run({"export", at("run"), "--out", at("all.pvd"), "--points", "--every", "2", "--json"});
+  ASSERT_EQ(series.exit_code, 0) << series.err;
+  EXPECT_EQ(series.json().at("models"), 2);
+  EXPECT_EQ(series.json().at("frames").at(1).at("frame"), 2);
+  EXPECT_TRUE(fs::exists(at("all/000000.vtp")));
+  EXPECT_TRUE(fs::exists(at("all/000002.vtp")));
+  EXPECT_FALSE(fs::exists(at("all/000001.vtp")));
+  const std::string list = readText("all.pvd");
+  EXPECT_THAT(list, HasSubstr("file=\"all/000002.vtp\""));
+  EXPECT_THAT(run({"export", at("run"), "--frame", "9", "--out", at("c.ply")}).err,
+              HasSubstr("saved are the frames 0, 1, 2, 3"));
+}
+
+TEST_F(Export, OverwritesNothingUnlessAskedTo) {
+  write("a.ply", "mine");
+  const Outcome refused = run({"export", wavePly(), "--out", at("a.ply")});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_EQ(readText("a.ply"), "mine");
+  EXPECT_EQ(run({"export", wavePly(), "--out", at("a.ply"), "--force"}).exit_code, 0);
+}
+
+TEST_F(Export, RefusesInOneLineAndLeavesNothing) {
+  PointCloud bare = wave();
+  bare.normals.clear();
+  writePly(at("bare.ply"), bare, {"", ""});
+  write("no.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n");
+  const std::string good = wavePly();
+  const int files = countFiles(folder);
+  const std::vector<std::pair<std::vector<std::string>, int>> lines{
+      {{"bare.ply", "a.ply"}, 3}, {{"no.ply", "a.ply"}, 3},   {{"missing.ply", "a.ply"}, 3},
+      {{"wave.ply", "a.xyz"}, 2}, {{"wave.ply", "a.dcm"}, 2}, {{"wave.ply", "a.pvd"}, 2}};
+  for (const auto& [names, code] : lines) {
+    const Outcome outcome = run({"export", at(names[0]), "--out", at(names[1])});
+    EXPECT_EQ(outcome.exit_code, code) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+           {"--unit", "inch"}, {"--frame", "3"}, {"--gap-mm", "-1"}, {"--patient-id", "7"}}) {
+    std::vector<std::string> words{"export", good, "--out", at("a.ply")};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(run(words).exit_code, 2) << wrong[0];
+  }
+  EXPECT_EQ(run({"export", good, "--out", at("a.glb"), "--unit", "mm"}).exit_code, 2);
+  EXPECT_EQ(countFiles(folder), files);
+}
+
+bool hasTool(const char* name) {
+  return std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// A page without content, with a cross-reference table that fits.
+const char* const kPdf =
+    "%PDF-1.4\n1 0 obj<</Type/Catalog/Pages 2 0 R>>endobj\n"
+    "2 0 obj<</Type/Pages/Kids[3 0 R]/Count 1>>endobj\n"
+    "3 0 obj<</Type/Page/Parent 2 0 R/MediaBox[0 0 9 9]>>endobj\n"
+    "xref\n0 4\n0000000000 65535 f \n0000000009 00000 n \n0000000053 00000 n \n"
+    "0000000102 00000 n \ntrailer<</Size 4/Root 1 0 R>>\nstartxref\n161\n%%EOF\n";
+
+class ExportDicom : public Export {
+ protected:
+  void SetUp() override {
+    Export::SetUp();
+    if (!hasTool("pdf2dcm") || !hasTool("img2dcm") || !hasTool("dcmdump"))
+      GTEST_SKIP() << "dcmtk isn't installed (Debian's package dcmtk)";
+  }
+  /// The value of a tag as dcmdump prints it.
+  std::string tag(const std::string& file, const std::string& number) const {
+    const std::string line =
+        "dcmdump -q +P " + number + " '" + at(file) + "' > '" + at("dump.txt") + "' 2>&1";
+    EXPECT_EQ(std::system(line.c_str()), 0);
+    return readText("dump.txt");
+  }
+};
+
+TEST_F(ExportDicom, AReportBecomesAnEncapsulatedPdfOfNobody) {
+  const std::string pdf = write("report.pdf", kPdf);
+  const Outcome outcome = run({"export", pdf, "--out", at("r.dcm"), "--title", "Made; $(up)"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(tag("r.dcm", "0008,0016"), HasSubstr("EncapsulatedPDFStorage"));
+  EXPECT_THAT(tag("r.dcm", "0042,0010"), HasSubstr("[Made; $(up)]"));  // no shell has read it
+  EXPECT_THAT(tag("r.dcm", "0010,0010"), HasSubstr("no value"));
+  EXPECT_THAT(tag("r.dcm", "0010,0020"), HasSubstr("no value"));
+  EXPECT_THAT(readText("r.dcm"), HasSubstr("/MediaBox[0 0 9 9]"));
+}
+
+TEST_F(ExportDicom, APictureBecomesASecondaryCaptureAsItIs) {
+  ColourImage picture(3, 2);
+  picture.at(2, 1) = {1, 2, 3};
+  writePng(at("p.png"), picture);
+  ASSERT_EQ(run({"export", at("p.png"), "--out", at("p.dcm"), "--patient-name", "Doe^Jö",
+                 "--patient-id", "7"})
+                .exit_code,
+            0);
+  EXPECT_THAT(tag("p.dcm", "0008,0016"), HasSubstr("SecondaryCaptureImageStorage"));
+  EXPECT_THAT(tag("p.dcm", "0010,0010"), HasSubstr("[Doe^Jö]"));
+  EXPECT_THAT(tag("p.dcm", "0010,0020"), HasSubstr("[7]"));
+  EXPECT_THAT(tag("p.dcm", "0028,0011"), HasSubstr("US 3"));
+  // Row by row from the top, red first: the last of six pixels, then one byte to an even length.
+  EXPECT_THAT(readText("p.dcm"), testing::EndsWith(std::string("\0\0\0\1\2\3", 6)));
+}
+
+TEST_F(ExportDicom, WhatIsNoPdfIsRefused) {
+  write("broken.pdf", "hello");
+  const Outcome outcome = run({"export", at("broken.pdf"), "--out", at("b.dcm")});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("pdf2dcm refuses it"));
+  EXPECT_FALSE(fs::exists(at("b.dcm")));
+}
+
+TEST_F(Export, WithoutDcmtkSaysWhatToInstall) {
+  write("report.pdf", kPdf);
+  const std::string line = "PATH=/nonexistent '" + executable() + "' export '" + at("report.pdf") +
+                           "' --out '" + at("r.dcm") + "' 2> '" + at("err.txt") + "'";
+  EXPECT_EQ(std::system(line.c_str()) / 256, 4);
+  EXPECT_THAT(readText("err.txt"), HasSubstr("apt install dcmtk"));
+}
+
+}  // namespace
+}  // namespace softscope::test
