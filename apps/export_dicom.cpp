@@ -1,7 +1,6 @@
 // apps/export_dicom.cpp: pdf2dcm and img2dcm, started without a shell.
 #include "apps/export_dicom.h"
 
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "mesh/border_trim.h"
 #include "mesh/growing_surface.h"
 #include "mesh/local_fan.h"
 #include "mesh/point_grid.h"
@@ -19,8 +20,9 @@ namespace softscope {
 namespace {
 
 constexpr double kHalfTurn = 3.14159265358979323846;
-constexpr float kCrowded = 0.3f;        // of the spacing: nearer points make slivers
-constexpr float kNoise = 0.3f;          // of the spacing: lower steps are no steps
+constexpr float kCrowded = 0.3f;  // of the spacing: nearer points make slivers
+constexpr float kNoise = 0.3f;    // of the spacing: lower steps are no steps
+constexpr double kSharpestTip_deg = 40;
 constexpr std::size_t kSampled = 2000;  // points whose nearest neighbour is looked for
 
 /// Points of the cloud that are fit for a surface, and which they are.
@@ -214,9 +216,10 @@ PointSurface surfaceFromPoints(const PointCloud& cloud, const SurfaceOptions& op
   for (const Candidate& candidate : ranked(wishesOf(spread.points, grid, rule)))
     growing.add(candidate.triangle);
   growing.closeHoles(kHalfTurn * surface.gap_mm);  // of a circle so wide
-  fill(cloud, spread,
-       assemblePieces(spread.points.positions_mm, growing.triangles(), options.least_island_mm2),
-       surface);
+  const std::vector<Eigen::Vector3f>& places_mm = spread.points.positions_mm;
+  const std::vector<Triangle> triangles =
+      withoutSplinters(places_mm, growing.triangles(), kSharpestTip_deg);
+  fill(cloud, spread, assemblePieces(places_mm, triangles, options.least_island_mm2), surface);
   return surface;
 }
 

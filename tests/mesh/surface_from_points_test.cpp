@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "mesh/border_trim.h"
 #include "mesh/made_clouds.h"
 #include "mesh/mesh_check.h"
 #include "mesh/open_mesh_check.h"
@@ -216,6 +217,18 @@ TEST(SurfaceFromPoints, RefusesWhatMakesNoSurface) {
   SurfaceOptions options;
   options.gap_spacings = 1;
   EXPECT_THROW(options.validate(), OptionError);
+}
+
+TEST(BorderTrim, CutsNeedlesAndLoneTrianglesOff) {
+  // A square of two triangles, a needle on its right side with another one on that, a lone one.
+  const std::vector<Eigen::Vector3f> places{{0, 0, 0},   {1, 0, 0},   {1, 1, 0},
+                                            {0, 1, 0},   {9, 0.5, 0}, {17, 0.5, 0},
+                                            {20, 20, 0}, {21, 20, 0}, {20, 21, 0}};
+  const std::vector<Triangle> square{{0, 1, 2}, {0, 2, 3}};
+  std::vector<Triangle> all = square;
+  for (const Triangle& t : {Triangle{1, 4, 2}, {2, 4, 5}, {6, 7, 8}}) all.push_back(t);
+  EXPECT_EQ(withoutSplinters(places, all, 40), square);
+  EXPECT_EQ(withoutSplinters(places, square, 40), square);  // its corners are right angles
 }
 
 TEST(SurfacePieces, APointWhereSheetsTouchBecomesAVertexOfEach) {
