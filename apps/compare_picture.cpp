@@ -86,8 +86,12 @@ VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh&
   if (map.colours.with_sign && !result.observed) panels.foot.bar.missing = "beyond the border";
   panels.foot.legend = {{"reference", scene.surfaces[0].colour, /*filled=*/true}};
   const Statistics& errors = result.comparison.accuracy.vertices_mm;
-  panels.foot.notes = {spreadText(errors), std::to_string(errors.count) + " vertices; alignment: " +
-                                               result.alignment + ". Research use only."};
+  const Statistics& with_sign = result.comparison.signed_mm;
+  const std::string bias =
+      map.colours.with_sign ? "signed mean " + fixed(with_sign.mean, 3) + " mm; absolute: " : "";
+  panels.foot.notes = {bias + spreadText(errors), std::to_string(errors.count) +
+                                                      " vertices; alignment: " + result.alignment +
+                                                      ". Research use only."};
   return drawScenes({panelFrom(eye, scene), panelFrom(-eye, scene)}, panels);
 }
 

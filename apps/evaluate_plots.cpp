@@ -29,7 +29,7 @@ bool timesRise(const SurfaceSeries& surface) {
 }
 
 /// 1, 2 or 5 times a power of ten, and its halves in between.
-double roundUp(double value) {
+double binEnd(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double leading : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (value <= leading * power) return leading * power;
@@ -71,7 +71,7 @@ WorstFramesData worstFramesData(const EvaluationResult& result) {
 
 Histogram countErrors(const std::vector<double>& errors_mm) {
   const double p99_mm = percentiles(errors_mm, {99})[0];
-  return histogram(errors_mm, 0, roundUp(std::max(p99_mm, 1e-3)), kBins);
+  return histogram(errors_mm, 0, binEnd(std::max(p99_mm, 1e-3)), kBins);
 }
 
 FactSheet::Json histogramJson(const std::vector<double>& errors_mm) {

@@ -8,6 +8,7 @@
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/figure_kinds.h"
+#include "apps/figure_matches.h"
 #include "apps/figure_options.h"
 #include "apps/figure_outputs.h"
 #include "apps/figure_run.h"
@@ -33,7 +34,8 @@ const char* const kDetails =
     "With a RUN and its sequence as --reference: the model beside the true surface, as the scope\n"
     "sees them at the last frame that has both, or at --frame.\n"
     "Of whole runs: --kind frames shows the model at some frames, --kind series its error maps\n"
-    "over time with the series of all frames, --kind compare two runs side by side.\n"
+    "over time with the series of all frames, --kind compare two runs side by side, --kind\n"
+    "matches what dense SURF and SIFT find of the model in a new picture.\n"
     "Beside the figure lies a JSON file with inputs, hashes, views, range and counts. The same\n"
     "inputs give the same bytes. Research use only.";
 
@@ -61,6 +63,7 @@ class FigureCommand : public Command {
 
   FigureOptions options_;
   std::string kind_ = "four", other_, frames_;
+  std::vector<std::string> names_;
   std::string run_, ct_, reference_, test_, eye_;
   std::vector<std::string> surfaces_, scans_;
   ErrorColourOptions errors_;
@@ -77,8 +80,11 @@ void FigureCommand::declare(ArgumentList& arguments) {
   arguments.option("--test", "MODEL", test_, "surface or points to show with it");
   arguments.option("--surface", "MESH", surfaces_, "one more surface or model; repeatable");
   arguments.option("--scan", "POINTS", scans_, "points to draw in red; repeatable");
-  arguments.option("--kind", "NAME", kind_, "four (default), or of a RUN: frames, series, compare");
+  arguments.option("--kind", "NAME", kind_,
+                   "four (default), or of a RUN: frames, series, compare, matches");
   arguments.option("--other", "RUN", other_, "of --kind compare: the second run");
+  arguments.option("--name", "TEXT", names_,
+                   "of --kind compare: what the two runs are called; give it twice");
   arguments.option("--frames", "LIST", frames_,
                    "of the panels, e.g. 0,10,20 (default: up to four, evenly spread)");
   arguments.option("--frame", "N", frame_, "of a RUN (default: the last one that can be judged)");
@@ -165,11 +171,18 @@ void FigureCommand::addErrors(Scene& scene, FigureFoot& foot, Json& record) cons
   for (std::size_t i = 2; i < scene.surfaces.size(); ++i) scene.surfaces[i].in_3d = false;
 }
 
+/// What --at model means: the test, or what a run reconstructed.
+const SceneSurface* modelIn(const Scene& scene) {
+  for (const SceneSurface& surface : scene.surfaces)
+    if (surface.name == "model") return &surface;
+  return nullptr;
+}
+
 FourPanelOptions FigureCommand::panelsFor(const Scene& scene) const {
   FourPanelOptions panels;
   panels.style = options_.figureStyle();
   panels.rule = options_.sideRule();
-  panels.centre_mm = options_.centre().value_or(sceneCentre(scene));
+  panels.centre_mm = options_.centreIn(scene, modelIn(scene));
   panels.width_mm = options_.field_mm > 0 ? options_.field_mm : sceneWidthMm(scene);
   panels.columns = columns_;
   if (scene.frame == SceneFrame::kCamera) panels.eye = {0.35, -0.4, -0.85};
@@ -178,20 +191,26 @@ FourPanelOptions FigureCommand::panelsFor(const Scene& scene) const {
 }
 
 void FigureCommand::validateKind() const {
-  require(kind_ == "four" || kind_ == "frames" || kind_ == "series" || kind_ == "compare", "--kind",
-          kind_, "must be four, frames, series or compare");
+  const bool known = kind_ == "four" || kind_ == "frames" || kind_ == "series" ||
+                     kind_ == "compare" || kind_ == "matches";
+  require(known, "--kind", kind_, "must be four, frames, series, compare or matches");
   const std::size_t frames = parseFrames(frames_).size();
   require(frame_ < 0 || frames == 0, "--frame", frame_, "excludes --frames; give one");
-  require(kind_ != "compare" || frames < 2, "--frames", "`" + frames_ + "`",
-          "of --kind compare must be one frame");
+  require((kind_ != "compare" && kind_ != "matches") || frames < 2, "--frames", "`" + frames_ + "`",
+          "of --kind " + kind_ + " must be one frame");
   if (kind_ == "four") {
     require(frames_.empty(), "--frames", frames_, "needs --kind frames, series or compare");
     require(other_.empty(), "--other", other_, "needs --kind compare");
+    require(names_.empty(), "--name", names_.empty() ? "" : names_[0], "needs --kind compare");
     return;
   }
   if (run_.empty()) throw OptionError("--kind " + kind_ + " needs a RUN");
   if (kind_ == "series" && reference_.empty())
     throw OptionError("--kind series needs --reference SEQUENCE, with its ground truth");
+  if (kind_ == "matches" && reference_.empty())
+    throw OptionError("--kind matches needs --reference SEQUENCE, with the run's pictures");
+  require(names_.empty() || (kind_ == "compare" && names_.size() == 2), "--name",
+          names_.empty() ? "" : names_[0], "belongs to --kind compare, which takes two");
   require((kind_ == "compare") == !other_.empty(), "--other", other_.empty() ? "missing" : other_,
           "belongs to --kind compare, which needs it");
   if (!ct_.empty() || !test_.empty() || !surfaces_.empty() || !scans_.empty())
@@ -206,6 +225,7 @@ int FigureCommand::runOfKind() {
   options.kind = kind_;
   options.run = run_;
   options.other = other_;
+  options.names = names_;
   options.sequence = reference_;
   options.frames = parseFrames(frames_);
   if (frame_ >= 0) options.frames = {frame_};
@@ -216,7 +236,8 @@ int FigureCommand::runOfKind() {
   options.panels.style = options_.figureStyle();
   options.panels.width_mm = options_.field_mm;
   options.panels.columns = columns_;
-  RunFigure figure = drawRunFigure(options, inputs);
+  RunFigure figure =
+      kind_ == "matches" ? drawMatchFigure(options, inputs) : drawRunFigure(options, inputs);
   Json record = figureRecord("figure", options_);
   record["kind"] = kind_;
   record.update(figure.record);

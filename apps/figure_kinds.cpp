@@ -11,6 +11,7 @@
 #include "apps/run_moment.h"
 #include "core/error.h"
 #include "io/message.h"
+#include "vtk_views/nice_ticks.h"
 #include "vtk_views/series_plot.h"
 
 namespace softscope {
@@ -206,14 +207,14 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
 }
 
 /// "results/paper/run" and "results/default/run": "paper" and "default".
-std::pair<std::string, std::string> distinctNames(const std::string& run,
-                                                  const std::string& other) {
+std::pair<std::string, std::string> namesOf(const RunFigureOptions& options) {
   namespace fs = std::filesystem;
+  if (options.names.size() == 2) return {options.names[0], options.names[1]};
   const auto whole = [](const std::string& folder) {
     const fs::path path = fs::absolute(folder).lexically_normal();
     return path.has_filename() ? path : path.parent_path();
   };
-  const fs::path first = whole(run), second = whole(other);
+  const fs::path first = whole(options.run), second = whole(options.other);
   fs::path a = first, b = second;
   while (a.filename() == b.filename() && a.has_relative_path() && b.has_relative_path()) {
     a = a.parent_path();
@@ -260,7 +261,7 @@ RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs)
   std::list<Scene> scenes;
   std::vector<ScenePanel> coloured, mapped;
   FigureFoot foot;
-  const auto names = distinctNames(options.run, options.other);
+  const auto names = namesOf(options);
   for (const auto& [moment, name] : {std::pair{&a, names.first}, {&b, names.second}}) {
     noteMoment(*moment, inputs);
     const SurfaceErrorMap map = mapOf(*moment, options.observed_only, errors);
@@ -279,7 +280,7 @@ RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs)
 }
 
 RunFigure compareColoured(const RunFigureOptions& options, SceneInputs& inputs) {
-  const auto names = distinctNames(options.run, options.other);
+  const auto names = namesOf(options);
   const FrameFiles first = allModels(openJudgedRun(options.run));
   const FrameFiles second = allModels(openJudgedRun(options.other));
   const int frame = frameOfBoth(options, keysOf(first), keysOf(second));

@@ -12,11 +12,12 @@
 namespace softscope {
 
 struct RunFigureOptions {
-  std::string kind;            // "frames", "series" or "compare"
-  std::string run, other;      // folders that reconstruct wrote; `other` for "compare"
-  std::string sequence;        // with the truth; may be empty for "frames" and "compare"
-  std::vector<int> frames;     // of the panels; empty: up to four, evenly spread
-  bool observed_only = false;  // points that the scope doesn't see then are grey
+  std::string kind;                // "frames", "series" or "compare"
+  std::string run, other;          // folders that reconstruct wrote; `other` for "compare"
+  std::vector<std::string> names;  // of run and other; empty: what tells their folders apart
+  std::string sequence;            // with the truth; may be empty for "frames" and "compare"
+  std::vector<int> frames;         // of the panels; empty: up to four, evenly spread
+  bool observed_only = false;      // points that the scope doesn't see then are grey
   ErrorColourOptions errors;
   Eigen::Vector3d eye{0, 0, 0};  // zeros: the kind's own
   PanelOptions panels;           // style, columns; width 0: as the models need it

@@ -6,14 +6,20 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/landmark_places.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/message.h"
+#include "io/nearest_name.h"
 #include "io/text_lines.h"
+#include "vtk_views/four_panels.h"
 
 namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kModel = "model";
 
 void requireEnding(const std::string& file) {
   const std::string ending = fs::path(file).extension().string();
@@ -39,8 +45,12 @@ Eigen::Vector3d parseVector(const std::string& text, const std::string& option) 
 
 void FigureOptions::declare(ArgumentList& arguments) {
   arguments.option("--out", "FILE", out, "figure: .png, .pdf or .svg; repeatable", true);
-  arguments.option("--at", "X,Y,Z", at,
-                   "point that the planes go through, mm (default: the middle of the surfaces)");
+  arguments.option(
+      "--at", "PLACE", at,
+      "where the planes meet: X,Y,Z in mm, a landmark's name, or model, for its middle "
+      "(default: the middle of the surfaces)");
+  arguments.option("--landmarks", "FILE", landmarks,
+                   "landmarks for --at: CSV name,x_mm,y_mm,z_mm in LPS, or Slicer's .fcsv");
   arguments.option("--field-mm", "N", field_mm,
                    "tissue that a panel's width shows (default: the surfaces and some room)");
   arguments.option("--window", "NAME", window,
@@ -77,7 +87,7 @@ void FigureOptions::validate() const {
   require(dots_per_inch == 0 || (dots_per_inch >= 30 && dots_per_inch <= 2400), "--dpi",
           dots_per_inch, "must be 30 to 2400");
   figureStyle();
-  centre();
+  namedPlace();
 }
 
 FigureStyle FigureOptions::figureStyle() const {
@@ -87,9 +97,24 @@ FigureStyle FigureOptions::figureStyle() const {
   return chosen;
 }
 
-std::optional<Eigen::Vector3d> FigureOptions::centre() const {
-  if (at.empty()) return std::nullopt;
-  return parseVector(at, "--at");
+std::optional<Eigen::Vector3d> FigureOptions::namedPlace() const {
+  require(landmarks.empty() || !at.empty(), "--landmarks", landmarks,
+          "needs --at NAME, one of them");
+  if (at.empty() || at == kModel) return std::nullopt;
+  if (landmarks.empty()) return parseVector(at, "--at");
+  const LandmarkPlaces places = readLandmarkPlaces(landmarks);
+  if (const auto found = places.find(at); found != places.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, place_mm] : places) names.push_back(name);
+  const std::string nearest = nearestName(at, names);
+  throw OptionError("--at `" + at + "`: " + shown(landmarks) + " has no such landmark" +
+                    (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)"));
+}
+
+Eigen::Vector3d FigureOptions::centreIn(const Scene& scene, const SceneSurface* model) const {
+  if (at != kModel) return namedPlace().value_or(sceneCentre(scene));
+  if (model == nullptr) throw OptionError("--at model: there is no model; give one, or X,Y,Z");
+  return middleOf({*model}).median_mm;
 }
 
 fs::path FigureOptions::recordFile() const {

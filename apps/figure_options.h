@@ -9,6 +9,7 @@
 
 #include "apps/argument_list.h"
 #include "vtk_views/figure_style.h"
+#include "vtk_views/scene.h"
 #include "vtk_views/view_plane.h"
 
 namespace softscope {
@@ -16,7 +17,7 @@ namespace softscope {
 /// As the user wrote them; the members below read them.
 struct FigureOptions {
   std::vector<std::string> out;
-  std::string window = "auto", at, style = "ieee";
+  std::string window = "auto", at, landmarks, style = "ieee";
   double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = 1;
   bool neurological = false, force = false;
 
@@ -29,10 +30,15 @@ struct FigureOptions {
   SideRule sideRule() const {
     return neurological ? SideRule::kNeurological : SideRule::kRadiological;
   }
-  /// Of --at; none for the middle of what is shown. Throws OptionError.
-  std::optional<Eigen::Vector3d> centre() const;
+  /// Of --at: a point, a landmark, the middle of `model` (null where there is none), or, where
+  /// nothing was asked, the middle of the scene. Throws OptionError, InputError.
+  Eigen::Vector3d centreIn(const Scene& scene, const SceneSurface* model) const;
   /// Beside the first figure.
   std::filesystem::path recordFile() const;
+
+ private:
+  /// The point or landmark that --at names; none for "model" and where it is empty.
+  std::optional<Eigen::Vector3d> namedPlace() const;
 };
 
 /// "1,2,-3.5". Throws OptionError naming the option.

@@ -12,6 +12,7 @@
 #include "apps/version.h"
 #include "core/error.h"
 #include "vtk_views/error_map_figure.h"
+#include "vtk_views/nice_ticks.h"
 
 namespace softscope {
 namespace {
@@ -26,11 +27,7 @@ double colourLimit(const std::vector<ReportCase>& cases) {
   double largest_mm = 0;
   for (const ReportCase& c : cases)
     if (std::isfinite(c.main("p95_mm"))) largest_mm = std::max(largest_mm, c.main("p95_mm"));
-  if (!(largest_mm > 1e-6)) return 1;
-  const double power = std::pow(10.0, std::floor(std::log10(largest_mm)));
-  for (const double leading : {1.0, 2.0, 5.0})
-    if (largest_mm <= leading * power) return leading * power;
-  return 10 * power;
+  return roundUp(largest_mm);
 }
 
 ReportPart outcomesTable(const ReportRequest& request) {

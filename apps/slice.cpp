@@ -49,7 +49,7 @@ class SliceCommand : public Command {
   std::vector<ViewPlane> planesThrough(const Scene& scene) const;
 
   FigureOptions options_;
-  std::string ct_, normal_, positions_;
+  std::string ct_, reference_, normal_, positions_;
   std::vector<std::string> surfaces_, scans_, planes_;
   int columns_ = 0;
 };
@@ -57,7 +57,9 @@ class SliceCommand : public Command {
 void SliceCommand::declare(ArgumentList& arguments) {
   arguments.positional("VOLUME", ct_, "DICOM folder, NIfTI, NRRD or MetaImage; without it: white",
                        false);
-  arguments.option("--surface", "MESH", surfaces_, "surface or model to outline; repeatable");
+  arguments.option("--reference", "MESH", reference_, "surface of the CT to outline");
+  arguments.option("--surface", "MESH", surfaces_,
+                   "model to outline; repeatable; --at model is the middle of the first");
   arguments.option("--scan", "POINTS", scans_, "points to draw in red; repeatable");
   arguments.option("--plane", "NAME", planes_,
                    "axial, coronal, sagittal or oblique; repeatable (default: the first three)");
@@ -101,6 +103,8 @@ std::vector<double> parsePositions(std::string text) {
 void SliceCommand::read(SceneInputs& inputs) const {
   if (!ct_.empty()) inputs.addVolume(ct_, options_.window);
   std::size_t colour = 0;
+  if (!reference_.empty())
+    inputs.addSurface(reference_, "reference", "reference", surfaceColour(colour++));
   for (const std::string& path : surfaces_)
     inputs.addSurface(path, "surface", shown(std::filesystem::path(path).filename()),
                       surfaceColour(colour++));
@@ -122,7 +126,8 @@ ViewPlane SliceCommand::planeNamed(const std::string& name,
 }
 
 std::vector<ViewPlane> SliceCommand::planesThrough(const Scene& scene) const {
-  const Eigen::Vector3d centre_mm = options_.centre().value_or(sceneCentre(scene));
+  const Eigen::Vector3d centre_mm = options_.centreIn(
+      scene, surfaces_.empty() ? nullptr : &scene.surfaces[(reference_.empty() ? 0 : 1)]);
   std::vector<std::string> names = planes_;
   if (names.empty()) names = {"axial", "coronal", "sagittal"};
   std::vector<ViewPlane> planes;
@@ -149,8 +154,8 @@ std::vector<ViewPlane> SliceCommand::planesThrough(const Scene& scene) const {
 int SliceCommand::run() {
   options_.validate();
   require(columns_ >= 0, "--columns", columns_, "must be 1 or more");
-  if (ct_.empty() && surfaces_.empty() && scans_.empty())
-    throw OptionError("there is nothing to slice; give a VOLUME or --surface");
+  if (ct_.empty() && reference_.empty() && surfaces_.empty() && scans_.empty())
+    throw OptionError("there is nothing to slice; give a VOLUME, --reference or --surface");
   if (!positions_.empty() && planes_.size() != 1)
     throw OptionError("--positions needs one --plane");
   if (!positions_.empty()) parsePositions(positions_);

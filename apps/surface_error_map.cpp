@@ -6,6 +6,7 @@
 #include "apps/evaluate_json.h"
 #include "core/error.h"
 #include "eval/statistics.h"
+#include "vtk_views/nice_ticks.h"
 
 namespace softscope {
 
@@ -13,14 +14,6 @@ void ErrorColourOptions::validate() const {
   require(kind == "absolute" || kind == "signed" || kind == "none", "--errors", kind,
           "must be absolute, signed or none");
   require(range_mm >= 0 && std::isfinite(range_mm), "--range-mm", range_mm, "must be above 0");
-}
-
-double roundUp(double value) {
-  if (!(value > 0) || !std::isfinite(value)) return 1;
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double leading : {1.0, 2.0, 5.0})
-    if (value <= leading * power * (1 + 1e-9)) return leading * power;
-  return 10 * power;
 }
 
 SurfaceErrorMap colourErrors(const std::vector<double>& distance_mm,

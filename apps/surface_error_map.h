@@ -36,7 +36,4 @@ SurfaceErrorMap colourErrors(const std::vector<double>& distance_mm,
 SurfaceErrorMap colourErrors(const std::vector<ClosestPoint>& closest,
                              const ErrorColourOptions& options);
 
-/// 1, 2 or 5 times a power of ten, not below `value`; 1 for a value that isn't above 0.
-double roundUp(double value);
-
 }  // namespace softscope

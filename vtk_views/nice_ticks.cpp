@@ -26,6 +26,14 @@ std::string Ticks::label(double value) const {
   return text;
 }
 
+double roundUp(double value) {
+  if (!(value > 1e-6) || !std::isfinite(value)) return 1;
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double leading : {1.0, 2.0, 5.0})
+    if (value <= leading * power * (1 + 1e-9)) return leading * power;
+  return 10 * power;
+}
+
 Ticks niceTicks(double low, double high, int wanted) {
   if (!std::isfinite(low) || !std::isfinite(high) || low >= high)
     throw Error("axis: its range must be finite and ascending");

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "vtk_views/nice_ticks.h"
-
 namespace softscope {
 namespace {
 
@@ -24,6 +22,20 @@ DrawnText label(PointPt at, const std::string& text, double size_pt, TextAnchor 
   label.size_pt = size_pt;
   label.anchor = anchor;
   return label;
+}
+
+/// Takes letters out of the middle until it fits: names of files differ at both ends.
+void shorten(DrawnText& text, double width_pt) {
+  std::string left = text.text.substr(0, text.text.size() / 2);
+  std::string right = text.text.substr(left.size());
+  const auto inside = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  while (!left.empty() && !right.empty() && textWidthPt(text) > width_pt) {
+    while (inside(left.back()) && left.size() > 1) left.pop_back();  // UTF-8: whole letters
+    left.pop_back();
+    do right.erase(0, 1);
+    while (!right.empty() && inside(right.front()));
+    text.text = left + "\xE2\x80\xA6" + right;
+  }
 }
 
 }  // namespace
@@ -60,8 +72,22 @@ void PlotAxes::drawLeftNumbers(VectorDrawing& drawing) const {
   }
 }
 
+/// Fewer where their numbers would touch.
+Ticks PlotAxes::bottomTicks() const {
+  for (int wanted = 6;; --wanted) {
+    Ticks ticks = niceTicks(x_.low, x_.high, wanted);
+    double widest_pt = 0;
+    for (const double x : ticks.values)
+      widest_pt = std::max(widest_pt,
+                           textWidthPt(label({}, ticks.label(x), font_pt_, TextAnchor::kMiddle)));
+    const double apart_pt =
+        ticks.values.size() < 2 ? right() - left() : xPt(ticks.values[1]) - xPt(ticks.values[0]);
+    if (wanted == 1 || apart_pt > widest_pt + 0.6 * font_pt_) return ticks;
+  }
+}
+
 void PlotAxes::drawBottomNumbers(VectorDrawing& drawing) const {
-  const Ticks ticks = niceTicks(x_.low, x_.high, 6);
+  const Ticks ticks = bottomTicks();
   for (const double x : ticks.values) {
     addLine({xPt(x), bottom()}, {xPt(x), bottom() + kTickPt}, kInk, drawing);
     drawing.parts.emplace_back(label({xPt(x), bottom() + kTickPt + 1.1 * font_pt_}, ticks.label(x),
@@ -147,6 +173,7 @@ void drawPlotTitle(const std::string& title, const PlotAxes& axes, double font_p
                    VectorDrawing& drawing) {
   DrawnText text = label({axes.left(), 1.4 * font_pt}, title, font_pt, TextAnchor::kStart);
   text.bold = true;
+  shorten(text, drawing.width_pt - axes.left());
   drawing.parts.emplace_back(std::move(text));
 }
 

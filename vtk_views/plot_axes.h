@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vtk_views/nice_ticks.h"
 #include "vtk_views/vector_drawing.h"
 
 namespace softscope {
@@ -49,6 +50,7 @@ class PlotAxes {
 
  private:
   void drawLeftNumbers(VectorDrawing& drawing) const;
+  Ticks bottomTicks() const;
   void drawBottomNumbers(VectorDrawing& drawing) const;
 
   PointPt top_left_, bottom_right_;
@@ -68,7 +70,7 @@ struct PlotMargins {
 PlotAxes plotAxes(const VectorDrawing& drawing, AxisRange x, AxisRange y, double font_pt,
                   const PlotMargins& margins);
 
-/// Bold, at the top.
+/// Bold, at the top; a long one loses letters in its middle.
 void drawPlotTitle(const std::string& title, const PlotAxes& axes, double font_pt,
                    VectorDrawing& drawing);
 

@@ -122,9 +122,10 @@ VectorDrawing drawErrorSeries(const ErrorSeriesData& data, const PlotStyle& styl
   for (const double time : data.times)
     if (std::isfinite(time)) times.push_back(time);
   const auto range = std::minmax_element(times.begin(), times.end());
+  const double without_title = data.title.empty() ? 1.4 : 0;  // its room, in letters
   const double highest = std::max({largestFinite(data.p95), largestFinite(data.mean), 1e-6});
   const PlotAxes axes = plotAxes(drawing, AxisRange::around(*range.first, *range.second),
-                                 {0, 1.06 * highest}, style.font_pt, {});
+                                 {0, 1.06 * highest}, style.font_pt, {3.4 - without_title, 1.2});
   drawBand(data, axes, drawing);
   axes.drawGrid(drawing);
   axes.drawCurve(data.times, data.p95, {{}, 0.6, kBandEdge, false}, drawing);
@@ -133,7 +134,7 @@ VectorDrawing drawErrorSeries(const ErrorSeriesData& data, const PlotStyle& styl
   axes.drawFrame(data.time_label, data.error_label, drawing);
   drawPlotTitle(data.title, axes, style.font_pt, drawing);
   drawLegend({{"mean", kBlue}, {"median", kVermilion, false, true}, {"up to P95", kBand, true}},
-             {axes.left(), 2.5 * style.font_pt}, style.font_pt, drawing);
+             {axes.left(), (2.5 - without_title) * style.font_pt}, style.font_pt, drawing);
   return drawing;
 }
 

@@ -7,11 +7,11 @@
 #include "deform/graph_builder.h"
 #include "deform/surface_target.h"
 #include "deform/warp.h"
-#include "features/mask_morphology.h"
 #include "features/matcher.h"
 #include "fusion/model_update.h"
 #include "fusion/visibility.h"
 #include "pipeline/frame_depth.h"
+#include "pipeline/model_matches.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
 #include "stereo/stage_clock.h"
@@ -21,23 +21,12 @@ namespace {
 
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
-void addTo(Mask& mask, const Mask& more) {
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    if (more.values[i] != 0) mask.values[i] = 1;
-}
-
 /// SIFT finds places again wherever they went; the pose is then refined from near.
 MatcherOptions wholePicture(const MatcherOptions& near, const PinholeCamera& left) {
   MatcherOptions options = near;
   options.method = "sift";
   options.search_radius_px = std::hypot(left.width_px, left.height_px);
   return options;
-}
-
-Mask unseen(const ModelView& view) {
-  Mask ignore(view.colour.width_px, view.colour.height_px, 0);
-  for (std::size_t i = 0; i < ignore.size(); ++i) ignore.values[i] = view.point_index.values[i] < 0;
-  return ignore;
 }
 
 double medianOf(std::vector<float> values) {
@@ -78,7 +67,6 @@ class CpuBackend : public ReconstructionBackend {
 
  private:
   const PinholeCamera& left() const { return depth_.rig().left; }
-  Mask notTissue() const;
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
@@ -107,23 +95,14 @@ class CpuBackend : public ReconstructionBackend {
   StageClock clock_;
 };
 
-Mask CpuBackend::notTissue() const {
-  Mask mask(left().width_px, left().height_px, 0);
-  if (!measured_.mask.empty()) addTo(mask, measured_.mask);
-  if (options_.tissue.detect_instruments)
-    addTo(mask, detectInstruments(measured_.left, options_.tissue.instruments));
-  return options_.tissue.margin_px > 0 ? grown(mask, options_.tissue.margin_px) : mask;
-}
-
 DepthSummary CpuBackend::measure(const Frame& frame) {
   clock_ = StageClock();
   matches_.clear();
   pose_ = RigidPose();
   measured_ = depth_.measure(frame);
   clock_.lap("depth");
-  not_tissue_ = notTissue();
-  live_ = {toGray(measured_.left), not_tissue_};
-  addTo(live_.ignore, highlightMask(measured_.left, options_.tissue.highlights));
+  not_tissue_ = notTissue(measured_, options_.tissue);
+  live_ = livePicture(measured_, not_tissue_, options_.tissue);
   DepthSummary summary;
   std::vector<float> sigmas;
   for (std::size_t i = 0; i < not_tissue_.size(); ++i) {
@@ -161,23 +140,14 @@ MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach 
   const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
   clock_.lap("view");
   FeatureMatcher& matcher = reach == MatchReach::kNear ? *near_matcher_ : *whole_matcher_;
-  const std::vector<PixelMatch> found =
-      matcher.match({toGray(pictureOf(view)), unseen(view)}, live_, Eigen::Vector2f::Zero());
-  matches_ = liftMatches(found, view, measured_.depth, left(), options_.lift);
+  ModelMatches found = matchModel(view, pictureOf(view), live_, measured_, options_.lift, matcher);
+  matches_ = std::move(found.lifted);
   clock_.lap("match");
-  return {static_cast<int>(found.size()), static_cast<int>(matches_.size())};
+  return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
 }
 
 PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last) {
-  PointPairs pairs;
-  for (const LiftedMatch& match : matches_) {
-    pairs.sources_mm.push_back(match.target_left_mm);
-    pairs.targets_mm.push_back(match.source_world_mm);
-    const float along = std::isfinite(match.along_mm) ? match.along_mm : match.across_mm;
-    const float variance = (2 * match.across_mm * match.across_mm + along * along) / 3;
-    pairs.weights.push_back(1 / std::max(variance, 1e-6f));
-  }
-  pose_ = estimateRigidPose(pairs, options_.pose);
+  pose_ = estimateRigidPose(posePairs(matches_), options_.pose);
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;

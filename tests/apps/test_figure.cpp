@@ -200,6 +200,13 @@ TEST_F(RunFigure, TwoRunsAreToldApartAndShownAtTheSameFrame) {
     EXPECT_THAT(textOf(at("c.svg")), HasSubstr(word));
   line.insert(line.end(), {"--reference", at("truth")});
   EXPECT_EQ(softscope::test::run(line).json()["frame"], 2);
+  std::vector<std::string> named = line;
+  named.insert(named.end(), {"--name", "with matches"});
+  EXPECT_EQ(softscope::test::run(named).exit_code, 2) << "and the other one?";
+  named.insert(named.end(), {"--name", "without"});
+  EXPECT_EQ(softscope::test::run(named).exit_code, 0);
+  EXPECT_THAT(textOf(at("c.svg")), HasSubstr(">(d) without, errors<"));
+  softscope::test::run(line);
   EXPECT_THAT(textOf(at("c.svg")), HasSubstr(">(c) paper, errors<"));
   line.insert(line.end(), {"--frames", "0,1"});
   EXPECT_EQ(softscope::test::run(line).exit_code, 2) << "which one?";
@@ -207,6 +214,37 @@ TEST_F(RunFigure, TwoRunsAreToldApartAndShownAtTheSameFrame) {
   const Outcome beyond = softscope::test::run(line);
   EXPECT_EQ(beyond.exit_code, 2);
   EXPECT_THAT(beyond.err, HasSubstr("the last one that both runs have is 2"));
+}
+
+// Of a real, if small, run: the clip slides, and both matchers see it.
+TEST_F(Figure, MatchesAreFoundAnewWithTheRunsOwnSettings) {
+  const std::string clip = makeSequence("clip", 3);
+  ASSERT_EQ(softscope::test::run({"reconstruct", clip, "--out", at("run"), "--save-every", "1",
+                                  "--set", "stereo.disparity_max_px=63", "--quiet"})
+                .exit_code,
+            0);
+  const auto matches = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"figure", at("run"), "--kind", "matches", "--reference", clip,
+                               "--out", at("m.svg"), "--force", "--json"});
+    return softscope::test::run(more);
+  };
+  const Outcome outcome = matches({});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json record = outcome.json();
+  EXPECT_EQ(record["frame"], 2);
+  EXPECT_EQ(record["model_frame"], 1);
+  ASSERT_EQ(record["matchers"].size(), 2u);
+  const Json dense = record["matchers"][0], sift = record["matchers"][1];
+  EXPECT_EQ(dense["matcher"], "dense-surf");
+  EXPECT_GT(dense["inliers"], 100);
+  EXPECT_GT(dense["with_depth"], 3 * sift["with_depth"].get<int>()) << "that is why it is dense";
+  for (const char* word : {">model view<", ">left picture, frame 2<", ">(b) SIFT: "})
+    EXPECT_THAT(textOf(at("m.svg")), HasSubstr(word));
+  EXPECT_EQ(matches({"--frame", "1"}).json()["model_frame"], 0);
+  EXPECT_EQ(matches({"--frame", "0"}).exit_code, 2) << "no model is older";
+  EXPECT_EQ(matches({"--frame", "9"}).exit_code, 2);
+  fs::remove(at("run/run.json"));
+  EXPECT_EQ(matches({}).exit_code, 3);
 }
 
 class Slice : public Figure {
@@ -240,6 +278,32 @@ TEST_F(Slice, ObliquePlanesAndSideRulesAreHonoured) {
   EXPECT_NEAR(view["centre_mm"][1], 2 + std::sqrt(2.0), 1e-9);
   EXPECT_EQ(outcome.json()["sides"], "neurological");
   EXPECT_EQ(view["side_right"], "R");
+}
+
+TEST_F(Slice, PlanesMeetAtALandmarkOrInTheModel) {
+  write("points.csv", "name,x_mm,y_mm,z_mm\napex,1,2,3\nhilum,4,5,6\n");
+  write("points.fcsv",
+        "# Markups fiducial file version = 4.11\n# CoordinateSystem = RAS\n"
+        "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n"
+        "1,-4,-5,6,0,0,0,1,1,1,0,hilum,,\n");
+  const auto centre = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {at("ct.mha"), "--reference", at("reference.obj"), "--surface",
+                               at("model.obj"), "--out", at("l.svg"), "--force", "--json"});
+    const Outcome outcome = slice(more);
+    return outcome.exit_code == 0 ? outcome.json()["views"][0]["centre_mm"] : Json(outcome.err);
+  };
+  EXPECT_EQ(centre({"--landmarks", at("points.csv"), "--at", "apex"}), (Json{1.0, 2.0, 3.0}));
+  EXPECT_EQ(centre({"--landmarks", at("points.fcsv"), "--at", "hilum"}), (Json{4.0, 5.0, 6.0}));
+  EXPECT_THAT(textOf(at("l.svg")), HasSubstr(">reference<"));
+  EXPECT_THAT(centre({"--landmarks", at("points.csv"), "--at", "apx"}).dump(),
+              HasSubstr("did you mean `apex`"));
+  EXPECT_THAT(centre({"--landmarks", at("points.csv")}).dump(), HasSubstr("needs --at"));
+  write("points.csv", "name,x_mm,y_mm,z_mm\napex,1,two,3\n");
+  EXPECT_THAT(centre({"--landmarks", at("points.csv"), "--at", "apex"}).dump(),
+              HasSubstr("line 2: `two` is no coordinate"));
+  write("model.obj", boxObj({10, 10, 10}, {14, 12, 18}));
+  EXPECT_EQ(centre({"--at", "model"})[2], 18.0) << "the median of eight corners is one of them";
+  EXPECT_EQ(slice({at("ct.mha"), "--at", "model", "--out", at("m.svg")}).exit_code, 2);
 }
 
 TEST_F(Slice, BadLinesAreRefused) {

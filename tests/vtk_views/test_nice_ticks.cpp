@@ -1,6 +1,7 @@
 // tests/vtk_views/test_nice_ticks.cpp: axes carry round numbers.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/error.h"
@@ -21,6 +22,15 @@ TEST(NiceTicks, KeepBoundsThatAreRound) {
   const Ticks ticks = niceTicks(0.1, 0.5, 4);
   EXPECT_EQ(ticks.label(ticks.values.front()), "0.1");
   EXPECT_EQ(ticks.label(ticks.values.back()), "0.5");
+}
+
+TEST(RoundUp, EndsAtOneTwoOrFive) {
+  EXPECT_DOUBLE_EQ(roundUp(0.13), 0.2);
+  EXPECT_DOUBLE_EQ(roundUp(2.1), 5);
+  EXPECT_DOUBLE_EQ(roundUp(6), 10);
+  EXPECT_DOUBLE_EQ(roundUp(0.5), 0.5) << "a round number stays";
+  for (const double none : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(roundUp(none), 1);
 }
 
 TEST(NiceTicks, RefuseEmptyRanges) {

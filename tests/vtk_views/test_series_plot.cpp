@@ -90,6 +90,37 @@ TEST(SeriesPlot, EveryPartLiesOnThePage) {
   }
 }
 
+TEST(SeriesPlot, ALongTitleLosesItsMiddle) {
+  ErrorHistogramData data = twoBins();
+  data.title = "\xC3\xA4model.ply against " + std::string(150, 'm') + "_CT_cut\xC3\xA4.stl";
+  const VectorDrawing drawing = drawErrorHistogram(data);
+  for (const DrawnText& text : partsOf<DrawnText>(drawing)) {
+    if (!text.bold) continue;
+    EXPECT_LE(text.at.x_pt + textWidthPt(text), drawing.width_pt);
+    EXPECT_THAT(text.text, testing::StartsWith("\xC3\xA4model.p"));
+    EXPECT_THAT(text.text, HasSubstr("\xE2\x80\xA6"));
+    EXPECT_THAT(text.text, testing::EndsWith("cut\xC3\xA4.stl"));
+  }
+}
+
+TEST(SeriesPlot, NumbersBelowAnAxisDoNotTouch) {
+  for (const double width : {0.2, 0.21, 0.16, 1000.5, 31.0}) {
+    const PlotAxes axes({0, 0}, {120, 50}, {0.06, 0.06 + width}, {0, 1}, 8);
+    VectorDrawing drawing = newPlotSheet(60, 40);
+    axes.drawFrame("", "", drawing);
+    double last_end = -1e9;
+    int numbers = 0;
+    for (const DrawnText& text : partsOf<DrawnText>(drawing)) {
+      if (text.anchor != TextAnchor::kMiddle || text.text.empty()) continue;
+      const double half = textWidthPt(text) / 2;
+      EXPECT_GT(text.at.x_pt - half, last_end) << text.text;
+      last_end = text.at.x_pt + half;
+      ++numbers;
+    }
+    EXPECT_GE(numbers, 1) << width;
+  }
+}
+
 TEST(SeriesPlot, NamesAxesWithTheirUnits) {
   EXPECT_THAT(wordsOf(drawErrorSeries(rising())),
               testing::IsSupersetOf({"time [s]", "distance to the surface [mm]", "mean", "median",

@@ -1,0 +1,60 @@
+// src/pipeline/model_matches.cpp: masks, pictures, pairs.
+#include "pipeline/model_matches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/mask_morphology.h"
+
+namespace softscope {
+namespace {
+
+void addTo(Mask& mask, const Mask& more) {
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (more.values[i] != 0) mask.values[i] = 1;
+}
+
+Mask unseen(const ModelView& view) {
+  Mask ignore(view.colour.width_px, view.colour.height_px, 0);
+  for (std::size_t i = 0; i < ignore.size(); ++i) ignore.values[i] = view.point_index.values[i] < 0;
+  return ignore;
+}
+
+}  // namespace
+
+Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options) {
+  Mask mask(frame.left.width_px, frame.left.height_px, 0);
+  if (!frame.mask.empty()) addTo(mask, frame.mask);
+  if (options.detect_instruments) addTo(mask, detectInstruments(frame.left, options.instruments));
+  return options.margin_px > 0 ? grown(mask, options.margin_px) : mask;
+}
+
+MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue,
+                         const TissueMaskOptions& options) {
+  MatchPicture live{toGray(frame.left), not_tissue};
+  addTo(live.ignore, highlightMask(frame.left, options.highlights));
+  return live;
+}
+
+ModelMatches matchModel(const ModelView& view, const ColourImage& picture, const MatchPicture& live,
+                        const MeasuredFrame& frame, const LiftOptions& options,
+                        FeatureMatcher& matcher) {
+  ModelMatches matches;
+  matches.pixels = matcher.match({toGray(picture), unseen(view)}, live, Eigen::Vector2f::Zero());
+  matches.lifted = liftMatches(matches.pixels, view, frame.depth, view.camera, options);
+  return matches;
+}
+
+PointPairs posePairs(const std::vector<LiftedMatch>& matches) {
+  PointPairs pairs;
+  for (const LiftedMatch& match : matches) {
+    pairs.sources_mm.push_back(match.target_left_mm);
+    pairs.targets_mm.push_back(match.source_world_mm);
+    const float along = std::isfinite(match.along_mm) ? match.along_mm : match.across_mm;
+    const float variance = (2 * match.across_mm * match.across_mm + along * along) / 3;
+    pairs.weights.push_back(1 / std::max(variance, 1e-6f));
+  }
+  return pairs;
+}
+
+}  // namespace softscope

@@ -1,0 +1,35 @@
+// src/pipeline/model_matches.h: stages 2 to 4 meet: model view and live picture become point pairs.
+#pragma once
+
+#include <vector>
+
+#include "features/lift_matches.h"
+#include "features/matcher.h"
+#include "pipeline/frame_depth.h"
+#include "pipeline/reconstruction_options.h"
+#include "pose/rigid_fit.h"
+
+namespace softscope {
+
+/// What of a frame is no tissue: its mask, and instruments where they are to be detected.
+Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options);
+
+/// The rectified left picture as it is matched: without what is no tissue, without highlights.
+MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue,
+                         const TissueMaskOptions& options);
+
+struct ModelMatches {
+  std::vector<PixelMatch> pixels;
+  std::vector<LiftedMatch> lifted;  // of those, with depth on both sides
+};
+
+/// Finds the view's pixels again in the live picture of the measured frame, by their looks in
+/// `picture`: the view's own colours, or another picture from the same place.
+ModelMatches matchModel(const ModelView& view, const ColourImage& picture, const MatchPicture& live,
+                        const MeasuredFrame& frame, const LiftOptions& options,
+                        FeatureMatcher& matcher);
+
+/// From the live camera's frame to the world, weighted by their inverse variances.
+PointPairs posePairs(const std::vector<LiftedMatch>& matches);
+
+}  // namespace softscope
