@@ -99,9 +99,10 @@ void bindMatcher(SettingsBinder& binder, MatcherOptions& options) {
   binder.bind(at + "subpixel.min_similarity", min_similarity, "correlation of both windows");
   binder.bind(at + "subpixel.max_sigma_px", max_sigma_px, "less certain matches are dropped");
   binder.bind(at + "subpixel.floor_sigma_px", floor_sigma_px, "error that no texture removes");
-  auto& [reach_px, agree_px, min_share] = options.consistency;
+  auto& [reach_px, agree_px, max_strain, min_share] = options.consistency;
   binder.bind(at + "consistency.reach_px", reach_px, "others this near are neighbours");
   binder.bind(at + "consistency.agree_px", agree_px, "neighbours agree to this");
+  binder.bind(at + "consistency.max_strain", max_strain, "and to this share of their distance");
   binder.bind(at + "consistency.min_share", min_share, "of them must agree; 0: no test");
 }
 

@@ -48,7 +48,8 @@ std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
                                        const ConsistencyOptions& options) {
   if (options.min_share <= 0) return matches;
   const float reach_sq = static_cast<float>(options.reach_px * options.reach_px);
-  const float agree_sq = static_cast<float>(options.agree_px * options.agree_px);
+  const auto least_px = static_cast<float>(options.agree_px);
+  const auto max_strain = static_cast<float>(options.max_strain);
   const Squares squares(matches, static_cast<float>(options.reach_px));
   std::vector<std::uint8_t> kept(matches.size(), 0);
   parallelRanges(static_cast<int>(matches.size()), 256, [&](int begin, int end) {
@@ -58,7 +59,9 @@ std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
         const Eigen::Vector2f apart = matches[k].model_px - matches[i].model_px;
         if (k == i || apart.squaredNorm() > reach_sq) return;
         ++others;
-        agreeing += (matches[k].live_px - matches[i].live_px - apart).squaredNorm() <= agree_sq;
+        const float agree_px = least_px + max_strain * apart.norm();
+        agreeing +=
+            (matches[k].live_px - matches[i].live_px - apart).squaredNorm() <= agree_px * agree_px;
       });
       kept[i] = agreeing >= 1 && agreeing >= options.min_share * others;
     }

@@ -128,6 +128,8 @@ void MatcherOptions::validate() const {
           "must be above 0");
   require(consistency.agree_px > 0, "matcher.consistency.agree_px", consistency.agree_px,
           "must be above 0");
+  require(consistency.max_strain >= 0 && consistency.max_strain < 1,
+          "matcher.consistency.max_strain", consistency.max_strain, "must be 0 or above, below 1");
   require(consistency.min_share >= 0 && consistency.min_share <= 1, "matcher.consistency.min_share",
           consistency.min_share, "must lie between 0 and 1");
   dense_surf.validate();

@@ -20,9 +20,10 @@ struct SubpixelOptions {
 
 /// Neighbours that a match must move with.
 struct ConsistencyOptions {
-  double reach_px = 20;    // others this near on the model are its neighbours
-  double agree_px = 2;     // they agree if their shifts differ by no more than this
-  double min_share = 0.4;  // of the neighbours that must agree; 0 = no test
+  double reach_px = 20;     // others this near on the model are its neighbours
+  double agree_px = 2;      // they agree if their shifts differ by no more than this, …
+  double max_strain = 0.2;  // … and this share of their distance: tissue stretches
+  double min_share = 0.4;   // of the neighbours that must agree; 0 = no test
 };
 
 struct MatcherOptions {
