@@ -119,6 +119,20 @@ def figures(work):
     ]
 
 
+def surface_section(softscope, work):
+    """A run's model as a surface, and the map that `compare` draws on it."""
+    words = [["export", work / "run", "--frame", 20, "--out", work / "surface.ply"],
+             ["compare", "--reference", work / "clip/groundtruth/mesh/000020.ply", "--test",
+              work / "surface.ply", "--align", "icp", "--out", work / "comparison"]]
+    for command in words:
+        run(softscope, *command, "--force")
+    picture = work / "comparison/error_map.png"
+    (PICTURES / "gallery_surface.png").write_bytes(picture.read_bytes())
+    lines = ["softscope " + " ".join(shown(word, work) for word in command) for command in words]
+    return ["## A model as a surface, compared", "```", *lines, "```",
+            "![A model as a surface, compared](images/gallery_surface.png)", ""]
+
+
 def shown(word, work):
     text = str(word)
     return text.replace(str(work) + "/", "")
@@ -138,6 +152,7 @@ def main():
         command = " ".join(shown(word, work) for word in words)
         page += [f"## {title}", "```", f"softscope {command} --out {name}.png", "```",
                  f"![{title}](images/gallery_{name}.png)", ""]
+    page += surface_section(softscope, work)
     (DOCS / "gallery.md").write_text("\n".join(page))
 
 

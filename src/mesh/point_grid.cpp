@@ -19,8 +19,13 @@ PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points_mm, float cell_m
   std::stable_sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
     return keys[std::size_t(a)] < keys[std::size_t(b)];
   });
-  keys_.reserve(keys.size());
-  for (const std::int32_t point : order_) keys_.push_back(keys[std::size_t(point)]);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const std::uint64_t key = keys[std::size_t(order_[i])];
+    if (!keys_.empty() && keys_.back() == key) continue;
+    keys_.push_back(key);
+    begins_.push_back(i);
+  }
+  begins_.push_back(order_.size());
 }
 
 }  // namespace softscope

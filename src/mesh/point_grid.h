@@ -17,10 +17,28 @@ class PointGrid {
   /// Calls visit(point) for every point in the cubes that touch the ball, and some beyond it.
   template <class Visit>
   void visitAround(const Eigen::Vector3f& centre_mm, float radius_mm, const Visit& visit) const {
+    visitCells(centre_mm, radius_mm, [&](std::size_t cell) {
+      for (std::size_t i = begins_[cell]; i < begins_[cell + 1]; ++i) visit(order_[i]);
+    });
+  }
+
+  /// Calls visit(cell) for the cubes themselves, of those that hold points.
+  template <class Visit>
+  void visitCells(const Eigen::Vector3f& centre_mm, float radius_mm, const Visit& visit) const {
     const Eigen::Vector3i low = cellOf(centre_mm.array() - radius_mm);
     const Eigen::Vector3i high = cellOf(centre_mm.array() + radius_mm);
     for (int z = low.z(); z <= high.z(); ++z)
-      for (int y = low.y(); y <= high.y(); ++y) visitRow(keyOf({low.x(), y, z}), high.x(), visit);
+      for (int y = low.y(); y <= high.y(); ++y) {
+        const std::uint64_t last = keyOf({high.x(), y, z});
+        for (auto i = placeOf(keyOf({low.x(), y, z})); i < keys_.size() && keys_[i] <= last; ++i)
+          visit(i);
+      }
+  }
+
+  std::size_t cellCount() const { return keys_.size(); }
+  /// The cube of a point of the grid.
+  std::size_t cellAt(const Eigen::Vector3f& point_mm) const {
+    return placeOf(keyOf(cellOf(point_mm)));
   }
 
  private:
@@ -31,18 +49,17 @@ class PointGrid {
   static std::uint64_t keyOf(const Eigen::Vector3i& cell) {
     return std::uint64_t(cell.z()) << 40 | std::uint64_t(cell.y()) << 20 | std::uint64_t(cell.x());
   }
-  template <class Visit>
-  void visitRow(std::uint64_t first_key, int last_x, const Visit& visit) const {
-    const std::uint64_t last_key = (first_key & ~std::uint64_t(kMostCells - 1)) | unsigned(last_x);
-    auto i = std::size_t(std::lower_bound(keys_.begin(), keys_.end(), first_key) - keys_.begin());
-    for (; i < keys_.size() && keys_[i] <= last_key; ++i) visit(order_[i]);
+  /// Of the first cube whose key is this one or more.
+  std::size_t placeOf(std::uint64_t key) const {
+    return std::size_t(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
   }
 
   static constexpr int kMostCells = 1 << 20;  // along an axis
   Eigen::Vector3f low_mm_ = Eigen::Vector3f::Zero();
   float cell_mm_;
-  std::vector<std::uint64_t> keys_;  // rising
-  std::vector<std::int32_t> order_;  // the points, by key
+  std::vector<std::uint64_t> keys_;  // of cubes that hold points, rising
+  std::vector<std::size_t> begins_;  // of each cube's points in order_, and the end of the last
+  std::vector<std::int32_t> order_;  // the points, cube by cube
 };
 
 }  // namespace softscope

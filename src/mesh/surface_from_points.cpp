@@ -105,21 +105,22 @@ NeighbourRule ruleFor(const SurfaceOptions& options, float spacing_mm) {
   return rule;
 }
 
-/// Of points that lie almost on each other, the first.
+/// Of points that lie almost on each other, the first. Looks at those that were kept alone, so that
+/// ever so many points in one place cost no more than their number.
 FitPoints spreadOut(const FitPoints& all, const NeighbourRule& rule, float least_mm) {
   const PointGrid grid(all.points.positions_mm, least_mm);
-  std::vector<char> kept(all.places.size(), 0);
+  std::vector<std::vector<std::int32_t>> kept(grid.cellCount());
   FitPoints spread;
   for (std::size_t i = 0; i < all.places.size(); ++i) {
     bool room = true;
     const Eigen::Vector3f& centre = all.points.positions_mm[i];
-    grid.visitAround(centre, least_mm, [&](std::int32_t other) {
-      room = room && !(kept[std::size_t(other)] &&
-                       (all.points.positions_mm[std::size_t(other)] - centre).norm() < least_mm &&
-                       rule.join(all.points, std::int32_t(i), other));
+    grid.visitCells(centre, least_mm, [&](std::size_t cell) {
+      for (const std::int32_t other : kept[cell])
+        room = room && !((all.points.positions_mm[std::size_t(other)] - centre).norm() < least_mm &&
+                         rule.join(all.points, std::int32_t(i), other));
     });
     if (!room) continue;
-    kept[i] = 1;
+    kept[grid.cellAt(centre)].push_back(std::int32_t(i));
     spread.add(centre, all.points.normals[i], all.places[i]);
   }
   return spread;

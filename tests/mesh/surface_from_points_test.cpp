@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -200,6 +201,37 @@ TEST(SurfaceFromPoints, TakesPointsThatLieTwiceOrNowhere) {
   expectSound(surface);
   EXPECT_EQ(surface.invalid_points, 2u);
   EXPECT_EQ(surface.mesh.triangles, clean.mesh.triangles);
+}
+
+TEST(SurfaceFromPoints, BearsVeryManyPointsInOnePlace) {
+  PointCloud cloud = planePoints(12, kSpacing_mm);
+  const std::size_t triangles = surfaceFromPoints(cloud).mesh.triangles.size();
+  for (int i = 0; i < 20000; ++i) {  // comparing each with each would take long
+    cloud.points_mm.push_back(cloud.points_mm[7]);
+    cloud.normals.push_back(cloud.normals[7]);
+    cloud.colours.push_back(cloud.colours[7]);
+  }
+  const PointSurface surface = surfaceFromPoints(cloud);
+  EXPECT_GE(surface.crowded_points, 20000u);
+  EXPECT_GT(surface.mesh.triangles.size(), triangles / 2);
+}
+
+TEST(SurfaceFromPoints, StaysManifoldWhateverTheNoise) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise(0, 1);
+  for (const float height_mm : {0.05f, 0.2f, 1.0f}) {  // up to five spacings: no surface any more
+    PointCloud cloud = planePoints(8, kSpacing_mm);
+    for (std::size_t i = 0; i < cloud.points_mm.size(); ++i) {
+      cloud.points_mm[i].z() += height_mm * noise(random);
+      cloud.normals[i] += 0.5f * Eigen::Vector3f(noise(random), noise(random), noise(random));
+      cloud.normals[i].normalize();
+    }
+    SurfaceOptions options;
+    options.least_island_mm2 = 0;
+    const PointSurface surface = surfaceFromPoints(cloud, options);
+    EXPECT_EQ(openMeshComplaint(surface.mesh), "") << height_mm;
+    EXPECT_TRUE(checkMesh(surface.mesh).oriented()) << height_mm;
+  }
 }
 
 TEST(SurfaceFromPoints, RefusesWhatMakesNoSurface) {
