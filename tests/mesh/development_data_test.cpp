@@ -84,13 +84,13 @@ Statistics distancesFrom(const TriangleTree& truth, const std::vector<Eigen::Vec
   return statistics(distances_mm);
 }
 
-/// Every second pixel of every second row: points 0.2 mm apart, as in a model.
+/// Every third pixel of every third row: points 0.3 mm apart, as in a model that was stretched.
 PointCloud pointsOfTrueDepth(const std::filesystem::path& sequence) {
   const PinholeCamera camera = readCalibration(sequence).left.pinhole;
   const Raster<float> depth_mm = readDepth(sequence / "groundtruth/depth/000000.png");
   Mask mask(depth_mm.width_px, depth_mm.height_px, 1);
-  for (int v = 0; v < mask.height_px; v += 2)
-    for (int u = 0; u < mask.width_px; u += 2) mask.at(u, v) = 0;
+  for (int v = 0; v < mask.height_px; v += 3)
+    for (int u = 0; u < mask.width_px; u += 3) mask.at(u, v) = 0;
   const ColourImage colour(depth_mm.width_px, depth_mm.height_px);
   return pointCloud(depth_mm, normalsFromDepth(depth_mm, camera), colour, camera, mask);
 }
@@ -105,8 +105,9 @@ TEST(DevelopmentData, TheSurfaceOfAnOrgansDepthIsAsTrueAsItsPoints) {
   const TriangleTree truth(readMesh(data / "groundtruth/mesh/000000.ply"));
   const Statistics points = distancesFrom(truth, cloud.points_mm);
   const Statistics triangles = distancesFrom(truth, triangleCentres(surface.mesh));
-  EXPECT_LE(triangles.mean, points.mean);  // between points that err, a triangle errs less
-  EXPECT_LE(triangles.p95, points.p95);
+  constexpr double kChord_mm = 0.002;  // a triangle 0.35 mm wide over a bend of 8 mm radius
+  EXPECT_LE(triangles.mean, points.mean + kChord_mm);
+  EXPECT_LE(triangles.p95, points.p95 + kChord_mm);
 }
 
 }  // namespace
