@@ -17,6 +17,7 @@
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
+#include "apps/sequence_arguments.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/sequence_reader.h"
@@ -45,7 +46,6 @@ class DepthCommand : public Command {
   int run() override;
 
  private:
-  SequencePaths paths() const;
   void measureAll(SequenceReader& reader, DepthEstimator& estimator, const DepthOutputs& outputs,
                   DepthRecord& record);
   void measureOne(const FrameResult& result, DepthEstimator& estimator, const DepthOutputs& outputs,
@@ -54,7 +54,8 @@ class DepthCommand : public Command {
   std::string prefixOf(int index) const;
   std::map<std::string, std::string> inputs() const;
 
-  std::string left_, right_, out_, calibration_, mask_, frames_, range_text_, write_;
+  SequenceArguments source_;
+  std::string out_, range_text_, write_;
   std::string frame_ = "left";
   bool force_ = false;
   SettingsArguments settings_;
@@ -66,17 +67,14 @@ class DepthCommand : public Command {
 };
 
 void DepthCommand::declare(ArgumentList& arguments) {
-  arguments.positional("LEFT", left_, "left picture, folder of pictures or video; or a sequence",
-                       true);
-  arguments.positional("RIGHT", right_, "right picture, folder or video; not for a sequence",
+  arguments.positional("LEFT", source_.left,
+                       "left picture, folder of pictures or video; or a sequence", true);
+  arguments.positional("RIGHT", source_.right, "right picture, folder or video; not for a sequence",
                        false);
   arguments.option("--out", "DIR", out_, "folder for the results", true);
-  arguments.option("--calibration", "FILE", calibration_,
-                   "calibration; a sequence folder has its own");
-  arguments.option("--mask", "PATH", mask_, "picture or folder; non-zero pixels are ignored");
+  source_.declareOptions(arguments);
   arguments.option("--frame", "NAME", frame_,
                    "frame of the point cloud: left (rectified, the default) or raw-left");
-  arguments.option("--frames", "A:B", frames_, "frames A up to, not with, B");
   arguments.option("--range", "A:B", range_text_, "mm that the picture's colour bar spans");
   arguments.option("--write", "LIST", write_,
                    "some of disparity,depth,confidence,cloud,picture (default: all)");
@@ -84,28 +82,12 @@ void DepthCommand::declare(ArgumentList& arguments) {
   settings_.declare(arguments);
 }
 
-SequencePaths DepthCommand::paths() const {
-  SequencePaths paths;
-  if (right_.empty() && isFolder(left_)) {
-    paths = findSequence(left_);
-  } else if (calibration_.empty()) {
-    throw OptionError("softscope depth: --calibration is missing; only a sequence folder has one");
-  } else if (right_.empty()) {
-    paths.stereo = left_;
-  } else {
-    paths.left = left_;
-    paths.right = right_;
-  }
-  if (!calibration_.empty()) paths.calibration = calibration_;
-  if (!mask_.empty()) paths.mask = mask_;
-  return paths;
-}
-
 std::map<std::string, std::string> DepthCommand::inputs() const {
-  std::map<std::string, std::string> inputs{{right_.empty() ? "sequence" : "left", left_}};
-  if (!right_.empty()) inputs["right"] = right_;
-  if (!calibration_.empty()) inputs["calibration"] = calibration_;
-  if (!mask_.empty()) inputs["mask"] = mask_;
+  std::map<std::string, std::string> inputs{
+      {source_.right.empty() ? "sequence" : "left", source_.left}};
+  if (!source_.right.empty()) inputs["right"] = source_.right;
+  if (!source_.calibration.empty()) inputs["calibration"] = source_.calibration;
+  if (!source_.mask.empty()) inputs["mask"] = source_.mask;
   return inputs;
 }
 
@@ -117,13 +99,13 @@ int DepthCommand::run() {
   SettingsBinder binder;
   bindDepthOptions(binder, options);
   binder.apply(readSettingsArguments(settings_));
-  if (!frames_.empty()) options.sequence.frames = parseFrameRange(frames_);
+  source_.applyFrames(options.sequence);
   options.validate();
 
-  SequenceReader reader(paths(), options.sequence);
+  SequenceReader reader(source_.paths("depth"), options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
   DepthEstimator estimator(reader.calibration(), options, frame_ == "raw-left");
-  is_sequence_ = reader.totalCount() > 1 || (right_.empty() && isFolder(left_));
+  is_sequence_ = reader.totalCount() > 1 || (source_.right.empty() && isFolder(source_.left));
   const DepthOutputs outputs({out_, kinds, force_, frame_ == "raw-left"});
   requireFreeOutputs(outputs, reader);
 
@@ -131,7 +113,7 @@ int DepthCommand::run() {
   record.addSettings(binder.list());
   measureAll(reader, estimator, outputs, record);
   if (record.goodFrames() == 0 && !interrupted_)
-    throw InputError(left_ + ": not one frame could be measured; the reasons stand above");
+    throw InputError(source_.left + ": not one frame could be measured; the reasons stand above");
   if (interrupted_) record.setInterrupted();
   if (record.goodFrames() > 0) writeFile(outputs.summaryFile(), jsonText(record.json()), force_);
   if (common.json)
@@ -145,7 +127,7 @@ void DepthCommand::requireFreeOutputs(const DepthOutputs& outputs, const Sequenc
   if (fs::exists(out_) && !isFolder(out_))
     throw OptionError("--out " + out_ + ": is a file, but must be a folder, there or not yet");
   std::vector<std::string> prefixes;
-  const int begin = frames_.empty() ? 0 : parseFrameRange(frames_).begin;
+  const int begin = source_.frames.empty() ? 0 : parseFrameRange(source_.frames).begin;
   for (int i = 0; i < reader.frameCount(); ++i) prefixes.push_back(prefixOf(begin + i));
   outputs.requireFree(prefixes);
 }
@@ -187,7 +169,7 @@ void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimat
   fs::create_directories(out_);
   const auto start = std::chrono::steady_clock::now();
   outputs.write(prefixOf(result.index), measured, *range_,
-                titleOf(measured.method, left_, is_sequence_ ? result.index : -1));
+                titleOf(measured.method, source_.left, is_sequence_ ? result.index : -1));
   const std::chrono::duration<double, std::milli> write = std::chrono::steady_clock::now() - start;
   record.addFrame(result.index, result.frame.time_s, measured, write.count());
 }

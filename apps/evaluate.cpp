@@ -16,6 +16,7 @@
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
+#include "apps/truthless_result.h"
 #include "core/error.h"
 #include "io/message.h"
 #include "mesh/mesh_check.h"
@@ -35,6 +36,8 @@ const char* const kDetails =
     "drawn\n"
     "from the run's pose beside true depth and picture (PSNR, SSIM).\n"
     "Against a mesh (STL, PLY, OBJ; a CT's, say) the last model, or each one, is compared.\n"
+    "Of a sequence without groundtruth/ it gives what needs no truth: PSNR and SSIM of the drawn\n"
+    "model, back-projection, coverage, steps and jitter of the scope; and says what is missing.\n"
     "With --out DIR it writes evaluation.json, frames.csv, tracks.csv, and the figures\n"
     "error_series, error_histogram and worst_frames as SVG, PDF and PNG; errors.pvd shows the\n"
     "error of every point in ParaView, `softscope report DIR` makes a page of it all.\n"
@@ -66,6 +69,7 @@ class EvaluateCommand : public Command {
   MeshAlignment alignment() const;
   EvaluationResult againstSequence(const JudgedRun& run);
   EvaluationResult againstMesh(const JudgedRun& run);
+  int besidePictures(const JudgedRun& run, const EvaluateOutputs* outputs);
   FrameFiles modelsFor(const JudgedRun& run) const;
   int finish(EvaluationResult result, const EvaluateOutputs* outputs);
   void report(const EvaluationResult& result, const FactSheet::Json& record) const;
@@ -80,7 +84,7 @@ class EvaluateCommand : public Command {
 
 void EvaluateCommand::declare(ArgumentList& arguments) {
   arguments.positional("RUN", run_, "folder that reconstruct wrote", true);
-  arguments.option("--reference", "PATH", reference_, "sequence with groundtruth/, or a mesh",
+  arguments.option("--reference", "PATH", reference_, "sequence, best with groundtruth/, or a mesh",
                    true);
   arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
   arguments.option("--fail-if", "LIMIT", fail_if_, "e.g. p95_mm>2: then exit code 1; repeatable");
@@ -108,14 +112,16 @@ int EvaluateCommand::run() {
     throw OptionError(
         "--align and --each are for a mesh; a sequence is compared frame by frame, "
         "in its camera's frame, with no alignment");
+  const bool truthless = sequence && !hasTruth(reference_);
   EvaluationResult empty;
   empty.against_mesh = !sequence;
-  checkThresholds(thresholds_, evaluationJson(empty),
-                  kPreferred);  // a misspelt name is told before the work
+  checkThresholds(thresholds_, truthless ? truthlessJson({}) : evaluationJson(empty),
+                  truthless ? "view" : kPreferred);  // a misspelt name is told before the work
   std::optional<EvaluateOutputs> outputs;
   if (!out_.empty()) outputs.emplace(out_, force_);
 
   const JudgedRun folder = openJudgedRun(run_);
+  if (truthless) return besidePictures(folder, outputs ? &*outputs : nullptr);
   EvaluationResult result = sequence ? againstSequence(folder) : againstMesh(folder);
   if (result.surface.interrupted) {
     spdlog::warn("interrupted: nothing is written");
@@ -144,6 +150,33 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
   result.warnings = sequenceWarnings(folder, truth, result);
   result.warnings.insert(result.warnings.end(), origin.begin(), origin.end());
   return result;
+}
+
+int EvaluateCommand::besidePictures(const JudgedRun& folder, const EvaluateOutputs* outputs) {
+  const InterruptGuard interrupt;
+  ProgressBar progress("evaluate", static_cast<int>(folder.models.size()),
+                       progressStyle(common.quiet), std::cerr);
+  TruthlessResult result = judgeWithoutTruth(folder, reference_, !no_views_, [&] {
+    progress.advance();
+    return !interrupt.requested();
+  });
+  if (result.interrupted) {
+    spdlog::warn("interrupted: nothing is written");
+    return kInterrupted;
+  }
+  result.run = run_;
+  result.sequence = reference_;
+  FactSheet::Json record = truthlessJson(result);
+  const auto outcomes = checkThresholds(thresholds_, record, "view");
+  record["thresholds"] = thresholdsJson(outcomes);
+  if (outputs != nullptr) outputs->write(result, record);
+  FactSheet facts = truthlessFacts(result);
+  if (!out_.empty()) facts.addLine("written to", out_);
+  if (common.json)
+    printJson(record);
+  else
+    printFacts(facts, false);
+  return exitCodeOf(outcomes);
 }
 
 FrameFiles EvaluateCommand::modelsFor(const JudgedRun& folder) const {

@@ -1,7 +1,9 @@
 // apps/evaluate_depth.cpp: a file read, or a ray cast through every pixel.
 #include "apps/evaluate_depth.h"
 
+#include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -17,11 +19,16 @@ Raster<float> castDepth(const TriangleMesh& mesh_world, const PinholeCamera& lef
                         const Eigen::Isometry3d& left_from_world) {
   const RayTree tree(movePoints(left_from_world, mesh_world.vertices_mm), mesh_world.triangles);
   Raster<float> depth_mm(left.width_px, left.height_px, std::numeric_limits<float>::quiet_NaN());
+  constexpr int kRays = std::tuple_size_v<RayPacket>;
   parallelRows(left.height_px, [&](int v) {
-    for (int u = 0; u < left.width_px; ++u) {
-      const RayHit hit =
-          tree.cast(Eigen::Vector3f::Zero(), liftPixel<double>(left, u, v, 1).cast<float>());
-      if (hit.met()) depth_mm.at(u, v) = hit.distance;  // the direction's z is 1
+    for (int begin = 0; begin < left.width_px; begin += kRays) {
+      RayPacket rays;  // the last ones of a row may point beyond the picture
+      for (int i = 0; i < kRays; ++i)
+        rays[std::size_t(i)] = liftPixel<double>(left, begin + i, v, 1).cast<float>();
+      const PacketHits hits = tree.cast(Eigen::Vector3f::Zero(), rays);
+      for (int u = begin; u < std::min(begin + kRays, left.width_px); ++u)
+        if (const RayHit& hit = hits[std::size_t(u - begin)]; hit.met())
+          depth_mm.at(u, v) = hit.distance;  // the direction's z is 1
     }
   });
   return depth_mm;

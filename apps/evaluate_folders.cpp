@@ -72,11 +72,15 @@ JudgedRun openJudgedRun(const fs::path& folder) {
   for (std::size_t k = 0; k < rows.backprojection_mm.size(); ++k)
     if (std::isfinite(rows.backprojection_mm[k]))
       run.backprojection_mm[rows.frames[k]] = rows.backprojection_mm[k];
+  for (std::size_t k = 0; k < rows.coverage.size(); ++k)
+    if (std::isfinite(rows.coverage[k])) run.coverage[rows.frames[k]] = rows.coverage[k];
   run.models = numberedFiles(folder / "models", ".ply");
   run.last_model = fileOrNone(folder / "model.ply");
   run.tracks = fileOrNone(folder / "tracks.csv");
   return run;
 }
+
+bool hasTruth(const fs::path& sequence) { return isThere(sequence / "groundtruth"); }
 
 SequenceTruth openSequenceTruth(const fs::path& sequence) {
   requireFolder(sequence);

@@ -20,6 +20,7 @@ struct JudgedRun {
   Trajectory trajectory;                    // world_from_left
   std::vector<int> frames;                  // the frame of each pose, rising
   std::map<int, double> backprojection_mm;  // of frames.csv, by frame, where it has a value
+  std::map<int, double> coverage;           // the same: share of the tissue that has depth
   FrameFiles models;                        // models/NNNNNN.ply
   std::filesystem::path last_model;         // model.ply; empty where it is missing
   std::filesystem::path tracks;             // tracks.csv; empty where it is missing
@@ -27,6 +28,9 @@ struct JudgedRun {
 
 /// Throws InputError: no such folder, no trajectory, or a table of frames that doesn't fit it.
 JudgedRun openJudgedRun(const std::filesystem::path& folder);
+
+/// Whether there is a folder groundtruth in it, whatever that holds.
+bool hasTruth(const std::filesystem::path& sequence);
 
 /// The ground truth of a sequence folder.
 struct SequenceTruth {

@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 
 constexpr double kDotsPerInch = 300;
 
-const char* const kFiles[] = {"evaluation.json",     "frames.csv",          "tracks.csv",
-                              "error_series.svg",    "error_series.pdf",    "error_series.png",
-                              "error_histogram.svg", "error_histogram.pdf", "error_histogram.png",
-                              "worst_frames.svg",    "worst_frames.pdf",    "worst_frames.png",
-                              "errors.pvd"};
+const char* const kFiles[] = {
+    "evaluation.json",     "frames.csv",         "tracks.csv",          "error_series.svg",
+    "error_series.pdf",    "error_series.png",   "error_histogram.svg", "error_histogram.pdf",
+    "error_histogram.png", "worst_frames.svg",   "worst_frames.pdf",    "worst_frames.png",
+    "errors.pvd",          "quality_series.svg", "quality_series.pdf",  "quality_series.png"};
 
 std::string mapName(const ErrorMap& map) {
   char name[32];
@@ -90,6 +90,14 @@ void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& fr
   }
   putMaps(result.surface.maps);
   put("evaluation.json", jsonText(record));  // last: who finds it finds the others
+}
+
+void EvaluateOutputs::write(const TruthlessResult& result, const FactSheet::Json& record) const {
+  fs::create_directories(folder_);
+  put("frames.csv", truthlessCsv(result));
+  const VectorDrawing plots = truthlessPlots(result);
+  if (plots.height_pt > 0) putFigure("quality_series", plots);
+  put("evaluation.json", jsonText(record));
 }
 
 }  // namespace softscope

@@ -6,6 +6,7 @@
 #include "apps/evaluate_frames.h"
 #include "apps/evaluate_result.h"
 #include "apps/fact_sheet.h"
+#include "apps/truthless_result.h"
 #include "vtk_views/vector_drawing.h"
 
 namespace softscope {
@@ -22,6 +23,8 @@ class EvaluateOutputs {
   /// errors/NNNNNN.vtp of some of its moments.
   void write(const EvaluationResult& result, const FrameTable& frames,
              const FactSheet::Json& record) const;
+  /// evaluation.json, frames.csv, and the figure quality_series.
+  void write(const TruthlessResult& result, const FactSheet::Json& record) const;
 
  private:
   void put(const std::string& name, const std::string& bytes) const;

@@ -40,10 +40,10 @@ class NumberTable {
 /// frame,id,x_mm,y_mm,z_mm[,visible]; positions that were lost are NaN.
 std::vector<TrackSample> readTracks(const std::filesystem::path& file);
 
-/// The column `frame` of frames.csv, rising, and backprojection_mean_mm, NaN where it lacks.
+/// Of frames.csv: `frame`, rising; backprojection_mean_mm and coverage, NaN where they lack.
 struct FrameRows {
   std::vector<int> frames;
-  std::vector<double> backprojection_mm;
+  std::vector<double> backprojection_mm, coverage;
 };
 
 FrameRows readFrameRows(const std::filesystem::path& file);

@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 
 #include "apps/command.h"
@@ -14,6 +13,7 @@
 #include "apps/result_output.h"
 #include "apps/run_folder.h"
 #include "apps/run_record.h"
+#include "apps/sequence_arguments.h"
 #include "core/error.h"
 #include "io/file_hash.h"
 #include "io/sequence_reader.h"
@@ -24,8 +24,6 @@
 
 namespace softscope {
 namespace {
-
-namespace fs = std::filesystem;
 
 const char* const kDetails =
     "Writes model.ply (the last model: mm, world = the left camera at the first frame),\n"
@@ -52,7 +50,6 @@ class ReconstructCommand : public Command {
   int run() override;
 
  private:
-  SequencePaths paths() const;
   std::string digestOf(const SequencePaths& paths, const SettingsBinder& binder) const;
   std::vector<TrackSeed> seeds() const;
   std::unique_ptr<ReconstructionBackend> makeBackend(const StereoCalibration& calibration,
@@ -60,7 +57,8 @@ class ReconstructCommand : public Command {
   void reconstructAll(SequenceReader& reader, Reconstructor& reconstructor, RunFolder& folder,
                       RunRecord& record, Checkpoint& checkpoint);
 
-  std::string left_, right_, out_, calibration_, mask_, frames_, track_;
+  SequenceArguments source_;
+  std::string out_, track_;
   std::string backend_ = "auto", preset_ = "default", matcher_;
   int save_every_ = 10, checkpoint_every_ = 100;
   bool no_correspondence_ = false, resume_ = false, force_ = false;
@@ -69,13 +67,12 @@ class ReconstructCommand : public Command {
 };
 
 void ReconstructCommand::declare(ArgumentList& arguments) {
-  arguments.positional("SEQUENCE", left_, "sequence folder; or the left video or folder", true);
-  arguments.positional("RIGHT", right_, "right video or folder; not for a sequence folder", false);
+  arguments.positional("SEQUENCE", source_.left, "sequence folder; or the left video or folder",
+                       true);
+  arguments.positional("RIGHT", source_.right, "right video or folder; not for a sequence folder",
+                       false);
   arguments.option("--out", "DIR", out_, "folder for the run", true);
-  arguments.option("--calibration", "FILE", calibration_,
-                   "calibration; a sequence folder has its own");
-  arguments.option("--mask", "PATH", mask_, "picture or folder; non-zero pixels are ignored");
-  arguments.option("--frames", "A:B", frames_, "frames A up to, not with, B");
+  source_.declareOptions(arguments);
   arguments.option("--save-every", "N", save_every_,
                    "save the model every N frames (default 10; 0: only the last)");
   arguments.option("--track", "FILE", track_,
@@ -90,26 +87,6 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
   arguments.flag("--resume", resume_, "go on with an interrupted run");
   arguments.flag("--force", force_, "replace an earlier run");
   settings_.declare(arguments);
-}
-
-SequencePaths ReconstructCommand::paths() const {
-  SequencePaths paths;
-  std::error_code ignored;  // what isn't there is the reader's to report
-  if (right_.empty() && (calibration_.empty() || fs::is_directory(left_, ignored))) {
-    paths = findSequence(left_);
-  } else if (calibration_.empty()) {
-    throw OptionError(
-        "softscope reconstruct: --calibration is missing; only a sequence folder "
-        "has its own");
-  } else if (right_.empty()) {
-    paths.stereo = left_;
-  } else {
-    paths.left = left_;
-    paths.right = right_;
-  }
-  if (!calibration_.empty()) paths.calibration = calibration_;
-  if (!mask_.empty()) paths.mask = mask_;
-  return paths;
 }
 
 /// Everything that decides the result; a run goes on only with the same.
@@ -152,11 +129,11 @@ int ReconstructCommand::run() {
   if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
   if (no_correspondence_) addAssignment(settings, "deform.use_correspondences=false");
   binder.apply(settings);
-  if (!frames_.empty()) options.sequence.frames = parseFrameRange(frames_);
+  source_.applyFrames(options.sequence);
   options.resolve();
   require(checkpoint_every_ >= 1, "--checkpoint-every", checkpoint_every_, "must be 1 or more");
 
-  const SequencePaths where = paths();
+  const SequencePaths where = source_.paths("reconstruct");
   const std::vector<TrackSeed> tracked = seeds();
   RunFolder folder({out_, save_every_, !tracked.empty(), force_}, resume_);
   Checkpoint checkpoint{digestOf(where, binder), options.sequence.frames.begin, {}};
@@ -183,7 +160,7 @@ int ReconstructCommand::run() {
   record.set("interrupted", interrupted_);
   const bool nothing = reconstructor.backend().empty();
   if (nothing && !interrupted_)
-    throw InputError(left_ + ": not one frame could be used; the reasons stand above");
+    throw InputError(source_.left + ": not one frame could be used; the reasons stand above");
   if (!nothing) folder.writeRecord(jsonText(record.json()));
   if (common.json)
     printJson(record.json());

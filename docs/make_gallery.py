@@ -7,6 +7,7 @@ The CT is a phantom: a body, a spine, an organ with a vein; the clip is softscop
 A second call with the same work folder keeps the simulated clip and its run.
 """
 import math
+import shlex
 import struct
 import subprocess
 import sys
@@ -99,7 +100,7 @@ def figures(work):
         ("CT, reference and model, with the error map", "four", on_ct + ["--width-mm", 183]),
         ("The same in one column, signed", "four_signed", on_ct + ["--errors", "signed"]),
         ("Slices at several places", "slices",
-         ["slice", ct, "--surface", organ, "--surface", model, "--plane", "axial", "--positions",
+         ["slice", ct, "--reference", organ, "--surface", model, "--plane", "axial", "--positions",
           "970:1030:20", "--width-mm", 183]),
         ("An oblique slice, neurological", "oblique",
          ["slice", ct, "--surface", organ, "--plane", "oblique", "--normal", "0.3,0.5,0.8",
@@ -114,8 +115,10 @@ def figures(work):
          ["figure", first, "--kind", "series", "--reference", clip, "--observed", "--width-mm",
           183]),
         ("Two runs: with and without matches", "two_runs",
-         ["figure", first, "--kind", "compare", "--other", second, "--reference", clip,
-          "--width-mm", 183]),
+         ["figure", first, "--kind", "compare", "--other", second, "--name", "with matches",
+          "--name", "without", "--reference", clip, "--width-mm", 183]),
+        ("Matches of the model in a new picture", "matches",
+         ["figure", first, "--kind", "matches", "--reference", clip, "--frame", 16]),
     ]
 
 
@@ -134,8 +137,7 @@ def surface_section(softscope, work):
 
 
 def shown(word, work):
-    text = str(word)
-    return text.replace(str(work) + "/", "")
+    return shlex.quote(str(word).replace(str(work) + "/", ""))
 
 
 def main():

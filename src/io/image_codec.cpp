@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "io/image_header.h"
+#include "io/jpeg_damage.h"
 #include "io/message.h"
 
 namespace softscope {
@@ -23,6 +24,7 @@ cv::Mat decodeOrEmpty(std::string_view bytes, int flags) {
 
 cv::Mat decodeImage(std::string_view bytes, const std::string& name, int flags) {
   const ImageHeader header = inspectImage(bytes, name);
+  if (header.form == ImageForm::kJpeg) requireSoundJpeg(bytes, name);
   cv::Mat image = decodeOrEmpty(bytes, flags);
   if (image.cols != header.width_px || image.rows != header.height_px)
     throw InputError(name +

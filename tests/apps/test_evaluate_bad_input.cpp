@@ -16,8 +16,11 @@ using testing::HasSubstr;
 TEST_F(Evaluate, MissingPartsOfARunAreNamed) {
   expectRefused({at("nowhere")},
                 softscope::test::run({"evaluate", at("nowhere"), "--reference", at("truth")}));
-  expectRefused({"groundtruth/trajectory.txt", "missing"},
+  expectRefused({at("run")},
                 softscope::test::run({"evaluate", at("run"), "--reference", at("run")}));
+  fs::create_directories(at("half/groundtruth"));
+  expectRefused({"groundtruth/trajectory.txt", "missing"},
+                softscope::test::run({"evaluate", at("run"), "--reference", at("half")}));
   expectRefused({at("nothing.ply"), "no such file"},
                 softscope::test::run({"evaluate", at("run"), "--reference", at("nothing.ply")}));
   fs::remove(at("run/trajectory.txt"));

@@ -2,6 +2,7 @@
 // reported.
 #include <gtest/gtest.h>
 
+#include "io/file_bytes.h"
 #include "io/sequence_folder.h"
 #include "io/sequence_reader.h"
 
@@ -99,6 +100,15 @@ TEST_F(BadSequence, ATruncatedJpegIsReported) {
   cut("left/000001.jpg", 0.6);
   // Its name sorts in the same place.
   expectOneBadFrame(1, {"left/000001.jpg", "truncated"});
+}
+
+TEST_F(BadSequence, AJpegThatIsDamagedInsideIsReported) {
+  fs::remove(at("left/000001.png"));
+  writeJpeg(at("left/000001.jpg"), testPair(1).left);
+  std::string bytes = readBytes(at("left/000001.jpg"));
+  bytes.erase(bytes.size() / 2, bytes.size() / 4);
+  put(at("left/000001.jpg"), bytes);
+  expectOneBadFrame(1, {"left/000001.jpg", "damaged inside"});
 }
 
 TEST_F(BadSequence, SizesMustBeTheCalibrations) {

@@ -7,6 +7,7 @@
 #include "vtk_views/fonts.h"
 #include "vtk_views/plot_axes.h"
 #include "vtk_views/series_plot.h"
+#include "vtk_views/value_series_plot.h"
 #include "vtk_views/worst_frames_plot.h"
 
 namespace softscope {
@@ -176,6 +177,18 @@ TEST(SeriesPlot, WorstFramesHaveBarsOfTheirErrorsOverTheirNumbers) {
   data.p95.pop_back();
   EXPECT_THROW(drawWorstFrames(data), Error);
   EXPECT_THROW(drawWorstFrames({}), Error);
+}
+
+TEST(SeriesPlot, AValueOverTimeSpansItsAxis) {
+  const ValueSeriesData data{"time [s]", "PSNR [dB]", {0, 1, 2}, {30, std::nan(""), 32}};
+  const VectorDrawing drawing = drawValueSeries(data);
+  const auto dots = partsOf<DrawnDots>(drawing);
+  ASSERT_EQ(dots.size(), 1u);
+  ASSERT_EQ(dots[0].centres.size(), 2u) << "NaN is no dot";
+  EXPECT_GT(dots[0].centres[0].y_pt - dots[0].centres[1].y_pt, 0.8 * 29 * kPtPerMm)
+      << "not squeezed into the upper end of an axis from 0";
+  EXPECT_THROW(drawValueSeries({"", "", {1}, {}}), Error);
+  EXPECT_THROW(drawValueSeries({"", "", {1}, {std::nan("")}}), Error);
 }
 
 TEST(SeriesPlot, NothingToDrawIsRefused) {

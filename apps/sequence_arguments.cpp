@@ -1,0 +1,42 @@
+// apps/sequence_arguments.cpp: what is a folder has its own calibration.
+#include "apps/sequence_arguments.h"
+
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace softscope {
+
+void SequenceArguments::declareOptions(ArgumentList& arguments) {
+  arguments.option("--calibration", "FILE", calibration,
+                   "calibration; a sequence folder has its own");
+  arguments.option("--mask", "PATH", mask, "picture or folder; non-zero pixels are ignored");
+  arguments.option("--frames", "A:B", frames, "frames A up to, not with, B");
+}
+
+SequencePaths SequenceArguments::paths(const std::string& command) const {
+  std::error_code ignored;  // what isn't there, or a link to itself, is the reader's to report
+  const bool is_file = std::filesystem::is_regular_file(left, ignored);
+  const bool is_folder = std::filesystem::is_directory(left, ignored);
+  SequencePaths paths;
+  if (right.empty() && (is_folder || (calibration.empty() && !is_file))) {
+    paths = findSequence(left);
+  } else if (calibration.empty()) {
+    throw OptionError("softscope " + command +
+                      ": --calibration is missing; only a sequence folder has its own");
+  } else if (right.empty()) {
+    paths.stereo = left;
+  } else {
+    paths.left = left;
+    paths.right = right;
+  }
+  if (!calibration.empty()) paths.calibration = calibration;
+  if (!mask.empty()) paths.mask = mask;
+  return paths;
+}
+
+void SequenceArguments::applyFrames(SequenceOptions& options) const {
+  if (!frames.empty()) options.frames = parseFrameRange(frames);
+}
+
+}  // namespace softscope
