@@ -107,13 +107,14 @@ Answer answerOf(const char* method, const char* name, const ModelView& view,
     const PixelMatch& match = found.pixels[static_cast<std::size_t>(found.lifted[i].match)];
     answer.panel.matches.push_back({match.model_px, match.live_px, pose.inlier[i] != 0});
   }
-  const double share =
-      found.lifted.empty() ? 0 : 100.0 * pose.inliers / double(found.lifted.size());
-  answer.panel.caption = std::string(name) + ": " + std::to_string(found.lifted.size()) +
-                         " matches with depth, " + fixed(share, 1) + " % inliers";
+  const std::size_t count = found.lifted.size();
+  answer.panel.caption = std::string(name) + ": " + std::to_string(count) +
+                         " matches with depth, " +
+                         (pose.found ? fixed(100.0 * pose.inliers / double(count), 1) + " % inliers"
+                                     : "no rigid pose");
   answer.json = {{"matcher", method},
                  {"matches", found.pixels.size()},
-                 {"with_depth", found.lifted.size()},
+                 {"with_depth", count},
                  {"inliers", pose.inliers},
                  {"pose_found", pose.found}};
   return answer;

@@ -121,19 +121,21 @@ std::string cellOf(double value) {
   return text;
 }
 
-/// Times, or frames where the clock doesn't rise.
-bool timesRise(const TruthlessResult& result) {
+/// A sequence without timestamps counts frames as seconds: then a time says nothing.
+bool hasClock(const TruthlessResult& result) {
   double last_s = -1;
+  bool counts_frames = true;
   for (const auto& [number, frame] : result.frames) {
     if (!(frame.time_s > last_s)) return false;
     last_s = frame.time_s;
+    counts_frames = counts_frames && frame.time_s == number;
   }
-  return true;
+  return !counts_frames;
 }
 
 void addPlot(const TruthlessResult& result, const char* label, const Value& value,
              const PlotStyle& style, VectorDrawing& drawing) {
-  const bool over_time = timesRise(result);
+  const bool over_time = hasClock(result);
   ValueSeriesData data{over_time ? "time [s]" : "frame", label, {}, {}};
   for (const auto& [number, frame] : result.frames) {
     if (!std::isfinite(value(frame))) continue;

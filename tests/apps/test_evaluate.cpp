@@ -296,6 +296,8 @@ TEST_F(EvaluateWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
   for (const char* name : {"quality_series.svg", "quality_series.pdf", "quality_series.png"})
     EXPECT_TRUE(fs::exists(at(std::string("out/") + name))) << name;
   EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">PSNR [dB]<"));
+  EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">frame<"))
+      << "the clip has no clock";
   const Outcome told = softscope::test::run(line);
   EXPECT_THAT(told.out, HasSubstr("no ground truth"));
   EXPECT_THAT(told.out, HasSubstr("groundtruth/tracks.csv"));
