@@ -22,24 +22,18 @@ struct Listener {
 
 Listener& listenerOf(j_common_ptr jpeg) { return *reinterpret_cast<Listener*>(jpeg->err); }
 
-void keepComplaint(j_common_ptr jpeg) {
-  Listener& listener = listenerOf(jpeg);
-  if (listener.complaint[0] == '\0')
-    listener.manager.format_message(jpeg, listener.complaint.data());
-}
-
 [[noreturn]] void fail(j_common_ptr jpeg) {
-  keepComplaint(jpeg);
-  longjmp(listenerOf(jpeg).way_out, 1);
+  Listener& listener = listenerOf(jpeg);
+  listener.manager.format_message(jpeg, listener.complaint.data());
+  longjmp(listener.way_out, 1);
 }
 
-/// Of warnings only those about the data: odd versions of headers are no damage.
+/// The first warning about the data ends it; odd versions of headers are no damage.
 void listen(j_common_ptr jpeg, int level) {
   constexpr std::array<int, 5> kOfData{JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF,
                                        JWRN_EXTRANEOUS_DATA, JWRN_MUST_RESYNC};
   const int code = jpeg->err->msg_code;
-  if (level < 0 && std::find(kOfData.begin(), kOfData.end(), code) != kOfData.end())
-    keepComplaint(jpeg);
+  if (level < 0 && std::find(kOfData.begin(), kOfData.end(), code) != kOfData.end()) fail(jpeg);
 }
 
 void staySilent(j_common_ptr) {}
