@@ -94,42 +94,65 @@ void printErrors(const char* name) {
   }
 }
 
-void printRealTissue() {
-  const auto folder = dataFolder("endonerf_pulling");
+/// Counts of one matcher, a pair of neighbouring frames each.
+struct MatchCounts {
+  const char* name;
+  std::unique_ptr<FeatureMatcher> matcher;
+  std::vector<double> counts;
+
+  void print() const {
+    std::printf("| %s | %.0f | %.0f | %.0f |", name, FlowErrors::quantile(counts, 0),
+                FlowErrors::quantile(counts, 0.5), FlowErrors::quantile(counts, 1));
+    for (const double count : counts) std::printf(" %.0f", count);
+    std::printf(" |\n");
+  }
+};
+
+/// Every frame against the next one; `frames` of them, numbered from 0.
+void printMatchCounts(const char* name, int frames) {
+  const auto folder = dataFolder(name);
   if (folder.empty()) return;
+  const auto pictureAt = [&](int frame) {
+    const auto mask = folder / "mask" / (frameName(frame) + ".png");
+    return pictureOf(readLeft(folder, frame), exists(mask) ? readMask(mask) : Mask());
+  };
   MatcherOptions sift;
   sift.method = "sift";
-  const auto dense = makeFeatureMatcher({}), sparse = makeFeatureMatcher(sift);
-  std::vector<double> dense_counts, sparse_counts;
-  double least_factor = std::numeric_limits<double>::max(), both = 0, found = 0, marked = 0;
-  const auto maskOf = [&](int f) { return readMask(folder / "mask" / (frameName(f) + ".png")); };
-  MatchPicture before = pictureOf(readLeft(folder, 0), maskOf(0));
+  MatchCounts dense{"dense-surf", makeFeatureMatcher({}), {}},
+      sparse{"sift", makeFeatureMatcher(sift), {}};
+  double least_factor = std::numeric_limits<double>::max();
+  MatchPicture before = pictureAt(0);
+  for (int frame = 1; frame < frames; ++frame) {
+    const MatchPicture after = pictureAt(frame);
+    for (MatchCounts* one : {&dense, &sparse})
+      one->counts.push_back(
+          double(one->matcher->match(before, after, Eigen::Vector2f::Zero()).size()));
+    least_factor =
+        std::min(least_factor, dense.counts.back() / std::max(1.0, sparse.counts.back()));
+    before = after;
+  }
+  std::printf(
+      "\n%s, %d pairs; dense SURF finds at least %.1f times as many\n"
+      "| matches | least | median | most | pair by pair |\n|---|---|---|---|---|\n",
+      name, frames - 1, least_factor);
+  dense.print();
+  sparse.print();
+}
+
+void printInstruments() {
+  const auto folder = dataFolder("endonerf_pulling");
+  if (folder.empty()) return;
+  double both = 0, found = 0, marked = 0;
   for (int frame = 1; frame < 63; ++frame) {
-    const ColourImage colour = readLeft(folder, frame);
-    const Mask mask = maskOf(frame), detected = detectInstruments(colour, {});
-    const MatchPicture after = pictureOf(colour, mask);
-    const auto d = dense->match(before, after, Eigen::Vector2f::Zero()).size();
-    const auto s = sparse->match(before, after, Eigen::Vector2f::Zero()).size();
-    dense_counts.push_back(static_cast<double>(d));
-    sparse_counts.push_back(static_cast<double>(s));
-    least_factor = std::min(least_factor, static_cast<double>(d) / std::max<double>(1, s));
+    const Mask mask = readMask(folder / "mask" / (frameName(frame) + ".png"));
+    const Mask detected = detectInstruments(readLeft(folder, frame), {});
     for (std::size_t i = 0; i < mask.size(); ++i) {
       found += detected.values[i] != 0;
       marked += mask.values[i] != 0;
       both += detected.values[i] != 0 && mask.values[i] != 0;
     }
-    before = after;
   }
-  const auto line = [](const char* name, const std::vector<double>& counts) {
-    std::printf("| %s | %.0f | %.0f | %.0f |\n", name, FlowErrors::quantile(counts, 0),
-                FlowErrors::quantile(counts, 0.5), FlowErrors::quantile(counts, 1));
-  };
-  std::printf(
-      "\nendonerf_pulling, 62 pairs\n| matches | least | median | most |\n|---|---|---|---|\n");
-  line("dense-surf", dense_counts);
-  line("sift", sparse_counts);
-  std::printf("least ratio on one pair: %.1f\n", least_factor);
-  std::printf("instruments: precision %.3f, recall %.3f\n", both / found, both / marked);
+  std::printf("\ninstruments: precision %.3f, recall %.3f\n", both / found, both / marked);
 }
 
 void printStages(const char* name) {
@@ -173,5 +196,8 @@ int main() {
     softscope::test::printStages(name);
     softscope::test::printErrors(name);
   }
-  softscope::test::printRealTissue();
+  softscope::test::printMatchCounts("endonerf_pulling", 63);
+  softscope::test::printMatchCounts("openhelp_heart", 40);
+  softscope::test::printMatchCounts("openhelp_kidney_small", 40);
+  softscope::test::printInstruments();
 }
