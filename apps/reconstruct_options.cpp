@@ -153,6 +153,7 @@ void bindDeform(SettingsBinder& binder, ReconstructOptions& options) {
   binder.bind(at + "rotation_weight", deform.rotation_weight, "w_rot; affine nodes alone");
   binder.bind(at + "regularisation_weight", deform.regularisation_weight, "w_reg");
   binder.bind(at + "seen_stiffness", deform.seen_stiffness, "of it, where tissue is in sight");
+  binder.bind(at + "rest_weight", deform.rest_weight, "w_rest: hidden tissue stays");
   binder.bind(at + "data_weight", deform.data_weight, "w_data");
   binder.bind(at + "correspondence_weight", deform.correspondence_weight, "w_corr");
   binder.bind(at + "use_correspondences", options.method.use_correspondences,

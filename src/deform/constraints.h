@@ -60,6 +60,7 @@ struct ConstraintSet {
   int matches_dropped = 0;  // not finite, or their model point unbound
   int points = 0;
   std::vector<double> stiffness;  // one an edge of the graph, 1 = as stiff as unseen tissue
+  std::vector<double> hidden;     // one a node: the share of its points that is out of sight
 };
 
 /// Room for all candidates, and the matches' rows; all edges stiff. Renews *constraints, whose

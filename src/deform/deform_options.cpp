@@ -59,6 +59,7 @@ DeformOptions DeformOptions::paper() {
   options.rotation_weight = 1e3;
   options.regularisation_weight = 1e4;
   options.seen_stiffness = 1;
+  options.rest_weight = 0;
   options.data_weight = 1;
   options.correspondence_weight = 1;
   options.data_robust.loss = RobustLoss::kNone;
@@ -73,6 +74,7 @@ void DeformOptions::validate() const {
   requireNotNegative("deform.regularisation_weight", regularisation_weight);
   require(seen_stiffness > 0 && seen_stiffness <= 1, "deform.seen_stiffness", seen_stiffness,
           "must be above 0 and at most 1");
+  requireNotNegative("deform.rest_weight", rest_weight);
   requireNotNegative("deform.data_weight", data_weight);
   requireNotNegative("deform.correspondence_weight", correspondence_weight);
   validateRobust(data_robust, "deform.data_robust");

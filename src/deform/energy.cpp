@@ -99,6 +99,13 @@ double edgeEnergy(const WarpGraph& graph, const std::vector<double>& stiffness) 
   return sum;
 }
 
+double restEnergy(const WarpGraph& graph, const std::vector<double>& hidden) {
+  double sum = 0;
+  for (std::size_t j = 0; j < hidden.size(); ++j)
+    sum += hidden[j] * graph.transforms[j].translation_mm.squaredNorm();
+  return sum;
+}
+
 double rotationEnergy(const WarpGraph& graph) {
   double sum = 0;
   for (const NodeTransform& transform : graph.transforms)
@@ -129,6 +136,7 @@ void evaluateEnergy(const WarpGraph& graph, const ConstraintSet& constraints,
   evaluateConstraints(graph, constraints, options, value);
   value->terms.regularisation =
       options.regularisation_weight * edgeEnergy(graph, constraints.stiffness);
+  value->terms.rest = options.rest_weight * restEnergy(graph, constraints.hidden);
   if (options.node_model == NodeModel::kAffine)
     value->terms.rotation = options.rotation_weight * rotationEnergy(graph);
 }

@@ -9,14 +9,15 @@
 
 namespace softscope {
 
-/// The four terms, weighted; their sum is what is minimised.
+/// The terms, weighted; their sum is what is minimised.
 struct EnergyTerms {
   double rotation = 0;        // w_rot E_rot
   double regularisation = 0;  // w_reg E_reg
+  double rest = 0;            // w_rest E_rest
   double data = 0;            // w_data E_data, robust
   double correspondence = 0;  // w_corr E_corr, robust
 
-  double total() const { return rotation + regularisation + data + correspondence; }
+  double total() const { return rotation + regularisation + rest + data + correspondence; }
 };
 
 /// The energy of one set of transforms, and what the normal equations need of it.

@@ -9,8 +9,8 @@
 
 #include "core/parallel.h"
 #include "deform/block_cholesky.h"
-#include "deform/edge_stiffness.h"
 #include "deform/graph_facts.h"
+#include "deform/node_sight.h"
 #include "deform/node_terms.h"
 #include "deform/normal_equations.h"
 
@@ -79,7 +79,7 @@ class Solver : public DeformSolver {
       dropCandidates(graph);
     makeConstraints(model, graph, candidates_, seen.matches, options_.correspondence_weight,
                     &constraints_);
-    softenWhereSeen(model, graph, candidates_, options_.seen_stiffness, &constraints_.stiffness);
+    judgeSight(model, graph, candidates_, options_.seen_stiffness, &constraints_);
     summary->matches = constraints_.matches;
     summary->matches_dropped = constraints_.matches_dropped;
     lever_mm_ = meanEdgeLength(graph);

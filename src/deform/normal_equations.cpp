@@ -112,6 +112,7 @@ void NormalEquations<Node>::assemble(const WarpGraph& graph, const ConstraintSet
   assembleEdges(graph, constraints.stiffness, options.regularisation_weight);
   if constexpr (hasRotationTerm(kUnknowns)) assembleRotations(graph, options.rotation_weight);
   gather(constraints);
+  addRest(graph, constraints.hidden, options.rest_weight);
 }
 
 template <class Node>
@@ -192,6 +193,20 @@ void NormalEquations<Node>::gather(const ConstraintSet& constraints) {
       sumParts(block_parts_, b, kStencilBlocks, kBlock, part_blocks_.data(),
                blocks_.data() + static_cast<std::size_t>(b) * kBlock);
   });
+}
+
+/// (7b): nothing but the translations' own blocks.
+template <class Node>
+void NormalEquations<Node>::addRest(const WarpGraph& graph, const std::vector<double>& hidden,
+                                    double weight) {
+  for (std::size_t j = 0; j < hidden.size(); ++j) {
+    const double w = weight * hidden[j];
+    double* data = blocks_.data() + static_cast<std::size_t>(pattern_.column_start[j]) * kBlock;
+    Eigen::Map<Block<kUnknowns>> block(data);
+    block.template bottomRightCorner<3, 3>().diagonal().array() += w;
+    gradient_.template segment<3>(static_cast<Eigen::Index>(j + 1) * kUnknowns - 3) +=
+        w * graph.transforms[j].translation_mm;
+  }
 }
 
 template <class Node>

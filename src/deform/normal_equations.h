@@ -49,6 +49,7 @@ class NormalEquations {
   void assembleEdges(const WarpGraph& graph, const std::vector<double>& stiffness, double weight);
   void assembleRotations(const WarpGraph& graph, double weight);
   void gather(const ConstraintSet& constraints);
+  void addRest(const WarpGraph& graph, const std::vector<double>& hidden, double weight);
 
   BlockPattern pattern_;
   int stencils_ = 0, edges_ = 0;

@@ -3,8 +3,8 @@
 
 #include "core/parallel.h"
 #include "deform/block_pattern.h"
-#include "deform/edge_stiffness.h"
 #include "deform/energy.h"
+#include "deform/node_sight.h"
 #include "deform/node_terms.h"
 #include "deform/normal_equations.h"
 #include "deform/robust_loss.h"
@@ -72,6 +72,20 @@ TEST(Energy, OfARigidMotionIsOnlyItsMisfit) {
   const EnergyTerms terms = scene.energy(unitWeights(NodeModel::kAffine), {});
   EXPECT_LT(terms.regularisation, 1e-28);  // rounding, squared
   EXPECT_LT(terms.rotation, 1e-28);
+}
+
+TEST(Energy, OfHiddenNodesThatMoveByHand) {
+  TwoNodes scene;
+  scene.graph.transforms[0].translation_mm = {1, 2, 2};
+  scene.graph.transforms[1].translation_mm = {0, 0, 3};
+  ConstraintSet constraints;
+  constraints.stiffness = {0};
+  constraints.hidden = {0.5, 1};
+  DeformOptions options = unitWeights(NodeModel::kRigid);
+  options.rest_weight = 2;
+  EnergyValue value;
+  evaluateEnergy(scene.graph, constraints, options, &value);
+  EXPECT_DOUBLE_EQ(value.terms.rest, 2 * (0.5 * 9 + 9));
 }
 
 TEST(Energy, OfAStretchedMatrixByHand) {
@@ -148,29 +162,35 @@ struct BentHill {
         graph.transforms[j].linear(0, 1) += 0.02 * std::sin(5 * s);
     }
     associate(graph, candidates, &target, options.data_weight, &constraints);
+    constraints.hidden.resize(graph.size());
+    for (std::size_t j = 0; j < graph.size(); ++j)
+      constraints.hidden[j] = 1 / (1.0 + static_cast<double>(j % 3));
     for (std::size_t e = 0; e < constraints.stiffness.size(); ++e)
       constraints.stiffness[e] = 1 / (1.0 + static_cast<double>(e % 5));
     evaluateEnergy(graph, constraints, options, &value);
   }
 };
 
-TEST(EdgeStiffness, IsFullWhereNothingIsSeenAndLeastWhereAllIs) {
+TEST(NodeSight, StiffensAndHoldsWhatHides) {
   PointModel model = scenes::makeHill(24, 20, 0.6);
   const WarpGraph graph = scenes::bindGraph(&model);
-  const auto stiffness = [&](const std::vector<int>* visible) {
+  const auto judged = [&](const std::vector<int>* visible) {
     CandidatePoints candidates;
     collectCandidates(model, graph, visible, 0, &candidates);
-    std::vector<double> result(graph.edges.size(), 1);
-    softenWhereSeen(model, graph, candidates, 0.2, &result);
-    return result;
+    ConstraintSet constraints;
+    constraints.stiffness.assign(graph.edges.size(), 1);
+    judgeSight(model, graph, candidates, 0.2, &constraints);
+    return constraints;
   };
   const std::vector<int> nothing;
-  for (const double one : stiffness(&nothing)) EXPECT_EQ(one, 1);
-  for (const double one : stiffness(nullptr)) EXPECT_NEAR(one, 0.2, 1e-9);
+  for (const double one : judged(&nothing).stiffness) EXPECT_EQ(one, 1);
+  for (const double one : judged(&nothing).hidden) EXPECT_EQ(one, 1);
+  for (const double one : judged(nullptr).stiffness) EXPECT_NEAR(one, 0.2, 1e-9);
+  for (const double one : judged(nullptr).hidden) EXPECT_NEAR(one, 0, 1e-9);
   std::vector<int> left;
   for (std::size_t i = 0; i < model.size(); ++i)
     if (model.positions_mm[i].x() < 0) left.push_back(static_cast<int>(i));
-  const std::vector<double> half = stiffness(&left);
+  const std::vector<double> half = judged(&left).stiffness;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const double x = std::max(graph.positions_mm[graph.edges[e].first].x(),
                               graph.positions_mm[graph.edges[e].second].x());
@@ -187,6 +207,7 @@ DeformOptions testOptions(NodeModel model, RobustLoss loss) {
   DeformOptions options = unitWeights(model);
   options.rotation_weight = 10;
   options.regularisation_weight = 7;
+  options.rest_weight = 5;
   options.correspondence_weight = 3;
   options.data_robust = {loss, 0.4};
   options.correspondence_robust = {loss, 0.7};
@@ -273,6 +294,9 @@ Eigen::MatrixXd denseSystem(const BentHill& scene, const DeformOptions& options)
       sum += weight * rows.transpose() * rows;
     }
   }
+  for (std::size_t j = 0; j < graph.size(); ++j)
+    sum.diagonal().segment<3>(static_cast<Eigen::Index>(j + 1) * n - 3).array() +=
+        options.rest_weight * scene.constraints.hidden[j];
   if (n == 12)
     for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(graph.size()); ++j) {
       const Eigen::Matrix<double, 6, 12> rows = rotationJacobian(graph.transforms[j].linear);

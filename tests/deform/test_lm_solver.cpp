@@ -13,6 +13,7 @@ DeformOptions optionsFor(NodeModel model) {
   DeformOptions options = model == NodeModel::kAffine ? DeformOptions::paper() : DeformOptions();
   options.node_model = model;
   options.regularisation_weight = 10;
+  options.rest_weight = 0;  // the exact answers below are those of tissue that nothing holds
   options.correspondence_weight = 10;
   options.data_robust.loss = options.correspondence_robust.loss = RobustLoss::kNone;
   options.solver.max_iterations = 30;
@@ -117,6 +118,33 @@ TEST_P(BothNodeModels, LetTheUnseenPartFollowAsRigidlyAsPossible) {
   PointModel warped = model;
   warpModel(graph, &warped);
   EXPECT_LT(scenes::meanError(model, warped, truth), 1e-3);  // a rigid whole costs nothing
+}
+
+// What holds hidden tissue in place must not hold it back from following what is seen: two thirds
+// of the hill are hidden, and lag by less than a fiftieth of the motion.
+TEST_P(BothNodeModels, HoldHiddenTissueLooselyAndLessWhereItIsPulled) {
+  const PointModel hill = scenes::makeHill(40, 20, 0.5);
+  const scenes::Motion truth = scenes::shift({1, 0.5, -0.5});
+  DeformObservation seen;
+  for (const KeyPointMatch& match : scenes::makeMatches(hill, truth, 5))
+    if (match.source_mm.x() < -7) seen.matches.push_back(match);
+  double before_mm = 0;
+  for (const double rest_weight : {0.001, 0.01, 0.1}) {
+    PointModel model = hill;
+    WarpGraph graph = scenes::bindGraph(&model);
+    DeformOptions options = optionsFor(GetParam());
+    options.regularisation_weight = DeformOptions().regularisation_weight;
+    options.rest_weight = rest_weight;
+    makeDeformSolver(options)->solve(model, seen, &graph);
+    PointModel warped = model;
+    warpModel(graph, &warped);
+    const double lag_mm = scenes::meanError(model, warped, truth);
+    EXPECT_GT(lag_mm, before_mm);
+    if (rest_weight == DeformOptions().rest_weight) {
+      EXPECT_LT(lag_mm, 0.02 * 1.23);  // of 1.23 mm
+    }
+    before_mm = lag_mm;
+  }
 }
 
 TEST_P(BothNodeModels, GiveTheSameBytesOnAnyNumberOfThreads) {
