@@ -150,6 +150,7 @@ int ReconstructCommand::run() {
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
   Reconstructor reconstructor(makeBackend(reader.calibration(), options.method), options.method);
   reconstructor.track(tracked);
+  folder.tellCamera(reconstructor.backend().rig().left);
   if (earlier) {
     folder.takeOver(earlier->next_frame);
     reconstructor.restore(earlier->state);

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kCheckpoint = "checkpoint.bin";
 constexpr const char* kRecord = "run.json";
 constexpr const char* kModels = "models";
+constexpr const char* kNodes = "nodes";
 constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
 
 const char* const kFiles[] = {"model.ply",  "frames.csv", "trajectory.txt", "tracks.csv",
@@ -35,10 +36,11 @@ std::string numbered(int frame, const char* end) {
   return name;
 }
 
+/// Of a model, or of its nodes.
 bool isSavedModel(const fs::path& file) {
   const std::string stem = file.stem().string(), end = file.extension().string();
   return stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos &&
-         (end == ".ply" || end == ".vtp");
+         (end == ".ply" || end == ".vtp" || end == ".csv");
 }
 
 bool holdsRun(const fs::path& folder) {
@@ -74,6 +76,34 @@ std::string linesBefore(const fs::path& file, int next_frame) {
     kept.append(line).append("\n");
   }
   return kept;
+}
+
+std::string numbers(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += " " + exactText(value);
+  return text;
+}
+
+/// What a viewer needs that reads this model alone, also while the run goes on.
+std::vector<std::string> momentComments(double time_s, const Eigen::Isometry3d& world_from_left,
+                                        const PinholeCamera& left) {
+  const Eigen::Vector3d t = world_from_left.translation();
+  const Eigen::Quaterniond q(world_from_left.linear());
+  return {"time_s" + numbers({time_s}),
+          "world_from_left" + numbers({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}),
+          "left_camera" + numbers({double(left.width_px), double(left.height_px), left.fx_px,
+                                   left.fy_px, left.cx_px, left.cy_px})};
+}
+
+std::string nodesCsv(const WarpGraph& graph) {
+  std::string text = "node,x_mm,y_mm,z_mm\n";
+  char line[120];
+  for (std::size_t i = 0; i < graph.size(); ++i) {
+    const Eigen::Vector3d& p = graph.positions_mm[i];
+    std::snprintf(line, sizeof line, "%zu,%.4f,%.4f,%.4f\n", i, p.x(), p.y(), p.z());
+    text += line;
+  }
+  return text;
 }
 
 int countLines(const std::string& text) {
@@ -132,11 +162,13 @@ void RunFolder::begin() {
     throw InputError("--out " + shown(options_.folder) + ": can't be made: " + failure.message() +
                      ". Choose a folder that you may write to");
   for (const char* name : kFiles) fs::remove(file(name));
-  if (!fs::is_directory(file(kModels))) return;
-  std::vector<fs::path> earlier;
-  for (const auto& entry : fs::directory_iterator(file(kModels)))
-    if (isSavedModel(entry.path())) earlier.push_back(entry.path());
-  for (const fs::path& path : earlier) fs::remove(path);
+  for (const char* saved : {kModels, kNodes}) {
+    if (!fs::is_directory(file(saved))) continue;
+    std::vector<fs::path> earlier;
+    for (const auto& entry : fs::directory_iterator(file(saved)))
+      if (isSavedModel(entry.path())) earlier.push_back(entry.path());
+    for (const fs::path& path : earlier) fs::remove(path);
+  }
 }
 
 void RunFolder::add(const FrameRecord& record) {
@@ -150,10 +182,15 @@ void RunFolder::add(const FrameRecord& record) {
 void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   begin();
   fs::create_directories(file(kModels));
+  fs::create_directories(file(kNodes));
+  if (!std::isfinite(time_s)) time_s = frame;
   const PointCloud cloud = cloudOf(state);
-  writePly(file(kModels) / numbered(frame, ".ply"), cloud, {"world", ""}, true);
+  writeFile(file(kNodes) / numbered(frame, ".csv"), nodesCsv(state.graph), true);
   writeFile(file(kModels) / numbered(frame, ".vtp"), pointCloudVtp(cloud), true);
-  saved_.push_back({frame, std::isfinite(time_s) ? time_s : frame});
+  // Last: who sees the model of a run that still goes on finds the rest.
+  writePly(file(kModels) / numbered(frame, ".ply"), cloud,
+           {"world", "", momentComments(time_s, trajectory_.back().world_from_left, left_)}, true);
+  saved_.push_back({frame, time_s});
 }
 
 void RunFolder::writeTables(const ModelState& state) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/camera.h"
 #include "core/point_cloud.h"
 #include "core/trajectory.h"
 #include "pipeline/checkpoint.h"
@@ -38,7 +39,10 @@ class RunFolder {
   bool savesModel(int frame) const {
     return options_.save_every > 0 && frame % options_.save_every == 0;
   }
-  /// models/NNNNNN.ply and .vtp.
+  /// Which camera models say that they were seen by.
+  void tellCamera(const PinholeCamera& left) { left_ = left; }
+  /// models/NNNNNN.ply, which says its moment, and .vtp; nodes/NNNNNN.csv. Of the frame that was
+  /// added last.
   void saveModel(int frame, double time_s, const ModelState& state);
   void flush(const Checkpoint& checkpoint);
   /// The run is complete: nothing will be resumed. The model of its last frame is saved too.
@@ -59,6 +63,7 @@ class RunFolder {
   int last_frame_ = -1;  // that was added
   std::string frames_csv_, tracks_csv_;
   Trajectory trajectory_;
+  PinholeCamera left_;
   std::vector<SavedModel> saved_;
 };
 

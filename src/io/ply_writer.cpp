@@ -20,6 +20,7 @@ std::string headerOf(const PointCloud& cloud, const PlyComments& comments) {
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment unit mm\n";
   if (!comments.frame.empty()) out += say("comment frame ", comments.frame, "\n");
   if (!comments.space.empty()) out += say("comment SPACE=", comments.space, "\n");
+  for (const std::string& line : comments.more) out += "comment " + line + "\n";
   out += say("element vertex ", cloud.points_mm.size(), "\n");
   out += "property float x\nproperty float y\nproperty float z\n";
   if (!cloud.normals.empty()) out += "property float nx\nproperty float ny\nproperty float nz\n";

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/point_cloud.h"
 
@@ -12,6 +13,7 @@ namespace softscope {
 struct PlyComments {
   std::string frame;  // "left", "raw left", "world", …
   std::string space;  // "LPS" or "RAS" where the cloud lies in a patient's space; else empty
+  std::vector<std::string> more = {};  // one line each, "time_s 1.52"
 };
 
 /// Binary little-endian PLY: x y z (float, mm), then nx ny nz (float), red green blue (uchar) and
