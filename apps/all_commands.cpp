@@ -15,6 +15,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeFigureCommand());
   commands.push_back(makeReportCommand());
   commands.push_back(makeExportCommand());
+  commands.push_back(makeViewCommand());
   commands.push_back(makeInfoCommand());
   commands.push_back(makeDoctorCommand());
   return commands;

@@ -37,6 +37,7 @@ std::unique_ptr<Command> makeReportCommand();
 std::unique_ptr<Command> makeSimulateCommand();
 std::unique_ptr<Command> makeSliceCommand();
 std::unique_ptr<Command> makeStudyCommand();
+std::unique_ptr<Command> makeViewCommand();
 
 /// In the order in which help lists them.
 std::vector<std::unique_ptr<Command>> allCommands();

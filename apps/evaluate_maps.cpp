@@ -28,6 +28,10 @@ std::vector<std::size_t> spreadIndices(std::size_t count, std::size_t kept) {
 
 }  // namespace
 
+std::vector<std::size_t> indicesOfMap(std::size_t count) {
+  return spreadIndices(count, std::min(count, kMostPoints));
+}
+
 bool ErrorMaps::keepsNext() const {
   if (next_ >= moments_) return false;
   const std::size_t wanted = std::min(moments_, kMostMoments);
@@ -46,8 +50,7 @@ void ErrorMaps::add(int frame, double time_s, const std::vector<Eigen::Vector3f>
   map.time_s = time_s;
   map.look = world_from_left.linear().col(2).cast<float>();
   map.up = -world_from_left.linear().col(1).cast<float>();
-  for (const std::size_t i :
-       spreadIndices(points_mm.size(), std::min(points_mm.size(), kMostPoints))) {
+  for (const std::size_t i : indicesOfMap(points_mm.size())) {
     map.surface.vertices_mm.push_back(points_mm[i]);
     map.absolute_mm.push_back(static_cast<float>(errors.each_mm[i]));
     map.signed_mm.push_back(static_cast<float>(errors.each_signed_mm[i]));

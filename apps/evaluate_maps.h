@@ -11,6 +11,9 @@
 
 namespace softscope {
 
+/// Which points of a model with `count` points its map keeps, in the map's order.
+std::vector<std::size_t> indicesOfMap(std::size_t count);
+
 /// Keeps at most 24 of `moments` models, evenly spread and the last among them, of each at most
 /// 20 000 points, evenly spread over its order, and beside them the true surface, coarse.
 class ErrorMaps {

@@ -83,6 +83,8 @@ def prepare(softscope, work):
     write_phantom(work / "ct.mha")
     write_organ(work / "organ.obj", 0)
     write_organ(work / "model.obj", 1.5, part=True)
+    # The scope looks at the organ from the patient's front.
+    (work / "ct_from_run.txt").write_text("1 0 0 -55\n0 0 1 -125\n0 -1 0 1005\n0 0 0 1\n")
     if not (work / "run" / "run.json").exists():
         run(softscope, "simulate", "--out", work / "clip", "--frames", 21, "--size", "320x240",
             "--force", "--quiet")
@@ -119,6 +121,12 @@ def figures(work):
           "--name", "without", "--reference", clip, "--width-mm", 183]),
         ("Matches of the model in a new picture", "matches",
          ["figure", first, "--kind", "matches", "--reference", clip, "--frame", 16]),
+        ("The viewer: errors, the scope and its path", "view",
+         ["view", first, "--reference", clip, "--colour", "errors"]),
+        ("The viewer: nodes of the warp and how they moved", "view_nodes",
+         ["view", first, "--nodes", "--arrows"]),
+        ("The viewer: a model before its CT", "view_ct",
+         ["view", first, "--ct", ct, "--ct-from-run", work / "ct_from_run.txt"]),
     ]
 
 
@@ -149,10 +157,11 @@ def main():
             "softscope's own simulation. Research use only.", ""]
     for title, name, words in figures(work):
         picture = PICTURES / f"gallery_{name}.png"
-        run(softscope, *words, "--dpi", 130, "--out", work / f"{name}.png", "--force")
+        drawn = ["--screenshot"] if words[0] == "view" else ["--dpi", 130, "--out"]
+        run(softscope, *words, *drawn, work / f"{name}.png", "--force")
         picture.write_bytes((work / f"{name}.png").read_bytes())
         command = " ".join(shown(word, work) for word in words)
-        page += [f"## {title}", "```", f"softscope {command} --out {name}.png", "```",
+        page += [f"## {title}", "```", f"softscope {command} {drawn[-1]} {name}.png", "```",
                  f"![{title}](images/gallery_{name}.png)", ""]
     page += surface_section(softscope, work)
     (DOCS / "gallery.md").write_text("\n".join(page))

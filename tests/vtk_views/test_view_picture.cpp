@@ -1,0 +1,137 @@
+// tests/vtk_views/test_view_picture.cpp: the viewer's picture without a display.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/error.h"
+#include "made_view.h"
+#include "vtk_views/colour_map.h"
+#include "vtk_views/render_check.h"
+#include "vtk_views/view_picture.h"
+#include "vtk_views/view_sheet.h"
+#include "vtk_views/x_display.h"
+
+namespace softscope {
+namespace {
+
+using namespace test;
+
+class ViewPictures : public testing::Test {
+ protected:
+  void SetUp() override {
+    unsetenv("DISPLAY");
+    const RenderCheck check = checkRendering();
+    if (check.renderer.empty()) GTEST_SKIP() << check.problem;
+  }
+  ColourImage draw(int index, const ViewState& state, double turn_deg = 0) {
+    Playback playback(source);
+    playback.goTo(index);
+    return picture().draw(playback, state, turn_deg);
+  }
+  ViewPicture& picture() {
+    if (!picture_) picture_ = std::make_unique<ViewPicture>(source, 480, 360);
+    return *picture_;
+  }
+
+  MadeSource source{4};
+  std::unique_ptr<ViewPicture> picture_;
+};
+
+TEST_F(ViewPictures, ShowsTheTissueInItsOwnColour) {
+  const ColourImage view = draw(0, {});
+  EXPECT_EQ(view.width_px, 480);
+  EXPECT_EQ(view.height_px, 360);
+  // The patch fills most of the height of the part above the foot; no shading changes its red.
+  EXPECT_GT(countNear(view, kPatchRed, 2), 15000);
+}
+
+TEST_F(ViewPictures, TheCameraStaysWhileTheTissueMoves) {
+  ViewState front;
+  front.look = Look::kFront;
+  const double first = meanColumn(draw(0, front), kPatchRed, 2);
+  const double second = meanColumn(draw(1, front), kPatchRed, 2);
+  EXPECT_GT(second, first + 20);  // 10 mm to the right
+}
+
+TEST_F(ViewPictures, TheScopesViewIsTheScopesPicture) {
+  ViewState scope;
+  scope.look = Look::kScope;
+  const ColourImage view = draw(0, scope);
+  // Of 640 x 480 pixels with f = 560 the 40 mm at 50 mm are 448 wide; the whole height of 480 is
+  // 272 here: 254 columns, as many rows. Dots overlap the rim by a fraction of a millimetre.
+  const double side = std::sqrt(countNear(view, kPatchRed, 2));
+  EXPECT_NEAR(side, 448 * 272 / 480.0, 6);
+  EXPECT_NEAR(meanColumn(view, kPatchRed, 2), 239.5, 2);
+}
+
+TEST_F(ViewPictures, APrincipalPointBesideTheMiddleMovesTheView) {
+  class Shifted : public MadeSource {
+   public:
+    Shifted() : MadeSource(1) { other_.left = {640, 480, 560, 560, 399.5, 239.5}; }
+    const ViewWorld& world() const override { return other_; }
+
+   private:
+    ViewWorld other_;
+  } shifted;
+  ViewState scope;
+  scope.look = Look::kScope;
+  Playback playback(shifted);
+  const ColourImage view = ViewPicture(shifted, 480, 360).draw(playback, scope, 0);
+  EXPECT_NEAR(meanColumn(view, kPatchRed, 2), 239.5 + 80 * 272 / 480.0, 3);
+}
+
+TEST_F(ViewPictures, ErrorsAndWeightsHaveTheBarsColours) {
+  ViewState errors;
+  errors.colour = ViewColour::kErrors;
+  EXPECT_GT(countNear(draw(0, errors), viridis(0.5), 3), 15000);  // 0.1 of 0.2 mm
+  EXPECT_EQ(countNear(draw(1, errors), viridis(0.5), 3), 0) << "no errors are known there";
+  ViewState weights;
+  weights.colour = ViewColour::kWeights;
+  const ColourImage view = draw(0, weights);
+  EXPECT_GT(countNear(view, viridis(0.05), 8), 200);
+  EXPECT_GT(countNear(view, viridis(0.95), 8), 200);
+}
+
+TEST_F(ViewPictures, NodesScopeAndHelpAreThereWhereWanted) {
+  ViewState bare;
+  bare.scope = false;
+  ViewState with = bare;
+  with.nodes = true;
+  EXPECT_GT(countNear(draw(0, with), {20, 60, 200}, 30),
+            countNear(draw(0, bare), {20, 60, 200}, 30));
+  with = bare;
+  with.scope = true;
+  EXPECT_GT(countNear(draw(0, with), {20, 20, 20}, 60),
+            countNear(draw(0, bare), {20, 20, 20}, 60) + 100);
+  with = bare;
+  with.help = true;
+  EXPECT_LT(countNear(draw(0, with), kPatchRed, 2), countNear(draw(0, bare), kPatchRed, 2) / 2);
+}
+
+TEST_F(ViewPictures, TurningChangesThePictureAndAWholeTurnDoesnt) {
+  const ColourImage before = draw(0, {});
+  EXPECT_NE(draw(0, {}, 30).values, before.values);
+  EXPECT_EQ(draw(0, {}, 360).values, before.values);
+}
+
+TEST_F(ViewPictures, ImpossibleSizesAreRefused) {
+  EXPECT_THROW(ViewPicture(source, 100, 360), OptionError);
+  EXPECT_THROW(ViewPicture(source, 480, 5000), OptionError);
+}
+
+TEST(ViewDisplay, WithoutADisplayTheErrorTellsWhatWorks) {
+  unsetenv("DISPLAY");
+  try {
+    connectToDisplay();
+    FAIL() << "there is none";
+  } catch (const BackendError& error) {
+    EXPECT_NE(std::string(error.what()).find("--screenshot"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("--movie"), std::string::npos);
+  }
+  setenv("DISPLAY", ":4999", 1);
+  EXPECT_THROW(connectToDisplay(), BackendError);
+  unsetenv("DISPLAY");
+}
+
+}  // namespace
+}  // namespace softscope
