@@ -189,7 +189,7 @@ void ViewCommand::waitForModel() const {
 
 void ViewCommand::warnOfMissing(const RunSource& source) const {
   for (const std::string& warning : source.warnings()) spdlog::warn("{}", warning);
-  if ((nodes_ || arrows_) && !source.world().has_nodes)
+  if ((nodes_ || arrows_) && !source.world().has_nodes && !source.live())
     spdlog::warn("{}: no nodes were saved with its models; reconstruct it again to see them",
                  run_.run);
   if (state_.colour == ViewColour::kWeights && !source.world().has_weights)
