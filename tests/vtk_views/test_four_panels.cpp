@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "mesh/mesh_reader.h"
 #include "tests/support/data_folder.h"
+#include "vtk_views/box_mesh.h"
 #include "vtk_views/colour_map.h"
 #include "vtk_views/four_panels.h"
 #include "vtk_views/plane_contours.h"
@@ -17,24 +18,6 @@
 
 namespace softscope {
 namespace {
-
-/// A box from (0, 0, 0) to `size`, its faces outwards.
-TriangleMesh boxMesh(const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices_mm.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
-                                  i & 4 ? high.z() : low.z());
-  for (const auto& q : {std::array<int, 4>{0, 2, 3, 1},
-                        {4, 5, 7, 6},
-                        {0, 1, 5, 4},
-                        {2, 6, 7, 3},
-                        {0, 4, 6, 2},
-                        {1, 3, 7, 5}}) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
-  }
-  return mesh;
-}
 
 /// A long box with a small one at the patient's left, front and head end of it.
 Scene lopsidedScene() {

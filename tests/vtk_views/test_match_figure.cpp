@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "vtk_views/drawing_parts.h"
 #include "vtk_views/match_figure.h"
 
 namespace softscope {
@@ -22,14 +23,6 @@ MatchFigure manyMatches() {
   figure.panels[1].caption = "nothing was found";
   figure.note = "A note that is longer than a column of a journal is wide, and so needs two lines.";
   return figure;
-}
-
-template <class Part>
-std::vector<Part> partsOf(const VectorDrawing& drawing) {
-  std::vector<Part> parts;
-  for (const auto& part : drawing.parts)
-    if (const Part* found = std::get_if<Part>(&part)) parts.push_back(*found);
-  return parts;
 }
 
 TEST(MatchFigure, EveryMatchIsADotInBothPictures) {

@@ -8,6 +8,7 @@
 
 #include "io/image_reader.h"
 #include "io/image_writer.h"
+#include "vtk_views/box_mesh.h"
 #include "vtk_views/four_panels.h"
 
 namespace softscope {
@@ -18,23 +19,6 @@ constexpr int kAlikeGreys = 24;  // of a block's mean, in any channel: shading d
 constexpr double kMostOthers = 0.003;  // of the blocks: 8 of the 2700 of this figure
 
 const char* const kBaseline = SOFTSCOPE_BASELINES "/four_panels.png";
-
-TriangleMesh boxMesh(const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
-  TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices_mm.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
-                                  i & 4 ? high.z() : low.z());
-  for (const auto& q : {std::array<int, 4>{0, 2, 3, 1},
-                        {4, 5, 7, 6},
-                        {0, 1, 5, 4},
-                        {2, 6, 7, 3},
-                        {0, 4, 6, 2},
-                        {1, 3, 7, 5}}) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
-  }
-  return mesh;
-}
 
 /// A box, and a smaller one at its left, front and head end with errors from 0 to 1.4 mm.
 struct Figure {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "vtk_views/drawing_parts.h"
 #include "vtk_views/fonts.h"
 #include "vtk_views/plot_axes.h"
 #include "vtk_views/series_plot.h"
@@ -38,14 +39,6 @@ ErrorHistogramData twoBins() {
   data.median = 0.8;
   data.p95 = 1.9;
   return data;
-}
-
-template <class Part>
-std::vector<Part> partsOf(const VectorDrawing& drawing) {
-  std::vector<Part> parts;
-  for (const auto& part : drawing.parts)
-    if (const Part* found = std::get_if<Part>(&part)) parts.push_back(*found);
-  return parts;
 }
 
 std::vector<std::string> wordsOf(const VectorDrawing& drawing) {
