@@ -10,13 +10,12 @@
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
 #include "apps/setting_json.h"
+#include "apps/simulate_inputs.h"
 #include "apps/simulate_options.h"
 #include "apps/simulate_outputs.h"
 #include "apps/version.h"
 #include "core/error.h"
 #include "eval/simulation/simulator.h"
-#include "mesh/mesh_check.h"
-#include "mesh/mesh_reader.h"
 
 namespace softscope {
 namespace {
@@ -30,21 +29,8 @@ const char* const kDetails =
     "Keys of a scenario: frames, seed, truth_every, pictures, organ.*, texture.*, breathing.*,\n"
     "heartbeat.*, push.*, scope.*, camera.*, instrument.*, smoke, light.*, sensor.*;\n"
     "data/scenario.toml has them all.\n"
-    "--frames, --size, --seed and --organ are stronger than --set, --set than --scenario.";
-
-/// The mesh, turned inside out where it faces inwards.
-TriangleMesh readOrgan(const SimulateOptions& options) {
-  if (options.builtinOrgan())
-    return makeOrganMesh(options.simulation.organ,
-                         static_cast<std::uint64_t>(options.simulation.seed));
-  TriangleMesh mesh = readMesh(options.organ, {options.organ_unit_mm});
-  const MeshCheck check = checkMesh(mesh);
-  for (const std::string& warning : meshWarnings(check))
-    spdlog::warn("{}: {}", options.organ, warning);
-  if (check.volume_mm3 < 0)
-    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  return mesh;
-}
+    "--frames, --size, --seed, --organ and --texture are stronger than --set, --set than "
+    "--scenario.";
 
 class SimulateCommand : public Command {
  public:
@@ -65,7 +51,7 @@ class SimulateCommand : public Command {
   int simulateAll(Simulator& simulator, SimulateOutputs& outputs, const SimulateOptions& options);
   void report(const Simulator& simulator, int frames, double elapsed_s) const;
 
-  std::string out_, scenario_, organ_, size_, frames_, seed_, truth_;
+  std::string out_, scenario_, organ_, texture_, size_, frames_, seed_, truth_;
   std::vector<std::string> assignments_;
   bool force_ = false;
 };
@@ -75,7 +61,9 @@ void SimulateCommand::declare(ArgumentList& arguments) {
   arguments.option("--scenario", "FILE", scenario_, "settings file (TOML)");
   arguments.option("--set", "KEY=VALUE", assignments_,
                    "one setting, e.g. push.amplitude_mm=3; repeatable");
-  arguments.option("--organ", "FILE", organ_, "closed mesh in mm (STL, PLY, OBJ), or builtin");
+  arguments.option("--organ", "FILE", organ_, "closed mesh in mm (STL, PLY, OBJ, VTP), or builtin");
+  arguments.option("--texture", "PICTURE", texture_,
+                   "photograph of tissue (PNG, JPEG, TIFF …); left out: procedural tissue");
   arguments.option("--frames", "N", frames_, "how many (default 40)");
   arguments.option("--size", "WxH", size_, "of the pictures (default 640x480)");
   arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
@@ -94,8 +82,10 @@ void SimulateCommand::readOptions(SettingsBinder& binder, SimulateOptions& optio
   bindSimulateOptions(binder, options);
   binder.apply(settings);
   if (!organ_.empty()) options.organ = organ_;
+  if (!texture_.empty()) options.texture = texture_;
   if (!size_.empty()) setPictureSize(size_, options.simulation.scope);
   options.validate();
+  readTexture(options);
 }
 
 FactSheet::Json SimulateCommand::record(const SettingsBinder& binder) const {

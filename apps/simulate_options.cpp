@@ -13,7 +13,7 @@ namespace {
 
 void bindOrgan(SettingsBinder& binder, SimulateOptions& options) {
   OrganOptions& organ = options.simulation.organ;
-  binder.bind("organ.mesh", options.organ, "builtin, or a mesh file (STL, PLY, OBJ)");
+  binder.bind("organ.mesh", options.organ, "builtin, or a mesh file (STL, PLY, OBJ, VTP)");
   binder.bind("organ.unit_mm", options.organ_unit_mm, "of a mesh file: 1000 for metres");
   binder.bind("organ.length_mm", organ.length_mm, "of the built-in organ");
   binder.bind("organ.cells_per_side", organ.cells_per_side, "n; it has about 6 n^2 vertices");
@@ -21,8 +21,10 @@ void bindOrgan(SettingsBinder& binder, SimulateOptions& options) {
   binder.bind("organ.fold_mm", organ.fold_mm, "how deep folds are");
 }
 
-void bindTexture(SettingsBinder& binder, SimulationOptions& options) {
-  TextureOptions& texture = options.texture;
+void bindTexture(SettingsBinder& binder, SimulateOptions& options) {
+  TextureOptions& texture = options.simulation.texture;
+  binder.bind("texture.picture", options.texture, "a photograph; empty: procedural tissue");
+  binder.bind("texture.picture_mm", texture.picture_mm, "width of the picture on the tissue");
   binder.bind("texture.contrast", texture.contrast, "0: one colour, 1: healthy abdomen");
   binder.bind("texture.fat", texture.fat, "share of the surface under fat, roughly");
   binder.bind("texture.wetness", texture.wetness, "strength of highlights");
@@ -31,7 +33,7 @@ void bindTexture(SettingsBinder& binder, SimulationOptions& options) {
               "between neighbouring vessel trunks");
   binder.bind("texture.trunk_radius_mm", texture.vessels.trunk_radius_mm,
               "of the widest vessel; 0: no vessels");
-  binder.bind("texture.texel_mm", options.texel_mm, "0: three quarters of a pixel");
+  binder.bind("texture.texel_mm", options.simulation.texel_mm, "0: three quarters of a pixel");
 }
 
 void bindMotion(SettingsBinder& binder, const std::string& name, PeriodicMotion& motion) {
@@ -127,7 +129,7 @@ void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {
   binder.bind("truth_every", options.truth_every, "frames between true meshes and depths");
   binder.bind("track_spacing_px", simulation.track_spacing_px, "between tracked points");
   bindOrgan(binder, options);
-  bindTexture(binder, simulation);
+  bindTexture(binder, options);
   bindDeformation(binder, simulation.deformation);
   bindScope(binder, simulation.scope);
   bindCamera(binder, simulation.camera);

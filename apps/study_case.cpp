@@ -70,6 +70,8 @@ std::string simulationDigest(const StudyCase& study_case) {
   std::string all = versionText() + "\n" + simulationText(study_case);
   const auto mesh = study_case.simulate.find("organ.mesh");
   if (mesh != study_case.simulate.end() && mesh->second != "builtin") all += sha256Of(mesh->second);
+  const auto picture = study_case.simulate.find("texture.picture");
+  if (picture != study_case.simulate.end()) all += sha256Of(picture->second);
   return sha256OfBytes(all);
 }
 

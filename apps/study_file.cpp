@@ -177,7 +177,8 @@ void StudyReader::resolvePaths(StudyCase& target) const {
   };
   if (!target.sequence.empty()) target.sequence = resolved(target.sequence);
   for (StudyValues* values : {&target.simulate, &target.reconstruct, &target.evaluate})
-    for (const char* key : {"scenario", "reference", "right", "calibration", "mask"})
+    for (const char* key :
+         {"scenario", "reference", "right", "calibration", "mask", "texture.picture"})
       if (values->count(key) > 0) (*values)[key] = resolved((*values)[key]);
   if (target.sequence.empty()) resolveOrgan(target);
 }

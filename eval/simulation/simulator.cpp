@@ -49,6 +49,15 @@ double texelMm(const SimulationOptions& options, const RectifiedRig& rig) {
   return 0.75 * options.camera.distance_mm / rig.left.fx_px;
 }
 
+/// Laid from where the scope stands first, its middle on the tissue there.
+std::optional<PictureTexture> pictureTexture(const TextureOptions& options, double texel_mm,
+                                             const Eigen::Vector3d& target_body_mm,
+                                             Eigen::Isometry3d body_from_view) {
+  if (options.picture.empty()) return std::nullopt;
+  body_from_view.translation() = target_body_mm;
+  return PictureTexture(options.picture, options.picture_mm, texel_mm, body_from_view);
+}
+
 std::vector<Eigen::Vector3f> transformed(const std::vector<Eigen::Vector3f>& points_mm,
                                          const Eigen::Isometry3d& transform) {
   std::vector<Eigen::Vector3f> result;
@@ -92,10 +101,14 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
       path_(options.camera, target_body_mm_, rig_.baseline_mm, seedOf(options, kPath)),
       deformation_(mesh_, target_body_mm_.cast<float>(), options.deformation,
                    seedOf(options, kMotion)),
-      skin_(mesh_, TissueTexture(mesh_, options.texture, seedOf(options, kTexture)),
+      skin_(mesh_,
+            TissueTexture(mesh_, options.texture, seedOf(options, kTexture),
+                          pictureTexture(options.texture, texelMm(options, rig_), target_body_mm_,
+                                         path_.bodyFromLeft(0))),
             texelMm(options, rig_)),
       light_(options.light, rig_.baseline_mm, options.camera.distance_mm),
       world_from_body_(path_.bodyFromLeft(0).inverse()) {
+  options_.texture.picture = {};  // the skin has it
   const ScopeScene first(worldVertices(0), mesh_.triangles);
   Raster<RayHit> hits = castCentres(first, lens_);
   const Mask hidden = instrumentMask(hits, instrumentAt(0), lens_);

@@ -43,6 +43,7 @@ class TissueSkin {
   Patch painted(std::int32_t triangle) const;
 
   TriangleMesh rest_mesh_;
+  std::vector<Eigen::Vector3f> rest_normals_;  // one a vertex
   TissueTexture texture_;
   double texel_mm_;
   std::vector<Patch> patches_;  // one a triangle

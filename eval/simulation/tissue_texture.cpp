@@ -28,6 +28,12 @@ Eigen::Vector3f mix(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float sh
   return a + std::clamp(share, 0.0F, 1.0F) * (b - a);
 }
 
+VesselOptions noVessels() {
+  VesselOptions none;
+  none.trunk_radius_mm = 0;
+  return none;
+}
+
 }  // namespace
 
 void TextureOptions::validate() const {
@@ -36,14 +42,21 @@ void TextureOptions::validate() const {
   require(blood >= 0 && blood <= 1, "texture.blood", blood, "must be 0 to 1");
   require(wetness >= 0 && wetness <= 5, "texture.wetness", wetness, "must be 0 to 5");
   vessels.validate();
+  require(picture_mm >= 2 && picture_mm <= 2000, "texture.picture_mm", picture_mm,
+          "must be 2 to 2000");
+  require(picture.empty() || picture_mm <= picture.width_px, "texture.picture_mm", picture_mm,
+          "must be no more than the picture has pixels across: coarser ones than 1 mm are a blur");
 }
 
 TissueTexture::TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions& options,
-                             std::uint64_t seed)
+                             std::uint64_t seed, std::optional<PictureTexture> picture)
     : options_(options),
       seed_(static_cast<std::uint32_t>(seed)),
-      vessels_(growVessels(rest_mesh, options.vessels, seed)) {
+      picture_(std::move(picture)),
+      mean_(picture_ ? picture_->mean() : kMean),
+      vessels_(growVessels(rest_mesh, picture_ ? noVessels() : options.vessels, seed)) {
   options.validate();
+  options_.picture = {};  // `picture_` has what it needs of it
 }
 
 TissueTexture::Layer TissueTexture::serosa(const Eigen::Vector3f& warped_mm,
@@ -103,8 +116,8 @@ float TissueTexture::bloodShare(const Eigen::Vector3f& warped_mm) const {
   return smoothStep(level, level + 0.05F, where);
 }
 
-TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm) const {
-  const Eigen::Vector3f warped_mm = rest_mm + 1.1F * vectorNoise(rest_mm / 4, seed_ + 12);
+TissueTexture::Layer TissueTexture::procedural(const Eigen::Vector3f& warped_mm,
+                                               const Eigen::Vector3f& rest_mm) const {
   Layer layer = serosa(warped_mm, rest_mm);
   if (const float share = fatShare(warped_mm); share > 0) {
     const Layer over = fat(warped_mm);
@@ -113,12 +126,27 @@ TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm) const {
   }
   layer.albedo = mix(layer.albedo, kBlood, 0.42F * capillaries(warped_mm));
   addVessels(layer, rest_mm);
+  return layer;
+}
+
+/// The picture shows no relief; bumps of our own break up the highlights.
+TissueTexture::Layer TissueTexture::pictured(const Eigen::Vector3f& rest_mm,
+                                             const Eigen::Vector3f& rest_normal) const {
+  const float middle = fractalNoise(rest_mm / 3.2F, 3, seed_ + 2);
+  const float fine = fractalNoise(rest_mm / 0.55F, 2, seed_ + 3);
+  return {picture_->at(rest_mm, rest_normal), 0.04F * fine + 0.12F * middle};
+}
+
+TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm,
+                              const Eigen::Vector3f& rest_normal) const {
+  const Eigen::Vector3f warped_mm = rest_mm + 1.1F * vectorNoise(rest_mm / 4, seed_ + 12);
+  Layer layer = picture_ ? pictured(rest_mm, rest_normal) : procedural(warped_mm, rest_mm);
   const float blood = bloodShare(warped_mm);
   layer.albedo = mix(layer.albedo, kFreshBlood, 0.93F * blood);
   layer.relief_mm *= 1 - 0.7F * blood;  // it fills what is fine
   const float wet = 0.55F + 0.45F * fractalNoise(rest_mm / 7, 2, seed_ + 13) * 2;
   TissuePoint point;
-  point.albedo = kMean + float(options_.contrast) * (layer.albedo - kMean);
+  point.albedo = mean_ + float(options_.contrast) * (layer.albedo - mean_);
   point.albedo = point.albedo.cwiseMax(0.005F).cwiseMin(0.95F);
   point.relief_mm = layer.relief_mm;
   point.wetness = float(options_.wetness) * std::clamp(wet + blood, 0.1F, 1.0F + blood);

@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
+#include "core/image.h"
 #include "core/triangle_mesh.h"
+#include "eval/simulation/picture_texture.h"
 #include "eval/simulation/vessel_map.h"
 
 namespace softscope {
@@ -15,6 +18,8 @@ struct TextureOptions {
   double wetness = 1.0;   // strength of highlights; 0: dull
   double blood = 0;       // share of the surface under fresh blood, roughly
   VesselOptions vessels;
+  ColourImage picture;     // empty: procedural tissue; else it stands for that, fat and vessels
+  double picture_mm = 50;  // its width on the tissue
 
   /// Throws OptionError.
   void validate() const;
@@ -28,18 +33,23 @@ struct TissuePoint {
   float wetness = 0;
 };
 
-/// A solid texture: a function of the place in the undeformed tissue, so that it moves with it.
+/// A solid texture: a function of the place in the undeformed tissue, so that it moves with it. A
+/// picture also asks which way the surface faces there.
 class TissueTexture {
  public:
-  TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions& options, std::uint64_t seed);
+  /// `picture`: instead of procedural tissue.
+  TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions& options, std::uint64_t seed,
+                std::optional<PictureTexture> picture = std::nullopt);
 
-  TissuePoint at(const Eigen::Vector3f& rest_mm) const;
+  TissuePoint at(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& rest_normal) const;
 
  private:
   struct Layer {
     Eigen::Vector3f albedo;
     float relief_mm;
   };
+  Layer procedural(const Eigen::Vector3f& warped_mm, const Eigen::Vector3f& rest_mm) const;
+  Layer pictured(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& rest_normal) const;
   Layer serosa(const Eigen::Vector3f& warped_mm, const Eigen::Vector3f& rest_mm) const;
   Layer fat(const Eigen::Vector3f& warped_mm) const;
   float fatShare(const Eigen::Vector3f& warped_mm) const;
@@ -49,6 +59,8 @@ class TissueTexture {
 
   TextureOptions options_;
   std::uint32_t seed_;
+  std::optional<PictureTexture> picture_;
+  Eigen::Vector3f mean_;  // that contrast is measured from
   VesselMap vessels_;
 };
 

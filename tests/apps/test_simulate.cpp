@@ -5,6 +5,10 @@
 #include <fstream>
 #include <map>
 
+#include "apps/export_files.h"
+#include "eval/simulation/organ_mesh.h"
+#include "io/image_reader.h"
+#include "io/image_writer.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
@@ -169,6 +173,51 @@ TEST_F(Simulate, AScenarioIsWeakerThanTheLine) {
   const auto options = nlohmann::json::parse(std::ifstream(at("s/simulation.json")))["options"];
   EXPECT_EQ(options["frames"], 3);
   EXPECT_EQ(options["scope.baseline_mm"], 4.5);
+}
+
+TEST_F(Simulate, APhotographIsLaidOnTheTissue) {
+  ColourImage blue(64, 48, Rgb8{20, 40, 220});
+  writePng(at("blue.png"), blue, false);
+  ASSERT_EQ(simulate(at("s"), {"--texture", at("blue.png")}).exit_code, 0);
+  const Rgb8 seen = readColourImage(at("s/left/000000.png")).at(32, 24);
+  EXPECT_GT(seen.blue, 2 * seen.red);
+  const auto options = nlohmann::json::parse(std::ifstream(at("s/simulation.json")))["options"];
+  EXPECT_EQ(options["texture.picture"], at("blue.png"));
+  // A scenario names it as well.
+  const std::string scenario =
+      write("s.toml", "[texture]\npicture = \"" + at("blue.png") + "\"\npicture_mm = 50\n");
+  ASSERT_EQ(simulate(at("t"), {"--scenario", scenario}).exit_code, 0);
+  EXPECT_EQ(contentOf(at("s/left")), contentOf(at("t/left")));
+}
+
+TEST_F(Simulate, APictureThatIsNoTextureIsOneLine) {
+  writePng(at("tiny.png"), ColourImage(5, 4), false);
+  writePng(at("good.png"), ColourImage(64, 64), false);
+  for (const std::string& name : {at("absent.png"), at("tiny.png"), write("torn.png", "\x89PNG")}) {
+    const Outcome refused = simulate(at("s"), {"--texture", name});
+    expectOneLine(refused, 3);
+    EXPECT_THAT(refused.err, HasSubstr(name));
+  }
+  const Outcome wide =
+      simulate(at("s"), {"--texture", at("good.png"), "--set", "texture.picture_mm=900"});
+  expectOneLine(wide, 2);
+  EXPECT_THAT(wide.err, HasSubstr("texture.picture_mm"));
+  EXPECT_FALSE(fs::exists(at("s")));
+}
+
+TEST_F(Simulate, EveryKindOfMeshFileGivesTheSameSequence) {
+  const TriangleMesh organ = makeOrganMesh({60, 10, 3, 1.4}, 1);
+  ModelSurface surface;
+  surface.vertices.points_mm = organ.vertices_mm;
+  surface.triangles = organ.triangles;
+  std::map<std::string, std::string> depth;
+  for (const std::string kind : {".stl", ".ply", ".obj", ".vtp"}) {
+    write("organ" + kind,
+          modelBytes(surface, formatOf("organ" + kind), unitOf("mm", formatOf("organ" + kind))));
+    ASSERT_EQ(simulate(at(kind), {"--organ", at("organ" + kind)}).exit_code, 0) << kind;
+    depth[kind] = contentOf(at(kind)).at("groundtruth/depth/000000.png");
+    EXPECT_EQ(depth[kind], depth[".stl"]) << kind;
+  }
 }
 
 TEST_F(Simulate, NothingIsOverwrittenWithoutForce) {

@@ -1,0 +1,46 @@
+// apps/simulate_inputs.cpp: meshes and pictures, looked at before work starts.
+#include "apps/simulate_inputs.h"
+
+#include <spdlog/spdlog.h>
+
+#include "apps/compare_inputs.h"
+#include "core/error.h"
+#include "io/image_reader.h"
+#include "io/message.h"
+#include "mesh/mesh_check.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kLeastTexturePx = 32;
+
+}  // namespace
+
+TriangleMesh readOrgan(const SimulateOptions& options) {
+  if (options.builtinOrgan())
+    return makeOrganMesh(options.simulation.organ,
+                         static_cast<std::uint64_t>(options.simulation.seed));
+  TriangleMesh mesh = readSurfaceOrPoints(options.organ, options.organ_unit_mm);
+  if (mesh.triangles.empty())
+    throw InputError(shown(options.organ) +
+                     ": holds points without triangles, but a scope sees surfaces; give a mesh");
+  const MeshCheck check = checkMesh(mesh);
+  for (const std::string& warning : meshWarnings(check))
+    spdlog::warn("{}: {}", options.organ, warning);
+  if (check.volume_mm3 < 0)
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+void readTexture(SimulateOptions& options) {
+  if (options.texture.empty()) return;
+  ColourImage picture = readColourImage(options.texture);
+  if (picture.width_px < kLeastTexturePx || picture.height_px < kLeastTexturePx)
+    throw InputError(say(shown(options.texture), ": is ", picture.width_px, " x ",
+                         picture.height_px, " px, but a texture needs ", kLeastTexturePx, " x ",
+                         kLeastTexturePx, " or more; give a larger photograph of tissue"));
+  options.simulation.texture.picture = std::move(picture);
+  options.simulation.texture.validate();
+}
+
+}  // namespace softscope
