@@ -20,6 +20,7 @@
 #include "apps/sequence_arguments.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/sequence_reader.h"
 
 namespace softscope {
@@ -175,10 +176,7 @@ void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimat
 }
 
 std::string DepthCommand::prefixOf(int index) const {
-  if (!is_sequence_) return {};
-  char text[32];
-  std::snprintf(text, sizeof text, "%06d_", index);
-  return text;
+  return is_sequence_ ? numberedName(index, "_") : "";
 }
 
 }  // namespace

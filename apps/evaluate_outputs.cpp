@@ -2,7 +2,6 @@
 #include "apps/evaluate_outputs.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "apps/evaluate_plots.h"
 #include "apps/result_output.h"
@@ -26,11 +25,7 @@ const char* const kFiles[] = {
     "error_histogram.png", "worst_frames.svg",   "worst_frames.pdf",    "worst_frames.png",
     "errors.pvd",          "quality_series.svg", "quality_series.pdf",  "quality_series.png"};
 
-std::string mapName(const ErrorMap& map) {
-  char name[32];
-  std::snprintf(name, sizeof name, "errors/%06d.vtp", map.frame);
-  return name;
-}
+std::string mapName(const ErrorMap& map) { return "errors/" + numberedName(map.frame, ".vtp"); }
 
 /// ParaView's list of the maps over time, or over frames where no time is known.
 std::string mapsPvd(const std::vector<ErrorMap>& maps) {

@@ -1,8 +1,6 @@
 // apps/study_case.cpp: three commands, one record.
 #include "apps/study_case.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +16,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/file_hash.h"
+#include "io/file_lock.h"
 #include "io/message.h"
 #include "io/trajectory_file.h"
 
@@ -39,23 +38,6 @@ Json readJson(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return Json::parse(stream, nullptr, /*allow_exceptions=*/false);
 }
-
-/// Held by one process at a time, for as long as it lives.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& file)
-      : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {}
-  ~FolderLock() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-  bool tryToHold() const { return descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0; }
-
- private:
-  int descriptor_;
-};
 
 /// Content of a sequence, or of one file: whatever lies in it, truth included.
 std::string sequenceDigest(const fs::path& sequence) {
@@ -122,7 +104,7 @@ class CaseRunner {
   void step(const std::string& name, std::vector<std::string> words);
   fs::path sequence();
   void simulate(const fs::path& target);
-  void waitFor(const FolderLock& lock) const;
+  void waitFor(const FileLock& lock) const;
   std::string referenceOf(const fs::path& sequence) const;
   void judge(Json& record);
 
@@ -153,7 +135,7 @@ void CaseRunner::step(const std::string& name, std::vector<std::string> words) {
                              : complaint};
 }
 
-void CaseRunner::waitFor(const FolderLock& lock) const {
+void CaseRunner::waitFor(const FileLock& lock) const {
   while (!lock.tryToHold()) {
     if (interrupted_()) throw Interrupted();
     waitAMoment();
@@ -179,7 +161,7 @@ fs::path CaseRunner::sequence() {
   fs::create_directories(folder_.sequences());
   const std::string made_by = simulationDigest(case_) + sha256Of(ownExecutable());
   const fs::path target = folder_.sequences() / sha256OfBytes(made_by).substr(0, kFolderLetters);
-  const FolderLock lock(target.string() + ".lock");
+  const FileLock lock(target.string() + ".lock");
   waitFor(lock);
   if (!fs::exists(target)) simulate(target);
   return target;

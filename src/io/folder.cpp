@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <system_error>
 
 #include "core/error.h"
@@ -78,6 +79,12 @@ std::vector<fs::path> filesIn(const fs::path& folder,
     return naturallyBefore(a.filename().string(), b.filename().string());
   });
   return files;
+}
+
+std::string numberedName(int frame, const std::string& end) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "%06d", frame);
+  return digits + end;
 }
 
 std::optional<long long> frameNumber(const fs::path& file) {

@@ -21,6 +21,9 @@ std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder,
 /// Throws the InputError of filesIn() where `folder` is none.
 void requireFolder(const std::filesystem::path& folder);
 
+/// The name of a frame's file: 38 and ".ply" make 000038.ply.
+std::string numberedName(int frame, const std::string& end);
+
 /// The last run of digits in the name without extension: frame_07b.png has 7.
 std::optional<long long> frameNumber(const std::filesystem::path& file);
 

@@ -19,6 +19,13 @@ TEST(Folder, SortsAsPeopleCount) {
   EXPECT_TRUE(naturallyBefore("99999999999999999999998", "99999999999999999999999"));
 }
 
+TEST(Folder, NamesOfFramesAreAsLongAsTheContractSays) {
+  EXPECT_EQ(numberedName(38, ".ply"), "000038.ply");
+  EXPECT_EQ(numberedName(0, ""), "000000");
+  EXPECT_EQ(numberedName(1234567, "_left.png"), "1234567_left.png");
+  EXPECT_EQ(frameNumber(numberedName(7, ".png")), 7);
+}
+
 TEST(Folder, ListsWhatIsAskedFor) {
   TemporaryFolder folder;
   for (const char* name : {"10.png", "9.PNG", ".hidden.png", "notes.txt", "11.jpg"})
