@@ -4,8 +4,9 @@
 #include <EGL/eglext.h>
 #include <GL/gl.h>
 
+#include <algorithm>
 #include <cstring>
-#include <vector>
+#include <numeric>
 
 #include "core/error.h"
 
@@ -27,6 +28,15 @@ std::string orUnknown(const void* text) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> deviceOrder(const std::vector<std::string>& extensions) {
+  std::vector<std::size_t> order(extensions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
+    return extensions[i].find("EGL_MESA_device_software") == std::string::npos;
+  });
+  return order;
+}
 
 const EglDisplay& EglDisplay::instance() {
   static const EglDisplay display;
@@ -52,12 +62,14 @@ bool EglDisplay::tryDevices() {
     return false;
   std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
   query_devices(count, devices.data(), &count);
-  for (EGLint i = 0; i < count; ++i) {
-    const auto device = devices[static_cast<std::size_t>(i)];
-    if (accept(platform_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
+  const auto query_text = entryPoint<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+  std::vector<std::string> extensions;
+  for (EGLDeviceEXT device : devices)
+    extensions.push_back(query_text ? orUnknown(query_text(device, EGL_EXTENSIONS)) : "");
+  for (const std::size_t i : deviceOrder(extensions))
+    if (accept(platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr),
                "device " + std::to_string(i)))
       return true;
-  }
   return false;
 }
 

@@ -1,4 +1,5 @@
 // tests/vtk_views/test_rendering.cpp: pictures without a display.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
@@ -6,6 +7,7 @@
 
 #include <cstdlib>
 
+#include "vtk_views/egl_display.h"
 #include "vtk_views/fonts.h"
 #include "vtk_views/offscreen_window.h"
 #include "vtk_views/render_check.h"
@@ -54,6 +56,15 @@ TEST_F(Rendering, TheFactoryMakesPlainWindowsDisplayless) {
   window->SetSize(16, 16);
   window->Render();
   EXPECT_EQ(blueOf(window), 255);
+}
+
+TEST(EglDevices, SoftwareIsTriedLast) {
+  const std::string software = "EGL_MESA_device_software EGL_EXT_device_drm_render_node";
+  const std::string mesa_gpu = "EGL_EXT_device_drm", nvidia = "EGL_NV_device_cuda";
+  EXPECT_THAT(deviceOrder({software, mesa_gpu, nvidia}), testing::ElementsAre(1, 2, 0));
+  EXPECT_THAT(deviceOrder({nvidia, software}), testing::ElementsAre(0, 1));
+  EXPECT_THAT(deviceOrder({software}), testing::ElementsAre(0));
+  EXPECT_TRUE(deviceOrder({}).empty());
 }
 
 TEST(Fonts, AFileAnswersToOurFamily) {
