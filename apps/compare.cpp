@@ -181,12 +181,7 @@ int CompareCommand::run() {
     if (const std::string problem = outputs->write(result, reference, test, picture_, record);
         !problem.empty())
       result.warnings.push_back(problem);
-  FactSheet facts = comparisonFacts(result);
-  if (!out_.empty()) facts.addLine("written to", out_);
-  if (common.json)
-    printJson(record);
-  else
-    printFacts(facts, false);
+  printResult(record, comparisonFacts(result), {out_}, common.json);
   return exitCodeOf(outcomes);
 }
 

@@ -72,7 +72,6 @@ class EvaluateCommand : public Command {
   int besidePictures(const JudgedRun& run, const EvaluateOutputs* outputs);
   FrameFiles modelsFor(const JudgedRun& run) const;
   int finish(EvaluationResult result, const EvaluateOutputs* outputs);
-  void report(const EvaluationResult& result, const FactSheet::Json& record) const;
 
   std::string run_, reference_, out_, align_ = "none";
   std::vector<std::string> fail_if_;
@@ -170,12 +169,7 @@ int EvaluateCommand::besidePictures(const JudgedRun& folder, const EvaluateOutpu
   const auto outcomes = checkThresholds(thresholds_, record, "view");
   record["thresholds"] = thresholdsJson(outcomes);
   if (outputs != nullptr) outputs->write(result, record);
-  FactSheet facts = truthlessFacts(result);
-  if (!out_.empty()) facts.addLine("written to", out_);
-  if (common.json)
-    printJson(record);
-  else
-    printFacts(facts, false);
+  printResult(record, truthlessFacts(result), {out_}, common.json);
   return exitCodeOf(outcomes);
 }
 
@@ -223,18 +217,8 @@ int EvaluateCommand::finish(EvaluationResult result, const EvaluateOutputs* outp
   record["error_histogram"] = histogramJson(result.surface.pool.all_mm());
   record["frames"] = frames.json();
   if (outputs != nullptr) outputs->write(result, frames, record);
-  report(result, record);
+  printResult(record, evaluationFacts(result), {out_}, common.json);
   return exitCodeOf(outcomes);
-}
-
-void EvaluateCommand::report(const EvaluationResult& result, const FactSheet::Json& record) const {
-  if (common.json) {
-    printJson(record);
-  } else {
-    FactSheet facts = evaluationFacts(result);
-    if (!out_.empty()) facts.addLine("written to", out_);
-    printFacts(facts, false);
-  }
 }
 
 }  // namespace

@@ -112,14 +112,7 @@ int ReportCommand::run() {
   const std::string pdf = pdf_.empty() ? "" : reportPdf(document.page);
   writeFile(out_, html, force_);
   if (!pdf_.empty()) writeFile(pdf_, pdf, force_);
-  if (common.json) {
-    printJson(document.metrics);
-  } else {
-    FactSheet facts = document.facts;
-    facts.addLine("written to", out_);
-    if (!pdf_.empty()) facts.addLine("", pdf_);
-    printFacts(facts, false);
-  }
+  printResult(document.metrics, document.facts, {out_, pdf_}, common.json);
   return exitCodeOf(document.outcomes);
 }
 

@@ -42,6 +42,19 @@ fs::path recordIn(const fs::path& path) {
                    "softscope evaluate --out or compare --out wrote");
 }
 
+ReportCase::Kind kindOf(const Json& record) {
+  if (textAt(record, "command") == "compare") return ReportCase::Kind::kPair;
+  const std::string reference = textAt(record, "comparison.reference_kind");
+  return reference == "mesh"       ? ReportCase::Kind::kMesh
+         : reference == "pictures" ? ReportCase::Kind::kPictures
+                                   : ReportCase::Kind::kSequence;
+}
+
+void requirePart(const std::string& part, const Json& record, const fs::path& file) {
+  if (!record.contains(part) || !record[part].is_object())
+    throw InputError(shown(file) + ": has no part `" + part + "`; is it damaged? Evaluate again");
+}
+
 Json readRecord(const fs::path& file, const std::string& bytes) {
   const Json record = Json::parse(bytes, nullptr, false);
   if (!record.is_object())
@@ -55,13 +68,11 @@ Json readRecord(const fs::path& file, const std::string& bytes) {
   if (version != 1)
     throw InputError(say(shown(file), ": has schema_version ", version,
                          ", but this softscope reads 1; evaluate again with it"));
-  const std::string part = command == "compare" ? "accuracy" : "surface";
-  if (!record.contains(part) || !record[part].is_object())
-    throw InputError(shown(file) + ": has no part `" + part + "`; is it damaged? Evaluate again");
   return record;
 }
 
 std::vector<fs::path> mapFiles(const fs::path& folder, ReportCase::Kind kind) {
+  if (kind == ReportCase::Kind::kPictures) return {};  // what lies there is of something else
   if (kind == ReportCase::Kind::kPair) {
     for (const char* name : {"error_map.vtp", "errors.vtp"})  // with the reference, or without
       if (isThere(folder / name)) return {folder / name};
@@ -152,10 +163,8 @@ ReportCase readReportCase(const fs::path& path) {
   ReportCase result;
   result.record = readRecord(file, bytes);
   result.hashes.emplace_back("metrics", sha256OfBytes(bytes));  // names of files may name people
-  if (textAt(result.record, "command") == "evaluate")
-    result.kind = textAt(result.record, "comparison.reference_kind") == "mesh"
-                      ? ReportCase::Kind::kMesh
-                      : ReportCase::Kind::kSequence;
+  result.kind = kindOf(result.record);
+  requirePart(result.mainPart(), result.record, file);
   for (const fs::path& map : mapFiles(folder, result.kind)) {
     const std::string map_bytes = readBytes(map, std::uintmax_t{2} << 30);
     result.maps.push_back(parseErrorMap(map_bytes, shown(map)));

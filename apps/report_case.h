@@ -18,7 +18,8 @@ double numberAt(const FactSheet::Json& record, const std::string& path);
 std::string textAt(const FactSheet::Json& record, const std::string& path);
 
 struct ReportCase {
-  enum class Kind { kSequence, kMesh, kPair };  // evaluate against truth, a mesh; compare
+  /// evaluate against truth, a mesh, pictures alone (no truth); compare
+  enum class Kind { kSequence, kMesh, kPictures, kPair };
 
   std::string name;  // as the report calls it
   Kind kind = Kind::kPair;
@@ -27,8 +28,11 @@ struct ReportCase {
   std::vector<std::pair<std::string, std::string>> pictures;  // caption, PNG
   std::vector<std::pair<std::string, std::string>> hashes;    // what, SHA-256
 
-  /// Where distances of the model stand in the record.
-  std::string mainPart() const { return kind == Kind::kPair ? "accuracy" : "surface"; }
+  bool hasTruth() const { return kind != Kind::kPictures; }
+  /// Where distances of the model stand in the record, or else what there is.
+  std::string mainPart() const {
+    return kind == Kind::kPair ? "accuracy" : hasTruth() ? "surface" : "view";
+  }
   double main(const std::string& key) const { return numberAt(record, mainPart() + "." + key); }
   /// One value a judged moment; empty for a pair.
   std::vector<double> overFrames(const std::string& key) const;

@@ -31,7 +31,10 @@ constexpr CohortMetric kMetrics[] = {
     {"hd95_max_of_directed_mm", "HD95, larger of both [mm]",
      "surface.hausdorff.hd95_max_of_directed_mm", "hausdorff.hd95_max_of_directed_mm"},
     {"completeness_1mm", "reconstructed [share]", "surface.completeness_1mm", ""},
-    {"track_mean_mm", "material points, mean [mm]", "tracks.mean_mm", ""}};
+    {"track_mean_mm", "material points, mean [mm]", "tracks.mean_mm", ""},
+    {"backprojection_mean_mm", "back-projection, mean [mm]", "backprojection.mean_mm", ""},
+    {"psnr_db", "PSNR of the drawn view [dB]", "view.psnr_db", ""},
+    {"ssim", "SSIM of the drawn view", "view.ssim", ""}};
 
 double valueOf(const ReportCase& c, const CohortMetric& metric) {
   return numberAt(c.record, c.kind == ReportCase::Kind::kPair ? metric.of_pair : metric.of_run);
@@ -135,6 +138,24 @@ Json agreementJson(const BlandAltman& b) {
           {"high_limit_ci_mm", intervalJson(b.high_limit_ci)}};
 }
 
+/// Of cases none of which can be judged by its distance.
+std::vector<ReportPart> truthlessCohortParts(const Cases& cases, const ReportChoices& choices) {
+  const auto summary = [&](const char* key) {
+    return summariseCohort(valuesOf(cases, metricNamed(key)), choices.seed);
+  };
+  const CohortSummary psnr = summary("psnr_db"), kept = summary("backprojection_mean_mm");
+  std::string text =
+      "None of the " + std::to_string(cases.size()) +
+      " cases has ground truth: how far the models lie from the tissue is not known.";
+  if (std::isfinite(psnr.mean))
+    text += " Drawn from their own poses, they resemble the pictures with a PSNR of " +
+            spread(psnr) + " dB.";
+  if (std::isfinite(kept.mean))
+    text += " In sight, they lie " + spread(kept) + " mm from the depth that they were made of.";
+  return {ReportParagraph{text, /*important=*/true}, summaryTable(cases, choices),
+          casesTable(cases)};
+}
+
 /// By P95; a case without one is neither better nor worse. Null where none has one.
 const ReportCase* worstOf(const Cases& cases) {
   const ReportCase* worst = nullptr;
@@ -154,6 +175,7 @@ ReportTable cohortComparedTable(const Cases& cases) {
     const std::string how = textAt(c.record, pair ? "alignment.method" : "comparison.alignment");
     table.rows.push_back({c.name, pair ? "surface model" : "live model of a video",
                           pair                                ? "surface"
+                          : !c.hasTruth()                     ? "none: no ground truth"
                           : c.kind == ReportCase::Kind::kMesh ? "surface that does not move"
                                                               : "ground truth of the video",
                           how.empty() ? "not said" : how});
@@ -161,18 +183,30 @@ ReportTable cohortComparedTable(const Cases& cases) {
   return table;
 }
 
+bool anyTruth(const Cases& cases) {
+  return std::any_of(cases.begin(), cases.end(), [](const ReportCase& c) { return c.hasTruth(); });
+}
+
 std::vector<ReportPart> cohortParts(const Cases& cases, const ReportChoices& choices) {
+  if (!anyTruth(cases)) return truthlessCohortParts(cases, choices);
   const auto means = valuesOf(cases, metricNamed("mean_mm"));
   const auto p95s = valuesOf(cases, metricNamed("p95_mm"));
   const CohortSummary mean = summariseCohort(means, choices.seed);
   const CohortSummary p95 = summariseCohort(p95s, choices.seed);
   const ReportCase* worst = worstOf(cases);
   std::vector<ReportPart> parts;
+  const std::size_t judged = static_cast<std::size_t>(
+      std::count_if(cases.begin(), cases.end(), [](const ReportCase& c) { return c.hasTruth(); }));
   parts.emplace_back(ReportParagraph{
-      "Over " + std::to_string(cases.size()) + " cases the model lies " + spread(mean) +
+      (judged == 1 ? std::string("In one case") : "Over " + std::to_string(judged) + " cases") +
+          " the model lies " + spread(mean) +
           " mm from the reference (mean and SD of the cases' means); 95 % of a case's points lie "
           "within " +
-          spread(p95) + " mm.",
+          spread(p95) + " mm." +
+          (judged == cases.size() ? ""
+                                  : " " + std::to_string(cases.size() - judged) +
+                                        " more have no ground truth, so that nothing is known of "
+                                        "their distances."),
       /*important=*/true});
   parts.emplace_back(ReportTiles{
       {{"Mean distance", numberText(mean.mean) + " mm", "SD of the cases " + numberText(mean.sd)},

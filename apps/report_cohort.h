@@ -9,6 +9,9 @@
 
 namespace softscope {
 
+/// Whether any case was measured against something that is known.
+bool anyTruth(const std::vector<ReportCase>& cases);
+
 /// What was compared, a row a case.
 ReportTable cohortComparedTable(const std::vector<ReportCase>& cases);
 

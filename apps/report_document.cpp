@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/report_alignment.h"
 #include "apps/report_cohort.h"
 #include "apps/report_privacy.h"
+#include "apps/report_truthless.h"
 #include "apps/report_words.h"
 #include "apps/version.h"
 #include "core/error.h"
@@ -108,6 +110,15 @@ std::vector<ReportSection> caseSections(const ReportRequest& request, double lim
   return sections;
 }
 
+std::vector<ReportPart> caseTables(const ReportCase& c) {
+  if (c.hasTruth()) return {distancesTable(c, c.name)};
+  std::vector<ReportPart> parts{truthlessHeadline(c)};
+  std::get<ReportParagraph>(parts[0]).text.insert(0, c.name + ". ");
+  for (ReportTable& table : truthlessTables(c))
+    if (!table.rows.empty()) parts.emplace_back(std::move(table));
+  return parts;
+}
+
 void addLimits(const ReportCase& c, const ReportChoices& choices, ReportList& list) {
   for (const std::string& item : limitsList(c, choices).items)
     if (std::find(list.items.begin(), list.items.end(), item) == list.items.end())
@@ -145,7 +156,7 @@ std::vector<ReportSection> cohortSections(const ReportRequest& request, double l
   if (mapped) sections.back().parts.emplace_back(mapPlace(request.cases, limit_mm));
   for (const ReportCase& c : request.cases) {
     reviewed.cases.push_back(c.name);
-    each.parts.emplace_back(distancesTable(c, c.name));
+    append(caseTables(c), each.parts);
     append(plotParts(c), each.parts);
     append(pictureParts(c), each.parts);
     addLimits(c, choices, limits);
@@ -184,7 +195,10 @@ Json metricsOf(const ReportRequest& request, double limit_mm) {
 
 std::string titleOf(const ReportRequest& request) {
   if (!request.title.empty()) return request.title;
-  if (request.cases.size() > 1) return "Surface accuracy of several cases";
+  if (request.cases.size() > 1)
+    return anyTruth(request.cases) ? "Surface accuracy of several cases"
+                                   : "Several live surface models without ground truth";
+  if (!request.cases.front().hasTruth()) return "A live surface model without ground truth";
   return request.cases.front().kind == ReportCase::Kind::kPair ? "Accuracy of a surface model"
                                                                : "Accuracy of a live surface model";
 }
@@ -206,8 +220,9 @@ ReportDocument makeReport(ReportRequest request) {
   page.metrics_json = document.metrics.dump(1, ' ', false, Json::error_handler_t::replace);
   document.facts = FactSheet(page.title + ", " + page.subtitle);
   for (ReportCase& c : request.cases) {
-    document.facts.addLine(c.name, "mean " + millimetresText(c.main("mean_mm")) + ", P95 " +
-                                       millimetresText(c.main("p95_mm")));
+    document.facts.addLine(c.name, c.hasTruth() ? "mean " + millimetresText(c.main("mean_mm")) +
+                                                      ", P95 " + millimetresText(c.main("p95_mm"))
+                                                : truthlessHeadline(c).text);
     if (!c.maps.empty()) page.maps.push_back({c.name, std::move(c.maps)});
   }
   page.map_figure = mapFigure(page.maps, page.limit_mm);

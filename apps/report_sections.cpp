@@ -1,12 +1,13 @@
 // apps/report_sections.cpp: wording by kind of comparison.
 #include "apps/report_sections.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
 
+#include "apps/report_alignment.h"
 #include "apps/report_plots.h"
 #include "apps/report_privacy.h"
+#include "apps/report_truthless.h"
 #include "apps/report_words.h"
 #include "apps/version.h"
 
@@ -15,12 +16,6 @@ namespace {
 
 using Kind = ReportCase::Kind;
 
-bool wasAligned(const ReportCase& c) {
-  const std::string how =
-      textAt(c.record, c.kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
-  return !how.empty() && how != "none";
-}
-
 std::string whole(double count) {
   return std::isfinite(count) ? std::to_string(std::llround(count)) : "an unknown number of";
 }
@@ -28,7 +23,7 @@ std::string whole(double count) {
 std::string testedText(const ReportCase& c) {
   if (c.kind == Kind::kPair)
     return "a 3-D model of " + whole(numberAt(c.record, "accuracy.n")) + " vertices";
-  const double models = numberAt(c.record, "surface.models_judged");
+  const double models = numberAt(c.record, c.mainPart() + ".models_judged");
   return "a 3-D model reconstructed from stereo-endoscopic video, judged at " + whole(models) +
          (models == 1 ? " moment" : " moments");
 }
@@ -39,6 +34,8 @@ std::string referenceText(const ReportCase& c) {
       return "ground truth of the video: the true surface, depth and scope pose of each moment";
     case Kind::kMesh:
       return "a surface that does not move, from CT for example";
+    case Kind::kPictures:
+      return "none: there is no ground truth; the video's own left pictures stand beside the model";
     case Kind::kPair:
       return "a surface of " + whole(numberAt(c.record, "completeness.n")) + " vertices";
   }
@@ -50,63 +47,10 @@ std::string frameText(const ReportCase& c) {
     return "each moment in the frame of its own left camera, so that a motion of the scope is not "
            "counted as an error of the surface";
   if (c.kind == Kind::kMesh) return "the reference's";
+  if (c.kind == Kind::kPictures)
+    return "the left picture of each moment, from the pose that the run estimated";
   const std::string space = textAt(c.record, "space");
   return "the reference's; space: " + (space.empty() ? "not said" : space);
-}
-
-std::string alignmentText(const ReportCase& c) {
-  if (!wasAligned(c)) return "none: no error is hidden by fitting the model to the reference";
-  const std::string how =
-      textAt(c.record, c.kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
-  if (how == "rigid")
-    return "rigid: one fit to the reference, found with the first model, holds for all";
-  if (how == "icp")
-    return "ICP: the model was fitted to the reference by the closest points; whatever a rigid "
-           "motion explains is not in the errors below";
-  if (how == "landmarks") return "landmarks: fitted by named pairs of points";
-  if (how == "landmarks, then icp")
-    return "landmarks, then ICP: fitted by named pairs of points, then by the closest points; "
-           "whatever a rigid motion explains is not in the errors below";
-  return how;
-}
-
-/// The matrix that moved the model, where the record has one.
-std::string motionText(const ReportCase& c) {
-  const auto pointer = FactSheet::Json::json_pointer(
-      c.kind == Kind::kPair ? "/alignment/reference_from_test"
-                            : "/comparison/alignments/0/mesh_from_run");
-  if (!c.record.contains(pointer)) return {};
-  const FactSheet::Json& rows = c.record.at(pointer);
-  Eigen::Matrix4d matrix;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) {
-      if (!rows.is_array() || rows.size() != 4 || !rows[i].is_array() || rows[i].size() != 4 ||
-          !rows[i][j].is_number())
-        return {};
-      matrix(int(i), int(j)) = rows[i][j].get<double>();
-    }
-  const double angle_rad = Eigen::AngleAxisd(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).angle();
-  const std::string turn = "turned by " + fixed(angle_rad * 180 / M_PI, 2) + " degrees";
-  if (c.maps.empty()) return turn;
-  // About the origin a turn would look like a shift: of the model's middle it doesn't.
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : c.maps.front().surface.vertices_mm) middle += p.cast<double>();
-  middle /= double(c.maps.front().surface.vertices_mm.size());
-  const Eigen::Vector3d before = matrix.inverse().topRows<3>() * middle.homogeneous();
-  return turn + ", and its middle shifted by " + millimetresText((middle - before).norm());
-}
-
-/// How well the error at places without a landmark is known; empty where it isn't.
-std::string targetErrorText(const ReportCase& c) {
-  const auto value = [&](const char* key) {
-    return numberAt(c.record, std::string("alignment.tre_leave_one_out.") + key);
-  };
-  const double n = value("n"), mean_mm = value("mean_mm"), sd_mm = value("sd_mm");
-  if (!(n >= 2 && n < 1e9) || !std::isfinite(mean_mm) || !std::isfinite(sd_mm)) return {};
-  const double half_mm = studentQuantile(0.975, n - 1) * sd_mm / std::sqrt(n - 1);  // sd is over n
-  return "At a place that was not fitted the error is " + millimetresText(mean_mm) +
-         " on average (TRE over " + whole(n) + " landmarks, 95 % confidence " +
-         intervalText({mean_mm - half_mm, mean_mm + half_mm}) + " mm, by Student's t).";
 }
 
 std::vector<NamedPart> distanceParts(const ReportCase& c) {
@@ -161,6 +105,7 @@ ReportTable scoresTable(const ReportCase& c) {
 }
 
 ReportParagraph headline(const ReportCase& c) {
+  if (!c.hasTruth()) return truthlessHeadline(c);
   std::string text = "The model lies " + millimetresText(c.main("mean_mm")) +
                      " from the reference on average; 95 % of its points lie within " +
                      millimetresText(c.main("p95_mm")) + ".";
@@ -188,6 +133,7 @@ std::optional<ReportTile> withinTile(const ReportCase& c) {
 }
 
 ReportTiles tiles(const ReportCase& c) {
+  if (!c.hasTruth()) return truthlessTiles(c);
   ReportTiles tiles;
   tiles.tiles.push_back({"Mean distance", millimetresText(c.main("mean_mm")),
                          "median " + millimetresText(c.main("median_mm"))});
@@ -207,7 +153,7 @@ ReportTiles tiles(const ReportCase& c) {
 }
 
 ReportParagraph confidence(const ReportCase& c, const ReportChoices& choices) {
-  const std::vector<double> means = c.overFrames("mean_mm");
+  const std::vector<double> means = c.hasTruth() ? c.overFrames("mean_mm") : drawnPsnrs(c);
   const Interval ci = bootstrapMean(means, choices.seed);
   if (c.kind == Kind::kPair)
     return {
@@ -215,10 +161,10 @@ ReportParagraph confidence(const ReportCase& c, const ReportChoices& choices) {
         "the surface is in the table."};
   if (!std::isfinite(ci.low))
     return {"How sure: fewer than three moments were judged, too few for a confidence interval."};
-  return {"How sure: over the " + std::to_string(means.size()) +
-          " judged moments the mean distance has a 95 % confidence interval of " +
-          intervalText(ci) +
-          " mm (bootstrap). Moments of one video resemble each other, so that another video may "
+  return {"How sure: over the " + std::to_string(means.size()) + " judged moments the mean " +
+          (c.hasTruth() ? "distance" : "PSNR") + " has a 95 % confidence interval of " +
+          intervalText(ci) + (c.hasTruth() ? " mm" : " dB") +
+          " (bootstrap). Moments of one video resemble each other, so that another video may "
           "differ by more."};
 }
 
@@ -252,32 +198,13 @@ ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices) {
   return table;
 }
 
-std::vector<ReportPart> alignmentParts(const ReportCase& c) {
-  std::vector<ReportPart> parts;
-  if (!wasAligned(c)) return parts;
-  if (const std::string motion = motionText(c); !motion.empty())
-    parts.emplace_back(ReportParagraph{"The model was " + motion + "."});
-  std::vector<NamedPart> rows;
-  if (c.kind == Kind::kPair) {
-    rows = {{"before the alignment", "alignment.before"},
-            {"after it", "accuracy"},
-            {"landmarks: FRE, what the fit leaves at them", "alignment.fre"},
-            {"landmarks: TRE, each left out in turn", "alignment.tre_leave_one_out"}};
-    addTable(statisticsTable("Distances [mm]", c.record, rows), parts);
-    if (const std::string tre = targetErrorText(c); !tre.empty())
-      parts.emplace_back(ReportParagraph{tre});
-  } else if (c.record.contains(FactSheet::Json::json_pointer("/comparison/alignments/0"))) {
-    const auto& first = c.record["comparison"]["alignments"][0];
-    addTable(statisticsTable("Distances of the first model [mm]", first,
-                             {{"before the alignment", "before"}, {"after it", "after"}}),
-             parts);
-  }
-  return parts;
-}
-
 std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices) {
   std::vector<ReportPart> parts{headline(c), tiles(c), confidence(c, choices)};
   addTable(thresholdsTable(c), parts);
+  if (!c.hasTruth()) {
+    for (ReportTable& table : truthlessTables(c)) addTable(std::move(table), parts);
+    return parts;
+  }
   addTable(distancesTable(c, "Distances [mm]"), parts);
   addTable(bothWaysTable(c), parts);
   addTable(scoresTable(c), parts);
@@ -296,6 +223,7 @@ ReportTable distancesTable(const ReportCase& c, const std::string& caption) {
 
 std::vector<ReportPart> plotParts(const ReportCase& c) {
   ReportFigures figures;
+  if (!c.hasTruth()) figures.figures = truthlessFigures(c);
   if (auto series = seriesFigure(c)) figures.figures.push_back(std::move(*series));
   if (auto spread = histogramFigure(c)) figures.figures.push_back(std::move(*spread));
   if (figures.figures.empty()) return {};
@@ -304,7 +232,8 @@ std::vector<ReportPart> plotParts(const ReportCase& c) {
 
 ReportList limitsList(const ReportCase& c, const ReportChoices& choices) {
   ReportList list;
-  if (c.kind != Kind::kSequence)
+  if (!c.hasTruth()) list.items = truthlessLimits(c);
+  if (c.kind == Kind::kMesh || c.kind == Kind::kPair)
     list.items.push_back(
         "A scope sees part of an organ. Where the model covers a part of the reference only, "
         "distances from the reference to the model, and what is built on them (HD95, Hausdorff, "
@@ -321,9 +250,11 @@ ReportList limitsList(const ReportCase& c, const ReportChoices& choices) {
     list.items.push_back(
         "The reference does not move. Where tissue moved between its scan and the video, that "
         "motion counts as an error.");
-  list.items.push_back(
-      "The map shows fewer points than were measured (at most 20 000 a moment of a series, 60 000 "
-      "of a single surface) and a coarser reference; the numbers are of the full data.");
+  if (!c.maps.empty())
+    list.items.push_back(
+        "The map shows fewer points than were measured (at most 20 000 a moment of a series, 60 "
+        "000 "
+        "of a single surface) and a coarser reference; the numbers are of the full data.");
   if (c.record.contains("warnings") && c.record["warnings"].is_array())
     for (const auto& warning : c.record["warnings"])
       if (warning.is_string()) {
@@ -335,7 +266,13 @@ ReportList limitsList(const ReportCase& c, const ReportChoices& choices) {
 }
 
 ReportList methodsList(const ReportCase& c) {
+  const std::string all = "Every definition: docs/evaluation.md of softscope.";
   ReportList list;
+  if (!c.hasTruth()) {
+    list.items = truthlessMethods();
+    list.items.push_back(all);
+    return list;
+  }
   list.items = {
       "Distance: from a point of the model to the closest point on the triangles of the reference, "
       "not to its nearest vertex. Signed: positive outside the reference, by the angle-weighted "
@@ -360,7 +297,7 @@ ReportList methodsList(const ReportCase& c) {
         "harmonic mean; surface Dice: area within the distance, both ways, over both areas. FRE is "
         "what the fit leaves at the landmarks it was made of, TRE the error at one it has not "
         "seen.");
-  list.items.push_back("Every definition: docs/evaluation.md of softscope.");
+  list.items.push_back(all);
   return list;
 }
 

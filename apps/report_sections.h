@@ -17,8 +17,6 @@ struct ReportChoices {
 
 /// What was compared and how it was aligned, as rows of a table.
 ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices);
-/// Before and after; empty where nothing was aligned.
-std::vector<ReportPart> alignmentParts(const ReportCase& c);
 /// The sentence, the large numbers, the tables; what the numbers rest on.
 std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices);
 /// Mean, SD and so on of every part that was measured.

@@ -15,4 +15,16 @@ void printFacts(const FactSheet& facts, bool as_json) {
   std::cout << (as_json ? jsonText(facts.json()) : facts.text()) << std::flush;
 }
 
+void printResult(const FactSheet::Json& record, FactSheet facts,
+                 const std::vector<std::string>& written, bool as_json) {
+  if (as_json) return printJson(record);
+  std::string label = "written to";
+  for (const std::string& name : written) {
+    if (name.empty()) continue;
+    facts.addLine(label, name);
+    label.clear();
+  }
+  printFacts(facts, false);
+}
+
 }  // namespace softscope

@@ -44,4 +44,24 @@ void writeCase(const std::filesystem::path& case_folder, double mean_mm, const E
   std::ofstream(case_folder / "errors/000002.vtp", std::ios::binary) << errorMapVtp(map);
 }
 
+void writeTruthlessCase(const std::filesystem::path& case_folder, double psnr_db) {
+  using Json = nlohmann::json;
+  std::filesystem::create_directories(case_folder);
+  Json record{{"schema_version", 1}, {"softscope", "0.1.0"}, {"command", "evaluate"}};
+  record["comparison"] = {{"reference_kind", "pictures"}, {"alignment", "none"}};
+  record["missing"] = {"surface errors: they take meshes", "errors of the drawn depth: no depth"};
+  record["view"] = {
+      {"psnr_db", psnr_db}, {"ssim", 0.9}, {"judged_share", 0.75}, {"models_judged", 4}};
+  record["backprojection"] = {{"mean_mm", 0.25}, {"n", 4}};
+  record["coverage"] = {{"mean_share", 0.5}};
+  record["camera"] = {{"moved_mm", 1.5}, {"turned_deg", 2}, {"jitter_rms_mm", 0.01}};
+  record["frames"] = Json::array();
+  for (int frame = 0; frame < 4; ++frame)
+    record["frames"].push_back({{"frame", frame},
+                                {"time_s", frame},
+                                {"view_psnr_db", psnr_db + frame - 1.5},
+                                {"backprojection_mean_mm", frame == 2 ? Json() : Json(0.25)}});
+  std::ofstream(case_folder / "evaluation.json") << record.dump();
+}
+
 }  // namespace softscope::test

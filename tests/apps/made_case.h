@@ -16,4 +16,7 @@ inline void writeCase(const std::filesystem::path& case_folder, double mean_mm) 
   writeCase(case_folder, mean_mm, smallMap(mean_mm));
 }
 
+/// What evaluate leaves of a run whose sequence has no truth.
+void writeTruthlessCase(const std::filesystem::path& case_folder, double psnr_db);
+
 }  // namespace softscope::test

@@ -306,6 +306,13 @@ TEST_F(EvaluateWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
   EXPECT_EQ(softscope::test::run(limited).exit_code, 1);
   limited.back() = "p95_mm>1 mm";
   EXPECT_EQ(softscope::test::run(limited).exit_code, 2);
+  const Outcome report = softscope::test::run(
+      {"report", at("out"), "--out", at("page.html"), "--json", "--fail-if", "psnr_db<20"});
+  ASSERT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_EQ(report.json()["cases"][0]["record"]["view"], record["view"]);
+  const std::string page = textOf(at("page.html"));
+  for (const char* part : {"There is no ground truth", ">PSNR [dB]<", "s step [mm]"})
+    EXPECT_THAT(page, HasSubstr(part));
 }
 
 }  // namespace

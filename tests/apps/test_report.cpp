@@ -128,6 +128,37 @@ TEST_F(Report, SeveralCasesBecomeACohort) {
   EXPECT_THAT(textOf(at("page.pdf")), testing::StartsWith("%PDF"));
 }
 
+TEST_F(Report, WithoutTruthItSaysSoAndClaimsNoDistance) {
+  writeTruthlessCase(at("real"), 28);
+  const std::string html = page({at("real")});
+  for (const char* part :
+       {"There is no ground truth: how far the model lies from the tissue is not known.",
+        "a PSNR of 28.0 dB", "it lies 0.250 mm on average from the depth that it was made of",
+        "over 75.0 % of the pixels", "judged at 4 moments", "mean PSNR has a 95 % confidence",
+        "Not measured, because it takes ground truth: surface errors; errors of the drawn depth.",
+        ">frame<", "back-projection [mm]"})
+    EXPECT_THAT(html, HasSubstr(part));
+  for (const char* part : {"Mean distance", "95th percentile", "id=\"maps\"", "HD95", "time [s]"})
+    EXPECT_THAT(html, Not(HasSubstr(part)));
+  EXPECT_EQ(report({at("real"), "--fail-if", "psnr_db<30", "--force"}).exit_code, 1);
+  EXPECT_EQ(report({at("real"), "--fail-if", "p95_mm>1", "--force"}).exit_code, 2);
+}
+
+TEST_F(Report, CasesWithoutTruthDontCountAmongTheDistances) {
+  writeTruthlessCase(at("real"), 28);
+  writeTruthlessCase(at("other"), 32);
+  const std::string mixed = page({at("result"), at("real"), at("other")});
+  EXPECT_THAT(mixed, HasSubstr("In one case the model lies 0.500"));
+  EXPECT_THAT(mixed, HasSubstr("2 more have no ground truth"));
+  const Outcome blind = report({at("real"), at("other"), "--force", "--json"});
+  ASSERT_EQ(blind.exit_code, 0) << blind.err;
+  EXPECT_NEAR(blind.json()["cohort"]["psnr_db"]["mean"], 30, 1e-12);
+  EXPECT_FALSE(blind.json()["cohort"].contains("mean_mm"));
+  const std::string html = textOf(at("page.html"));
+  EXPECT_THAT(html, HasSubstr("None of the 2 cases has ground truth"));
+  EXPECT_THAT(html, Not(HasSubstr("mean distance")));
+}
+
 TEST_F(Report, ACaseWithoutValuesIsNotTheWorst) {
   writeCase(at("blank"), 0.1);
   Json record = Json::parse(textOf(at("blank/evaluation.json")));
