@@ -9,6 +9,7 @@
 #include "fusion/illumination.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
+#include "io/folder.h"
 #include "io/message.h"
 #include "io/ply_writer.h"
 #include "io/text_lines.h"
@@ -30,12 +31,6 @@ constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
 const char* const kFiles[] = {"model.ply",  "frames.csv", "trajectory.txt", "tracks.csv",
                               "models.pvd", kRecord,      kCheckpoint};
 
-std::string numbered(int frame, const char* end) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06d%s", frame, end);
-  return name;
-}
-
 /// Of a model, or of its nodes.
 bool isSavedModel(const fs::path& file) {
   const std::string stem = file.stem().string(), end = file.extension().string();
@@ -49,6 +44,12 @@ bool holdsRun(const fs::path& folder) {
   return fs::exists(folder / kModels);
 }
 
+[[noreturn]] void refuseBusy(const fs::path& folder) {
+  throw OptionError("--out " + shown(folder) +
+                    ": another softscope reconstruct is writing to it; wait until it has ended, "
+                    "or choose another folder");
+}
+
 void requireUsable(const RunFolderOptions& options, bool resume) {
   const fs::path& folder = options.folder;
   if (!fs::exists(folder)) {
@@ -59,6 +60,7 @@ void requireUsable(const RunFolderOptions& options, bool resume) {
   }
   if (!fs::is_directory(folder))
     throw OptionError("--out " + shown(folder) + ": is a file, but must be a folder");
+  if (isHeld(folder / kRunLock)) refuseBusy(folder);
   if (!resume && !options.overwrite && holdsRun(folder))
     throw OptionError("--out " + shown(folder) +
                       ": holds a run already; choose another folder, go on with --resume, or "
@@ -132,8 +134,16 @@ std::optional<Checkpoint> RunFolder::readCheckpoint() const {
   return parseCheckpoint(readBytes(path, kCheckpointLimitBytes), shown(path));
 }
 
+/// Until the run has ended, or its process, however it does: who finds the file but no holder knows
+/// that nothing more will come.
+void RunFolder::hold() {
+  lock_.emplace(file(kRunLock));
+  if (!lock_->tryToHold()) refuseBusy(options_.folder);
+}
+
 void RunFolder::takeOver(int next_frame) {
   begun_ = true;
+  hold();
   frames_csv_ = linesBefore(file("frames.csv"), next_frame);
   tracks_csv_ = linesBefore(file("tracks.csv"), next_frame);
   trajectory_ = readTrajectory(file("trajectory.txt"));
@@ -147,7 +157,7 @@ void RunFolder::takeOver(int next_frame) {
   for (const std::string_view text : linesOf(frames_csv_)) {
     if (line >= frames) break;
     const int frame = std::atoi(std::string(text.substr(0, text.find(','))).c_str());
-    if (fs::exists(file(kModels) / numbered(frame, ".ply")))
+    if (fs::exists(file(kModels) / numberedName(frame, ".ply")))
       saved_.push_back({frame, trajectory_[line].time_s});
     ++line;
   }
@@ -161,6 +171,7 @@ void RunFolder::begin() {
   if (failure)
     throw InputError("--out " + shown(options_.folder) + ": can't be made: " + failure.message() +
                      ". Choose a folder that you may write to");
+  hold();
   for (const char* name : kFiles) fs::remove(file(name));
   for (const char* saved : {kModels, kNodes}) {
     if (!fs::is_directory(file(saved))) continue;
@@ -185,10 +196,10 @@ void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   fs::create_directories(file(kNodes));
   if (!std::isfinite(time_s)) time_s = frame;
   const PointCloud cloud = cloudOf(state);
-  writeFile(file(kNodes) / numbered(frame, ".csv"), nodesCsv(state.graph), true);
-  writeFile(file(kModels) / numbered(frame, ".vtp"), pointCloudVtp(cloud), true);
+  writeFile(file(kNodes) / numberedName(frame, ".csv"), nodesCsv(state.graph), true);
+  writeFile(file(kModels) / numberedName(frame, ".vtp"), pointCloudVtp(cloud), true);
   // Last: who sees the model of a run that still goes on finds the rest.
-  writePly(file(kModels) / numbered(frame, ".ply"), cloud,
+  writePly(file(kModels) / numberedName(frame, ".ply"), cloud,
            {"world", "", momentComments(time_s, trajectory_.back().world_from_left, left_)}, true);
   saved_.push_back({frame, time_s});
 }
@@ -205,7 +216,7 @@ void RunFolder::writeTables(const ModelState& state) {
       "byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const SavedModel& saved : saved_)
     pvd += say("<DataSet timestep=\"", saved.time_s, "\" file=\"models/",
-               numbered(saved.frame, ".vtp"), "\"/>\n");
+               numberedName(saved.frame, ".vtp"), "\"/>\n");
   writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
 }
 
@@ -224,6 +235,7 @@ void RunFolder::finish(const ModelState& state) {
 void RunFolder::writeRecord(const std::string& json) {
   begin();
   writeFile(file(kRecord), json, true);
+  fs::remove(file(kRunLock));
 }
 
 }  // namespace softscope

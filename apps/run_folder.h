@@ -9,10 +9,14 @@
 #include "core/camera.h"
 #include "core/point_cloud.h"
 #include "core/trajectory.h"
+#include "io/file_lock.h"
 #include "pipeline/checkpoint.h"
 #include "pipeline/frame_record.h"
 
 namespace softscope {
+
+/// Held by the process that writes the run, gone when the run has ended.
+inline constexpr const char* kRunLock = "writing.lock";
 
 struct RunFolderOptions {
   std::filesystem::path folder;
@@ -25,7 +29,8 @@ struct RunFolderOptions {
 /// what was computed survives whatever comes next.
 class RunFolder {
  public:
-  /// Throws OptionError where the folder can't be used: a file, or an earlier run and no --force.
+  /// Throws OptionError where the folder can't be used: a file, a run that is being written, or an
+  /// earlier run and no --force.
   /// What an earlier run left is removed with the first flush() or model.
   RunFolder(RunFolderOptions options, bool resume);
 
@@ -55,6 +60,7 @@ class RunFolder {
     double time_s = 0;
   };
   void begin();
+  void hold();
   void writeTables(const ModelState& state);
   std::filesystem::path file(const std::string& name) const { return options_.folder / name; }
 
@@ -65,6 +71,7 @@ class RunFolder {
   Trajectory trajectory_;
   PinholeCamera left_;
   std::vector<SavedModel> saved_;
+  std::optional<FileLock> lock_;
 };
 
 /// The model as a point cloud with weights, world frame, in the light of the last fused picture.

@@ -14,6 +14,7 @@
 #include "apps/view_run.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/image_writer.h"
 #include "io/message.h"
 #include "io/text_lines.h"
@@ -189,6 +190,8 @@ void ViewCommand::waitForModel() const {
 
 void ViewCommand::warnOfMissing(const RunSource& source) const {
   for (const std::string& warning : source.warnings()) spdlog::warn("{}", warning);
+  if (source.stopped())
+    spdlog::warn("{}: stopped before its end; what it wrote until then is shown", run_.run);
   if ((nodes_ || arrows_) && !source.world().has_nodes && !source.live())
     spdlog::warn("{}: no nodes were saved with its models; reconstruct it again to see them",
                  run_.run);
@@ -220,12 +223,9 @@ void ViewCommand::writeScreenshot(RunSource& source, Json& record) const {
 
 /// view_000038.png where the user stands, or the next free name.
 void ViewCommand::saveFromWindow(const ColourImage& picture, int frame) const {
-  char name[48];
   for (int number = 1; number < 1000; ++number) {
-    if (number == 1)
-      std::snprintf(name, sizeof name, "view_%06d.png", frame);
-    else
-      std::snprintf(name, sizeof name, "view_%06d_%d.png", frame, number);
+    const std::string end = number == 1 ? ".png" : say("_", number, ".png");
+    const std::string name = "view_" + numberedName(frame, end);
     if (fs::exists(name)) continue;
     writePng(name, picture);
     spdlog::info("written: {}", name);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/evaluate_folders.h"
+#include "apps/run_folder.h"
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "io/folder.h"
@@ -142,6 +143,10 @@ std::vector<ModelOnDisk> findModelsOnDisk(const fs::path& run,
 }
 
 bool runHasEnded(const fs::path& run) { return fs::exists(run / "run.json"); }
+
+bool runHasStopped(const fs::path& run) {
+  return !runHasEnded(run) && fs::exists(run / kRunLock) && !isHeld(run / kRunLock);
+}
 
 std::vector<std::pair<int, Eigen::Vector3f>> readScopePath(const fs::path& run) {
   std::vector<std::pair<int, Eigen::Vector3f>> path;

@@ -31,6 +31,9 @@ std::vector<ModelOnDisk> findModelsOnDisk(const std::filesystem::path& run,
 /// Whether the run has ended: then its record is there.
 bool runHasEnded(const std::filesystem::path& run);
 
+/// Whether its writer is gone without having ended it: killed, or its machine went down.
+bool runHasStopped(const std::filesystem::path& run);
+
 /// Every place of the scope that the run's tables tell, with its frame; empty while they aren't
 /// there.
 std::vector<std::pair<int, Eigen::Vector3f>> readScopePath(const std::filesystem::path& run);

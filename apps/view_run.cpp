@@ -97,6 +97,7 @@ RunSource::RunSource(const ViewRunOptions& options) : options_(options), run_(op
 /// What follows from the list of models; again when it has grown.
 void RunSource::describeModels() {
   live_ = !runHasEnded(run_);
+  stopped_ = runHasStopped(run_);
   clock_ = false;
   for (const ModelOnDisk& model : models_) {
     clock_ |= model.time_s != model.frame;
@@ -216,6 +217,7 @@ void RunSource::look() {
                      ": models have gone; was the run started anew? Open it again with softscope "
                      "view");
   const bool grown = now.size() > models_.size(), ended = runHasEnded(run_);
+  stopped_ = runHasStopped(run_);
   if (!grown && !ended) return;
   models_ = std::move(now);
   describeModels();

@@ -35,6 +35,7 @@ class RunSource : public ViewSource {
   double secondsOf(int index) const override;
   std::shared_ptr<const ViewMoment> moment(int index, bool with_errors) override;
   bool live() const override { return live_; }
+  bool stopped() const override { return stopped_; }
   void look() override;
 
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -55,7 +56,7 @@ class RunSource : public ViewSource {
   ViewRunOptions options_;
   std::filesystem::path run_;
   std::vector<ModelOnDisk> models_;
-  bool live_ = true, clock_ = false;
+  bool live_ = true, stopped_ = false, clock_ = false;
   ViewWorld world_;
   Eigen::Isometry3d scene_from_run_ = Eigen::Isometry3d::Identity();
   std::unique_ptr<MomentErrors> errors_, reference_;  // where both are there, reference_ is shown

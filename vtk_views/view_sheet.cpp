@@ -46,11 +46,10 @@ void drawWords(const ViewFoot& foot, VectorDrawing& sheet) {
   title.bold = true;
   const double title_end = kMargin + textWidthPt(title);
   sheet.parts.emplace_back(std::move(title));
-  if (foot.live) {
-    DrawnText live = textAt({title_end + 10, first}, "live", kFont, kLiveRed);
-    live.bold = true;
-    sheet.parts.emplace_back(std::move(live));
-  }
+  DrawnText going =
+      textAt({title_end + 10, first}, foot.going, kFont, foot.going == "live" ? kLiveRed : kDark);
+  going.bold = true;
+  if (!foot.going.empty()) sheet.parts.emplace_back(std::move(going));
   sheet.parts.emplace_back(textAt({kMargin, first + 17}, foot.status, kSmall, kDark));
   sheet.parts.emplace_back(textAt(
       {kMargin, first + 33},
@@ -157,7 +156,7 @@ ViewFoot footOf(const ViewSource& source, const ViewMoment& moment, const Playba
   foot.view = viewName(source.world(), state.look);
   if (state.motion && moment.moved_since >= 0)
     foot.view += ", arrows: 4× the motion since frame " + std::to_string(moment.moved_since);
-  foot.live = source.live();
+  if (source.live()) foot.going = source.stopped() ? "stopped" : "live";
   foot.width_mm = width_mm;
   addColour(source.world(), moment, state, foot);
   return foot;

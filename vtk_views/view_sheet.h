@@ -19,10 +19,10 @@ inline constexpr int kSliderPx = 26;  // its upper part, where the mouse moves i
 struct ViewFoot {
   std::vector<double> places;  // of the moments on the slider, 0 to 1, rising
   int index = 0;
-  std::string title;   // "frame 38, 1.52 s"
-  std::string status;  // "model 20 of 20, 59 645 points; paused"
-  std::string view;    // "seen from the scope"
-  bool live = false;
+  std::string title;                    // "frame 38, 1.52 s"
+  std::string status;                   // "model 20 of 20, 59 645 points; paused"
+  std::string view;                     // "seen from the scope"
+  std::string going;                    // "live", "stopped"; empty: all moments are there
   bool of_window = false;               // says what a picture needn't: playing, keys
   std::optional<ErrorColours> colours;  // a bar, and what it says
   ColourBarText bar;

@@ -59,6 +59,8 @@ class ViewSource {
   virtual std::shared_ptr<const ViewMoment> moment(int index, bool with_errors) = 0;
   /// Whether more moments may come.
   virtual bool live() const = 0;
+  /// Of a live source: whether who made the moments is gone, so that no more are likely.
+  virtual bool stopped() const { return false; }
   /// Looks whether there are more by now.
   virtual void look() = 0;
 };

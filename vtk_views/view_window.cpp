@@ -293,10 +293,11 @@ void ViewWindow::Parts::lookForMore() {
   if (!source.live() || secondsSince(last_look_) < kLookEvery_s) return;
   last_look_ = Clock::now();
   const int before = source.count();
+  const bool stopped_before = source.stopped();
   source.look();
   if (playback.follow(before))
     showMoment();
-  else if (source.count() != before || !source.live())
+  else if (source.count() != before || !source.live() || source.stopped() != stopped_before)
     render();
 }
 

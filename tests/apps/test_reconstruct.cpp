@@ -12,6 +12,7 @@
 #include <random>
 #include <thread>
 
+#include "io/file_lock.h"
 #include "io/image_writer.h"
 #include "tests/apps/run_softscope.h"
 
@@ -108,6 +109,13 @@ TEST_F(Reconstruct, NeverOverwritesUnasked) {
   EXPECT_EQ(bytesOf(at("run/model.ply")), before);
   EXPECT_EQ(reconstruct({"--out", at("run"), "--force", "--frames", "0:1"}).exit_code, 0);
   EXPECT_EQ(linesOf(at("run/frames.csv")), 2);
+  EXPECT_FALSE(fs::exists(at("run/writing.lock"))) << "the run has ended";
+  const FileLock other(at("run/writing.lock"));
+  ASSERT_TRUE(other.tryToHold());
+  const Outcome both = reconstruct({"--out", at("run"), "--force"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, HasSubstr("another softscope reconstruct is writing to it"));
+  EXPECT_EQ(linesOf(at("run/frames.csv")), 2) << "nothing was touched";
 }
 
 TEST_F(Reconstruct, TellsWhatIsWrongWithItsArguments) {

@@ -1,6 +1,7 @@
 // tests/apps/test_view.cpp: `softscope view` as a user meets it, with a screen and without one.
 #include <cstdlib>
 
+#include "io/file_lock.h"
 #include "io/image_reader.h"
 #include "io/image_writer.h"
 #include "io/picture_source.h"
@@ -104,6 +105,17 @@ TEST_F(View, AMovieOfTheClipLastsAsLongAsTheClip) {
                                 "--fps", "25", "--json", "--quiet"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.json()["movie"]["frames"], 12);
+}
+
+TEST_F(View, ARunWhoseWriterIsGoneIsCalledStopped) {
+  {
+    const FileLock writer(at("run/writing.lock"));
+    ASSERT_TRUE(writer.tryToHold());
+    EXPECT_THAT(screenshot({}).err, testing::Not(HasSubstr("stopped")));
+  }
+  EXPECT_THAT(screenshot({}).err, HasSubstr("stopped before its end"));
+  write("run/run.json", "{}");
+  EXPECT_THAT(screenshot({}).err, testing::Not(HasSubstr("stopped")));
 }
 
 TEST_F(View, TheLastModelAloneCanBeSeen) {

@@ -20,6 +20,7 @@ class MadeSource : public ViewSource {
   int frameOf(int index) const override { return 10 * index; }
   double secondsOf(int index) const override { return 0.4 * index; }
   bool live() const override { return live_; }
+  bool stopped() const override { return stopped_; }
   void look() override { count_ = grown_; }
   std::shared_ptr<const ViewMoment> moment(int index, bool with_errors) override {
     ++read;
@@ -48,11 +49,14 @@ class MadeSource : public ViewSource {
     grown_ = grown;
   }
 
+  /// Its writer is gone.
+  void stop() { stopped_ = live_ = true; }
+
   int read = 0;  // how many moments were asked for
 
  private:
   int count_, grown_ = 0;
-  bool live_ = false;
+  bool live_ = false, stopped_ = false;
   ViewWorld world_;
 };
 

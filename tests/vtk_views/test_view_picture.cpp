@@ -45,6 +45,17 @@ TEST_F(ViewPictures, ShowsTheTissueInItsOwnColour) {
   EXPECT_GT(countNear(view, kPatchRed, 2), 15000);
 }
 
+TEST_F(ViewPictures, TheFootTellsWhetherMoreMayCome) {
+  const auto going = [this] {
+    return footOf(source, *source.moment(0, false), Playback(source), {}, 100, false).going;
+  };
+  EXPECT_EQ(going(), "");
+  source.goOn(4);
+  EXPECT_EQ(going(), "live");
+  source.stop();
+  EXPECT_EQ(going(), "stopped");
+}
+
 TEST_F(ViewPictures, TheCameraStaysWhileTheTissueMoves) {
   ViewState front;
   front.look = Look::kFront;
