@@ -49,6 +49,17 @@ void bindDeformation(SettingsBinder& binder, DeformationOptions& deformation) {
   binder.bind("push.spread_mm", deformation.push_spread_mm, "standard deviation of the fall-off");
 }
 
+void bindCut(SettingsBinder& binder, CutOptions& cut) {
+  binder.bind("cut.length_mm", cut.length_mm, "along the surface; 0: no cut");
+  binder.bind("cut.depth_mm", cut.depth_mm, "in its middle");
+  binder.bind("cut.opening_mm", cut.opening_mm, "between the lips in the middle, at last");
+  binder.bind("cut.x_mm", cut.x_mm, "of its middle, from that of the first picture, right");
+  binder.bind("cut.y_mm", cut.y_mm, "down");
+  binder.bind("cut.angle_deg", cut.angle_deg, "of its direction there: 0 right, 90 down");
+  binder.bind("cut.start_s", cut.start_s, "closed, and not to be seen, until then");
+  binder.bind("cut.duration_s", cut.duration_s, "to open");
+}
+
 void bindScope(SettingsBinder& binder, ScopeOptions& scope) {
   binder.bind("scope.width_px", scope.width_px, "");
   binder.bind("scope.height_px", scope.height_px, "");
@@ -131,6 +142,7 @@ void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {
   bindOrgan(binder, options);
   bindTexture(binder, options);
   bindDeformation(binder, simulation.deformation);
+  bindCut(binder, simulation.cut);
   bindScope(binder, simulation.scope);
   bindCamera(binder, simulation.camera);
   bindInstrument(binder, simulation.instrument);

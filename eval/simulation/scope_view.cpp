@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "eval/simulation/surface_normals.h"
 
 namespace softscope {
 namespace {
@@ -75,12 +74,12 @@ LitPoint litPoint(const ScopeScene& scene, const TissueSkin& skin, float relief,
 
 }  // namespace
 
-ScopeScene::ScopeScene(std::vector<Eigen::Vector3f> vertices_left_mm,
-                       const std::vector<Triangle>& all)
+ScopeScene::ScopeScene(std::vector<Eigen::Vector3f> vertices_left_mm, const TissueBody& body,
+                       float open)
     : vertices_mm(std::move(vertices_left_mm)),
-      triangles(all),
-      normals(vertexNormals(vertices_mm, triangles)),
-      tree(vertices_mm, triangles) {}
+      triangles(body.mesh.triangles),
+      normals(body.normalsOf(vertices_mm)),
+      tree(vertices_mm, body.visibleTriangles(open)) {}
 
 Raster<Eigen::Vector3f> renderView(const ScopeScene& scene, TissueSkin& skin,
                                    const ScopeSurroundings& around, const ScopeEye& eye) {

@@ -9,16 +9,18 @@
 #include "eval/simulation/scope_lens.h"
 #include "eval/simulation/scope_shading.h"
 #include "eval/simulation/scope_tool.h"
+#include "eval/simulation/tissue_body.h"
 #include "eval/simulation/tissue_skin.h"
 
 namespace softscope {
 
 /// The tissue at one moment, in the left camera's frame, ready for rays.
 struct ScopeScene {
-  ScopeScene(std::vector<Eigen::Vector3f> vertices_left_mm, const std::vector<Triangle>& all);
+  /// `open`: of the wound, 0 to 1.
+  ScopeScene(std::vector<Eigen::Vector3f> vertices_left_mm, const TissueBody& body, float open);
 
   std::vector<Eigen::Vector3f> vertices_mm;
-  const std::vector<Triangle>& triangles;  // must outlive the scene
+  const std::vector<Triangle>& triangles;  // the body's, which must outlive the scene
   std::vector<Eigen::Vector3f> normals;
   RayTree tree;
 };

@@ -68,6 +68,7 @@ void SimulationOptions::validate() const {
   organ.validate();
   texture.validate();
   deformation.validate();
+  cut.validate();
   scope.validate();
   camera.validate();
   light.validate();

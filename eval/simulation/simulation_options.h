@@ -3,6 +3,7 @@
 
 #include "core/stereo_rig.h"
 #include "eval/simulation/camera_path.h"
+#include "eval/simulation/incision.h"
 #include "eval/simulation/organ_mesh.h"
 #include "eval/simulation/scope_lens.h"
 #include "eval/simulation/scope_shading.h"
@@ -45,6 +46,7 @@ struct SimulationOptions {
   OrganOptions organ;
   TextureOptions texture;
   DeformationOptions deformation;
+  CutOptions cut;
   ScopeOptions scope;
   CameraPathOptions camera;
   LightOptions light;

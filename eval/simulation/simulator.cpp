@@ -44,17 +44,22 @@ Eigen::Vector3d findTarget(const TriangleMesh& mesh, const CameraPathOptions& ca
   return (middle + (away_mm - hit.distance) * to_scope).cast<double>();
 }
 
+/// The scope's first picture: right, down, forward from the tissue in its middle.
+Eigen::Isometry3d viewOf(const CameraPath& path, const Eigen::Vector3d& target_body_mm) {
+  Eigen::Isometry3d body_from_view = path.bodyFromLeft(0);
+  body_from_view.translation() = target_body_mm;
+  return body_from_view;
+}
+
 double texelMm(const SimulationOptions& options, const RectifiedRig& rig) {
   if (options.texel_mm > 0) return options.texel_mm;
   return 0.75 * options.camera.distance_mm / rig.left.fx_px;
 }
 
-/// Laid from where the scope stands first, its middle on the tissue there.
+/// Laid from where the scope stands first.
 std::optional<PictureTexture> pictureTexture(const TextureOptions& options, double texel_mm,
-                                             const Eigen::Vector3d& target_body_mm,
-                                             Eigen::Isometry3d body_from_view) {
+                                             const Eigen::Isometry3d& body_from_view) {
   if (options.picture.empty()) return std::nullopt;
-  body_from_view.translation() = target_body_mm;
   return PictureTexture(options.picture, options.picture_mm, texel_mm, body_from_view);
 }
 
@@ -99,17 +104,18 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
       lens_(options.scope.lens()),
       target_body_mm_(findTarget(mesh_, options.camera)),
       path_(options.camera, target_body_mm_, rig_.baseline_mm, seedOf(options, kPath)),
+      body_(cutTissue(mesh_, options.cut, viewOf(path_, target_body_mm_))),
       deformation_(mesh_, target_body_mm_.cast<float>(), options.deformation,
                    seedOf(options, kMotion)),
-      skin_(mesh_,
+      skin_(body_,
             TissueTexture(mesh_, options.texture, seedOf(options, kTexture),
-                          pictureTexture(options.texture, texelMm(options, rig_), target_body_mm_,
-                                         path_.bodyFromLeft(0))),
+                          pictureTexture(options.texture, texelMm(options, rig_),
+                                         viewOf(path_, target_body_mm_))),
             texelMm(options, rig_)),
       light_(options.light, rig_.baseline_mm, options.camera.distance_mm),
       world_from_body_(path_.bodyFromLeft(0).inverse()) {
   options_.texture.picture = {};  // the skin has it
-  const ScopeScene first(worldVertices(0), mesh_.triangles);
+  const ScopeScene first(worldVertices(0), body_, 0);
   Raster<RayHit> hits = castCentres(first, lens_);
   const Mask hidden = instrumentMask(hits, instrumentAt(0), lens_);
   for (std::size_t i = 0; i < hits.size(); ++i)
@@ -118,7 +124,8 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
 }
 
 std::vector<Eigen::Vector3f> Simulator::worldVertices(double time_s) {
-  return transformed(deformation_.verticesAt(time_s), world_from_body_);
+  return transformed(body_.verticesAt(deformation_.verticesAt(time_s), options_.cut.openAt(time_s)),
+                     world_from_body_);
 }
 
 TimedPose Simulator::poseAt(double time_s) const {
@@ -128,8 +135,8 @@ TimedPose Simulator::poseAt(double time_s) const {
 
 ScopeScene Simulator::sceneAt(const std::vector<Eigen::Vector3f>& vertices_world_mm,
                               double time_s) const {
-  return {transformed(vertices_world_mm, poseAt(time_s).world_from_left.inverse()),
-          mesh_.triangles};
+  return {transformed(vertices_world_mm, poseAt(time_s).world_from_left.inverse()), body_,
+          options_.cut.openAt(time_s)};
 }
 
 ScopeTool Simulator::instrumentAt(double time_s) const {
@@ -171,7 +178,7 @@ void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame&
   }
   const Eigen::Isometry3d left_from_world = frame.pose.world_from_left.inverse();
   for (const TrackPoint& point : track_points_) {
-    frame.tracks_world_mm.push_back(positionOf(point, frame.vertices_world_mm, mesh_.triangles));
+    frame.tracks_world_mm.push_back(positionOf(point, frame.vertices_world_mm, triangles()));
     frame.tracks_visible.push_back(
         isSeen(left_from_world * frame.tracks_world_mm.back(), frame.depth_mm, lens_));
   }
@@ -186,7 +193,7 @@ Raster<Eigen::Vector2f> Simulator::flowTo(double time_s, const Raster<RayHit>& h
     for (int u = 0; u < flow.width_px; ++u) {
       const RayHit& hit = hits.at(u, v);
       if (!hit.met() || (!hidden.empty() && hidden.at(u, v) != 0)) continue;
-      const Triangle& t = mesh_.triangles[hit.triangle];
+      const Triangle& t = triangles()[hit.triangle];
       const Eigen::Vector3f p = (1 - hit.u - hit.v) * next.vertices_mm[t[0]] +
                                 hit.u * next.vertices_mm[t[1]] + hit.v * next.vertices_mm[t[2]];
       if (p.z() <= 0) continue;

@@ -42,7 +42,7 @@ class Simulator {
   const RectifiedRig& rig() const { return rig_; }
   /// As a calibration file says it: rectified, or with the lens's distortion.
   StereoCalibration calibration() const { return options_.scope.calibration(); }
-  const std::vector<Triangle>& triangles() const { return mesh_.triangles; }
+  const std::vector<Triangle>& triangles() const { return body_.mesh.triangles; }
   const std::vector<TrackPoint>& trackPoints() const { return track_points_; }
 
  private:
@@ -65,7 +65,8 @@ class Simulator {
   ScopeLens lens_;  // of both cameras
   Eigen::Vector3d target_body_mm_;
   CameraPath path_;
-  TissueDeformation deformation_;
+  TissueBody body_;
+  TissueDeformation deformation_;  // of the organ; the body follows
   TissueSkin skin_;
   ScopeLight light_;
   Eigen::Isometry3d world_from_body_;

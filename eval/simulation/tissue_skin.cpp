@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "eval/simulation/surface_normals.h"
 
 namespace softscope {
 namespace {
@@ -20,11 +19,17 @@ SkinSample blend(const TissuePoint& a, const TissuePoint& b, const TissuePoint& 
   return sample;
 }
 
+template <class Value>
+Value mixed(const std::vector<Value>& values, const Triangle& t, float u, float v) {
+  return (1 - u - v) * values[t[0]] + u * values[t[1]] + v * values[t[2]];
+}
+
 }  // namespace
 
-TissueSkin::TissueSkin(TriangleMesh rest_mesh, TissueTexture texture, double texel_mm)
-    : rest_mesh_(std::move(rest_mesh)),
-      rest_normals_(vertexNormals(rest_mesh_.vertices_mm, rest_mesh_.triangles)),
+TissueSkin::TissueSkin(const TissueBody& body, TissueTexture texture, double texel_mm)
+    : rest_mesh_(body.mesh),
+      rest_normals_(body.normalsOf(body.mesh.vertices_mm)),
+      depth_mm_(body.depth_mm),
       texture_(std::move(texture)),
       texel_mm_(texel_mm),
       patches_(rest_mesh_.triangles.size()) {}
@@ -41,16 +46,16 @@ TissueSkin::Patch TissueSkin::painted(std::int32_t triangle) const {
   const Eigen::Vector3f& a = rest_mesh_.vertices_mm[t[0]];
   const Eigen::Vector3f ab = rest_mesh_.vertices_mm[t[1]] - a,
                         ac = rest_mesh_.vertices_mm[t[2]] - a;
-  const Eigen::Vector3f& normal = rest_normals_[t[0]];
-  const Eigen::Vector3f n_ab = rest_normals_[t[1]] - normal, n_ac = rest_normals_[t[2]] - normal;
   const double longest_mm = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
   Patch patch;
   patch.cells = std::clamp(static_cast<int>(std::ceil(longest_mm / texel_mm_)), 1, kMostCells);
   const float step = 1.0F / float(patch.cells);
   for (int j = 0; j <= patch.cells; ++j)
-    for (int i = 0; i <= patch.cells - j; ++i)
-      patch.texels.push_back(texture_.at(a + float(i) * step * ab + float(j) * step * ac,
-                                         normal + float(i) * step * n_ab + float(j) * step * n_ac));
+    for (int i = 0; i <= patch.cells - j; ++i) {
+      const float u = float(i) * step, v = float(j) * step;
+      patch.texels.push_back(texture_.at(a + u * ab + v * ac, mixed(rest_normals_, t, u, v),
+                                         depth_mm_.empty() ? 0 : mixed(depth_mm_, t, u, v)));
+    }
   return patch;
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/triangle_mesh.h"
+#include "eval/simulation/tissue_body.h"
 #include "eval/simulation/tissue_texture.h"
 
 namespace softscope {
@@ -23,7 +23,7 @@ struct SkinSample {
 class TissueSkin {
  public:
   /// `texel_mm`: the grid is no coarser. Copies the mesh.
-  TissueSkin(TriangleMesh rest_mesh, TissueTexture texture, double texel_mm);
+  TissueSkin(const TissueBody& body, TissueTexture texture, double texel_mm);
 
   /// Paints those of `triangles` that aren't yet; each at most once in the list.
   void paint(const std::vector<std::int32_t>& triangles);
@@ -44,6 +44,7 @@ class TissueSkin {
 
   TriangleMesh rest_mesh_;
   std::vector<Eigen::Vector3f> rest_normals_;  // one a vertex
+  std::vector<float> depth_mm_;                // one a vertex; empty: skin all over
   TissueTexture texture_;
   double texel_mm_;
   std::vector<Patch> patches_;  // one a triangle

@@ -18,9 +18,13 @@ const Eigen::Vector3f kFat(0.76F, 0.36F, 0.110F);
 const Eigen::Vector3f kPaleFat(0.82F, 0.49F, 0.20F);
 const Eigen::Vector3f kBlood(0.40F, 0.022F, 0.024F);
 const Eigen::Vector3f kFreshBlood(0.21F, 0.010F, 0.009F);
+const Eigen::Vector3f kFlesh(0.42F, 0.055F, 0.042F);
+const Eigen::Vector3f kPooledBlood(0.085F, 0.005F, 0.005F);
 const Eigen::Vector3f kVein(0.24F, 0.055F, 0.085F);
 const Eigen::Vector3f kMean(0.60F, 0.23F, 0.17F);
 
+constexpr float kSkin_mm = 0.6F;    // as thick as it shows at a lip
+constexpr float kBloody_mm = 2.7F;  // down a wound
 constexpr float kLobule_mm = 1.0F;
 constexpr float kFatLobule_mm = 2.6F;
 
@@ -116,6 +120,15 @@ float TissueTexture::bloodShare(const Eigen::Vector3f& warped_mm) const {
   return smoothStep(level, level + 0.05F, where);
 }
 
+/// Under the skin: red, bloodier and darker the deeper it lies, as less light finds its way there.
+TissueTexture::Layer TissueTexture::flesh(const Eigen::Vector3f& rest_mm, float depth_mm) const {
+  const float grain = fractalNoise(rest_mm / 1.3F, 3, seed_ + 15);
+  const float fine = fractalNoise(rest_mm / 0.4F, 2, seed_ + 16);
+  const float deep = 1 - std::exp(-depth_mm / kBloody_mm);
+  const Eigen::Vector3f albedo = mix(kFlesh, kFascia, 0.12F + 0.8F * grain) * (1 + 0.35F * fine);
+  return {mix(albedo, kPooledBlood, 0.2F + 0.75F * deep), 0.05F * fine + 0.25F * grain};
+}
+
 TissueTexture::Layer TissueTexture::procedural(const Eigen::Vector3f& warped_mm,
                                                const Eigen::Vector3f& rest_mm) const {
   Layer layer = serosa(warped_mm, rest_mm);
@@ -137,19 +150,26 @@ TissueTexture::Layer TissueTexture::pictured(const Eigen::Vector3f& rest_mm,
   return {picture_->at(rest_mm, rest_normal), 0.04F * fine + 0.12F * middle};
 }
 
-TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm,
-                              const Eigen::Vector3f& rest_normal) const {
+TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& rest_normal,
+                              float depth_mm) const {
   const Eigen::Vector3f warped_mm = rest_mm + 1.1F * vectorNoise(rest_mm / 4, seed_ + 12);
   Layer layer = picture_ ? pictured(rest_mm, rest_normal) : procedural(warped_mm, rest_mm);
   const float blood = bloodShare(warped_mm);
   layer.albedo = mix(layer.albedo, kFreshBlood, 0.93F * blood);
   layer.relief_mm *= 1 - 0.7F * blood;  // it fills what is fine
+  const float inside = smoothStep(0, kSkin_mm, depth_mm);
+  if (inside > 0) {
+    const Layer under = flesh(rest_mm, depth_mm);
+    layer.albedo = mix(layer.albedo, under.albedo, inside);
+    layer.relief_mm += inside * (under.relief_mm - layer.relief_mm);
+  }
   const float wet = 0.55F + 0.45F * fractalNoise(rest_mm / 7, 2, seed_ + 13) * 2;
   TissuePoint point;
   point.albedo = mean_ + float(options_.contrast) * (layer.albedo - mean_);
   point.albedo = point.albedo.cwiseMax(0.005F).cwiseMin(0.95F);
   point.relief_mm = layer.relief_mm;
-  point.wetness = float(options_.wetness) * std::clamp(wet + blood, 0.1F, 1.0F + blood);
+  point.wetness =
+      float(options_.wetness) * std::clamp(wet + blood + inside, 0.1F, 1.0F + blood + inside);
   return point;
 }
 

@@ -41,7 +41,9 @@ class TissueTexture {
   TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions& options, std::uint64_t seed,
                 std::optional<PictureTexture> picture = std::nullopt);
 
-  TissuePoint at(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& rest_normal) const;
+  /// `depth_mm`: below the skin, where a cut lays the tissue open; 0: skin.
+  TissuePoint at(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& rest_normal,
+                 float depth_mm = 0) const;
 
  private:
   struct Layer {
@@ -50,6 +52,7 @@ class TissueTexture {
   };
   Layer procedural(const Eigen::Vector3f& warped_mm, const Eigen::Vector3f& rest_mm) const;
   Layer pictured(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& rest_normal) const;
+  Layer flesh(const Eigen::Vector3f& rest_mm, float depth_mm) const;
   Layer serosa(const Eigen::Vector3f& warped_mm, const Eigen::Vector3f& rest_mm) const;
   Layer fat(const Eigen::Vector3f& warped_mm) const;
   float fatShare(const Eigen::Vector3f& warped_mm) const;

@@ -9,6 +9,8 @@
 #include "eval/simulation/organ_mesh.h"
 #include "io/image_reader.h"
 #include "io/image_writer.h"
+#include "mesh/mesh_check.h"
+#include "mesh/mesh_reader.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
@@ -217,6 +219,54 @@ TEST_F(Simulate, EveryKindOfMeshFileGivesTheSameSequence) {
     ASSERT_EQ(simulate(at(kind), {"--organ", at("organ" + kind)}).exit_code, 0) << kind;
     depth[kind] = contentOf(at(kind)).at("groundtruth/depth/000000.png");
     EXPECT_EQ(depth[kind], depth[".stl"]) << kind;
+  }
+}
+
+/// Every number of a record is one; JSON has no other way to say NaN than null.
+void expectNumbers(const nlohmann::json& json, const std::string& name) {
+  EXPECT_FALSE(json.is_null()) << name;
+  if (json.is_object())
+    for (const auto& [key, value] : json.items()) expectNumbers(value, name + "." + key);
+}
+
+TEST_F(Simulate, ACutIsReconstructedAndJudged) {
+  const std::string scenario = write("cut.toml",
+                                     "truth_every = 1\n[organ]\ncells_per_side = 30\n[cut]\n"
+                                     "length_mm = 15\nstart_s = 0.04\nduration_s = 0.04\n");
+  ASSERT_EQ(run({"simulate", "--out", at("s"), "--scenario", scenario, "--frames", "3", "--size",
+                 "160x120"})
+                .exit_code,
+            0);
+  const MeshCheck before = checkMesh(readMesh(at("s/groundtruth/mesh/000000.ply"))),
+                  after = checkMesh(readMesh(at("s/groundtruth/mesh/000002.ply")));
+  EXPECT_THAT(meshWarnings(before), testing::IsEmpty());
+  EXPECT_THAT(meshWarnings(after), testing::IsEmpty());
+  EXPECT_EQ(before.triangle_count, after.triangle_count);
+  EXPECT_LT(after.volume_mm3, before.volume_mm3 - 50) << "the wound is open";
+  const Outcome made = run({"reconstruct", at("s"), "--out", at("r"), "--save-every", "1", "--set",
+                            "stereo.disparity_max_px=63"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const Outcome judged = run({"evaluate", at("r"), "--reference", at("s"), "--json"});
+  ASSERT_EQ(judged.exit_code, 0) << judged.err;
+  expectNumbers(judged.json()["surface"], "surface");
+  EXPECT_LT(judged.json()["surface"]["mean_mm"], 1.0);  // at 160 px a disparity of 0.2 px is 0.6 mm
+}
+
+TEST_F(Simulate, ACutThatDoesNotFitIsOneLine) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> lines{
+      {{"cut.length_mm=15", "cut.x_mm=80"}, "past the organ"},
+      {{"cut.length_mm=150"}, "turns away"},
+      {{"cut.length_mm=15", "cut.depth_mm=60"}, "thick"},
+      {{"cut.length_mm=15", "cut.opening_mm=9"}, "cut.opening_mm"},
+      {{"cut.lenght_mm=15"}, "cut.length_mm"},
+      {{"cut.length_mm=long"}, "number"}};
+  for (const auto& [settings, expected] : lines) {
+    std::vector<std::string> line;
+    for (const std::string& setting : settings) line.insert(line.end(), {"--set", setting});
+    const Outcome refused = simulate(at("s"), line);
+    expectOneLine(refused, 2);
+    EXPECT_THAT(refused.err, HasSubstr(expected));
+    EXPECT_FALSE(fs::exists(at("s")));
   }
 }
 
