@@ -245,6 +245,7 @@ int ViewCommand::openWindow(RunSource& source) const {
   options.save = [this](const ColourImage& picture, int frame) { saveFromWindow(picture, frame); };
   options.closes = [&interrupt] { return interrupt.requested(); };
   ViewWindow window(source, std::move(options));
+  spdlog::debug("the window is open");
   window.run();
   const ViewPace pace = window.pace();
   spdlog::debug("{} pictures, {:.1f} ms each", pace.pictures,

@@ -1,4 +1,4 @@
-// tests/apps/run_softscope.cpp: spawns, waits, collects; makes small sequences.
+// tests/apps/run_softscope.cpp: runs, waits, collects; makes small sequences.
 #include "tests/apps/run_softscope.h"
 
 #include <sys/wait.h>
@@ -11,6 +11,7 @@
 #include "io/calibration_writer.h"
 #include "io/image_writer.h"
 #include "support/scene.h"
+#include "tests/apps/forked_program.h"
 
 namespace softscope::test {
 namespace {
@@ -21,6 +22,13 @@ std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
+}
+
+int spawn(const std::vector<std::string>& arguments, const std::string& out,
+          const std::string& err) {
+  std::string line = "env -u DISPLAY " + quoted(executable());
+  for (const std::string& argument : arguments) line += " " + quoted(argument);
+  return std::system((line + " >" + quoted(out) + " 2>" + quoted(err)).c_str());
 }
 
 std::string contentOf(const fs::path& file) {
@@ -47,9 +55,8 @@ Outcome run(const std::vector<std::string>& arguments) {
   const fs::path base = fs::temp_directory_path() / ("softscope_run_" + std::to_string(getpid()) +
                                                      "_" + std::to_string(count++));
   const std::string out = base.string() + ".out", err = base.string() + ".err";
-  std::string line = "env -u DISPLAY " + quoted(executable());
-  for (const std::string& argument : arguments) line += " " + quoted(argument);
-  const int status = std::system((line + " >" + quoted(out) + " 2>" + quoted(err)).c_str());
+  const bool runs_itself = !arguments.empty() && arguments[0] == "study";  // by its own file
+  const int status = runs_itself ? spawn(arguments, out, err) : runForked(arguments, out, err);
   const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(out),
                         contentOf(err)};
   fs::remove(out);

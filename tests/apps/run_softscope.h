@@ -19,7 +19,7 @@ struct Outcome {
   nlohmann::json json() const { return nlohmann::json::parse(out); }  // throws if it is none
 };
 
-/// Runs softscope with these arguments to its end.
+/// Runs softscope with these arguments to its end, in a process of its own.
 Outcome run(const std::vector<std::string>& arguments);
 
 std::string executable();

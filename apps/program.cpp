@@ -1,0 +1,77 @@
+// apps/program.cpp: softscope <command>; the one place where failures become exit codes.
+#include "apps/program.h"
+
+#include <malloc.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "apps/command_line.h"
+#include "apps/exit_codes.h"
+#include "apps/log.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "io/message.h"
+#include "io/quiet_libraries.h"
+
+namespace softscope {
+namespace {
+
+int runCommand(Command& command) {
+  setUpLog(command.common);
+  const ThreadLimit limit(command.common.threads);
+  return command.run();
+}
+
+int runLine(const std::vector<std::string>& words) {
+  const auto commands = allCommands();
+  const ParsedLine line = parseCommandLine(words, commands);
+  std::cout << line.text;
+  return line.command == nullptr ? kDone : runCommand(*line.command);
+}
+
+/// Which file, what the system says of it, what to do: as our own errors tell it.
+std::string tell(const std::filesystem::filesystem_error& error) {
+  return say(shown(error.path1()), ": ", error.code().message(),
+             ". Check the path and the rights of its folders.");
+}
+
+/// Every frame needs the same buffers again; the C library would hand each back to the system and
+/// fault its pages in anew, a tenth of a frame's time (docs/benchmarks.md).
+void keepMemoryAtHand() {
+  constexpr int kLargestBuffer = 256 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestBuffer);
+  mallopt(M_TRIM_THRESHOLD, kLargestBuffer);
+}
+
+}  // namespace
+
+int runProgram(const std::vector<std::string>& words) {
+  quietLibraries();
+  setUpLog({});
+  keepMemoryAtHand();
+  try {
+    return runLine(words);
+  } catch (const OptionError& error) {
+    spdlog::error("{}", error.what());
+    return kUsage;
+  } catch (const BackendError& error) {
+    spdlog::error("{}", error.what());
+    return kNoBackend;
+  } catch (const Error& error) {  // InputError, and output that can't be written
+    spdlog::error("{}", error.what());
+    return kInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    spdlog::error("{}", tell(error));
+    return kInput;
+  } catch (const std::bad_alloc&) {
+    spdlog::error("out of memory. Smaller pictures or fewer threads need less");
+    return kBug;
+  } catch (const std::exception& error) {
+    spdlog::error("unexpected: {}. Please report this with the command line", error.what());
+    return kBug;
+  }
+}
+
+}  // namespace softscope
