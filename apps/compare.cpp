@@ -67,9 +67,7 @@ class CompareCommand : public Command {
   int run() override;
 
  private:
-  void requireAlignment() const;
   ObservedSplit split(const TriangleMesh& reference, const SurfaceComparison& comparison) const;
-  void align(const TriangleMesh& reference, TriangleMesh& test, ComparisonResult& result) const;
 
   std::string reference_, test_, out_, align_, landmarks_, taus_ = "0.5,1,2";
   std::vector<std::string> fail_if_;
@@ -105,39 +103,6 @@ void CompareCommand::declare(ArgumentList& arguments) {
   arguments.flag("--force", force_, "overwrite what is there");
 }
 
-void CompareCommand::requireAlignment() const {
-  require(align_.empty() || align_ == "none" || align_ == "landmarks" || align_ == "icp", "--align",
-          align_, "must be none, landmarks or icp");
-  if (align_ == "landmarks" && landmarks_.empty())
-    throw OptionError("--align landmarks needs --landmarks FILE");
-  if (align_ == "none" && !landmarks_.empty())
-    throw OptionError("--align none and --landmarks exclude each other; give one");
-}
-
-void CompareCommand::align(const TriangleMesh& reference, TriangleMesh& test,
-                           ComparisonResult& result) const {
-  result.alignment = "none";
-  if (landmarks_.empty() && align_ != "icp") return;
-  const TriangleTree surface(reference);
-  result.before_mm = surfaceErrors(surface.closestPoints(test.vertices_mm)).distance_mm;
-  if (!landmarks_.empty()) {
-    const Landmarks landmarks = readLandmarks(landmarks_);
-    result.landmarks = landmarkErrors(landmarks.test_mm, landmarks.reference_mm);
-    result.reference_from_test = result.landmarks->fit.target_from_source;
-    result.alignment = "landmarks";
-  }
-  if (align_ == "icp") {
-    result.icp = alignToSurface(test.vertices_mm, surface, {}, result.reference_from_test);
-    result.reference_from_test = result.icp->surface_from_points;
-    result.alignment = landmarks_.empty() ? "icp" : "landmarks, then icp";
-    if (!result.icp->converged())
-      result.warnings.push_back(
-          "the alignment did not converge; a better start may help: "
-          "--landmarks");
-  }
-  test.vertices_mm = movePoints(result.reference_from_test, test.vertices_mm);
-}
-
 ObservedSplit CompareCommand::split(const TriangleMesh& reference,
                                     const SurfaceComparison& comparison) const {
   TriangleMesh observed = readSurfaceOrPoints(observed_, reference_unit_mm_);
@@ -146,7 +111,7 @@ ObservedSplit CompareCommand::split(const TriangleMesh& reference,
 }
 
 int CompareCommand::run() {
-  requireAlignment();
+  const SurfaceFitOptions fit = parseFit(align_, landmarks_, "--landmarks");
   require(picture_.kind != "none", "--errors", picture_.kind, "must be absolute or signed");
   picture_.validate();
   require(observed_reach_mm_ > 0 && std::isfinite(observed_reach_mm_), "--observed-within-mm",
@@ -169,7 +134,9 @@ int CompareCommand::run() {
   addMeshWarnings(reference, reference_, result.warnings);
   addMeshWarnings(test, test_, result.warnings);
   result.space = matchSpaces(reference, test);
-  align(reference, test, result);
+  result.fit = fitSurface(reference, test.vertices_mm, fit);
+  test.vertices_mm = movePoints(result.fit.reference_from_test, test.vertices_mm);
+  for (const std::string& warning : result.fit.warnings) result.warnings.push_back(warning);
   result.comparison = compareSurfaces(reference, test, taus_mm);
   if (!observed_.empty()) result.observed = split(reference, result.comparison);
 

@@ -90,7 +90,7 @@ VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh&
   const std::string bias =
       map.colours.with_sign ? "signed mean " + fixed(with_sign.mean, 3) + " mm; absolute: " : "";
   panels.foot.notes = {bias + spreadText(errors), std::to_string(errors.count) +
-                                                      " vertices; alignment: " + result.alignment +
+                                                      " vertices; alignment: " + result.fit.method +
                                                       ". Research use only."};
   return drawScenes({panelFrom(eye, scene), panelFrom(-eye, scene)}, panels);
 }

@@ -63,35 +63,6 @@ void addObservedFacts(const ObservedSplit& split, FactSheet& facts) {
                                       " % not reconstructed");
 }
 
-Json alignmentJson(const ComparisonResult& result) {
-  Json json{{"method", result.alignment},
-            {"reference_from_test", matrixJson(result.reference_from_test)}};
-  if (result.before_mm) json["before"] = statisticsJson(*result.before_mm, "_mm");
-  if (result.landmarks) {
-    json["fre"] = statisticsJson(result.landmarks->fre_mm, "_mm");
-    json["tre_leave_one_out"] = statisticsJson(result.landmarks->tre_mm, "_mm");
-  }
-  if (result.icp)
-    json["icp"] = {{"stop", stopText(result.icp->stop)},
-                   {"iterations", result.icp->iterations},
-                   {"free_directions", result.icp->free_directions}};
-  return json;
-}
-
-void addAlignmentFacts(const ComparisonResult& result, FactSheet& facts) {
-  facts.addLine("alignment", result.alignment);
-  if (result.before_mm) facts.addLine("  before", spreadText(*result.before_mm));
-  if (result.landmarks)
-    facts.addLine("  landmarks", "FRE rmse " + fixed(result.landmarks->fre_mm.rmse, 3) + " mm" +
-                                     (result.landmarks->tre_mm.count == 0
-                                          ? std::string("; TRE takes four landmarks")
-                                          : "; TRE, leaving one out, mean " +
-                                                fixed(result.landmarks->tre_mm.mean, 3) + " mm"));
-  if (result.icp)
-    facts.addLine("  icp", std::string(stopText(result.icp->stop)) + " after " +
-                               std::to_string(result.icp->iterations) + " iterations");
-}
-
 }  // namespace
 
 Json comparisonJson(const ComparisonResult& result) {
@@ -102,7 +73,7 @@ Json comparisonJson(const ComparisonResult& result) {
   json["command"] = "compare";
   json["inputs"] = {{"reference", result.reference}, {"test", result.test}};
   json["space"] = result.space;
-  json["alignment"] = alignmentJson(result);
+  json["alignment"] = surfaceFitJson(result.fit);
   json["accuracy"] = directedJson(c.accuracy);
   json["completeness"] = directedJson(c.completeness);
   json["signed"] = statisticsJson(c.signed_mm, "_mm");
@@ -118,7 +89,7 @@ FactSheet comparisonFacts(const ComparisonResult& result) {
   const SurfaceComparison& c = result.comparison;
   FactSheet facts(result.test + " against " + result.reference);
   facts.addLine("space", result.space);
-  addAlignmentFacts(result, facts);
+  addFitFacts(result.fit, facts);
   facts.addLine("accuracy", spreadText(c.accuracy.vertices_mm) + ", of the test's vertices");
   if (c.accuracy.area_mm.count > 0) facts.addLine("  by area", spreadText(c.accuracy.area_mm));
   facts.addLine("  signed", "mean " + fixed(c.signed_mm.mean, 3) + " mm, + = outside; " +

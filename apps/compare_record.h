@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "apps/fact_sheet.h"
-#include "eval/landmark_errors.h"
+#include "apps/surface_fit.h"
 #include "eval/observed_split.h"
-#include "eval/surface_alignment.h"
 #include "eval/surface_comparison.h"
 
 namespace softscope {
@@ -16,11 +15,7 @@ namespace softscope {
 struct ComparisonResult {
   std::string reference, test;  // as the user named them
   std::string space;            // what was done or assumed
-  std::string alignment;        // none, landmarks, icp, landmarks+icp
-  Eigen::Isometry3d reference_from_test = Eigen::Isometry3d::Identity();
-  std::optional<LandmarkErrors> landmarks;
-  std::optional<SurfaceAlignment> icp;
-  std::optional<Statistics> before_mm;  // the test's distances before any alignment
+  SurfaceFit fit;
   SurfaceComparison comparison;
   std::optional<ObservedSplit> observed;  // where the user said what was seen
   std::vector<std::string> warnings;

@@ -56,7 +56,7 @@ void EvaluateOutputs::put(const std::string& name, const std::string& bytes) con
 void EvaluateOutputs::putFigure(const std::string& name, const VectorDrawing& figure) const {
   put(name + ".svg", svgBytes(figure));
   put(name + ".pdf", pdfBytes(figure));
-  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), overwrite_);
+  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_);
 }
 
 /// What an earlier evaluation left is removed, for it may have judged other frames.

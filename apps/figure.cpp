@@ -15,6 +15,7 @@
 #include "apps/result_output.h"
 #include "apps/scene_inputs.h"
 #include "apps/surface_error_map.h"
+#include "apps/surface_fit.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "io/message.h"
@@ -54,17 +55,20 @@ class FigureCommand : public Command {
 
  private:
   void validate() const;
+  SurfaceFitOptions fitOptions() const;
+  const SceneSurface& requireSurface(const Scene& scene) const;
   void validateKind() const;
   int runOfKind();
   int finish(const VectorDrawing& drawing, const SceneInputs& inputs, Json& record) const;
   void readFiles(SceneInputs& inputs) const;
+  void fit(SceneInputs& inputs, FigureFoot& foot, Json& record) const;
   void addErrors(Scene& scene, FigureFoot& foot, Json& record) const;
   FourPanelOptions panelsFor(const Scene& scene) const;
 
   FigureOptions options_;
   std::string kind_ = "four", other_, frames_;
   std::vector<std::string> names_;
-  std::string run_, ct_, reference_, test_, eye_;
+  std::string run_, ct_, reference_, test_, eye_, align_, align_landmarks_;
   std::vector<std::string> surfaces_, scans_;
   ErrorColourOptions errors_;
   int columns_ = 0, frame_ = -1;
@@ -88,6 +92,10 @@ void FigureCommand::declare(ArgumentList& arguments) {
   arguments.option("--frames", "LIST", frames_,
                    "of the panels, e.g. 0,10,20 (default: up to four, evenly spread)");
   arguments.option("--frame", "N", frame_, "of a RUN (default: the last one that can be judged)");
+  arguments.option("--align", "HOW", align_,
+                   "the test to the reference: none (default), landmarks or icp, as compare does");
+  arguments.option("--align-landmarks", "FILE", align_landmarks_,
+                   "pairs of points, as compare's --landmarks; alone: --align landmarks");
   arguments.option("--errors", "KIND", errors_.kind,
                    "of the test from the reference: absolute (default), signed or none");
   arguments.flag("--observed", observed_,
@@ -123,6 +131,8 @@ void FigureCommand::validate() const {
   if (!eye_.empty() && parseVector(eye_, "--eye").norm() == 0)
     throw OptionError("--eye is `" + eye_ + "`, but must be a direction");
   validateKind();
+  if (fitOptions().moves() && (!run_.empty() || test_.empty() || reference_.empty()))
+    throw OptionError("--align moves --test to --reference; give both, and no RUN");
   if (kind_ != "four") return;
   if (run_.empty()) {
     require(frame_ < 0, "--frame", frame_, "needs a RUN");
@@ -153,21 +163,42 @@ void FigureCommand::readFiles(SceneInputs& inputs) const {
     inputs.addSurface(path, "surface", legendOfFile(path), surfaceColour(colour++));
   for (const std::string& path : scans_)
     inputs.addSurface(path, "scan", "scan", kScanRed).mesh.triangles.clear();
-  inputs.checkPlaces();
+}
+
+SurfaceFitOptions FigureCommand::fitOptions() const {
+  return parseFit(align_, align_landmarks_, "--align-landmarks");
+}
+
+/// The test is moved; what --surface and --scan name stays.
+void FigureCommand::fit(SceneInputs& inputs, FigureFoot& foot, Json& record) const {
+  const SurfaceFitOptions options = fitOptions();
+  if (!options.moves()) return;
+  const SurfaceFit fit = fitSurface(requireSurface(inputs.scene()).mesh,
+                                    inputs.scene().surfaces[1].mesh.vertices_mm, options);
+  inputs.move(1, fit.reference_from_test, fit.method);
+  for (const std::string& warning : fit.warnings) inputs.warn(warning);
+  foot.notes.push_back("Alignment: " + fit.method + " (mean distance before it " +
+                       fixed(fit.before_mm->mean, 2) + " mm).");
+  record["alignment"] = surfaceFitJson(fit);
+}
+
+const SceneSurface& FigureCommand::requireSurface(const Scene& scene) const {
+  if (scene.surfaces[0].isPoints())
+    throw InputError(reference_ +
+                     ": is a set of points, but a reference is a surface; give a mesh");
+  return scene.surfaces[0];
 }
 
 void FigureCommand::addErrors(Scene& scene, FigureFoot& foot, Json& record) const {
   if (errors_.kind == "none" || reference_.empty() || test_.empty()) return;
-  SceneSurface& reference = scene.surfaces[0];
-  if (reference.isPoints())
-    throw InputError(reference_ +
-                     ": is a set of points, but a reference is a surface; give a mesh");
+  const SceneSurface& reference = requireSurface(scene);
   const SurfaceErrorMap map = colourErrors(
       TriangleTree(reference.mesh).closestPoints(scene.surfaces[1].mesh.vertices_mm), errors_);
   scene.surfaces[1].errors_mm = map.each_mm;
   map.explainIn(foot);
   record["errors"] = map.json;
-  record["errors"]["alignment"] = "none";
+  record["errors"]["alignment"] =
+      record.contains("alignment") ? record["alignment"]["method"] : Json("none");
   for (std::size_t i = 2; i < scene.surfaces.size(); ++i) scene.surfaces[i].in_3d = false;
 }
 
@@ -265,6 +296,8 @@ int FigureCommand::run() {
   FigureFoot foot;
   if (run_.empty()) {
     readFiles(inputs);
+    fit(inputs, foot, record);
+    inputs.checkPlaces();
     addErrors(scene, foot, record);
   } else {
     record.update(addRunMoment({run_, reference_, frame_, observed_, errors_}, inputs, foot));

@@ -7,6 +7,7 @@
 
 #include "apps/compare_inputs.h"
 #include "core/error.h"
+#include "eval/surface_alignment.h"
 #include "io/file_hash.h"
 #include "io/message.h"
 #include "mesh/mesh_check.h"
@@ -76,6 +77,13 @@ SceneSurface& SceneInputs::addMade(SceneSurface surface, const std::string& role
   note(role, path.string());
   scene_.surfaces.push_back(std::move(surface));
   return scene_.surfaces.back();
+}
+
+void SceneInputs::move(std::size_t index, const Eigen::Isometry3d& motion, const std::string& how) {
+  auto& points_mm = scene_.surfaces[index].mesh.vertices_mm;
+  points_mm = movePoints(motion, points_mm);
+  frames_[index].clear();
+  assumptions_[index] += "; aligned: " + how;
 }
 
 void SceneInputs::checkFrames() {

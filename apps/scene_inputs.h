@@ -23,6 +23,8 @@ class SceneInputs {
   /// What was read elsewhere from `path`, in the scene's frame.
   SceneSurface& addMade(SceneSurface surface, const std::string& role,
                         const std::filesystem::path& path);
+  /// The surface of that number is moved to its place; `how` goes into the record.
+  void move(std::size_t index, const Eigen::Isometry3d& motion, const std::string& how);
   /// Warns where a surface lies beside the volume, has another unit by the looks of it, or lies in
   /// a scope's frame by its header; where all do and there is no volume, the scene is the scope's.
   void checkPlaces();

@@ -8,6 +8,7 @@ A second call with the same work folder keeps the simulated clip and its run.
 """
 import math
 import shlex
+import shutil
 import struct
 import subprocess
 import sys
@@ -56,22 +57,28 @@ def write_phantom(path):
 def write_organ(path, bump_mm, part=False):
     """The organ's surface, with waves of `bump_mm`; a part of it as a scope might have seen it."""
     turns, rings = 96, 48
-    lines = ["# SPACE=LPS"]
-    for j in range(rings + 1):
-        for i in range(turns):
-            polar, turn = math.pi * j / rings, 2 * math.pi * i / turns
+    numbers, vertices, faces = {}, [], []
+
+    def vertex(j, i):
+        place = (j, i % turns if 0 < j < rings else 0)  # one at each pole
+        if place not in numbers:
+            polar, turn = math.pi * place[0] / rings, 2 * math.pi * place[1] / turns
             unit = (math.sin(polar) * math.cos(turn), math.sin(polar) * math.sin(turn),
                     math.cos(polar))
             wave = bump_mm * math.sin(3 * turn) * math.sin(2 * polar)
-            lines.append("v " + " ".join(
+            vertices.append("v " + " ".join(
                 f"{c + u * (r + wave):.4f}" for c, u, r in zip(ORGAN_MM, unit, ORGAN_RADII_MM)))
+            numbers[place] = len(vertices)
+        return numbers[place]
+
     for j in range(rings):
         for i in range(turns):
-            a, b = j * turns + i, j * turns + (i + 1) % turns
             if part and not (8 < j < 30 and 50 < i < 92):
                 continue
-            lines.append(f"f {a + 1} {a + turns + 1} {b + turns + 1} {b + 1}")
-    path.write_text("\n".join(lines) + "\n")
+            corners = dict.fromkeys(
+                [vertex(j, i), vertex(j + 1, i), vertex(j + 1, i + 1), vertex(j, i + 1)])
+            faces.append("f " + " ".join(map(str, corners)))
+    path.write_text("\n".join(["# SPACE=LPS", *vertices, *faces]) + "\n")
 
 
 def run(softscope, *words):
@@ -135,13 +142,53 @@ def surface_section(softscope, work):
     words = [["export", work / "run", "--frame", 20, "--out", work / "surface.ply"],
              ["compare", "--reference", work / "clip/groundtruth/mesh/000020.ply", "--test",
               work / "surface.ply", "--align", "icp", "--out", work / "comparison"]]
-    for command in words:
-        run(softscope, *command, "--force")
-    picture = work / "comparison/error_map.png"
-    (PICTURES / "gallery_surface.png").write_bytes(picture.read_bytes())
-    lines = ["softscope " + " ".join(shown(word, work) for word in command) for command in words]
-    return ["## A model as a surface, compared", "```", *lines, "```",
-            "![A model as a surface, compared](images/gallery_surface.png)", ""]
+    return section(softscope, work, "A model as a surface, compared: its error map", words,
+                   [("surface", "comparison/error_map.png")])
+
+
+def comparison_section(softscope, work):
+    words = [["compare", "--reference", work / "organ.obj", "--test", work / "model.obj",
+              "--errors", "signed", "--out", work / "pair"]]
+    return section(softscope, work, "A surface compared, with its sides, and how its errors spread",
+                   words, [("pair", "pair/error_map.png"),
+                           ("pair_histogram", "pair/error_histogram.png")])
+
+
+def evaluation_section(softscope, work):
+    words = [["evaluate", work / "run", "--reference", work / "clip", "--out", work / "error"]]
+    return section(softscope, work, "A run evaluated: over time, spread, worst frames", words,
+                   [("error_series", "error/error_series.png"),
+                    ("error_histogram", "error/error_histogram.png"),
+                    ("worst_frames", "error/worst_frames.png")])
+
+
+def truthless_section(softscope, work):
+    """Of a copy of the clip without its truth."""
+    shutil.copytree(work / "clip", work / "real", dirs_exist_ok=True,
+                    ignore=shutil.ignore_patterns("groundtruth"))
+    words = [["evaluate", work / "run", "--reference", work / "real", "--out", work / "quality"]]
+    return section(softscope, work, "A run evaluated without ground truth", words,
+                   [("quality", "quality/quality_series.png")])
+
+
+def depth_section(softscope, work):
+    clip = work / "clip"
+    words = [["depth", clip / "left/000000.png", clip / "right/000000.png", "--calibration",
+              clip / "calibration.yaml", "--out", work / "depth"]]
+    return section(softscope, work, "The depth of one pair", words,
+                   [("depth", "depth/picture.png")])
+
+
+def section(softscope, work, title, commands, pictures):
+    """Runs commands that leave folders of files, and shows some of their pictures."""
+    for command in commands:
+        run(softscope, *command, "--force", "--quiet")
+    lines = ["softscope " + " ".join(shown(word, work) for word in command) for command in commands]
+    shows = []
+    for name, file in pictures:
+        (PICTURES / f"gallery_{name}.png").write_bytes((work / file).read_bytes())
+        shows.append(f"![{title}: {Path(file).stem}](images/gallery_{name}.png)")
+    return [f"## {title}", "```", *lines, "```", *shows, ""]
 
 
 def shown(word, work):
@@ -163,7 +210,11 @@ def main():
         command = " ".join(shown(word, work) for word in words)
         page += [f"## {title}", "```", f"softscope {command} {drawn[-1]} {name}.png", "```",
                  f"![{title}](images/gallery_{name}.png)", ""]
-    page += surface_section(softscope, work)
+    for made in (surface_section, comparison_section, evaluation_section, truthless_section,
+                 depth_section):
+        page += made(softscope, work)
+    page += ["## A report", "`softscope report error --out report.html` makes a page with a map "
+             "that turns ([reports](report.md)).", "![A report](images/report.png)", ""]
     (DOCS / "gallery.md").write_text("\n".join(page))
 
 

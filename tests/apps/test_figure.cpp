@@ -52,6 +52,39 @@ class Figure : public InFolder {
   }
 };
 
+TEST_F(Figure, TheTestIsBroughtToTheReferenceWhereAsked) {
+  write("away.obj", boxObj({-17, -10, -8}, {23, 10, 8}));  // 3 mm to the left
+  const auto record = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line{"--reference", at("reference.obj"), "--test", at("away.obj"),
+                                  "--out",       at("f.svg"),         "--json", "--force"};
+    line.insert(line.end(), more.begin(), more.end());
+    const Outcome outcome = figure(line);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.json();
+  };
+  const Json as_it_is = record({});
+  EXPECT_EQ(as_it_is["errors"]["alignment"], "none");
+  EXPECT_FALSE(as_it_is.contains("alignment"));
+  const std::string pairs = write("pairs.csv",
+                                  "test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,"
+                                  "reference_z_mm\n3,0,0,0,0,0\n13,0,0,10,0,0\n3,9,0,0,9,0\n");
+  const Json marks = record({"--align-landmarks", pairs});
+  EXPECT_EQ(marks["errors"]["alignment"], "landmarks");
+  EXPECT_NEAR(double(marks["errors"]["distance"]["mean_mm"]), 0, 1e-5);
+  EXPECT_NEAR(double(marks["alignment"]["before"]["max_mm"]), 3, 1e-5);
+  EXPECT_NEAR(double(marks["alignment"]["reference_from_test"][0][3]), -3, 1e-5);
+  EXPECT_THAT(std::string(marks["surfaces"][1]["space"]), HasSubstr("aligned: landmarks"));
+  EXPECT_THAT(textOf(at("f.svg")), HasSubstr("Alignment: landmarks (mean distance before it"));
+  EXPECT_EQ(record({"--align", "icp"})["alignment"]["method"], "icp");
+  EXPECT_EQ(figure({"--reference", at("reference.obj"), "--align", "icp", "--out", at("g.svg")})
+                .exit_code,
+            2);
+  EXPECT_EQ(figure({"--reference", at("reference.obj"), "--test", at("away.obj"), "--align",
+                    "landmarks", "--out", at("g.svg")})
+                .exit_code,
+            2);
+}
+
 TEST_F(Figure, FourPanelsInThreeFormatsWithTheirRecord) {
   const Outcome outcome =
       figure({"--ct", at("ct.mha"), "--reference", at("reference.obj"), "--test", at("model.obj"),
