@@ -34,7 +34,6 @@ void draw3d(const Scene& scene, const ViewPlane& camera, const PanelOptions& opt
   picture.width_px = std::clamp(static_cast<int>(std::lround(wanted_px)), 50, kMost3dPx);
   picture.height_px = picture.width_px;
   picture.width_mm = options.width_mm;
-  picture.point_size_mm = options.width_mm / 150;
   picture.see_through = true;
   drawing.parts.emplace_back(
       DrawnPicture{place.top_left,

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "vtk_views/offscreen_window.h"
+#include "vtk_views/point_spacing.h"
 #include "vtk_views/surface_actor.h"
 #include "vtk_views/view_camera.h"
 #include "vtk_views/window_pixels.h"
@@ -17,6 +18,14 @@ namespace {
 
 constexpr int kFiner = 2;         // pixels are drawn this much smaller each way, then averaged
 constexpr double kNearer = 0.02;  // of the picture's width
+constexpr double kSmallestDot = 1 / 150.0, kLargestDot = 1 / 50.0;  // the same
+
+/// Sparse points stay dots.
+double pointSizeMm(const SceneSurface& surface, const SurfacePictureOptions& options) {
+  if (options.point_size_mm > 0 || !surface.isPoints()) return options.point_size_mm;
+  return std::clamp(dotSizeMm(surface.mesh.vertices_mm), kSmallestDot * options.width_mm,
+                    kLargestDot * options.width_mm);
+}
 
 }  // namespace
 
@@ -35,7 +44,7 @@ ColourImage drawSurfaces(const std::vector<SceneSurface>& surfaces, const ErrorC
     if (!surface.errors_mm.empty() && surface.errors_mm.size() != surface.mesh.vertices_mm.size())
       throw Error("error map: every vertex needs one error");
     SurfaceRole role;
-    role.point_size_px = std::max(1.0, options.point_size_mm * pixels_per_mm);
+    role.point_size_px = std::max(1.0, pointSizeMm(surface, options) * pixels_per_mm);
     role.see_through = options.see_through && i == 0 && surfaces.size() > 1 && !with_errors;
     role.neutral = with_errors && surface.errors_mm.empty();
     if (i > 0) role.shift_mm = shift_mm;

@@ -9,9 +9,9 @@ namespace softscope {
 
 struct SurfacePictureOptions {
   int width_px = 600, height_px = 600;
-  double width_mm = 100;       // what the picture's width shows
-  double point_size_mm = 0.8;  // diameter of points
-  bool see_through = false;    // the first surface, if others are there too
+  double width_mm = 100;     // what the picture's width shows
+  double point_size_mm = 0;  // diameter of points; 0: so that they cover their surface
+  bool see_through = false;  // the first surface, if others are there too
 };
 
 /// Parallel projection on white: sizes in the picture are true everywhere, and later surfaces can

@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "vtk_views/four_panels.h"
+#include "vtk_views/point_spacing.h"
 #include "vtk_views/surface_actor.h"
 #include "vtk_views/view_camera.h"
 #include "vtk_views/view_props.h"
@@ -17,9 +17,8 @@
 namespace softscope {
 namespace {
 
-constexpr double kDotOfSpacing = 1.7;  // neighbouring dots overlap, also where the surface turns
-constexpr double kScopeDepth = 0.22;   // of the way to the tissue
-constexpr double kEyeAway = 4;         // in widths of the picture
+constexpr double kScopeDepth = 0.22;  // of the way to the tissue
+constexpr double kEyeAway = 4;        // in widths of the picture
 constexpr double kArrowTimes = 4, kLeastMotion_mm = 0.05;
 constexpr double kNodeDotsPx = 5;
 constexpr double kSliceBehind = 0.7;   // slices behind the middle, in widths of the model
@@ -33,23 +32,6 @@ SceneSurface surfaceOf(TriangleMesh mesh, Rgb8 colour) {
   surface.mesh = std::move(mesh);
   surface.colour = colour;
   return surface;
-}
-
-/// A cell of space as one number.
-std::uint64_t cellOf(const Eigen::Vector3f& p, float cell_mm) {
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    key = key << 21 |
-          (static_cast<std::uint64_t>(std::lround(p[axis] / cell_mm) + (1 << 20)) & 0x1FFFFF);
-  return key;
-}
-
-std::size_t cellsOf(const std::vector<Eigen::Vector3f>& points_mm, float cell_mm) {
-  std::vector<std::uint64_t> cells;
-  cells.reserve(points_mm.size());
-  for (const Eigen::Vector3f& p : points_mm) cells.push_back(cellOf(p, cell_mm));
-  std::sort(cells.begin(), cells.end());
-  return static_cast<std::size_t>(std::unique(cells.begin(), cells.end()) - cells.begin());
 }
 
 /// A little nearer to the eye than it is: nodes lie in the surface, not behind its dots.
@@ -68,15 +50,6 @@ void drawUnder(vtkActor* actor) {
 }
 
 }  // namespace
-
-double surfaceSpacingMm(const std::vector<Eigen::Vector3f>& points_mm) {
-  if (points_mm.size() < 2) return 1;
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& p : points_mm) box.extend(p);
-  const float cell_mm = std::max(box.sizes().maxCoeff() / 48, 1e-3f);
-  const double a_cell = double(points_mm.size()) / double(cellsOf(points_mm, cell_mm));
-  return std::max(cell_mm / std::sqrt(a_cell), 1e-3);
-}
 
 ViewScene::ViewScene(const ViewWorld& world) : world_(world) {
   renderer_->SetBackground(1, 1, 1);  // as paper has it
@@ -102,7 +75,7 @@ void ViewScene::showPoints(const ViewMoment& moment, const ViewState& state) {
   const SceneSurface surface = shownPoints(moment, state);
   const std::size_t count = surface.mesh.vertices_mm.size();
   if (count < dots_measured_ * 9 / 10 || count > dots_measured_ * 11 / 10) {
-    dot_mm_ = kDotOfSpacing * surfaceSpacingMm(surface.mesh.vertices_mm);
+    dot_mm_ = dotSizeMm(surface.mesh.vertices_mm);
     dots_measured_ = count;
   }
   ErrorColours colours = world_.errors;

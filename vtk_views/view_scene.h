@@ -58,7 +58,4 @@ class ViewScene {
   double aspect_ = 1;
 };
 
-/// How far neighbouring points of a surface lie apart, about; 1 for fewer than two points.
-double surfaceSpacingMm(const std::vector<Eigen::Vector3f>& points_mm);
-
 }  // namespace softscope

@@ -199,6 +199,25 @@ TEST(SurfacePicture, ShowsErrorsInTheirColoursOnTheirSide) {
   EXPECT_THROW(drawSurfaces(surfaces, colours, front, options), Error);
 }
 
+TEST(SurfacePicture, DotsCoverTheirSurfaceAndFewStaySmall) {
+  SurfacePictureOptions options;
+  options.width_px = options.height_px = 100;  // of 50 mm
+  options.width_mm = 50;
+  const ViewPlane front = coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological);
+  const auto white = [&](TriangleMesh points, int left, int right) {
+    points.triangles.clear();
+    const ColourImage picture = drawSurfaces({{"", points, {255, 0, 0}, {}}}, {}, front, options);
+    int count = 0;
+    for (int v = 35; v < 65; ++v)
+      for (int u = left; u < right; ++u) count += alike(picture.at(u, v), {255, 255, 255});
+    return count;
+  };
+  EXPECT_EQ(white(coronalSheet(), 15, 85), 0) << "points 1 mm apart, a fiftieth of the width";
+  TriangleMesh few;
+  few.vertices_mm = {{-12, 0, 0}, {12, 0, 0}};
+  EXPECT_GT(white(few, 15, 85), 70 * 30 - 2 * 9) << "no dot of 24 mm";
+}
+
 TEST(SurfacePicture, AReferenceNeitherHidesNorTintsTheErrorsJustBehindIt) {
   TriangleMesh reference = coronalSheet(), test = coronalSheet();
   for (Eigen::Vector3f& p : test.vertices_mm) p.y() = 0.8f;  // behind it, as seen from the front
