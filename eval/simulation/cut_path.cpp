@@ -1,92 +1,23 @@
-// eval/simulation/cut_path.cpp: split by a plane, then walk along it both ways.
+// eval/simulation/cut_path.cpp: from the middle both ways.
 #include "eval/simulation/cut_path.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "core/error.h"
 
 namespace softscope {
 namespace {
 
-constexpr double kNear = 0.75;       // lengths of the cut around its middle
-constexpr float kSnap = 1.0F / 12;   // of an edge
-constexpr float kLeastFacing = 0.4;  // cosine between the line and its direction: 66 degrees
+constexpr float kLeastFacing = 0.4F;  // cosine between the line and its direction: 66 degrees
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-bool isNear(const SplittingMesh& mesh, const Triangle& triangle, const CutPlane& plane) {
-  Eigen::AlignedBox3f box;
-  for (const std::int32_t vertex : triangle) box.extend(mesh.vertices()[vertex]);
-  return box.exteriorDistance(plane.middle_mm) < float(kNear * plane.length_mm);
-}
-
-/// Sorted, each once, the lower vertex first.
-std::set<Edge> edgesNear(const SplittingMesh& mesh, const CutPlane& plane) {
-  std::set<Edge> edges;
-  for (const Triangle& t : mesh.triangles()) {
-    if (!isNear(mesh, t, plane)) continue;
-    for (int k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
-  }
-  return edges;
-}
-
-/// Which vertices count as on the plane.
-class PlaneSides {
- public:
-  PlaneSides(const SplittingMesh& mesh, const CutPlane& plane, const std::set<Edge>& edges) {
-    const Eigen::Vector3f left = plane.left();
-    for (const Eigen::Vector3f& p : mesh.vertices())
-      off_mm_.push_back(left.dot(p - plane.middle_mm));
-    std::vector<std::int32_t> snapped;
-    for (const auto& [a, b] : edges) {
-      if (off_mm_[a] * off_mm_[b] > 0) continue;
-      const float share = shareOf(a, b);
-      if (share <= kSnap) snapped.push_back(a);
-      if (share >= 1 - kSnap) snapped.push_back(b);
-    }
-    for (const std::int32_t vertex : snapped) off_mm_[vertex] = 0;
-  }
-  bool on(std::int32_t vertex) const { return off_mm_[vertex] == 0; }
-  bool crossed(std::int32_t a, std::int32_t b) const { return off_mm_[a] * off_mm_[b] < 0; }
-  /// Of the way from a to b, where the plane is met.
-  float shareOf(std::int32_t a, std::int32_t b) const {
-    const float way = off_mm_[a] - off_mm_[b];
-    return way == 0 ? 0 : off_mm_[a] / way;
-  }
-  void addOnPlane() { off_mm_.push_back(0); }
-
- private:
-  std::vector<float> off_mm_;  // one a vertex
-};
-
-/// Neighbours on the plane, of each vertex on it.
-using Lines = std::map<std::int32_t, std::vector<std::int32_t>>;
-
-Lines splitAlong(SplittingMesh& mesh, const CutPlane& plane) {
-  const std::set<Edge> before = edgesNear(mesh, plane);
-  PlaneSides sides(mesh, plane, before);
-  for (const auto& [a, b] : before)
-    if (sides.crossed(a, b)) {
-      mesh.split(a, b, sides.shareOf(a, b));
-      sides.addOnPlane();
-    }
-  Lines lines;
-  for (const auto& [a, b] : edgesNear(mesh, plane))
-    if (sides.on(a) && sides.on(b)) {
-      lines[a].push_back(b);
-      lines[b].push_back(a);
-    }
-  return lines;
-}
-
 /// The edge of the lines that runs through the middle, its end further along last.
-Edge middleEdge(const SplittingMesh& mesh, const CutPlane& plane, const Lines& lines) {
+Edge middleEdge(const SplittingMesh& mesh, const CutPlane& plane, const PlaneLines& lines) {
   Edge found{-1, -1};
   float nearest_mm = std::numeric_limits<float>::max();
   for (const auto& [a, list] : lines)
@@ -116,7 +47,7 @@ std::string turnsAway(double length_mm) {
 /// One way along the plane from the edge (from, to).
 class Walk {
  public:
-  Walk(SplittingMesh& mesh, const CutPlane& plane, const Lines& lines, float sign)
+  Walk(SplittingMesh& mesh, const CutPlane& plane, const PlaneLines& lines, float sign)
       : mesh_(mesh), plane_(plane), lines_(lines), sign_(sign) {}
 
   /// Appends vertices up to half of the length; the last one lies there, or at the vertex nearby.
@@ -159,41 +90,22 @@ class Walk {
   /// The end lies `rest_mm` along the edge, which is split there unless that is at an end of it.
   void finish(std::int32_t from, std::int32_t to, double rest_mm, CutPath& path) {
     const double share = rest_mm / length(from, to), end_mm = plane_.length_mm / 2;
-    if (share >= 1 - kSnap) return append(to, end_mm, path);
-    if (share > kSnap || path.vertices.empty() || path.vertices.back() != from)
-      return append(mesh_.split(from, to, std::max(share, double(kSnap))), end_mm, path);
+    if (share >= 1 - kSnapShare) return append(to, end_mm, path);
+    if (share > kSnapShare || path.vertices.empty() || path.vertices.back() != from)
+      return append(mesh_.split(from, to, std::max(share, double(kSnapShare))), end_mm, path);
     path.along_mm.back() = sign_ * end_mm;
   }
 
   SplittingMesh& mesh_;
   const CutPlane& plane_;
-  const Lines& lines_;
+  const PlaneLines& lines_;
   float sign_;
 };
 
 }  // namespace
 
-void refineAround(SplittingMesh& mesh, const CutPlane& plane, double longest_mm) {
-  for (std::size_t i = 0; i < mesh.triangles().size();) {
-    const Triangle t = mesh.triangles()[i];
-    int longest = 0;
-    double most_mm = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3f side = mesh.vertices()[t[(k + 1) % 3]] - mesh.vertices()[t[k]];
-      if (side.norm() > most_mm) {
-        most_mm = side.norm();
-        longest = k;
-      }
-    }
-    if (most_mm <= longest_mm || !isNear(mesh, t, plane))
-      ++i;
-    else
-      mesh.split(t[longest], t[(longest + 1) % 3], 0.5);
-  }
-}
-
 CutPath layPath(SplittingMesh& mesh, const CutPlane& plane) {
-  const Lines lines = splitAlong(mesh, plane);
+  const PlaneLines lines = splitByPlane(mesh, plane);
   const auto [back, front] = middleEdge(mesh, plane, lines);
   const Eigen::Vector3f to_front = mesh.vertices()[front] - plane.middle_mm;
   const Eigen::Vector3f to_back = mesh.vertices()[back] - plane.middle_mm;
