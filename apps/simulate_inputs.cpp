@@ -8,6 +8,7 @@
 #include "io/image_reader.h"
 #include "io/message.h"
 #include "mesh/mesh_check.h"
+#include "mesh/mesh_repair.h"
 
 namespace softscope {
 namespace {
@@ -24,12 +25,12 @@ TriangleMesh readOrgan(const SimulateOptions& options) {
   if (mesh.triangles.empty())
     throw InputError(shown(options.organ) +
                      ": holds points without triangles, but a scope sees surfaces; give a mesh");
-  const MeshCheck check = checkMesh(mesh);
-  for (const std::string& warning : meshWarnings(check))
-    spdlog::warn("{}: {}", options.organ, warning);
-  if (check.volume_mm3 < 0)
-    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  return mesh;
+  RepairedMesh repaired = repairMesh(std::move(mesh), shown(options.organ));
+  for (const std::string& repair : repaired.repairs)
+    spdlog::warn("{}: {}", shown(options.organ), repair);
+  for (const std::string& warning : meshWarnings(checkMesh(repaired.mesh)))
+    spdlog::warn("{}: {}", shown(options.organ), warning);
+  return std::move(repaired.mesh);
 }
 
 void readTexture(SimulateOptions& options) {

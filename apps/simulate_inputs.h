@@ -6,8 +6,8 @@
 
 namespace softscope {
 
-/// The built-in organ, or the one that `organ.mesh` names (STL, PLY, OBJ, VTP or VTK), facing
-/// outward; what else is wrong with it is logged. Throws InputError.
+/// The built-in organ, or the one that `organ.mesh` names (STL, PLY, OBJ, VTP or VTK), repaired;
+/// what was repaired and what couldn't be is logged. Throws InputError.
 TriangleMesh readOrgan(const SimulateOptions& options);
 
 /// Reads the picture that `texture.picture` names, if any, into the simulation's options. Throws

@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "mesh/mesh_sides.h"
 #include "mesh/union_find.h"
 
 namespace softscope {
@@ -17,58 +18,26 @@ constexpr double kFlat = 1e-6;  // height over longest side: what float coordina
 /// An organ or what a scope sees of it is 5 mm to 2 m long; other numbers are other units.
 constexpr double kShortestOrgan_mm = 5, kLongestOrgan_mm = 2000;
 
-bool folded(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
-
-/// Side k of a triangle: from corner k to the next.
-struct Side {
-  std::int32_t low, high;  // vertices
-  std::int32_t triangle;
-  std::int8_t k;
-  bool ascending;  // runs from low to high
-};
-
-/// Sorted, so that sides of one edge follow each other.
-std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle& t = mesh.triangles[i];
-    if (folded(t)) continue;
-    for (std::int8_t k = 0; k < 3; ++k) {
-      const std::int32_t a = t[k], b = t[(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(i), k, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    if (a.low != b.low) return a.low < b.low;
-    if (a.high != b.high) return a.high < b.high;
-    return a.triangle < b.triangle;
-  });
-  return sides;
-}
-
 /// The corner of a side's triangle that names `vertex`, one of the side's two.
-std::int32_t cornerAt(const Side& side, std::int32_t vertex) {
+std::int32_t cornerAt(const MeshSide& side, std::int32_t vertex) {
   const bool first = side.ascending == (vertex == side.low);
   return 3 * side.triangle + (first ? side.k : (side.k + 1) % 3);
 }
 
 /// Counts edges by kind and joins the corners of neighbours.
-void countEdges(const std::vector<Side>& sides, MeshCheck& check, UnionFind& sheets) {
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    const Side& first = sides[begin];
+void countEdges(const std::vector<MeshSide>& sides, MeshCheck& check, UnionFind& sheets) {
+  forEachEdge(sides, [&](auto first, auto last) {
     int ascending = 0;
-    for (; end < sides.size() && sides[end].low == first.low && sides[end].high == first.high;
-         ++end) {
-      ascending += sides[end].ascending;
-      sheets.join(cornerAt(sides[end], first.low), cornerAt(first, first.low));
-      sheets.join(cornerAt(sides[end], first.high), cornerAt(first, first.high));
+    for (auto side = first; side != last; ++side) {
+      ascending += side->ascending;
+      sheets.join(cornerAt(*side, first->low), cornerAt(*first, first->low));
+      sheets.join(cornerAt(*side, first->high), cornerAt(*first, first->high));
     }
-    const std::size_t count = end - begin;
+    const auto count = last - first;
     check.border_edges += count == 1;
     check.crowded_edges += count > 2;
     check.flipped_edges += count == 2 && ascending != 1;
-  }
+  });
 }
 
 /// Vertices whose corners are not all joined through edges.
@@ -76,7 +45,7 @@ std::size_t countSplitVertices(const TriangleMesh& mesh, UnionFind& sheets) {
   constexpr std::int32_t kNone = -1, kSplit = -2;
   std::vector<std::int32_t> sheet(mesh.vertices_mm.size(), kNone);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (folded(mesh.triangles[i])) continue;
+    if (isFolded(mesh.triangles[i])) continue;
     for (int k = 0; k < 3; ++k) {
       std::int32_t& at_vertex = sheet[mesh.triangles[i][k]];
       const std::int32_t found = sheets.find(static_cast<std::int32_t>(3 * i) + k);
@@ -89,11 +58,11 @@ std::size_t countSplitVertices(const TriangleMesh& mesh, UnionFind& sheets) {
 
 void countPieces(const TriangleMesh& mesh, MeshCheck& check) {
   UnionFind pieces(mesh.vertices_mm.size());
-  std::vector<char> used(mesh.vertices_mm.size(), 0);
+  std::vector<bool> used(mesh.vertices_mm.size(), false);
   for (const Triangle& t : mesh.triangles)
     for (const std::int32_t vertex : t) {
       pieces.join(vertex, t[0]);
-      used[vertex] = 1;
+      used[vertex] = true;
     }
   for (std::size_t v = 0; v < used.size(); ++v) {
     check.unused_vertices += !used[v];
@@ -138,8 +107,9 @@ MeshCheck checkMesh(const TriangleMesh& mesh) {
   MeshCheck check;
   check.vertex_count = mesh.vertices_mm.size();
   check.triangle_count = mesh.triangles.size();
+  const std::vector<MeshSide> sides = sortedSides(mesh);
   UnionFind sheets(3 * mesh.triangles.size());
-  countEdges(sortedSides(mesh), check, sheets);
+  countEdges(sides, check, sheets);
   check.split_vertices = countSplitVertices(mesh, sheets);
   countPieces(mesh, check);
   measure(mesh, check);

@@ -270,6 +270,29 @@ TEST_F(Simulate, ACutThatDoesNotFitIsOneLine) {
   }
 }
 
+TEST_F(Simulate, AFlawedOrganIsRepairedOrRefusedAndSaysWhy) {
+  const TriangleMesh organ = makeOrganMesh({60, 10, 3, 1.4}, 1);
+  const auto asPly = [&](const std::string& name, std::vector<Triangle> triangles) {
+    ModelSurface surface;
+    surface.vertices.points_mm = organ.vertices_mm;
+    surface.triangles = std::move(triangles);
+    return write(name, modelBytes(surface, ModelFormat::kPly, unitOf("mm", ModelFormat::kPly)));
+  };
+  std::vector<Triangle> flawed(organ.triangles.begin() + 1, organ.triangles.end());
+  for (const int i : {40, 90}) std::swap(flawed[i][0], flawed[i][1]);
+  const Outcome repaired = simulate(at("s"), {"--organ", asPly("flawed.ply", flawed)});
+  ASSERT_EQ(repaired.exit_code, 0) << repaired.err;
+  EXPECT_THAT(repaired.err, HasSubstr("flawed.ply: turned 2 triangles"));
+  EXPECT_THAT(repaired.err, HasSubstr("flawed.ply: closed 1 holes of 3 edges"));
+  EXPECT_THAT(meshWarnings(checkMesh(readMesh(at("s/groundtruth/mesh/000000.ply")))),
+              testing::IsEmpty());
+  std::vector<Triangle> crowded = organ.triangles;
+  crowded.push_back({organ.triangles[5][0], organ.triangles[5][1], organ.triangles[300][0]});
+  const Outcome refused = simulate(at("t"), {"--organ", asPly("crowded.ply", crowded)});
+  expectOneLine(refused, 3);
+  EXPECT_THAT(refused.err, HasSubstr("edges belong to more than two triangles"));
+}
+
 TEST_F(Simulate, NothingIsOverwrittenWithoutForce) {
   ASSERT_EQ(simulate(at("s")).exit_code, 0);
   const auto before = contentOf(at("s"));
