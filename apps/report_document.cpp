@@ -222,7 +222,7 @@ ReportDocument makeReport(ReportRequest request) {
   for (ReportCase& c : request.cases) {
     document.facts.addLine(c.name, c.hasTruth() ? "mean " + millimetresText(c.main("mean_mm")) +
                                                       ", P95 " + millimetresText(c.main("p95_mm"))
-                                                : truthlessHeadline(c).text);
+                                                : truthlessSummary(c));
     if (!c.maps.empty()) page.maps.push_back({c.name, std::move(c.maps)});
   }
   page.map_figure = mapFigure(page.maps, page.limit_mm);

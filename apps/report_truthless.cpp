@@ -68,8 +68,6 @@ ReportTable pathTable(const ReportCase& c) {
   return valueTable("The scope's path, as estimated", "", c.record,
                     {{"moved from first to last frame [mm]", "camera.moved_mm"},
                      {"turned from first to last frame [degrees]", "camera.turned_deg"},
-                     {"step from frame to frame, mean [mm]", "camera.step.mean_mm"},
-                     {"step from frame to frame, largest [mm]", "camera.step.max_mm"},
                      {"jitter, rms of second differences [mm]", "camera.jitter_rms_mm"}});
 }
 
@@ -103,6 +101,11 @@ ReportParagraph truthlessHeadline(const ReportCase& c) {
     text += " In sight, it lies " + millimetresText(mean_mm) +
             " on average from the depth that it was made of (back-projection).";
   return {text, /*important=*/true};
+}
+
+std::string truthlessSummary(const ReportCase& c) {
+  return "no ground truth; PSNR " + decibels(numberAt(c.record, "view.psnr_db")) +
+         ", back-projection " + millimetresText(numberAt(c.record, "backprojection.mean_mm"));
 }
 
 ReportTiles truthlessTiles(const ReportCase& c) {

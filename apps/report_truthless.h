@@ -11,6 +11,8 @@ namespace softscope {
 
 /// That nothing is known of the distance from the tissue; then what is known.
 ReportParagraph truthlessHeadline(const ReportCase& c);
+/// The same in a few words.
+std::string truthlessSummary(const ReportCase& c);
 ReportTiles truthlessTiles(const ReportCase& c);
 /// The drawn view, back-projection, the scope's path; those that weren't measured are left out.
 std::vector<ReportTable> truthlessTables(const ReportCase& c);
