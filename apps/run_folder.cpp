@@ -62,9 +62,9 @@ void requireUsable(const RunFolderOptions& options, bool resume) {
     throw OptionError("--out " + shown(folder) + ": is a file, but must be a folder");
   if (isHeld(folder / kRunLock)) refuseBusy(folder);
   if (!resume && !options.overwrite && holdsRun(folder))
-    throw OptionError("--out " + shown(folder) +
-                      ": holds a run already; choose another folder, go on with --resume, or "
-                      "replace it with --force");
+    throw OptionError("--out " + shown(folder) + ": holds a run already; choose another folder, " +
+                      (fs::exists(folder / kCheckpoint) ? "go on with --resume, " : "") +
+                      "or replace it with --force");
 }
 
 /// Lines of a CSV whose first cell is a frame before `next_frame`.
