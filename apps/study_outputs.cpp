@@ -145,7 +145,8 @@ void writeStudy(const Study& study, const std::vector<Json>& records, const std:
   for (const auto& [name, drawing] : figures) {
     put("plots/" + name + ".svg", svgBytes(drawing));
     put("plots/" + name + ".pdf", pdfBytes(drawing));
-    writePng(folder.root / ("plots/" + name + ".png"), rasterise(drawing, kDotsPerInch), kDotsPerInch, true);
+    writePng(folder.root / ("plots/" + name + ".png"), rasterise(drawing, kDotsPerInch),
+             kDotsPerInch, true);
   }
   put("table.csv", table.csv());
   put("table.md", table.markdown());
