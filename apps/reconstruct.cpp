@@ -11,6 +11,7 @@
 #include "apps/progress_bar.h"
 #include "apps/reconstruct_options.h"
 #include "apps/result_output.h"
+#include "apps/right_offset.h"
 #include "apps/run_folder.h"
 #include "apps/run_record.h"
 #include "apps/sequence_arguments.h"
@@ -134,6 +135,9 @@ int ReconstructCommand::run() {
   require(checkpoint_every_ >= 1, "--checkpoint-every", checkpoint_every_, "must be 1 or more");
 
   const SequencePaths where = source_.paths("reconstruct");
+  const FrameDepthOptions& depth = options.method.depth;
+  if (depth.source == "stereo" || where.depth.empty())
+    settleRightOffset(where, options.sequence, depth.stereo.disparity_max_px);
   const std::vector<TrackSeed> tracked = seeds();
   RunFolder folder({out_, save_every_, !tracked.empty(), force_}, resume_);
   Checkpoint checkpoint{digestOf(where, binder), options.sequence.frames.begin, {}};

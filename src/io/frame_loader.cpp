@@ -1,5 +1,8 @@
 #include "io/frame_loader.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "core/error.h"
 #include "io/calibration_check.h"
 #include "io/depth_files.h"
@@ -35,6 +38,9 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   options.validate();
   requireSequence(paths);
   is_packed_ = !paths.stereo.empty();
+  if (is_packed_ && options.rightOffset() != 0)
+    throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
+                          shown(paths.stereo), " are in the same pictures. Leave it at auto."));
   const fs::path& first = is_packed_ ? paths.stereo : paths.left;
   left_ = openPictures(first);
   count_ = left_->count();
@@ -42,6 +48,9 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   if (!paths.right.empty()) {
     right_ = openPictures(paths.right);
     requirePartners(view, {paths.right, right_->files(), right_->count()});
+    if (std::abs(options.rightOffset()) >= count_)
+      throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but there are ",
+                            count_, " pictures: no two would belong together."));
   }
   if (!paths.mask.empty()) masks_ = partnersIn(paths.mask, kMaskKinds, view);
   if (!paths.depth.empty()) depths_ = partnersIn(paths.depth, kDepthKinds, view);
@@ -52,11 +61,16 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   calibration_ = readCalibration(paths.calibration, options.calibration);
 }
 
+int FrameLoader::firstWithPartner() const {
+  return right_ ? std::max(0, -options_.rightOffset()) : 0;
+}
+
 bool FrameLoader::survivesErrors() const {
   return left_->survivesErrors() && (!right_ || right_->survivesErrors());
 }
 
 Frame FrameLoader::load(int index) {
+  requirePartner(index);  // before anything is read: a video doesn't go back
   Frame frame;
   frame.index = index;
   frame.time_s = timeOf(index);
@@ -78,13 +92,22 @@ Frame FrameLoader::load(int index) {
 }
 
 StereoPair FrameLoader::readPair(int index) {
-  if (!is_packed_) return {left_->read(index), right_ ? right_->read(index) : ColourImage{}};
+  if (!is_packed_)
+    return {left_->read(index),
+            right_ ? right_->read(index + options_.rightOffset()) : ColourImage{}};
   const ColourImage packed = left_->read(index);
   const PinholeCamera& camera = calibration_.left.pinhole;
   if (!is_settled_)
     packing_ = choosePacking(packed, options_.layout, options_.right_first,
                              {camera.width_px, camera.height_px}, left_->nameOf(index));
   return unpack(packed, packing_, left_->nameOf(index));
+}
+
+void FrameLoader::requirePartner(int index) const {
+  const int partner = index + options_.rightOffset();
+  if (right_ && (partner < 0 || partner >= count_))
+    throw InputError(say(left_->nameOf(index), ": the right view has no picture of this moment ",
+                         "(sequence.right_offset is ", options_.right_offset, ")"));
 }
 
 void FrameLoader::settleSize(const ColourImage& left, const std::string& name) {

@@ -23,15 +23,21 @@ class FrameLoader {
   FrameLoader(const SequencePaths& paths, const SequenceOptions& options);
 
   int count() const { return count_; }
+
+  /// The first frame of which there are all views.
+  int firstWithPartner() const;
+
   const StereoCalibration& calibration() const { return calibration_; }
   bool survivesErrors() const;
 
-  /// Throws InputError. The first call settles the layout of packed pictures, and the picture size
+  /// Throws InputError, also where the right view has no picture of that moment. The first call
+  /// settles the layout of packed pictures, and the picture size
   /// where the calibration left it out.
   Frame load(int index);
 
  private:
   StereoPair readPair(int index);
+  void requirePartner(int index) const;
   void settleSize(const ColourImage& left, const std::string& name);
   void requireShape(int width_px, int height_px, const std::string& name) const;
   double timeOf(int index) const;

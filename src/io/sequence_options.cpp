@@ -33,7 +33,16 @@ FrameRange parseFrameRange(const std::string& text) {
   return out;
 }
 
+int SequenceOptions::rightOffset() const {
+  if (right_offset == "auto") return 0;
+  const auto value = numberOf(right_offset);
+  require(value && std::abs(*value) <= 1000 && *value == std::floor(*value),
+          "sequence.right_offset", right_offset, "must be auto or a whole number of pictures");
+  return static_cast<int>(*value);
+}
+
 void SequenceOptions::validate() const {
+  rightOffset();
   require(read_ahead >= 1 && read_ahead <= 1000, "sequence.read_ahead", read_ahead,
           "must be 1 to 1000");
   require(layout == "auto" || layout == "side-by-side" || layout == "top-bottom" ||
@@ -48,6 +57,8 @@ void bindSequenceOptions(SettingsBinder& binder, SequenceOptions& options) {
               "both views in one picture: auto, side-by-side, top-bottom, interlaced");
   binder.bind("sequence.right_first", options.right_first,
               "in such a picture the right view comes first");
+  binder.bind("sequence.right_offset", options.right_offset,
+              "right picture f + offset belongs to left picture f: a number, or auto");
   binder.bind("sequence.read_ahead", options.read_ahead, "frames kept ready in memory");
   CalibrationHints& hints = options.calibration;
   binder.bind("calibration.baseline_mm", hints.baseline_mm,

@@ -22,8 +22,13 @@ struct SequenceOptions {
   FrameRange frames;
   std::string layout = "auto";  // of one picture with both views: io/stereo_packing.h
   bool right_first = false;     // … whose right view comes first
-  int read_ahead = 4;           // frames kept ready
+  // Right picture f + offset belongs to left picture f: a whole number, or auto. The reader takes
+  // auto for 0; who can match pictures may look for it first.
+  std::string right_offset = "auto";
+  int read_ahead = 4;  // frames kept ready
   CalibrationHints calibration;
+
+  int rightOffset() const;
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;

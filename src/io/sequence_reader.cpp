@@ -1,5 +1,6 @@
 #include "io/sequence_reader.h"
 
+#include <algorithm>
 #include <exception>
 #include <thread>
 
@@ -27,11 +28,9 @@ class SequenceReader::Impl {
       : loader_(paths, options),
         range_(rangeWithin(options.frames, loader_.count())),
         queue_(static_cast<std::size_t>(options.read_ahead)) {
-    FrameResult first;
-    first.index = range_.begin;
-    first.frame = loader_.load(range_.begin);  // throws: what is wrong with it is wrong with all
+    first_.index = std::max(range_.begin, loader_.firstWithPartner());
+    first_.frame = loader_.load(first_.index);  // throws: what is wrong with it is wrong with all
     calibration_ = loader_.calibration();
-    queue_.push(std::move(first));
     thread_ = std::thread([this] { readAhead(); });
   }
   ~Impl() {
@@ -53,10 +52,11 @@ class SequenceReader::Impl {
  private:
   void readAhead() {
     try {
-      for (int index = range_.begin + 1; index < range_.end; ++index) {
-        FrameResult result = load(index);
-        const bool go_on = result.ok() || loader_.survivesErrors();
-        if (!queue_.push(std::move(result)) || !go_on) break;
+      bool go_on = true;
+      for (int index = range_.begin; index < range_.end && go_on; ++index) {
+        FrameResult result = index == first_.index ? std::move(first_) : load(index);
+        go_on = result.ok() || index < first_.index || loader_.survivesErrors();
+        go_on = queue_.push(std::move(result)) && go_on;
       }
     } catch (...) {
       failure_ = std::current_exception();
@@ -77,6 +77,7 @@ class SequenceReader::Impl {
 
   FrameLoader loader_;  // after the constructor, the thread's alone but for count()
   FrameRange range_;
+  FrameResult first_;
   StereoCalibration calibration_;
   BoundedQueue<FrameResult> queue_;
   std::exception_ptr failure_;

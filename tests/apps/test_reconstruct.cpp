@@ -99,6 +99,29 @@ TEST_F(Reconstruct, ResumesToTheSameBytes) {
   EXPECT_EQ(linesOf(out + "/frames.csv"), 1 + 8);
 }
 
+// A clip whose right video was cut a picture later: moment f is right picture f - 1.
+TEST_F(Reconstruct, PairsTheViewsOfOneMoment) {
+  makeClip(9);
+  fs::remove(at("clip/timestamps.txt"));
+  for (int f = 0; f < 9; ++f) {
+    const std::string name = "/00000" + std::to_string(f) + ".png";
+    if (f > 0)
+      fs::rename(at("clip") + "/right" + name,
+                 at("clip") + "/right/00000" + std::to_string(f - 1) + ".png");
+    if (f == 8) fs::remove(at("clip") + "/left" + name);
+  }
+  const Outcome done = reconstruct({"--out", at("run"), "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("right picture f -1 belongs to left picture f"));
+  EXPECT_EQ(done.json()["configuration"]["sequence.right_offset"], "-1");
+  EXPECT_EQ(done.json()["frames_fused"], 7);
+  EXPECT_LT(double(done.json()["mean_backprojection_mm"]), 0.2);
+  const Outcome as_is =
+      reconstruct({"--out", at("as_is"), "--json", "--set", "sequence.right_offset=0"});
+  EXPECT_GT(double(as_is.json()["mean_backprojection_mm"]),
+            1.2 * double(done.json()["mean_backprojection_mm"]));
+}
+
 TEST_F(Reconstruct, NeverOverwritesUnasked) {
   makeClip(2);
   ASSERT_EQ(reconstruct({"--out", at("run")}).exit_code, 0);

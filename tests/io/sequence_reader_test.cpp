@@ -1,5 +1,6 @@
 #include "io/sequence_reader.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -134,6 +135,70 @@ TEST(SequenceReader, ReadsTwoVideos) {
   options.frames = {4, -1};
   SequenceReader late(folder.path(), options);
   EXPECT_EQ(expectTestPairs(late, kVideoTolerance).size(), 3U);
+}
+
+/// Left picture f with right picture f - 1; of the first one only an error.
+void expectRightBefore(SequenceReader& reader, int count, double tolerance) {
+  const auto alone = reader.next();
+  ASSERT_TRUE(alone && !alone->ok());
+  EXPECT_EQ(alone->index, 0);
+  EXPECT_THAT(alone->error, testing::HasSubstr("no picture of this moment"));
+  for (int f = 1; f < count; ++f) {
+    const auto result = reader.next();
+    ASSERT_TRUE(result && result->ok());
+    EXPECT_EQ(result->index, f);
+    EXPECT_LE(meanDifference(result->frame.pair.left, testPair(f).left), tolerance);
+    EXPECT_LE(meanDifference(result->frame.pair.right, testPair(f - 1).right), tolerance);
+  }
+  EXPECT_FALSE(reader.next());
+}
+
+TEST(SequenceReader, PairsViewsThatArePicturesApart) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 5);
+  SequenceOptions options;
+  options.right_offset = "-1";
+  SequenceReader reader(folder.path(), options);
+  EXPECT_EQ(reader.frameCount(), 5);
+  expectRightBefore(reader, 5, 0);
+
+  options.right_offset = "2";
+  SequenceReader later(folder.path(), options);
+  for (int f = 0; f < 3; ++f)
+    EXPECT_EQ(meanDifference(later.next()->frame.pair.right, testPair(f + 2).right), 0);
+  EXPECT_FALSE(later.next()->ok());
+  EXPECT_FALSE(later.next()->ok());
+  EXPECT_FALSE(later.next());
+}
+
+TEST(SequenceReader, PairsVideosThatArePicturesApart) {
+  TemporaryFolder folder;
+  put(folder / "calibration.yaml", smallCalibration());
+  std::vector<ColourImage> left, right;
+  for (int i = 0; i < 5; ++i) {
+    left.push_back(testPair(i).left);
+    right.push_back(testPair(i).right);
+  }
+  makeVideo(folder / "left.avi", left);
+  makeVideo(folder / "right.avi", right);
+  SequenceOptions options;
+  options.right_offset = "-1";
+  SequenceReader reader(folder.path(), options);
+  expectRightBefore(reader, 5, kVideoTolerance);
+}
+
+TEST(SequenceReader, RefusesAnOffsetThatPairsNothing) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 3);
+  SequenceOptions options;
+  options.right_offset = "-3";
+  expectError<OptionError>([&] { SequenceReader(folder.path(), options); },
+                           {"sequence.right_offset is -3", "3 pictures"});
+  for (const char* text : {"one", "0.5", "", "1e9"}) {
+    options.right_offset = text;
+    expectError<OptionError>([&] { SequenceReader(folder.path(), options); },
+                             {"sequence.right_offset", "auto or a whole number"});
+  }
 }
 
 TEST(SequenceReader, ReadsOneVideoInEveryLayout) {

@@ -1,0 +1,37 @@
+// src/stereo/row_meter.h: finds a left picture's pixels in right pictures, some rows off too.
+#pragma once
+
+#include <vector>
+
+#include "core/image.h"
+#include "stereo/gradient_image.h"
+#include "stereo/row_alignment.h"
+#include "stereo/row_model.h"
+#include "stereo/stereo_options.h"
+
+namespace softscope {
+
+/// Measures right pictures against one left picture, on a coarse grid, over all disparities up to
+/// `disparity_max_px` and rows up to four off.
+class RowMeter {
+ public:
+  RowMeter(const GrayImage& left, int disparity_max_px);
+
+  /// What was found; most of it right.
+  std::vector<RowMatch> match(const GrayImage& right);
+
+  /// The smooth row difference through it.
+  RowAlignment measure(const GrayImage& right) { return fitRowModel(match(right), scale()); }
+
+  /// Nothing known yet: the frame of reference of fitRowModel().
+  RowAlignment scale() const;
+
+ private:
+  std::vector<RowMatch> matchRows(const GradientImage& right, int row_offset);
+
+  int margin_px_;
+  GradientImage left_;
+  StereoOptions options_;
+};
+
+}  // namespace softscope

@@ -1,0 +1,60 @@
+// tests/stereo/view_synchrony_test.cpp: views that were cut some pictures apart are found out.
+#include "stereo/view_synchrony.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/scene.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kRows = 200;  // of a picture, out of 240
+
+/// The picture at moment t of a scope that moves up and down: another piece of a taller picture.
+GrayImage momentOf(const GrayImage& tall, int t, double reach_px) {
+  const int top = static_cast<int>(std::lround(20 + reach_px * std::sin(1.9 * t)));
+  GrayImage piece(tall.width_px, kRows);
+  std::copy_n(tall.row(top), piece.size(), piece.row(0));
+  return piece;
+}
+
+/// Right picture f shows moment f + late.
+ViewSynchrony measure(double reach_px, int late) {
+  static const test::Scene tall =
+      test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
+  SynchronyMeter meter(100);
+  for (int f = 2; f < 6; ++f) {
+    std::array<GrayImage, SynchronyMeter::kOffsets> rights;
+    for (int k = 0; k < SynchronyMeter::kOffsets; ++k)
+      rights[k] = momentOf(tall.right, f + k - SynchronyMeter::kReach + late, reach_px);
+    meter.add(momentOf(tall.left, f, reach_px), rights);
+  }
+  return meter.result();
+}
+
+TEST(ViewSynchrony, FindsAViewThatIsPicturesApart) {
+  EXPECT_EQ(measure(3, 1).right_offset, -1);
+  EXPECT_EQ(measure(3, -2).right_offset, 2);
+}
+
+TEST(ViewSynchrony, LeavesAClipInStepAsItIs) {
+  const ViewSynchrony found = measure(3, 0);
+  EXPECT_EQ(found.right_offset, 0);
+  EXPECT_EQ(found.agreeing, found.agreeing_as_is);
+  EXPECT_GT(found.agreeing, 1000);
+}
+
+TEST(ViewSynchrony, SaysNothingWhereNothingMovesOrIsSeen) {
+  EXPECT_EQ(measure(0, 1).right_offset, 0);
+  SynchronyMeter meter(64);
+  const GrayImage flat(160, 120, 100);
+  meter.add(flat, {flat, flat, flat, flat, flat});
+  EXPECT_EQ(meter.result().right_offset, 0);
+  EXPECT_EQ(SynchronyMeter(64).result().right_offset, 0);
+}
+
+}  // namespace
+}  // namespace softscope
