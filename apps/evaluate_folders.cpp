@@ -63,6 +63,12 @@ FrameRows frameRows(const fs::path& file, std::size_t poses) {
 
 }  // namespace
 
+double JudgedRun::timeOf(int frame) const {
+  const auto found = std::lower_bound(frames.begin(), frames.end(), frame);
+  if (found == frames.end() || *found != frame) return std::nan("");
+  return trajectory[static_cast<std::size_t>(found - frames.begin())].time_s;
+}
+
 JudgedRun openJudgedRun(const fs::path& folder) {
   JudgedRun run;
   run.folder = folder;

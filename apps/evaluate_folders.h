@@ -24,6 +24,9 @@ struct JudgedRun {
   FrameFiles models;                        // models/NNNNNN.ply
   std::filesystem::path last_model;         // model.ply; empty where it is missing
   std::filesystem::path tracks;             // tracks.csv; empty where it is missing
+
+  /// NaN where the frame has no pose.
+  double timeOf(int frame) const;
 };
 
 /// Throws InputError: no such folder, no trajectory, or a table of frames that doesn't fit it.

@@ -66,12 +66,6 @@ void sumUp(SurfaceSeries& series) {
 }
 
 /// Of the run's own clock; NaN for a frame without a pose.
-double timeOf(const JudgedRun& run, int frame) {
-  const auto found = std::lower_bound(run.frames.begin(), run.frames.end(), frame);
-  if (found == run.frames.end() || *found != frame) return Statistics::kNone;
-  return run.trajectory[static_cast<std::size_t>(found - run.frames.begin())].time_s;
-}
-
 }  // namespace
 
 double SurfaceSeries::meanOfView(const std::function<double(const ViewErrors&)>& value) const {
@@ -157,8 +151,8 @@ AlignedSeries judgeAgainstMesh(const JudgedRun& run, const FrameFiles& models,
     }
     const std::vector<Eigen::Vector3f> moved_mm = movePoints(mesh_from_run, points_mm);
     ModelErrors errors = modelErrors(moved_mm, {surface, no_depth, no_rig, {}});
-    maps.add(frame, timeOf(run, frame), moved_mm, errors, mesh, mesh_from_run);
-    keep(frame, timeOf(run, frame), std::move(errors), result.surface);
+    maps.add(frame, run.timeOf(frame), moved_mm, errors, mesh, mesh_from_run);
+    keep(frame, run.timeOf(frame), std::move(errors), result.surface);
     if (!after_model()) {
       result.surface.interrupted = true;
       return result;

@@ -63,7 +63,7 @@ ModelSurface vtkSurfaceOf(const fs::path& file) {
   return surfaceOf(std::move(mesh));
 }
 
-double timeOf(const JudgedRun& run, int frame) {
+double timeOrNumber(const JudgedRun& run, int frame) {
   const auto found = std::find(run.frames.begin(), run.frames.end(), frame);
   if (found == run.frames.end()) return frame;
   return run.trajectory[std::size_t(found - run.frames.begin())].time_s;
@@ -80,7 +80,7 @@ std::vector<SavedModel> savedModels(const fs::path& folder, int every) {
   std::vector<SavedModel> models;
   int count = 0;
   for (const auto& [frame, file] : run.models)
-    if (count++ % every == 0) models.push_back({file, frame, timeOf(run, frame)});
+    if (count++ % every == 0) models.push_back({file, frame, timeOrNumber(run, frame)});
   return models;
 }
 

@@ -65,12 +65,6 @@ bool hasClock(const JudgedRun& run) {
   return false;
 }
 
-double timeOf(const JudgedRun& run, int frame) {
-  const auto found = std::lower_bound(run.frames.begin(), run.frames.end(), frame);
-  if (found == run.frames.end() || *found != frame) return std::nan("");
-  return run.trajectory[static_cast<std::size_t>(found - run.frames.begin())].time_s;
-}
-
 PanelOptions panelsFor(const RunFigureOptions& options, const std::list<Scene>& scenes) {
   PanelOptions panels = options.panels;
   if (panels.width_mm > 0) return panels;
@@ -112,7 +106,7 @@ RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   auto scene = scenes.begin();
   for (const int frame : frames)
     panels.push_back({&*scene++, cameraView(centre_mm, eyeOf(options), SceneFrame::kCamera),
-                      captionOf(frame, timeOf(run, frame), hasClock(run))});
+                      captionOf(frame, run.timeOf(frame), hasClock(run))});
   return {drawScenes(panels, panelsFor(options, scenes)),
           {{"run", options.run}, {"frames", frames}}};
 }

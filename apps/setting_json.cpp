@@ -4,10 +4,10 @@
 namespace softscope {
 
 FactSheet::Json valueOf(const SettingInfo& setting) {
-  using Json = FactSheet::Json;
   if (setting.type == "text") return setting.current_text;
-  const Json value = Json::parse(setting.current_text, nullptr, /*allow_exceptions=*/false);
-  return value.is_discarded() ? Json(setting.current_text) : value;
+  const auto value =
+      FactSheet::Json::parse(setting.current_text, nullptr, /*allow_exceptions=*/false);
+  return value.is_discarded() ? FactSheet::Json(setting.current_text) : value;
 }
 
 }  // namespace softscope

@@ -16,10 +16,10 @@ namespace {
 
 using Json = FactSheet::Json;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastFusedShare = 0.5;
 
-const std::vector<StudyMetric> kColumns{
+const std::vector<StudyMetric> kUsualColumns{
     {"run.fused_share", "frames fused [share]", 2},
     {"evaluation.tracks.mean_mm", "material points mean [mm]", 3},
     {"evaluation.tracks.p95_mm", "material points P95 [mm]", 3},
@@ -156,10 +156,10 @@ double valueAt(const Json& record, const std::string& path) {
   const Json* at = &record;
   std::istringstream parts(path);
   for (std::string part; std::getline(parts, part, '.');) {
-    if (!at->is_object() || !at->contains(part)) return kNone;
+    if (!at->is_object() || !at->contains(part)) return kNoNumber;
     at = &(*at)[part];
   }
-  return at->is_number() ? at->get<double>() : kNone;
+  return at->is_number() ? at->get<double>() : kNoNumber;
 }
 
 std::string seriesName(const StudyCase& one) {
@@ -216,7 +216,7 @@ StudyTable studyTable(const Study& study, const std::vector<Json>& records) {
   table.headings = {"case"};
   const std::vector<std::string> beside = besideHeadings(study);
   table.headings.insert(table.headings.end(), beside.begin(), beside.end());
-  std::vector<StudyMetric> columns = study.columns.empty() ? kColumns : study.columns;
+  std::vector<StudyMetric> columns = study.columns.empty() ? kUsualColumns : study.columns;
   columns.erase(std::remove_if(columns.begin(), columns.end(),
                                [&](const StudyMetric& c) { return !anyValue(records, c.path); }),
                 columns.end());

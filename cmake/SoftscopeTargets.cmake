@@ -3,10 +3,18 @@
 get_filename_component(SOFTSCOPE_ROOT ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 include(${CMAKE_CURRENT_LIST_DIR}/SoftscopeFlags.cmake)
 
+# softscope_join(<target>): compiles up to eight files at once, so that what they include is parsed
+# once for all of them. Local names must then differ within a folder; a clash is a compile error:
+# give the later one a better name, or SKIP_UNITY_BUILD_INCLUSION where each file has its own.
+function(softscope_join target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SOFTSCOPE_JOIN})
+endfunction()
+
 # softscope_library(<folder> SOURCES … [LINKS …] [PRIVATE_LINKS …])
 function(softscope_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(softscope_${name} STATIC ${ARG_SOURCES})
+  softscope_join(softscope_${name})
   add_library(softscope::${name} ALIAS softscope_${name})
   set_target_properties(softscope_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_include_directories(softscope_${name} PUBLIC ${SOFTSCOPE_ROOT}/src ${SOFTSCOPE_ROOT})
@@ -29,6 +37,7 @@ endfunction()
 function(softscope_test name)
   cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
+  softscope_join(test_${name})
   target_link_libraries(test_${name} PRIVATE ${ARG_LINKS} GTest::gtest_main softscope_flags)
   target_include_directories(test_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
   if(SOFTSCOPE_SANITIZE)

@@ -7,12 +7,12 @@
 
 #include "core/error.h"
 #include "vtk_views/plot_axes.h"
+#include "vtk_views/plot_colours.h"
 
 namespace softscope {
 namespace {
 
-constexpr Rgb8 kBlue{0, 114, 178}, kVermilion{213, 94, 0}, kBlueBand{214, 228, 240},
-    kWarmBand{248, 226, 208}, kZero{150, 150, 150};
+constexpr Rgb8 kBlueBand{214, 228, 240}, kWarmBand{248, 226, 208}, kZero{150, 150, 150};
 constexpr double kDotPt = 4;
 
 struct Extent {
@@ -78,11 +78,11 @@ VectorDrawing drawAgreement(const AgreementData& data, const PlotStyle& style) {
   drawBand(data.bias, axes, kBlueBand, drawing);
   drawing.parts.emplace_back(
       DrawnLine{{{axes.left(), axes.yPt(0)}, {axes.right(), axes.yPt(0)}}, 0.5, kZero});
-  drawLevel(data.low_limit, "lower limit", axes, {{}, 0.9, kVermilion, true}, style.font_pt,
+  drawLevel(data.low_limit, "lower limit", axes, {{}, 0.9, kPlotVermilion, true}, style.font_pt,
             drawing);
-  drawLevel(data.high_limit, "upper limit", axes, {{}, 0.9, kVermilion, true}, style.font_pt,
+  drawLevel(data.high_limit, "upper limit", axes, {{}, 0.9, kPlotVermilion, true}, style.font_pt,
             drawing);
-  drawLevel(data.bias, "bias", axes, {{}, 1.1, kBlue, false}, style.font_pt, drawing);
+  drawLevel(data.bias, "bias", axes, {{}, 1.1, kPlotBlue, false}, style.font_pt, drawing);
   dots.diameter_pt = kDotPt;
   for (std::size_t i = 0; i < data.x.size(); ++i)
     if (std::isfinite(data.x[i]) && std::isfinite(data.differences[i]))

@@ -7,12 +7,13 @@
 
 #include "core/error.h"
 #include "vtk_views/plot_axes.h"
+#include "vtk_views/plot_colours.h"
 
 namespace softscope {
 namespace {
 
-constexpr Rgb8 kBlue{0, 114, 178}, kVermilion{213, 94, 0}, kBand{214, 228, 240},
-    kBandEdge{140, 170, 200}, kBars{150, 190, 220}, kGrey{110, 110, 110};
+constexpr Rgb8 kBand{214, 228, 240}, kBandEdge{140, 170, 200}, kBars{150, 190, 220},
+    kGrey{110, 110, 110};
 
 double largestFinite(const std::vector<double>& values) {
   double largest = 0;
@@ -66,7 +67,7 @@ DrawnText markText(const PlotAxes& axes, double value, const char* name, double 
   text.text = number;
   text.size_pt = font_pt;
   text.anchor = TextAnchor::kMiddle;
-  text.colour = kVermilion;
+  text.colour = kPlotVermilion;
   return text;
 }
 
@@ -79,7 +80,7 @@ void drawMarks(const ErrorHistogramData& data, const PlotAxes& axes, double font
   DrawnText p95 = markText(axes, data.p95, "P95", font_pt);
   for (const DrawnText& text : {median, p95})
     drawing.parts.emplace_back(DrawnLine{
-        {{text.at.x_pt, axes.top()}, {text.at.x_pt, axes.bottom()}}, 0.6, kVermilion, true});
+        {{text.at.x_pt, axes.top()}, {text.at.x_pt, axes.bottom()}}, 0.6, kPlotVermilion, true});
   const double first_pt = textWidthPt(median), second_pt = textWidthPt(p95);
   if (p95.at.x_pt - median.at.x_pt < (first_pt + second_pt) / 2 + font_pt) {
     const double both_pt = first_pt + font_pt + second_pt;
@@ -102,7 +103,7 @@ void drawCumulative(const ErrorHistogramData& data, const PlotAxes& axes, AxisRa
                                static_cast<double>(data.cumulative.size()));
     y.push_back(100 * data.cumulative[i]);
   }
-  shares.drawCurve(x, y, {{}, 1.2, kBlue, false}, drawing);
+  shares.drawCurve(x, y, {{}, 1.2, kPlotBlue, false}, drawing);
 }
 
 void requireSeries(const ErrorSeriesData& data) {
@@ -129,12 +130,13 @@ VectorDrawing drawErrorSeries(const ErrorSeriesData& data, const PlotStyle& styl
   drawBand(data, axes, drawing);
   axes.drawGrid(drawing);
   axes.drawCurve(data.times, data.p95, {{}, 0.6, kBandEdge, false}, drawing);
-  axes.drawCurve(data.times, data.median, {{}, 1.2, kVermilion, true}, drawing);
-  axes.drawCurve(data.times, data.mean, {{}, 1.2, kBlue, false}, drawing);
+  axes.drawCurve(data.times, data.median, {{}, 1.2, kPlotVermilion, true}, drawing);
+  axes.drawCurve(data.times, data.mean, {{}, 1.2, kPlotBlue, false}, drawing);
   axes.drawFrame(data.time_label, data.error_label, drawing);
   drawPlotTitle(data.title, axes, style.font_pt, drawing);
-  drawLegend({{"mean", kBlue}, {"median", kVermilion, false, true}, {"up to P95", kBand, true}},
-             {axes.left(), (2.5 - without_title) * style.font_pt}, style.font_pt, drawing);
+  drawLegend(
+      {{"mean", kPlotBlue}, {"median", kPlotVermilion, false, true}, {"up to P95", kBand, true}},
+      {axes.left(), (2.5 - without_title) * style.font_pt}, style.font_pt, drawing);
   return drawing;
 }
 
@@ -154,7 +156,7 @@ VectorDrawing drawErrorHistogram(const ErrorHistogramData& data, const PlotStyle
   axes.drawFrame(data.error_label, "points in the bin [%]", drawing);
   axes.drawRightAxis(all, "points below [%]", drawing);
   drawPlotTitle(data.title, axes, style.font_pt, drawing);
-  std::vector<LegendEntry> legend{{"histogram", kBars, true}, {"cumulative", kBlue}};
+  std::vector<LegendEntry> legend{{"histogram", kBars, true}, {"cumulative", kPlotBlue}};
   drawLegend(legend, {axes.left(), 2.5 * style.font_pt}, style.font_pt, drawing);
   if (data.share_beyond > 0) {
     char note[64];

@@ -6,11 +6,11 @@
 
 #include "core/error.h"
 #include "vtk_views/plot_axes.h"
+#include "vtk_views/plot_colours.h"
 
 namespace softscope {
 namespace {
 
-constexpr Rgb8 kBlue{0, 114, 178};
 constexpr std::size_t kMostDots = 120;  // more would only thicken the line
 
 AxisRange rangeOf(const std::vector<double>& values) {
@@ -34,10 +34,10 @@ VectorDrawing drawValueSeries(const ValueSeriesData& data, const PlotStyle& styl
   const PlotAxes axes =
       plotAxes(drawing, rangeOf(data.x), rangeOf(data.y), style.font_pt, {0.8, 1.2});
   axes.drawGrid(drawing);
-  axes.drawCurve(data.x, data.y, {{}, 1.0, kBlue, false}, drawing);
+  axes.drawCurve(data.x, data.y, {{}, 1.0, kPlotBlue, false}, drawing);
   DrawnDots dots;
   dots.diameter_pt = 2.2;
-  dots.colour = kBlue;
+  dots.colour = kPlotBlue;
   for (std::size_t i = 0; i < data.x.size(); ++i)
     if (std::isfinite(data.x[i]) && std::isfinite(data.y[i]))
       dots.centres.push_back(axes.at(data.x[i], data.y[i]));

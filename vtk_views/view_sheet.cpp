@@ -13,7 +13,8 @@ namespace {
 constexpr double kPixelsPerInch = 72;  // then a point is a pixel
 constexpr double kMargin = 14, kFont = 13, kSmall = 11;
 constexpr double kTrack = 15;  // the slider's height in the foot
-constexpr Rgb8 kDark{20, 20, 20}, kPale{200, 200, 200}, kGrey{110, 110, 110}, kBlue{0, 110, 170};
+constexpr Rgb8 kSheetDark{20, 20, 20}, kSheetPale{200, 200, 200}, kSheetGrey{110, 110, 110},
+    kSheetBlue{0, 110, 170};
 constexpr Rgb8 kLiveRed{200, 30, 35};
 
 DrawnText textAt(PointPt at, std::string words, double size_pt, Rgb8 colour) {
@@ -30,30 +31,32 @@ double placeX(double place, double width) { return kMargin + place * (width - 2 
 void drawSlider(const ViewFoot& foot, VectorDrawing& sheet) {
   const double width = sheet.width_pt;
   const double at = placeX(foot.places[std::size_t(foot.index)], width);
-  sheet.parts.emplace_back(DrawnLine{{{kMargin, kTrack}, {width - kMargin, kTrack}}, 3, kPale});
-  sheet.parts.emplace_back(DrawnLine{{{kMargin, kTrack}, {at, kTrack}}, 3, kBlue});
+  sheet.parts.emplace_back(
+      DrawnLine{{{kMargin, kTrack}, {width - kMargin, kTrack}}, 3, kSheetPale});
+  sheet.parts.emplace_back(DrawnLine{{{kMargin, kTrack}, {at, kTrack}}, 3, kSheetBlue});
   if (foot.places.size() <= 200)
     for (const double place : foot.places) {
       const double x = placeX(place, width);
-      sheet.parts.emplace_back(DrawnLine{{{x, kTrack + 4}, {x, kTrack + 8}}, 1, kGrey});
+      sheet.parts.emplace_back(DrawnLine{{{x, kTrack + 4}, {x, kTrack + 8}}, 1, kSheetGrey});
     }
-  sheet.parts.emplace_back(DrawnDots{{{at, kTrack}}, 13, kBlue});
+  sheet.parts.emplace_back(DrawnDots{{{at, kTrack}}, 13, kSheetBlue});
 }
 
 void drawWords(const ViewFoot& foot, VectorDrawing& sheet) {
   const double first = kSliderPx + 18;
-  DrawnText title = textAt({kMargin, first}, foot.title, kFont, kDark);
+  DrawnText title = textAt({kMargin, first}, foot.title, kFont, kSheetDark);
   title.bold = true;
   const double title_end = kMargin + textWidthPt(title);
   sheet.parts.emplace_back(std::move(title));
-  DrawnText going =
-      textAt({title_end + 10, first}, foot.going, kFont, foot.going == "live" ? kLiveRed : kDark);
+  DrawnText going = textAt({title_end + 10, first}, foot.going, kFont,
+                           foot.going == "live" ? kLiveRed : kSheetDark);
   going.bold = true;
   if (!foot.going.empty()) sheet.parts.emplace_back(std::move(going));
-  sheet.parts.emplace_back(textAt({kMargin, first + 17}, foot.status, kSmall, kDark));
-  sheet.parts.emplace_back(textAt(
-      {kMargin, first + 33},
-      foot.view + (foot.of_window ? "   h: keys" : "") + "   research use only", kSmall, kGrey));
+  sheet.parts.emplace_back(textAt({kMargin, first + 17}, foot.status, kSmall, kSheetDark));
+  sheet.parts.emplace_back(
+      textAt({kMargin, first + 33},
+             foot.view + (foot.of_window ? "   h: keys" : "") + "   research use only", kSmall,
+             kSheetGrey));
 }
 
 void drawBars(const ViewFoot& foot, VectorDrawing& sheet) {
@@ -67,13 +70,14 @@ void drawBars(const ViewFoot& foot, VectorDrawing& sheet) {
     style.font_pt = kSmall;
     style.line_pt = 1.6;
     const PanelPlace place{{left, kSliderPx}, sheet.width_pt, kViewFootPx - kSliderPx - 22.0};
-    drawScaleBar(foot.width_mm, place, kDark, style, sheet);
+    drawScaleBar(foot.width_mm, place, kSheetDark, style, sheet);
   }
   if (foot.colours) {
     drawColourBar(*foot.colours, foot.bar, {bar_left, kSliderPx + 6.0}, bar_width, kSmall, sheet);
     return;
   }
-  DrawnText text = textAt({sheet.width_pt - kMargin, kSliderPx + 18.0}, foot.colour, kSmall, kDark);
+  DrawnText text =
+      textAt({sheet.width_pt - kMargin, kSliderPx + 18.0}, foot.colour, kSmall, kSheetDark);
   text.anchor = TextAnchor::kEnd;
   sheet.parts.emplace_back(std::move(text));
 }
@@ -191,13 +195,13 @@ ColourImage drawViewHelp() {
   sheet.height_pt = kRow * double(viewKeys().size()) + 24;
   const double w = sheet.width_pt - 0.5, h = sheet.height_pt - 0.5;
   sheet.parts.emplace_back(
-      DrawnLine{{{0.5, 0.5}, {w, 0.5}, {w, h}, {0.5, h}, {0.5, 0.5}}, 1, kGrey});
+      DrawnLine{{{0.5, 0.5}, {w, 0.5}, {w, h}, {0.5, h}, {0.5, 0.5}}, 1, kSheetGrey});
   double y = 12 + kFont;
   for (const auto& [keys, meaning] : viewKeys()) {
-    DrawnText name = textAt({kMargin, y}, keys, 12, kDark);
+    DrawnText name = textAt({kMargin, y}, keys, 12, kSheetDark);
     name.bold = true;
     sheet.parts.emplace_back(std::move(name));
-    sheet.parts.emplace_back(textAt({kMargin + kKeys, y}, meaning, 12, kDark));
+    sheet.parts.emplace_back(textAt({kMargin + kKeys, y}, meaning, 12, kSheetDark));
     y += kRow;
   }
   return rasterise(sheet, kPixelsPerInch);

@@ -6,11 +6,12 @@
 
 #include "core/error.h"
 #include "vtk_views/plot_axes.h"
+#include "vtk_views/plot_colours.h"
 
 namespace softscope {
 namespace {
 
-constexpr Rgb8 kBlue{0, 114, 178}, kBand{190, 212, 232};
+constexpr Rgb8 kBand{190, 212, 232};
 
 void drawNumber(const PlotAxes& axes, double middle, int frame, double font_pt,
                 VectorDrawing& drawing) {
@@ -39,12 +40,12 @@ VectorDrawing drawWorstFrames(const WorstFramesData& data, const PlotStyle& styl
   for (std::size_t i = 0; i < count; ++i) {
     const double middle = static_cast<double>(i) + 1;
     axes.drawBar(middle, 0.4, data.p95[i], kBand, drawing);
-    axes.drawBar(middle, 0.25, data.mean[i], kBlue, drawing);
+    axes.drawBar(middle, 0.25, data.mean[i], kPlotBlue, drawing);
     drawNumber(axes, middle, data.frames[i], style.font_pt, drawing);
   }
   axes.drawFrame("frame, worst mean first", data.error_label, drawing, /*x_numbers=*/false);
   drawPlotTitle(data.title, axes, style.font_pt, drawing);
-  drawLegend({{"mean", kBlue, true}, {"up to P95", kBand, true}},
+  drawLegend({{"mean", kPlotBlue, true}, {"up to P95", kBand, true}},
              {axes.left(), 2.5 * style.font_pt}, style.font_pt, drawing);
   return drawing;
 }

@@ -10,6 +10,9 @@ namespace softscope {
 /// body writes only what belongs to its own range. `grain` is the smallest range worth a task.
 void parallelRanges(int count, int grain, const std::function<void(int begin, int end)>& body);
 
+/// A grain for loops over a point model.
+inline constexpr int kPointsATask = 4096;
+
 /// Calls body(v) for every row v of [0, rows).
 template <class Body>
 void parallelRows(int rows, const Body& body) {

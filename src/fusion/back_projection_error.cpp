@@ -15,7 +15,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kGrain = 4096;  // points a task
 constexpr int kCellPx = 4;    // squares in which nearer points hide others …
 constexpr float kHideMm = 1;  // … this far behind
 constexpr std::uint64_t kNobody = ~std::uint64_t{0};
@@ -35,7 +34,7 @@ class Drawing {
         surface_(camera.width_px, camera.height_px, kCellPx),
         nearest_(static_cast<std::size_t>(camera.width_px) * camera.height_px) {
     for (auto& pixel : nearest_) pixel.store(kNobody, std::memory_order_relaxed);
-    parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
+    parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) draw(i);
     });
   }

@@ -9,13 +9,11 @@
 namespace softscope {
 namespace {
 
-constexpr int kGrain = 8192;  // points a task
-
 /// Cells of all points; kNoCell for those that can't stay.
 std::vector<CellKey> cellsOf(const PointModel& model, float cell_mm) {
   std::vector<CellKey> keys(model.size());
   const Eigen::Vector3f cell = Eigen::Vector3f::Constant(cell_mm);
-  parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const float length = model.normals[i].squaredNorm();
       const bool stays = model.weights[i] > 0 && length > 0.25f && length < 4;

@@ -12,8 +12,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kGrain = 4096;  // points a task
-
 /// Distance to the nearest node that carries the point, mm; negative where none does.
 float nearestNodeMm(const WarpGraph& graph, const PointBinding& binding,
                     const Eigen::Vector3f& point_mm) {
@@ -182,7 +180,7 @@ PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observa
   summary.gain = estimateGain(*model, observation, visibility, colour_options);
   const Fuser fuser(graph, observation, options, colour_options, summary.gain, model);
   std::atomic<int> fused{0}, contradicted{0};
-  parallelRanges(static_cast<int>(model->size()), kGrain, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model->size()), kPointsATask, [&](int begin, int end) {
     int fused_here = 0, contradicted_here = 0;
     for (int k = begin; k < end; ++k) {
       const std::size_t i = static_cast<std::size_t>(k);

@@ -15,7 +15,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kGrain = 4096;        // points a task
 constexpr int kMostFootprint = 10;  // pixels
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
@@ -29,7 +28,7 @@ int footprintPx(float depth_mm, float focal_px, float spacing_mm) {
 NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
                          const PosedCamera& camera) {
   NearestSurface drawn(camera.width_px, camera.height_px, 1);
-  parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const int pixel = visibility.points[i].pixel;
       if (pixel < 0 || !(model.weights[i] > 0)) continue;
@@ -97,7 +96,7 @@ std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
   const float spacing_mm = static_cast<float>(options.spacing_mm);
   const Eigen::Vector3f cell_mm(spacing_mm, spacing_mm, static_cast<float>(options.band_mm));
   std::vector<CellKey> keys(candidates.size());
-  parallelRanges(static_cast<int>(candidates.size()), kGrain, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(candidates.size()), kPointsATask, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const std::int32_t i = candidates[k];
       const Eigen::Vector3f ray =

@@ -10,8 +10,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kGrain = 4096;  // points a task
-
 Sight sightOfState(PixelState state) {
   return state == PixelState::kMasked ? Sight::kMasked : Sight::kUnknown;
 }
@@ -44,7 +42,7 @@ void hideBehindModel(const PointModel& model, const PosedCamera& camera,
                      const NearestSurface& nearest, const VisibilityOptions& options,
                      Visibility* visibility) {
   const float margin_mm = static_cast<float>(options.occlusion_mm);
-  parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       PointSight& point = visibility->points[i];
       if (point.sight != Sight::kSeen && point.sight != Sight::kTurned) continue;
@@ -91,7 +89,7 @@ Visibility findVisible(const PointModel& model, const Observation& observation,
   NearestSurface nearest(camera.width_px, camera.height_px, options.occlusion_cell_px);
   Visibility visibility;
   visibility.points.resize(model.size());
-  parallelRanges(static_cast<int>(model.size()), kGrain, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
       visibility.points[i] =
           sightOf(camera.toLeft(model.positions_mm[i]), camera.left_from_world * model.normals[i],

@@ -71,6 +71,12 @@ LensDistortion distortionFrom(const std::vector<double>& values, const std::stri
   return out;
 }
 
+int wholePixels(double value, int least, const std::string& what) {
+  if (!(value >= least && value <= 1e6) || value != std::floor(value))
+    throw InputError(say(what, " is ", value, ", but a whole number of pixels is expected."));
+  return static_cast<int>(value);
+}
+
 Eigen::Isometry3d poseFrom(const std::vector<double>& rotation,
                            const std::vector<double>& translation, const std::string& rotation_what,
                            const std::string& translation_what) {

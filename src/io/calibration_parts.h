@@ -16,6 +16,9 @@ void setCameraMatrix(PinholeCamera& camera, const std::vector<double>& matrix,
 /// 0, 4, 5, 8, 12 or 14 numbers in OpenCV's order; of 14 the last two (tilt) must be 0.
 LensDistortion distortionFrom(const std::vector<double>& values, const std::string& what);
 
+/// A side of a picture. Throws InputError where it is no whole number from `least` to a million.
+int wholePixels(double value, int least, const std::string& what);
+
 /// A rotation (nine numbers, or three of a rotation vector) and a translation. Numbers rounded in
 /// the file are made a rotation again; what is none throws InputError.
 Eigen::Isometry3d poseFrom(const std::vector<double>& rotation,

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "io/calibration_forms.h"
+#include "io/calibration_parts.h"
 #include "io/message.h"
 #include "io/npy_file.h"
 
@@ -13,12 +14,6 @@ namespace {
 // A row is a 3 x 5 matrix (pose, then height, width, focal length in its fifth column), row-major,
 // and near and far bounds, which some files leave out.
 constexpr std::size_t kHeightColumn = 4, kWidthColumn = 9, kFocalColumn = 14;
-
-int pixels(double value, const std::string& what) {
-  if (!(value >= 1 && value <= 1e6) || value != std::floor(value))
-    throw InputError(say(what, " is ", value, ", but a whole number of pixels is expected."));
-  return static_cast<int>(value);
-}
 
 void requireOneCamera(const NpyArray& poses, const std::string& name) {
   for (std::size_t row = 1; row < poses.rows; ++row)
@@ -40,8 +35,8 @@ CalibrationDraft draftFromEndoNerf(std::string_view npy, const std::string& name
                          " columns, but poses_bounds.npy has 17 (or 15 without bounds)."));
   requireOneCamera(poses, name);
   PinholeCamera camera;
-  camera.width_px = pixels(poses.values[kWidthColumn], name + ": width");
-  camera.height_px = pixels(poses.values[kHeightColumn], name + ": height");
+  camera.width_px = wholePixels(poses.values[kWidthColumn], 1, name + ": width");
+  camera.height_px = wholePixels(poses.values[kHeightColumn], 1, name + ": height");
   camera.fx_px = camera.fy_px = poses.values[kFocalColumn];
   camera.cx_px = camera.width_px / 2.0;
   camera.cy_px = camera.height_px / 2.0;

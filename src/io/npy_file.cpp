@@ -14,12 +14,12 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kMostNumbers = 10'000'000;
 
-struct Header {
+struct NpyHeader {
   std::string_view text;
   std::size_t data_begin = 0;
 };
 
-Header headerOf(std::string_view bytes, const std::string& name) {
+NpyHeader npyHeaderOf(std::string_view bytes, const std::string& name) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
   const std::size_t length_bytes = bytes.size() > 6 && bytes[6] == 1 ? 2 : 4;
   const std::size_t begin = 8 + length_bytes;
@@ -69,7 +69,7 @@ void copyValues(std::string_view data, std::vector<double>& out) {
 bool isNpy(std::string_view bytes) { return bytes.substr(0, kMagic.size()) == kMagic; }
 
 NpyArray parseNpy(std::string_view bytes, const std::string& name) {
-  const Header header = headerOf(bytes, name);
+  const NpyHeader header = npyHeaderOf(bytes, name);
   const std::string_view type = entry(header.text, "'descr'").substr(0, 5);
   const bool is_double = type == "'<f8'";
   NpyArray out;

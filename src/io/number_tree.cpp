@@ -8,7 +8,7 @@ namespace softscope {
 namespace {
 
 // The largest matrix in any calibration is 3 x 4; a cap keeps errors short and memory small.
-constexpr std::size_t kMostNumbers = 64;
+constexpr std::size_t kMostInTree = 64;
 
 void append(const Document& document, const std::string& what, std::vector<double>& out);
 
@@ -35,9 +35,9 @@ void append(const Document& document, const std::string& what, std::vector<doubl
       throw InputError(say(what, " holds ", excerpt(word), ", but a number is expected."));
     out.push_back(*value);
   }
-  if (out.size() > kMostNumbers)
+  if (out.size() > kMostInTree)
     throw InputError(
-        say(what, " holds more than ", kMostNumbers, " numbers. Is it the right file?"));
+        say(what, " holds more than ", kMostInTree, " numbers. Is it the right file?"));
 }
 
 }  // namespace

@@ -25,19 +25,13 @@ std::vector<double> slice(const std::vector<double>& values, std::size_t begin, 
   return {first, first + static_cast<std::ptrdiff_t>(count)};
 }
 
-int pixels(double value, const std::string& what) {
-  if (!(value >= 1 && value <= 1e6) || value != std::floor(value))
-    throw InputError(say(what, " is ", value, ", but a whole number of pixels is expected."));
-  return static_cast<int>(value);
-}
-
 OpenCasCamera cameraFrom(const NumberRow& row, const std::string& what) {
   if (row.values.size() != kNumbersPerCamera)
     throw InputError(say(what, " (line ", row.line, ") has ", row.values.size(), " numbers, but ",
                          kNumbersPerCamera, " are expected. Copy the file again."));
   OpenCasCamera out;
-  out.camera.pinhole.width_px = pixels(row.values[0], what + ": width");
-  out.camera.pinhole.height_px = pixels(row.values[1], what + ": height");
+  out.camera.pinhole.width_px = wholePixels(row.values[0], 1, what + ": width");
+  out.camera.pinhole.height_px = wholePixels(row.values[1], 1, what + ": height");
   setCameraMatrix(out.camera.pinhole, slice(row.values, 2, 9), what + ": camera matrix");
   out.camera.distortion = distortionFrom(slice(row.values, 11, 8), what + ": distortion");
   out.camera_from_first = poseFrom(slice(row.values, 19, 9), slice(row.values, 28, 3),

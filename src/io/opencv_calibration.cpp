@@ -79,22 +79,16 @@ double singleNumber(const Members& members, const Aliases& names) {
   return values[0];
 }
 
-int pixels(double value, const std::string& what) {
-  if (!(value >= 0 && value <= 1e6) || value != std::floor(value))
-    throw InputError(say(what, " is ", value, ", but a whole number of pixels is expected."));
-  return static_cast<int>(value);
-}
-
 void setSize(const Members& members, StereoCalibration& out) {
   int width_px = 0, height_px = 0;
   if (members.find(kWidth) && members.find(kHeight)) {
-    width_px = pixels(singleNumber(members, kWidth), members.label(kWidth));
-    height_px = pixels(singleNumber(members, kHeight), members.label(kHeight));
+    width_px = wholePixels(singleNumber(members, kWidth), 0, members.label(kWidth));
+    height_px = wholePixels(singleNumber(members, kHeight), 0, members.label(kHeight));
   } else if (members.find(kSize)) {
     const std::vector<double> size = members.numbers(kSize);
     if (size.size() != 2) throw InputError(members.label(kSize) + " must be width and height.");
-    width_px = pixels(size[0], members.label(kSize));
-    height_px = pixels(size[1], members.label(kSize));
+    width_px = wholePixels(size[0], 0, members.label(kSize));
+    height_px = wholePixels(size[1], 0, members.label(kSize));
   }
   out.left.pinhole.width_px = out.right.pinhole.width_px = width_px;
   out.left.pinhole.height_px = out.right.pinhole.height_px = height_px;

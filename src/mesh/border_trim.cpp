@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::int32_t kNone = -1;
+constexpr std::int32_t kNoSide = -1;
 
 /// The triangle beyond each side, from corner k to the next.
 using Neighbours = std::vector<std::array<std::int32_t, 3>>;
@@ -31,7 +31,7 @@ Neighbours neighboursOf(const std::vector<Triangle>& triangles) {
     if (a.low != b.low) return a.low < b.low;
     return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
   });
-  Neighbours beyond(triangles.size(), {kNone, kNone, kNone});
+  Neighbours beyond(triangles.size(), {kNoSide, kNoSide, kNoSide});
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const Side &one = sides[i - 1], &other = sides[i];
     if (one.low != other.low || one.high != other.high) continue;
@@ -60,9 +60,9 @@ std::vector<Triangle> withoutSplinters(const std::vector<Eigen::Vector3f>& posit
   std::vector<char> kept(triangles.size(), 1);
   const auto isSplinter = [&](std::size_t i) {
     const auto& sides = beyond[i];
-    const auto held = std::find_if(sides.begin(), sides.end(), [](auto t) { return t != kNone; });
+    const auto held = std::find_if(sides.begin(), sides.end(), [](auto t) { return t != kNoSide; });
     if (held == sides.end()) return true;
-    if (std::count(sides.begin(), sides.end(), kNone) < 2) return false;
+    if (std::count(sides.begin(), sides.end(), kNoSide) < 2) return false;
     const auto tip = std::size_t(held - sides.begin() + 2) % 3;  // across from the one side
     return cosineAt(positions_mm, triangles[i], tip) > sharpest;
   };
@@ -74,9 +74,9 @@ std::vector<Triangle> withoutSplinters(const std::vector<Eigen::Vector3f>& posit
     if (!kept[i] || !isSplinter(i)) continue;
     kept[i] = 0;
     for (const std::int32_t neighbour : beyond[i]) {
-      if (neighbour == kNone) continue;
+      if (neighbour == kNoSide) continue;
       for (std::int32_t& back : beyond[std::size_t(neighbour)])
-        if (back == std::int32_t(i)) back = kNone;
+        if (back == std::int32_t(i)) back = kNoSide;
       suspects.push_back(neighbour);
     }
   }

@@ -98,7 +98,7 @@ Eigen::Isometry3d bestOfTrials(const PointPairs& pairs, const std::vector<int>& 
   for (*trials = 0; *trials < needed; ++*trials) {
     const std::vector<int> drawn = drawThree(usable, &random);
     if (!plausible(pairs, drawn, options.threshold_mm)) continue;
-    const Eigen::Isometry3d motion = fitRigid(pairs, drawn).target_from_source;
+    const Eigen::Isometry3d motion = fitPairs(pairs, drawn).target_from_source;
     const double score = truncatedScore(pairs, usable, motion.cast<float>(), limit, best_score);
     if (score >= best_score) continue;
     best = motion;
@@ -162,7 +162,7 @@ RigidPose estimateRigidPose(const PointPairs& pairs, const RansacOptions& option
       pose.failure = tooFew(inliers.size(), "inliers", needed);
       return pose;
     }
-    const RigidFit fit = fitRigid(pairs, inliers);
+    const PairFit fit = fitPairs(pairs, inliers);
     if (!(fit.spread_mm >= options.min_spread_mm)) {
       pose.failure = "the inliers lie on a line, which leaves the rotation about it open";
       return pose;

@@ -17,7 +17,7 @@ struct RansacOptions {
   int refits = 2;              // fits to all inliers, each followed by a new choice of inliers
   int min_inliers = 12;        // fewer are no pose
   double min_share = 0.2;      // of the usable pairs that must be inliers
-  double min_spread_mm = 0.5;  // of the inliers across their line, see RigidFit
+  double min_spread_mm = 0.5;  // of the inliers across their line, see PairFit
   std::uint32_t seed = 1;
 
   /// Throws OptionError: the field, its value, the rule it breaks.

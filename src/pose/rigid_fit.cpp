@@ -38,8 +38,8 @@ Moments momentsOf(const PointPairs& pairs, const std::vector<int>& chosen) {
 
 }  // namespace
 
-RigidFit fitRigid(const PointPairs& pairs, const std::vector<int>& chosen) {
-  RigidFit fit;
+PairFit fitPairs(const PointPairs& pairs, const std::vector<int>& chosen) {
+  PairFit fit;
   if (chosen.size() < 3) return fit;
   const Moments m = momentsOf(pairs, chosen);
   if (!(m.weight > 0)) return fit;

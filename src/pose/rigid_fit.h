@@ -17,7 +17,7 @@ struct PointPairs {
   float weight(std::size_t i) const { return weights.empty() ? 1.0f : weights[i]; }
 };
 
-struct RigidFit {
+struct PairFit {
   Eigen::Isometry3d target_from_source = Eigen::Isometry3d::Identity();
   /// Weighted standard deviation of the sources across the line that fits them best, mm; near 0,
   /// the points lie on a line and the rotation about it is arbitrary.
@@ -26,6 +26,6 @@ struct RigidFit {
 
 /// Least squares in closed form (Kabsch 1976, Horn 1987) over the chosen pairs; never a
 /// reflection. Fewer than three pairs, or no weight, give the identity and no spread.
-RigidFit fitRigid(const PointPairs& pairs, const std::vector<int>& chosen);
+PairFit fitPairs(const PointPairs& pairs, const std::vector<int>& chosen);
 
 }  // namespace softscope

@@ -11,7 +11,6 @@
 namespace softscope::test {
 namespace {
 
-using Json = FactSheet::Json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -103,7 +102,7 @@ TEST_F(StudyFile, SaysWhatIsWrongBeforeAnyWork) {
 /// One sweep of three levels with a mean of 0.1, 0.7 and none.
 struct Swept {
   Study study;
-  std::vector<Json> records;
+  std::vector<FactSheet::Json> records;
 
   Swept() {
     study.title = "Noise & <blur>";
@@ -115,7 +114,7 @@ struct Swept {
       one.sweep = "noise";
       one.level = level;
       study.cases.push_back(one);
-      Json record{{"name", one.name}, {"status", "done"}, {"reason", ""}};
+      FactSheet::Json record{{"name", one.name}, {"status", "done"}, {"reason", ""}};
       record["run"]["fused_share"] = 1.0;
       record["evaluation"]["tracks"]["mean_mm"] = level == 1 ? 0.1 : 0.7;
       records.push_back(record);
@@ -139,14 +138,14 @@ TEST(StudyTable, SaysWhereASweepBreaks) {
 TEST(StudyTable, LevelsThatWereNotRunDoNotHold) {
   Swept swept;
   swept.study.plots[0].limit = 1;
-  swept.records[2] = Json();
+  swept.records[2] = FactSheet::Json();
   EXPECT_THAT(studyTable(swept.study, swept.records).notes,
               ElementsAre("points, noise: holds at 1, 2; not run: 3"));
   swept.records[0] = {{"name", "noise-1"}, {"status", "outdated"}, {"reason", "changed"}};
   swept.study.plots[0].limit = 0.5;
   EXPECT_THAT(studyTable(swept.study, swept.records).notes,
               ElementsAre("noise-1: changed", "points, noise: breaks at 2; not run: 1, 3"));
-  swept.records[1] = Json();
+  swept.records[1] = FactSheet::Json();
   EXPECT_TRUE(breaksOf(swept.study, swept.records).empty()) << "nothing is known";
 }
 
@@ -171,7 +170,8 @@ TEST(StudyTable, CellsThatWouldBreakACsvAreQuoted) {
 
 TEST(StudyPage, HoldsTheFiguresAndEscapesTexts) {
   const Swept swept;
-  const Json record = studyJson(swept.study, swept.records, "softscope study s.toml --out s");
+  const FactSheet::Json record =
+      studyJson(swept.study, swept.records, "softscope study s.toml --out s");
   const auto figures = studyFigures(swept.study, swept.records);
   ASSERT_EQ(figures.size(), 1u);
   EXPECT_EQ(figures[0].first, "noise_points");

@@ -14,7 +14,7 @@
 namespace softscope {
 namespace {
 
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoPlace = std::numeric_limits<float>::quiet_NaN();
 
 /// 80 x 64 pixels, f 100 px, baseline 5 mm: at 50 mm a pixel is half a millimetre, the
 /// disparity 10.
@@ -148,7 +148,7 @@ TEST(ModelErrors, NoPointsAndAForeignDepthAreRefused) {
 
 TEST(ModelErrors, UnknownDepthShowsNothing) {
   Moment moment;
-  moment.depth_mm = Raster<float>(80, 64, kNone);
+  moment.depth_mm = Raster<float>(80, 64, kNoPlace);
   const ModelErrors errors = modelErrors({{0, 0, 50}}, moment.truth());
   EXPECT_EQ(errors.each_observed[0], 0);
   EXPECT_TRUE(std::isnan(errors.both.share)) << "no tissue: a share of nothing is no number";

@@ -11,24 +11,24 @@
 namespace softscope {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRounding = 1e-12;  // sums of a few doubles near 10
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSumRounding = 1e-12;  // sums of a few doubles near 10
 
 TEST(Statistics, AreThoseOfTheDefinition) {
   const Statistics s = statistics({4, -1, 7, 2, 3});
   EXPECT_EQ(s.count, 5u);
   EXPECT_EQ(s.nan_count, 0u);
-  EXPECT_NEAR(s.mean, 3, kRounding);
-  EXPECT_NEAR(s.sd, std::sqrt(34.0 / 5), kRounding);    // 1 + 16 + 16 + 1 + 0
-  EXPECT_NEAR(s.rmse, std::sqrt(79.0 / 5), kRounding);  // 16 + 1 + 49 + 4 + 9
+  EXPECT_NEAR(s.mean, 3, kSumRounding);
+  EXPECT_NEAR(s.sd, std::sqrt(34.0 / 5), kSumRounding);    // 1 + 16 + 16 + 1 + 0
+  EXPECT_NEAR(s.rmse, std::sqrt(79.0 / 5), kSumRounding);  // 16 + 1 + 49 + 4 + 9
   EXPECT_EQ(s.min, -1);
   EXPECT_EQ(s.median, 3);
-  EXPECT_NEAR(s.p95, 4 + 0.8 * 3, kRounding);  // rank 3.8 of -1 2 3 4 7
+  EXPECT_NEAR(s.p95, 4 + 0.8 * 3, kSumRounding);  // rank 3.8 of -1 2 3 4 7
   EXPECT_EQ(s.max, 7);
 }
 
 TEST(Statistics, LeaveNaNsOutAndCountThem) {
-  const Statistics s = statistics({kNaN, 1, kNaN, 3});
+  const Statistics s = statistics({kNotANumber, 1, kNotANumber, 3});
   EXPECT_EQ(s.count, 2u);
   EXPECT_EQ(s.nan_count, 2u);
   EXPECT_EQ(s.mean, 2);
@@ -37,7 +37,7 @@ TEST(Statistics, LeaveNaNsOutAndCountThem) {
 }
 
 TEST(Statistics, OfNothingAreNaNNotZero) {
-  for (const std::vector<double>& values : {std::vector<double>{}, {kNaN, kNaN}}) {
+  for (const std::vector<double>& values : {std::vector<double>{}, {kNotANumber, kNotANumber}}) {
     const Statistics s = statistics(values);
     EXPECT_EQ(s.count, 0u);
     EXPECT_EQ(s.nan_count, values.size());
@@ -57,28 +57,29 @@ TEST(Statistics, OfOneValueAreThatValue) {
 
 TEST(Statistics, KeepTheSpreadOfValuesFarFromZero) {
   // Mean of squares less square of mean would lose it: 1e18 carries no more than 128.
-  EXPECT_NEAR(statistics({1e9 - 1, 1e9 + 1}).sd, 1, kRounding);
+  EXPECT_NEAR(statistics({1e9 - 1, 1e9 + 1}).sd, 1, kSumRounding);
 }
 
 TEST(Percentiles, AgreeWithNumpy) {
   // numpy.percentile([15, 20, 35, 40, 50, 1.5], [0, 5, 25, 40, 50, 90, 99.5, 100])
   const std::vector<double> expected = {1.5, 4.875, 16.25, 20, 27.5, 45, 49.75, 50};
   const std::vector<double> found =
-      percentiles({15, 20, 35, kNaN, 40, 50, 1.5}, {0, 5, 25, 40, 50, 90, 99.5, 100});
+      percentiles({15, 20, 35, kNotANumber, 40, 50, 1.5}, {0, 5, 25, 40, 50, 90, 99.5, 100});
   ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], kRounding) << i;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], kSumRounding) << i;
 }
 
 TEST(Percentiles, RefuseWhatIsNoPercentage) {
   EXPECT_THROW(percentiles({1, 2}, {101}), OptionError);
   EXPECT_THROW(percentiles({1, 2}, {-1}), OptionError);
-  EXPECT_THROW(percentiles({1, 2}, {kNaN}), OptionError);
+  EXPECT_THROW(percentiles({1, 2}, {kNotANumber}), OptionError);
   EXPECT_TRUE(std::isnan(percentiles({}, {50}).front()));
 }
 
 TEST(PercentAbove, IsStrictAndLeavesNaNsOut) {
-  EXPECT_EQ(percentAbove({1, 2, 3, kNaN, 4}, 2), 50);
-  EXPECT_TRUE(std::isnan(percentAbove({kNaN}, 2)));
+  EXPECT_EQ(percentAbove({1, 2, 3, kNotANumber, 4}, 2), 50);
+  EXPECT_TRUE(std::isnan(percentAbove({kNotANumber}, 2)));
 }
 
 }  // namespace

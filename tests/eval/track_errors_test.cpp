@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kTrackRounding = 1e-12;
 
 Eigen::Isometry3d shift(double x_mm) { return Eigen::Isometry3d(Eigen::Translation3d(x_mm, 0, 0)); }
 
@@ -21,16 +21,16 @@ TEST(TrackErrors, MovesEstimatesIntoTheTrueWorldAndSetsTheControlBesideThem) {
                                           {1, 1, {7, 0, 2}, false}};  // 2 mm off
   const TrackErrors errors = trackErrors(truth, estimate, {{0, shift(0)}, {1, shift(2)}}, {{1, 0}});
   ASSERT_EQ(errors.each.size(), 4u);
-  EXPECT_NEAR(errors.predicted_mm.mean, 1, kRounding) << "what truth calls unseen";
-  EXPECT_NEAR(errors.observed_mm.mean, 2.0 / 3, kRounding);
-  EXPECT_NEAR(errors.each[2].error_mm, 1, kRounding);
-  EXPECT_NEAR(errors.each[2].control_mm, 3, kRounding);
-  EXPECT_NEAR(errors.error_mm.mean, 0.75, kRounding);
-  EXPECT_NEAR(errors.control_mm.mean, 1.75, kRounding);
-  EXPECT_NEAR(errors.last_frame_mm.mean, 1.5, kRounding);
-  EXPECT_NEAR(errors.visible_mm.mean, 1.0 / 3, kRounding);
-  EXPECT_NEAR(errors.hidden_mm.mean, 2, kRounding);
-  EXPECT_NEAR(errors.reported_share, 1, kRounding);
+  EXPECT_NEAR(errors.predicted_mm.mean, 1, kTrackRounding) << "what truth calls unseen";
+  EXPECT_NEAR(errors.observed_mm.mean, 2.0 / 3, kTrackRounding);
+  EXPECT_NEAR(errors.each[2].error_mm, 1, kTrackRounding);
+  EXPECT_NEAR(errors.each[2].control_mm, 3, kTrackRounding);
+  EXPECT_NEAR(errors.error_mm.mean, 0.75, kTrackRounding);
+  EXPECT_NEAR(errors.control_mm.mean, 1.75, kTrackRounding);
+  EXPECT_NEAR(errors.last_frame_mm.mean, 1.5, kTrackRounding);
+  EXPECT_NEAR(errors.visible_mm.mean, 1.0 / 3, kTrackRounding);
+  EXPECT_NEAR(errors.hidden_mm.mean, 2, kTrackRounding);
+  EXPECT_NEAR(errors.reported_share, 1, kTrackRounding);
 }
 
 TEST(TrackErrors, CountsWhatItCannotJudge) {
@@ -44,7 +44,7 @@ TEST(TrackErrors, CountsWhatItCannotJudge) {
   EXPECT_EQ(errors.each.size(), 1u);
   EXPECT_EQ(errors.without_truth, 3u);
   EXPECT_EQ(errors.lost, 1u);
-  EXPECT_NEAR(errors.reported_share, 0.5, kRounding);
+  EXPECT_NEAR(errors.reported_share, 0.5, kTrackRounding);
   EXPECT_EQ(errors.last_frame_mm.count, 0u) << "the last frame is 6, where the point was lost";
 }
 

@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kRounding = 1e-9;  // double, lengths of some 100 mm
+constexpr double kLengthRounding = 1e-9;  // double, lengths of some 100 mm
 using Poses = std::vector<Eigen::Isometry3d>;
 
 Eigen::Isometry3d pose(const Eigen::Vector3d& translation_mm, double angle_deg = 0,
@@ -40,9 +40,9 @@ TEST(TrajectoryErrors, AnotherWorldIsAlignedAwayButSeenBefore) {
   const TrajectoryErrors errors = trajectoryErrors(truth, estimate);
 
   EXPECT_TRUE(errors.alignment_unique);
-  EXPECT_LT(errors.absolute.translation_mm.max, kRounding);
+  EXPECT_LT(errors.absolute.translation_mm.max, kLengthRounding);
   EXPECT_LT(errors.absolute.rotation_deg.max, 1e-6);
-  EXPECT_LT(errors.relative.translation_mm.max, kRounding);
+  EXPECT_LT(errors.relative.translation_mm.max, kLengthRounding);
   EXPECT_TRUE(errors.truth_from_estimate.isApprox(moved.inverse(), 1e-9));
   EXPECT_NEAR(errors.unaligned.rotation_deg.mean, 30, 1e-9);
   EXPECT_GT(errors.unaligned.translation_mm.mean, 10);
@@ -55,14 +55,14 @@ TEST(TrajectoryErrors, AShiftOfOnePoseIsTwoWrongStepsAndOneWrongPose) {
 
   const TrajectoryErrors errors = trajectoryErrors(truth, estimate);
 
-  EXPECT_NEAR(errors.unaligned.each_mm[4], 5, kRounding);
-  EXPECT_NEAR(errors.unaligned.translation_mm.rmse, 5 / std::sqrt(10.0), kRounding);
+  EXPECT_NEAR(errors.unaligned.each_mm[4], 5, kLengthRounding);
+  EXPECT_NEAR(errors.unaligned.translation_mm.rmse, 5 / std::sqrt(10.0), kLengthRounding);
   ASSERT_EQ(errors.relative.each_mm.size(), 9u);
-  EXPECT_NEAR(errors.relative.each_mm[3], 5, kRounding);
-  EXPECT_NEAR(errors.relative.each_mm[4], 5, kRounding);
-  EXPECT_NEAR(errors.relative.translation_mm.mean, 10.0 / 9, kRounding);
+  EXPECT_NEAR(errors.relative.each_mm[3], 5, kLengthRounding);
+  EXPECT_NEAR(errors.relative.each_mm[4], 5, kLengthRounding);
+  EXPECT_NEAR(errors.relative.translation_mm.mean, 10.0 / 9, kLengthRounding);
   // A still truth is met best by the mean of the positions: a spread of 5 * sqrt(0.1 * 0.9).
-  EXPECT_NEAR(errors.absolute.translation_mm.rmse, 5 * std::sqrt(0.09), kRounding);
+  EXPECT_NEAR(errors.absolute.translation_mm.rmse, 5 * std::sqrt(0.09), kLengthRounding);
   EXPECT_FALSE(errors.alignment_unique);
   EXPECT_TRUE(std::isnan(errors.absolute.rotation_deg.mean));
 }
@@ -76,9 +76,9 @@ TEST(TrajectoryErrors, ASquareOfAnotherSizeHasTheErrorOfItsCorners) {
   }
   const TrajectoryErrors errors = trajectoryErrors(truth, estimate);
   // No scale is estimated: each corner stays 1 mm off, each side sqrt(2) mm.
-  EXPECT_NEAR(errors.absolute.translation_mm.rmse, 1, kRounding);
-  EXPECT_NEAR(errors.absolute.translation_mm.max, 1, kRounding);
-  EXPECT_NEAR(errors.relative.translation_mm.rmse, std::sqrt(2), kRounding);
+  EXPECT_NEAR(errors.absolute.translation_mm.rmse, 1, kLengthRounding);
+  EXPECT_NEAR(errors.absolute.translation_mm.max, 1, kLengthRounding);
+  EXPECT_NEAR(errors.relative.translation_mm.rmse, std::sqrt(2), kLengthRounding);
 }
 
 TEST(TrajectoryErrors, ADriftThatTurnsIsAConstantStepError) {
@@ -88,8 +88,8 @@ TEST(TrajectoryErrors, ADriftThatTurnsIsAConstantStepError) {
   for (std::size_t i = 1; i < truth.size(); ++i)
     estimate.push_back(estimate.back() * (truth[i - 1].inverse() * truth[i]) * wrong);
   const TrajectoryErrors errors = trajectoryErrors(truth, estimate);
-  EXPECT_NEAR(errors.relative.translation_mm.median, 0.1, kRounding);
-  EXPECT_NEAR(errors.relative.translation_mm.sd, 0, kRounding);
+  EXPECT_NEAR(errors.relative.translation_mm.median, 0.1, kLengthRounding);
+  EXPECT_NEAR(errors.relative.translation_mm.sd, 0, kLengthRounding);
   EXPECT_NEAR(errors.relative.rotation_deg.mean, 0.2, 1e-6);
 }
 

@@ -17,7 +17,7 @@
 namespace softscope {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoCoordinate = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Tree and brute force both compute in double from the same floats: below 1 m they differ by
@@ -303,7 +303,7 @@ TEST(TriangleTree, KeepsTheSideAcrossASeamOfFlatTriangles) {
 TEST(TriangleTree, LeavesPointsThatAreNotFiniteWithoutAnswer) {
   const TriangleTree tree(makeSphere(12, 7, 10));
   const std::vector<ClosestPoint> found = tree.closestPoints(
-      {{0, kNaN, 0}, {20, 0, 0}, {kInfinity, 0, 0}, {0, 0, -kInfinity}, {1e30f, 0, 0}});
+      {{0, kNoCoordinate, 0}, {20, 0, 0}, {kInfinity, 0, 0}, {0, 0, -kInfinity}, {1e30f, 0, 0}});
   for (const std::size_t i : {0, 2, 3, 4}) {
     EXPECT_TRUE(std::isnan(found[i].distance_mm)) << i;
     EXPECT_TRUE(std::isnan(found[i].signed_distance_mm)) << i;
@@ -325,7 +325,7 @@ TEST(TriangleTree, RefusesWhatIsNoSurface) {
   EXPECT_THROW(TriangleTree{mesh}, InputError);
   mesh.triangles = {{0, 1, 2}};
   EXPECT_NO_THROW(TriangleTree{mesh});
-  mesh.vertices_mm[1].y() = kNaN;
+  mesh.vertices_mm[1].y() = kNoCoordinate;
   EXPECT_THROW(TriangleTree{mesh}, InputError);
   mesh.vertices_mm[1].y() = 2e6f;
   EXPECT_THROW(TriangleTree{mesh}, InputError);

@@ -13,7 +13,7 @@
 namespace softscope {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 /// Colour of the tissue at a place, for red, green and blue alike.
 double grayAt(const Eigen::Vector3d& place_mm) {
@@ -136,7 +136,7 @@ TEST(ModelView, FollowsTheCamera) {
 TEST(ModelView, BadPointsAreLeftOut) {
   PointModel model;
   const Eigen::Vector3f facing(0, 0, -1);
-  model.add({kNan, 0, 50}, facing, {1, 1, 1}, 1);
+  model.add({kNothing, 0, 50}, facing, {1, 1, 1}, 1);
   model.add({0, 0, std::numeric_limits<float>::infinity()}, facing, {1, 1, 1}, 1);
   model.add({0, 0, -50}, facing, {1, 1, 1}, 1);    // behind the camera
   model.add({0, 0, 0}, facing, {1, 1, 1}, 1);      // inside it
@@ -144,7 +144,7 @@ TEST(ModelView, BadPointsAreLeftOut) {
   model.add({1e30f, 0, 1e30f}, facing, {1, 1, 1}, 1);
   const ModelView view = renderModelView(model, camera(), kHome, {});
   for (const std::int32_t point : view.point_index.values) EXPECT_LT(point, 0);
-  model.add({0, 0, 50}, {kNan, 0, 0}, {5, 5, 5}, 1);  // without a normal it faces us
+  model.add({0, 0, 50}, {kNothing, 0, 0}, {5, 5, 5}, 1);  // without a normal it faces us
   EXPECT_EQ(renderModelView(model, camera(), kHome, {}).point_index.at(160, 120), 6);
   EXPECT_TRUE(std::isnan(renderModelView({}, camera(), kHome, {}).depth_mm.at(0, 0)));
 }

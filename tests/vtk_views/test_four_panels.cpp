@@ -11,6 +11,7 @@
 #include "tests/support/data_folder.h"
 #include "vtk_views/box_mesh.h"
 #include "vtk_views/colour_map.h"
+#include "vtk_views/drawing_parts.h"
 #include "vtk_views/four_panels.h"
 #include "vtk_views/plane_contours.h"
 #include "vtk_views/slice_panel.h"
@@ -33,14 +34,6 @@ FourPanelOptions optionsFor(const Scene& scene) {
   options.centre_mm = {15, -7, 0};  // all three planes cut both boxes
   options.width_mm = sceneWidthMm(scene);
   return options;
-}
-
-template <class Part>
-std::vector<Part> partsOf(const VectorDrawing& drawing) {
-  std::vector<Part> parts;
-  for (const auto& part : drawing.parts)
-    if (std::holds_alternative<Part>(part)) parts.push_back(std::get<Part>(part));
-  return parts;
 }
 
 std::multiset<std::string> wordsOfDrawing(const VectorDrawing& drawing) {
