@@ -31,9 +31,10 @@ ReconstructOptions optionsOf(const fs::path& run) {
     throw InputError(shown(file) + ": says nothing of the run's settings; reconstruct again");
   Settings settings;
   for (const auto& [key, value] : record["configuration"].items()) {
-    addAssignment(settings,
-                  key + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
-    settings[key].origin = shown(file);
+    if (!value.is_string()) addAssignment(settings, key + "=" + value.dump());
+    Setting& setting = settings[key];
+    if (value.is_string()) setting.value = setting.text = value.get<std::string>();
+    setting.origin = shown(file);
   }
   ReconstructOptions options("default");
   SettingsBinder binder;
