@@ -65,7 +65,6 @@ void sumUp(SurfaceSeries& series) {
   series.jitter_rms_mm = statistics(series.second_differences_mm).rmse;
 }
 
-/// Of the run's own clock; NaN for a frame without a pose.
 }  // namespace
 
 double SurfaceSeries::meanOfView(const std::function<double(const ViewErrors&)>& value) const {

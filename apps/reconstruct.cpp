@@ -135,11 +135,11 @@ int ReconstructCommand::run() {
   require(checkpoint_every_ >= 1, "--checkpoint-every", checkpoint_every_, "must be 1 or more");
 
   const SequencePaths where = source_.paths("reconstruct");
+  const std::vector<TrackSeed> tracked = seeds();
+  RunFolder folder({out_, save_every_, !tracked.empty(), force_}, resume_);
   const FrameDepthOptions& depth = options.method.depth;
   if (depth.source == "stereo" || where.depth.empty())
     settleRightOffset(where, options.sequence, depth.stereo.disparity_max_px);
-  const std::vector<TrackSeed> tracked = seeds();
-  RunFolder folder({out_, save_every_, !tracked.empty(), force_}, resume_);
   Checkpoint checkpoint{digestOf(where, binder), options.sequence.frames.begin, {}};
   const std::optional<Checkpoint> earlier = resume_ ? folder.readCheckpoint() : std::nullopt;
   if (resume_ && !earlier)

@@ -12,10 +12,6 @@ namespace {
 
 using Kind = ReportCase::Kind;
 
-void addTable(ReportTable table, std::vector<ReportPart>& parts) {
-  if (!table.rows.empty()) parts.emplace_back(std::move(table));
-}
-
 /// The matrix that moved the model, where the record has one.
 std::string motionText(const ReportCase& c) {
   const auto pointer = FactSheet::Json::json_pointer(

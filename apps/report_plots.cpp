@@ -8,12 +8,6 @@
 namespace softscope {
 namespace {
 
-bool rises(const std::vector<double>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]) || (i > 0 && values[i] <= values[i - 1])) return false;
-  return true;
-}
-
 /// Empty where the list isn't one of numbers.
 std::vector<double> numbersAt(const FactSheet::Json& list) {
   std::vector<double> numbers;
@@ -26,6 +20,12 @@ std::vector<double> numbersAt(const FactSheet::Json& list) {
 }
 
 }  // namespace
+
+bool rises(const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]) || (i > 0 && values[i] <= values[i - 1])) return false;
+  return true;
+}
 
 std::optional<CaptionedFigure> seriesFigure(const ReportCase& c) {
   ErrorSeriesData data;

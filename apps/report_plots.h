@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/report_case.h"
 #include "vtk_views/vector_drawing.h"
@@ -11,6 +12,9 @@
 namespace softscope {
 
 using CaptionedFigure = std::pair<VectorDrawing, std::string>;
+
+/// Whether a curve may be drawn over these values: finite, each above the one before.
+bool rises(const std::vector<double>& values);
 
 /// Error over the judged moments; none for a pair, a single moment, or a record without frames.
 std::optional<CaptionedFigure> seriesFigure(const ReportCase& c);

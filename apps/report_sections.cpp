@@ -168,10 +168,6 @@ ReportParagraph confidence(const ReportCase& c, const ReportChoices& choices) {
           "differ by more."};
 }
 
-void addTable(ReportTable table, std::vector<ReportPart>& parts) {
-  if (!table.rows.empty()) parts.emplace_back(std::move(table));
-}
-
 ReportTable thresholdsTable(const ReportCase& c) {
   ReportTable table{"Limits set at the comparison", {"fails if", "value", "outcome"}, {}, true};
   if (!c.record.contains("thresholds") || !c.record["thresholds"].is_array()) return table;

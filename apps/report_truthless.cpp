@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "apps/report_plots.h"
 #include "apps/report_words.h"
 #include "vtk_views/value_series_plot.h"
 
@@ -24,12 +25,6 @@ ValueSeriesData valuesOver(const ReportCase& c, const std::string& x, const std:
     data.y.push_back(value);
   }
   return data;
-}
-
-bool rises(const std::vector<double>& values) {
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (!(values[i] > values[i - 1])) return false;
-  return true;
 }
 
 /// A clip without timestamps counts frames as seconds: then a time says nothing.

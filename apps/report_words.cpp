@@ -59,4 +59,8 @@ ReportTable valueTable(const std::string& caption, const std::string& heading,
   return table;
 }
 
+void addTable(ReportTable table, std::vector<ReportPart>& parts) {
+  if (!table.rows.empty()) parts.emplace_back(std::move(table));
+}
+
 }  // namespace softscope

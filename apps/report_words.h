@@ -23,6 +23,9 @@ struct NamedPart {
 ReportTable statisticsTable(const std::string& caption, const FactSheet::Json& record,
                             const std::vector<NamedPart>& parts);
 
+/// Leaves a table without rows out.
+void addTable(ReportTable table, std::vector<ReportPart>& parts);
+
 /// Rows of one value each; those that weren't measured are left out.
 ReportTable valueTable(const std::string& caption, const std::string& heading,
                        const FactSheet::Json& record, const std::vector<NamedPart>& values);

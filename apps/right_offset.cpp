@@ -2,9 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <deque>
-#include <optional>
 
 #include "io/sequence_reader.h"
 #include "stereo/rectifier.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kFrames = 120;  // looked at: some seconds, breathing moves tissue in them
 constexpr int kMoments = 12;  // compared among these
-constexpr int kReach = SynchronyMeter::kReach;
+constexpr std::size_t kReach = SynchronyMeter::kReach;
 
 /// Successive pairs; the one in the middle is compared with all right pictures.
 using Window = std::deque<StereoPair>;
@@ -24,16 +24,15 @@ void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter&
   std::array<GrayImage, SynchronyMeter::kOffsets> rights;
   GrayImage left;
   for (std::size_t k = 0; k < rights.size(); ++k) {
-    const StereoPair pair = rectifier.rectify({window[kReach].left, window[k].right});
+    const StereoPair pair = rectifier.rectify(window[k]);
     rights[k] = toGray(pair.right);
-    left = toGray(pair.left);
+    if (k == kReach) left = toGray(pair.left);
   }
   meter.add(left, rights);
 }
 
-ViewSynchrony measure(const SequencePaths& paths, SequenceOptions options, int disparity_max_px) {
-  FrameRange& range = options.frames;
-  if (range.end < 0 || range.end > range.begin + kFrames) range.end = -1;
+ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options,
+                      int disparity_max_px) {
   SequenceReader reader(paths, options);
   const int step = std::max(1, std::min(reader.frameCount(), kFrames) / kMoments);
   const Rectifier rectifier(reader.calibration());

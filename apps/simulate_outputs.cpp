@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/calibration_writer.h"
 #include "io/depth_files.h"
+#include "io/folder.h"
 #include "io/image_writer.h"
 #include "io/message.h"
 #include "io/trajectory_file.h"
@@ -129,9 +130,7 @@ SimulateOutputs::SimulateOutputs(SimulateOutputOptions options, const std::strin
 }
 
 fs::path SimulateOutputs::numbered(const char* folder, int index, const std::string& end) const {
-  char name[16];
-  std::snprintf(name, sizeof name, "%06d.", index);
-  return options_.folder / folder / (name + end);
+  return options_.folder / folder / numberedName(index, "." + end);
 }
 
 void SimulateOutputs::writePicture(const char* folder, int index,

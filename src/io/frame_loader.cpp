@@ -34,11 +34,11 @@ void requireCount(std::size_t found, int expected, const fs::path& path, const c
 }  // namespace
 
 FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& options)
-    : options_(options) {
+    : options_(options), right_offset_(options.rightOffset()) {
   options.validate();
   requireSequence(paths);
   is_packed_ = !paths.stereo.empty();
-  if (is_packed_ && options.rightOffset() != 0)
+  if (is_packed_ && right_offset_ != 0)
     throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
                           shown(paths.stereo), " are in the same pictures. Leave it at auto."));
   const fs::path& first = is_packed_ ? paths.stereo : paths.left;
@@ -48,7 +48,7 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   if (!paths.right.empty()) {
     right_ = openPictures(paths.right);
     requirePartners(view, {paths.right, right_->files(), right_->count()});
-    if (std::abs(options.rightOffset()) >= count_)
+    if (std::abs(right_offset_) >= count_)
       throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but there are ",
                             count_, " pictures: no two would belong together."));
   }
@@ -61,9 +61,7 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   calibration_ = readCalibration(paths.calibration, options.calibration);
 }
 
-int FrameLoader::firstWithPartner() const {
-  return right_ ? std::max(0, -options_.rightOffset()) : 0;
-}
+int FrameLoader::firstWithPartner() const { return right_ ? std::max(0, -right_offset_) : 0; }
 
 bool FrameLoader::survivesErrors() const {
   return left_->survivesErrors() && (!right_ || right_->survivesErrors());
@@ -93,8 +91,7 @@ Frame FrameLoader::load(int index) {
 
 StereoPair FrameLoader::readPair(int index) {
   if (!is_packed_)
-    return {left_->read(index),
-            right_ ? right_->read(index + options_.rightOffset()) : ColourImage{}};
+    return {left_->read(index), right_ ? right_->read(index + right_offset_) : ColourImage{}};
   const ColourImage packed = left_->read(index);
   const PinholeCamera& camera = calibration_.left.pinhole;
   if (!is_settled_)
@@ -104,7 +101,7 @@ StereoPair FrameLoader::readPair(int index) {
 }
 
 void FrameLoader::requirePartner(int index) const {
-  const int partner = index + options_.rightOffset();
+  const int partner = index + right_offset_;
   if (right_ && (partner < 0 || partner >= count_))
     throw InputError(say(left_->nameOf(index), ": the right view has no picture of this moment ",
                          "(sequence.right_offset is ", options_.right_offset, ")"));

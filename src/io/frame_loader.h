@@ -43,6 +43,7 @@ class FrameLoader {
   double timeOf(int index) const;
 
   SequenceOptions options_;
+  int right_offset_;
   StereoCalibration calibration_;
   std::unique_ptr<PictureSource> left_, right_;  // left_ alone where both views are packed in it
   bool is_packed_ = false;

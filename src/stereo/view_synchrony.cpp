@@ -13,11 +13,12 @@ constexpr int kFewestAgreeing = 200;  // for a judgement
 }  // namespace
 
 void SynchronyMeter::add(const GrayImage& left, const std::array<GrayImage, kOffsets>& rights) {
+  const RowMeter unused(left, disparity_max_px_);  // it narrows its range with every match
+  scale_ = unused.scale();
   for (int k = 0; k < kOffsets; ++k) {
-    RowMeter meter(left, disparity_max_px_);
+    RowMeter meter = unused;
     const std::vector<RowMatch> found = meter.match(rights[k]);
     matches_[k].insert(matches_[k].end(), found.begin(), found.end());
-    scale_ = meter.scale();
   }
 }
 

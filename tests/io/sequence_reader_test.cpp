@@ -38,6 +38,17 @@ std::vector<ColourImage> packed(int count, ColourImage (*pack)(const StereoPair&
   return out;
 }
 
+void makeTwoVideos(const TemporaryFolder& folder, int count) {
+  put(folder / "calibration.yaml", smallCalibration());
+  std::vector<ColourImage> left, right;
+  for (int i = 0; i < count; ++i) {
+    left.push_back(testPair(i).left);
+    right.push_back(testPair(i).right);
+  }
+  makeVideo(folder / "left.avi", left);
+  makeVideo(folder / "right.avi", right);
+}
+
 TEST(SequenceReader, ReadsAFolderOfPictures) {
   TemporaryFolder folder;
   makeSequence(folder.path(), 12);
@@ -118,14 +129,7 @@ TEST(SequenceReader, DepthStandsInForTheRightView) {
 
 TEST(SequenceReader, ReadsTwoVideos) {
   TemporaryFolder folder;
-  put(folder / "calibration.yaml", smallCalibration());
-  std::vector<ColourImage> left, right;
-  for (int i = 0; i < 7; ++i) {
-    left.push_back(testPair(i).left);
-    right.push_back(testPair(i).right);
-  }
-  makeVideo(folder / "left.avi", left);
-  makeVideo(folder / "right.avi", right);
+  makeTwoVideos(folder, 7);
   SequenceReader reader(folder.path());
   EXPECT_EQ(reader.frameCount(), 7);
   const auto frames = expectTestPairs(reader, kVideoTolerance);
@@ -173,14 +177,7 @@ TEST(SequenceReader, PairsViewsThatArePicturesApart) {
 
 TEST(SequenceReader, PairsVideosThatArePicturesApart) {
   TemporaryFolder folder;
-  put(folder / "calibration.yaml", smallCalibration());
-  std::vector<ColourImage> left, right;
-  for (int i = 0; i < 5; ++i) {
-    left.push_back(testPair(i).left);
-    right.push_back(testPair(i).right);
-  }
-  makeVideo(folder / "left.avi", left);
-  makeVideo(folder / "right.avi", right);
+  makeTwoVideos(folder, 5);
   SequenceOptions options;
   options.right_offset = "-1";
   SequenceReader reader(folder.path(), options);
