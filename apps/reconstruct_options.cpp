@@ -208,6 +208,8 @@ void bindFusion(SettingsBinder& binder, ReconstructOptions& options) {
   binder.bind(at + "along_ray", points.along_ray, "points move along their ray alone");
   binder.bind(at + "contradiction_loss", points.contradiction_loss,
               "share of its weight that a point seen through loses");
+  binder.bind(at + "follow_innovation", points.follow_innovation,
+              "the model yields where frames differ from it by more than depth errs");
   binder.bind(at + "buried_mm", points.buried_mm, "points less than this behind the surface go");
   binder.bind(at + "confirmed_weight", points.confirmed_weight, "lighter points must be found");
   auto& [spacing_mm, insert_sigma_mm, band_mm, confirm] = fusion.insertion;

@@ -124,8 +124,10 @@ FactSheet RunRecord::text(const std::string& folder) const {
   if (!matches_.empty())
     facts.addLine("matches", fixed(meanOf(matches_), 0) + " that agree with the pose, a frame");
   if (!backprojection_mm_.empty())
-    facts.addLine("back-projection", fixed(meanOf(backprojection_mm_), 3) +
-                                         " mm mean distance of the model from each frame's depth");
+    facts.addLine("back-projection",
+                  fixed(meanOf(backprojection_mm_), 3) +
+                      " mm mean distance of the model from each frame's depth, " +
+                      fixed(meanOf(prediction_mm_), 3) + " mm before it learns from the frame");
   if (!frame_ms_.empty()) facts.addLine("time", fixed(meanOf(frame_ms_), 0) + " ms a frame");
   facts.addLine("written to", folder);
   facts.addLine("look at", folder + "/model.ply (MeshLab), " + folder + "/models.pvd (ParaView)");

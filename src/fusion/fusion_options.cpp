@@ -83,6 +83,7 @@ FusionOptions FusionOptions::paper() {
   options.points.buried_mm = 0;
   options.points.reference_sigma_mm = 0;
   options.points.node_trust = NodeTrust::kPaper;
+  options.points.follow_innovation = false;
   options.colour.compensate_gain = false;
   options.colour.max_weight = 0;
   options.colour.highlight_level = 256;

@@ -39,7 +39,7 @@ struct VisibilityOptions {
   void validate() const;
 };
 
-/// How measurements move points: docs/fusion.md (F5) to (F10).
+/// How measurements move points: docs/fusion.md (F5) to (F10), (F21) to (F23).
 struct PointFusionOptions {
   double truncation_mm = 1.0;           // tau: larger differences are not averaged
   bool soft_truncation = true;          // weights fall smoothly to 0 at tau
@@ -50,6 +50,8 @@ struct PointFusionOptions {
   NodeTrust node_trust = NodeTrust::kWarpNoise;
   double node_spacing_mm = 4.0;      // epsilon of the paper
   double warp_sigma_mm = 0.02;       // error of one warp, half a node spacing away from all nodes
+  bool follow_innovation = true;     // where frame and warped model differ by more than depth errs,
+                                     // the model is that much less sure
   bool along_ray = true;             // false: the full position is averaged with the pixel's
   double contradiction_loss = 0.85;  // share of its weight, and half as much again of one
                                      // measurement's, that a point seen through loses a frame

@@ -38,6 +38,20 @@ SOFTSCOPE_HD inline float weightAfterWarp(float weight, float half_spacings, flo
   return weight / (1 + weight * noise * share * share);
 }
 
+/// (F22): no point is surer than the tissue around it turned out to be. mm².
+SOFTSCOPE_HD inline float weightAfterInnovation(float weight, float excess_mm2,
+                                                float reference_sigma_mm) {
+  const float limit = reference_sigma_mm * reference_sigma_mm;
+  return weight * excess_mm2 > limit ? limit / excess_mm2 : weight;
+}
+
+/// (F23): where the tissue is off as a whole, a large difference is no outlier.
+SOFTSCOPE_HD inline float widenedTruncation(float truncation_mm, float difference_mm2) {
+  constexpr float kTukey = 4.685f;  // standard deviations: 95 % efficient on Gaussian errors
+  const float wide_mm = kTukey * std::sqrt(difference_mm2);
+  return wide_mm > truncation_mm ? wide_mm : truncation_mm;
+}
+
 /// Share of the new value in the running average: (F8).
 SOFTSCOPE_HD inline float averagingGain(float weight, float measurement_weight) {
   return measurement_weight > 0 ? measurement_weight / (weight + measurement_weight) : 0.0f;

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "fusion/fusion_weights.h"
 #include "fusion/illumination.h"
+#include "fusion/innovation.h"
 
 namespace softscope {
 namespace {
@@ -27,12 +28,14 @@ float nearestNodeMm(const WarpGraph& graph, const PointBinding& binding,
 class Fuser {
  public:
   Fuser(const WarpGraph& graph, const Observation& observation, const PointFusionOptions& options,
-        const ColourOptions& colour_options, const ColourGain& gain, PointModel* model)
+        const ColourOptions& colour_options, const ColourGain& gain,
+        const InnovationField& innovation, PointModel* model)
       : graph_(graph),
         observation_(observation),
         options_(options),
         colour_options_(colour_options),
         gain_(gain),
+        innovation_(innovation),
         model_(*model),
         camera_(posedCamera(observation.left, observation.world_from_left)),
         truncation_mm_(static_cast<float>(options.truncation_mm)),
@@ -56,17 +59,21 @@ class Fuser {
 
   /// docs/fusion.md (F10).
   void lose(std::size_t i, const PointSight& point) const {
-    model_.weights[i] =
-        contradictedWeight(model_.weights[i], std::min(1.0f, depthWeightAt(point.pixel)),
-                           static_cast<float>(options_.contradiction_loss));
+    const Innovation around = innovation_.at(graph_, model_.bindings[i]);
+    model_.weights[i] = contradictedWeight(
+        weightAfterInnovation(model_.weights[i], around.excess_mm2, reference_mm_),
+        std::min(1.0f, depthWeightAt(point.pixel)),
+        static_cast<float>(options_.contradiction_loss));
   }
 
   /// docs/fusion.md (F8), (F9), (F13); false where the measurement has no weight.
   bool fuse(std::size_t i, const PointSight& point) const {
-    if (!(std::abs(point.ahead_mm) < truncation_mm_)) return false;
+    const Innovation around = innovation_.at(graph_, model_.bindings[i]);
+    const float truncation_mm = widenedTruncation(truncation_mm_, around.difference_mm2);
+    if (!(std::abs(point.ahead_mm) < truncation_mm)) return false;
     float& weight = model_.weights[i];
     float measured = depthWeightAt(point.pixel) *
-                     truncationWeight(point.ahead_mm, truncation_mm_, options_.soft_truncation);
+                     truncationWeight(point.ahead_mm, truncation_mm, options_.soft_truncation);
     const float node_mm = options_.node_trust == NodeTrust::kEqual
                               ? -1
                               : nearestNodeMm(graph_, model_.bindings[i], model_.positions_mm[i]);
@@ -76,6 +83,7 @@ class Fuser {
       if (options_.node_trust == NodeTrust::kWarpNoise)
         weight = weightAfterWarp(weight, half_spacings, warp_noise_);
     }
+    weight = weightAfterInnovation(weight, around.excess_mm2, reference_mm_);
     const float gain = averagingGain(weight, measured);
     if (!(gain > 0)) return false;
     const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[i]);
@@ -161,6 +169,7 @@ class Fuser {
   const PointFusionOptions& options_;
   const ColourOptions& colour_options_;
   const ColourGain gain_;
+  const InnovationField& innovation_;
   PointModel& model_;
   const PosedCamera camera_;
   const float truncation_mm_, reference_mm_, confirmed_weight_, unseen_mm_, buried_mm_;
@@ -178,7 +187,10 @@ PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observa
   requireVisibility(visibility, *model);
   PointFusionSummary summary;
   summary.gain = estimateGain(*model, observation, visibility, colour_options);
-  const Fuser fuser(graph, observation, options, colour_options, summary.gain, model);
+  const InnovationField innovation =
+      options.follow_innovation ? InnovationField(*model, graph, observation, visibility, options)
+                                : InnovationField();
+  const Fuser fuser(graph, observation, options, colour_options, summary.gain, innovation, model);
   std::atomic<int> fused{0}, contradicted{0};
   parallelRanges(static_cast<int>(model->size()), kPointsATask, [&](int begin, int end) {
     int fused_here = 0, contradicted_here = 0;

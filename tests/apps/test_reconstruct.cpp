@@ -118,8 +118,9 @@ TEST_F(Reconstruct, PairsTheViewsOfOneMoment) {
   EXPECT_LT(double(done.json()["mean_backprojection_mm"]), 0.2);
   const Outcome as_is =
       reconstruct({"--out", at("as_is"), "--json", "--set", "sequence.right_offset=0"});
-  EXPECT_GT(double(as_is.json()["mean_backprojection_mm"]),
-            1.2 * double(done.json()["mean_backprojection_mm"]));
+  // Fusion follows wrong depth too; the model that was warped only knows better.
+  EXPECT_GT(double(as_is.json()["mean_prediction_mm"]),
+            1.2 * double(done.json()["mean_prediction_mm"]));
 }
 
 TEST_F(Reconstruct, NeverOverwritesUnasked) {

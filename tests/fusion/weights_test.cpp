@@ -44,6 +44,14 @@ TEST(FusionWeights, AreLostToTheWarpAwayFromNodes) {
   EXPECT_FLOAT_EQ(weightAfterWarp(10, 5, 0.04f), 1 / 0.14f);
 }
 
+TEST(FusionWeights, AreNoLargerThanTheTissueAroundAllows) {
+  EXPECT_FLOAT_EQ(weightAfterInnovation(10, 0, 0.1f), 10);
+  EXPECT_FLOAT_EQ(weightAfterInnovation(10, 0.0005f, 0.1f), 10);  // variances 0.001 against 0.0005
+  EXPECT_FLOAT_EQ(weightAfterInnovation(10, 0.04f, 0.1f), 0.25f);
+  EXPECT_FLOAT_EQ(widenedTruncation(1, 0.04f), 1);
+  EXPECT_FLOAT_EQ(widenedTruncation(1, 0.25f), 0.5f * 4.685f);
+}
+
 TEST(FusionWeights, GoFromTenInFiveContradictionsAndFromOneInTwo) {
   const auto contradictions = [](float weight) {
     int count = 0;
@@ -76,6 +84,7 @@ float depthAfterOneUpdate(NodeTrust trust, float away_mm) {
   options.points.node_trust = trust;
   options.points.reference_sigma_mm = 0.1;
   options.points.warp_sigma_mm = 0.1;
+  options.points.follow_innovation = false;  // a second reason to follow
   InsertionMemory memory;
   updateModel(shot.observation(), graph, options, &memory, &model);
   return model.positions_mm[0].z();
