@@ -90,6 +90,7 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
   model.positions_mm.resize(vertices.count);
   model.normals.assign(vertices.count, Eigen::Vector3f::Zero());
   model.colours.resize(vertices.count);
+  model.anchors.resize(vertices.count);
   model.weights.resize(vertices.count);
   model.bindings.resize(vertices.count);
   const char* at = bytes.data() + header.bytes;
@@ -98,6 +99,7 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
     requirePlausible(model.positions_mm[i], i, name);
     if (normal) std::memcpy(model.normals[i].data(), at + *normal, 3 * sizeof(float));
     if (colour) std::memcpy(&model.colours[i], at + *colour, 3);
+    model.anchors[i] = toGray(model.colours[i]);
     if (weight) std::memcpy(&model.weights[i], at + *weight, sizeof(float));
   }
   return file;

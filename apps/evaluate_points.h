@@ -9,7 +9,8 @@
 
 namespace softscope {
 
-/// A model as far as its file tells it: no bindings, and zeros for what the file lacks.
+/// A model as far as its file tells it: no bindings, anchors that are the colours' own brightness,
+/// and zeros for what the file lacks.
 struct ModelFile {
   PointModel model;
   bool coloured = false, with_normals = false, weighted = false;

@@ -90,8 +90,8 @@ void bindMatcher(SettingsBinder& binder, MatcherOptions& options) {
   binder.bind(at + "dense_surf.cell_px", cell_px, "side of one of its 4 x 4 cells");
   binder.bind(at + "dense_surf.max_invalid_share", max_invalid_share, "of ignored wavelets");
   binder.bind(at + "dense_surf.min_contrast_gray", min_contrast_gray, "less: nothing to match");
-  auto& [method, radius_px, iterations, max_shift_px, min_similarity, max_sigma_px,
-         floor_sigma_px] = options.subpixel;
+  auto& [method, radius_px, iterations, max_shift_px, min_similarity, max_sigma_px, floor_sigma_px,
+         drift_px] = options.subpixel;
   binder.bind(at + "subpixel.method", method, "gauss-newton, parabola or none");
   binder.bind(at + "subpixel.radius_px", radius_px, "window is (2 r + 1)²");
   binder.bind(at + "subpixel.iterations", iterations, "at most");
@@ -99,6 +99,7 @@ void bindMatcher(SettingsBinder& binder, MatcherOptions& options) {
   binder.bind(at + "subpixel.min_similarity", min_similarity, "correlation of both windows");
   binder.bind(at + "subpixel.max_sigma_px", max_sigma_px, "less certain matches are dropped");
   binder.bind(at + "subpixel.floor_sigma_px", floor_sigma_px, "error that no texture removes");
+  binder.bind(at + "subpixel.drift_px", drift_px, "and where tissue no longer looks as at first");
   auto& [reach_px, agree_px, max_strain, min_share] = options.consistency;
   binder.bind(at + "consistency.reach_px", reach_px, "others this near are neighbours");
   binder.bind(at + "consistency.agree_px", agree_px, "neighbours agree to this");
@@ -229,6 +230,8 @@ void bindColour(SettingsBinder& binder, ReconstructOptions& options) {
   binder.bind(at + "reference_distance_mm", colour.reference_distance_mm, "of the headlight");
   binder.bind(at + "gamma", colour.gamma, "of the pictures' encoding");
   binder.bind(at + "max_weight", colour.max_weight, "new colours count 1 / (1 + this) at least");
+  binder.bind(at + "anchor_weight", colour.anchor_weight,
+              "the same of the brightness that matches hold on to");
   binder.bind(at + "highlight_level", colour.highlight_level, "brighter is specular");
   binder.bind(at + "brightening_limit", colour.brightening_limit, "so much brighter is too");
 }

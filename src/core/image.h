@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/hd.h"
 #include "core/raster.h"
 
 namespace softscope {
@@ -21,6 +22,11 @@ using ColourImage = Raster<Rgb8>;
 using Mask = Raster<std::uint8_t>;
 
 /// Luma by ITU-R BT.601: 0.299 R + 0.587 G + 0.114 B, rounded.
+SOFTSCOPE_HD inline std::uint8_t toGray(Rgb8 colour) {
+  // Weights in 1/65536, so that the result is the same on every machine.
+  return static_cast<std::uint8_t>(
+      (19595 * colour.red + 38470 * colour.green + 7471 * colour.blue + 32768) >> 16);
+}
 GrayImage toGray(const ColourImage& colour);
 
 /// The two pictures of one moment.

@@ -23,12 +23,13 @@ struct PointBinding {
   bool bound() const { return stencil != kUnbound; }
 };
 
-/// N points, mm, in the world frame. Structure of arrays, each N long; 63 bytes a point.
+/// N points, mm, in the world frame. Structure of arrays, each N long; 64 bytes a point.
 struct PointModel {
   std::vector<Eigen::Vector3f> positions_mm;
   std::vector<Eigen::Vector3f> normals;  // unit length, out of the tissue
   std::vector<Rgb8> colours;
-  std::vector<float> weights;  // how often, and how well, the point was seen
+  std::vector<std::uint8_t> anchors;  // brightness as the point first looked: docs/fusion.md (F24)
+  std::vector<float> weights;         // how often, and how well, the point was seen
   std::vector<PointBinding> bindings;
 
   std::size_t size() const { return positions_mm.size(); }
@@ -38,6 +39,7 @@ struct PointModel {
     positions_mm.reserve(count);
     normals.reserve(count);
     colours.reserve(count);
+    anchors.reserve(count);
     weights.reserve(count);
     bindings.reserve(count);
   }
@@ -48,6 +50,7 @@ struct PointModel {
     positions_mm.push_back(position_mm);
     normals.push_back(normal);
     colours.push_back(colour);
+    anchors.push_back(toGray(colour));
     weights.push_back(weight);
     bindings.emplace_back();
   }

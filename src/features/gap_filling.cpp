@@ -33,6 +33,8 @@ void bridge(const Line& line, int begin, int end) {
     view.depth_mm.values[at] = 1 / ((1 - share) * inverse_a + share * inverse_b);
     view.colour.values[at] = {mix(a.red, b.red, share), mix(a.green, b.green, share),
                               mix(a.blue, b.blue, share)};
+    view.anchor.values[at] =
+        mix(view.anchor.values[line.at(begin)], view.anchor.values[line.at(end)], share);
     view.point_index.values[at] = view.point_index.values[line.at(share < 0.5f ? begin : end)];
   }
 }

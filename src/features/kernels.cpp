@@ -87,6 +87,7 @@ inline void blendLanes(const SplatDisc& disc, const SplatBand& band, long at, co
   add8(band.red + at, w * disc.red);
   add8(band.green + at, w * disc.green);
   add8(band.blue + at, w * disc.blue);
+  add8(band.anchor + at, w * disc.anchor);
   add8(band.inverse_depth + at, w * depth);
   add8(band.shift_u + at, w * x);
   add8(band.shift_v + at, w * y);

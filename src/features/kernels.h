@@ -16,7 +16,7 @@ struct SplatDisc {
   float u_px, v_px, radius_px;
   float inverse_depth;     // 1/mm, at the centre
   float slope_u, slope_v;  // of the inverse depth, 1/mm per pixel
-  float red, green, blue;
+  float red, green, blue, anchor;
   std::int32_t point;
 };
 
@@ -30,6 +30,7 @@ struct SplatBand {
   float* red;
   float* green;
   float* blue;
+  float* anchor;
   float* inverse_depth;  // weighted sum, like the colours
   float* shift_u;        // weighted sum of the pixel minus the disc's centre
   float* shift_v;

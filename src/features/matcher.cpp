@@ -18,6 +18,9 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
   if (!model.gray.sameShape(live.gray))
     throw Error("matching: the model view is " + shape(model.gray) + " and the live picture " +
                 shape(live.gray) + "; both need one shape");
+  if (!model.anchor.empty() && !model.anchor.sameShape(model.gray))
+    throw Error("matching: the anchor is " + shape(model.anchor) + ", but the model view " +
+                shape(model.gray));
   for (const MatchPicture* picture : {&model, &live})
     if (!picture->ignore.empty() && !picture->ignore.sameShape(picture->gray))
       throw Error("matching: a mask is " + shape(picture->ignore) + ", but its picture " +
@@ -63,7 +66,7 @@ MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& opti
   Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
   for (std::size_t i = 0; i < dark.size(); ++i)
     dark.values[i] = picture.gray.values[i] < options.darkest_gray;
-  MatchPicture out{picture.gray, grown(dark, options.dark_margin_px)};
+  MatchPicture out{picture.gray, grown(dark, options.dark_margin_px), picture.anchor};
   for (std::size_t i = 0; i < picture.ignore.size(); ++i)
     if (picture.ignore.values[i] != 0) out.ignore.values[i] = 1;
   return out;
@@ -123,6 +126,8 @@ void MatcherOptions::validate() const {
   require(subpixel.max_sigma_px > 0, "matcher.subpixel.max_sigma_px", subpixel.max_sigma_px,
           "must be above 0");
   require(subpixel.floor_sigma_px >= 0, "matcher.subpixel.floor_sigma_px", subpixel.floor_sigma_px,
+          "can't be negative");
+  require(subpixel.drift_px >= 0, "matcher.subpixel.drift_px", subpixel.drift_px,
           "can't be negative");
   require(consistency.reach_px > 0, "matcher.consistency.reach_px", consistency.reach_px,
           "must be above 0");

@@ -14,7 +14,8 @@ namespace softscope {
 /// A picture to be matched, and what of it to leave out.
 struct MatchPicture {
   GrayImage gray;
-  Mask ignore;  // empty, or the picture's shape; non-zero = no tissue, instrument, highlight
+  Mask ignore;         // empty, or the picture's shape; non-zero = no tissue, instrument, highlight
+  GrayImage anchor{};  // empty, or how the same tissue looked when it was first seen
 };
 
 /// One piece of tissue in two pictures.

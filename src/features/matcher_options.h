@@ -16,6 +16,7 @@ struct SubpixelOptions {
   double min_similarity = 0.7;   // correlation of both windows
   double max_sigma_px = 0.3;     // matches whose predicted standard error is larger are dropped
   double floor_sigma_px = 0.03;  // error that no amount of texture removes
+  double drift_px = 0.1;         // added to it where the model no longer looks as it first did
 };
 
 /// Neighbours that a match must move with.

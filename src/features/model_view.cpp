@@ -54,6 +54,7 @@ struct Projector {
     disc->red = colour.red;
     disc->green = colour.green;
     disc->blue = colour.blue;
+    disc->anchor = model.anchors[i];
     disc->point = static_cast<std::int32_t>(i);
     return tilt(rotation * model.normals[i], p, disc);
   }
@@ -107,23 +108,35 @@ class BandCanvas {
     const auto plane = [&](int k) {
       return sums_.data() + static_cast<std::size_t>(k) * kBandRows * stride_ + kSplatMargin;
     };
-    return {plane(0), plane(1),  plane(2), plane(3),     plane(4),
-            plane(5), plane(6),  plane(7), plane(8),     points_.data() + kSplatMargin,
-            stride_,  first_row, rows,     tolerance_mm_};
+    return {plane(0),
+            plane(1),
+            plane(2),
+            plane(3),
+            plane(4),
+            plane(5),
+            plane(6),
+            plane(7),
+            plane(8),
+            plane(9),
+            points_.data() + kSplatMargin,
+            stride_,
+            first_row,
+            rows,
+            tolerance_mm_};
   }
 
  private:
-  static constexpr std::size_t kPlanes = 9;
+  static constexpr std::size_t kPlanes = 10;
   int stride_;
   std::vector<float> sums_;
   std::vector<std::int32_t> points_;
   float tolerance_mm_;
 };
 
-/// Mean colour of the discs at a pixel, and how far the pixel lies from the mean of their centres,
-/// which is where that colour belongs.
+/// Mean looks of the discs at a pixel (red, green, blue, anchor), and how far the pixel lies from
+/// the mean of their centres, which is where these looks belong.
 struct BlendedPixel {
-  Eigen::Vector3f colour = Eigen::Vector3f::Zero();
+  Eigen::Vector4f looks = Eigen::Vector4f::Zero();
   Eigen::Vector2f shift_px = Eigen::Vector2f::Zero();
 };
 
@@ -133,40 +146,41 @@ void developRow(const SplatBand& band, int v, Raster<BlendedPixel>* blended, Mod
     const std::size_t k = at + static_cast<std::size_t>(u);
     if (!(band.weight[k] > 0)) continue;
     const float inverse_weight = 1 / band.weight[k];
-    blended->at(u, v).colour =
-        inverse_weight * Eigen::Vector3f(band.red[k], band.green[k], band.blue[k]);
+    blended->at(u, v).looks =
+        inverse_weight * Eigen::Vector4f(band.red[k], band.green[k], band.blue[k], band.anchor[k]);
     blended->at(u, v).shift_px = inverse_weight * Eigen::Vector2f(band.shift_u[k], band.shift_v[k]);
     view->depth_mm.at(u, v) = band.weight[k] / band.inverse_depth[k];
     view->point_index.at(u, v) = band.point[k];
   }
 }
 
-/// Change of colour per pixel from the pixel `step` before to the one `step` after; zero where
+/// Change of looks per pixel from the pixel `step` before to the one `step` after; zero where
 /// one of them belongs to another surface.
-Eigen::Vector3f colourSlope(const Raster<BlendedPixel>& blended, const Raster<float>& depth_mm,
-                            std::size_t at, std::size_t step, float surface_depth_mm) {
+Eigen::Vector4f looksSlope(const Raster<BlendedPixel>& blended, const Raster<float>& depth_mm,
+                           std::size_t at, std::size_t step, float surface_depth_mm) {
   const float before = depth_mm.values[at - step], after = depth_mm.values[at + step];
-  if (!(std::abs(before - after) < 2 * surface_depth_mm)) return Eigen::Vector3f::Zero();
-  return 0.5f * (blended.values[at + step].colour - blended.values[at - step].colour);
+  if (!(std::abs(before - after) < 2 * surface_depth_mm)) return Eigen::Vector4f::Zero();
+  return 0.5f * (blended.values[at + step].looks - blended.values[at - step].looks);
 }
 
-/// Moves each pixel's colour from where it belongs to the pixel, along the colours' slope.
+/// Moves each pixel's looks from where they belong to the pixel, along their slope.
 void straightenRow(const Raster<BlendedPixel>& blended, int v, float surface_depth_mm,
                    ModelView* view) {
   const int width = blended.width_px;
   for (int u = 0; u < width; ++u) {
     const BlendedPixel& pixel = blended.at(u, v);
-    Eigen::Vector3f colour = pixel.colour;
+    Eigen::Vector4f looks = pixel.looks;
     if (u > 0 && v > 0 && u + 1 < width && v + 1 < blended.height_px) {
       const std::size_t at = static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u);
-      colour += pixel.shift_px.x() * colourSlope(blended, view->depth_mm, at, 1, surface_depth_mm);
-      colour += pixel.shift_px.y() * colourSlope(blended, view->depth_mm, at,
-                                                 static_cast<std::size_t>(width), surface_depth_mm);
+      looks += pixel.shift_px.x() * looksSlope(blended, view->depth_mm, at, 1, surface_depth_mm);
+      looks += pixel.shift_px.y() * looksSlope(blended, view->depth_mm, at,
+                                               static_cast<std::size_t>(width), surface_depth_mm);
     }
     const auto byte = [](float value) {
       return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
     };
-    view->colour.at(u, v) = {byte(colour.x()), byte(colour.y()), byte(colour.z())};
+    view->colour.at(u, v) = {byte(looks[0]), byte(looks[1]), byte(looks[2])};
+    view->anchor.at(u, v) = byte(looks[3]);
   }
 }
 
@@ -206,6 +220,7 @@ ModelView renderModelView(const PointModel& model, const PinholeCamera& camera,
   view.camera = camera;
   view.world_from_left = world_from_left;
   view.colour = ColourImage(camera.width_px, camera.height_px);
+  view.anchor = GrayImage(camera.width_px, camera.height_px);
   view.depth_mm =
       Raster<float>(camera.width_px, camera.height_px, std::numeric_limits<float>::quiet_NaN());
   view.point_index = Raster<std::int32_t>(camera.width_px, camera.height_px, -1);

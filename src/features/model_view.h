@@ -26,6 +26,7 @@ struct ModelView {
   PinholeCamera camera;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   ColourImage colour;                // black where nothing is seen
+  GrayImage anchor;                  // the same, as the points first looked
   Raster<float> depth_mm;            // along the optical axis; NaN where nothing is seen
   Raster<std::int32_t> point_index;  // the model point nearest to the ray; -1 where there is none
 };

@@ -62,6 +62,7 @@ class Refiner {
   Refiner(const MatchPicture& model, const MatchPicture& live, const SubpixelOptions& options)
       : options_(options),
         model_(smoothed(model.gray)),
+        anchor_(model.anchor.empty() ? Raster<float>() : smoothed(model.anchor)),
         live_(smoothed(live.gray)),
         model_ignore_(model.ignore),
         live_ignore_(live.ignore) {
@@ -70,6 +71,21 @@ class Refiner {
 
   /// False where the match is refused.
   bool refine(PixelMatch* match) const {
+    if (!anchor_.empty()) {
+      PixelMatch anchored = *match;
+      if (refineBy(anchor_, &anchored)) {
+        *match = anchored;
+        return true;
+      }
+    }
+    if (!refineBy(model_, match)) return false;
+    if (!anchor_.empty())
+      match->sigma_px = std::hypot(match->sigma_px, static_cast<float>(options_.drift_px));
+    return true;
+  }
+
+ private:
+  bool refineBy(const Raster<float>& model, PixelMatch* match) const {
     const int r = options_.radius_px;
     const int mu = static_cast<int>(std::lround(match->model_px.x()));
     const int mv = static_cast<int>(std::lround(match->model_px.y()));
@@ -80,7 +96,7 @@ class Refiner {
     Patch patch;
     if (!weigh(mu, mv, static_cast<int>(std::lround(start.x())),
                static_cast<int>(std::lround(start.y())), &patch) ||
-        !prepare(mu, mv, &patch))
+        !prepare(model, mu, mv, &patch))
       return false;
     Eigen::Vector2f centre = start;
     if (!iterate(patch, &centre, match)) return false;
@@ -88,7 +104,6 @@ class Refiner {
     return true;
   }
 
- private:
   void fillWindow() {
     const int r = options_.radius_px;
     const float sigma = 0.8f * static_cast<float>(r) + 0.5f;
@@ -136,15 +151,15 @@ class Refiner {
   }
 
   /// Gradients and contrast of the model's window; projects mean and contrast out of the gradients.
-  bool prepare(int mu, int mv, Patch* patch) const {
+  bool prepare(const Raster<float>& model, int mu, int mv, Patch* patch) const {
     const int r = options_.radius_px;
     patch->steepest_u.fill(0);
     patch->steepest_v.fill(0);
     patch->contrast.fill(0);
     float mean = 0, mean_gu = 0, mean_gv = 0;
     for (int y = 0; y < patch->rows; ++y) {
-      const float* row = model_.row(mv - r + y) + mu - r;
-      const float *above = row - model_.width_px, *below = row + model_.width_px;
+      const float* row = model.row(mv - r + y) + mu - r;
+      const float *above = row - model.width_px, *below = row + model.width_px;
       for (int x = 0; x < patch->rows; ++x) {
         const std::size_t k = static_cast<std::size_t>(y * kWindowLanes + x);
         patch->contrast[k] = row[x];
@@ -225,7 +240,7 @@ class Refiner {
   }
 
   const SubpixelOptions& options_;
-  Raster<float> model_, live_;
+  Raster<float> model_, anchor_, live_;
   const Mask& model_ignore_;
   const Mask& live_ignore_;
   WindowPlane window_{};

@@ -74,6 +74,7 @@ void compact(PointModel* model, const std::vector<std::int32_t>& old_of_new) {
                    keepAt(&model->positions_mm, old_of_new);
                    keepAt(&model->normals, old_of_new);
                    keepAt(&model->colours, old_of_new);
+                   keepAt(&model->anchors, old_of_new);
                    keepAt(&model->weights, old_of_new);
                  });
 }

@@ -58,6 +58,7 @@ void ColourOptions::validate() const {
   requirePositive(reference_distance_mm, "fusion.colour.reference_distance_mm");
   require(gamma >= 1 && gamma <= 3, "fusion.colour.gamma", gamma, "must be 1 to 3");
   requireNotNegative(max_weight, "fusion.colour.max_weight");
+  requireNotNegative(anchor_weight, "fusion.colour.anchor_weight");
   require(highlight_level >= 1 && highlight_level <= 256, "fusion.colour.highlight_level",
           highlight_level, "must be 1 to 256 (256 = never)");
   require(brightening_limit >= 1 && brightening_limit <= 256, "fusion.colour.brightening_limit",

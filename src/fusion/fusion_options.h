@@ -70,6 +70,7 @@ struct ColourOptions {
   double reference_distance_mm = 60.0;  // headlight colours are as seen from here, head on
   double gamma = 2.2;                   // of the pictures' encoding
   double max_weight = 4.0;              // new colours count at least 1 / (1 + max_weight)
+  double anchor_weight = 40.0;          // and, for what matches hold on to, about 1 / this
   int highlight_level = 225;            // brighter in all channels = specular, not the tissue
   int brightening_limit = 50;           // so much brighter than the point in every channel: too
 

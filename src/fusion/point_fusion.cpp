@@ -162,6 +162,14 @@ class Fuser {
       return toByte(static_cast<float>(a) + gain * (static_cast<float>(b) - static_cast<float>(a)));
     };
     known = {mix(known.red, fresh.red), mix(known.green, fresh.green), mix(known.blue, fresh.blue)};
+    model_.anchors[i] = anchored(model_.anchors[i], toGray(fresh), measured);
+  }
+
+  /// docs/fusion.md (F24).
+  std::uint8_t anchored(std::uint8_t anchor, std::uint8_t fresh, float measured) const {
+    const float gain = averagingGain(static_cast<float>(colour_options_.anchor_weight), measured);
+    return toByte(static_cast<float>(anchor) +
+                  gain * (static_cast<float>(fresh) - static_cast<float>(anchor)));
   }
 
   const WarpGraph& graph_;

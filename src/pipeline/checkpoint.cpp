@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 2\n";
+constexpr std::string_view kMagic = "softscope checkpoint 3\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -96,6 +96,7 @@ void visitModel(Archive& archive, Model& model) {
   archive.array(model.positions_mm);
   archive.array(model.normals);
   archive.array(model.colours);
+  archive.array(model.anchors);
   archive.array(model.weights);
   archive.array(model.bindings);
 }

@@ -40,7 +40,10 @@ ModelMatches matchModel(const ModelView& view, const ColourImage& picture, const
                         const MeasuredFrame& frame, const LiftOptions& options,
                         FeatureMatcher& matcher) {
   ModelMatches matches;
-  matches.pixels = matcher.match({toGray(picture), unseen(view)}, live, Eigen::Vector2f::Zero());
+  const bool own_looks = &picture == &view.colour;
+  matches.pixels =
+      matcher.match({toGray(picture), unseen(view), own_looks ? view.anchor : GrayImage()}, live,
+                    Eigen::Vector2f::Zero());
   matches.lifted = liftMatches(matches.pixels, view, frame.depth, view.camera, options);
   return matches;
 }

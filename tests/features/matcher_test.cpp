@@ -54,6 +54,45 @@ TEST(DenseSurfMatcher, RefinementIsWorthItsTime) {
   EXPECT_LT(medians[2], 0.2 * medians[1]);
 }
 
+/// The model's texture has slipped by `slip_px` to the right since its anchor was set.
+test::WarpedPair slippedPair(double slip_px) {
+  test::WarpedPair pair = test::makeWarpedPair(1.0);
+  pair.model.anchor = pair.model.gray;
+  for (int v = 0; v < pair.model.gray.height_px; ++v)
+    for (int u = 0; u < pair.model.gray.width_px; ++u)
+      pair.model.gray.at(u, v) =
+          static_cast<std::uint8_t>(std::lround(test::textureAt(Eigen::Vector2d(u - slip_px, v))));
+  return pair;
+}
+
+TEST(Anchor, KeepsThePlacesOfATextureThatSlipped) {
+  test::WarpedPair pair = slippedPair(0.6);
+  const auto held = test::errorsOf(matchBy({}, pair));
+  EXPECT_GT(held.count, 1000u);
+  EXPECT_LT(held.median_px, 0.1);
+  pair.model.anchor = {};
+  EXPECT_GT(test::errorsOf(matchBy({}, pair)).median_px, 0.5);  // nothing remembers
+}
+
+// What the anchor shows is gone (here: another tissue), so the model as it looks now decides, and
+// says that it may have drifted.
+TEST(Anchor, IsLeftWhereTheTissueLooksDifferent) {
+  test::WarpedPair pair = slippedPair(0);
+  const auto plain = test::errorsOf(matchBy({}, pair));
+  for (int v = 0; v < pair.model.anchor.height_px; ++v)
+    for (int u = 0; u < pair.model.anchor.width_px; ++u)
+      pair.model.anchor.at(u, v) = static_cast<std::uint8_t>(
+          std::lround(test::textureAt(Eigen::Vector2d(u + 900, v - 700))));
+  const std::vector<PixelMatch> matches = matchBy({}, pair);
+  const auto errors = test::errorsOf(matches);
+  EXPECT_GT(errors.count, plain.count * 9 / 10);
+  EXPECT_LT(errors.median_px, 0.1);
+  const float drift_px = static_cast<float>(MatcherOptions().subpixel.drift_px);
+  int doubted = 0;
+  for (const PixelMatch& match : matches) doubted += match.sigma_px >= drift_px;
+  EXPECT_GT(doubted, static_cast<int>(matches.size()) * 95 / 100);
+}
+
 TEST(DenseSurfMatcher, ExpectedShiftMovesTheSearch) {
   MatcherOptions options;
   options.search_radius_px = 4;  // the true shifts are 3 to 6 px right, 1 to 4 px up
@@ -138,6 +177,8 @@ TEST_P(EveryMatcher, RefusesUnequalShapes) {
   const MatchPicture other{GrayImage(300, 240, 0), {}};
   EXPECT_THROW(matcher->match(pair.model, other, Vector2f::Zero()), Error);
   EXPECT_THROW(matcher->match({pair.model.gray, Mask(3, 3, 0)}, pair.live, Vector2f::Zero()),
+               Error);
+  EXPECT_THROW(matcher->match({pair.model.gray, {}, GrayImage(3, 3)}, pair.live, Vector2f::Zero()),
                Error);
 }
 

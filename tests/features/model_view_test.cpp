@@ -80,6 +80,24 @@ TEST(ModelView, TextureKeepsItsPlace) {
   EXPECT_LT(std::sqrt(error_sq / contrast_sq), 0.2);  // of the contrast; discs blur a little
 }
 
+// Points that look as they did at first show it; the anchor is drawn with its own rounding.
+TEST(ModelView, DrawsAnchorsAsItDrawsColours) {
+  PointModel model;
+  addPlane(40, 0.2, 25, {}, true, &model);
+  const ModelView view = renderModelView(model, camera(), kHome, {});
+  const GrayImage gray = toGray(view.colour);
+  int different = 0;
+  for (std::size_t i = 0; i < gray.size(); ++i) {
+    ASSERT_NEAR(view.anchor.values[i], gray.values[i], 2);
+    different += gray.values[i] != gray.values[0];
+  }
+  EXPECT_GT(different, 1000);
+  for (std::uint8_t& anchor : model.anchors) anchor = 77;
+  const ModelView changed = renderModelView(model, camera(), kHome, {});
+  EXPECT_EQ(changed.anchor.at(160, 120), 77);
+  EXPECT_EQ(changed.colour.at(160, 120), view.colour.at(160, 120));
+}
+
 TEST(ModelView, WhatIsHiddenStaysHidden) {
   PointModel model;
   addPlane(50, 0, 20, {255, 0, 0}, false, &model);

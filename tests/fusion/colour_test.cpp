@@ -104,6 +104,51 @@ TEST(Colour, IsReadBetweenPixels) {
   EXPECT_GT(judged, 100);
 }
 
+// A texture that slips by half a pixel in every frame takes the colours with it, but not what
+// matches hold on to: 16 levels a pixel, and steps below 20 levels are no change of the tissue.
+TEST(Anchor, StaysWhereColoursSlip) {
+  FusionOptions options;
+  options.colour.compensate_gain = false;
+  InsertionMemory memory;
+  PointModel model;
+  const auto rampAt = [](double slip_px) {
+    Shot shot = takeShot(plane(55), smallCamera());
+    for (int v = 0; v < 72; ++v)
+      for (int u = 0; u < 96; ++u) {
+        const double gray = std::clamp(40 + 4 * (u - slip_px), 0.0, 220.0);
+        shot.colour.at(u, v).red = shot.colour.at(u, v).green = shot.colour.at(u, v).blue =
+            static_cast<std::uint8_t>(gray);
+      }
+    return shot;
+  };
+  update(rampAt(0), options, &memory, &model);
+  const PointModel before = model;
+  for (int k = 1; k <= 8; ++k) update(rampAt(0.5 * k), options, &memory, &model);
+  int judged = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before.colours[i].red < 60 || before.colours[i].red > 200) continue;
+    EXPECT_EQ(model.anchors[i], before.anchors[i]);
+    EXPECT_LT(model.colours[i].red, before.colours[i].red - 6);  // 16 levels off at the end
+    ++judged;
+  }
+  EXPECT_GT(judged, 100);
+}
+
+// Tissue that is another for good is anchored anew, to within the steps that count.
+TEST(Anchor, FollowsALastingChange) {
+  InsertionMemory memory;
+  FusionOptions options;
+  options.colour.compensate_gain = false;
+  PointModel model = modelOf(plane(55), options, &memory);
+  const std::uint8_t first = model.anchors[0];
+  const Rgb8 pale{190, 190, 190};
+  for (int k = 0; k < 120; ++k)
+    update(takeShot(plane(55), smallCamera(), shifted(0, 0, 0), 3.3e-5, pale), options, &memory,
+           &model);
+  EXPECT_LT(first, 150);
+  for (const std::uint8_t anchor : model.anchors) ASSERT_GT(anchor, 190 - 22);
+}
+
 TEST(Colour, ThePaperTakesTheLatest) {
   InsertionMemory memory;
   const FusionOptions paper = FusionOptions::paper();

@@ -56,6 +56,7 @@ TEST(KeepDensity, MapsEveryOldPointToTheOneThatStandsForIt) {
   ASSERT_EQ(static_cast<std::size_t>(map.new_count), model.size());
   EXPECT_EQ(model.normals.size(), model.size());
   EXPECT_EQ(model.colours.size(), model.size());
+  EXPECT_EQ(model.anchors.size(), model.size());
   EXPECT_EQ(model.weights.size(), model.size());
   EXPECT_EQ(model.bindings.size(), model.size());
   std::vector<std::int32_t> carriers(model.size(), 0);
@@ -93,6 +94,7 @@ TEST(KeepDensity, MergesHeightByWeightAndKeepsThePlace) {
   EXPECT_NEAR(model.positions_mm[0].z(), 0.25 * 55.02 + 0.75 * 55.18, 1e-5);
   EXPECT_FLOAT_EQ(model.weights[0], 3);
   EXPECT_EQ(model.colours[0].red, 90);
+  EXPECT_EQ(model.anchors[0], 90);
   EXPECT_EQ(model.bindings[0].stencil, 7);  // the only one that is carried by nodes
 }
 
