@@ -156,6 +156,7 @@ TEST(Colour, ThePaperTakesTheLatest) {
   update(takeShot(plane(55), smallCamera(), shifted(0, 0, 0), 3.3e-5, {10, 20, 30}), paper, &memory,
          &model);
   EXPECT_EQ(largestDifference(model, {10, 20, 30}), 0);
+  for (const std::uint8_t anchor : model.anchors) ASSERT_EQ(anchor, toGray(Rgb8{10, 20, 30}));
 }
 
 TEST(Headlight, ShadesByDistanceAndAngle) {
