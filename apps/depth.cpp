@@ -28,11 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isFolder(const fs::path& path) {
-  std::error_code ignored;  // what isn't there, or a link to itself, is the reader's to report
-  return fs::is_directory(path, ignored);
-}
-
 class DepthCommand : public Command {
  public:
   std::string name() const override { return "depth"; }

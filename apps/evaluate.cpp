@@ -18,6 +18,7 @@
 #include "apps/result_output.h"
 #include "apps/truthless_result.h"
 #include "core/error.h"
+#include "io/folder.h"
 #include "io/message.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
@@ -46,11 +47,6 @@ const char* const kDetails =
     "METRIC is a path in evaluation.json (surface.observed.p95_mm), or its last part.";
 
 constexpr const char* kPreferred = "surface";  // where --fail-if looks for a bare name
-
-bool isFolder(const fs::path& path) {
-  std::error_code ignored;  // what isn't there is the reader's to report
-  return fs::is_directory(path, ignored);
-}
 
 class EvaluateCommand : public Command {
  public:

@@ -18,11 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isThere(const fs::path& path) {
-  std::error_code ignored;  // what can't be looked at is reported by who reads it
-  return fs::exists(path, ignored);
-}
-
 fs::path fileOrNone(const fs::path& file) { return isThere(file) ? file : fs::path(); }
 
 /// NNNNNN.ext by number; names of other forms are left out. Empty where the folder is missing.

@@ -19,11 +19,6 @@ using Json = FactSheet::Json;
 
 constexpr std::size_t kMostVertices = 300000;
 
-bool isThere(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 fs::path recordIn(const fs::path& path) {
   std::error_code ignored;
   if (!isThere(path))

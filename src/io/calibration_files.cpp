@@ -21,11 +21,6 @@ bool contains(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 std::string lowerName(const fs::path& file) { return lowerCase(file.filename().string()); }
-bool isFile(const fs::path& file) {
-  std::error_code code;
-  return fs::is_regular_file(file, code);
-}
-
 /// The only one of `files` whose lower-case name has all `parts`.
 std::optional<fs::path> theOneWith(const Files& files, const std::vector<std::string_view>& parts) {
   std::optional<fs::path> found;

@@ -29,6 +29,21 @@ std::string_view takeNumber(std::string_view text, std::size_t& begin) {
 
 }  // namespace
 
+bool isThere(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool isFile(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+bool isFolder(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
 void requireFolder(const fs::path& folder) {
   std::error_code code;
   const fs::file_status status = fs::status(folder, code);

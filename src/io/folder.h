@@ -9,6 +9,11 @@
 
 namespace softscope {
 
+/// What the path leads to; false, never a throw, where that can't be seen: who reads it reports.
+bool isThere(const std::filesystem::path& path);
+bool isFile(const std::filesystem::path& path);
+bool isFolder(const std::filesystem::path& path);
+
 /// frame2 before frame10; without numbers, by bytes.
 bool naturallyBefore(std::string_view a, std::string_view b);
 

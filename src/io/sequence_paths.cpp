@@ -24,23 +24,23 @@ bool isOneOf(const fs::path& file, const Kinds& kinds) {
 }
 
 /// Also a symbolic link that leads nowhere: opening it will say so.
-bool isThere(const fs::path& path) {
+bool hasEntry(const fs::path& path) {
   std::error_code code;
   return fs::exists(fs::symlink_status(path, code));
 }
 
-fs::path ifThere(const fs::path& path) { return isThere(path) ? path : fs::path(); }
+fs::path ifThere(const fs::path& path) { return hasEntry(path) ? path : fs::path(); }
 
 /// folder/name.mp4, .avi, …; empty where there is none.
 fs::path videoNamed(const fs::path& folder, const std::string& name) {
   for (const std::string_view kind : kVideoKinds)
-    if (const fs::path file = folder / (name + std::string(kind)); isThere(file)) return file;
+    if (const fs::path file = folder / (name + std::string(kind)); hasEntry(file)) return file;
   return {};
 }
 
 /// A folder of pictures, else a video.
 fs::path viewNamed(const fs::path& folder, const std::string& name) {
-  return isThere(folder / name) ? folder / name : videoNamed(folder, name);
+  return hasEntry(folder / name) ? folder / name : videoNamed(folder, name);
 }
 
 }  // namespace
