@@ -87,20 +87,18 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
   file.with_normals = normal.has_value();
   file.weighted = weight.has_value();
   PointModel& model = file.model;
-  model.positions_mm.resize(vertices.count);
-  model.normals.assign(vertices.count, Eigen::Vector3f::Zero());
-  model.colours.resize(vertices.count);
-  model.anchors.resize(vertices.count);
-  model.weights.resize(vertices.count);
-  model.bindings.resize(vertices.count);
+  model.reserve(vertices.count);
   const char* at = bytes.data() + header.bytes;
   for (std::size_t i = 0; i < vertices.count; ++i, at += vertices.leastBytes(header.encoding)) {
-    std::memcpy(model.positions_mm[i].data(), at + *position, 3 * sizeof(float));
-    requirePlausible(model.positions_mm[i], i, name);
-    if (normal) std::memcpy(model.normals[i].data(), at + *normal, 3 * sizeof(float));
-    if (colour) std::memcpy(&model.colours[i], at + *colour, 3);
-    model.anchors[i] = toGray(model.colours[i]);
-    if (weight) std::memcpy(&model.weights[i], at + *weight, sizeof(float));
+    Eigen::Vector3f point_mm, direction = Eigen::Vector3f::Zero();
+    Rgb8 looks;
+    float sureness = 0;
+    std::memcpy(point_mm.data(), at + *position, 3 * sizeof(float));
+    requirePlausible(point_mm, i, name);
+    if (normal) std::memcpy(direction.data(), at + *normal, 3 * sizeof(float));
+    if (colour) std::memcpy(&looks, at + *colour, 3);
+    if (weight) std::memcpy(&sureness, at + *weight, sizeof(float));
+    model.add(point_mm, direction, looks, sureness);
   }
   return file;
 }

@@ -100,8 +100,8 @@ Answer answerOf(const char* method, const char* name, const ModelView& view,
                 const ReconstructionOptions& options) {
   MatcherOptions matcher = options.matcher;
   matcher.method = method;
-  const ModelMatches found =
-      matchModel(view, view.colour, live, measured, options.lift, *makeFeatureMatcher(matcher));
+  const ModelMatches found = matchModel(view, modelPicture(view), live, measured, options.lift,
+                                        *makeFeatureMatcher(matcher));
   const RigidPose pose = estimateRigidPose(posePairs(found.lifted), options.pose);
   Answer answer;
   for (std::size_t i = 0; i < found.lifted.size(); ++i) {

@@ -158,18 +158,16 @@ class Fuser {
     if (brightened && model_.weights[i] >= confirmed_weight_) return;
     const float old = std::min(model_.weights[i], static_cast<float>(colour_options_.max_weight));
     const float gain = averagingGain(old, measured);
-    const auto mix = [gain](std::uint8_t a, std::uint8_t b) {
-      return toByte(static_cast<float>(a) + gain * (static_cast<float>(b) - static_cast<float>(a)));
-    };
-    known = {mix(known.red, fresh.red), mix(known.green, fresh.green), mix(known.blue, fresh.blue)};
-    model_.anchors[i] = anchored(model_.anchors[i], toGray(fresh), measured);
+    known = {averaged(known.red, fresh.red, gain), averaged(known.green, fresh.green, gain),
+             averaged(known.blue, fresh.blue, gain)};
+    model_.anchors[i] = averaged(  // docs/fusion.md (F24)
+        model_.anchors[i], toGray(fresh),
+        averagingGain(static_cast<float>(colour_options_.anchor_weight), measured));
   }
 
-  /// docs/fusion.md (F24).
-  std::uint8_t anchored(std::uint8_t anchor, std::uint8_t fresh, float measured) const {
-    const float gain = averagingGain(static_cast<float>(colour_options_.anchor_weight), measured);
-    return toByte(static_cast<float>(anchor) +
-                  gain * (static_cast<float>(fresh) - static_cast<float>(anchor)));
+  static std::uint8_t averaged(std::uint8_t known, std::uint8_t fresh, float gain) {
+    return toByte(static_cast<float>(known) +
+                  gain * (static_cast<float>(fresh) - static_cast<float>(known)));
   }
 
   const WarpGraph& graph_;

@@ -18,7 +18,7 @@ struct PointFusionSummary {
 };
 
 /// Averages every seen point with its measurement, lets go of what is contradicted:
-/// docs/fusion.md (F5) to (F13) and (F21) to (F23). A point without any weight left has weight 0;
+/// docs/fusion.md (F5) to (F13) and (F21) to (F24). A point without any weight left has weight 0;
 /// the next keepDensity() removes it. `graph` tells how far points are from their nodes (live
 /// positions); points that it doesn't carry count as lying on a node. Throws OptionError for bad
 /// options and for arguments that don't fit together.

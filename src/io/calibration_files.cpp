@@ -21,6 +21,7 @@ bool contains(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 std::string lowerName(const fs::path& file) { return lowerCase(file.filename().string()); }
+
 /// The only one of `files` whose lower-case name has all `parts`.
 std::optional<fs::path> theOneWith(const Files& files, const std::vector<std::string_view>& parts) {
   std::optional<fs::path> found;

@@ -71,7 +71,7 @@ class CpuBackend : public ReconstructionBackend {
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
   void scaleTo(double median_sigma_mm);
-  const ColourImage& pictureOf(const ModelView& view) const;
+  MatchPicture pictureOf(const ModelView& view) const;
   void refine(const Eigen::Isometry3d& last, PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
@@ -130,10 +130,12 @@ void CpuBackend::scaleTo(double median_sigma_mm) {
 }
 
 /// What is searched for: the model as drawn, or, for comparison, what the scope saw from there.
-const ColourImage& CpuBackend::pictureOf(const ModelView& view) const {
+MatchPicture CpuBackend::pictureOf(const ModelView& view) const {
+  MatchPicture picture = modelPicture(view);
   const LastPicture& last = state_.last;
   const bool from_there = view.world_from_left.matrix() == last.world_from_left.matrix();
-  return from_there && !last.left.empty() ? last.left : view.colour;
+  if (from_there && !last.left.empty()) picture = {toGray(last.left), picture.ignore};
+  return picture;
 }
 
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach reach) {

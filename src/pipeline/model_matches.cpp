@@ -36,14 +36,15 @@ MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue,
   return live;
 }
 
-ModelMatches matchModel(const ModelView& view, const ColourImage& picture, const MatchPicture& live,
-                        const MeasuredFrame& frame, const LiftOptions& options,
-                        FeatureMatcher& matcher) {
+MatchPicture modelPicture(const ModelView& view) {
+  return {toGray(view.colour), unseen(view), view.anchor};
+}
+
+ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
+                        const MatchPicture& live, const MeasuredFrame& frame,
+                        const LiftOptions& options, FeatureMatcher& matcher) {
   ModelMatches matches;
-  const bool own_looks = &picture == &view.colour;
-  matches.pixels =
-      matcher.match({toGray(picture), unseen(view), own_looks ? view.anchor : GrayImage()}, live,
-                    Eigen::Vector2f::Zero());
+  matches.pixels = matcher.match(picture, live, Eigen::Vector2f::Zero());
   matches.lifted = liftMatches(matches.pixels, view, frame.depth, view.camera, options);
   return matches;
 }

@@ -23,11 +23,14 @@ struct ModelMatches {
   std::vector<LiftedMatch> lifted;  // of those, with depth on both sides
 };
 
+/// The view as it is matched: with its anchors, without where it shows nothing.
+MatchPicture modelPicture(const ModelView& view);
+
 /// Finds the view's pixels again in the live picture of the measured frame, by their looks in
-/// `picture`: the view's own colours, or another picture from the same place.
-ModelMatches matchModel(const ModelView& view, const ColourImage& picture, const MatchPicture& live,
-                        const MeasuredFrame& frame, const LiftOptions& options,
-                        FeatureMatcher& matcher);
+/// `picture`: modelPicture(), or another picture from the same place.
+ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
+                        const MatchPicture& live, const MeasuredFrame& frame,
+                        const LiftOptions& options, FeatureMatcher& matcher);
 
 /// From the live camera's frame to the world, weighted by their inverse variances.
 PointPairs posePairs(const std::vector<LiftedMatch>& matches);
