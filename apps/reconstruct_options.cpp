@@ -76,7 +76,9 @@ void bindModelView(SettingsBinder& binder, ModelViewOptions& options) {
 void bindMatcher(SettingsBinder& binder, MatcherOptions& options) {
   const std::string at = "matcher.";
   binder.bind(at + "method", options.method, "dense-surf, sift, dis-flow or surf-off");
-  binder.bind(at + "search_radius_px", options.search_radius_px, "around the expected place");
+  binder.bind(at + "reach", options.reach, "longest shift, share of the longer side");
+  binder.bind(at + "search_radius_px", options.search_radius_px, "around the predicted shift");
+  binder.bind(at + "coarse_spacing_px", options.coarse_spacing_px, "of a coarser level's matches");
   binder.bind(at + "max_ratio", options.max_ratio, "best distance over the best one elsewhere");
   binder.bind(at + "elsewhere_px", options.elsewhere_px, "nearer to the best isn't elsewhere");
   binder.bind(at + "mutual_px", options.mutual_px, "the match back ends this near");

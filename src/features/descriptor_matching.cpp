@@ -89,43 +89,51 @@ class Window {
 /// The options in nodes.
 struct Reach {
   int search, elsewhere, mutual;
-  int shift_columns, shift_rows;
 };
 
-Reach reachOf(const MatcherOptions& options, int grid_px, const Eigen::Vector2f& shift_px) {
+Reach reachOf(const MatcherOptions& options, int grid_px, double radius_px) {
   const auto nodes = [&](double px) { return static_cast<int>(std::lround(px / grid_px)); };
-  return {std::max(1, nodes(options.search_radius_px)), nodes(options.elsewhere_px),
-          nodes(options.mutual_px), nodes(shift_px.x()), nodes(shift_px.y())};
+  return {std::max(1, nodes(radius_px)), nodes(options.elsewhere_px), nodes(options.mutual_px)};
+}
+
+Eigen::Vector2f pixelOf(const DenseDescriptors& grid, int column, int row) {
+  return {static_cast<float>(grid.first_px + column * grid.grid_px),
+          static_cast<float>(grid.first_px + row * grid.grid_px)};
 }
 
 /// One node's match and its ratio; ratio 1 = none.
 struct Candidate {
   int column = 0, row = 0;
+  Eigen::Vector2i predicted = Eigen::Vector2i::Zero();  // shift, nodes
   float ratio = 1;
   Eigen::Vector2f shift = Eigen::Vector2f::Zero();
 };
 
 class PairOfGrids {
  public:
-  PairOfGrids(const DenseDescriptors& model, const DenseDescriptors& live, const Reach& reach,
-              float max_ratio)
-      : model_(model), live_(live), reach_(reach), max_ratio_(max_ratio) {}
+  PairOfGrids(const DenseDescriptors& model, const DenseDescriptors& live,
+              const ShiftField& predicted, const Reach& reach, float max_ratio)
+      : model_(model), live_(live), predicted_(predicted), reach_(reach), max_ratio_(max_ratio) {}
 
   Candidate candidate(int column, int row, Window* window) const {
     Candidate none;
     if (model_.valid.at(column, row) == 0) return none;
-    window->compare(model_.descriptor(column, row), live_, column + reach_.shift_columns,
-                    row + reach_.shift_rows, reach_.search);
+    const Eigen::Vector2f shift =
+        predicted_.at(pixelOf(model_, column, row)) / static_cast<float>(model_.grid_px);
+    const Eigen::Vector2i nodes(static_cast<int>(std::lround(shift.x())),
+                                static_cast<int>(std::lround(shift.y())));
+    window->compare(model_.descriptor(column, row), live_, column + nodes.x(), row + nodes.y(),
+                    reach_.search);
     if (!window->found()) return none;
     const float elsewhere = static_cast<float>(window->bestElsewhere(reach_.elsewhere));
     const float ratio = static_cast<float>(window->best()) / std::max(elsewhere, 1.0f);
     if (!(ratio < max_ratio_)) return none;
-    return {window->bestColumn(), window->bestRow(), ratio, window->parabolaShift()};
+    return {window->bestColumn(), window->bestRow(), nodes, ratio, window->parabolaShift()};
   }
 
   bool mutual(int column, int row, const Candidate& there, Window* window) const {
     window->compare(live_.descriptor(there.column, there.row), model_,
-                    there.column - reach_.shift_columns, there.row - reach_.shift_rows,
+                    there.column - there.predicted.x(), there.row - there.predicted.y(),
                     reach_.search);
     return window->found() && std::abs(window->bestColumn() - column) <= reach_.mutual &&
            std::abs(window->bestRow() - row) <= reach_.mutual;
@@ -134,6 +142,7 @@ class PairOfGrids {
  private:
   const DenseDescriptors& model_;
   const DenseDescriptors& live_;
+  const ShiftField& predicted_;
   Reach reach_;
   float max_ratio_;
 };
@@ -152,12 +161,8 @@ bool bestOfSquare(const PairOfGrids& grids, int c0, int r0, int c1, int r1, Wind
                    [](const auto& a, const auto& b) { return a.first.ratio < b.first.ratio; });
   for (const auto& [there, node] : *tried) {
     if (!grids.mutual(node.x(), node.y(), there, window)) continue;
-    const auto pixel = [](const DenseDescriptors& grid, int column, int row) {
-      return Eigen::Vector2f(static_cast<float>(grid.first_px + column * grid.grid_px),
-                             static_cast<float>(grid.first_px + row * grid.grid_px));
-    };
-    match->model_px = pixel(model, node.x(), node.y());
-    match->live_px = pixel(live, there.column, there.row);
+    match->model_px = pixelOf(model, node.x(), node.y());
+    match->live_px = pixelOf(live, there.column, there.row);
     match->parabola_px = match->live_px + static_cast<float>(live.grid_px) * there.shift;
     match->ratio = there.ratio;
     return true;
@@ -168,11 +173,11 @@ bool bestOfSquare(const PairOfGrids& grids, int c0, int r0, int c1, int r1, Wind
 }  // namespace
 
 std::vector<NodeMatch> matchDescriptors(const DenseDescriptors& model, const DenseDescriptors& live,
-                                        const Eigen::Vector2f& expected_shift_px,
+                                        const ShiftField& predicted, double radius_px,
                                         const MatcherOptions& options) {
-  if (model.valid.empty() || live.valid.empty() || !expected_shift_px.allFinite()) return {};
-  const Reach reach = reachOf(options, model.grid_px, expected_shift_px);
-  const PairOfGrids grids(model, live, reach, static_cast<float>(options.max_ratio));
+  if (model.valid.empty() || live.valid.empty()) return {};
+  const PairOfGrids grids(model, live, predicted, reachOf(options, model.grid_px, radius_px),
+                          static_cast<float>(options.max_ratio));
   const int side = std::max(1, options.spacing_px / model.grid_px);
   const int square_rows = (model.rows() + side - 1) / side;
   std::vector<std::vector<NodeMatch>> found(static_cast<std::size_t>(square_rows));

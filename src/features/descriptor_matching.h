@@ -6,6 +6,7 @@
 
 #include "features/dense_surf.h"
 #include "features/matcher_options.h"
+#include "features/shift_field.h"
 
 namespace softscope {
 
@@ -17,10 +18,10 @@ struct NodeMatch {
   float ratio = 1;              // best distance over the best one elsewhere; below 1 = distinct
 };
 
-/// Nodes that pass the ratio test and the mutual test; of each square of spacing_px the most
-/// distinct one. By rows of the model's nodes.
+/// Nodes that pass the ratio test and the mutual test, searched within `radius_px` of the predicted
+/// shift; of each square of spacing_px the most distinct one. By rows of the model's nodes.
 std::vector<NodeMatch> matchDescriptors(const DenseDescriptors& model, const DenseDescriptors& live,
-                                        const Eigen::Vector2f& expected_shift_px,
+                                        const ShiftField& predicted, double radius_px,
                                         const MatcherOptions& options);
 
 }  // namespace softscope

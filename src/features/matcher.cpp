@@ -1,11 +1,15 @@
 #include "features/matcher.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "features/descriptor_matching.h"
 #include "features/kernels.h"
 #include "features/mask_morphology.h"
 #include "features/match_consistency.h"
+#include "features/match_pyramid.h"
 #include "features/opencv_matchers.h"
+#include "features/shift_field.h"
 #include "features/subpixel_match.h"
 
 namespace softscope {
@@ -27,37 +31,101 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
                   shape(picture->gray));
 }
 
+/// The pyramid ends where one more level would leave less than four descriptors a side.
+constexpr int kLeastSidePx = 96;
+constexpr int kPredictionSquarePx = 16;  // of the shifts that a coarser level predicts
+
+/// `fine`, and those of `coarse` that lie in squares of `square_px` without a fine match; by rows.
+std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
+                                    const std::vector<PixelMatch>& coarse, int width_px,
+                                    int height_px, int square_px) {
+  Mask taken((width_px + square_px - 1) / square_px, (height_px + square_px - 1) / square_px, 0);
+  const auto square = [&](const PixelMatch& match) -> std::uint8_t& {
+    return taken.at(static_cast<int>(match.model_px.x()) / square_px,
+                    static_cast<int>(match.model_px.y()) / square_px);
+  };
+  for (const PixelMatch& match : fine) square(match) = 1;
+  for (const PixelMatch& match : coarse)
+    if (square(match) == 0) fine.push_back(match);
+  std::stable_sort(fine.begin(), fine.end(), [](const PixelMatch& a, const PixelMatch& b) {
+    return a.model_px.y() < b.model_px.y() ||
+           (a.model_px.y() == b.model_px.y() && a.model_px.x() < b.model_px.x());
+  });
+  return fine;
+}
+
+/// Drops matches with a larger predicted error than both `max_sigma_px` and the median: in a
+/// blurred image all errors are larger, and the better half is still the best there is.
+std::vector<PixelMatch> keepSure(std::vector<PixelMatch> matches, double max_sigma_px) {
+  if (matches.empty()) return matches;
+  std::vector<float> sigmas;
+  for (const PixelMatch& match : matches) sigmas.push_back(match.sigma_px);
+  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), middle, sigmas.end());
+  const float limit_px = std::max(static_cast<float>(max_sigma_px), *middle);
+  matches.erase(std::remove_if(matches.begin(), matches.end(),
+                               [&](const PixelMatch& match) { return match.sigma_px > limit_px; }),
+                matches.end());
+  return matches;
+}
+
+/// Coarse to fine: the coarsest level searches the whole reach, every finer one around the shifts
+/// that the level before it found. Where the texture is too weak or too blurred for a level, the
+/// coarser one's matches stay, with their larger error.
 class DenseSurfMatcher : public FeatureMatcher {
  public:
   explicit DenseSurfMatcher(const MatcherOptions& options) : options_(options) {}
   std::string name() const override { return "dense-surf"; }
 
-  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
-                                const Eigen::Vector2f& expected_shift_px) override {
-    const std::vector<NodeMatch> nodes = matchDescriptors(
-        denseSurf(model.gray, model.ignore, options_.dense_surf),
-        denseSurf(live.gray, live.ignore, options_.dense_surf), expected_shift_px, options_);
-    const bool whole_nodes = options_.subpixel.method == "none";
-    std::vector<PixelMatch> rough;
-    for (const NodeMatch& node : nodes)
-      rough.push_back({node.model_px, whole_nodes ? node.live_px : node.parabola_px,
-                       0.5f * static_cast<float>(options_.dense_surf.grid_px), 0});
-    if (options_.subpixel.method != "gauss-newton") return rough;
-    return keepConsistent(refineMatches(model, live, rough, options_.subpixel),
-                          options_.consistency);
+  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
+    const std::vector<MatchLevel> levels = matchPyramid(model, live, kLeastSidePx);
+    std::vector<PixelMatch> matches;
+    ShiftField predicted;
+    for (std::size_t k = levels.size(); k-- > 0;) {
+      const GrayImage& gray = levels[k].model.gray;
+      const double radius_px = k + 1 == levels.size()
+                                   ? options_.reach * std::max(gray.width_px, gray.height_px)
+                                   : options_.search_radius_px;
+      const std::vector<PixelMatch> rough = roughMatches(levels[k], predicted, radius_px);
+      matches = withCoarser(refined(levels[k], rough), toFinerLevel(std::move(matches)),
+                            gray.width_px, gray.height_px, options_.coarse_spacing_px);
+      if (k > 0)
+        predicted = ShiftField(toFinerLevel(keepConsistent(rough, options_.consistency)),
+                               levels[k - 1].model.gray.width_px,
+                               levels[k - 1].model.gray.height_px, kPredictionSquarePx);
+    }
+    return matches;
   }
 
  private:
+  std::vector<PixelMatch> roughMatches(const MatchLevel& level, const ShiftField& predicted,
+                                       double radius_px) const {
+    const DenseSurfOptions& surf = options_.dense_surf;
+    const bool whole_nodes = options_.subpixel.method == "none";
+    std::vector<PixelMatch> rough;
+    for (const NodeMatch& node : matchDescriptors(
+             denseSurf(level.model.gray, level.model.ignore, surf),
+             denseSurf(level.live.gray, level.live.ignore, surf), predicted, radius_px, options_))
+      rough.push_back({node.model_px, whole_nodes ? node.live_px : node.parabola_px,
+                       0.5f * static_cast<float>(surf.grid_px), 0});
+    return rough;
+  }
+
+  std::vector<PixelMatch> refined(const MatchLevel& level,
+                                  const std::vector<PixelMatch>& rough) const {
+    if (options_.subpixel.method != "gauss-newton") return rough;
+    return keepConsistent(keepSure(refineMatches(level.model, level.live, rough, options_.subpixel),
+                                   options_.subpixel.max_sigma_px),
+                          options_.consistency);
+  }
+
   MatcherOptions options_;
 };
 
 class NoMatcher : public FeatureMatcher {
  public:
   std::string name() const override { return "surf-off"; }
-  std::vector<PixelMatch> match(const MatchPicture&, const MatchPicture&,
-                                const Eigen::Vector2f&) override {
-    return {};
-  }
+  std::vector<PixelMatch> match(const MatchPicture&, const MatchPicture&) override { return {}; }
 };
 
 /// The picture with its dark pixels ignored as well: they show the unlit background, whose edge
@@ -79,11 +147,9 @@ class CheckedMatcher : public FeatureMatcher {
       : options_(options), inner_(std::move(inner)) {}
   std::string name() const override { return inner_->name(); }
 
-  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
-                                const Eigen::Vector2f& expected_shift_px) override {
+  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
     requireOneShape(model, live);
-    return inner_->match(withoutDark(model, options_), withoutDark(live, options_),
-                         expected_shift_px);
+    return inner_->match(withoutDark(model, options_), withoutDark(live, options_));
   }
 
  private:
@@ -104,6 +170,9 @@ void MatcherOptions::validate() const {
   require(
       method == "dense-surf" || method == "sift" || method == "dis-flow" || method == "surf-off",
       "matcher.method", method, "must be dense-surf, sift, dis-flow or surf-off");
+  require(reach > 0 && reach <= 1, "matcher.reach", reach, "must be above 0 and at most 1");
+  require(coarse_spacing_px >= 1, "matcher.coarse_spacing_px", coarse_spacing_px,
+          "must be 1 or more");
   require(search_radius_px > 0, "matcher.search_radius_px", search_radius_px, "must be above 0");
   require(max_ratio > 0 && max_ratio <= 1, "matcher.max_ratio", max_ratio,
           "must be above 0 and at most 1");

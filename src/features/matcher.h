@@ -33,11 +33,10 @@ class FeatureMatcher {
   /// "dense-surf", "sift", "dis-flow" or "surf-off"; written into every report.
   virtual std::string name() const = 0;
 
-  /// Matches inside both pictures, by rows of the model picture. `expected_shift_px` is about how
-  /// far things moved. Pictures without texture, or all ignored, give no matches. Same input, same
-  /// matches, whatever the number of threads. Throws Error where shapes differ.
-  virtual std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
-                                        const Eigen::Vector2f& expected_shift_px) = 0;
+  /// Matches inside both images, by rows of the model image. Images without texture, or all
+  /// ignored, give no matches. Same input, same matches, whatever the number of threads. Throws
+  /// Error where shapes differ.
+  virtual std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) = 0;
 };
 
 /// Throws OptionError if the options break a rule.

@@ -14,7 +14,8 @@ struct SubpixelOptions {
   int iterations = 8;
   double max_shift_px = 3.0;     // from where it began
   double min_similarity = 0.7;   // correlation of both windows
-  double max_sigma_px = 0.3;     // matches whose predicted standard error is larger are dropped
+  double max_sigma_px = 0.3;     // predicted standard error of a match; a larger one is dropped
+                                 // unless it is below the image's median
   double floor_sigma_px = 0.03;  // error that no amount of texture removes
   double drift_px = 0.1;         // added to it where the model no longer looks as it first did
 };
@@ -29,7 +30,9 @@ struct ConsistencyOptions {
 
 struct MatcherOptions {
   std::string method = "dense-surf";  // or "sift", "dis-flow", or "surf-off": no matches
-  double search_radius_px = 24;       // around the expected place
+  double reach = 0.2;                 // longest shift, share of the image's longer side
+  double search_radius_px = 12;       // around the shift that the coarser level predicts
+  int coarse_spacing_px = 12;         // squares of this size without a match take a coarser level's
   double max_ratio = 0.9;             // best distance over the best one elsewhere
   double elsewhere_px = 6;            // what is nearer to the best place isn't elsewhere
   double mutual_px = 3;               // the match back ends this near to where it began

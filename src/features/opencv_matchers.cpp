@@ -1,5 +1,6 @@
 #include "features/opencv_matchers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/features2d.hpp>
@@ -30,18 +31,16 @@ KeyPoints siftOf(cv::SIFT& sift, const MatchPicture& picture) {
 }
 
 /// Nearest of `to` for each key point of `from`, within the radius; -1 where the ratio test fails.
-std::vector<int> nearestWithin(const KeyPoints& from, const KeyPoints& to,
-                               const Eigen::Vector2f& shift_px, const MatcherOptions& options) {
+std::vector<int> nearestWithin(const KeyPoints& from, const KeyPoints& to, float radius_px,
+                               double max_ratio) {
   std::vector<int> nearest(from.places.size(), -1);
-  const float radius = static_cast<float>(options.search_radius_px);
   cv::parallel_for_({0, static_cast<int>(from.places.size())}, [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       float best = std::numeric_limits<float>::max(), second = best;
       const cv::Point2f at = from.places[static_cast<std::size_t>(i)].pt;
       for (int j = 0; j < to.descriptors.rows; ++j) {
         const cv::Point2f there = to.places[static_cast<std::size_t>(j)].pt;
-        if (std::hypot(there.x - at.x - shift_px.x(), there.y - at.y - shift_px.y()) > radius)
-          continue;
+        if (std::hypot(there.x - at.x, there.y - at.y) > radius_px) continue;
         const float distance = static_cast<float>(
             cv::norm(from.descriptors.row(i), to.descriptors.row(j), cv::NORM_L2));
         if (distance < best) {
@@ -52,7 +51,7 @@ std::vector<int> nearestWithin(const KeyPoints& from, const KeyPoints& to,
           second = std::min(second, distance);
         }
       }
-      if (!(best < options.max_ratio * second)) nearest[static_cast<std::size_t>(i)] = -1;
+      if (!(best < max_ratio * second)) nearest[static_cast<std::size_t>(i)] = -1;
     }
   });
   return nearest;
@@ -64,13 +63,14 @@ class SiftMatcher : public FeatureMatcher {
       : options_(options), sift_(cv::SIFT::create(options.sift_features)) {}
   std::string name() const override { return "sift"; }
 
-  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
-                                const Eigen::Vector2f& expected_shift_px) override {
+  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
     std::vector<PixelMatch> matches;
     if (model.gray.empty()) return matches;
     const KeyPoints a = siftOf(*sift_, model), b = siftOf(*sift_, live);
-    const std::vector<int> there = nearestWithin(a, b, expected_shift_px, options_);
-    const std::vector<int> back = nearestWithin(b, a, -expected_shift_px, options_);
+    const float radius_px = static_cast<float>(options_.reach) *
+                            static_cast<float>(std::max(model.gray.width_px, model.gray.height_px));
+    const std::vector<int> there = nearestWithin(a, b, radius_px, options_.max_ratio);
+    const std::vector<int> back = nearestWithin(b, a, radius_px, options_.max_ratio);
     for (std::size_t i = 0; i < there.size(); ++i) {
       if (there[i] < 0 || back[static_cast<std::size_t>(there[i])] != static_cast<int>(i)) continue;
       const cv::Point2f p = a.places[i].pt, q = b.places[static_cast<std::size_t>(there[i])].pt;
@@ -90,8 +90,7 @@ class FlowMatcher : public FeatureMatcher {
       : options_(options), flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) {}
   std::string name() const override { return "dis-flow"; }
 
-  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live,
-                                const Eigen::Vector2f&) override {
+  std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
     std::vector<PixelMatch> rough;
     constexpr int kSmallestSide = 32;  // DIS divides by the size of its coarsest level
     if (model.gray.width_px < kSmallestSide || model.gray.height_px < kSmallestSide) return rough;

@@ -17,6 +17,7 @@ constexpr float kCorrelatedPixels = 4.0f;
 constexpr float kLeastWindowShare = 0.6f;  // of the window's weight that isn't ignored
 constexpr float kLeastContrastSq = 0.5f;   // variance of the window, grey levels²
 constexpr float kConvergedPx = 0.003f;
+constexpr float kLargestSigmaPx = 1.5f;  // of any match; more is no place
 
 /// A 3 x 3 binomial filter: less noise, and bilinear samples that hardly depend on the fraction.
 Raster<float> smoothed(const GrayImage& image) {
@@ -71,17 +72,17 @@ class Refiner {
 
   /// False where the match is refused.
   bool refine(PixelMatch* match) const {
-    if (!anchor_.empty()) {
-      PixelMatch anchored = *match;
-      if (refineBy(anchor_, &anchored)) {
-        *match = anchored;
-        return true;
-      }
+    if (anchor_.empty()) return refineBy(model_, match);
+    PixelMatch anchored = *match, present = *match;
+    const bool held = refineBy(anchor_, &anchored);
+    if (held && anchored.sigma_px <= static_cast<float>(options_.max_sigma_px)) {
+      *match = anchored;
+      return true;
     }
-    if (!refineBy(model_, match)) return false;
-    if (!anchor_.empty())
-      match->sigma_px = std::hypot(match->sigma_px, static_cast<float>(options_.drift_px));
-    return true;
+    const bool seen = refineBy(model_, &present);
+    present.sigma_px = std::hypot(present.sigma_px, static_cast<float>(options_.drift_px));
+    *match = held && (!seen || anchored.sigma_px < present.sigma_px) ? anchored : present;
+    return held || seen;
   }
 
  private:
@@ -236,7 +237,7 @@ class Refiner {
     match->sigma_px = std::sqrt(
         kCorrelatedPixels * patch.weight_sq * unexplained * worst / (gain * gain) + floor * floor);
     return match->similarity >= static_cast<float>(options_.min_similarity) &&
-           match->sigma_px <= static_cast<float>(options_.max_sigma_px);
+           match->sigma_px <= kLargestSigmaPx;
   }
 
   const SubpixelOptions& options_;

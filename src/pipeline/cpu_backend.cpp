@@ -22,10 +22,10 @@ namespace {
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
 /// SIFT finds places again wherever they went; the pose is then refined from near.
-MatcherOptions wholePicture(const MatcherOptions& near, const PinholeCamera& left) {
+MatcherOptions wholePicture(const MatcherOptions& near) {
   MatcherOptions options = near;
   options.method = "sift";
-  options.search_radius_px = std::hypot(left.width_px, left.height_px);
+  options.reach = 1;
   return options;
 }
 
@@ -42,7 +42,7 @@ class CpuBackend : public ReconstructionBackend {
       : options_(options),
         depth_(calibration, options.depth),
         near_matcher_(makeFeatureMatcher(options.matcher)),
-        whole_matcher_(makeFeatureMatcher(wholePicture(options.matcher, depth_.rig().left))),
+        whole_matcher_(makeFeatureMatcher(wholePicture(options.matcher))),
         solver_(makeDeformSolver(options.deform)) {
     options.validate();
   }

@@ -44,7 +44,7 @@ ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
                         const MatchPicture& live, const MeasuredFrame& frame,
                         const LiftOptions& options, FeatureMatcher& matcher) {
   ModelMatches matches;
-  matches.pixels = matcher.match(picture, live, Eigen::Vector2f::Zero());
+  matches.pixels = matcher.match(picture, live);
   matches.lifted = liftMatches(matches.pixels, view, frame.depth, view.camera, options);
   return matches;
 }

@@ -81,7 +81,7 @@ void printErrors(const char* name) {
                                                      : pictureOf(readLeft(folder, frame));
       const MatchPicture live = pictureOf(readLeft(folder, frame + 1));
       const std::clock_t begin = std::clock();
-      errors.add(matcher->match(model, live, Eigen::Vector2f::Zero()),
+      errors.add(matcher->match(model, live),
                  TrueFlow(truth, frame, frame + 1));
       processor_ms += 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     }
@@ -126,7 +126,7 @@ void printMatchCounts(const char* name, int frames) {
     const MatchPicture after = pictureAt(frame);
     for (MatchCounts* one : {&dense, &sparse})
       one->counts.push_back(
-          double(one->matcher->match(before, after, Eigen::Vector2f::Zero()).size()));
+          double(one->matcher->match(before, after).size()));
     least_factor =
         std::min(least_factor, dense.counts.back() / std::max(1.0, sparse.counts.back()));
     before = after;
@@ -166,7 +166,7 @@ void printStages(const char* name) {
   const ModelView view = renderModelView(points, truth.camera, pose, {});
   const MatchPicture model = pictureOf(view), live = pictureOf(readLeft(folder, 1));
   const auto matcher = makeFeatureMatcher({});
-  const auto matches = matcher->match(model, live, Eigen::Vector2f::Zero());
+  const auto matches = matcher->match(model, live);
   const DepthMap live_depth{depth, {}};
   const auto lifted = liftMatches(matches, view, live_depth, truth.camera, {});
   PointPairs pairs;
@@ -181,7 +181,7 @@ void printStages(const char* name) {
   };
   line("model view", timesOf([&] { renderModelView(points, truth.camera, pose, {}); }));
   line("dense SURF, one picture", timesOf([&] { denseSurf(live.gray, live.ignore, {}); }));
-  line("matching, all", timesOf([&] { matcher->match(model, live, Eigen::Vector2f::Zero()); }));
+  line("matching, all", timesOf([&] { matcher->match(model, live); }));
   line("highlights", timesOf([&] { highlightMask(colour, {}); }));
   line("instruments", timesOf([&] { detectInstruments(colour, {}); }));
   line("lifting", timesOf([&] { liftMatches(matches, view, live_depth, truth.camera, {}); }));

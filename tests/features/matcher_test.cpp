@@ -12,9 +12,8 @@ namespace {
 
 using Eigen::Vector2f;
 
-std::vector<PixelMatch> matchBy(const MatcherOptions& options, const test::WarpedPair& pair,
-                                const Vector2f& expected_shift_px = Vector2f::Zero()) {
-  return makeFeatureMatcher(options)->match(pair.model, pair.live, expected_shift_px);
+std::vector<PixelMatch> matchBy(const MatcherOptions& options, const test::WarpedPair& pair) {
+  return makeFeatureMatcher(options)->match(pair.model, pair.live);
 }
 
 MatcherOptions methodOf(const std::string& method) {
@@ -93,12 +92,45 @@ TEST(Anchor, IsLeftWhereTheTissueLooksDifferent) {
   EXPECT_GT(doubted, static_cast<int>(matches.size()) * 95 / 100);
 }
 
-TEST(DenseSurfMatcher, ExpectedShiftMovesTheSearch) {
+/// The live image, and its truth, moved by whole pixels; what comes in at the rim is another
+/// tissue.
+test::WarpedPair movedPair(int right_px, int down_px) {
+  test::WarpedPair pair = test::makeWarpedPair(1.0, 480, 360);
+  const GrayImage before = pair.live.gray;
+  for (int v = 0; v < before.height_px; ++v)
+    for (int u = 0; u < before.width_px; ++u)
+      pair.live.gray.at(u, v) =
+          before.contains(u - right_px, v - down_px)
+              ? before.at(u - right_px, v - down_px)
+              : static_cast<std::uint8_t>(test::textureAt(Eigen::Vector2d(u + 900, v - 700)));
+  return pair;
+}
+
+TEST(DenseSurfMatcher, FindsShiftsFarBeyondTheFinestLevelsSearch) {
+  const int right_px = 55, down_px = -40;  // the finest level searches 12 px
+  std::vector<PixelMatch> matches = matchBy({}, movedPair(right_px, down_px));
+  for (PixelMatch& match : matches) match.live_px -= Vector2f(right_px, down_px);
+  const auto errors = test::errorsOf(matches);
+  EXPECT_GT(errors.count, 2000u);
+  EXPECT_LT(errors.median_px, 0.1);
+  EXPECT_LT(errors.outlier_share, 0.005);
+}
+
+TEST(DenseSurfMatcher, FindsNoMoreThanItsReach) {
   MatcherOptions options;
-  options.search_radius_px = 4;  // the true shifts are 3 to 6 px right, 1 to 4 px up
-  const auto blind = matchBy(options, test::makeWarpedPair(1.0), Vector2f(-20, 20));
-  const auto told = matchBy(options, test::makeWarpedPair(1.0), Vector2f(4, -3));
-  EXPECT_LT(10 * blind.size(), told.size());
+  options.reach = 0.05;  // 24 px, and 36 px that the finer levels add
+  int found = 0;
+  for (const PixelMatch& match : matchBy(options, movedPair(75, 0)))
+    found += std::abs(match.live_px.x() - match.model_px.x() - 79) < 4;
+  EXPECT_EQ(found, 0);
+}
+
+TEST(DenseSurfMatcher, GivesOneMatchPerPlaceByRows) {
+  const auto matches = matchBy({}, test::makeWarpedPair(4.0));
+  for (std::size_t i = 1; i < matches.size(); ++i) {
+    const Vector2f &a = matches[i - 1].model_px, &b = matches[i].model_px;
+    EXPECT_TRUE(a.y() < b.y() || (a.y() == b.y() && a.x() < b.x())) << i;
+  }
 }
 
 TEST(DenseSurfMatcher, RatioTestRefusesAPatternThatRepeats) {
@@ -124,7 +156,7 @@ TEST_P(EveryMatcher, SaysItsNameAndMatches) {
   const auto matcher = makeFeatureMatcher(methodOf(GetParam()));
   EXPECT_EQ(matcher->name(), GetParam());
   const test::WarpedPair pair = test::makeWarpedPair(1.0);
-  const auto errors = test::errorsOf(matcher->match(pair.model, pair.live, Vector2f::Zero()));
+  const auto errors = test::errorsOf(matcher->match(pair.model, pair.live));
   if (matcher->name() == "surf-off")
     EXPECT_EQ(errors.count, 0u);
   else
@@ -144,18 +176,18 @@ TEST_P(EveryMatcher, StaysSilentWhereThereIsNothing) {
   const Mask everything(320, 240, 255);
   for (const std::uint8_t gray : {0, 128, 255}) {
     const MatchPicture flat{GrayImage(320, 240, gray), {}};
-    const auto found = matcher->match(flat, pair.live, Vector2f::Zero());
+    const auto found = matcher->match(flat, pair.live);
     for (const PixelMatch& match : found) EXPECT_TRUE(match.live_px.allFinite());
     if (matcher->name() != "dis-flow") {
       EXPECT_TRUE(found.empty());
     }
-    EXPECT_TRUE(matcher->match(flat, flat, Vector2f::Zero()).empty());
+    EXPECT_TRUE(matcher->match(flat, flat).empty());
   }
-  EXPECT_TRUE(matcher->match({pair.model.gray, everything}, pair.live, Vector2f::Zero()).empty());
-  EXPECT_TRUE(matcher->match(pair.model, {pair.live.gray, everything}, Vector2f::Zero()).empty());
-  EXPECT_TRUE(matcher->match({}, {}, Vector2f::Zero()).empty());
+  EXPECT_TRUE(matcher->match({pair.model.gray, everything}, pair.live).empty());
+  EXPECT_TRUE(matcher->match(pair.model, {pair.live.gray, everything}).empty());
+  EXPECT_TRUE(matcher->match({}, {}).empty());
   const MatchPicture tiny{GrayImage(5, 3, 9), {}};
-  EXPECT_TRUE(matcher->match(tiny, tiny, Vector2f::Zero()).empty());
+  EXPECT_TRUE(matcher->match(tiny, tiny).empty());
 }
 
 TEST_P(EveryMatcher, NeverMatchesWhatIsIgnored) {
@@ -175,11 +207,9 @@ TEST_P(EveryMatcher, RefusesUnequalShapes) {
   const test::WarpedPair pair = test::makeWarpedPair(0);
   const auto matcher = makeFeatureMatcher(methodOf(GetParam()));
   const MatchPicture other{GrayImage(300, 240, 0), {}};
-  EXPECT_THROW(matcher->match(pair.model, other, Vector2f::Zero()), Error);
-  EXPECT_THROW(matcher->match({pair.model.gray, Mask(3, 3, 0)}, pair.live, Vector2f::Zero()),
-               Error);
-  EXPECT_THROW(matcher->match({pair.model.gray, {}, GrayImage(3, 3)}, pair.live, Vector2f::Zero()),
-               Error);
+  EXPECT_THROW(matcher->match(pair.model, other), Error);
+  EXPECT_THROW(matcher->match({pair.model.gray, Mask(3, 3, 0)}, pair.live), Error);
+  EXPECT_THROW(matcher->match({pair.model.gray, {}, GrayImage(3, 3)}, pair.live), Error);
 }
 
 TEST(MatcherOptions, AreCheckedOneByOne) {
@@ -189,7 +219,10 @@ TEST(MatcherOptions, AreCheckedOneByOne) {
     change(options);
     EXPECT_THROW(makeFeatureMatcher(options), OptionError);
   };
+  refused([](MatcherOptions& o) { o.reach = 0; });
+  refused([](MatcherOptions& o) { o.reach = 1.1; });
   refused([](MatcherOptions& o) { o.search_radius_px = 0; });
+  refused([](MatcherOptions& o) { o.coarse_spacing_px = 0; });
   refused([](MatcherOptions& o) { o.max_ratio = 1.1; });
   refused([](MatcherOptions& o) { o.elsewhere_px = -1; });
   refused([](MatcherOptions& o) { o.mutual_px = -1; });

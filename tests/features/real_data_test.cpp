@@ -21,10 +21,9 @@ TEST(RenderedOrgans, FrameToFrameIsATenthOfAPixel) {
     const auto matcher = makeFeatureMatcher({});
     test::FlowErrors errors;
     for (const int frame : {0, 15, 30})
-      errors.add(
-          matcher->match(test::pictureOf(test::readLeft(folder, frame)),
-                         test::pictureOf(test::readLeft(folder, frame + 1)), Vector2f::Zero()),
-          test::TrueFlow(truth, frame, frame + 1));
+      errors.add(matcher->match(test::pictureOf(test::readLeft(folder, frame)),
+                                test::pictureOf(test::readLeft(folder, frame + 1))),
+                 test::TrueFlow(truth, frame, frame + 1));
     EXPECT_GT(errors.matches, 2000u) << name;
     EXPECT_LT(test::FlowErrors::quantile(errors.error_px, 0.5), limit_px) << name;
     EXPECT_LT(errors.outlierShare(), 0.04) << name;
@@ -58,7 +57,7 @@ TEST(RenderedOrgans, ModelViewIsTheFrameItWasMadeOf) {
 
   test::FlowErrors flow;
   const auto matches = makeFeatureMatcher({})->match(
-      test::pictureOf(view), test::pictureOf(test::readLeft(folder, frame + 1)), Vector2f::Zero());
+      test::pictureOf(view), test::pictureOf(test::readLeft(folder, frame + 1)));
   flow.add(matches, test::TrueFlow(truth, frame, frame + 1));
   // Points every 0.2 mm are every second pixel: a little less sharp than the picture itself.
   EXPECT_LT(test::FlowErrors::quantile(flow.error_px, 0.5), 0.14);
@@ -75,8 +74,8 @@ TEST(RealTissue, DenseSurfGivesMoreThanSift) {
                              readMask(folder / "mask" / (test::frameName(f) + ".png")));
     };
     const MatchPicture before = read(frame), after = read(frame + 1);
-    const auto dense = makeFeatureMatcher({})->match(before, after, Vector2f::Zero());
-    const auto sparse = makeFeatureMatcher(sift)->match(before, after, Vector2f::Zero());
+    const auto dense = makeFeatureMatcher({})->match(before, after);
+    const auto sparse = makeFeatureMatcher(sift)->match(before, after);
     EXPECT_GT(dense.size(), 2 * sparse.size()) << frame;
     EXPECT_GT(dense.size(), 1000u) << frame;  // the paper has 100 to 1000
   }
