@@ -60,7 +60,7 @@ class ReconstructCommand : public Command {
 
   SequenceArguments source_;
   std::string out_, track_;
-  std::string backend_ = "auto", preset_ = "default", matcher_;
+  std::string backend_ = "auto", preset_ = "default", matcher_, scope_;
   int save_every_ = 10, checkpoint_every_ = 100;
   bool no_correspondence_ = false, resume_ = false, force_ = false;
   SettingsArguments settings_;
@@ -81,6 +81,7 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
   arguments.option("--backend", "NAME", backend_, "auto (the default), cpu or cuda");
   arguments.option("--preset", "NAME", preset_, "default, or paper: the paper's nodes and weights");
   arguments.option("--matcher", "NAME", matcher_, "dense-surf (the default), sift or surf-off");
+  arguments.option("--scope", "STATE", scope_, "static or moving, where that is known; else auto");
   arguments.flag("--no-correspondence", no_correspondence_,
                  "matches give the pose, but don't pull the warp");
   arguments.option("--checkpoint-every", "N", checkpoint_every_,
@@ -128,6 +129,7 @@ int ReconstructCommand::run() {
   bindReconstructOptions(binder, options);
   Settings settings = readSettingsArguments(settings_);
   if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
+  if (!scope_.empty()) addAssignment(settings, "pose.scope=" + scope_);
   if (no_correspondence_) addAssignment(settings, "deform.use_correspondences=false");
   binder.apply(settings);
   source_.applyFrames(options.sequence);

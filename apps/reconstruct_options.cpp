@@ -125,17 +125,14 @@ void bindPose(SettingsBinder& binder, ReconstructOptions& options) {
   binder.bind(at + "min_share", pose.min_share, "of the pairs that must be inliers");
   binder.bind(at + "min_spread_mm", pose.min_spread_mm, "of the inliers across their line");
   binder.bind(at + "seed", options.random_seed, "of RANSAC's choices");
-  auto& [iterations, noise_px, disparity_noise_px, robust_scale, standing_mm, standing_share,
-         moving_share] = options.method.refine_pose;
+  auto& [iterations, noise_px, disparity_noise_px, robust_scale, scope, significance] =
+      options.method.refine_pose;
   binder.bind(at + "refine.iterations", iterations, "0: RANSAC's fit is the pose");
   binder.bind(at + "refine.noise_px", noise_px, "floor of what matches err by");
   binder.bind(at + "refine.disparity_noise_px", disparity_noise_px, "and of what disparity does");
   binder.bind(at + "refine.robust_scale", robust_scale, "of the median: what moves more is tissue");
-  binder.bind(at + "refine.standing_mm", standing_mm, "where less moved, and");
-  binder.bind(at + "refine.standing_share", standing_share,
-              "a rigid motion leaves more than this share, the scope stands still");
-  binder.bind(at + "refine.moving_share", moving_share,
-              "unless it explains this share of the matches, and no motion doesn't");
+  binder.bind(at + "scope", scope, "auto, or static or moving where that is known");
+  binder.bind(at + "significance", significance, "probability to take a static scope for moving");
   binder.bind("lift.max_step_mm", options.method.lift.max_step_mm,
               "more between four pixels is a depth step");
 }

@@ -41,12 +41,25 @@ using NodeStencil = std::array<std::int32_t, kNodesPerPoint>;
 struct WarpGraph {
   std::vector<Eigen::Vector3d> positions_mm;  // of the nodes, world frame, before the warp
   std::vector<NodeTransform> transforms;      // one a node
+  std::vector<Eigen::Vector3d> moved_mm;      // of each node since the reference shape, world
   std::vector<GraphEdge> edges;               // ascending by (first, second)
   std::vector<NodeStencil> stencils;          // what PointBinding::stencil counts
 
   std::size_t size() const { return positions_mm.size(); }
   bool empty() const { return positions_mm.empty(); }
 };
+
+/// How far the tissue at a bound point has moved in the world since the reference shape; zero for
+/// an unbound point.
+inline Eigen::Vector3d movedMm(const WarpGraph& graph, const PointBinding& binding) {
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  if (!binding.bound() || graph.moved_mm.size() != graph.size()) return moved;
+  const NodeStencil& stencil = graph.stencils[static_cast<std::size_t>(binding.stencil)];
+  for (int k = 0; k < kNodesPerPoint; ++k)
+    moved += static_cast<double>(binding.weights[k]) *
+             graph.moved_mm[static_cast<std::size_t>(stencil[k])];
+  return moved;
+}
 
 /// How many different nodes the stencil holds.
 inline int distinctNodes(const NodeStencil& stencil) {

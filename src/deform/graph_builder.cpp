@@ -1,6 +1,7 @@
 #include "deform/graph_builder.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -142,13 +143,28 @@ class Growth {
   }
 
  private:
+  /// New tissue has moved as the nearest known tissue has: the scope saw neither before.
+  Eigen::Vector3d movedNear(const Eigen::Vector3d& position_mm) const {
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < graph_.size(); ++j) {
+      const double distance = (graph_.positions_mm[j] - position_mm).squaredNorm();
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      moved = graph_.moved_mm[j];
+    }
+    return moved;
+  }
+
   /// In the order of the points: as the picture was read, row by row.
   void addNodes() {
+    graph_.moved_mm.resize(graph_.size(), Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const int cell = cells_.cellOf(static_cast<int>(i));
       if (cell < 0 || model_.bindings[points_[i]].bound() || reach_.covered(cell)) continue;
       const int node = static_cast<int>(graph_.size());
       const Eigen::Vector3f position_mm = model_.positions_mm[cells_.representative(cell)];
+      graph_.moved_mm.push_back(movedNear(position_mm.cast<double>()));
       graph_.positions_mm.push_back(position_mm.cast<double>());
       graph_.transforms.emplace_back();
       for (const int reached : reach_.spread(node, position_mm)) near_new_node_[reached] = 1;

@@ -61,8 +61,10 @@ Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,
 }
 
 void rebase(WarpGraph* graph) {
+  graph->moved_mm.resize(graph->size(), Eigen::Vector3d::Zero());
   for (std::size_t j = 0; j < graph->size(); ++j) {
     graph->positions_mm[j] += graph->transforms[j].translation_mm;
+    graph->moved_mm[j] += graph->transforms[j].translation_mm;
     graph->transforms[j] = NodeTransform();
   }
 }

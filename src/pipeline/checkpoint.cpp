@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 3\n";
+constexpr std::string_view kMagic = "softscope checkpoint 4\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -105,6 +105,7 @@ template <class Archive, class Graph>
 void visitGraph(Archive& archive, Graph& graph) {
   archive.array(graph.positions_mm);
   archive.array(graph.transforms);
+  archive.array(graph.moved_mm);
   archive.array(graph.edges);
   archive.array(graph.stencils);
 }
@@ -144,6 +145,7 @@ void visit(Archive& archive, Whole& checkpoint) {
   archive.value(checkpoint.state.model.exposure.green);
   archive.value(checkpoint.state.model.exposure.blue);
   archive.pose(checkpoint.state.world_from_left);
+  archive.pose(checkpoint.state.reference_pose);
   archive.array(checkpoint.state.key_views);
   archive.value(checkpoint.state.lost);
 }

@@ -57,9 +57,10 @@ class CpuBackend : public ReconstructionBackend {
 
   DepthSummary measure(const Frame& frame) override;
   MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) override;
-  PoseSummary estimatePose(const Eigen::Isometry3d& last) override;
+  PoseSummary estimatePose(const Eigen::Isometry3d& last,
+                           const Eigen::Isometry3d& reference) override;
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
-  void acceptWarp() override;
+  void acceptWarp(bool is_reference) override;
   void rejectWarp() override;
   FusionSummary fuse(const Eigen::Isometry3d& world_from_left) override;
   void track(const std::vector<TrackSeed>& seeds) override { seeds_ = seeds; }
@@ -72,7 +73,8 @@ class CpuBackend : public ReconstructionBackend {
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
   void scaleTo(double median_sigma_mm);
   MatchPicture pictureOf(const ModelView& view) const;
-  void refine(const Eigen::Isometry3d& last, PoseSummary* summary);
+  void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
+              PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
 
@@ -148,17 +150,19 @@ MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach 
   return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
 }
 
-PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last) {
+PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
+                                     const Eigen::Isometry3d& reference) {
   pose_ = estimateRigidPose(posePairs(matches_), options_.pose);
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;
-  if (pose_.found) refine(last, &summary);
+  if (pose_.found) refine(last, reference, &summary);
   clock_.lap("pose");
   return summary;
 }
 
-void CpuBackend::refine(const Eigen::Isometry3d& last, PoseSummary* summary) {
+void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
+                        PoseSummary* summary) {
   summary->world_from_left = pose_.target_from_source;
   summary->inliers = pose_.inliers;
   summary->rms_mm = pose_.rms_mm;
@@ -173,15 +177,20 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, PoseSummary* summary) {
     const Eigen::Vector3d live = match.target_left_mm.cast<double>();
     const double px_per_mm = rig.left.fx_px / live.z();
     const double sigma_mm = std::isfinite(match.along_mm) ? match.along_mm : 0;
-    pairs.push_back({match.source_world_mm.cast<double>(), projectPoint(rig.left, live),
-                     match.across_mm * px_per_mm, rig.disparityPx(live.z()),
-                     sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
+    const PointBinding& binding =
+        state_.model.bindings[static_cast<std::size_t>(match.model_point)];
+    const Eigen::Vector3d model_mm = match.source_world_mm.cast<double>();
+    pairs.push_back({model_mm, model_mm - movedMm(state_.graph, binding),
+                     projectPoint(rig.left, live), match.across_mm * px_per_mm,
+                     rig.disparityPx(live.z()), sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
   }
   const RefinedPose best =
-      refinePose(pairs, rig, pose_.target_from_source, last, options_.refine_pose);
+      refinePose(pairs, rig, pose_.target_from_source, last, reference, options_.refine_pose);
   summary->world_from_left = best.world_from_left;
-  summary->stands = best.stands;
-  summary->disparity_offset_px = best.disparity_offset_px;
+  summary->scope_static = best.scope_static;
+  summary->moved_mm = best.moved_mm;
+  summary->sigma_mm = best.sigma_mm;
+  summary->sigma_deg = best.sigma_deg;
 }
 
 Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const {
@@ -237,10 +246,11 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   return summary;
 }
 
-void CpuBackend::acceptWarp() {
+void CpuBackend::acceptWarp(bool is_reference) {
   state_.tracked.warp(state_.graph, state_.model);
   warpModel(state_.graph, &state_.model);
   rebase(&state_.graph);
+  if (is_reference) state_.graph.moved_mm.assign(state_.graph.size(), Eigen::Vector3d::Zero());
   clock_.lap("warp");
 }
 

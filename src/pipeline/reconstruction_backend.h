@@ -47,8 +47,10 @@ struct PoseSummary {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   int inliers = 0;
   double rms_mm = kUnknown;
-  bool stands = false;             // the scope is where it was
-  double disparity_offset_px = 0;  // by which the frame's disparities exceed the model's
+  bool scope_static = false;    // no significant motion since the reference pose
+  double moved_mm = kUnknown;   // measured motion since the reference pose
+  double sigma_mm = kUnknown;   // predicted standard error of the position …
+  double sigma_deg = kUnknown;  // … and of the orientation
 };
 
 struct WarpSummary {
@@ -93,12 +95,15 @@ class ReconstructionBackend {
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 and 3: draws the model from that pose, finds its pixels in the live picture.
   virtual MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) = 0;
-  /// Stage 4: from the last matches; `last` is where the scope was in the frame before.
-  virtual PoseSummary estimatePose(const Eigen::Isometry3d& last) = 0;
+  /// Stage 4: from the last matches; `last` is the pose of the previous frame, `reference` the last
+  /// one that differed significantly from its predecessor.
+  virtual PoseSummary estimatePose(const Eigen::Isometry3d& last,
+                                   const Eigen::Isometry3d& reference) = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
   virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
-  /// Carries points, nodes and tracked points to the live shape.
-  virtual void acceptWarp() = 0;
+  /// Carries points, nodes and tracked points to the live shape. `is_reference`: the shape is what
+  /// later motions of the scope are measured against.
+  virtual void acceptWarp(bool is_reference) = 0;
   /// The model stays as it was.
   virtual void rejectWarp() = 0;
   /// Stage 7: brings the model up to the frame; an empty model begins with it.

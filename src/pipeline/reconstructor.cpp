@@ -86,7 +86,7 @@ bool Reconstructor::locate(FrameRecord& record) {
     record.pose.world_from_left = world_from_left_;
     return true;
   }
-  record.pose = backend_->estimatePose(world_from_left_);
+  record.pose = backend_->estimatePose(world_from_left_, reference_pose_);
   if (record.pose.found) world_from_left_ = record.pose.world_from_left;
   return record.pose.found;
 }
@@ -98,7 +98,7 @@ bool Reconstructor::findAgain(FrameRecord& record) {
   views.insert(views.end(), key_views_.rbegin(), key_views_.rend());
   for (const Eigen::Isometry3d& view : views) {
     backend_->match(view, MatchReach::kWhole);
-    const PoseSummary pose = backend_->estimatePose(world_from_left_);
+    const PoseSummary pose = backend_->estimatePose(world_from_left_, reference_pose_);
     if (pose.found && pose.inliers > best.inliers) best = pose;
   }
   lost_ = true;
@@ -109,7 +109,7 @@ bool Reconstructor::findAgain(FrameRecord& record) {
              record.pose.failure.empty() ? "no view of it matches" : record.pose.failure));
   // Once more from near, for matches that the warp may trust.
   record.matches = backend_->match(best.world_from_left, MatchReach::kNear);
-  record.pose = backend_->estimatePose(world_from_left_);
+  record.pose = backend_->estimatePose(world_from_left_, reference_pose_);
   if (!record.pose.found)
     return reject(record, FrameStatus::kLost,
                   text("found, but not confirmed: ", record.pose.failure));
@@ -125,7 +125,9 @@ bool Reconstructor::deform(FrameRecord& record) {
       record.warp.in_sight > 0 ? double(solver.points_after) / record.warp.in_sight : 0;
   if (solver.reason != StopReason::kNotFinite && explained >= gate_.min_explained &&
       solver.data_mean_mm_after <= gate_.max_residual_mm) {
-    backend_->acceptWarp();
+    const bool is_reference = !record.pose.scope_static;
+    if (is_reference) reference_pose_ = world_from_left_;
+    backend_->acceptWarp(is_reference);
     return true;
   }
   backend_->rejectWarp();
@@ -154,12 +156,13 @@ void Reconstructor::rememberView() {
 }
 
 ReconstructionState Reconstructor::state() const {
-  return {backend_->state(), world_from_left_, key_views_, lost_};
+  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
   backend_->restore(std::move(state.model));
   world_from_left_ = state.world_from_left;
+  reference_pose_ = state.reference_pose;
   key_views_ = std::move(state.key_views);
   lost_ = state.lost;
 }

@@ -14,6 +14,7 @@ namespace softscope {
 struct ReconstructionState {
   ModelState model;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
   bool lost = false;
 };
@@ -51,6 +52,7 @@ class Reconstructor {
   GateOptions gate_;
   bool matching_;  // false: nothing tells where the scope is, so it is taken to stand still
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last sure motion
   std::vector<Eigen::Isometry3d> key_views_;
   bool lost_ = false;
 };

@@ -9,7 +9,8 @@ namespace {
 constexpr const char* kColumns =
     "frame,time_s,status,points,nodes,matches,inliers,backprojection_mean_mm,"
     "backprojection_p95_mm,prediction_mean_mm,prediction_p95_mm,coverage,depth_sigma_mm,"
-    "row_difference_px,lifted,pose_rms_mm,disparity_offset_px,solver_stop,solver_iterations,"
+    "row_difference_px,lifted,pose_rms_mm,scope_static,scope_moved_mm,pose_sigma_mm,pose_sigma_deg,"
+    "solver_stop,solver_iterations,"
     "residual_before_mm,"
     "residual_mm,in_sight,seen,fused,inserted,contradicted";
 
@@ -100,7 +101,13 @@ std::string framesCsvLine(const FrameRecord& record) {
   line.add(record.depth.row_difference_px, 3);
   line.add(record.matches.lifted);
   line.add(record.pose.rms_mm, 4);
-  line.add(record.pose.disparity_offset_px, 3);
+  if (record.pose.found)
+    line.add(record.pose.scope_static ? 1 : 0);
+  else
+    line.skip(1);
+  line.add(record.pose.moved_mm, 4);
+  line.add(record.pose.sigma_mm, 4);
+  line.add(record.pose.sigma_deg, 4);
   addSolver(record, line);
   line.add(record.fusion.seen);
   line.add(record.fusion.fused);

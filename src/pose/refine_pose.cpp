@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,8 +17,18 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr double kConvergedMm = 1e-4;
 constexpr double kTypicalDepthMm = 50;  // turns a rotation into a shift, to judge convergence
 constexpr double kCostScaleSq = 9;      // three standard errors
-constexpr double kExplainedSigmas = 3;  // of a pair that a pose explains
-constexpr double kTellingShare = 0.5;   // where no motion explains half as many, there was one
+constexpr double kRigidShare = 0.9;     // of a scene that kept its shape since the reference
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr double kSeenSigmas =
+    6;  // of a shift that is seen in a single pair: two poses explain it to three
+
+// Image regions whose errors are independent.
+constexpr int kRegionColumns = 6, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
+constexpr int kFewestRegions = 8;  // with pairs; below, neither motion nor error is known
+
+/// Which place of a pair the model has.
+using Place = Eigen::Vector3d PosePair::*;
 
 /// Whitened residuals of one pair (u, v, disparity) and their slopes by a twist of the pose.
 struct Residual {
@@ -27,10 +38,10 @@ struct Residual {
 };
 
 /// docs/energy.md (26).
-Residual residualOf(const PosePair& pair, const RectifiedRig& rig,
+Residual residualOf(const PosePair& pair, Place place, const RectifiedRig& rig,
                     const Eigen::Isometry3d& left_from_world, const RefinePoseOptions& options) {
   Residual out;
-  const Eigen::Vector3d p = left_from_world * pair.model_world_mm;
+  const Eigen::Vector3d p = left_from_world * pair.*place;
   const double across = 1 / std::hypot(options.noise_px, pair.sigma_px);
   const double along = 1 / std::hypot(options.disparity_noise_px, pair.sigma_disparity_px);
   if (!(p.z() > 1e-3) || !std::isfinite(across) || !std::isfinite(along)) return out;
@@ -49,7 +60,7 @@ Residual residualOf(const PosePair& pair, const RectifiedRig& rig,
 }
 
 double medianOf(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return kNan;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -63,77 +74,163 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6d& twist) {
   return by * pose;
 }
 
+/// Upper quantile of the normal distribution (Abramowitz and Stegun 26.2.23, to 4.5e-4).
+double normalQuantile(double probability) {
+  const double t = std::sqrt(-2 * std::log(probability));
+  return t - (2.515517 + t * (0.802853 + t * 0.010328)) /
+                 (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+}
+
+/// Upper quantile of Student's t distribution (Abramowitz and Stegun 26.7.5).
+double studentQuantile(double probability, double freedom) {
+  const double z = normalQuantile(probability), sq = z * z;
+  return z * (1 + (sq + 1) / (4 * freedom) + ((5 * sq + 16) * sq + 3) / (96 * freedom * freedom) +
+              (((3 * sq + 19) * sq + 17) * sq - 15) / (384 * freedom * freedom * freedom));
+}
+
 /// The pairs, seen from any pose.
 class Pairs {
  public:
-  Pairs(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
+  Pairs(const std::vector<PosePair>& pairs, Place place, const RectifiedRig& rig,
         const RefinePoseOptions& options)
-      : pairs_(pairs), rig_(rig), options_(options) {}
+      : pairs_(pairs), place_(place), rig_(rig), options_(options) {}
 
-  Eigen::Isometry3d search(Eigen::Isometry3d left_from_world) const {
+  /// The best end of the searches that begin at both poses.
+  Eigen::Isometry3d search(const Eigen::Isometry3d& left_from_world,
+                           const Eigen::Isometry3d& other_left_from_world) const {
+    const Eigen::Isometry3d one = searchFrom(left_from_world),
+                            other = searchFrom(other_left_from_world);
+    return costAt(other) < costAt(one) ? other : one;
+  }
+
+  /// Whether `best` is another pose than `old`: most of the pairs see the difference, and `best`
+  /// explains them significantly better: docs/energy.md (29), (30).
+  bool differs(const Eigen::Isometry3d& best, const Eigen::Isometry3d& old) const {
+    return medianShift(best, old) > kSeenSigmas && prefers(best, old);
+  }
+
+  /// Covariance of the pose as a twist in the left camera's frame, clustered by regions: (31).
+  Matrix6d covarianceAt(const Eigen::Isometry3d& left_from_world) const {
+    std::vector<Vector6d> scores(kRegions, Vector6d::Zero());
+    std::array<int, kRegions> counts{};
+    Matrix6d normal = Matrix6d::Zero();
+    for (const PosePair& pair : pairs_) {
+      const Residual residual = residualAt(pair, left_from_world);
+      if (!residual.usable) continue;
+      const double weight = weightOf(residual, kCostScaleSq);
+      normal += weight * residual.slope.transpose() * residual.slope;
+      const std::size_t region = regionOf(pair.live_px);
+      scores[region] += weight * residual.slope.transpose() * residual.value;
+      ++counts[region];
+    }
+    const int regions = usedOf(counts);
+    if (regions < kFewestRegions) return Matrix6d::Constant(kNan);
+    Matrix6d spread = Matrix6d::Zero();
+    for (const Vector6d& score : scores) spread += score * score.transpose();
+    const Matrix6d inverse = normal.ldlt().solve(Matrix6d::Identity());
+    return inverse * spread * inverse * regions / (regions - 1.0);
+  }
+
+  /// Share of the pairs that a pose puts where they were found, to three standard errors.
+  double explainedBy(const Eigen::Isometry3d& left_from_world) const {
+    int explained = 0;
+    for (const PosePair& pair : pairs_) {
+      const Residual residual = residualAt(pair, left_from_world);
+      explained += residual.usable && residual.value.squaredNorm() < kCostScaleSq;
+    }
+    return pairs_.empty() ? 0 : static_cast<double>(explained) / static_cast<double>(pairs_.size());
+  }
+
+ private:
+  /// How far apart two poses put a pair, in its standard errors: the median.
+  double medianShift(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) const {
+    std::vector<double> shifts;
+    shifts.reserve(pairs_.size());
+    for (const PosePair& pair : pairs_) {
+      const Residual here = residualAt(pair, one), there = residualAt(pair, other);
+      if (here.usable && there.usable) shifts.push_back((here.value - there.value).norm());
+    }
+    return medianOf(std::move(shifts));
+  }
+
+  /// Student's test of the mean gain of `best` over `old`; regions are the samples.
+  bool prefers(const Eigen::Isometry3d& best, const Eigen::Isometry3d& old) const {
+    std::array<double, kRegions> gains{};
+    std::array<int, kRegions> counts{};
+    double total = 0;
+    int count = 0;
+    for (const PosePair& pair : pairs_) {
+      const Residual here = residualAt(pair, best), there = residualAt(pair, old);
+      if (!here.usable || !there.usable) continue;
+      const double gain = costOf(there) - costOf(here);
+      const std::size_t region = regionOf(pair.live_px);
+      gains[region] += gain;
+      ++counts[region];
+      total += gain;
+      ++count;
+    }
+    const int regions = usedOf(counts);
+    if (regions < kFewestRegions) return false;
+    const double mean = total / count;
+    double spread = 0;
+    for (std::size_t k = 0; k < gains.size(); ++k)
+      spread += std::pow(gains[k] - mean * counts[k], 2);
+    const double error = std::sqrt(spread * regions / (regions - 1.0)) / count;
+    return mean > studentQuantile(options_.significance, regions - 1.0) * error;
+  }
+
+  static double costOf(const Residual& residual) {
+    const double squared = residual.value.squaredNorm();
+    return squared / (squared + kCostScaleSq);
+  }
+
+  static double weightOf(const Residual& residual, double scale_sq) {
+    const double share = scale_sq / (scale_sq + residual.value.squaredNorm());
+    return share * share;
+  }
+
+  static int usedOf(const std::array<int, kRegions>& counts) {
+    return kRegions - static_cast<int>(std::count(counts.begin(), counts.end(), 0));
+  }
+
+  std::size_t regionOf(const Eigen::Vector2d& live_px) const {
+    const auto region = [](double px, int size_px, int count) {
+      return std::clamp(static_cast<int>(px * count / size_px), 0, count - 1);
+    };
+    return static_cast<std::size_t>(region(live_px.y(), rig_.left.height_px, kRegionRows) *
+                                        kRegionColumns +
+                                    region(live_px.x(), rig_.left.width_px, kRegionColumns));
+  }
+
+  Residual residualAt(const PosePair& pair, const Eigen::Isometry3d& left_from_world) const {
+    return residualOf(pair, place_, rig_, left_from_world, options_);
+  }
+
+  std::vector<Residual> residualsAt(const Eigen::Isometry3d& left_from_world) const {
+    std::vector<Residual> residuals;
+    residuals.reserve(pairs_.size());
+    for (const PosePair& pair : pairs_) {
+      const Residual residual = residualAt(pair, left_from_world);
+      if (residual.usable) residuals.push_back(residual);
+    }
+    return residuals;
+  }
+
+  /// Mean robust cost of a pair, 0 to 1: docs/energy.md (28).
+  double costAt(const Eigen::Isometry3d& left_from_world) const {
+    const std::vector<Residual> residuals = residualsAt(left_from_world);
+    double sum = 0;
+    for (const Residual& residual : residuals) sum += costOf(residual);
+    return residuals.empty() ? 1 : sum / static_cast<double>(residuals.size());
+  }
+
+  Eigen::Isometry3d searchFrom(Eigen::Isometry3d left_from_world) const {
     for (int i = 0; i < options_.iterations; ++i) {
       const Vector6d twist = stepFrom(left_from_world);
       left_from_world = moved(left_from_world, twist);
       if (twist.tail<3>().norm() + kTypicalDepthMm * twist.head<3>().norm() < kConvergedMm) break;
     }
     return left_from_world;
-  }
-
-  /// Mean robust cost of a pair, 0 to 1: docs/energy.md (28).
-  double costAt(const Eigen::Isometry3d& left_from_world) const {
-    double sum = 0;
-    int count = 0;
-    for (const Residual& residual : residualsAt(left_from_world)) {
-      const double squared = residual.value.squaredNorm();
-      sum += squared / (squared + kCostScaleSq);
-      ++count;
-    }
-    return count > 0 ? sum / count : 1;
-  }
-
-  /// Median distance across the ray between where pairs are and where the pose has them.
-  double shiftMm(const Eigen::Isometry3d& left_from_world) const {
-    std::vector<double> shifts;
-    for (const PosePair& pair : pairs_) {
-      const Eigen::Vector3d p = left_from_world * pair.model_world_mm;
-      if (p.z() > 0)
-        shifts.push_back((projectPoint(rig_.left, p) - pair.live_px).norm() * p.z() /
-                         rig_.left.fx_px);
-    }
-    return medianOf(std::move(shifts));
-  }
-
-  /// Share of the pairs that a pose puts where they were found, to three standard errors.
-  double explainedBy(const Eigen::Isometry3d& left_from_world) const {
-    int pairs = 0, explained = 0;
-    for (const PosePair& pair : pairs_) {
-      const Eigen::Vector3d p = left_from_world * pair.model_world_mm;
-      if (!(p.z() > 0)) continue;
-      ++pairs;
-      explained += (projectPoint(rig_.left, p) - pair.live_px).norm() <
-                   kExplainedSigmas * std::hypot(options_.noise_px, pair.sigma_px);
-    }
-    return pairs > 0 ? static_cast<double>(explained) / pairs : 0;
-  }
-
-  double disparityOffsetPx(const Eigen::Isometry3d& left_from_world) const {
-    std::vector<double> offsets;
-    for (const PosePair& pair : pairs_) {
-      const double z = (left_from_world * pair.model_world_mm).z();
-      if (z > 0) offsets.push_back(pair.disparity_px - rig_.disparityPx(z));
-    }
-    return offsets.empty() ? 0 : medianOf(std::move(offsets));
-  }
-
- private:
-  std::vector<Residual> residualsAt(const Eigen::Isometry3d& left_from_world) const {
-    std::vector<Residual> residuals;
-    residuals.reserve(pairs_.size());
-    for (const PosePair& pair : pairs_) {
-      const Residual residual = residualOf(pair, rig_, left_from_world, options_);
-      if (residual.usable) residuals.push_back(residual);
-    }
-    return residuals;
   }
 
   /// docs/energy.md (27): the scale follows the median, so that half of the pairs always count.
@@ -147,15 +244,16 @@ class Pairs {
     Matrix6d normal = Matrix6d::Zero();
     Vector6d right = Vector6d::Zero();
     for (const Residual& residual : residuals) {
-      const double share = scale_sq / (scale_sq + residual.value.squaredNorm());
-      normal += share * share * residual.slope.transpose() * residual.slope;
-      right -= share * share * residual.slope.transpose() * residual.value;
+      const double weight = weightOf(residual, scale_sq);
+      normal += weight * residual.slope.transpose() * residual.slope;
+      right -= weight * residual.slope.transpose() * residual.value;
     }
     const Vector6d twist = normal.ldlt().solve(right);
     return twist.allFinite() ? twist : Vector6d(Vector6d::Zero());
   }
 
   const std::vector<PosePair>& pairs_;
+  const Place place_;
   const RectifiedRig& rig_;
   const RefinePoseOptions& options_;
 };
@@ -168,31 +266,33 @@ void RefinePoseOptions::validate() const {
   require(disparity_noise_px > 0, "pose.refine.disparity_noise_px", disparity_noise_px,
           "must be above 0");
   require(robust_scale > 0, "pose.refine.robust_scale", robust_scale, "must be above 0");
-  require(standing_mm >= 0, "pose.refine.standing_mm", standing_mm, "can't be negative");
-  require(moving_share >= 0 && moving_share <= 1, "pose.refine.moving_share", moving_share,
-          "must be 0 to 1");
-  require(standing_share >= 0 && standing_share <= 1, "pose.refine.standing_share", standing_share,
-          "must be 0 to 1");
+  require(scope == "auto" || scope == "static" || scope == "moving", "pose.scope", scope,
+          "must be auto, static or moving");
+  require(significance > 0 && significance < 0.5, "pose.significance", significance,
+          "must be above 0 and below 0.5");
 }
 
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
-                       const RefinePoseOptions& options) {
+                       const Eigen::Isometry3d& reference, const RefinePoseOptions& options) {
   options.validate();
-  const Pairs seen(pairs, rig, options);
-  Eigen::Isometry3d best = seen.search(fitted.inverse());
-  const Eigen::Isometry3d from_last = seen.search(last.inverse());
-  if (seen.costAt(from_last) < seen.costAt(best)) best = from_last;
+  const Pairs now(pairs, &PosePair::model_world_mm, rig, options),
+      since(pairs, &PosePair::reference_world_mm, rig, options);
+  const Eigen::Isometry3d old = last.inverse(), before = reference.inverse();
+  const Eigen::Isometry3d best = now.search(fitted.inverse(), old);
+  const Eigen::Isometry3d best_since = since.search(best, before);
+  const bool moved_now = now.differs(best, old), moved_since = since.differs(best_since, before);
+  const bool whole = moved_since && (!moved_now || since.explainedBy(best_since) >=
+                                                       kRigidShare * now.explainedBy(best));
+  const Eigen::Isometry3d& measured = moved_now && !whole ? best : best_since;
+  const Matrix6d covariance = (moved_now && !whole ? now : since).covarianceAt(measured);
   RefinedPose refined;
-  refined.moved_mm = seen.shiftMm(last.inverse());
-  refined.left_mm = seen.shiftMm(best);
-  const double explained = seen.explainedBy(best);
-  const bool one_motion = explained >= options.moving_share &&
-                          seen.explainedBy(last.inverse()) < kTellingShare * explained;
-  refined.stands = refined.moved_mm < options.standing_mm &&
-                   refined.left_mm > options.standing_share * refined.moved_mm && !one_motion;
-  refined.world_from_left = refined.stands ? last : best.inverse();
-  if (refined.stands) refined.disparity_offset_px = seen.disparityOffsetPx(last.inverse());
+  refined.moved_mm = (measured.inverse().translation() - reference.translation()).norm();
+  refined.sigma_mm = std::sqrt(covariance.diagonal().tail<3>().sum());
+  refined.sigma_deg = 180 / M_PI * std::sqrt(covariance.diagonal().head<3>().sum());
+  const bool moves = options.scope == "moving" || moved_now || moved_since;
+  refined.scope_static = options.scope == "static" || !moves;
+  refined.world_from_left = refined.scope_static ? reference : measured.inverse();
   return refined;
 }
 

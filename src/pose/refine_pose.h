@@ -1,8 +1,10 @@
-// src/pose/refine_pose.h: the rigid motion that most of the tissue agrees with, to sub-pixel.
+// src/pose/refine_pose.h: pose that most of the tissue agrees with, to sub-pixel, and its error.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "core/stereo_rig.h"
@@ -14,19 +16,17 @@ struct RefinePoseOptions {
   double noise_px = 0.1;             // floor of what matching and the model's places err by
   double disparity_noise_px = 0.25;  // floor of what the live disparity errs by
   double robust_scale = 1.5;         // of the median residual: what moves more is tissue
-  double standing_mm = 2.0;          // where less than this moved across the rays, and …
-  double standing_share = 0.15;      // … a rigid motion leaves more than this share of it, the
-                                     // scope stands still and the tissue moves, …
-  double moving_share = 0.8;         // … but where one motion explains so many pairs, and none
-                                     // less than half as many, the scope moves all the same
+  std::string scope = "auto";        // "static" or "moving" where the user knows
+  double significance = 1e-5;        // probability to take a static scope for a moving one
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;
 };
 
-/// One piece of tissue on the model and in the live picture.
+/// One piece of tissue on the model and in the live image.
 struct PosePair {
-  Eigen::Vector3d model_world_mm;
+  Eigen::Vector3d model_world_mm;      // in the previous frame
+  Eigen::Vector3d reference_world_mm;  // when the scope was last known to move
   Eigen::Vector2d live_px;
   double sigma_px = 0;
   double disparity_px = 0;  // measured, live
@@ -35,20 +35,25 @@ struct PosePair {
 
 struct RefinedPose {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-  bool stands = false;  // the scope is where it was
-  /// By how much the frame's disparities exceed the model's, in the median; 0 unless it stands.
-  double disparity_offset_px = 0;
-  double moved_mm = 0;  // across the rays, seen from `last`: the median
-  double left_mm = 0;   // seen from the pose with the least cost
+  bool scope_static = false;  // no significant motion, neither since `last` nor since `reference`
+  // The rest is NaN where the pairs are too few or too close together.
+  double moved_mm = std::numeric_limits<double>::quiet_NaN();   // measured, since `reference`
+  double sigma_mm = std::numeric_limits<double>::quiet_NaN();   // predicted standard errors of the
+  double sigma_deg = std::numeric_limits<double>::quiet_NaN();  // position and of the orientation
 };
 
-/// Iteratively reweighted Gauss-Newton over the pose: docs/energy.md (26) to (29). Pixels pin it a
+/// Iteratively reweighted Gauss-Newton over the pose: docs/energy.md (26) to (28). Pixels pin it a
 /// hundred times better than depths do, and pairs on tissue that moves by itself lose their weight
-/// (Geman and McClure). It starts from `fitted` and from `last`, where the scope was; the better
-/// end counts. Pairs that are not finite or behind the camera have no weight; fewer than three
-/// leave `fitted`. Throws OptionError on bad options.
+/// (Geman and McClure). It begins at `fitted` and at `last`; the end with the least cost counts.
+///
+/// The scope moved if a new pose explains the pairs significantly better than the old one, judged
+/// by the mean gain of image regions, because tissue that moves pulls whole regions alike: (29).
+/// Two motions are tested: since the previous frame, and, because a slow motion is never
+/// significant in one frame, since `reference` and the tissue's places then. Without a significant
+/// motion the pose is `reference`. Pairs that are not finite or behind the camera have no weight;
+/// fewer than three leave `fitted`. Throws OptionError on bad options.
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
-                       const RefinePoseOptions& options);
+                       const Eigen::Isometry3d& reference, const RefinePoseOptions& options);
 
 }  // namespace softscope

@@ -1,5 +1,5 @@
-// tests/pose/refine_pose_test.cpp: pixels pin the pose, moving tissue doesn't, and a still scope
-// stays.
+// tests/pose/refine_pose_test.cpp: pixels pin the pose, moving tissue doesn't, a static scope stays
+// and a slow one is found.
 #include "pose/refine_pose.h"
 
 #include <gtest/gtest.h>
@@ -41,6 +41,7 @@ std::vector<PosePair> seenFrom(const Eigen::Isometry3d& world_from_left, const M
     for (double x = -24; x <= 24; x += 1.5) {
       PosePair pair;
       pair.model_world_mm = {x, y, 55 + 3 * std::sin(0.2 * x) * std::cos(0.15 * y)};
+      pair.reference_world_mm = pair.model_world_mm;
       const Eigen::Vector3d left =
           world_from_left.inverse() * (pair.model_world_mm + motion(pair.model_world_mm));
       pair.live_px =
@@ -51,6 +52,12 @@ std::vector<PosePair> seenFrom(const Eigen::Isometry3d& world_from_left, const M
       pairs.push_back(pair);
     }
   return pairs;
+}
+
+/// With the previous pose as the reference.
+RefinedPose refined(const std::vector<PosePair>& pairs, const Eigen::Isometry3d& fitted,
+                    const Eigen::Isometry3d& last, const RefinePoseOptions& options = {}) {
+  return refinePose(pairs, someRig(), fitted, last, last, options);
 }
 
 Eigen::Vector3d nothing(const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); }
@@ -65,19 +72,23 @@ TEST(RefinePose, FindsAnExactPoseFromThreeDegreesAway) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
   RefinePoseOptions options;
   options.iterations = 8;
-  const RefinedPose found = refinePose(seenFrom(truth, nothing), someRig(),
-                                       poseOf(0.05, {2, -2, 3}), poseOf(0.06, {3, -1, 3}), options);
+  const RefinedPose found = refined(seenFrom(truth, nothing), poseOf(0.05, {2, -2, 3}),
+                                    poseOf(0.06, {3, -1, 3}), options);
   expectNear(found.world_from_left, truth, 1e-6, 1e-8);
-  EXPECT_FALSE(found.stands);
+  EXPECT_FALSE(found.scope_static);
 }
 
 // 0.1 px over 800 matches: a hundredth of a pixel, 1e-3 mm at 55 mm, some times that in pose.
 TEST(RefinePose, AveragesNoiseAway) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
-  const RefinedPose found =
-      refinePose(seenFrom(truth, nothing, 0.1), someRig(), poseOf(0.09, {4, -2, 5}),
-                 Eigen::Isometry3d::Identity(), RefinePoseOptions());
+  const RefinedPose found = refined(seenFrom(truth, nothing, 0.1), poseOf(0.09, {4, -2, 5}),
+                                    Eigen::Isometry3d::Identity());
   expectNear(found.world_from_left, truth, 0.05, 1e-3);
+  // The predicted error is the true one's, to a factor of two either way.
+  const double error_mm = (found.world_from_left.translation() - truth.translation()).norm();
+  EXPECT_GT(found.sigma_mm, 0.5 * error_mm);
+  EXPECT_LT(found.sigma_mm, 0.05);
+  EXPECT_LT(found.sigma_deg, 0.05);
 }
 
 // A third of the tissue is pulled by up to 2 mm while the scope moves: least squares would be off
@@ -87,34 +98,64 @@ TEST(RefinePose, TakesTheWordOfTheTissueThatKeepsStill) {
   const auto pulled = [](const Eigen::Vector3d& p) {
     return p.x() > 8 ? Eigen::Vector3d(0.12 * (p.x() - 8), 0.5, -1) : Eigen::Vector3d(0, 0, 0);
   };
-  const RefinedPose found =
-      refinePose(seenFrom(truth, pulled, 0.05), someRig(), poseOf(0.09, {4, -2, 5}),
-                 Eigen::Isometry3d::Identity(), RefinePoseOptions());
+  const RefinedPose found = refined(seenFrom(truth, pulled, 0.05), poseOf(0.09, {4, -2, 5}),
+                                    Eigen::Isometry3d::Identity());
   expectNear(found.world_from_left, truth, 0.1, 2e-3);
 }
 
-TEST(RefinePose, AStillScopeBeforeTissueThatBendsStaysExactly) {
+TEST(RefinePose, AStaticScopeBeforeTissueThatBendsStaysExactly) {
   const Eigen::Isometry3d last = poseOf(0.2, {1, 2, 3});
   const auto wave = [](const Eigen::Vector3d& p) {
     return Eigen::Vector3d(0.5 * std::sin(0.3 * p.y()), 0.5 * std::sin(0.3 * p.x()), 0);
   };
-  const RefinedPose found =
-      refinePose(seenFrom(last, wave, 0.05), someRig(), last * poseOf(0.01, {0.3, 0.2, 0.5}), last,
-                 RefinePoseOptions());
-  EXPECT_TRUE(found.stands);
+  const std::vector<PosePair> pairs = seenFrom(last, wave, 0.05);
+  const Eigen::Isometry3d fitted = last * poseOf(0.01, {0.3, 0.2, 0.5});
+  const RefinedPose found = refined(pairs, fitted, last);
+  EXPECT_TRUE(found.scope_static);
   EXPECT_EQ(found.world_from_left.matrix(), last.matrix());
-  EXPECT_GT(found.moved_mm, 0.2);
+  EXPECT_GT(found.moved_mm, 0);  // measured all the same
+
+  RefinePoseOptions moving;
+  moving.scope = "moving";
+  EXPECT_FALSE(refined(pairs, fitted, last, moving).scope_static);
 }
 
-// A tenth of a millimetre a frame is not much more than matching's noise, but all tissue shares it.
+/// A scope that creeps by `step_mm` a frame while the warp takes every step for tissue.
+std::vector<PosePair> creepingPairs(int frame, double step_mm, double noise_px) {
+  const Eigen::Isometry3d truth = poseOf(0, {frame * step_mm, 0, 0});
+  std::vector<PosePair> pairs = seenFrom(truth, nothing, noise_px);
+  for (PosePair& pair : pairs)  // the static camera sees the tissue go the other way
+    pair.model_world_mm -= Eigen::Vector3d((frame - 1) * step_mm, 0, 0);
+  return pairs;
+}
+
+// 0.02 mm is a fifth of a pixel, less than the match errors; no frame alone can tell.
+TEST(RefinePose, FindsASlowMotionOnceItHasAddedUp) {
+  const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  constexpr double kStepMm = 0.02;
+  EXPECT_TRUE(refined(creepingPairs(1, kStepMm, 0.18), start, start).scope_static);
+  int frame = 2;
+  while (frame < 40 && refined(creepingPairs(frame, kStepMm, 0.18), start, start).scope_static)
+    ++frame;
+  ASSERT_LT(frame, 10);  // 0.2 mm: six standard errors of a match are 0.12 mm
+  const RefinedPose found = refined(creepingPairs(frame, kStepMm, 0.18), start, start);
+  EXPECT_NEAR(found.world_from_left.translation().x(), frame * kStepMm, 0.02);  // all of it
+  EXPECT_NEAR(found.moved_mm, frame * kStepMm, 0.05);
+}
+
+TEST(RefinePose, AStaticScopeIsNotTakenForMovingByNoise) {
+  const Eigen::Isometry3d pose = poseOf(0.2, {1, 2, 3});
+  EXPECT_TRUE(
+      refined(seenFrom(pose, nothing, 0.3), pose * poseOf(0.001, {0, 0.1, 0}), pose).scope_static);
+}
+
+// A motion that all tissue shares is significant as soon as single pairs see it.
 TEST(RefinePose, FollowsASlowScopeThroughNoise) {
   const Eigen::Isometry3d last = poseOf(0.2, {1, 2, 3});
-  const Eigen::Isometry3d truth = last * poseOf(0.001, {0.1, 0.05, 0});
+  const Eigen::Isometry3d truth = last * poseOf(0.001, {0.2, 0.1, 0});
   const RefinedPose found =
-      refinePose(seenFrom(truth, nothing, 0.18), someRig(), last * poseOf(0.002, {0.2, 0, 0.1}),
-                 last, RefinePoseOptions());
-  EXPECT_GT(found.left_mm, 0.15 * found.moved_mm);  // so (29) alone would keep it
-  EXPECT_FALSE(found.stands);
+      refined(seenFrom(truth, nothing, 0.18), last * poseOf(0.002, {0.2, 0, 0.1}), last);
+  EXPECT_FALSE(found.scope_static);
   // 0.18 px is 0.02 mm a match; across the rays it averages out, turn and shift trade places.
   EXPECT_LT((someRig().left.fx_px / 55 *
              ((found.world_from_left.inverse() * Eigen::Vector3d(0, 0, 55)) -
@@ -124,17 +165,26 @@ TEST(RefinePose, FollowsASlowScopeThroughNoise) {
             0.1);
 }
 
-// What depth measures too far together is told while the scope stands, and not taken for motion.
-TEST(RefinePose, TellsAnOffsetOfTheDisparities) {
-  const auto wave = [](const Eigen::Vector3d& p) {
-    return Eigen::Vector3d(0.3 * std::sin(0.3 * p.y()), 0.3 * std::sin(0.3 * p.x()), 0);
-  };
-  std::vector<PosePair> pairs = seenFrom(Eigen::Isometry3d::Identity(), wave);
-  for (PosePair& pair : pairs) pair.disparity_px += 0.4;
-  const RefinedPose found = refinePose(pairs, someRig(), Eigen::Isometry3d::Identity(),
-                                       Eigen::Isometry3d::Identity(), RefinePoseOptions());
-  ASSERT_TRUE(found.stands);
-  EXPECT_NEAR(found.disparity_offset_px, 0.4, 0.02);
+TEST(RefinePose, FollowsTheUsersWordThatTheScopeIsStatic) {
+  const Eigen::Isometry3d last = poseOf(0.2, {1, 2, 3});
+  RefinePoseOptions options;
+  options.scope = "static";
+  const RefinedPose found =
+      refined(seenFrom(last * poseOf(0.05, {3, 0, 0}), nothing), last, last, options);
+  EXPECT_TRUE(found.scope_static);
+  EXPECT_EQ(found.world_from_left.matrix(), last.matrix());
+  EXPECT_GT(found.moved_mm, 2);
+}
+
+// Pairs in one corner can't tell a turn from a shift.
+TEST(RefinePose, KnowsNoErrorWherePairsLieTooCloseTogether) {
+  std::vector<PosePair> corner;
+  for (const PosePair& pair : seenFrom(Eigen::Isometry3d::Identity(), nothing))
+    if (pair.live_px.x() < 160 && pair.live_px.y() < 120) corner.push_back(pair);
+  ASSERT_GT(corner.size(), 20u);
+  const RefinedPose found =
+      refined(corner, poseOf(0.01, {0.1, 0, 0}), Eigen::Isometry3d::Identity());
+  EXPECT_TRUE(std::isnan(found.sigma_mm));
 }
 
 TEST(RefinePose, BadPairsHaveNoSay) {
@@ -145,19 +195,22 @@ TEST(RefinePose, BadPairsHaveNoSay) {
   pairs[5].disparity_px = nan;
   pairs[7].sigma_px = nan;
   pairs[9].model_world_mm.z() = -100;
-  const RefinedPose found = refinePose(pairs, someRig(), poseOf(0.09, {4, -2, 5}),
-                                       Eigen::Isometry3d::Identity(), RefinePoseOptions());
+  const RefinedPose found = refined(pairs, poseOf(0.09, {4, -2, 5}), Eigen::Isometry3d::Identity());
   expectNear(found.world_from_left, truth, 1e-6, 1e-8);
+  RefinePoseOptions moving;
+  moving.scope = "moving";
   const Eigen::Isometry3d fitted = poseOf(0.3, {1, 1, 1});
-  expectNear(refinePose({}, someRig(), fitted, truth, RefinePoseOptions()).world_from_left, fitted,
-             1e-12, 1e-7);
+  expectNear(refined({}, fitted, truth, moving).world_from_left, fitted, 1e-12, 1e-7);
 }
 
 TEST(RefinePose, RefusesBadOptions) {
   RefinePoseOptions options;
-  options.standing_share = 2;
-  EXPECT_THROW(refinePose({}, someRig(), Eigen::Isometry3d::Identity(),
-                          Eigen::Isometry3d::Identity(), options),
+  options.scope = "still";
+  EXPECT_THROW(refined({}, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity(), options),
+               OptionError);
+  options.scope = "auto";
+  options.significance = 0.5;
+  EXPECT_THROW(refined({}, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity(), options),
                OptionError);
 }
 
