@@ -18,6 +18,15 @@ void drop(Raster<float>& raster, const Mask& mask) {
     if (mask.values[i] != 0) raster.values[i] = kNan;
 }
 
+/// What a roll of the right camera adds to the disparities of row v: AlignedPair::roll_rad.
+void removeRoll(double roll_rad, Raster<float>* disparity_px) {
+  const double centre_v_px = (disparity_px->height_px - 1) / 2.0;
+  for (int v = 0; v < disparity_px->height_px; ++v) {
+    const float excess_px = static_cast<float>(roll_rad * (v - centre_v_px));
+    for (int u = 0; u < disparity_px->width_px; ++u) disparity_px->at(u, v) -= excess_px;
+  }
+}
+
 void dropMasked(MeasuredFrame& measured) {
   drop(measured.disparity.disparity_px, measured.mask);
   drop(measured.disparity.sigma_px, measured.mask);
@@ -86,7 +95,7 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   const StereoPair rectified = rectifier_.rectify(frame.pair);
   measured.mask = frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
   clock.lap("rectify");
-  AlignedPair aligned{rectified, {}, false};
+  AlignedPair aligned{rectified, {}};
   if (options_.align_rows)
     aligned = alignRows(rectified, options_.stereo.disparity_max_px);
   else
@@ -96,6 +105,7 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");
   measured.disparity = matcher_->match(toGray(aligned.pair.left), toGray(aligned.pair.right));
+  removeRoll(aligned.roll_rad, &measured.disparity.disparity_px);
   clock.lap("disparity");
   measured.depth = depthFromDisparity(measured.disparity, rig());
   measured.left = std::move(aligned.pair.left);

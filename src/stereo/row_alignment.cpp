@@ -27,7 +27,7 @@ ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignme
 AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px) {
   RowMeter meter(toGray(rectified.left), disparity_max_px);
   const GrayImage right = toGray(rectified.right);
-  AlignedPair aligned{rectified, meter.measure(right), false};
+  AlignedPair aligned{rectified, meter.measure(right)};
   if (canStay(aligned.before)) return aligned;
   RowAlignment whole = aligned.before;
   const RowAlignment rest = meter.measure(moveRows(right, whole));
@@ -35,6 +35,7 @@ AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px) {
     for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
   aligned.pair.right = removeRowError(rectified.right, whole);
   aligned.removed = true;
+  aligned.roll_rad = whole.tilt_px_per_px();
   return aligned;
 }
 

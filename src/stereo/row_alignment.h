@@ -33,7 +33,7 @@ struct RowAlignment {
 };
 
 /// Matches a coarse grid of pixels over all disparities up to `disparity_max_px` and rows up to
-/// four off. Never fails: few matches mean !known().
+/// ten off. Never fails: few matches mean !known().
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
                                  int disparity_max_px);
 
@@ -45,6 +45,9 @@ struct AlignedPair {
   StereoPair pair;
   RowAlignment before;   // as found
   bool removed = false;  // whether the right picture was moved
+  /// Of the right camera about its optical axis, as the rows' tilt shows. Moving rows leaves its
+  /// other half: disparities are too large by roll_rad * (v - centre_v), px.
+  double roll_rad = 0;
 };
 
 /// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right picture;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "stereo/support_points.h"
@@ -14,6 +15,8 @@ constexpr int kGridPx = 12;
 constexpr int kReach = 4;                // of the window, every second pixel
 constexpr int kRowReach = 2;             // rows tried around a support point's
 constexpr int kCoarseOffset = 2;         // rows between the coarse trials
+constexpr int kFarthestOffset = 10;      // of the trials
+constexpr std::size_t kMany = 150;       // matches that settle where the rows are
 constexpr double kLeastCurvature = 0.3;  // of the cost over rows: less says nothing about rows
 
 /// Mean difference of the two windows.
@@ -51,7 +54,6 @@ std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& r
 
 /// Many matches in their own row: rows farther off needn't be tried.
 bool isWellAligned(const std::vector<RowMatch>& matches) {
-  constexpr std::size_t kMany = 150;
   if (matches.size() < kMany) return false;
   double sum = 0;
   for (const RowMatch& m : matches) sum += std::abs(m.difference_px);
@@ -77,13 +79,22 @@ RowAlignment RowMeter::scale() const {
 
 std::vector<RowMatch> RowMeter::match(const GrayImage& right_image) {
   const GradientImage right(right_image, ElasOptions{}.gradient_gain, margin_px_);
-  auto matches = matchRows(right, 0);
+  const auto matches = matchRows(right, 0);
   if (isWellAligned(matches)) return matches;
-  for (const int offset : {-kCoarseOffset, kCoarseOffset}) {
-    const auto found = matchRows(right, offset);
-    matches.insert(matches.end(), found.begin(), found.end());
+  // True rows give the most matches, but for those that a roll moves further.
+  std::map<int, std::vector<RowMatch>> found{{0, matches}};
+  int best = 0;
+  for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
+    for (const int signed_offset : {-offset, offset}) {
+      found[signed_offset] = matchRows(right, signed_offset);
+      if (found[signed_offset].size() > found[best].size()) best = signed_offset;
+    }
+    if (offset >= std::abs(best) + 2 * kCoarseOffset && found[best].size() >= kMany) break;
   }
-  return matches;
+  std::vector<RowMatch> nearest = found[best];
+  for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset})
+    nearest.insert(nearest.end(), found[neighbour].begin(), found[neighbour].end());
+  return nearest;
 }
 
 std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_offset) {
@@ -97,8 +108,8 @@ std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_of
     if (const auto match = matchRow(left_.view(), right.view(), p, row_offset))
       matches.push_back(*match);
   }
-  // What comes next is seen in the same range.
-  options_ = narrowedTo(disparities_px, options_);
+  // What comes next is seen in the same range; wrong rows have no range.
+  if (disparities_px.size() >= kMany) options_ = narrowedTo(disparities_px, options_);
   return matches;
 }
 

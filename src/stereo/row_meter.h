@@ -12,7 +12,7 @@
 namespace softscope {
 
 /// Measures right pictures against one left picture, on a coarse grid, over all disparities up to
-/// `disparity_max_px` and rows up to four off.
+/// `disparity_max_px` and rows up to ten off.
 class RowMeter {
  public:
   RowMeter(const GrayImage& left, int disparity_max_px);

@@ -58,6 +58,24 @@ TEST(RowAlignment, RemovesWhatItFound) {
   EXPECT_LT(after.mean_row_difference_px, 0.12);
 }
 
+TEST(RowAlignment, FindsRowsEightPixelsOff) {
+  for (const double shift_px : {-8.0, 8.0}) {
+    const auto scene = misaligned(shift_px, 0);
+    const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
+    ASSERT_TRUE(aligned.removed);
+    EXPECT_NEAR(aligned.before.shift_px(), shift_px, 0.2);
+    const RowAlignment after = measureRowAlignment(scene.left, toGray(aligned.pair.right), 100);
+    EXPECT_LT(after.mean_row_difference_px, 0.15);
+  }
+}
+
+TEST(RowAlignment, TellsARollByTheTiltOfTheRows) {
+  const auto scene = misaligned(5, 0.0087);  // half a degree: 2.8 px at either side
+  const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
+  EXPECT_NEAR(aligned.roll_rad, 0.0087, 0.0008);
+  EXPECT_EQ(alignRows({colourOf(scene.left), colourOf(scene.left)}, 100).roll_rad, 0);
+}
+
 TEST(RowAlignment, LeavesAlignedPicturesAsTheyAre) {
   const auto scene = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
   const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
