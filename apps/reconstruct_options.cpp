@@ -236,12 +236,13 @@ void bindColour(SettingsBinder& binder, ReconstructOptions& options) {
 }
 
 void bindGate(SettingsBinder& binder, GateOptions& options) {
-  auto& [min_coverage, max_residual_mm, min_explained, max_key_views, key_view_step_mm,
-         key_view_step_deg] = options;
+  auto& [min_coverage, max_residual_mm, min_explained, min_confidence, max_key_views,
+         key_view_step_mm, key_view_step_deg] = options;
   const std::string at = "gate.";
   binder.bind(at + "min_coverage", min_coverage, "share of the tissue that has depth");
   binder.bind(at + "max_residual_mm", max_residual_mm, "of the warped model from the depth");
   binder.bind(at + "min_explained", min_explained, "share of the points in sight");
+  binder.bind(at + "min_confidence", min_confidence, "of the evidence for pose and warp");
   binder.bind(at + "max_key_views", max_key_views, "kept to find the model again");
   binder.bind(at + "key_view_step_mm", key_view_step_mm, "between key views");
   binder.bind(at + "key_view_step_deg", key_view_step_deg, "between key views");

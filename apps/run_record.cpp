@@ -77,8 +77,8 @@ void RunRecord::add(const FrameRecord& record) {
   matches_.push_back(record.pose.inliers);
   if (std::isfinite(record.fusion.corrected.mean_mm))
     backprojection_mm_.push_back(record.fusion.corrected.mean_mm);
-  if (std::isfinite(record.fusion.predicted.mean_mm))
-    prediction_mm_.push_back(record.fusion.predicted.mean_mm);
+  if (std::isfinite(record.evidence.predicted.mean_mm))
+    prediction_mm_.push_back(record.evidence.predicted.mean_mm);
 }
 
 int RunRecord::fusedFrames() const {

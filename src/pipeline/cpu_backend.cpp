@@ -61,6 +61,7 @@ class CpuBackend : public ReconstructionBackend {
                            const Eigen::Isometry3d& reference) override;
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
   void acceptWarp(bool is_reference) override;
+  EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) override;
   void rejectWarp() override;
   FusionSummary fuse(const Eigen::Isometry3d& world_from_left) override;
   void track(const std::vector<TrackSeed>& seeds) override { seeds_ = seeds; }
@@ -85,6 +86,13 @@ class CpuBackend : public ReconstructionBackend {
 
   ModelState state_;
   std::vector<TrackSeed> seeds_;
+
+  // As it was before acceptWarp(); empty where nothing was warped.
+  struct Unwarped {
+    std::vector<Eigen::Vector3f> positions_mm, normals;
+    WarpGraph graph;
+    MaterialPoints tracked;
+  } before_;
 
   // Of the frame at hand.
   MeasuredFrame measured_;
@@ -247,6 +255,7 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
 }
 
 void CpuBackend::acceptWarp(bool is_reference) {
+  before_ = {state_.model.positions_mm, state_.model.normals, state_.graph, state_.tracked};
   state_.tracked.warp(state_.graph, state_.model);
   warpModel(state_.graph, &state_.model);
   rebase(&state_.graph);
@@ -254,7 +263,23 @@ void CpuBackend::acceptWarp(bool is_reference) {
   clock_.lap("warp");
 }
 
+EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
+  const Observation observation = observe(world_from_left);
+  const Raster<PixelState> states = judgePixels(observation, fusion_.pixels);
+  const EvidenceSummary evidence{backProjectionError(state_.model, observation, states),
+                                 viewEvidence(state_.model, observation, states, fusion_.pixels)};
+  clock_.lap("check");
+  return evidence;
+}
+
 void CpuBackend::rejectWarp() {
+  if (!before_.positions_mm.empty()) {
+    state_.model.positions_mm = std::move(before_.positions_mm);
+    state_.model.normals = std::move(before_.normals);
+    state_.graph = std::move(before_.graph);
+    state_.tracked = std::move(before_.tracked);
+    before_ = {};
+  }
   for (NodeTransform& transform : state_.graph.transforms) transform = NodeTransform();
 }
 
@@ -262,9 +287,8 @@ FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
   const Raster<PixelState> states = judgePixels(observation, fusion_.pixels);
   if (empty()) seedTracks(world_from_left);
+  before_ = {};
   FusionSummary summary;
-  summary.predicted = backProjectionError(state_.model, observation, states);
-  clock_.lap("check");
   const ModelUpdateSummary update =
       updateModel(observation, state_.graph, fusion_, &state_.memory, &state_.model);
   state_.exposure = update.points.gain;

@@ -16,6 +16,8 @@ const char* toString(FrameStatus status) {
       return "lost";
     case FrameStatus::kSkippedResidual:
       return "skipped_residual";
+    case FrameStatus::kUnconfirmed:
+      return "unconfirmed";
     case FrameStatus::kUnreadable:
       return "unreadable";
   }

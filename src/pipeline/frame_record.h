@@ -15,6 +15,7 @@ enum class FrameStatus {
   kSkippedDepth,     // too little depth; the model stays as it was
   kLost,             // no pose: the model was not found in it
   kSkippedResidual,  // located, but the model could not be bent to it
+  kUnconfirmed,      // located and bent, but the model does not show what the frame shows
   kUnreadable,       // its files are missing or broken
 };
 
@@ -31,6 +32,7 @@ struct FrameRecord {
   MatchSummary matches;
   PoseSummary pose;
   WarpSummary warp;
+  EvidenceSummary evidence;
   FusionSummary fusion;
   int points = 0;
   std::vector<TrackedPosition> tracked;

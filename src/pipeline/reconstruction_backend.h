@@ -15,6 +15,7 @@
 #include "fusion/back_projection_error.h"
 #include "fusion/colour_gain.h"
 #include "fusion/point_insertion.h"
+#include "fusion/view_evidence.h"
 #include "pipeline/material_points.h"
 #include "stereo/stereo_matcher.h"
 
@@ -59,10 +60,15 @@ struct WarpSummary {
   int nodes = 0;
 };
 
+/// What speaks for the pose and the warp of a frame.
+struct EvidenceSummary {
+  BackProjectionError predicted;  // of the warped model, before it learns from the frame
+  ViewEvidence view;
+};
+
 struct FusionSummary {
   int points = 0;
   int seen = 0, fused = 0, inserted = 0, contradicted = 0;
-  BackProjectionError predicted;  // of the warped model, before it learns from the frame
   BackProjectionError corrected;  // of the model as it is now: the paper's number
 };
 
@@ -104,7 +110,9 @@ class ReconstructionBackend {
   /// Carries points, nodes and tracked points to the live shape. `is_reference`: the shape is what
   /// later motions of the scope are measured against.
   virtual void acceptWarp(bool is_reference) = 0;
-  /// The model stays as it was.
+  /// After acceptWarp(): compares the model with the frame, before it learns from it.
+  virtual EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) = 0;
+  /// The model is again as it was before findWarp(), also after acceptWarp().
   virtual void rejectWarp() = 0;
   /// Stage 7: brings the model up to the frame; an empty model begins with it.
   virtual FusionSummary fuse(const Eigen::Isometry3d& world_from_left) = 0;

@@ -10,6 +10,8 @@ void GateOptions::validate() const {
   require(max_residual_mm > 0, "gate.max_residual_mm", max_residual_mm, "must be above 0");
   require(min_explained >= 0 && min_explained <= 1, "gate.min_explained", min_explained,
           "must be 0 to 1");
+  require(min_confidence >= 0 && min_confidence <= 1, "gate.min_confidence", min_confidence,
+          "must be 0 to 1");
   require(max_key_views >= 1, "gate.max_key_views", max_key_views, "must be 1 or more");
   require(key_view_step_mm > 0, "gate.key_view_step_mm", key_view_step_mm, "must be above 0");
   require(key_view_step_deg > 0, "gate.key_view_step_deg", key_view_step_deg, "must be above 0");

@@ -19,6 +19,7 @@ struct GateOptions {
   double min_coverage = 0.1;      // share of the unmasked pixels that have depth
   double max_residual_mm = 2.0;   // mean distance of the warped model from the depth
   double min_explained = 0.3;     // share of the points in sight that the depth still pulls
+  double min_confidence = 0.1;    // of the evidence for pose and warp: docs/fusion.md (F27)
   int max_key_views = 12;         // poses kept to find the model again after a loss
   double key_view_step_mm = 10;   // the scope moved this far from all of them …
   double key_view_step_deg = 15;  // … or turned this much: another key view

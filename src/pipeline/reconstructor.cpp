@@ -66,8 +66,13 @@ void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
   if (!measure(frame, record)) return;
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
   const bool was_lost = lost_;
+  const Eigen::Isometry3d before = world_from_left_;
   if (!locate(record) && !findAgain(record)) return;
-  if (!deform(record)) return;
+  if (!deform(record)) {
+    world_from_left_ = before;
+    lost_ = was_lost;
+    return;
+  }
   fuse(was_lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
 }
 
@@ -126,9 +131,18 @@ bool Reconstructor::deform(FrameRecord& record) {
   if (solver.reason != StopReason::kNotFinite && explained >= gate_.min_explained &&
       solver.data_mean_mm_after <= gate_.max_residual_mm) {
     const bool is_reference = !record.pose.scope_static;
-    if (is_reference) reference_pose_ = world_from_left_;
     backend_->acceptWarp(is_reference);
-    return true;
+    record.evidence = backend_->confirm(world_from_left_);
+    if (record.evidence.view.confidence() >= gate_.min_confidence) {
+      if (is_reference) reference_pose_ = world_from_left_;
+      return true;
+    }
+    backend_->rejectWarp();
+    return reject(
+        record, FrameStatus::kUnconfirmed,
+        text("from the pose that was found, the model's depth agrees with the frame on ",
+             100 * record.evidence.view.depth_share, " % of the pixels and its image in ",
+             100 * record.evidence.view.image_share, " % of the blocks (11 % by chance)"));
   }
   backend_->rejectWarp();
   return reject(record, FrameStatus::kSkippedResidual,

@@ -8,7 +8,8 @@ namespace {
 
 constexpr const char* kColumns =
     "frame,time_s,status,points,nodes,matches,inliers,backprojection_mean_mm,"
-    "backprojection_p95_mm,prediction_mean_mm,prediction_p95_mm,coverage,depth_sigma_mm,"
+    "backprojection_p95_mm,prediction_mean_mm,prediction_p95_mm,confidence,depth_agreement,image_"
+    "agreement,coverage,depth_sigma_mm,"
     "row_difference_px,lifted,pose_rms_mm,scope_static,scope_moved_mm,pose_sigma_mm,pose_sigma_deg,"
     "solver_stop,solver_iterations,"
     "residual_before_mm,"
@@ -56,9 +57,9 @@ double timeOf(const FrameRecord& record, const std::string& stage) {
 
 void addSolver(const FrameRecord& record, Line& line) {
   const DeformSummary& solver = record.warp.solver;
-  const bool ran = record.status == FrameStatus::kFused ||
-                   record.status == FrameStatus::kRecovered ||
-                   record.status == FrameStatus::kSkippedResidual;
+  const bool ran =
+      record.status == FrameStatus::kFused || record.status == FrameStatus::kRecovered ||
+      record.status == FrameStatus::kSkippedResidual || record.status == FrameStatus::kUnconfirmed;
   if (!ran) return line.skip(5);
   line.addText(toString(solver.reason));
   line.add(solver.iterations);
@@ -94,8 +95,14 @@ std::string framesCsvLine(const FrameRecord& record) {
   line.add(record.pose.inliers);
   line.add(record.fusion.corrected.mean_mm, 4);
   line.add(record.fusion.corrected.p95_mm, 4);
-  line.add(record.fusion.predicted.mean_mm, 4);
-  line.add(record.fusion.predicted.p95_mm, 4);
+  line.add(record.evidence.predicted.mean_mm, 4);
+  line.add(record.evidence.predicted.p95_mm, 4);
+  if (std::isfinite(record.evidence.view.depth_share))
+    line.add(record.evidence.view.confidence(), 3);
+  else
+    line.skip(1);
+  line.add(record.evidence.view.depth_share, 3);
+  line.add(record.evidence.view.image_share, 3);
   line.add(record.depth.coverage(), 4);
   line.add(record.depth.median_sigma_mm, 4);
   line.add(record.depth.row_difference_px, 3);

@@ -121,6 +121,27 @@ TEST_P(UselessFrame, IsSkippedAndLeavesTheModelAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Levels, UselessFrame, testing::Values(0, 128, 255));
 
+// Nothing can be as sure as that: located and bent, the model is as it was before, and so is the
+// pose.
+TEST(Reconstructor, UndoesWhatTheFrameDoesNotConfirm) {
+  const ShortClip& clip = shortClip();
+  ReconstructionOptions options = smallOptions();
+  options.gate.min_confidence = 1;
+  Reconstructor reconstructor = reconstructorOf(clip, options);
+  reconstructor.track(clip.seeds);
+  reconstructor.process(clip.frames[0]);
+  const std::string before = bytesOf(reconstructor.state().model.model);
+  const FrameRecord record = reconstructor.process(clip.frames[1]);
+  ASSERT_EQ(record.status, FrameStatus::kUnconfirmed) << record.reason;
+  EXPECT_GT(record.evidence.view.confidence(), 0.5);  // it was right
+  EXPECT_NE(record.reason.find("% of the blocks"), std::string::npos) << record.reason;
+  EXPECT_TRUE(record.world_from_left.isApprox(Eigen::Isometry3d::Identity()));
+  PointModel after = reconstructor.state().model.model;
+  for (PointBinding& binding : after.bindings) binding = {};  // the graph may grow
+  EXPECT_TRUE(before == bytesOf(after));
+  EXPECT_EQ(reconstructor.process(clip.frames[2]).status, FrameStatus::kUnconfirmed);
+}
+
 TEST(Reconstructor, WaitsForAFirstFrameThatHasDepth) {
   const ShortClip& clip = shortClip();
   Reconstructor reconstructor = reconstructorOf(clip, smallOptions());

@@ -1,0 +1,57 @@
+#include "fusion/drawn_points.h"
+
+#include <cstring>
+
+#include "core/parallel.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kCellPx = 4;    // squares in which nearer points hide others …
+constexpr float kHideMm = 1;  // … this far behind
+constexpr std::uint64_t kNobody = ~std::uint64_t{0};
+
+/// Depth above, index below: the smallest is the nearest point, the first of equals.
+std::uint64_t entry(float depth_mm, int index) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &depth_mm, sizeof bits);
+  return std::uint64_t{bits} << 32 | static_cast<std::uint32_t>(index);
+}
+
+}  // namespace
+
+DrawnPoints::DrawnPoints(const PointModel& model, const PosedCamera& camera)
+    : model_(model),
+      camera_(camera),
+      surface_(camera.width_px, camera.height_px, kCellPx),
+      nearest_(static_cast<std::size_t>(camera.width_px) * camera.height_px) {
+  for (auto& pixel : nearest_) pixel.store(kNobody, std::memory_order_relaxed);
+  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) draw(i);
+  });
+}
+
+int DrawnPoints::pointAt(int u, int v) const {
+  const std::uint64_t held =
+      nearest_[static_cast<std::size_t>(v) * camera_.width_px + u].load(std::memory_order_relaxed);
+  if (held == kNobody) return -1;
+  const int index = static_cast<int>(held & 0xFFFFFFFFu);
+  const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[index]);
+  const float cosine = -(camera_.left_from_world * model_.normals[index]).dot(left) / left.norm();
+  const bool hidden = surface_.hides(u, v, left.z(), cosine, camera_.fx_px, kHideMm);
+  return hidden ? -1 : index;
+}
+
+void DrawnPoints::draw(int i) {
+  const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[i]);
+  int u, v;
+  if (!left.allFinite() || !camera_.findPixel(left, &u, &v)) return;
+  surface_.add(u, v, left.z());
+  const std::uint64_t mine = entry(left.z(), i);
+  auto& pixel = nearest_[static_cast<std::size_t>(v) * camera_.width_px + u];
+  std::uint64_t held = pixel.load(std::memory_order_relaxed);
+  while (mine < held && !pixel.compare_exchange_weak(held, mine, std::memory_order_relaxed))
+    ;
+}
+
+}  // namespace softscope

@@ -1,0 +1,32 @@
+// src/fusion/drawn_points.h: the model point that each pixel shows.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "core/point_model.h"
+#include "fusion/nearest_surface.h"
+#include "fusion/posed_camera.h"
+
+namespace softscope {
+
+/// A depth buffer of points, one pixel each; what lies behind the model's own nearest surface is
+/// hidden. Same input, same result on any number of threads. Model and camera must outlive it.
+class DrawnPoints {
+ public:
+  DrawnPoints(const PointModel& model, const PosedCamera& camera);
+
+  /// The point that pixel (u, v) shows; below 0 where there is none.
+  int pointAt(int u, int v) const;
+
+ private:
+  void draw(int i);
+
+  const PointModel& model_;
+  const PosedCamera& camera_;
+  NearestSurface surface_;
+  std::vector<std::atomic<std::uint64_t>> nearest_;
+};
+
+}  // namespace softscope
