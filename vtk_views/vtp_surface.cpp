@@ -14,6 +14,8 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "vtk_views/guarded_read.h"
+#include "vtk_views/packed_bytes.h"
 #include "vtk_views/vtk_errors.h"
 
 namespace softscope {
@@ -73,15 +75,7 @@ TriangleMesh meshOf(vtkPolyData* data, const std::string& title, const std::stri
   return mesh;
 }
 
-}  // namespace
-
-bool looksLikeVtkSurface(const std::string& path) {
-  const std::string ending = endingOf(path);
-  return ending == ".vtp" || ending == ".vtk";
-}
-
-TriangleMesh readVtkSurface(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError(path + ": there is no such file");
+TriangleMesh readWithVtk(const std::string& path) {
   if (endingOf(path) == ".vtp") {
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName(path.c_str());
@@ -93,6 +87,33 @@ TriangleMesh readVtkSurface(const std::string& path) {
   updateOrThrow(*reader, path);
   const char* title = reader->GetHeader();
   return meshOf(reader->GetOutput(), title == nullptr ? "" : title, path);
+}
+
+std::string packMesh(const TriangleMesh& mesh) {
+  BytePacker packer;
+  packer.addAll(mesh.vertices_mm);
+  packer.addAll(mesh.triangles);
+  packer.addText(mesh.space);
+  return std::move(packer.bytes);
+}
+
+}  // namespace
+
+bool looksLikeVtkSurface(const std::string& path) {
+  const std::string ending = endingOf(path);
+  return ending == ".vtp" || ending == ".vtk";
+}
+
+TriangleMesh readVtkSurface(const std::string& path) {
+  requireRegularFile(path);
+  const std::string bytes = guardedRead(path, std::filesystem::file_size(path),
+                                        [&] { return packMesh(readWithVtk(path)); });
+  TriangleMesh mesh;
+  ByteUnpacker unpacker(bytes);
+  unpacker.takeAll(mesh.vertices_mm);
+  unpacker.takeAll(mesh.triangles);
+  unpacker.takeText(mesh.space);
+  return mesh;
 }
 
 }  // namespace softscope
