@@ -50,6 +50,9 @@ const char* const kStateSpacing = "state it with --spacing X,Y,Z in mm, along i,
 
 void checkAxes(const std::string& path, const std::string& what,
                const Eigen::Matrix4d& space_from_voxel) {
+  if (!space_from_voxel.allFinite())
+    throw InputError(path + ": its header (" + what + ") holds a number that is not finite, so " +
+                     "voxels have no place; export it again");
   const Eigen::Matrix3d axes = space_from_voxel.topLeftCorner<3, 3>();
   const Eigen::Vector3d lengths = axes.colwise().norm();
   if (!(lengths.minCoeff() >= kShortestSideMm && lengths.maxCoeff() <= kLongestSideMm))

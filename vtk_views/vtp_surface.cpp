@@ -21,6 +21,8 @@
 namespace softscope {
 namespace {
 
+constexpr float kFarthestPointMm = 1e7f;
+
 std::string endingOf(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -42,9 +44,11 @@ void addPoints(vtkPolyData* data, const std::string& path, TriangleMesh& mesh) {
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     const double* p = data->GetPoint(i);
     mesh.vertices_mm.emplace_back(float(p[0]), float(p[1]), float(p[2]));
-    if (!mesh.vertices_mm.back().allFinite())
-      throw InputError(path + ": point " + std::to_string(i) +
-                       " is not finite; export the surface again");
+    const Eigen::Vector3f& point = mesh.vertices_mm.back();
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kFarthestPointMm)
+      throw InputError(
+          path + ": point " + std::to_string(i) +
+          " is not finite, or more than 10 km from the origin; export the surface again");
   }
 }
 

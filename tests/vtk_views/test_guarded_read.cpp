@@ -115,8 +115,12 @@ TEST_F(DamagedSurface, OfVtkIsAnInputErrorAndNeverACrash) {
   const std::string cut =
       "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
       "0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1\n";
-  for (const std::string& file : {write("cut.vtk", cut), write("float16.vtp", vtp("Float16", "3")),
-                                  write("huge.vtp", vtp("Float32", "1099511627776"))}) {
+  const std::string far =
+      "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+      "0 0 0 1e34 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n";
+  for (const std::string& file :
+       {write("cut.vtk", cut), write("far.vtk", far), write("float16.vtp", vtp("Float16", "3")),
+        write("huge.vtp", vtp("Float32", "1099511627776"))}) {
     SCOPED_TRACE(file);
     try {
       readVtkSurface(file);

@@ -5,11 +5,13 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <random>
 
 #include "core/error.h"
 #include "tests/support/data_folder.h"
@@ -311,6 +313,10 @@ TEST_F(DamagedNifti, WithoutSidesOfItsVoxelsAsksForThem) {
   const std::string file = write("q.nii", head + voxels);
   EXPECT_THAT(errorOf(file), testing::AllOf(HasSubstr("pixdim[1]"), HasSubstr("--spacing X,Y,Z")));
   EXPECT_EQ(readVolume(file, stated).facts.spacing_mm, (std::array<double, 3>{2, 2, 3}));
+  set<float>(80, 2);
+  EXPECT_THAT(errorWith<float>(268, std::numeric_limits<float>::quiet_NaN()), HasSubstr("qoffset"));
+  EXPECT_THAT(errorWith<float>(256, std::numeric_limits<float>::quiet_NaN()), HasSubstr("quatern"));
+  EXPECT_THAT(errorWith<float>(256, 7), HasSubstr("quatern"));
 }
 
 TEST_F(DamagedNifti, OneFlippedBitInGzipIsAnError) {
@@ -327,6 +333,54 @@ TEST_F(DamagedVolume, APipeIsRefusedAtOnce) {
     ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
     errorOf(folder / name);
   }
+}
+
+/// `count` files with a few bytes changed, taken out or put in among the first `head_bytes`, or
+/// cut.
+template <class Use>
+void forDamagedCopies(const std::string& good, std::size_t head_bytes, int count, const Use& use) {
+  std::mt19937 random(7);
+  const std::string digits = "0123456789.-+e(), \n=:%";
+  for (int round = 0; round < count; ++round) {
+    std::string bad = good;
+    for (int k = 0; k < 1 + round % 4; ++k) {
+      const std::size_t at = random() % head_bytes;
+      const char byte = round % 2 == 0 ? char(random()) : digits[random() % digits.size()];
+      const int kind = round % 5;
+      if (kind == 3)
+        bad.erase(at, 1 + random() % 4);
+      else if (kind == 4)
+        bad.insert(at, 1, byte);
+      else
+        bad[at] = byte;
+    }
+    if (round % 11 == 0) bad.resize(random() % bad.size());
+    use(bad);
+  }
+}
+
+TEST_F(DamagedNifti, AnyDamageToAHeaderIsAnErrorOrASoundGeometry) {
+  const std::pair<const char*, std::string> files[] = {
+      {"d.mha", mha + voxels},
+      {"d.nrrd", nrrd + voxels},
+      {"d.nii", head + voxels},
+      {"z.mha", replaced(mha, "CompressedData = False", "CompressedData = True") + packed(voxels)}};
+  int read = 0;
+  for (const auto& [name, good] : files)
+    forDamagedCopies(good, 340, 400, [&, name = std::string(name)](const std::string& bad) {
+      const std::string file = write(name, bad);
+      try {
+        const Volume volume = readVolume(file);
+        ++read;
+        for (const double spacing_mm : volume.facts.spacing_mm)
+          EXPECT_TRUE(spacing_mm >= 1e-4 && spacing_mm <= 1e3) << spacing_mm;
+        EXPECT_TRUE(volume.facts.lps_from_voxel.allFinite());
+        EXPECT_GT(std::abs(volume.facts.lps_from_voxel.determinant()), 0);
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
+      }
+    });
+  EXPECT_GT(read, 50) << "some damage means nothing";
 }
 
 TEST_F(DamagedVolume, ARealCtWithOneFlippedBitIsAnError) {
