@@ -26,10 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr int kDeepestFolder = 4;  // exports nest: patient, study, series
-constexpr int kFilesToTry = 50;    // before a folder is said to hold no DICOM
+constexpr std::size_t kPreambleBytes = 132;
+constexpr int kFilesToTry = 50;  // before a folder is said to hold no DICOM
 
 bool hasPreamble(const fs::path& path) {
-  char head[132] = {};
+  char head[kPreambleBytes] = {};
   std::ifstream file(path, std::ios::binary);
   return file.read(head, sizeof head) && std::memcmp(head + 128, "DICM", 4) == 0;
 }
@@ -71,22 +72,46 @@ vtkNew<vtkDICOMMetaData> tagsOf(const std::string& file) {
   return meta;
 }
 
-/// A file with DICOM's preamble that belongs to no series: a document, or a slice whose tags are
-/// damaged, which then stands for a faulty slice.
-void addStrays(const std::vector<std::string>& files, const std::set<std::string>& in_series,
-               std::vector<DicomSlice>& slices) {
+/// Storage classes without pictures: reports, presentation states, radiotherapy plans, raw data,
+/// encapsulated documents, waveforms, directories (DICOM PS3.4, B.5).
+bool isDocument(const std::string& storage_class) {
+  const std::string storage = "1.2.840.10008.5.1.4.1.1.";
+  for (const std::string& start :
+       {storage + "88.", storage + "11.", storage + "481.", storage + "66", storage + "104.",
+        storage + "9.", std::string("1.2.840.10008.1.3.10")})
+    if (storage_class.compare(0, start.size(), start) == 0) return true;
+  return false;
+}
+
+/// What is wrong with a file that belongs to no series; empty where it is a document.
+std::string faultOfStray(const std::string& file) {
+  try {
+    const vtkNew<vtkDICOMMetaData> meta = tagsOf(file);
+    if (!meta->Has(DC::Rows) && isDocument(text(meta, DC::SOPClassUID))) return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return file + ": belongs to no series with pictures; is it cut short? Copy it again";
+}
+
+/// Files that belong to no series: a document, or a slice that is damaged or cut short, which then
+/// stands for a faulty slice. One without DICOM's preamble is a slice where its name ends as
+/// theirs.
+void addStrays(const std::vector<std::string>& files, const std::vector<std::string>& series,
+               const std::set<std::string>& in_series, std::vector<DicomSlice>& slices,
+               std::vector<std::string>& warnings) {
+  const fs::path ending = fs::path(series.front()).extension();
   for (const std::string& file : files) {
-    if (in_series.count(file) > 0 || !hasPreamble(file)) continue;
+    if (in_series.count(file) > 0) continue;
     DicomSlice stray;
     stray.file = file;
-    try {
-      const vtkNew<vtkDICOMMetaData> meta = tagsOf(file);
-      if (meta->Has(DC::SOPClassUID) && !meta->Has(DC::Rows)) continue;
-      stray.fault = file + ": belongs to no series with pictures; is it cut short? Copy it again";
-    } catch (const InputError& error) {
-      stray.fault = error.what();
-    }
-    slices.push_back(stray);
+    if (hasPreamble(file))
+      stray.fault = faultOfStray(file);
+    else if (!ending.empty() && fs::path(file).extension() == ending)
+      stray.fault = file + ": is no DICOM file, but named like one; is it cut short? Copy it again";
+    else if (fs::file_size(file) < kPreambleBytes)
+      warnings.push_back(file + ": is too short for DICOM; a slice that was cut short?");
+    if (!stray.fault.empty()) slices.push_back(stray);
   }
 }
 
@@ -204,7 +229,7 @@ StoredVolume readSeries(const std::string& path, const std::vector<std::string>&
   if (fs::is_directory(path))
     series = largestSeries(path, files, in_series, volume.summary.warnings);
   std::vector<DicomSlice> slices;
-  if (fs::is_directory(path)) addStrays(files, in_series, slices);
+  if (fs::is_directory(path)) addStrays(files, series, in_series, slices, volume.summary.warnings);
   bool rescaled = true;
   for (const std::string& file : series) {
     const vtkNew<vtkDICOMMetaData> meta = tagsOf(file);

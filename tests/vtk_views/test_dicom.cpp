@@ -14,6 +14,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <random>
 
 #include "core/error.h"
 #include "tests/vtk_views/dicom_tags.h"
@@ -254,6 +256,40 @@ TEST_F(DicomFolder, ADamagedSliceIsNotLeftOutInSilence) {
   file << std::string(64, '\xff');
   file.close();
   EXPECT_THAT(errorOf({}), HasSubstr("slice6"));
+}
+
+TEST_F(DicomFolder, AnyDamageToASliceIsAnErrorOrASoundGeometry) {
+  const fs::path slice = folder / "im2";
+  std::ifstream in(slice, std::ios::binary);
+  const std::string good{std::istreambuf_iterator<char>(in), {}};
+  std::mt19937 random(3);
+  for (int round = 0; round < 150; ++round) {
+    std::string bad = good;
+    for (int k = 0; k < 1 + round % 3; ++k)
+      bad[132 + random() % (good.size() - 132)] = char(random());
+    if (round % 7 == 0) bad.resize(random() % bad.size());
+    if (round % 7 == 1) bad.erase(132 + random() % 500, 1 + random() % 3);
+    std::ofstream(slice, std::ios::binary) << bad;
+    try {
+      const VolumeSummary summary = loadDicom(folder, {}).summary;
+      EXPECT_TRUE(summary.size_voxels[2] == 6 || !summary.warnings.empty())
+          << "round " << round << ": a slice was left out in silence";
+      EXPECT_NEAR(summary.spacing_mm[0], 0.5, 1e-9) << "round " << round;
+      EXPECT_NEAR(summary.spacing_mm[2], 1.25, 0.03) << "round " << round;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+    }
+  }
+}
+
+TEST_F(DicomFolder, AFileNamedLikeASliceIsNoneThatMayBeLeftOut) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::rename(file, file.string() + ".dcm");
+  std::ofstream(folder / "notes.txt") << "text";
+  EXPECT_EQ(loadDicom(folder, {}).summary.size_voxels[2], 6);
+  fs::resize_file(folder / "im2.dcm", 65);
+  EXPECT_THAT(errorOf({}), AllOf(HasSubstr("im2.dcm"), HasSubstr("1 of 6 slices")));
 }
 
 TEST_F(DicomFolder, APipeAmongTheFilesIsNotOpened) {
