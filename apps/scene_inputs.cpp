@@ -51,6 +51,7 @@ void SceneInputs::addVolume(const std::string& path, const std::string& window,
                             const VolumeOptions& options) {
   scene_.volume = readVolume(path, options);
   scene_.window = parseWindow(window, *scene_.volume);
+  if (scene_.volume->facts.file_space == "unknown") scene_.frame = SceneFrame::kAxes;
   note("volume", path);
   for (const std::string& warning : scene_.volume->facts.warnings) warn(path + ": " + warning);
 }

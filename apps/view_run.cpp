@@ -117,7 +117,8 @@ void RunSource::addVolume() {
   if (!options_.ct.empty()) {
     world_.volume = readVolume(options_.ct, options_.volume.options());
     world_.window = parseWindow(options_.window, *world_.volume);
-    world_.frame = SceneFrame::kPatient;
+    const bool known = world_.volume->facts.file_space != "unknown";
+    world_.frame = known ? SceneFrame::kPatient : SceneFrame::kAxes;
     for (const std::string& warning : world_.volume->facts.warnings)
       warnings_.push_back(options_.ct + ": " + warning);
     SceneSurface model;

@@ -242,7 +242,7 @@ Eigen::Matrix4d niftiPlace(const std::string& path, const NiftiHeader& header,
   } else {
     ras_from_voxel.topLeftCorner<3, 3>() = sides.asDiagonal();
     summary.file_space = "unknown";
-    summary.warnings.emplace_back("the header has neither sform nor qform: left and right unknown");
+    summary.warnings.emplace_back("the header has neither sform nor qform");
   }
   ras_from_voxel.topRows<3>() *= unit_mm;
   checkAxes(path, header.sform_code > 0 ? "srow_x, srow_y, srow_z" : "pixdim and qoffset",

@@ -89,8 +89,12 @@ void placeVolume(Eigen::Matrix4d space_from_voxel, bool spacing_said, const Volu
   for (int axis = 0; axis < 3; ++axis)
     summary.spacing_mm[std::size_t(axis)] = axes.col(axis).norm();
   summary.axes = axesOf(axes);
-  if (summary.file_space == "unknown")
-    summary.warnings.emplace_back("the header names no patient space; taken as LPS");
+  if (summary.file_space != "unknown") return;
+  summary.axes = "unknown";
+  summary.warnings.emplace_back(
+      "the header names no patient space, so left and right are unknown; x, y, z are taken as LPS "
+      "to "
+      "lay surfaces over it");
 }
 
 }  // namespace softscope

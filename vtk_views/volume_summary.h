@@ -18,7 +18,7 @@ struct VolumeSummary {
   /// head.
   Eigen::Matrix4d lps_from_voxel = Eigen::Matrix4d::Identity();
   std::string file_space;  // the header's own convention: "LPS", "RAS" …; "unknown" if it says none
-  std::string axes;        // where i, j, k run to, e.g. "LPS"
+  std::string axes;        // where i, j, k run to, e.g. "LPS"; "unknown" in an unknown space
   std::string scalar_type;
   int components = 1;
   std::array<double, 2> value_range{};                       // of the first component
