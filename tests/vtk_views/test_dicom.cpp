@@ -282,6 +282,26 @@ TEST_F(DicomFolder, AnyDamageToASliceIsAnErrorOrASoundGeometry) {
   }
 }
 
+TEST_F(DicomFolder, FramesOfOneFileAreSlicesToo) {
+  const fs::path file = folder / "enhanced.dcm";
+  test::writeMultiFrame(file, {30, 31.25, 32.5, 33.75});
+  const Volume up = readVolume(file);
+  EXPECT_EQ(up.facts.size_voxels, (std::array<int, 3>{5, 4, 4}));
+  EXPECT_NEAR(up.facts.spacing_mm[0], 0.5, 1e-9);
+  EXPECT_NEAR(up.facts.spacing_mm[2], 1.25, 1e-9);
+  EXPECT_EQ(up.at({1, 1, 2}), 40 + 6 - 1000);
+  test::writeMultiFrame(file, {33.75, 32.5, 31.25, 30});
+  EXPECT_EQ(readVolume(file).at({1, 1, 1}), 40 + 6 - 1000) << "the third frame is the second slice";
+  test::writeMultiFrame(file, {30, 31.25, 33.75, 35, 36.25});
+  EXPECT_THROW(readVolume(file), InputError) << "one frame is missing";
+  VolumeOptions options;
+  options.allow_missing_slices = true;
+  const Volume gap = readVolume(file, options);
+  EXPECT_EQ(gap.facts.size_voxels[2], 6);
+  EXPECT_TRUE(std::isnan(gap.at({1, 1, 2})));
+  EXPECT_EQ(gap.at({1, 1, 3}), 40 + 6 - 1000);
+}
+
 TEST_F(DicomFolder, AFileNamedLikeASliceIsNoneThatMayBeLeftOut) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
