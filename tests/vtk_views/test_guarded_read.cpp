@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "vtk_views/error_map.h"
@@ -55,7 +56,7 @@ TEST(GuardedRead, ADeathOfTheReaderIsAnInputError) {
 
 TEST(GuardedRead, AReaderThatWantsTooMuchMemoryIsAnInputError) {
   EXPECT_THAT(errorOf([]() -> std::string { throw std::bad_alloc(); }), HasSubstr("MB"));
-  EXPECT_THAT(errorOf([] { return std::string(std::size_t(-1) / 4, 'x'); }), HasSubstr("MB"));
+  EXPECT_THAT(errorOf([]() -> std::string { throw std::length_error("a size"); }), HasSubstr("MB"));
 }
 
 TEST(GuardedRead, ErrorsOfTheReaderComeThrough) {
