@@ -155,8 +155,10 @@ int ReconstructCommand::run() {
   const Json inputs = inputsJson(where);
   Checkpoint checkpoint{digestOf(inputs, binder), options.sequence.frames.begin, {}};
   const std::optional<Checkpoint> earlier = resume_ ? folder.readCheckpoint() : std::nullopt;
-  if (resume_ && !earlier)
+  if (resume_ && !earlier && !folder.wasKilled())
     throw OptionError("--resume: " + out_ + " holds no interrupted run; start it without --resume");
+  if (resume_ && !earlier)
+    spdlog::warn("the run in {} was killed before its first checkpoint: it starts anew", out_);
   if (earlier && earlier->settings != checkpoint.settings)
     throw OptionError(
         "--resume: the run in " + out_ +

@@ -134,6 +134,8 @@ std::optional<Checkpoint> RunFolder::readCheckpoint() const {
   return parseCheckpoint(readBytes(path, kCheckpointLimitBytes), shown(path));
 }
 
+bool RunFolder::wasKilled() const { return fs::exists(file(kRunLock)) && !isHeld(file(kRunLock)); }
+
 /// Until the run has ended, or its process, however it does: who finds the file but no holder knows
 /// that nothing more will come.
 void RunFolder::hold() {

@@ -36,6 +36,8 @@ class RunFolder {
 
   /// The state that an interrupted run left; nothing where there is none. Throws InputError.
   std::optional<Checkpoint> readCheckpoint() const;
+  /// Whether the process that wrote the run died: its lock is there and nobody holds it.
+  bool wasKilled() const;
   /// Takes over the tables of the frames before `next_frame`.
   void takeOver(int next_frame);
   /// What takeOver() found in frames.csv, as readFramesCsvLine() has it.

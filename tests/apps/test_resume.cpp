@@ -52,7 +52,8 @@ class Resume : public InFolder {
     kill(child, signal_number);  // 0: none
     int status = 0;
     waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == (act ? 3 : 130)) << status;
+    const int expected = signal_number == SIGKILL ? 128 + SIGKILL : act ? 3 : 130;
+    EXPECT_EQ(WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), expected);
     return framesIn(out);
   }
   Outcome resume(const std::vector<std::string>& more) const {
@@ -105,6 +106,18 @@ TEST_F(Resume, PicturesThatVanishEndTheRunAndCanBePutBack) {
   const Outcome resumed = resume({"--frames", "0:" + std::to_string(done + 1)});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(nlohmann::json::parse(readText(at("run/run.json")))["frames"], done + 1);
+}
+
+TEST_F(Resume, ARunKilledBeforeItsFirstCheckpointStartsAnew) {
+  const int none = interruptedRun(SIGKILL);
+  EXPECT_EQ(none, -1) << "no table yet";
+  const Outcome resumed = resume({"--frames", "0:3"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("starts anew"));
+  EXPECT_EQ(nlohmann::json::parse(readText(at("run/run.json")))["frames"], 3);
+  EXPECT_EQ(countFiles(at("run/models")), 6)
+      << "nothing of the killed run, a PLY and VTP per frame";
+  EXPECT_EQ(resume({}).exit_code, 2) << "a complete run is none to resume";
 }
 
 TEST_F(Resume, AClosedTerminalLosesNothing) {
