@@ -98,11 +98,13 @@ int DepthCommand::run() {
   source_.applyFrames(options.sequence);
   options.validate();
 
-  SequenceReader reader(source_.paths("depth"), options.sequence);
+  const SequencePaths sequence = source_.paths("depth");
+  SequenceReader reader(sequence, options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
   DepthEstimator estimator(reader.calibration(), options, frame_ == "raw-left");
   is_sequence_ = reader.totalCount() > 1 || (source_.right.empty() && isFolder(source_.left));
   const DepthOutputs outputs({out_, kinds, force_, frame_ == "raw-left"});
+  requireApart(out_, sequence);
   requireFreeOutputs(outputs, reader);
 
   DepthRecord record(inputs(), reader.calibration(), estimator, frame_ == "raw-left");
@@ -161,6 +163,10 @@ void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimat
   if (const std::string warning = rowWarning(measured); !warning.empty() && !row_warning_given_) {
     row_warning_given_ = true;
     spdlog::warn("frame {}: {}", result.index, warning);
+  }
+  if (const std::string warning = coverageWarning(measured); !warning.empty()) {
+    spdlog::warn("frame {}: {}", result.index, warning);
+    record.addWarning("frame " + std::to_string(result.index) + ": " + warning);
   }
   fs::create_directories(out_);
   const auto start = std::chrono::steady_clock::now();

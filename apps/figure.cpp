@@ -154,7 +154,7 @@ std::string legendOfFile(const std::string& path) {
 }
 
 void FigureCommand::readFiles(SceneInputs& inputs) const {
-  if (!ct_.empty()) inputs.addVolume(ct_, options_.window);
+  if (!ct_.empty()) inputs.addVolume(ct_, options_.window, options_.volume.options());
   if (!reference_.empty())
     inputs.addSurface(reference_, "reference", "reference", surfaceColour(0));
   if (!test_.empty()) inputs.addSurface(test_, "test", "model", surfaceColour(1));

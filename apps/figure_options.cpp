@@ -59,6 +59,7 @@ void FigureOptions::declare(ArgumentList& arguments) {
                    "points this near to a plane are drawn in it (default 0.5)");
   arguments.option("--unit-mm", "N", unit_mm,
                    "what one unit of the surfaces' files measures: 1000 for metres");
+  volume.declare(arguments);
   arguments.option("--style", "NAME", style, "ieee (default), nature, elsevier or slides");
   arguments.option("--width-mm", "N", width_mm,
                    "of the figure (default: the style's column; 183 for two)");
@@ -88,6 +89,7 @@ void FigureOptions::validate() const {
           dots_per_inch, "must be 30 to 2400");
   figureStyle();
   namedPlace();
+  volume.options();
 }
 
 FigureStyle FigureOptions::figureStyle() const {

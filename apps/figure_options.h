@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/argument_list.h"
+#include "apps/volume_arguments.h"
 #include "vtk_views/figure_style.h"
 #include "vtk_views/scene.h"
 #include "vtk_views/view_plane.h"
@@ -20,6 +21,7 @@ struct FigureOptions {
   std::string window = "auto", at, landmarks, style = "ieee";
   double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = 1;
   bool neurological = false, force = false;
+  VolumeArguments volume;
 
   void declare(ArgumentList& arguments);
   /// Throws OptionError: a value out of its range, an unknown ending, a file that is there.

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
+
 namespace softscope {
 namespace {
+
+constexpr double kLeastCoverage = 0.05;  // of tissue in view, half and more is usual
 
 std::vector<float> sortedFinite(const Raster<float>& raster) {
   std::vector<float> values;
@@ -72,6 +76,17 @@ FactSheet::Json frameJson(const DepthResult& measured) {
   auto& times = json["elapsed_ms"] = FactSheet::Json::object();
   for (const auto& [stage, elapsed_ms] : measured.times) times[stage] = elapsed_ms;
   return json;
+}
+
+std::string coverageWarning(const DepthResult& measured) {
+  const std::string advice =
+      ": are left and right of one moment, not exchanged, not black, and is the calibration this "
+      "scope's? `softscope info` tells";
+  const FrameStatistics statistics = statisticsOf(measured);
+  if (statistics.measured_pixels == 0) throw InputError("not one pixel could be measured" + advice);
+  if (statistics.coverage >= kLeastCoverage) return {};
+  return "only " + fixed(100 * statistics.coverage, 1) + " % of the pixels could be measured" +
+         advice;
 }
 
 std::string rowWarning(const DepthResult& measured) {

@@ -18,6 +18,9 @@ FrameStatistics statisticsOf(const DepthResult& measured);
 /// Coverage, depth percentiles, rows, milliseconds a stage; units in key names.
 FactSheet::Json frameJson(const DepthResult& measured);
 
+/// One line if hardly a pixel was measured; else empty. Throws InputError where none was.
+std::string coverageWarning(const DepthResult& measured);
+
 /// One line if rows are off by more than RowAlignment::kWarnAbovePx and stay so; else empty.
 std::string rowWarning(const DepthResult& measured);
 

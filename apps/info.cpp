@@ -5,6 +5,7 @@
 #include "apps/exit_codes.h"
 #include "apps/info_parts.h"
 #include "apps/result_output.h"
+#include "apps/volume_arguments.h"
 #include "core/error.h"
 #include "io/folder.h"
 #include "io/sequence_paths.h"
@@ -45,12 +46,14 @@ class InfoCommand : public Command {
   std::string example() const override { return "softscope info my_sequence"; }
 
   void declare(ArgumentList& arguments) override {
+    volume_.declare(arguments);
     arguments.positional("PATH", path_, "the file or folder", true);
     arguments.flag("--check", check_, "read every frame of a sequence, not the first alone");
     arguments.flag("--patient", patient_, "tell a DICOM series' patient fields as well");
   }
 
   int run() override {
+    volume_.options();
     const FactSheet facts = describe();
     printFacts(facts, common.json);
     return facts.hasProblems() ? kInput : kDone;
@@ -67,7 +70,7 @@ class InfoCommand : public Command {
 
   FactSheet describeFolder() const {
     if (looksLikeSequence(path_)) return describeSequence(path_, check_);
-    if (looksLikeVolume(path_)) return describeVolume(path_, patient_);
+    if (looksLikeVolume(path_)) return describeVolume(path_, volumeOptions());
     try {
       return describeCalibration(path_);
     } catch (const InputError& error) {
@@ -84,7 +87,7 @@ class InfoCommand : public Command {
     if (hasEnding(path_, {".pfm"})) return describeFloatMap(path_);
     if (hasEnding(path_, {".toml"})) return describeSettings(path_);
     if (hasEnding(path_, {".ply", ".stl", ".obj"})) return describeMesh(path_);
-    if (looksLikeVolume(path_)) return describeVolume(path_, patient_);
+    if (looksLikeVolume(path_)) return describeVolume(path_, volumeOptions());
     if (hasEnding(path_, {".yaml", ".yml", ".xml", ".json", ".txt", ".npy"}))
       return describeCalibration(path_);
     throw InputError(
@@ -94,7 +97,14 @@ class InfoCommand : public Command {
         "nrrd, mha, DICOM); calibrations (yaml, xml, json, txt, npy); settings (toml)");
   }
 
+  VolumeOptions volumeOptions() const {
+    VolumeOptions options = volume_.options();
+    options.with_patient = patient_;
+    return options;
+  }
+
   std::string path_;
+  VolumeArguments volume_;
   bool check_ = false;
   bool patient_ = false;
 };

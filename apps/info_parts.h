@@ -5,6 +5,7 @@
 
 #include "apps/fact_sheet.h"
 #include "core/stereo_rig.h"
+#include "vtk_views/volume_summary.h"
 
 namespace softscope {
 
@@ -14,7 +15,7 @@ FactSheet describeImage(const std::string& file);
 FactSheet describeFloatMap(const std::string& file);  // PFM
 FactSheet describeVideo(const std::string& file);
 FactSheet describeMesh(const std::string& file);  // or a PLY of points alone
-FactSheet describeVolume(const std::string& path, bool with_patient);
+FactSheet describeVolume(const std::string& path, const VolumeOptions& options);
 FactSheet describeCalibration(const std::string& path);
 FactSheet describeSettings(const std::string& file);
 

@@ -17,6 +17,7 @@ namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr double kSlowestRate = 0.2;  // frames a second, before the unit of time is doubted
 
 std::string layoutOf(const SequencePaths& paths) {
   if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
@@ -37,6 +38,9 @@ void addTimes(const SequencePaths& paths, FactSheet& facts) {
   const double rate = duration_s > 0 ? double(times_s.size() - 1) / duration_s : 0;
   facts.add("timestamps", fixed(duration_s, 2) + " s, " + fixed(rate, 2) + " frames a second",
             "duration_s", duration_s);
+  if (rate > 0 && rate < kSlowestRate)
+    facts.warn("frames lie " + fixed(1 / rate, 1) +
+               " s apart. Are the timestamps in milliseconds? Then write seconds");
 }
 
 void addCount(const fs::path& folder, const std::string& label, const std::string& key,
@@ -87,6 +91,9 @@ void checkFrames(SequenceReader& reader, FactSheet& facts) {
     ++bad;
   }
   facts.add("unreadable frames", "unreadable_frames", bad);
+  if (bad > 0)
+    facts.fail(std::to_string(bad) + " of " + std::to_string(reader.frameCount()) +
+               " frames can't be read; the warnings name them. Copy or export them again");
 }
 
 /// What can be said of a sequence that can't be opened as a whole.

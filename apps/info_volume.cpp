@@ -38,8 +38,8 @@ void addGeometry(const VolumeSummary& volume, FactSheet& facts) {
 
 }  // namespace
 
-FactSheet describeVolume(const std::string& path, bool with_patient) {
-  const VolumeSummary volume = summariseVolume(path, with_patient);
+FactSheet describeVolume(const std::string& path, const VolumeOptions& options) {
+  const VolumeSummary volume = summariseVolume(path, options);
   FactSheet facts(path + ": a volume, " + volume.format);
   facts.addQuietly("kind", "volume");
   facts.addQuietly("format", volume.format);

@@ -1,10 +1,11 @@
-// apps/interrupt.h: Ctrl-C asks for a clean end.
+// apps/interrupt.h: Ctrl-C, or a closed terminal, asks for a clean end.
 #pragma once
 
 namespace softscope {
 
-/// While it lives, the first Ctrl-C (or SIGTERM) only sets a flag that long work looks at between
-/// frames; the second ends the program at once.
+/// While it lives, the first Ctrl-C (or SIGTERM, or the SIGHUP of a closed terminal, unless nohup
+/// ignores it) only sets a flag that long work looks at between frames; the second ends the program
+/// at once. A closed pipe behind stderr ends nothing.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -24,11 +24,19 @@ int runCommand(Command& command) {
   return command.run();
 }
 
+/// Throws where what was printed didn't reach its place: a full disk, a closed pipe.
+void requirePrinted() {
+  if (!std::cout.flush())
+    throw Error("the output can't be written: is the disk full, or its reader gone?");
+}
+
 int runLine(const std::vector<std::string>& words) {
   const auto commands = allCommands();
   const ParsedLine line = parseCommandLine(words, commands);
   std::cout << line.text;
-  return line.command == nullptr ? kDone : runCommand(*line.command);
+  const int code = line.command == nullptr ? kDone : runCommand(*line.command);
+  requirePrinted();
+  return code;
 }
 
 /// Which file, what the system says of it, what to do: as our own errors tell it.

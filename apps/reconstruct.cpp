@@ -17,6 +17,7 @@
 #include "apps/sequence_arguments.h"
 #include "core/error.h"
 #include "io/file_hash.h"
+#include "io/folder.h"
 #include "io/sequence_reader.h"
 #include "io/track_points_file.h"
 #include "pipeline/backends.h"
@@ -36,6 +37,15 @@ const char* const kDetails =
     "A frame that isn't good enough is skipped and reported, never fused. Ctrl-C ends the run\n"
     "cleanly; --resume goes on from there, with the same result as if it had not been stopped.";
 
+using Json = FactSheet::Json;
+
+/// Whether pictures that the run began with are there no longer.
+bool isGone(const SequencePaths& sequence) {
+  for (const std::filesystem::path& view : {sequence.left, sequence.right, sequence.stereo})
+    if (!view.empty() && !isThere(view)) return true;
+  return false;
+}
+
 class ReconstructCommand : public Command {
  public:
   std::string name() const override { return "reconstruct"; }
@@ -51,12 +61,13 @@ class ReconstructCommand : public Command {
   int run() override;
 
  private:
-  std::string digestOf(const SequencePaths& paths, const SettingsBinder& binder) const;
+  std::string digestOf(const Json& inputs, const SettingsBinder& binder) const;
   std::vector<TrackSeed> seeds() const;
   std::unique_ptr<ReconstructionBackend> makeBackend(const StereoCalibration& calibration,
                                                      const ReconstructionOptions& options) const;
-  void reconstructAll(SequenceReader& reader, Reconstructor& reconstructor, RunFolder& folder,
-                      RunRecord& record, Checkpoint& checkpoint);
+  void reconstructAll(const SequencePaths& sequence, SequenceReader& reader,
+                      Reconstructor& reconstructor, RunFolder& folder, RunRecord& record,
+                      Checkpoint& checkpoint);
 
   SequenceArguments source_;
   std::string out_, track_;
@@ -64,7 +75,7 @@ class ReconstructCommand : public Command {
   int save_every_ = 10, checkpoint_every_ = 100;
   bool no_correspondence_ = false, resume_ = false, force_ = false;
   SettingsArguments settings_;
-  bool interrupted_ = false;
+  bool interrupted_ = false, all_done_ = false, input_gone_ = false;
 };
 
 void ReconstructCommand::declare(ArgumentList& arguments) {
@@ -92,13 +103,13 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
 }
 
 /// Everything that decides the result; a run goes on only with the same.
-std::string ReconstructCommand::digestOf(const SequencePaths& paths,
-                                         const SettingsBinder& binder) const {
+std::string ReconstructCommand::digestOf(const Json& inputs, const SettingsBinder& binder) const {
   std::string all;
   for (const SettingInfo& setting : binder.list())
     if (setting.key != "sequence.read_ahead")
       all += setting.key + "=" + setting.current_text + "\n";
-  if (!paths.calibration.empty()) all += sha256Of(paths.calibration);
+  for (const auto& [part, input] : inputs.items())
+    all += part + "=" + input["sha256"].get<std::string>() + "\n";
   if (!track_.empty()) all += sha256Of(track_);
   return sha256OfBytes(all);
 }
@@ -138,19 +149,28 @@ int ReconstructCommand::run() {
 
   const SequencePaths where = source_.paths("reconstruct");
   const std::vector<TrackSeed> tracked = seeds();
+  requireOutside(out_, where);
   RunFolder folder({out_, save_every_, !tracked.empty(), force_}, resume_);
   const FrameDepthOptions& depth = options.method.depth;
   if (depth.source == "stereo" || where.depth.empty())
     settleRightOffset(where, options.sequence, depth.stereo.disparity_max_px);
-  Checkpoint checkpoint{digestOf(where, binder), options.sequence.frames.begin, {}};
+  const Json inputs = inputsJson(where);
+  Checkpoint checkpoint{digestOf(inputs, binder), options.sequence.frames.begin, {}};
   const std::optional<Checkpoint> earlier = resume_ ? folder.readCheckpoint() : std::nullopt;
-  if (resume_ && !earlier)
+  if (resume_ && !earlier && !folder.wasKilled())
     throw OptionError("--resume: " + out_ + " holds no interrupted run; start it without --resume");
+  if (resume_ && !earlier)
+    spdlog::warn("the run in {} was killed before its first checkpoint: it starts anew", out_);
   if (earlier && earlier->settings != checkpoint.settings)
-    throw OptionError("--resume: the run in " + out_ +
-                      " was begun with other settings, calibration or tracked pixels; give the "
-                      "same, or start again without --resume");
-  if (earlier) options.sequence.frames.begin = earlier->next_frame;
+    throw OptionError(
+        "--resume: the run in " + out_ +
+        " was begun with other settings, pictures, calibration or tracked pixels; give the "
+        "same, or start again without --resume");
+  if (earlier) {  // where no frame is left, the run was stopped between its last one and its record
+    const int done = earlier->next_frame - options.sequence.frames.begin;
+    all_done_ = done >= SequenceReader(where, options.sequence).frameCount();
+    if (!all_done_) options.sequence.frames.begin = earlier->next_frame;
+  }
 
   SequenceReader reader(where, options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
@@ -161,14 +181,21 @@ int ReconstructCommand::run() {
     folder.takeOver(earlier->next_frame);
     reconstructor.restore(earlier->state);
   }
-  RunRecord record(where, reader.calibration(), reconstructor.backend(), binder.list());
-  if (earlier) record.set("resumed_at_frame", earlier->next_frame);
-  reconstructAll(reader, reconstructor, folder, record, checkpoint);
+  RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
+  if (earlier) {
+    record.set("resumed_at_frame", earlier->next_frame);
+    for (const FrameRecord& frame : folder.earlierFrames()) record.add(frame);
+  }
+  reconstructAll(where, reader, reconstructor, folder, record, checkpoint);
   record.set("interrupted", interrupted_);
   const bool nothing = reconstructor.backend().empty();
   if (nothing && !interrupted_)
     throw InputError(source_.left + ": not one frame could be used; the reasons stand above");
-  if (!nothing) folder.writeRecord(jsonText(record.json()));
+  if (!nothing) folder.writeRecord(jsonText(record.json()), /*complete=*/!interrupted_);
+  if (input_gone_)
+    throw InputError(source_.left +
+                     ": was removed while it was read, or its disk; what is finished "
+                     "stays. Put it back and go on with --resume");
   if (common.json)
     printJson(record.json());
   else
@@ -176,15 +203,18 @@ int ReconstructCommand::run() {
   return interrupted_ ? kInterrupted : kDone;
 }
 
-void ReconstructCommand::reconstructAll(SequenceReader& reader, Reconstructor& reconstructor,
-                                        RunFolder& folder, RunRecord& record,
-                                        Checkpoint& checkpoint) {
+void ReconstructCommand::reconstructAll(const SequencePaths& sequence, SequenceReader& reader,
+                                        Reconstructor& reconstructor, RunFolder& folder,
+                                        RunRecord& record, Checkpoint& checkpoint) {
   const InterruptGuard interrupt;
   ProgressBar progress("reconstruct", reader.frameCount(), progressStyle(common.quiet), std::cerr);
-  int since_flush = 0;
-  while (!interrupt.requested()) {
+  int since_flush = 0, processed = 0;
+  bool at_end = all_done_;
+  while (!interrupt.requested() && !at_end) {
     const auto result = reader.next();
     if (!result) break;
+    input_gone_ = !result->ok() && isGone(sequence);
+    if (input_gone_) break;
     const FrameRecord frame = result->ok() ? reconstructor.process(result->frame)
                                            : reconstructor.skip(result->index, result->error);
     if (!frame.reason.empty())
@@ -194,6 +224,7 @@ void ReconstructCommand::reconstructAll(SequenceReader& reader, Reconstructor& r
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
       folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
     checkpoint.next_frame = frame.frame + 1;
+    at_end = ++processed == reader.frameCount();
     if (++since_flush >= checkpoint_every_ && !reconstructor.backend().empty()) {
       checkpoint.state = reconstructor.state();
       folder.flush(checkpoint);
@@ -201,14 +232,13 @@ void ReconstructCommand::reconstructAll(SequenceReader& reader, Reconstructor& r
     }
     progress.advance();
   }
-  interrupted_ = interrupt.requested();
-  if (interrupted_) spdlog::warn("interrupted: what is finished stays; --resume goes on");
+  interrupted_ = (interrupt.requested() || input_gone_) && !at_end;
+  if (interrupted_ && !input_gone_)
+    spdlog::warn("interrupted: what is finished stays; --resume goes on");
   if (reconstructor.backend().empty()) return;
   checkpoint.state = reconstructor.state();
-  if (interrupted_)
-    folder.flush(checkpoint);
-  else
-    folder.finish(checkpoint.state.model);
+  if (!interrupted_) folder.saveLastModel(checkpoint.state.model);
+  folder.flush(checkpoint);  // resumable until run.json is there
 }
 
 }  // namespace

@@ -134,11 +134,22 @@ std::optional<Checkpoint> RunFolder::readCheckpoint() const {
   return parseCheckpoint(readBytes(path, kCheckpointLimitBytes), shown(path));
 }
 
+bool RunFolder::wasKilled() const { return fs::exists(file(kRunLock)) && !isHeld(file(kRunLock)); }
+
 /// Until the run has ended, or its process, however it does: who finds the file but no holder knows
 /// that nothing more will come.
 void RunFolder::hold() {
   lock_.emplace(file(kRunLock));
   if (!lock_->tryToHold()) refuseBusy(options_.folder);
+  for (const fs::path& folder : {options_.folder, file(kModels), file(kNodes)})
+    removeTemporaries(folder);  // of a process that was killed: nobody else writes here now
+}
+
+std::vector<FrameRecord> RunFolder::earlierFrames() const {
+  std::vector<FrameRecord> records;
+  for (const std::string_view line : linesOf(frames_csv_))
+    if (!line.empty()) records.push_back(readFramesCsvLine(line, shown(file("frames.csv"))));
+  return records;
 }
 
 void RunFolder::takeOver(int next_frame) {
@@ -157,6 +168,7 @@ void RunFolder::takeOver(int next_frame) {
   for (const std::string_view text : linesOf(frames_csv_)) {
     if (line >= frames) break;
     const int frame = std::atoi(std::string(text.substr(0, text.find(','))).c_str());
+    last_frame_ = frame;
     if (fs::exists(file(kModels) / numberedName(frame, ".ply")))
       saved_.push_back({frame, trajectory_[line].time_s});
     ++line;
@@ -201,7 +213,7 @@ void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   // Last: who sees the model of a run that still goes on finds the rest.
   writePly(file(kModels) / numberedName(frame, ".ply"), cloud,
            {"world", "", momentComments(time_s, trajectory_.back().world_from_left, left_)}, true);
-  saved_.push_back({frame, time_s});
+  if (saved_.empty() || saved_.back().frame != frame) saved_.push_back({frame, time_s});
 }
 
 void RunFolder::writeTables(const ModelState& state) {
@@ -225,16 +237,15 @@ void RunFolder::flush(const Checkpoint& checkpoint) {
   writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
 }
 
-void RunFolder::finish(const ModelState& state) {
+void RunFolder::saveLastModel(const ModelState& state) {
   if (options_.save_every > 0 && last_frame_ >= 0 && !savesModel(last_frame_))
     saveModel(last_frame_, trajectory_.back().time_s, state);
-  writeTables(state);
-  fs::remove(file(kCheckpoint));
 }
 
-void RunFolder::writeRecord(const std::string& json) {
+void RunFolder::writeRecord(const std::string& json, bool complete) {
   begin();
   writeFile(file(kRecord), json, true);
+  if (complete) fs::remove(file(kCheckpoint));
   fs::remove(file(kRunLock));
 }
 

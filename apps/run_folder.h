@@ -36,8 +36,12 @@ class RunFolder {
 
   /// The state that an interrupted run left; nothing where there is none. Throws InputError.
   std::optional<Checkpoint> readCheckpoint() const;
+  /// Whether the process that wrote the run died: its lock is there and nobody holds it.
+  bool wasKilled() const;
   /// Takes over the tables of the frames before `next_frame`.
   void takeOver(int next_frame);
+  /// What takeOver() found in frames.csv, as readFramesCsvLine() has it.
+  std::vector<FrameRecord> earlierFrames() const;
 
   void add(const FrameRecord& record);
   /// Whether it is this frame's turn to have its model saved.
@@ -50,9 +54,10 @@ class RunFolder {
   /// added last.
   void saveModel(int frame, double time_s, const ModelState& state);
   void flush(const Checkpoint& checkpoint);
-  /// The run is complete: nothing will be resumed. The model of its last frame is saved too.
-  void finish(const ModelState& state);
-  void writeRecord(const std::string& json);
+  /// Of the last frame, where it wasn't its turn.
+  void saveLastModel(const ModelState& state);
+  /// run.json. `complete`: nothing is left to resume, so the checkpoint goes.
+  void writeRecord(const std::string& json, bool complete);
 
  private:
   struct SavedModel {

@@ -16,20 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
 
-Json inputsJson(const SequencePaths& paths) {
-  Json inputs = Json::object();
-  const std::pair<const char*, const fs::path&> parts[] = {{"left", paths.left},
-                                                           {"right", paths.right},
-                                                           {"stereo", paths.stereo},
-                                                           {"calibration", paths.calibration},
-                                                           {"mask", paths.mask},
-                                                           {"depth", paths.depth},
-                                                           {"timestamps", paths.timestamps}};
-  for (const auto& [name, path] : parts)
-    if (!path.empty()) inputs[name] = {{"path", path.string()}, {"sha256", sha256Of(path)}};
-  return inputs;
-}
-
 Json machineJson(const ReconstructionBackend& backend) {
   const Machine machine = describeMachine();
   return {{"backend", backend.name()},
@@ -51,14 +37,28 @@ Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Js
 
 }  // namespace
 
-RunRecord::RunRecord(const SequencePaths& paths, const StereoCalibration& calibration,
+Json inputsJson(const SequencePaths& paths) {
+  Json inputs = Json::object();
+  const std::pair<const char*, const fs::path&> parts[] = {{"left", paths.left},
+                                                           {"right", paths.right},
+                                                           {"stereo", paths.stereo},
+                                                           {"calibration", paths.calibration},
+                                                           {"mask", paths.mask},
+                                                           {"depth", paths.depth},
+                                                           {"timestamps", paths.timestamps}};
+  for (const auto& [name, path] : parts)
+    if (!path.empty()) inputs[name] = {{"path", path.string()}, {"sha256", sha256Of(path)}};
+  return inputs;
+}
+
+RunRecord::RunRecord(const Json& inputs, const StereoCalibration& calibration,
                      const ReconstructionBackend& backend,
                      const std::vector<SettingInfo>& settings) {
   json_["schema_version"] = 1;
   json_["softscope"] = versionText();
   json_["command"] = "reconstruct";
   json_["machine"] = machineJson(backend);
-  json_["inputs"] = inputsJson(paths);
+  json_["inputs"] = inputs;
   json_["rectified_rig"] = rigJson(backend.rig());
   for (const SettingInfo& setting : settings)
     json_["configuration"][setting.key] = valueOf(setting);

@@ -14,9 +14,13 @@
 
 namespace softscope {
 
+/// Path and SHA-256 of every part that there is. Throws InputError.
+FactSheet::Json inputsJson(const SequencePaths& paths);
+
 class RunRecord {
  public:
-  RunRecord(const SequencePaths& paths, const StereoCalibration& calibration,
+  /// `inputs`: of inputsJson().
+  RunRecord(const FactSheet::Json& inputs, const StereoCalibration& calibration,
             const ReconstructionBackend& backend, const std::vector<SettingInfo>& settings);
 
   void add(const FrameRecord& record);

@@ -47,9 +47,11 @@ void SceneInputs::note(const std::string& role, const std::string& path) {
   sources_.push_back({role, path});
 }
 
-void SceneInputs::addVolume(const std::string& path, const std::string& window) {
-  scene_.volume = readVolume(path);
+void SceneInputs::addVolume(const std::string& path, const std::string& window,
+                            const VolumeOptions& options) {
+  scene_.volume = readVolume(path, options);
   scene_.window = parseWindow(window, *scene_.volume);
+  if (scene_.volume->facts.file_space == "unknown") scene_.frame = SceneFrame::kAxes;
   note("volume", path);
   for (const std::string& warning : scene_.volume->facts.warnings) warn(path + ": " + warning);
 }

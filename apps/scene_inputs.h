@@ -16,7 +16,7 @@ class SceneInputs {
   explicit SceneInputs(double unit_mm) : unit_mm_(unit_mm) {}
 
   /// Throws InputError; OptionError where the window doesn't suit the volume.
-  void addVolume(const std::string& path, const std::string& window);
+  void addVolume(const std::string& path, const std::string& window, const VolumeOptions& options);
   /// A surface or points; from RAS to LPS where its file says RAS. Throws InputError.
   SceneSurface& addSurface(const std::string& path, const std::string& role,
                            const std::string& legend, Rgb8 colour);

@@ -101,7 +101,7 @@ std::vector<double> parsePositions(std::string text) {
 }
 
 void SliceCommand::read(SceneInputs& inputs) const {
-  if (!ct_.empty()) inputs.addVolume(ct_, options_.window);
+  if (!ct_.empty()) inputs.addVolume(ct_, options_.window, options_.volume.options());
   std::size_t colour = 0;
   if (!reference_.empty())
     inputs.addSurface(reference_, "reference", "reference", surfaceColour(colour++));

@@ -111,7 +111,7 @@ int StudyCommand::runOne(const StudyCase& study_case, const StudyFolder& folder)
   const int threads = common.threads > 0 ? common.threads : describeMachine().cores;
   const Json record = runCase(study_case, folder, threads, [&] { return interrupt.requested(); });
   if (!record.is_object()) return kInterrupted;
-  const std::string status = record["status"], reason = record["reason"];
+  const std::string status = record["status"], reason = record.value("reason", "");
   if (status == "skipped") spdlog::warn("{} is skipped: {}", study_case.name, reason);
   if (status == "failed") spdlog::error("{}: {}", study_case.name, reason);
   return status == "failed" ? kThresholdFailed : kDone;
@@ -186,7 +186,7 @@ bool StudyCommand::tellIfBad(const StudyCase& one, const Json& record, const Stu
     spdlog::warn("{}: has not been run", one.name);
     return true;
   }
-  const std::string status = record["status"], reason = record["reason"];
+  const std::string status = record["status"], reason = record.value("reason", "");
   if (status == "outdated") spdlog::warn("{}: {}", one.name, reason);
   if (status == "failed")
     spdlog::warn("{}: {}; {} tells more", one.name, reason,

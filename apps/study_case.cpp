@@ -251,7 +251,10 @@ std::string digestOf(const StudyCase& study_case) {
 
 Json recordOf(const StudyCase& study_case, const StudyFolder& folder) {
   const Json record = readJson(folder.record(study_case.name));
-  return record.is_object() && record.contains("status") ? record : Json();
+  if (!record.is_object() || !record.contains("status")) return {};
+  for (const char* key : {"status", "reason", "digest", "name", "softscope"})
+    if (record.contains(key) && !record[key].is_string()) return {};  // damaged: as if never run
+  return record;
 }
 
 Json currentRecord(const StudyCase& study_case, const StudyFolder& folder) {

@@ -98,6 +98,7 @@ void ViewCommand::declare(ArgumentList& arguments) {
   arguments.option("--range-mm", "N", run_.errors.range_mm,
                    "end of the colour bar (default: a round number, not below the P95)");
   arguments.option("--ct", "VOLUME", run_.ct, "slices of a DICOM folder, NIfTI, NRRD, MetaImage");
+  run_.volume.declare(arguments);
   arguments.option("--ct-from-run", "FILE", run_.ct_from_run,
                    "motion into the CT: 4 x 4 numbers, or evaluation.json of --align rigid");
   arguments.option("--window", "NAME", run_.window,

@@ -115,9 +115,12 @@ void RunSource::describeModels() {
 void RunSource::addVolume() {
   if (!options_.ct_from_run.empty()) scene_from_run_ = readMotion(options_.ct_from_run);
   if (!options_.ct.empty()) {
-    world_.volume = readVolume(options_.ct);
+    world_.volume = readVolume(options_.ct, options_.volume.options());
     world_.window = parseWindow(options_.window, *world_.volume);
-    world_.frame = SceneFrame::kPatient;
+    const bool known = world_.volume->facts.file_space != "unknown";
+    world_.frame = known ? SceneFrame::kPatient : SceneFrame::kAxes;
+    for (const std::string& warning : world_.volume->facts.warnings)
+      warnings_.push_back(options_.ct + ": " + warning);
     SceneSurface model;
     model.mesh.vertices_mm = moment(0, false)->model.vertices_mm;
     if (!boxOf(*world_.volume).intersects(boxOf({model})))

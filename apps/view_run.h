@@ -9,6 +9,7 @@
 
 #include "apps/view_errors.h"
 #include "apps/view_models.h"
+#include "apps/volume_arguments.h"
 #include "vtk_views/view_source.h"
 
 namespace softscope {
@@ -19,6 +20,7 @@ struct ViewRunOptions {
   std::string reference;   // mesh, or sequence with truth
   std::string evaluation;  // folder of `evaluate`
   std::string ct, window = "auto";
+  VolumeArguments volume;
   std::string ct_from_run;  // file
   ErrorColourOptions errors;
 };

@@ -3,14 +3,15 @@
 
 #include <string>
 
-#include "vtk_views/volume_files.h"
+#include "vtk_views/stored_volume.h"
 
 namespace softscope {
 
 /// True for a file with DICOM's preamble, or a folder with such a file directly in it.
 bool looksLikeDicom(const std::string& path);
 
-/// loadVolume() for a DICOM file or folder; values are rescaled already (HU).
-LoadedVolume loadDicom(const std::string& path, bool with_patient);
+/// A DICOM file or folder; values are rescaled already (HU). Every slice is checked: PixelSpacing,
+/// ImageOrientationPatient, ImagePositionPatient and the rescaling; the slices are at one distance.
+StoredVolume loadDicom(const std::string& path, const VolumeOptions& options);
 
 }  // namespace softscope

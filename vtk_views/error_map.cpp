@@ -18,6 +18,8 @@
 #include <limits>
 
 #include "core/error.h"
+#include "vtk_views/guarded_read.h"
+#include "vtk_views/packed_bytes.h"
 #include "vtk_views/vtk_errors.h"
 
 namespace softscope {
@@ -153,6 +155,54 @@ void readFields(vtkPolyData* data, ErrorMap& map) {
   if (said == "LPS" || said == "RAS") map.surface.space = said;
 }
 
+ErrorMap readErrorMapWithVtk(const std::string& bytes, const std::string& name) {
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(bytes);
+  updateOrThrow(*reader, name);
+  vtkPolyData* data = reader->GetOutput();
+  const auto count = static_cast<std::size_t>(data->GetNumberOfPoints());
+  if (count == 0) throw InputError(name + ": holds no point; is it damaged?");
+  const std::vector<double> said = fieldOf(data, "ModelPoints");
+  const bool split = said.size() == 1 && said[0] >= 1 && said[0] <= double(count);
+  const std::size_t model_points = split ? static_cast<std::size_t>(said[0]) : count;
+  ErrorMap map;
+  readGeometry(data, model_points, name, map);
+  map.absolute_mm = scalarsOf(data, "Absolute", model_points, name);
+  map.signed_mm = scalarsOf(data, "Signed", model_points, name);
+  if (data->GetPointData()->GetArray("Observed") != nullptr)
+    for (const float seen : scalarsOf(data, "Observed", model_points, name))
+      map.observed.push_back(seen != 0);
+  readFields(data, map);
+  return map;
+}
+
+void packSurface(const TriangleMesh& mesh, BytePacker& packer) {
+  packer.addAll(mesh.vertices_mm);
+  packer.addAll(mesh.triangles);
+  packer.addText(mesh.space);
+}
+
+void unpackSurface(ByteUnpacker& unpacker, TriangleMesh& mesh) {
+  unpacker.takeAll(mesh.vertices_mm);
+  unpacker.takeAll(mesh.triangles);
+  unpacker.takeText(mesh.space);
+}
+
+std::string packErrorMap(const ErrorMap& map) {
+  BytePacker packer;
+  packSurface(map.surface, packer);
+  packSurface(map.reference, packer);
+  packer.addAll(map.absolute_mm);
+  packer.addAll(map.signed_mm);
+  packer.addAll(map.observed);
+  packer.add(map.frame);
+  packer.add(map.time_s);
+  for (const Eigen::Vector3f* v : {&map.look, &map.up})
+    for (int axis = 0; axis < 3; ++axis) packer.add((*v)[axis]);
+  return std::move(packer.bytes);
+}
+
 }  // namespace
 
 std::string errorMapVtp(const ErrorMap& map) {
@@ -178,24 +228,19 @@ std::string errorMapVtp(const ErrorMap& map) {
 }
 
 ErrorMap parseErrorMap(const std::string& bytes, const std::string& name) {
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(bytes);
-  updateOrThrow(*reader, name);
-  vtkPolyData* data = reader->GetOutput();
-  const auto count = static_cast<std::size_t>(data->GetNumberOfPoints());
-  if (count == 0) throw InputError(name + ": holds no point; is it damaged?");
-  const std::vector<double> said = fieldOf(data, "ModelPoints");
-  const bool split = said.size() == 1 && said[0] >= 1 && said[0] <= double(count);
-  const std::size_t model_points = split ? static_cast<std::size_t>(said[0]) : count;
+  const std::string packed = guardedRead(
+      name, bytes.size(), [&] { return packErrorMap(readErrorMapWithVtk(bytes, name)); });
+  ByteUnpacker unpacker(packed);
   ErrorMap map;
-  readGeometry(data, model_points, name, map);
-  map.absolute_mm = scalarsOf(data, "Absolute", model_points, name);
-  map.signed_mm = scalarsOf(data, "Signed", model_points, name);
-  if (data->GetPointData()->GetArray("Observed") != nullptr)
-    for (const float seen : scalarsOf(data, "Observed", model_points, name))
-      map.observed.push_back(seen != 0);
-  readFields(data, map);
+  unpackSurface(unpacker, map.surface);
+  unpackSurface(unpacker, map.reference);
+  unpacker.takeAll(map.absolute_mm);
+  unpacker.takeAll(map.signed_mm);
+  unpacker.takeAll(map.observed);
+  unpacker.take(map.frame);
+  unpacker.take(map.time_s);
+  for (Eigen::Vector3f* v : {&map.look, &map.up})
+    for (int axis = 0; axis < 3; ++axis) unpacker.take((*v)[axis]);
   return map;
 }
 

@@ -1,8 +1,4 @@
-// vtk_views/volume.cpp: VTK's scalars to floats, and between them.
 #include "vtk_views/volume.h"
-
-#include <vtkImageData.h>
-#include <vtkSetGet.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -10,21 +6,12 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "vtk_views/volume_files.h"
 
 namespace softscope {
 namespace {
 
 constexpr std::size_t kSamples = 200000;  // for percentiles: within 0.2 % of the share
-
-template <class Stored>
-void copyValues(const Stored* stored, double slope, double intercept, std::vector<float>& values) {
-  parallelRanges(static_cast<int>(values.size()), 1 << 18, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i)
-      values[std::size_t(i)] = static_cast<float>(slope * double(stored[i]) + intercept);
-  });
-}
 
 /// The voxel below and the share of the one above; false beyond the volume.
 bool neighbours(double place, int size, int& below, float& part) {
@@ -55,6 +42,7 @@ float Volume::at(const Eigen::Vector3d& voxel) const {
     return near + part[1] * (alongI(p + dj) - near);
   };
   const float near = alongJ(v);
+  if (part[2] == 0) return near;  // the next slice may be missing
   return near + part[2] * (alongJ(v + dk) - near);
 }
 
@@ -81,25 +69,11 @@ double Volume::percentile(double share) const {
   return *place;
 }
 
-Volume readVolume(const std::string& path) {
-  const LoadedVolume loaded = loadVolume(path, /*with_patient=*/false);
-  if (loaded.summary.components != 1)
-    throw InputError(path + ": has " + std::to_string(loaded.summary.components) +
+Volume readVolume(const std::string& path, const VolumeOptions& options) {
+  Volume volume = loadVolume(path, options);
+  if (volume.facts.components != 1)
+    throw InputError(path + ": has " + std::to_string(volume.facts.components) +
                      " values a voxel, but a CT or MR has one; colours can't be sliced");
-  Volume volume;
-  volume.facts = loaded.summary;
-  if (std::abs(volume.facts.lps_from_voxel.determinant()) < 1e-12)
-    throw InputError(path +
-                     ": its voxel axes lie in one plane, so voxels have no place; is the header "
-                     "damaged?");
-  volume.values.resize(static_cast<std::size_t>(loaded.image->GetNumberOfPoints()));
-  switch (loaded.image->GetScalarType()) {
-    vtkTemplateMacro(copyValues(static_cast<const VTK_TT*>(loaded.image->GetScalarPointer()),
-                                loaded.slope, loaded.intercept, volume.values));
-    default:
-      throw InputError(path + ": its voxels are of type " + loaded.summary.scalar_type +
-                       ", which softscope doesn't read");
-  }
   return volume;
 }
 

@@ -15,7 +15,8 @@ namespace softscope {
 /// facts.lps_from_voxel says.
 struct Volume {
   VolumeSummary facts;
-  std::vector<float> values;  // size_voxels[0] * size_voxels[1] * size_voxels[2]
+  /// size_voxels[0] * size_voxels[1] * size_voxels[2]; finite, NaN in slices that are missing.
+  std::vector<float> values;
 
   /// Linear between voxels; NaN beyond the centres of the outermost ones (by more than half a
   /// voxel). `voxel`: (i, j, k).
@@ -31,6 +32,6 @@ struct Volume {
 
 /// DICOM file or folder, NIfTI, NRRD, MetaImage, as summariseVolume() finds them. Throws InputError
 /// where the file can't be read or has several values a voxel.
-Volume readVolume(const std::string& path);
+Volume readVolume(const std::string& path, const VolumeOptions& options = {});
 
 }  // namespace softscope

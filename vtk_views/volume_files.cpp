@@ -1,22 +1,16 @@
-// vtk_views/volume_files.cpp: four formats, one answer.
 #include "vtk_views/volume_files.h"
 
-#include <vtkImageData.h>
-#include <vtkMatrix4x4.h>
-#include <vtkMetaImageReader.h>
-#include <vtkNIFTIImageHeader.h>
-#include <vtkNIFTIImageReader.h>
-#include <vtkNew.h>
-#include <vtkNrrdReader.h>
-
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <new>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "vtk_views/dicom_series.h"
-#include "vtk_views/image_facts.h"
-#include "vtk_views/text_header.h"
-#include "vtk_views/vtk_errors.h"
+#include "vtk_views/volume_formats.h"
 
 namespace softscope {
 namespace {
@@ -28,76 +22,75 @@ bool endsWith(const std::string& path, const std::string& ending) {
       [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
-bool isNifti(const std::string& path) {
+bool namedNifti(const std::string& path) {
   return endsWith(path, ".nii") || endsWith(path, ".nii.gz");
 }
-bool isNrrd(const std::string& path) { return endsWith(path, ".nrrd") || endsWith(path, ".nhdr"); }
-bool isMetaImage(const std::string& path) {
+bool namedNrrd(const std::string& path) {
+  return endsWith(path, ".nrrd") || endsWith(path, ".nhdr");
+}
+bool namedMetaImage(const std::string& path) {
   return endsWith(path, ".mha") || endsWith(path, ".mhd");
 }
 
-/// Millimetres in one unit of the header; files that name none are taken as mm, as NIfTI tools do.
-double unitOf(vtkNIFTIImageHeader* header, std::vector<std::string>& warnings) {
-  switch (header->GetXYZTUnits() & vtkNIFTIImageHeader::UnitsSpace) {
-    case vtkNIFTIImageHeader::UnitsMeter:
-      return 1000;
-    case vtkNIFTIImageHeader::UnitsMicron:
-      return 0.001;
-    case vtkNIFTIImageHeader::UnitsMM:
-      return 1;
-    default:
-      warnings.emplace_back("the header names no unit of length; taken as mm");
-      return 1;
+StoredVolume readStored(const std::string& path, const VolumeOptions& options) {
+  if (namedNifti(path)) return readNifti(path, options);
+  if (namedNrrd(path)) return readNrrd(path, options);
+  if (namedMetaImage(path)) return readMetaImage(path, options);
+  if (looksLikeDicom(path)) return loadDicom(path, options);
+  throw InputError(path +
+                   ": no volume that softscope reads. Accepted: NIfTI (.nii, .nii.gz), NRRD "
+                   "(.nrrd, .nhdr), MetaImage (.mha, .mhd), a DICOM file or folder");
+}
+
+/// The first value of each voxel of one slice.
+template <class Stored>
+void copySlice(const StoredVolume& stored, std::size_t slice, std::size_t voxels, float* values) {
+  const auto step = stored.planar ? std::size_t{1} : std::size_t(stored.summary.components);
+  const auto* from = reinterpret_cast<const Stored*>(stored.bytes.data()) + slice * voxels * step;
+  for (std::size_t i = 0; i < voxels; ++i)
+    values[i] = static_cast<float>(stored.slope * double(from[i * step]) + stored.intercept);
+}
+
+/// Throws InputError where a value that the file holds is not finite.
+void takeRange(const std::string& path, const StoredVolume& stored, Volume& volume) {
+  float least = std::numeric_limits<float>::max(), most = -least;
+  std::size_t bad = 0;
+  for (const float value : volume.values) {
+    bad += !std::isfinite(value);
+    least = std::min(least, value);
+    most = std::max(most, value);
   }
+  const auto missing = std::count(stored.stored_slices.begin(), stored.stored_slices.end(), -1);
+  const std::size_t expected = std::size_t(missing) * std::size_t(volume.facts.size_voxels[0]) *
+                               std::size_t(volume.facts.size_voxels[1]);
+  if (bad != expected)
+    throw InputError(path + ": " + std::to_string(bad - expected) + " of " +
+                     std::to_string(volume.values.size()) +
+                     " values are not finite; fill them with the value of air and save it again");
+  volume.facts.value_range = {least, most};
 }
 
-/// RAS from VTK's unscaled voxels: the sform where the file has one, else the qform.
-Eigen::Matrix4d rasFromNifti(vtkNIFTIImageReader* reader, VolumeSummary& summary) {
-  vtkMatrix4x4* sform = reader->GetSFormMatrix();
-  vtkMatrix4x4* qform = reader->GetQFormMatrix();
-  if (!sform && !qform) {
-    summary.warnings.emplace_back("the header has neither sform nor qform: left and right unknown");
-    return Eigen::Matrix4d::Identity();
-  }
-  summary.file_space = "RAS";
-  if (sform && qform && !toEigen(*sform).isApprox(toEigen(*qform), 1e-3))
-    summary.warnings.emplace_back("sform and qform disagree; the sform was taken");
-  return toEigen(sform ? *sform : *qform);
-}
-
-LoadedVolume loadNifti(const std::string& path) {
-  vtkNew<vtkNIFTIImageReader> reader;
-  reader->SetFileName(path.c_str());
-  updateOrThrow(*reader, path);
-  LoadedVolume loaded;
-  loaded.image = reader->GetOutput();
-  loaded.slope = reader->GetRescaleSlope();
-  loaded.intercept = reader->GetRescaleIntercept();
-  VolumeSummary& summary = loaded.summary;
-  summary = imageFacts(*reader->GetOutput(), "NIfTI", path);
-  summary.file_space = "unknown";
-  const double unit_mm = unitOf(reader->GetNIFTIHeader(), summary.warnings);
-  Eigen::Matrix4d space_from_voxel = rasFromNifti(reader, summary);
-  for (int axis = 0; axis < 3; ++axis)
-    space_from_voxel.col(axis) *= summary.spacing_mm[std::size_t(axis)];
-  space_from_voxel.topRows<3>() *= unit_mm;
-  for (double& value : summary.value_range) value = value * loaded.slope + loaded.intercept;
-  placeInSpace(space_from_voxel, summary);
-  return loaded;
-}
-
-template <class Reader>
-LoadedVolume loadWithHeader(const std::string& path, const std::string& format,
-                            const HeaderGeometry& geometry) {
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  updateOrThrow(*reader, path);
-  LoadedVolume loaded;
-  loaded.image = reader->GetOutput();
-  loaded.summary = imageFacts(*reader->GetOutput(), format, path);
-  loaded.summary.file_space = geometry.space;
-  placeInSpace(geometry.space_from_voxel, loaded.summary);
-  return loaded;
+Volume withValues(const std::string& path, const StoredVolume& stored) {
+  Volume volume;
+  volume.facts = stored.summary;
+  volume.facts.scalar_type = nameOf(stored.type);
+  const auto& size = volume.facts.size_voxels;
+  const std::size_t voxels = std::size_t(size[0]) * std::size_t(size[1]);
+  volume.values.resize(voxels * std::size_t(size[2]));
+  parallelRanges(size[2], 4, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const int from = stored.stored_slices.empty() ? k : stored.stored_slices[std::size_t(k)];
+      float* slice = volume.values.data() + std::size_t(k) * voxels;
+      if (from < 0)
+        std::fill(slice, slice + voxels, std::numeric_limits<float>::quiet_NaN());
+      else
+        withTypeOf(stored.type, [&](auto zero) {
+          copySlice<decltype(zero)>(stored, std::size_t(from), voxels, slice);
+        });
+    }
+  });
+  takeRange(path, stored, volume);
+  return volume;
 }
 
 void checkPlausible(VolumeSummary& summary) {
@@ -118,32 +111,23 @@ void checkPlausible(VolumeSummary& summary) {
     summary.warnings.emplace_back("every voxel has the same value");
 }
 
-LoadedVolume loadAny(const std::string& path, bool with_patient) {
-  if (isNifti(path)) return loadNifti(path);
-  if (isNrrd(path)) return loadWithHeader<vtkNrrdReader>(path, "NRRD", readNrrdGeometry(path));
-  if (isMetaImage(path))
-    return loadWithHeader<vtkMetaImageReader>(path, "MetaImage", readMetaImageGeometry(path));
-  if (looksLikeDicom(path)) return loadDicom(path, with_patient);
-  throw InputError(path +
-                   ": no volume that softscope reads. Accepted: NIfTI (.nii, .nii.gz), NRRD "
-                   "(.nrrd, .nhdr), MetaImage (.mha, .mhd), a DICOM file or folder");
-}
-
 }  // namespace
 
 bool looksLikeVolume(const std::string& path) {
-  return isNifti(path) || isNrrd(path) || isMetaImage(path) || looksLikeDicom(path);
+  return namedNifti(path) || namedNrrd(path) || namedMetaImage(path) || looksLikeDicom(path);
 }
 
-LoadedVolume loadVolume(const std::string& path, bool with_patient) {
+Volume loadVolume(const std::string& path, const VolumeOptions& options) try {
   if (!std::filesystem::exists(path)) throw InputError(path + ": does not exist");
-  LoadedVolume loaded = loadAny(path, with_patient);
-  checkPlausible(loaded.summary);
-  return loaded;
+  Volume volume = withValues(path, readStored(path, options));
+  checkPlausible(volume.facts);
+  return volume;
+} catch (const std::bad_alloc&) {
+  throw InputError(path + ": its voxels don't fit into memory; cut it to the organ, or halve it");
 }
 
-VolumeSummary summariseVolume(const std::string& path, bool with_patient) {
-  return loadVolume(path, with_patient).summary;
+VolumeSummary summariseVolume(const std::string& path, const VolumeOptions& options) {
+  return loadVolume(path, options).facts;
 }
 
 }  // namespace softscope

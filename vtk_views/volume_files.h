@@ -1,24 +1,13 @@
-// vtk_views/volume_files.h: a volume as VTK holds it.
+// vtk_views/volume_files.h: a volume of any format, values and place.
 #pragma once
-
-#include <vtkImageData.h>
-#include <vtkSmartPointer.h>
 
 #include <string>
 
-#include "vtk_views/volume_summary.h"
+#include "vtk_views/volume.h"
 
 namespace softscope {
 
-/// Stored values in the file's order; VTK's own origin and spacing mean nothing here, the summary's
-/// lps_from_voxel tells where voxels lie.
-struct LoadedVolume {
-  VolumeSummary summary;
-  vtkSmartPointer<vtkImageData> image;
-  double slope = 1, intercept = 0;  // value = slope * stored + intercept
-};
-
-/// summariseVolume() with the voxels.
-LoadedVolume loadVolume(const std::string& path, bool with_patient);
+/// summariseVolume() with the voxels; of several values per voxel the first one.
+Volume loadVolume(const std::string& path, const VolumeOptions& options);
 
 }  // namespace softscope

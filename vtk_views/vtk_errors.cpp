@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "vtk_views/guarded_read.h"
 
 namespace softscope {
 namespace {
@@ -95,6 +96,7 @@ class Silence {
 }  // namespace
 
 void updateOrThrow(vtkAlgorithm& reader, const std::string& source) {
+  if (!insideGuardedRead()) throw Error(source + ": is read outside guardedRead()");
   const Silence silence;
   const ErrorListener of_reader(reader);
   const ErrorListener of_executive(*reader.GetExecutive());

@@ -14,10 +14,14 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "vtk_views/guarded_read.h"
+#include "vtk_views/packed_bytes.h"
 #include "vtk_views/vtk_errors.h"
 
 namespace softscope {
 namespace {
+
+constexpr float kFarthestPointMm = 1e7f;
 
 std::string endingOf(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
@@ -40,9 +44,11 @@ void addPoints(vtkPolyData* data, const std::string& path, TriangleMesh& mesh) {
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
     const double* p = data->GetPoint(i);
     mesh.vertices_mm.emplace_back(float(p[0]), float(p[1]), float(p[2]));
-    if (!mesh.vertices_mm.back().allFinite())
-      throw InputError(path + ": point " + std::to_string(i) +
-                       " is not finite; export the surface again");
+    const Eigen::Vector3f& point = mesh.vertices_mm.back();
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > kFarthestPointMm)
+      throw InputError(
+          path + ": point " + std::to_string(i) +
+          " is not finite, or more than 10 km from the origin; export the surface again");
   }
 }
 
@@ -73,15 +79,7 @@ TriangleMesh meshOf(vtkPolyData* data, const std::string& title, const std::stri
   return mesh;
 }
 
-}  // namespace
-
-bool looksLikeVtkSurface(const std::string& path) {
-  const std::string ending = endingOf(path);
-  return ending == ".vtp" || ending == ".vtk";
-}
-
-TriangleMesh readVtkSurface(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError(path + ": there is no such file");
+TriangleMesh readWithVtk(const std::string& path) {
   if (endingOf(path) == ".vtp") {
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName(path.c_str());
@@ -93,6 +91,33 @@ TriangleMesh readVtkSurface(const std::string& path) {
   updateOrThrow(*reader, path);
   const char* title = reader->GetHeader();
   return meshOf(reader->GetOutput(), title == nullptr ? "" : title, path);
+}
+
+std::string packMesh(const TriangleMesh& mesh) {
+  BytePacker packer;
+  packer.addAll(mesh.vertices_mm);
+  packer.addAll(mesh.triangles);
+  packer.addText(mesh.space);
+  return std::move(packer.bytes);
+}
+
+}  // namespace
+
+bool looksLikeVtkSurface(const std::string& path) {
+  const std::string ending = endingOf(path);
+  return ending == ".vtp" || ending == ".vtk";
+}
+
+TriangleMesh readVtkSurface(const std::string& path) {
+  requireRegularFile(path);
+  const std::string bytes = guardedRead(path, std::filesystem::file_size(path),
+                                        [&] { return packMesh(readWithVtk(path)); });
+  TriangleMesh mesh;
+  ByteUnpacker unpacker(bytes);
+  unpacker.takeAll(mesh.vertices_mm);
+  unpacker.takeAll(mesh.triangles);
+  unpacker.takeText(mesh.space);
+  return mesh;
 }
 
 }  // namespace softscope

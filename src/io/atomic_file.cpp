@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 #include "core/error.h"
 #include "io/message.h"
@@ -43,7 +44,29 @@ int renameTo(const fs::path& from, const fs::path& to, bool overwrite) {
   return ::rename(from.c_str(), to.c_str());
 }
 
+/// ".NAME.PROCESS-NUMBER.part", as temporaryBeside() makes it.
+bool isTemporary(const std::string& name) {
+  const std::string end = ".part";
+  if (name.size() < end.size() + 5 || name[0] != '.' ||
+      name.compare(name.size() - end.size(), end.size(), end) != 0)
+    return false;
+  const std::string stem = name.substr(0, name.size() - end.size());
+  const auto dash = stem.find_last_not_of("0123456789");
+  if (dash == std::string::npos || stem[dash] != '-' || dash + 1 == stem.size()) return false;
+  const auto dot = stem.find_last_not_of("0123456789", dash - 1);
+  return dot != std::string::npos && dot > 0 && stem[dot] == '.' && dot + 1 < dash;
+}
+
 }  // namespace
+
+void removeTemporaries(const fs::path& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
+    if (entry->is_regular_file(ignored) && isTemporary(entry->path().filename().string()))
+      found.push_back(entry->path());
+  for (const fs::path& file : found) fs::remove(file, ignored);
+}
 
 void requireWritable(const fs::path& target, bool overwrite) {
   std::error_code code;

@@ -35,6 +35,10 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
+/// Removes what an AtomicFile of a process that was killed left in `folder`; does nothing where
+/// there is no such folder. For a folder that no other process writes to.
+void removeTemporaries(const std::filesystem::path& folder);
+
 /// All of it at once.
 void writeFile(const std::filesystem::path& target, std::string_view bytes, bool overwrite);
 

@@ -17,6 +17,7 @@ constexpr double kDegreesPerRadian = 57.29577951308232;
 constexpr double kRectifiedAngleDeg = 0.1;
 constexpr double kRectifiedRowsPx = 2.0;
 constexpr double kRectifiedFocalRatio = 0.005;
+constexpr double kLensSlope = 1;  // beyond 45 degrees a good lens model may grow without bounds
 
 using Warnings = std::vector<std::string>;
 
@@ -95,6 +96,36 @@ void checkRectified(const StereoCalibration& calibration) {
     contradict(say("cy differs, ", left.cy_px, " and ", right.cy_px, " px"));
 }
 
+/// How far the lens moves the point (x, y) at unit depth, px: OpenCV's model (core/camera.h).
+double lensShiftPx(const RawCamera& camera, double x, double y) {
+  const auto& k = camera.distortion.coefficients;
+  const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  const double radial =
+      (1 + k[0] * r2 + k[1] * r4 + k[4] * r6) / (1 + k[5] * r2 + k[6] * r4 + k[7] * r6);
+  const double moved_x =
+      x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x) + k[8] * r2 + k[9] * r4;
+  const double moved_y =
+      y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y + k[10] * r2 + k[11] * r4;
+  return std::hypot((moved_x - x) * camera.pinhole.fx_px, (moved_y - y) * camera.pinhole.fy_px);
+}
+
+/// Throws where the lens moves a point at the middle of the picture's edge, at 45 degrees at most,
+/// by more than the picture is long.
+void checkLens(const RawCamera& camera, const std::string& what) {
+  const PinholeCamera& pinhole = camera.pinhole;
+  const double across = std::min(pinhole.width_px / (2 * pinhole.fx_px), kLensSlope);
+  const double down = std::min(pinhole.height_px / (2 * pinhole.fy_px), kLensSlope);
+  const double diagonal_px = std::hypot(pinhole.width_px, pinhole.height_px);
+  for (const auto& [x, y] : {std::pair{across, 0.0}, std::pair{0.0, down}}) {
+    const double shift_px = lensShiftPx(camera, x, y);
+    if (!(shift_px <= diagonal_px))
+      throw InputError(
+          say(what, "'s lens moves the edge of the picture by ", shift_px,
+              " px, but the picture is ", pinhole.width_px, " x ", pinhole.height_px,
+              " px. A distortion coefficient is damaged; calibrate or export it again."));
+  }
+}
+
 void checkView(const PinholeCamera& camera, const std::string& what, Warnings& warnings) {
   const double view_deg = 2 * std::atan(camera.width_px / (2 * camera.fx_px)) * kDegreesPerRadian;
   if (view_deg < kLimits.usual_least_view_deg || view_deg > kLimits.usual_most_view_deg)
@@ -133,6 +164,8 @@ std::vector<std::string> checkPictureFit(const StereoCalibration& calibration) {
                          right.height_px, ", but both must have the same."));
   if (left.width_px == 0 || left.height_px == 0) return {};
   requirePictureSize(left.width_px, left.height_px, calibration.source);
+  checkLens(calibration.left, calibration.source + ": the left camera");
+  checkLens(calibration.right, calibration.source + ": the right camera");
   Warnings warnings;
   checkView(left, calibration.source + ": the left camera", warnings);
   checkView(right, calibration.source + ": the right camera", warnings);

@@ -70,8 +70,11 @@ CalibrationDraft draftFromDocument(const Document& document, const std::string& 
   return draft;
 }
 
-/// Whether most lines with content are numbers alone: a text without names.
+/// Whether most lines with content are numbers alone: a text without names. A JSON or XML document
+/// over many lines has such lines too, but begins with its bracket.
 bool isBareNumbers(std::string_view text) {
+  const std::string_view content = trimmed(text);
+  if (!content.empty() && (content[0] == '{' || content[0] == '<')) return false;
   std::size_t lines = 0;
   for (const std::string_view line : linesOf(text)) lines += trimmed(line).empty() ? 0 : 1;
   return 2 * numberRows(text).size() >= lines && lines > 0;

@@ -31,6 +31,19 @@ void requireCount(std::size_t found, int expected, const fs::path& path, const c
                        " frames; one a frame is expected."));
 }
 
+constexpr float kNearestMm = 2;  // no scope sees sharply before that
+
+/// Depth that all lies nearer: metres, read as millimetres.
+void requireMillimetres(const Raster<float>& depth_mm, const std::string& name) {
+  float farthest_mm = 0;
+  for (const float value : depth_mm.values) farthest_mm = std::max(farthest_mm, value);
+  if (farthest_mm == 0 || farthest_mm >= kNearestMm) return;
+  throw InputError(say(name, ": its largest depth is ", farthest_mm,
+                       " mm, but tissue lies farther than ", kNearestMm,
+                       " mm. In metres? Write millimetres (of 16-bit files, say what a step is "
+                       "worth: depth_unit_mm in the calibration)."));
+}
+
 }  // namespace
 
 FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& options)
@@ -85,6 +98,7 @@ Frame FrameLoader::load(int index) {
   if (!depths_.empty()) {
     frame.depth_mm = readDepth(depths_[i], calibration_.depth_unit_mm);
     requireShape(frame.depth_mm.width_px, frame.depth_mm.height_px, shown(depths_[i]));
+    requireMillimetres(frame.depth_mm, shown(depths_[i]));
   }
   return frame;
 }

@@ -6,6 +6,7 @@
 #include "io/file_bytes.h"
 #include "io/message.h"
 #include "io/text_lines.h"
+#include "io/toml_tree.h"
 
 namespace softscope {
 namespace {
@@ -47,6 +48,7 @@ void flatten(const toml::table& table, const std::string& head, const std::strin
 
 /// The value as TOML reads it, or a text where it wouldn't.
 Setting valueOf(const std::string& key, const std::string& value) {
+  requireShallowToml(value, "--set " + key);
   try {
     const toml::table table = toml::parse("x = " + value);
     if (table.size() == 1) {
@@ -63,6 +65,7 @@ Setting valueOf(const std::string& key, const std::string& value) {
 
 Settings parseSettings(std::string_view toml, const std::string& name) {
   Settings out;
+  requireShallowToml(toml, name);
   try {
     flatten(toml::parse(toml), "", name, out);
   } catch (const toml::parse_error& error) {

@@ -32,9 +32,53 @@ Json jsonOf(const toml::node& node, const std::string& name) {
   return json;
 }
 
+constexpr int kDeepestToml = 64;  // dots of one key, or brackets within brackets
+
+/// Dots since the last character that ends a key, and open brackets, outside texts and comments.
+class TomlDepth {
+ public:
+  /// False where it is too deep.
+  bool step(char c) {
+    if (comment_) {
+      comment_ = c != '\n';
+    } else if (quote_ != 0) {
+      if (!escaped_ && (c == quote_ || c == '\n')) quote_ = 0;
+      escaped_ = !escaped_ && quote_ == '"' && c == '\\';
+    } else {
+      plain(c);
+    }
+    line_ += c == '\n';
+    return dots_ <= kDeepestToml && brackets_ <= kDeepestToml;
+  }
+  int line() const { return line_; }
+
+ private:
+  void plain(char c) {
+    if (c == '#') comment_ = true;
+    if (c == '"' || c == '\'') quote_ = c;
+    if (c == '[' || c == '{') ++brackets_;
+    if (c == ']' || c == '}') --brackets_;
+    if (c == '.') ++dots_;
+    if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') dots_ = 0;
+  }
+
+  char quote_ = 0;
+  bool comment_ = false, escaped_ = false;
+  int dots_ = 0, brackets_ = 0, line_ = 1;
+};
+
 }  // namespace
 
+void requireShallowToml(std::string_view toml, const std::string& name) {
+  TomlDepth depth;
+  for (const char c : toml)
+    if (!depth.step(c))
+      throw InputError(say(name, ":", depth.line(), ": a key of more than ", kDeepestToml,
+                           " parts, or as many brackets within brackets. Is it a settings file?"));
+}
+
 nlohmann::ordered_json parseTomlTree(std::string_view toml, const std::string& name) {
+  requireShallowToml(toml, name);
   try {
     return jsonOf(toml::parse(toml), name);
   } catch (const toml::parse_error& error) {

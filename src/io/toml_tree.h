@@ -8,6 +8,10 @@
 
 namespace softscope {
 
+/// Throws InputError where keys or brackets nest deeper than any settings do: the parser, which
+/// calls itself for each part of a key, would run out of its stack.
+void requireShallowToml(std::string_view toml, const std::string& name);
+
 /// Tables become objects, lists arrays; lists keep their order, keys are sorted.
 /// Throws InputError where the file is missing or no TOML, OptionError where it holds a date.
 nlohmann::ordered_json readTomlTree(const std::filesystem::path& file);

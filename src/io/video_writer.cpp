@@ -22,6 +22,17 @@ fs::path partOf(const fs::path& target) {
          say(".", target.stem().string(), ".", getpid(), ".part", target.extension().string());
 }
 
+/// That can be read back.
+int framesIn(const fs::path& video) {
+  int frames = 0;
+  try {
+    cv::VideoCapture capture(video.string(), cv::CAP_FFMPEG);
+    while (capture.isOpened() && capture.grab()) ++frames;
+  } catch (const cv::Exception&) {  // what can't be read holds no frame
+  }
+  return frames;
+}
+
 }  // namespace
 
 struct VideoWriter::State {
@@ -29,6 +40,7 @@ struct VideoWriter::State {
   bool overwrite = false;
   cv::Size size;
   cv::VideoWriter encoder;
+  int frames = 0;
 
   bool open(int code, double frames_per_second) {
     try {
@@ -74,10 +86,14 @@ void VideoWriter::add(const ColourImage& picture) {
   cv::Mat bgr;
   cv::cvtColor(matrixView(picture, CV_8UC3), bgr, cv::COLOR_RGB2BGR);
   state_->encoder.write(bgr);
+  ++state_->frames;
 }
 
 void VideoWriter::finish() {
   state_->encoder.release();
+  if (const int found = framesIn(state_->part); found != state_->frames)
+    throw Error(say(shown(state_->target), ": can't be written: of ", state_->frames,
+                    " pictures the video holds ", found, ". Is the disk full? Free some space."));
   requireWritable(state_->target, state_->overwrite);
   std::error_code failed;
   fs::rename(state_->part, state_->target, failed);

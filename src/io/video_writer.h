@@ -20,7 +20,8 @@ class VideoWriter {
 
   /// Throws Error where its size is another.
   void add(const ColourImage& picture);
-  /// Gives the file its name. Throws Error.
+  /// Reads the video back and gives the file its name. Throws Error where a frame is missing: the
+  /// encoder tells nobody that the disk is full.
   void finish();
 
  private:

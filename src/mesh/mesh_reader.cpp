@@ -13,6 +13,8 @@
 namespace softscope {
 namespace {
 
+constexpr float kFarthestMm = 1e7f;  // micrometres taken for mm stay below
+
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLimitBytes = std::uintmax_t{2} << 30;
@@ -91,7 +93,11 @@ void requireIndices(const TriangleMesh& mesh, const std::string& name) {
 
 void requireFinite(const TriangleMesh& mesh, const std::string& name) {
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
-    if (!mesh.vertices_mm[i].allFinite())
+    if (mesh.vertices_mm[i].allFinite() && mesh.vertices_mm[i].cwiseAbs().maxCoeff() > kFarthestMm)
+      throw InputError(
+          name + ": vertex " + std::to_string(i) +
+          " lies more than 10 km from the origin; in another unit than mm, or damaged?");
+    else if (!mesh.vertices_mm[i].allFinite())
       throw InputError(name + ": vertex " + std::to_string(i) +
                        " has a coordinate that is not a finite number; repair the mesh");
 }

@@ -1,7 +1,11 @@
 #include "pipeline/run_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
 
 namespace softscope {
 namespace {
@@ -47,6 +51,32 @@ std::string quoted(const std::string& text) {
     out += c == '\n' || c == '\r' ? ' ' : c;
   }
   return out + '"';
+}
+
+std::vector<std::string> cellsOf(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool in_quotes = false;
+  for (const char c : line) {
+    if (c == '"') in_quotes = !in_quotes;
+    if (c == ',' && !in_quotes)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+double numberIn(const std::string& cell) {
+  return cell.empty() ? kUnknown : std::strtod(cell.c_str(), nullptr);
+}
+
+FrameStatus statusNamed(const std::string& name, const std::string& file) {
+  for (const FrameStatus status :
+       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
+        FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
+        FrameStatus::kUnreadable})
+    if (name == toString(status)) return status;
+  throw InputError(file + ": a frame has an unknown status; start again without --resume");
 }
 
 double timeOf(const FrameRecord& record, const std::string& stage) {
@@ -124,6 +154,30 @@ std::string framesCsvLine(const FrameRecord& record) {
   line.add(record.elapsed_ms(), 2);
   line.addText(quoted(record.reason));
   return line.ended();
+}
+
+FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
+  static const std::vector<std::string> heading = cellsOf(framesCsvHeading());
+  const std::vector<std::string> cells = cellsOf(line);
+  if (cells.size() != heading.size())
+    throw InputError(name + ": a line has " + std::to_string(cells.size()) + " cells, but " +
+                     std::to_string(heading.size()) +
+                     " are expected; start again without --resume");
+  const auto cell = [&](const std::string& column) -> const std::string& {
+    return cells[std::size_t(std::find(heading.begin(), heading.end(), column) - heading.begin())];
+  };
+  FrameRecord record;
+  record.frame = std::atoi(cell("frame").c_str());
+  record.status = statusNamed(cell("status"), name);
+  record.points = std::atoi(cell("points").c_str());
+  record.warp.nodes = std::atoi(cell("nodes").c_str());
+  record.pose.inliers = std::atoi(cell("inliers").c_str());
+  record.fusion.corrected.mean_mm = numberIn(cell("backprojection_mean_mm"));
+  record.fusion.predicted.mean_mm = numberIn(cell("prediction_mean_mm"));
+  for (const std::string& stage : timedStages())
+    if (const double elapsed_ms = numberIn(cell(stage + "_ms")); elapsed_ms > 0)
+      record.times.emplace_back(stage, elapsed_ms);
+  return record;
 }
 
 std::string tracksCsvLines(const FrameRecord& record) {

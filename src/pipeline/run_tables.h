@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/frame_record.h"
@@ -15,6 +16,10 @@ std::string tracksCsvHeading();
 
 /// One line, with its newline.
 std::string framesCsvLine(const FrameRecord& record);
+
+/// Of such a line what sums over a run need: frame, status, points, nodes, inliers, mean
+/// back-projection and prediction, times. Throws InputError naming `name`.
+FrameRecord readFramesCsvLine(std::string_view line, const std::string& name);
 
 /// One line a tracked point.
 std::string tracksCsvLines(const FrameRecord& record);

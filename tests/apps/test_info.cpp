@@ -51,7 +51,9 @@ TEST_F(Info, CheckReadsEveryFrame) {
   const std::string sequence = makeSequence("s", 3);
   fs::resize_file(sequence + "/left/000002.png", 200);
   EXPECT_FALSE(run({"info", sequence, "--json"}).json().contains("unreadable_frames"));
-  const auto json = run({"info", sequence, "--check", "--json"}).json();
+  const Outcome checked = run({"info", sequence, "--check", "--json"});
+  EXPECT_EQ(checked.exit_code, 3);
+  const auto json = checked.json();
   EXPECT_EQ(json["unreadable_frames"], 1);
   EXPECT_THAT(json["warnings"].dump(), HasSubstr("000002.png"));
 }

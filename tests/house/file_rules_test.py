@@ -9,6 +9,7 @@ SOURCES = {".h", ".cpp", ".cu", ".cuh"}
 LONGEST_FILE = 400  # lines; a file is one noun or one verb
 
 MACHINE_PATH = re.compile(r"(?<![\w.~-])/(?:home|root|work|Users)/[\w.]")
+FOREIGN_READER = re.compile(r"#\s*include <vtk\w*(?:Reader|Parser|Directory|Importer)\.h>")
 UNFINISHED = re.compile(r"\b(?:TO" + r"DO|FIX" + r"ME|XX" + r"X)\b")
 
 
@@ -45,6 +46,12 @@ def undescribed(path):
     return not describes_itself(name, first_line) and not described_by_header(path, first_line)
 
 
+def unguarded(text):
+    """Includes a reader of VTK without the door to it, vtk_views/guarded_read.h."""
+    return (FOREIGN_READER.search(text) is not None
+            and '#include "vtk_views/guarded_read.h"' not in text)
+
+
 class FileRules(unittest.TestCase):
     def none(self, wrong, complaint):
         if wrong:
@@ -71,7 +78,17 @@ class FileRules(unittest.TestCase):
                  or len(text_of(path).splitlines()) > LONGEST_FILE]
         self.none(wrong, f"are unfinished or longer than {LONGEST_FILE} lines")
 
+    def test_readers_of_vtk_run_behind_their_door(self):
+        wrong = [path.relative_to(ROOT).as_posix() for path in all_files()
+                 if path.suffix in SOURCES
+                 and path.relative_to(ROOT).parts[0] not in ("tests", "cmake")
+                 and unguarded(text_of(path))]
+        self.none(wrong, "include a reader of VTK, but not vtk_views/guarded_read.h")
+
     def test_the_rules_find_made_up_breaches(self):
+        self.assertTrue(unguarded("#include <vtk" + "STLReader.h>\n"))
+        self.assertFalse(unguarded('#include <vtk' + 'STLReader.h>\n'
+                                   '#include "vtk_views/guarded_read.h"\n'))
         self.assertTrue(MACHINE_PATH.search("see /" + "home/someone/data"))
         self.assertTrue(MACHINE_PATH.search('"/' + 'root/x"'))
         self.assertFalse(MACHINE_PATH.search("build/work/x and https://example.org/home/x"))

@@ -30,6 +30,11 @@ TEST(BadCalibration, FocalLengthMustBeAPositiveNumber) {
   expectRefused("505,239", ".Inf,239", {"M2", "inf"});
 }
 
+TEST(BadCalibration, ALensThatMovesTheEdgeBeyondThePictureIsDamaged) {
+  expectRefused("-0.1,0.02", "-0.1,4294967296", {"c.yaml: the left camera", "lens moves the edge"});
+  expectRefused("-0.11,0.03", "-1e9,0.03", {"the right camera", "640 x 480"});
+}
+
 TEST(BadCalibration, BaselineInAnotherUnitIsGuessed) {
   const std::string size = "image_width: 640\nimage_height: 480\n";
   expectError<InputError>(

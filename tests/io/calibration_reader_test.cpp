@@ -106,6 +106,18 @@ TEST(CalibrationReader, ReadsScaredJsonAndYaml) {
   EXPECT_EQ(yaml.form, "SCARED");
 }
 
+TEST(CalibrationReader, ReadsJsonThatWasWrittenOverManyLines) {
+  std::string pretty;  // one number a line, as json.dump(..., indent=2) has it
+  for (const char c : scaredJson()) {
+    if (c == ']') pretty += '\n';
+    pretty += c;
+    if (c == '[' || c == '{' || c == ',') pretty += "\n  ";
+  }
+  const auto json = parseCalibration(pretty, "frame_data.json");
+  expectTheRig(json);
+  EXPECT_EQ(json.form, "SCARED");
+}
+
 TEST(CalibrationReader, ReadsOpenCasWithTheWholeRationalModel) {
   const auto found = parseCalibration(openCas(), "x_Calibration.txt");
   expectTheRig(found);

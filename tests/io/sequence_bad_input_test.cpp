@@ -2,6 +2,7 @@
 // reported.
 #include <gtest/gtest.h>
 
+#include "io/depth_files.h"
 #include "io/file_bytes.h"
 #include "io/sequence_folder.h"
 #include "io/sequence_reader.h"
@@ -135,6 +136,11 @@ TEST_F(BadSequence, DepthMustBeDepth) {
   fs::create_directory(at("depth"));
   for (int i = 0; i < 6; ++i) writePng(at("depth/" + numbered(i)), GrayImage(kWidth, kHeight, 9));
   expectRefused({"depth/000000.png", "8 bits", "16 bits"});
+  for (int i = 0; i < 6; ++i) {
+    fs::remove(at("depth/" + numbered(i)));
+    writePfm(at("depth/" + numbered(i, ".pfm")), Raster<float>(kWidth, kHeight, 0.06F));
+  }
+  expectRefused({"depth/000000.pfm", "0.06 mm", "In metres?"});
 }
 
 TEST_F(BadSequence, TimesMustBeOneAFrame) {

@@ -37,6 +37,24 @@ TEST(Settings, TablesAndDottedKeysAreTheSame) {
   EXPECT_EQ(settings.at("stereo.step_px").origin, "s.toml:4");
 }
 
+TEST(Settings, KeysAndBracketsNestOnlySoDeep) {
+  std::string key;
+  for (int i = 0; i < 20000; ++i) key += "a.";
+  const std::string brackets(20000, '[');
+  expectError<InputError>([&] { parseSettings("x = 1\n" + key + "b = 1", "s.toml"); },
+                          {"s.toml:2"});
+  expectError<InputError>([&] { parseSettings("[" + key + "b]", "s.toml"); }, {"s.toml:1"});
+  expectError<InputError>([&] { parseSettings("x = " + brackets, "s.toml"); }, {"s.toml:1"});
+  Settings settings;
+  expectError<InputError>([&] { addAssignment(settings, "x=" + brackets); }, {"--set x"});
+  const std::string dots(200, '.');
+  EXPECT_EQ(parseSettings("x = \"" + dots + "\\\"" + dots + "\" # " + dots + "\ny = '" + dots + "'",
+                          "s.toml")
+                .size(),
+            2U)
+      << "dots of texts and comments are no parts of a key";
+}
+
 TEST(Settings, AssignmentsWinAndNeedNoQuotes) {
   Settings settings = parseSettings("stereo.method = 'elas'\n", "s");
   addAssignment(settings, "stereo.method=sgbm");

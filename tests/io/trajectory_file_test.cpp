@@ -60,6 +60,10 @@ TEST(Timestamps, RiseOneALine) {
   EXPECT_EQ(parseTimestamps("# s\n0\n0.04\n\n0.08\n", "t"), (std::vector<double>{0, 0.04, 0.08}));
   expectError<InputError>([] { parseTimestamps("0\n0\n", "t.txt"); }, {"t.txt: line 2", "later"});
   expectError<InputError>([] { parseTimestamps("0\nx\n", "t"); }, {"line 2", "`x`"});
+  EXPECT_EQ(parseTimestamps("1700000000.5\n", "t")[0], 1700000000.5) << "seconds since 1970";
+  expectError<InputError>([] { parseTimestamps("1700000000000\n", "t"); }, {"milliseconds"});
+  expectError<InputError>([] { parseTimestamps("1700000000000000\n", "t"); }, {"microseconds"});
+  expectError<InputError>([] { parseTimestamps("1.7e18\n", "t"); }, {"nanoseconds"});
   expectError<InputError>([] { parseTimestamps("inf\n", "t"); }, {"line 1"});
   expectError<InputError>([] { parseTimestamps("\n", "t"); }, {"no time"});
 }

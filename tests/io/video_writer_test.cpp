@@ -2,8 +2,11 @@
 #include "io/video_writer.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
+#include <memory>
 
 #include "core/error.h"
 #include "io/picture_source.h"
@@ -32,6 +35,43 @@ class VideoWriterTest : public ::testing::Test {
  protected:
   test::TemporaryFolder folder_;
 };
+
+/// While it lives, files can't grow beyond so many bytes: a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_F(VideoWriterTest, AFullDiskIsAnErrorAndTheFilmThatWasThereStays) {
+  const auto file = folder_.path() / "film.mp4";
+  for (const bool full : {false, true}) {
+    VideoWriter writer(file, 64, 48, 25, /*overwrite=*/true);
+    const std::unique_ptr<FullDisk> disk(full ? new FullDisk(600) : nullptr);
+    for (int i = 0; i < 6; ++i) writer.add(made(i));
+    if (full) {
+      EXPECT_THROW(writer.finish(), Error);
+    } else {
+      writer.finish();
+    }
+  }
+  EXPECT_EQ(openPictures(file)->count(), 6);
+  EXPECT_EQ(filesIn(folder_.path()), 1);
+}
 
 TEST_F(VideoWriterTest, FramesComeBackInOrderAndNearlyAsTheyWere) {
   const auto file = folder_.path() / "left.mp4";

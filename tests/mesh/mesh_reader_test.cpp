@@ -171,6 +171,7 @@ TEST(MeshReader, SaysWhatIsWrongAndWhere) {
   EXPECT_TELLS(replaced(asciiStl(mesh), "endloop", "vertex"), "`endloop` is expected");
   EXPECT_TELLS(replaced(asciiStl(mesh), "1.5", "nan"), "vertex 1 has a coordinate");
   EXPECT_TELLS(replaced(obj(mesh), "1.5", "1e99"), "vertex 1 has a coordinate");
+  EXPECT_TELLS(replaced(obj(mesh), "1.5", "1e34"), "vertex 1 lies more than 10 km");
   EXPECT_TELLS(replaced(obj(mesh), "f 1 2 3", "f 1 2"), "line 5: a face has 2 corners");
   EXPECT_TELLS(replaced(obj(mesh), "f 1 2 3", "f 1 2 -5"), "vertex -5");
   EXPECT_TELLS(replaced(obj(mesh), "f 1 2 3", "f 1 2 5"), "names vertex 4");

@@ -1,5 +1,7 @@
 // tests/vtk_views/test_dicom.cpp: slices find their order and place, whatever their names.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <vtkDICOMCTGenerator.h>
 #include <vtkDICOMMetaData.h>
 #include <vtkDICOMWriter.h>
@@ -12,14 +14,21 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <random>
 
 #include "core/error.h"
+#include "tests/vtk_views/dicom_tags.h"
 #include "vtk_views/dicom_series.h"
+#include "vtk_views/volume.h"
 
 namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 /// An oblique series of 6 slices, pixels 0.5 x 0.6 mm, 1.25 mm apart, its first voxel at
 /// (10, 20, 30) mm; file names in an order that isn't theirs.
@@ -67,6 +76,30 @@ class DicomFolder : public testing::Test {
     return matrix;
   }
 
+  /// The series anew, one tag of all slices, or of one, replaced or (null) taken out; in file order
+  /// slice k is "slice<k + 1>".
+  void writeSeries(vtkDICOMTag tag, const char* value, int only_slice) {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    writeSeries();
+    for (int k = 0; k < 6; ++k)
+      if (only_slice < 0 || k == only_slice)
+        test::replaceDicomTag(folder / ("slice" + std::to_string(k + 1)), tag.GetGroup(),
+                              tag.GetElement(), value);
+  }
+
+  /// What reading the folder complains of; fails where it doesn't.
+  std::string errorOf(const VolumeOptions& options) const {
+    try {
+      readVolume(folder, options);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+      return error.what();
+    }
+    ADD_FAILURE() << "was read";
+    return {};
+  }
+
   void shuffleNames() const {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
@@ -78,7 +111,7 @@ class DicomFolder : public testing::Test {
   /// Of the slice at this place in the stack, by its position in the file.
   void removeSlice(int place) const {
     for (const auto& entry : fs::directory_iterator(folder)) {
-      const VolumeSummary one = loadDicom(entry.path(), false).summary;
+      const VolumeSummary one = loadDicom(entry.path(), {}).summary;
       const Eigen::Vector3d offset =
           one.lps_from_voxel.topRightCorner<3, 1>() - Eigen::Vector3d(10, 20, 30);
       if (std::lround(offset.norm() / 1.25) == place) {
@@ -93,7 +126,7 @@ class DicomFolder : public testing::Test {
 };
 
 TEST_F(DicomFolder, ShuffledObliqueSlicesAreSortedAndPlaced) {
-  const VolumeSummary summary = loadDicom(folder, false).summary;
+  const VolumeSummary summary = loadDicom(folder, {}).summary;
   EXPECT_EQ(summary.size_voxels, (std::array<int, 3>{5, 4, 6}));
   EXPECT_NEAR(summary.spacing_mm[0], 0.5, 1e-9) << "column and row spacing must not be swapped";
   EXPECT_NEAR(summary.spacing_mm[1], 0.6, 1e-9);
@@ -107,27 +140,181 @@ TEST_F(DicomFolder, ShuffledObliqueSlicesAreSortedAndPlaced) {
 }
 
 TEST_F(DicomFolder, PatientFieldsComeOnlyWhenAsked) {
-  const VolumeSummary quiet = loadDicom(folder, false).summary;
+  const VolumeSummary quiet = loadDicom(folder, {}).summary;
   EXPECT_TRUE(quiet.patient.empty());
   for (const auto& [name, value] : quiet.details)
     EXPECT_EQ(value.find("Doe"), std::string::npos) << name;
-  const VolumeSummary asked = loadDicom(folder, true).summary;
+  VolumeOptions with_patient;
+  with_patient.with_patient = true;
+  const VolumeSummary asked = loadDicom(folder, with_patient).summary;
   ASSERT_FALSE(asked.patient.empty());
   EXPECT_EQ(asked.patient[0].second, "Doe^Jane");
 }
 
-TEST_F(DicomFolder, AMissingSliceIsNoticed) {
+TEST_F(DicomFolder, AMissingSliceIsAnErrorUnlessAllowedAndThenItsPlaceIsEmpty) {
   removeSlice(3);
-  const VolumeSummary summary = loadDicom(folder, false).summary;
-  ASSERT_EQ(summary.warnings.size(), 1u);
-  EXPECT_NE(summary.warnings[0].find("1 slices are missing"), std::string::npos)
-      << summary.warnings[0];
+  EXPECT_THAT(errorOf({}), HasSubstr("1 slices are missing"));
+  VolumeOptions options;
+  options.allow_missing_slices = true;
+  const Volume volume = readVolume(folder, options);
+  ASSERT_EQ(volume.facts.warnings.size(), 1u);
+  EXPECT_THAT(volume.facts.warnings[0], HasSubstr("1 slices are missing"));
+  EXPECT_EQ(volume.facts.size_voxels, (std::array<int, 3>{5, 4, 6}));
+  EXPECT_NEAR(volume.facts.spacing_mm[2], 1.25, 1e-5);
+  EXPECT_TRUE(std::isnan(volume.at({1, 1, 3}))) << "nothing is made up between its neighbours";
+  EXPECT_EQ(volume.at({1, 1, 4}), 86) << "the slices behind it stay where they are";
 }
 
 TEST_F(DicomFolder, ATruncatedSliceIsAnInputError) {
   const auto first = fs::directory_iterator(folder)->path();
   fs::resize_file(first, fs::file_size(first) - 10);
-  EXPECT_THROW(loadDicom(folder, false), InputError);
+  EXPECT_THROW(loadDicom(folder, {}), InputError);
+}
+
+/// Tags that a slice may not have, and what the message must name.
+struct BadTag {
+  const char* what;
+  vtkDICOMTag tag;
+  const char* value;  // null: the tag is taken out
+  const char* name;
+};
+
+class DicomTags : public DicomFolder, public testing::WithParamInterface<BadTag> {};
+
+TEST_P(DicomTags, AreAnErrorThatNamesTheTagAndNeverAGuess) {
+  writeSeries(GetParam().tag, GetParam().value, /*only_slice=*/-1);
+  const std::string error = errorOf({});
+  EXPECT_THAT(error, HasSubstr(GetParam().name));
+  EXPECT_THAT(error, HasSubstr("slice"));  // the file
+}
+
+TEST_P(DicomTags, OfOneSliceAreAnErrorUnlessSlicesMayMiss) {
+  writeSeries(GetParam().tag, GetParam().value, /*only_slice=*/2);
+  EXPECT_THAT(errorOf({}), AllOf(HasSubstr("1 of 6 slices"), HasSubstr("--allow-missing-slices")));
+  VolumeOptions options;
+  options.allow_missing_slices = true;
+  const Volume volume = readVolume(folder, options);
+  EXPECT_EQ(volume.facts.size_voxels, (std::array<int, 3>{5, 4, 6}));
+  EXPECT_TRUE(std::isnan(volume.at({1, 1, 2})));
+  EXPECT_EQ(volume.at({1, 1, 3}), 66);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , DicomTags,
+    testing::Values(
+        BadTag{"NoSpacing", DC::PixelSpacing, nullptr, "PixelSpacing (0028,0030)"},
+        BadTag{"ZeroSpacing", DC::PixelSpacing, "0\\0", "PixelSpacing (0028,0030)"},
+        BadTag{"NegativeSpacing", DC::PixelSpacing, "0.6\\-0.5", "PixelSpacing"},
+        BadTag{"TextSpacing", DC::PixelSpacing, "wide\\0.5", "is \"wide"},
+        BadTag{"NanSpacing", DC::PixelSpacing, "nan\\0.5", "PixelSpacing"},
+        BadTag{"OneSpacing", DC::PixelSpacing, "0.6", "two lengths above 0"},
+        BadTag{"NoOrientation", DC::ImageOrientationPatient, nullptr,
+               "ImageOrientationPatient (0020,0037)"},
+        BadTag{"ZeroOrientation", DC::ImageOrientationPatient, "0\\0\\0\\0\\0\\0",
+               "ImageOrientationPatient"},
+        BadTag{"SkewOrientation", DC::ImageOrientationPatient, "1\\0\\0\\0.8\\0.6\\0",
+               "at a right angle"},
+        BadTag{"TextOrientation", DC::ImageOrientationPatient, "a\\b\\c\\d\\e\\f",
+               "ImageOrientationPatient"},
+        BadTag{"NoPosition", DC::ImagePositionPatient, nullptr, "ImagePositionPatient (0020,0032)"},
+        BadTag{"TextPosition", DC::ImagePositionPatient, "here\\0\\0", "ImagePositionPatient"},
+        BadTag{"ZeroSlope", DC::RescaleSlope, "0", "RescaleSlope (0028,1053)"},
+        BadTag{"TextIntercept", DC::RescaleIntercept, "-10x", "RescaleIntercept"}),
+    [](const auto& bad) { return std::string(bad.param.what); });
+
+TEST_F(DicomFolder, AStatedSpacingReplacesTheMissingOne) {
+  writeSeries(DC::PixelSpacing, nullptr, -1);
+  VolumeOptions options;
+  options.spacing_mm = Eigen::Vector3d(0.5, 0.6, 1.25);
+  const Volume volume = readVolume(folder, options);
+  EXPECT_NEAR(volume.facts.spacing_mm[0], 0.5, 1e-9);
+  EXPECT_NEAR(volume.facts.spacing_mm[1], 0.6, 1e-9);
+}
+
+TEST_F(DicomFolder, OneSliceOfAnotherKindDropsNoOther) {
+  writeSeries(DC::ImageOrientationPatient, "1\\0\\0\\0\\1\\0", 2);
+  EXPECT_THAT(errorOf({}), HasSubstr("differs in"));
+  VolumeOptions options;
+  options.allow_missing_slices = true;
+  const Volume volume = readVolume(folder, options);
+  EXPECT_EQ(volume.facts.size_voxels[2], 6);
+  EXPECT_TRUE(std::isnan(volume.at({1, 1, 2})));
+  for (const int k : {0, 1, 3, 4, 5}) EXPECT_EQ(volume.at({1, 1, double(k)}), 6 + 20 * k);
+}
+
+TEST_F(DicomFolder, SlicesInOnePlaceOrAtUnevenDistancesAreErrors) {
+  writeSeries(DC::ImagePositionPatient, "10\\20\\30", -1);
+  EXPECT_THAT(errorOf({}), HasSubstr("lie in one place"));
+  writeSeries(DC::ImagePositionPatient, "12\\20\\30", 1);
+  EXPECT_THAT(errorOf({}), HasSubstr("ImagePositionPatient (0020,0032) puts it"));
+}
+
+TEST_F(DicomFolder, ADamagedSliceIsNotLeftOutInSilence) {
+  writeSeries(DC::PatientName, "Doe^Jane", -1);
+  std::fstream file(folder / "slice6", std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(132);
+  file << std::string(64, '\xff');
+  file.close();
+  EXPECT_THAT(errorOf({}), HasSubstr("slice6"));
+}
+
+TEST_F(DicomFolder, AnyDamageToASliceIsAnErrorOrASoundGeometry) {
+  const fs::path slice = folder / "im2";
+  std::ifstream in(slice, std::ios::binary);
+  const std::string good{std::istreambuf_iterator<char>(in), {}};
+  std::mt19937 random(3);
+  for (int round = 0; round < 150; ++round) {
+    std::string bad = good;
+    for (int k = 0; k < 1 + round % 3; ++k)
+      bad[132 + random() % (good.size() - 132)] = char(random());
+    if (round % 7 == 0) bad.resize(random() % bad.size());
+    if (round % 7 == 1) bad.erase(132 + random() % 500, 1 + random() % 3);
+    std::ofstream(slice, std::ios::binary) << bad;
+    try {
+      const VolumeSummary summary = loadDicom(folder, {}).summary;
+      EXPECT_TRUE(summary.size_voxels[2] == 6 || !summary.warnings.empty())
+          << "round " << round << ": a slice was left out in silence";
+      EXPECT_NEAR(summary.spacing_mm[0], 0.5, 1e-9) << "round " << round;
+      EXPECT_NEAR(summary.spacing_mm[2], 1.25, 0.03) << "round " << round;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+    }
+  }
+}
+
+TEST_F(DicomFolder, FramesOfOneFileAreSlicesToo) {
+  const fs::path file = folder / "enhanced.dcm";
+  test::writeMultiFrame(file, {30, 31.25, 32.5, 33.75});
+  const Volume up = readVolume(file);
+  EXPECT_EQ(up.facts.size_voxels, (std::array<int, 3>{5, 4, 4}));
+  EXPECT_NEAR(up.facts.spacing_mm[0], 0.5, 1e-9);
+  EXPECT_NEAR(up.facts.spacing_mm[2], 1.25, 1e-9);
+  EXPECT_EQ(up.at({1, 1, 2}), 40 + 6 - 1000);
+  test::writeMultiFrame(file, {33.75, 32.5, 31.25, 30});
+  EXPECT_EQ(readVolume(file).at({1, 1, 1}), 40 + 6 - 1000) << "the third frame is the second slice";
+  test::writeMultiFrame(file, {30, 31.25, 33.75, 35, 36.25});
+  EXPECT_THROW(readVolume(file), InputError) << "one frame is missing";
+  VolumeOptions options;
+  options.allow_missing_slices = true;
+  const Volume gap = readVolume(file, options);
+  EXPECT_EQ(gap.facts.size_voxels[2], 6);
+  EXPECT_TRUE(std::isnan(gap.at({1, 1, 2})));
+  EXPECT_EQ(gap.at({1, 1, 3}), 40 + 6 - 1000);
+}
+
+TEST_F(DicomFolder, AFileNamedLikeASliceIsNoneThatMayBeLeftOut) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  for (const fs::path& file : files) fs::rename(file, file.string() + ".dcm");
+  std::ofstream(folder / "notes.txt") << "text";
+  EXPECT_EQ(loadDicom(folder, {}).summary.size_voxels[2], 6);
+  fs::resize_file(folder / "im2.dcm", 65);
+  EXPECT_THAT(errorOf({}), AllOf(HasSubstr("im2.dcm"), HasSubstr("1 of 6 slices")));
+}
+
+TEST_F(DicomFolder, APipeAmongTheFilesIsNotOpened) {
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(loadDicom(folder, {}).summary.size_voxels[2], 6);
 }
 
 TEST_F(DicomFolder, IsRecognisedByItsFilesNotTheirNames) {

@@ -123,6 +123,7 @@ TEST_F(VolumeFiles, AVolumeInMetresIsSuspected) {
   const auto path = write("metres.mha",
                           "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
                           "BinaryDataByteOrderMSB = False\nOffset = 0 0 0\n"
+                          "TransformMatrix = 1 0 0 0 1 0 0 0 1\n"
                           "ElementSpacing = 0.0007 0.0007 0.002\nDimSize = 12 2 1\n"
                           "ElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
                               voxels());

@@ -1,0 +1,21 @@
+// apps/volume_arguments.h: what a user states about a volume, on every command that reads one.
+#pragma once
+
+#include <string>
+
+#include "apps/argument_list.h"
+#include "vtk_views/volume_summary.h"
+
+namespace softscope {
+
+/// As the user wrote it.
+struct VolumeArguments {
+  std::string spacing;
+  bool allow_missing_slices = false;
+
+  void declare(ArgumentList& arguments);
+  /// Throws OptionError where the spacing is not three lengths above 0.
+  VolumeOptions options() const;
+};
+
+}  // namespace softscope

@@ -1,0 +1,164 @@
+// tests/apps/test_bad_inputs.cpp: damaged inputs and unlucky places end in one line and exit code 3
+// or 2, and never in a plausible result.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "io/image_writer.h"
+#include "tests/apps/run_softscope.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class BadInputs : public InFolder {
+ protected:
+  /// Exit code and one line that begins with `error: `.
+  void expectOneError(const std::vector<std::string>& arguments, int exit_code,
+                      const std::string& says) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(says));
+    EXPECT_THAT(outcome.err, testing::StartsWith("error: "));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  std::string volume(const std::string& name, const std::string& spacing) const {
+    return write(
+        name,
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+        "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\n" +
+            spacing + "DimSize = 20 24 12\nElementType = MET_SHORT\nElementDataFile = LOCAL\n" +
+            std::string(11520, '\1'));
+  }
+};
+
+TEST_F(BadInputs, AVolumeWithoutSpacingIsReadOnlyWithAStatedOne) {
+  const std::string ct = volume("ct.mha", "");
+  expectOneError({"info", ct}, 3, "--spacing X,Y,Z");
+  expectOneError({"slice", ct, "--out", at("s.png")}, 3, "--spacing X,Y,Z");
+  expectOneError({"figure", "--ct", ct, "--out", at("f.png")}, 3, "--spacing X,Y,Z");
+  const Outcome stated = run({"info", ct, "--spacing", "2,2,3", "--json"});
+  EXPECT_EQ(stated.exit_code, 0) << stated.err;
+  EXPECT_DOUBLE_EQ(stated.json()["spacing_mm"][2], 3);
+  EXPECT_EQ(run({"slice", ct, "--spacing", "2,2,3", "--out", at("s.png")}).exit_code, 0);
+  for (const char* wrong : {"2,2", "2,2,0", "2,2,-3", "a,b,c", "2,2,nan"})
+    expectOneError({"info", ct, "--spacing", wrong}, 2, "--spacing");
+}
+
+TEST_F(BadInputs, SidesOfAnUnknownSpaceAreNotCalledLeftAndRight) {
+  const std::string ct = write("ct.nrrd",
+                               "NRRD0004\ntype: short\ndimension: 3\nsizes: 20 24 12\n"
+                               "spacings: 2 2 3\nendian: little\nencoding: raw\n\n" +
+                                   std::string(11520, '\1'));
+  for (const char* command : {"slice", "figure"}) {
+    const std::string svg = at(std::string(command) + ".svg");
+    std::vector<std::string> words{command, "--out", svg};
+    if (command == std::string("figure")) words.emplace_back("--ct");
+    words.push_back(ct);
+    const Outcome outcome = run(words);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("left and right are unknown"));
+    const auto record = nlohmann::json::parse(contentOf(at(std::string(command) + ".json")));
+    EXPECT_THAT(record["views"].dump(), testing::AllOf(HasSubstr("+x"), Not(HasSubstr("\"L\""))));
+  }
+}
+
+TEST_F(BadInputs, APipeIsRefusedAtOnce) {
+  ASSERT_EQ(mkfifo(at("p.nii").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(at("p.vtp").c_str(), 0600), 0);
+  expectOneError({"info", at("p.nii")}, 3, "p.nii");
+  expectOneError({"export", at("p.vtp"), "--out", at("o.obj")}, 3, "p.vtp");
+}
+
+TEST_F(BadInputs, AFileThatBreaksItsLibraryIsAnErrorThatNamesIt) {
+  const std::string cut =
+      write("cut.vtk",
+            "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+            "0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1\n");
+  expectOneError({"export", cut, "--out", at("o.obj")}, 3, "cut.vtk");
+}
+
+TEST_F(BadInputs, ALibraryPrintsNothingBesideOurError) {
+  // A PNG whose parts have right check sums, but whose colours come from a palette that isn't
+  // there.
+  writePng(at("p.png"), ColourImage(16, 16, Rgb8{10, 20, 30}), true);
+  EXPECT_EQ(run({"info", at("p.png"), "--quiet"}).err, "");
+  std::string bytes = contentOf(at("p.png"));
+  const auto header = bytes.find("IHDR");
+  bytes[header + 13] = 3;
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(bytes.data()) + header, 17);
+  for (int i = 0; i < 4; ++i) bytes[header + 17 + std::size_t(i)] = char(sum >> (24 - 8 * i));
+  write("bad.png", bytes);
+  expectOneError({"info", at("bad.png")}, 3, "bad.png");
+}
+
+TEST_F(BadInputs, AKeyOfThousandsOfPartsIsNoSettingsFile) {
+  std::string key;
+  for (int i = 0; i < 20000; ++i) key += "a.";
+  const std::string sequence = makeSequence("s", 1);
+  const std::string settings = write("deep.toml", "# a comment\n" + key + "b = 1\n");
+  expectOneError({"depth", sequence, "--config", settings, "--out", at("d")}, 3, "deep.toml:2");
+  const std::string brackets = write("list.toml", "x = " + std::string(5000, '['));
+  expectOneError({"info", brackets}, 3, "list.toml:1");
+}
+
+TEST_F(BadInputs, AFullDiskBehindStdoutIsAnError) {
+  const std::string sequence = makeSequence("s", 1);
+  const std::string line = executable() + " info " + sequence + " > /dev/full 2> " + at("err");
+  const int status = std::system(line.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_THAT(contentOf(at("err")), HasSubstr("can't be written"));
+}
+
+TEST_F(BadInputs, ResultsAmongTheInputsAreRefused) {
+  const std::string sequence = makeSequence("s", 2);
+  fs::create_directory_symlink(sequence + "/left", at("link"));
+  for (const std::string& out :
+       {sequence + "/left", sequence + "/right/sub", at("link"), sequence + "/./left/"})
+    expectOneError({"depth", sequence, "--out", out}, 2, "folder of the sequence");
+  expectOneError({"reconstruct", sequence, "--out", sequence, "--force"}, 2,
+                 "folder of the sequence");
+  expectOneError({"reconstruct", sequence, "--out", sequence + "/left", "--force"}, 2,
+                 "folder of the sequence");
+  EXPECT_EQ(countFiles(sequence + "/left"), 2);
+  EXPECT_EQ(run({"depth", sequence, "--out", sequence + "/results"}).exit_code, 0);
+}
+
+TEST_F(BadInputs, DepthOfNothingIsAnError) {
+  const std::string sequence = makeSequence("s", 1);
+  for (const char* view : {"left", "right"})
+    writePng(sequence + "/" + view + "/000000.png", ColourImage(160, 120, Rgb8{0, 0, 0}), true);
+  const Outcome outcome = run({"depth", sequence, "--out", at("d")});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("not one pixel could be measured"));
+}
+
+TEST_F(BadInputs, TimesThatAreNoSecondsAreToldAtTheStart) {
+  const std::string sequence = makeSequence("s", 2);
+  for (const auto& [times, unit] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"1700000000000\n1700000000040\n", "milliseconds"},
+           {"1700000000000000000\n1700000000040000000\n", "nanoseconds"}}) {
+    write("s/timestamps.txt", times);
+    expectOneError({"reconstruct", sequence, "--out", at("r")}, 3, unit);
+    EXPECT_FALSE(fs::exists(at("r")));
+  }
+  write("s/timestamps.txt", "0\n40\n");
+  EXPECT_THAT(run({"info", sequence}).out, HasSubstr("milliseconds"));
+}
+
+}  // namespace
+}  // namespace softscope::test
