@@ -186,14 +186,21 @@ def failures(preset, name, output):
     return found
 
 
+def why_not_run(case):
+    """SKIP_… where the test itself said so; other reasons are failures. None where it ran."""
+    skipped = case.find("skipped")
+    return None if skipped is None else skipped.get("message", "")
+
+
 def report(preset, cases):
     """The last lines of a run: what failed, what it said, how to run it alone."""
-    failed = [case for case in cases if case.get("status") == "fail"]
-    skipped = sum(case.get("status") == "notrun" for case in cases)
-    lines = [f"{len(cases)} tests: {len(cases) - len(failed) - skipped} passed, "
-             f"{len(failed)} failed, {skipped} skipped"]
+    skipped = [case for case in cases if (why_not_run(case) or "").startswith("SKIP_")]
+    failed = [case for case in cases if case not in skipped
+              and (case.get("status") == "fail" or why_not_run(case) is not None)]
+    lines = [f"{len(cases)} tests: {len(cases) - len(failed) - len(skipped)} passed, "
+             f"{len(failed)} failed, {len(skipped)} skipped"]
     for case in failed:
-        output = case.findtext("system-out") or ""
+        output = why_not_run(case) or case.findtext("system-out") or ""
         for name, message, alone in failures(preset, case.get("name"), output):
             lines += ["", f"{name} failed:"] + ["  " + line for line in message]
             lines += [f"  alone: {alone}"]

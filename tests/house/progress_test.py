@@ -49,6 +49,12 @@ def case(name, status, output=""):
     return element
 
 
+def not_run(name, why):
+    element = case(name, "notrun")
+    xml.SubElement(element, "skipped", message=why)
+    return element
+
+
 FAILED_TEST = """Running main() from gmock_main.cc
 [ RUN      ] Depth.IsFound
 tests/apps/test_depth.cpp:249: Failure
@@ -117,7 +123,8 @@ class TestLines(unittest.TestCase):
 
 class Report(unittest.TestCase):
     def test_when_all_is_well_it_is_one_line(self):
-        lines = progress.report("release", [case("io.A", "run"), case("io.B", "notrun")])
+        lines = progress.report("release", [case("io.A", "run"),
+                                            not_run("io.B", "SKIP_REGULAR_EXPRESSION_MATCHED")])
         self.assertEqual(lines, ["2 tests: 1 passed, 0 failed, 1 skipped"])
 
     def test_a_failed_test_its_message_and_how_to_run_it_alone(self):
@@ -127,6 +134,11 @@ class Report(unittest.TestCase):
         self.assertIn("apps.Depth.IsFound failed:", lines)
         self.assertIn("  tests/apps/test_depth.cpp:249: Failure", lines)
         self.assertEqual(lines[-1], "  alone: ctest --preset release -R '^apps\\.Depth\\.IsFound$'")
+
+    def test_a_program_that_is_not_there_is_a_failure(self):
+        lines = progress.report("release", [not_run("io.A", "Unable to find executable")])
+        self.assertEqual(lines[0], "1 tests: 0 passed, 1 failed, 0 skipped")
+        self.assertIn("  Unable to find executable", lines)
 
     def test_of_a_program_that_is_one_entry_it_names_each_test(self):
         other = FAILED_TEST.replace("Depth.IsFound", "Made/Info.Says/0").replace(":249", ":17")
