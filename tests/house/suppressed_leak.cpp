@@ -1,4 +1,4 @@
-// tests/house/suppressed_leak.cpp: what a suppressed library keeps costs a sanitized program no word.
+// tests/house/suppressed_leak.cpp: a leak in a suppressed library, of which nothing is said.
 #include <fontconfig/fontconfig.h>
 
 int main() {
