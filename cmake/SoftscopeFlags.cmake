@@ -20,6 +20,11 @@ if(SOFTSCOPE_SANITIZE)
   target_compile_definitions(softscope_flags INTERFACE
     _GLIBCXX_ASSERTIONS EIGEN_INITIALIZE_MATRICES_BY_NAN)
   target_link_options(softscope_flags INTERFACE ${softscope_sanitizers})
+  find_program(SOFTSCOPE_SYMBOLIZER NAMES llvm-symbolizer llvm-symbolizer-14)
+  if(NOT SOFTSCOPE_SYMBOLIZER)
+    message(STATUS "softscope: no llvm-symbolizer; what sanitizers find has addresses and no names")
+    target_compile_definitions(softscope_flags INTERFACE SOFTSCOPE_NO_SYMBOLIZER)
+  endif()
   target_sources(softscope_flags INTERFACE
     $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp>)
 endif()

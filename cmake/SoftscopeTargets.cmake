@@ -10,6 +10,15 @@ function(softscope_join target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${SOFTSCOPE_JOIN})
 endfunction()
 
+# softscope_precompile(<target> <header>…): parses these headers once for all files of the target.
+# Without the options ccache would pass such files by.
+function(softscope_precompile target)
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_compile_options(${target} PRIVATE
+    "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>"
+    "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+endfunction()
+
 # softscope_library(<folder> SOURCES … [LINKS …] [PRIVATE_LINKS …])
 function(softscope_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
@@ -38,6 +47,7 @@ function(softscope_test name)
   cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   softscope_join(test_${name})
+  softscope_compile_quickly(test_${name})
   target_link_libraries(test_${name} PRIVATE ${ARG_LINKS} GTest::gtest_main softscope_flags)
   target_include_directories(test_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
   if(SOFTSCOPE_SANITIZE)
@@ -46,6 +56,12 @@ function(softscope_test name)
     gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
       PROPERTIES TIMEOUT 600 LABELS ${name})
   endif()
+endfunction()
+
+# softscope_compile_quickly(<target>): for code that tests alone run. What it tests keeps -O3; -O1
+# takes a quarter off the time that tests take to compile.
+function(softscope_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # softscope_test_shards(<folder> [count])

@@ -14,7 +14,12 @@ step() {
 }
 
 finish_step() {
-  if [ "$step_number" -gt 0 ]; then echo "      $((SECONDS - step_started)) s"; fi
+  if [ "$step_number" -gt 0 ]; then echo "      $(duration $((SECONDS - step_started)))"; fi
+}
+
+# duration SECONDS: 45 s, 3 min 20 s.
+duration() {
+  if [ "$1" -lt 60 ]; then echo "$1 s"; else printf '%d min %02d s\n' $(($1 / 60)) $(($1 % 60)); fi
 }
 
 say() { echo "      $*"; }
@@ -111,6 +116,6 @@ build() {
   local preset=$1
   shift
   step "Build build/$preset${*:+: $*}"
-  NINJA_STATUS="      [%f/%t, %e s] " cmake --build --preset "$preset" ${1:+--target "$@"} ||
+  python3 cmake/progress.py build "$preset" "$@" ||
     fail "the build of build/$preset failed, see above"
 }

@@ -22,7 +22,8 @@ EdgeKey edgeOf(std::int32_t a, std::int32_t b) {
 /// Where the plane leaves one triangle: its two cut edges.
 using Piece = std::array<EdgeKey, 2>;
 
-std::vector<float> heightsOver(const CutPlane& plane, const std::vector<Eigen::Vector3f>& points) {
+std::vector<float> heightsOver(const SectionPlane& plane,
+                               const std::vector<Eigen::Vector3f>& points) {
   const double offset = plane.normal.dot(plane.point_mm);
   const double nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z();
   std::vector<float> heights(points.size());
@@ -111,13 +112,13 @@ class Joiner {
 
 }  // namespace
 
-std::vector<ContourLine> planeContours(const TriangleMesh& mesh, const CutPlane& plane) {
+std::vector<ContourLine> planeContours(const TriangleMesh& mesh, const SectionPlane& plane) {
   const std::vector<float> heights = heightsOver(plane, mesh.vertices_mm);
   return Joiner(mesh, heights).lines();
 }
 
 std::vector<std::vector<ContourLine>> planeContours(const TriangleMesh& mesh,
-                                                    const std::vector<CutPlane>& planes) {
+                                                    const std::vector<SectionPlane>& planes) {
   std::vector<std::vector<ContourLine>> contours(planes.size());
   parallelRanges(static_cast<int>(planes.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
@@ -127,7 +128,7 @@ std::vector<std::vector<ContourLine>> planeContours(const TriangleMesh& mesh,
 }
 
 std::vector<Eigen::Vector3f> pointsNearPlane(const std::vector<Eigen::Vector3f>& points_mm,
-                                             const CutPlane& plane, double reach_mm) {
+                                             const SectionPlane& plane, double reach_mm) {
   const std::vector<float> heights = heightsOver(plane, points_mm);
   std::vector<Eigen::Vector3f> near;
   for (std::size_t i = 0; i < points_mm.size(); ++i)

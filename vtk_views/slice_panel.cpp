@@ -34,7 +34,7 @@ void drawContour(const SceneSurface& surface, const ViewPlane& plane, double wid
   const Eigen::Vector2d half =
       Eigen::Vector2d(width_mm, width_mm * place.height_pt / place.width_pt) / 2;
   for (const ContourLine& contour :
-       planeContours(surface.mesh, CutPlane{plane.centre_mm, plane.towardsViewer()})) {
+       planeContours(surface.mesh, SectionPlane{plane.centre_mm, plane.towardsViewer()})) {
     std::vector<Eigen::Vector2d> line;
     for (const Eigen::Vector3f& p : contour) line.push_back(plane.project(p.cast<double>()));
     for (const auto& piece : clipLine(line, half)) {
@@ -49,7 +49,7 @@ void drawContour(const SceneSurface& surface, const ViewPlane& plane, double wid
 
 void drawDots(const SceneSurface& surface, const ViewPlane& plane, double reach_mm, double width_mm,
               const PanelPlace& place, double line_pt, Rgb8 colour, VectorDrawing& drawing) {
-  const CutPlane cut{plane.centre_mm, plane.towardsViewer()};
+  const SectionPlane cut{plane.centre_mm, plane.towardsViewer()};
   const double half_height_mm = width_mm * place.height_pt / place.width_pt / 2;
   DrawnDots dots;
   dots.diameter_pt = surface.dot_scale * line_pt;

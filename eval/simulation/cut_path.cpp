@@ -17,7 +17,7 @@ constexpr float kLeastFacing = 0.4F;  // cosine between the line and its directi
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
 /// The edge of the lines that runs through the middle, its end further along last.
-Edge middleEdge(const SplittingMesh& mesh, const CutPlane& plane, const PlaneLines& lines) {
+Edge middleEdge(const SplittingMesh& mesh, const IncisionPlane& plane, const PlaneLines& lines) {
   Edge found{-1, -1};
   float nearest_mm = std::numeric_limits<float>::max();
   for (const auto& [a, list] : lines)
@@ -47,7 +47,7 @@ std::string turnsAway(double length_mm) {
 /// One way along the plane from the edge (from, to).
 class Walk {
  public:
-  Walk(SplittingMesh& mesh, const CutPlane& plane, const PlaneLines& lines, float sign)
+  Walk(SplittingMesh& mesh, const IncisionPlane& plane, const PlaneLines& lines, float sign)
       : mesh_(mesh), plane_(plane), lines_(lines), sign_(sign) {}
 
   /// Appends vertices up to half of the length; the last one lies there, or at the vertex nearby.
@@ -97,14 +97,14 @@ class Walk {
   }
 
   SplittingMesh& mesh_;
-  const CutPlane& plane_;
+  const IncisionPlane& plane_;
   const PlaneLines& lines_;
   float sign_;
 };
 
 }  // namespace
 
-CutPath layPath(SplittingMesh& mesh, const CutPlane& plane) {
+CutPath layPath(SplittingMesh& mesh, const IncisionPlane& plane) {
   const PlaneLines lines = splitByPlane(mesh, plane);
   const auto [back, front] = middleEdge(mesh, plane, lines);
   const Eigen::Vector3f to_front = mesh.vertices()[front] - plane.middle_mm;

@@ -16,6 +16,6 @@ struct CutPath {
 /// Splits the surface by the plane and follows that line as far as the cut goes. Throws OptionError
 /// where the surface turns away or the line comes back to itself, InputError where it meets an open
 /// edge.
-CutPath layPath(SplittingMesh& mesh, const CutPlane& plane);
+CutPath layPath(SplittingMesh& mesh, const IncisionPlane& plane);
 
 }  // namespace softscope

@@ -43,8 +43,8 @@ Eigen::Vector3f outwardAround(const TriangleMesh& organ, const Eigen::Vector3f& 
   return sum.normalized();
 }
 
-CutPlane planeOf(const TriangleMesh& organ, const RayTree& tree, const CutOptions& options,
-                 const Eigen::Isometry3d& body_from_view) {
+IncisionPlane planeOf(const TriangleMesh& organ, const RayTree& tree, const CutOptions& options,
+                      const Eigen::Isometry3d& body_from_view) {
   float away_mm = 0;
   for (const Eigen::Vector3f& p : organ.vertices_mm)
     away_mm = std::max(away_mm, (p - body_from_view.translation().cast<float>()).norm());
@@ -52,7 +52,7 @@ CutPlane planeOf(const TriangleMesh& organ, const RayTree& tree, const CutOption
   const Eigen::Vector3f from_mm = (body_from_view * start).cast<float>();
   const Eigen::Vector3f forward = body_from_view.linear().col(2).cast<float>();
   const RayHit hit = entryOf(tree, options, from_mm, forward);
-  CutPlane plane;
+  IncisionPlane plane;
   plane.length_mm = options.length_mm;
   plane.middle_mm = from_mm + hit.distance * forward;
   plane.out =
@@ -78,7 +78,7 @@ std::vector<double> depthsOf(const CutPath& path, const CutOptions& options) {
 }
 
 void requireTissueBelow(const RayTree& tree, const SplittingMesh& mesh, const CutPath& path,
-                        const std::vector<double>& depths_mm, const CutPlane& plane,
+                        const std::vector<double>& depths_mm, const IncisionPlane& plane,
                         const CutOptions& options) {
   for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i) {
     const Eigen::Vector3f inside_mm = mesh.vertices()[path.vertices[i]] - kUnderSkin_mm * plane.out;
@@ -115,7 +115,7 @@ TissueBody cutTissue(const TriangleMesh& organ, const CutOptions& options,
   options.validate();
   if (!options.there()) return TissueBody::whole(organ);
   const RayTree tree(organ.vertices_mm, organ.triangles);
-  const CutPlane plane = planeOf(organ, tree, options, body_from_view);
+  const IncisionPlane plane = planeOf(organ, tree, options, body_from_view);
   SplittingMesh mesh(organ);
   refineAround(mesh, plane, options.length_mm / kSegments);
   const CutPath path = layPath(mesh, plane);

@@ -13,14 +13,14 @@ constexpr double kNear = 0.75;  // lengths of the cut around its middle
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-bool isNear(const SplittingMesh& mesh, const Triangle& triangle, const CutPlane& plane) {
+bool isNear(const SplittingMesh& mesh, const Triangle& triangle, const IncisionPlane& plane) {
   Eigen::AlignedBox3f box;
   for (const std::int32_t vertex : triangle) box.extend(mesh.vertices()[vertex]);
   return box.exteriorDistance(plane.middle_mm) < float(kNear * plane.length_mm);
 }
 
 /// Sorted, each once, the lower vertex first.
-std::set<Edge> edgesNear(const SplittingMesh& mesh, const CutPlane& plane) {
+std::set<Edge> edgesNear(const SplittingMesh& mesh, const IncisionPlane& plane) {
   std::set<Edge> edges;
   for (const Triangle& t : mesh.triangles()) {
     if (!isNear(mesh, t, plane)) continue;
@@ -32,7 +32,7 @@ std::set<Edge> edgesNear(const SplittingMesh& mesh, const CutPlane& plane) {
 /// Which vertices count as on the plane.
 class PlaneSides {
  public:
-  PlaneSides(const SplittingMesh& mesh, const CutPlane& plane, const std::set<Edge>& edges) {
+  PlaneSides(const SplittingMesh& mesh, const IncisionPlane& plane, const std::set<Edge>& edges) {
     const Eigen::Vector3f left = plane.left();
     for (const Eigen::Vector3f& p : mesh.vertices())
       off_mm_.push_back(left.dot(p - plane.middle_mm));
@@ -60,7 +60,7 @@ class PlaneSides {
 
 }  // namespace
 
-void refineAround(SplittingMesh& mesh, const CutPlane& plane, double longest_mm) {
+void refineAround(SplittingMesh& mesh, const IncisionPlane& plane, double longest_mm) {
   for (std::size_t i = 0; i < mesh.triangles().size();) {
     const Triangle t = mesh.triangles()[i];
     int longest = 0;
@@ -79,7 +79,7 @@ void refineAround(SplittingMesh& mesh, const CutPlane& plane, double longest_mm)
   }
 }
 
-PlaneLines splitByPlane(SplittingMesh& mesh, const CutPlane& plane) {
+PlaneLines splitByPlane(SplittingMesh& mesh, const IncisionPlane& plane) {
   const std::set<Edge> before = edgesNear(mesh, plane);
   PlaneSides sides(mesh, plane, before);
   for (const auto& [a, b] : before)

@@ -25,7 +25,7 @@ std::vector<std::int32_t> fanOf(const SplittingMesh& mesh, std::int32_t vertex, 
 
 class WoundBuilder {
  public:
-  WoundBuilder(const TriangleMesh& organ, const SplittingMesh& mesh, const CutPlane& plane,
+  WoundBuilder(const TriangleMesh& organ, const SplittingMesh& mesh, const IncisionPlane& plane,
                const CutPath& path, const std::vector<double>& depths_mm)
       : mesh_(mesh), plane_(plane), path_(path), depths_mm_(depths_mm) {
     body_.organ = organ;
@@ -128,7 +128,7 @@ class WoundBuilder {
   };
 
   const SplittingMesh& mesh_;
-  const CutPlane& plane_;
+  const IncisionPlane& plane_;
   const CutPath& path_;
   const std::vector<double>& depths_mm_;
   TissueBody body_;
@@ -138,8 +138,9 @@ class WoundBuilder {
 
 }  // namespace
 
-TissueBody openWound(const TriangleMesh& organ, const SplittingMesh& mesh, const CutPlane& plane,
-                     const CutPath& path, const std::vector<double>& depths_mm, double opening_mm) {
+TissueBody openWound(const TriangleMesh& organ, const SplittingMesh& mesh,
+                     const IncisionPlane& plane, const CutPath& path,
+                     const std::vector<double>& depths_mm, double opening_mm) {
   return WoundBuilder(organ, mesh, plane, path, depths_mm).build(opening_mm);
 }
 

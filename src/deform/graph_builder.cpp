@@ -20,10 +20,10 @@ std::vector<int> unboundPoints(const PointModel& model) {
 }
 
 /// Cubes of one reach around unbound points: beyond two of them nothing can change.
-CellTable changingRegion(const PointModel& model, const std::vector<int>& unbound,
-                         double reach_mm) {
+CellNumbering changingRegion(const PointModel& model, const std::vector<int>& unbound,
+                             double reach_mm) {
   constexpr int kAround = 2;
-  CellTable centres(reach_mm), region(reach_mm);
+  CellNumbering centres(reach_mm), region(reach_mm);
   std::uint64_t key = 0;
   for (const int point : unbound)
     if (region.keyOf(model.positions_mm[point], &key)) centres.findOrAdd(key);
@@ -31,15 +31,15 @@ CellTable changingRegion(const PointModel& model, const std::vector<int>& unboun
     for (int dz = -kAround; dz <= kAround; ++dz)
       for (int dy = -kAround; dy <= kAround; ++dy)
         for (int dx = -kAround; dx <= kAround; ++dx)
-          region.findOrAdd(CellTable::shifted(centres.key(c), dx, dy, dz));
+          region.findOrAdd(CellNumbering::shifted(centres.key(c), dx, dy, dz));
   return region;
 }
 
-bool inside(const CellTable& region, const Eigen::Vector3f& position_mm) {
+bool inside(const CellNumbering& region, const Eigen::Vector3f& position_mm) {
   return CellFinder(region).find(position_mm) >= 0;
 }
 
-std::vector<int> pointsInside(const PointModel& model, const CellTable& region) {
+std::vector<int> pointsInside(const PointModel& model, const CellNumbering& region) {
   std::vector<int> points;
   CellFinder finder(region);
   for (int i = 0; i < static_cast<int>(model.size()); ++i)
@@ -190,7 +190,7 @@ class Growth {
   GraphOptions options_;
   PointModel& model_;
   WarpGraph& graph_;
-  CellTable region_;
+  CellNumbering region_;
   std::vector<int> points_;
   SurfaceCells cells_;
   NodeReach reach_;

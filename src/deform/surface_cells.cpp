@@ -17,13 +17,13 @@ std::uint64_t pack(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 }  // namespace
 
-CellTable::CellTable(double cell_mm, int expected_cells) : inverse_cell_(1 / cell_mm) {
+CellNumbering::CellNumbering(double cell_mm, int expected_cells) : inverse_cell_(1 / cell_mm) {
   std::size_t capacity = 64;
   while (capacity < 2 * static_cast<std::size_t>(expected_cells)) capacity *= 2;
   slots_.assign(capacity, -1);
 }
 
-bool CellTable::keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const {
+bool CellNumbering::keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const {
   std::int64_t index[3];
   for (int c = 0; c < 3; ++c) {
     const double cell = std::floor(static_cast<double>(point_mm[c]) * inverse_cell_);
@@ -34,22 +34,22 @@ bool CellTable::keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const
   return true;
 }
 
-std::uint64_t CellTable::shifted(std::uint64_t key, int dx, int dy, int dz) {
+std::uint64_t CellNumbering::shifted(std::uint64_t key, int dx, int dy, int dz) {
   return pack(static_cast<std::int64_t>(key & kMask) + dx,
               static_cast<std::int64_t>((key >> kBits) & kMask) + dy,
               static_cast<std::int64_t>((key >> (2 * kBits)) & kMask) + dz);
 }
 
-std::size_t CellTable::slotOf(std::uint64_t key) const {
+std::size_t CellNumbering::slotOf(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> 32) & mask;
   while (slots_[slot] >= 0 && keys_[slots_[slot]] != key) slot = (slot + 1) & mask;
   return slot;
 }
 
-int CellTable::find(std::uint64_t key) const { return slots_[slotOf(key)]; }
+int CellNumbering::find(std::uint64_t key) const { return slots_[slotOf(key)]; }
 
-int CellTable::findOrAdd(std::uint64_t key) {
+int CellNumbering::findOrAdd(std::uint64_t key) {
   const std::size_t slot = slotOf(key);
   if (slots_[slot] >= 0) return slots_[slot];
   const int cell = size();
@@ -59,7 +59,7 @@ int CellTable::findOrAdd(std::uint64_t key) {
   return cell;
 }
 
-void CellTable::grow() {
+void CellNumbering::grow() {
   slots_.assign(2 * slots_.size(), -1);
   for (int cell = 0; cell < size(); ++cell) slots_[slotOf(keys_[cell])] = cell;
 }
@@ -109,7 +109,7 @@ void SurfaceCells::findNeighbours() {
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
-          const int other = table_.find(CellTable::shifted(table_.key(cell), dx, dy, dz));
+          const int other = table_.find(CellNumbering::shifted(table_.key(cell), dx, dy, dz));
           if (other >= 0 && other != cell) neighbours_.push_back(other);
         }
     neighbour_start_.push_back(static_cast<int>(neighbours_.size()));
@@ -125,7 +125,7 @@ int SurfaceCells::cellNear(const Eigen::Vector3f& position_mm) const {
   for (int dz = -1; dz <= 1; ++dz)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        const int other = table_.find(CellTable::shifted(key, dx, dy, dz));
+        const int other = table_.find(CellNumbering::shifted(key, dx, dy, dz));
         if (other < 0) continue;
         if (closest < 0 || (centre(other) - position_mm).squaredNorm() <
                                (centre(closest) - position_mm).squaredNorm())

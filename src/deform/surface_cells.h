@@ -8,9 +8,9 @@
 namespace softscope {
 
 /// From cubes of a regular grid to numbers 0, 1, 2 … in order of first use.
-class CellTable {
+class CellNumbering {
  public:
-  explicit CellTable(double cell_mm, int expected_cells = 1024);
+  explicit CellNumbering(double cell_mm, int expected_cells = 1024);
 
   /// False where the point is not finite, or too far out for the grid (2^20 cells).
   bool keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const;
@@ -35,7 +35,7 @@ class CellTable {
 /// isn't asked again.
 class CellFinder {
  public:
-  explicit CellFinder(const CellTable& table) : table_(table) {}
+  explicit CellFinder(const CellNumbering& table) : table_(table) {}
   /// The point's cell, -1 where it has none.
   int find(const Eigen::Vector3f& point_mm) {
     std::uint64_t key = 0;
@@ -46,7 +46,7 @@ class CellFinder {
   }
 
  private:
-  const CellTable& table_;
+  const CellNumbering& table_;
   std::uint64_t last_key_ = ~std::uint64_t{0};  // no cube has it: keys take 63 bits
   int last_cell_ = -1;
 };
@@ -78,7 +78,7 @@ class SurfaceCells {
   void findNeighbours();
 
   double cell_mm_;
-  CellTable table_;
+  CellNumbering table_;
   std::vector<int> cell_of_;
   std::vector<Eigen::Vector3f> centres_;
   std::vector<int> representatives_;

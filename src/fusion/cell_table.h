@@ -30,12 +30,12 @@ SOFTSCOPE_HD inline CellKey cellKey(const Eigen::Vector3f& point_mm,
 
 /// Open addressing over indices whose keys the caller holds. Eight cells that follow each other in
 /// x share a cache line's neighbourhood, as surface points come row by row.
-class CellTable {
+class CellHashTable {
  public:
   static constexpr std::int32_t kEmpty = -1;
 
   /// Room for `count` entries.
-  explicit CellTable(std::size_t count) {
+  explicit CellHashTable(std::size_t count) {
     std::size_t size = 16;
     while (size < 2 * count) size *= 2;
     slots_.assign(size, kEmpty);

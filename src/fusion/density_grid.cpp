@@ -40,7 +40,7 @@ void mergeInto(PointModel* model, std::int32_t survivor, std::int32_t other) {
 std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cosine,
                                      PointModel* model) {
   std::vector<std::int32_t> heir(keys.size());
-  CellTable table(keys.size());
+  CellHashTable table(keys.size());
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const std::int32_t i = static_cast<std::int32_t>(k);
     heir[k] = keys[k] == kNoCell ? IndexMap::kRemoved : i;
@@ -48,7 +48,7 @@ std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cos
     std::int32_t& held = table.find(keys[k], [&](std::int32_t j) {
       return keys[j] == keys[k] && model->normals[j].dot(model->normals[i]) > cosine;
     });
-    if (held == CellTable::kEmpty) {
+    if (held == CellHashTable::kEmpty) {
       held = i;
     } else if (model->weights[i] > model->weights[held]) {
       mergeInto(model, i, held);

@@ -105,11 +105,11 @@ std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
     }
   });
   std::vector<std::int32_t> chosen;
-  CellTable table(candidates.size());
+  CellHashTable table(candidates.size());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (keys[k] == kNoCell) continue;
     std::int32_t& held = table.find(keys[k], [&](std::int32_t j) { return keys[j] == keys[k]; });
-    if (held != CellTable::kEmpty) continue;
+    if (held != CellHashTable::kEmpty) continue;
     held = static_cast<std::int32_t>(k);
     chosen.push_back(candidates[k]);
   }

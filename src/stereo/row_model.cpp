@@ -20,7 +20,7 @@ Terms termsAt(const RowAlignment& scale, double u, double v) {
   return (Terms() << 1, x, y, x * x, x * y, y * y).finished();
 }
 
-struct NormalEquations {
+struct RowEquations {
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   Terms rhs = Terms::Zero();
 
@@ -44,7 +44,7 @@ class CellCounts {
   }
 
   /// Where nothing was matched rows stay as they are, rather than follow the curvature of others.
-  void addEmptyCells(const RowAlignment& scale, NormalEquations& equations) const {
+  void addEmptyCells(const RowAlignment& scale, RowEquations& equations) const {
     for (int r = 0; r < kRows; ++r)
       for (int c = 0; c < kColumns; ++c)
         if (weight_[r][c] < 1)
@@ -76,7 +76,7 @@ double medianAbsolute(std::vector<double> values) {
 std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlignment& alignment) {
   const std::vector<double> residuals = residualsOf(matches, alignment);
   const double limit = std::max(0.4, 4.685 * 1.4826 * medianAbsolute(residuals));
-  NormalEquations equations;
+  RowEquations equations;
   CellCounts cells(alignment);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const double t = residuals[i] / limit, w = std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;

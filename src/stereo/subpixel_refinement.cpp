@@ -32,9 +32,9 @@ std::vector<float> gaussian(double sigma, int radius) {
 }
 
 /// What all bands share: the pictures, the window, and how to weigh.
-struct Setting {
-  Setting(const GrayImage& left_image, const GrayImage& right_image,
-          const RefinementOptions& refinement)
+struct RefinementContext {
+  RefinementContext(const GrayImage& left_image, const GrayImage& right_image,
+                    const RefinementOptions& refinement)
       : options(refinement),
         width(left_image.width_px),
         left(bandPass(left_image, refinement.highpass_sigma_px)),
@@ -73,10 +73,10 @@ class Band {
     bool first;                   // mixed windows, slow to solve, wait for the next step
   };
 
-  Band(const Setting& setting, const Step& step)
-      : setting_(setting),
-        radius_(setting.options.radius_px),
-        width_(setting.width),
+  Band(const RefinementContext& context, const Step& step)
+      : context_(context),
+        radius_(context.options.radius_px),
+        width_(context.width),
         disparity_(step.disparity),
         next_(step.next),
         sigma_(step.sigma),
@@ -105,9 +105,9 @@ class Band {
     const auto pixel = [&](int plane) {
       return sigma_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
     };
-    const float noise = static_cast<float>(setting_.options.noise_gray);
-    refinementKernels().residualRow({setting_.left.row(v), setting_.right.row(v), disparity_.row(v),
-                                     width_, 1 / (noise * noise), setting_.priorWeight(),
+    const float noise = static_cast<float>(context_.options.noise_gray);
+    refinementKernels().residualRow({context_.left.row(v), context_.right.row(v), disparity_.row(v),
+                                     width_, 1 / (noise * noise), context_.priorWeight(),
                                      pixel(kInformation), pixel(kTarget), pixel(kResidualSq),
                                      pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
   }
@@ -118,13 +118,13 @@ class Band {
     for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = moments_.row(k);
     sumWindows(v, moments);
     selectWindows(v, moments);
-    const RefinementOptions& options = setting_.options;
+    const RefinementOptions& options = context_.options;
     const auto squared = [](double x) { return static_cast<float>(x * x); };
     const PlaneRow row{moments,
                        disparity_.row(v),
                        width_,
                        kFarthestStepPx,
-                       setting_.priorWeight(),
+                       context_.priorWeight(),
                        squared(options.noise_floor_gray),
                        static_cast<float>(options.independentPx2()),
                        squared(options.model_sigma_px),
@@ -148,7 +148,7 @@ class Band {
   }
 
   void sumWindows(int v, const MomentRow& moments) {
-    const float* window = setting_.window.data();
+    const float* window = context_.window.data();
     const RefinementKernels& kernels = refinementKernels();
     float* columns[kColumnMomentCount];
     for (int k = 0; k < kColumnMomentCount; ++k) columns[k] = columns_.row(k);
@@ -181,8 +181,8 @@ class Band {
                           rows[kInformation].data(),
                           rows[kTarget].data(),
                           {},
-                          setting_.selection_window.data(),
-                          setting_.selection_tolerance.data(),
+                          context_.selection_window.data(),
+                          context_.selection_tolerance.data(),
                           false,
                           radius_};
     for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
@@ -204,7 +204,7 @@ class Band {
       if (mixed[u] != 0 && !std::isnan(disparity_.row(v)[u])) near_.push_back(u);
   }
 
-  const Setting& setting_;
+  const RefinementContext& context_;
   int radius_, width_;
   const Plane& disparity_;
   Plane& next_;
@@ -234,14 +234,14 @@ Raster<float> rasterOf(const Plane& plane, int width, int height) {
 
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
-  const Setting setting(left, right, options);
+  const RefinementContext context(left, right, options);
   Raster<std::uint8_t> mixed = nearDepthSteps(initial_px, options.radius_px, kClearStepPx, kSlope);
   const int width = left.width_px, height = left.height_px;
   Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
   for (int i = 0; i < options.iterations; ++i) {
     const bool last = i + 1 == options.iterations;
     parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(setting, {disparity, next, last ? &sigma : nullptr, mixed, i == 0}).solve(begin, end);
+      Band(context, {disparity, next, last ? &sigma : nullptr, mixed, i == 0}).solve(begin, end);
     });
     std::swap(disparity, next);
   }

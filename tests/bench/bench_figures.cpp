@@ -53,7 +53,7 @@ TriangleMesh ball() {
 
 void timeContours() {
   const TriangleMesh mesh = ball();
-  std::vector<CutPlane> planes;
+  std::vector<SectionPlane> planes;
   for (int i = 0; i < 100; ++i)
     planes.push_back({{0, 0, -59.5 + 1.19 * i}, Eigen::Vector3d(0.1, 0.2, 1).normalized()});
   std::size_t points = 0;

@@ -1,9 +1,9 @@
 // tests/features/sequence_truth.h: where tissue of a rendered sequence went, from frame to frame.
 #pragma once
 
-#include <Eigen/QR>
+#include <Eigen/Geometry>
+#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -56,22 +56,7 @@ struct SequenceTruth {
   Trajectory poses;
   std::vector<std::vector<Eigen::Vector3d>> tracks_mm;  // [frame][id], world
 
-  explicit SequenceTruth(const std::filesystem::path& folder)
-      : poses(readTrajectory(folder / "groundtruth" / "trajectory.txt")) {
-    camera = readCalibration(folder).left.pinhole;
-    std::ifstream file(folder / "groundtruth" / "tracks.csv");
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-      for (char& c : line) c = c == ',' ? ' ' : c;
-      std::istringstream text(line);
-      std::size_t frame, id;
-      Eigen::Vector3d p;
-      text >> frame >> id >> p.x() >> p.y() >> p.z();
-      if (tracks_mm.size() <= frame) tracks_mm.resize(frame + 1);
-      tracks_mm[frame].push_back(p);
-    }
-  }
+  explicit SequenceTruth(const std::filesystem::path& folder);
 
   int frames() const { return static_cast<int>(poses.size()); }
 
@@ -93,24 +78,7 @@ class TrueFlow {
   }
 
   /// False where there are too few tracks, or they move too differently.
-  bool at(const Eigen::Vector2d& place, Eigen::Vector2d* shift_px) const {
-    constexpr double kReachPx = 34, kLargestResidualPx = 0.15;
-    Eigen::MatrixXd places(from_.size(), 3), shifts(from_.size(), 2);
-    Eigen::Index count = 0;
-    for (std::size_t i = 0; i < from_.size(); ++i) {
-      const Eigen::Vector2d apart = from_[i] - place;
-      if (apart.norm() > kReachPx) continue;
-      const double weight = 1.1 - apart.norm() / kReachPx;
-      places.row(count) = weight * Eigen::RowVector3d(1, apart.x(), apart.y());
-      shifts.row(count++) = weight * shift_[i].transpose();
-    }
-    if (count < 5) return false;
-    const Eigen::MatrixXd fit =
-        places.topRows(count).householderQr().solve(shifts.topRows(count)).eval();
-    const Eigen::MatrixXd residuals = places.topRows(count) * fit - shifts.topRows(count);
-    *shift_px = fit.row(0).transpose();
-    return residuals.rowwise().norm().mean() < kLargestResidualPx;
-  }
+  bool at(const Eigen::Vector2d& place, Eigen::Vector2d* shift_px) const;
 
  private:
   std::vector<Eigen::Vector2d> from_, shift_;

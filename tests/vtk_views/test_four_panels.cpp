@@ -258,7 +258,7 @@ EdgeValues acrossContour(const Volume& volume, const TriangleMesh& mesh, const V
   std::vector<float> inside;
   int points = 0, steps = 0;
   for (const ContourLine& line :
-       planeContours(mesh, CutPlane{view.centre_mm, view.towardsViewer()})) {
+       planeContours(mesh, SectionPlane{view.centre_mm, view.towardsViewer()})) {
     double area = 0;  // its sign: which way the line runs
     for (std::size_t i = 1; i < line.size(); ++i) {
       const Eigen::Vector2d a = view.project(line[i - 1].cast<double>()),

@@ -42,7 +42,7 @@ double lengthOf(const ContourLine& line) {
 }
 
 TEST(PlaneContours, ASphereIsCutInOneClosedCircle) {
-  const auto lines = planeContours(sphere(100), CutPlane{{0, 0, 3}, {0, 0, 1}});
+  const auto lines = planeContours(sphere(100), SectionPlane{{0, 0, 3}, {0, 0, 1}});
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].front(), lines[0].back()) << "closed";
   const double radius_mm = std::sqrt(100 - 9.0);
@@ -54,10 +54,10 @@ TEST(PlaneContours, ASphereIsCutInOneClosedCircle) {
 }
 
 TEST(PlaneContours, APlaneThroughVerticesStillGivesClosedLines) {
-  const auto lines = planeContours(sphere(64), CutPlane{{0, 0, 0}, {0, 1, 0}});
+  const auto lines = planeContours(sphere(64), SectionPlane{{0, 0, 0}, {0, 1, 0}});
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].front(), lines[0].back());
-  EXPECT_TRUE(planeContours(sphere(16), CutPlane{{0, 0, 11}, {0, 0, 1}}).empty());
+  EXPECT_TRUE(planeContours(sphere(16), SectionPlane{{0, 0, 11}, {0, 0, 1}}).empty());
 }
 
 TEST(PlaneContours, AnOpenSurfaceGivesAnOpenLineAndTwoSheetsTwo) {
@@ -69,7 +69,7 @@ TEST(PlaneContours, AnOpenSurfaceGivesAnOpenLineAndTwoSheetsTwo) {
     sheets.triangles.push_back({first, first + 1, first + 2});
     sheets.triangles.push_back({first + 1, first + 3, first + 2});
   }
-  const auto lines = planeContours(sheets, CutPlane{{1, 0, 0}, {1, 0, 0}});
+  const auto lines = planeContours(sheets, SectionPlane{{1, 0, 0}, {1, 0, 0}});
   ASSERT_EQ(lines.size(), 2u);
   for (const ContourLine& line : lines) {
     EXPECT_NE(line.front(), line.back());
@@ -101,14 +101,14 @@ TEST(PlaneContours, AgreesWithVtksCutter) {
     vtk_mm += (b - a).norm();
   }
   double ours_mm = 0;
-  for (const auto& line : planeContours(sphere(50), CutPlane{{1, 1, 1}, normal}))
+  for (const auto& line : planeContours(sphere(50), SectionPlane{{1, 1, 1}, normal}))
     ours_mm += lengthOf(line);
   EXPECT_NEAR(ours_mm, vtk_mm, 1e-3);  // float coordinates
 }
 
 TEST(PlaneContours, ManyPlanesGiveWhatEachAloneGives) {
   const TriangleMesh mesh = sphere(40);
-  std::vector<CutPlane> planes;
+  std::vector<SectionPlane> planes;
   for (int i = 0; i < 9; ++i) planes.push_back({{0, 0, i - 4.0}, {0, 0, 1}});
   const auto together = planeContours(mesh, planes);
   for (std::size_t i = 0; i < planes.size(); ++i)
@@ -117,7 +117,7 @@ TEST(PlaneContours, ManyPlanesGiveWhatEachAloneGives) {
 
 TEST(PlaneContours, PointsNearThePlaneAreKept) {
   const std::vector<Eigen::Vector3f> points{{0, 0, 0.4f}, {1, 1, -0.6f}, {2, 2, -0.5f}};
-  EXPECT_EQ(pointsNearPlane(points, CutPlane{{0, 0, 0}, {0, 0, 1}}, 0.5).size(), 2u);
+  EXPECT_EQ(pointsNearPlane(points, SectionPlane{{0, 0, 0}, {0, 0, 1}}, 0.5).size(), 2u);
 }
 
 TEST(ClipLine, KeepsWhatLiesInside) {
