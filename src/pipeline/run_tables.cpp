@@ -173,7 +173,7 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
   record.warp.nodes = std::atoi(cell("nodes").c_str());
   record.pose.inliers = std::atoi(cell("inliers").c_str());
   record.fusion.corrected.mean_mm = numberIn(cell("backprojection_mean_mm"));
-  record.fusion.predicted.mean_mm = numberIn(cell("prediction_mean_mm"));
+  record.evidence.predicted.mean_mm = numberIn(cell("prediction_mean_mm"));
   for (const std::string& stage : timedStages())
     if (const double elapsed_ms = numberIn(cell(stage + "_ms")); elapsed_ms > 0)
       record.times.emplace_back(stage, elapsed_ms);
