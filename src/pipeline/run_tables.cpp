@@ -74,7 +74,7 @@ FrameStatus statusNamed(const std::string& name, const std::string& file) {
   for (const FrameStatus status :
        {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
         FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
-        FrameStatus::kUnreadable})
+        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable})
     if (name == toString(status)) return status;
   throw InputError(file + ": a frame has an unknown status; start again without --resume");
 }
