@@ -19,6 +19,10 @@
 namespace softscope {
 namespace {
 
+/// Depth per pixel of disparity, z² / (f b), up to which limits in mm hold as they are: 64 mm away
+/// from a scope of 640 x 480 pixels, f = 560 px, with a baseline of 5.2 mm.
+constexpr double kNearMmPerPx = 1.4;
+
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
 /// SIFT finds places again wherever they went; the pose is then refined from near.
@@ -72,7 +76,7 @@ class CpuBackend : public ReconstructionBackend {
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
-  void scaleTo(double median_sigma_mm);
+  void scaleTo(const DepthSummary& summary);
   MatchPicture pictureOf(const ModelView& view) const;
   void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
               PoseSummary* summary);
@@ -98,6 +102,7 @@ class CpuBackend : public ReconstructionBackend {
   MeasuredFrame measured_;
   AssociationOptions association_;  // scaled to its depths
   FusionOptions fusion_;
+  RansacOptions pose_options_;
   Mask not_tissue_;
   MatchPicture live_;
   std::vector<LiftedMatch> matches_;
@@ -114,29 +119,39 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   not_tissue_ = notTissue(measured_, options_.tissue);
   live_ = livePicture(measured_, not_tissue_, options_.tissue);
   DepthSummary summary;
-  std::vector<float> sigmas;
+  std::vector<float> sigmas, depths_mm;
   for (std::size_t i = 0; i < not_tissue_.size(); ++i) {
     if (not_tissue_.values[i] != 0) continue;
     ++summary.tissue_px;
     if (!std::isfinite(measured_.depth.depth_mm.values[i])) continue;
     ++summary.measured_px;
+    depths_mm.push_back(measured_.depth.depth_mm.values[i]);
     if (!measured_.depth.sigma_mm.empty()) sigmas.push_back(measured_.depth.sigma_mm.values[i]);
   }
   summary.median_sigma_mm = medianOf(std::move(sigmas));
-  scaleTo(summary.median_sigma_mm);
+  const double depth_mm = medianOf(std::move(depths_mm));
+  const double mm_per_px = depth_mm * depth_mm / (left().fx_px * depth_.rig().baseline_mm);
+  if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
+  scaleTo(summary);
   if (measured_.rows.known()) summary.row_difference_px = measured_.rows.mean_row_difference_px;
   clock_.lap("mask");
   return summary;
 }
 
 /// Weights compare a depth with the typical one of its frame: where all depths are worse, because
-/// the tissue is far or the pictures are poor, they still pull the model together.
-void CpuBackend::scaleTo(double median_sigma_mm) {
+/// the tissue is far or the images are poor, they still pull the model together. Limits in mm are
+/// those of near tissue and grow with what a pixel of disparity is worth.
+void CpuBackend::scaleTo(const DepthSummary& summary) {
   association_ = options_.deform.association;
   fusion_ = options_.fusion;
-  if (!std::isfinite(median_sigma_mm)) return;
+  pose_options_ = options_.pose;
+  for (double* limit_mm : {&association_.max_distance_mm, &fusion_.visibility.max_distance_mm,
+                           &fusion_.insertion.band_mm, &fusion_.insertion.max_sigma_mm,
+                           &fusion_.pixels.max_sigma_mm, &pose_options_.threshold_mm})
+    *limit_mm *= summary.limit_scale;
+  if (!std::isfinite(summary.median_sigma_mm)) return;
   for (double* sigma_mm : {&association_.reference_sigma_mm, &fusion_.points.reference_sigma_mm})
-    if (*sigma_mm > 0) *sigma_mm = std::max(*sigma_mm, median_sigma_mm);
+    if (*sigma_mm > 0) *sigma_mm = std::max(*sigma_mm, summary.median_sigma_mm);
 }
 
 /// What is searched for: the model as drawn, or, for comparison, what the scope saw from there.
@@ -160,7 +175,7 @@ MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach 
 
 PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
                                      const Eigen::Isometry3d& reference) {
-  pose_ = estimateRigidPose(posePairs(matches_), options_.pose);
+  pose_ = estimateRigidPose(posePairs(matches_), pose_options_);
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;

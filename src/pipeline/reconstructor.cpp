@@ -128,8 +128,9 @@ bool Reconstructor::deform(FrameRecord& record) {
   const DeformSummary& solver = record.warp.solver;
   const double explained =
       record.warp.in_sight > 0 ? double(solver.points_after) / record.warp.in_sight : 0;
+  const double max_residual_mm = record.depth.limit_scale * gate_.max_residual_mm;
   if (solver.reason != StopReason::kNotFinite && explained >= gate_.min_explained &&
-      solver.data_mean_mm_after <= gate_.max_residual_mm) {
+      solver.data_mean_mm_after <= max_residual_mm) {
     const bool is_reference = !record.pose.scope_static;
     backend_->acceptWarp(is_reference);
     record.evidence = backend_->confirm(world_from_left_);
@@ -149,7 +150,7 @@ bool Reconstructor::deform(FrameRecord& record) {
                 text("the warp (", toString(solver.reason), ") explains ", 100 * explained,
                      " % of the points in sight, to ", solver.data_mean_mm_after,
                      " mm on average; needed are ", 100 * gate_.min_explained, " % and ",
-                     gate_.max_residual_mm, " mm"));
+                     max_residual_mm, " mm"));
 }
 
 void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {

@@ -142,6 +142,19 @@ TEST(Reconstructor, UndoesWhatTheFrameDoesNotConfirm) {
   EXPECT_EQ(reconstructor.process(clip.frames[2]).status, FrameStatus::kUnconfirmed);
 }
 
+// Four times the baseline: all depths are four times as large, and a pixel of disparity is worth
+// four times as many mm.
+TEST(Reconstructor, LimitsGrowWithWhatAPixelOfDisparityIsWorth) {
+  ShortClip clip = shortClip();
+  const FrameRecord near_tissue = reconstructorOf(clip, smallOptions()).process(clip.frames[0]);
+  clip.calibration.right_from_left.translation() *= 4;
+  const FrameRecord far_tissue = reconstructorOf(clip, smallOptions()).process(clip.frames[0]);
+  EXPECT_GE(near_tissue.depth.limit_scale, 1);
+  EXPECT_GT(far_tissue.depth.limit_scale, 2 * near_tissue.depth.limit_scale);
+  EXPECT_EQ(far_tissue.status, FrameStatus::kStarted);
+  EXPECT_GT(far_tissue.points, near_tissue.points / 2);
+}
+
 TEST(Reconstructor, WaitsForAFirstFrameThatHasDepth) {
   const ShortClip& clip = shortClip();
   Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
