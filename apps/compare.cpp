@@ -11,8 +11,10 @@
 #include "apps/evaluate_plots.h"
 #include "apps/evaluate_thresholds.h"
 #include "apps/exit_codes.h"
+#include "apps/record_paths.h"
 #include "apps/result_output.h"
 #include "core/error.h"
+#include "io/file_hash.h"
 #include "io/text_lines.h"
 #include "mesh/mesh_check.h"
 
@@ -76,6 +78,7 @@ class CompareCommand : public Command {
   double observed_reach_mm_ = 2;
   double reference_unit_mm_ = 1, test_unit_mm_ = 1;
   bool force_ = false;
+  RecordPaths paths_;
 };
 
 void CompareCommand::declare(ArgumentList& arguments) {
@@ -100,6 +103,7 @@ void CompareCommand::declare(ArgumentList& arguments) {
   arguments.option("--reference-unit-mm", "N", reference_unit_mm_,
                    "what one unit of the file measures: 1000 for metres");
   arguments.option("--test-unit-mm", "N", test_unit_mm_, "the same of the test");
+  paths_.declare(arguments);
   arguments.flag("--force", force_, "overwrite what is there");
 }
 
@@ -141,9 +145,11 @@ int CompareCommand::run() {
   if (!observed_.empty()) result.observed = split(reference, result.comparison);
 
   FactSheet::Json record = comparisonJson(result);
+  record["inputs_sha256"] = {{"reference", sha256Of(reference_)}, {"test", sha256Of(test_)}};
   const auto outcomes = checkThresholds(thresholds, record, "accuracy");
   record["thresholds"] = thresholdsJson(outcomes);
   record["error_histogram"] = histogramJson(result.comparison.accuracy.each_mm);
+  record = paths_.applyTo(record);
   if (outputs)
     if (const std::string problem = outputs->write(result, reference, test, picture_, record);
         !problem.empty())

@@ -16,6 +16,7 @@
 #include "apps/frame_statistics.h"
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
+#include "apps/record_paths.h"
 #include "apps/result_output.h"
 #include "apps/sequence_arguments.h"
 #include "core/error.h"
@@ -54,6 +55,7 @@ class DepthCommand : public Command {
   std::string out_, range_text_, write_;
   std::string frame_ = "left";
   bool force_ = false;
+  RecordPaths paths_;
   SettingsArguments settings_;
 
   bool is_sequence_ = false;  // files are numbered
@@ -75,6 +77,7 @@ void DepthCommand::declare(ArgumentList& arguments) {
   arguments.option("--write", "LIST", write_,
                    "some of disparity,depth,confidence,cloud,picture (default: all)");
   arguments.flag("--force", force_, "overwrite what is there");
+  paths_.declare(arguments);
   settings_.declare(arguments);
 }
 
@@ -113,9 +116,10 @@ int DepthCommand::run() {
   if (record.goodFrames() == 0 && !interrupted_)
     throw InputError(source_.left + ": not one frame could be measured; the reasons stand above");
   if (interrupted_) record.setInterrupted();
-  if (record.goodFrames() > 0) writeFile(outputs.summaryFile(), jsonText(record.json()), force_);
+  const auto summary = paths_.applyTo(record.json());
+  if (record.goodFrames() > 0) writeFile(outputs.summaryFile(), jsonText(summary), force_);
   if (common.json)
-    printJson(record.json());
+    printJson(summary);
   else
     printFacts(record.text(out_), false);
   return interrupted_ ? kInterrupted : kDone;

@@ -9,6 +9,7 @@
 #include "apps/result_output.h"
 #include "apps/version.h"
 #include "core/parallel.h"
+#include "io/message.h"
 #include "pipeline/backends.h"
 #include "vtk_views/fonts.h"
 #include "vtk_views/render_check.h"
@@ -159,7 +160,7 @@ class DoctorCommand : public Command {
     for (const Finding& finding : findings) {
       std::cout << (finding.fine ? "ok    " : "warn  ") << finding.what
                 << std::string(15 - std::min<std::size_t>(14, finding.what.size()), ' ')
-                << finding.found << "\n";
+                << printable(finding.found) << "\n";
       if (!finding.fine) std::cout << "        -> " << finding.to_do << "\n";
     }
     std::cout << std::flush;

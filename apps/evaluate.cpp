@@ -15,9 +15,11 @@
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
+#include "apps/record_paths.h"
 #include "apps/result_output.h"
 #include "apps/truthless_result.h"
 #include "core/error.h"
+#include "io/file_hash.h"
 #include "io/folder.h"
 #include "io/message.h"
 #include "mesh/mesh_check.h"
@@ -66,12 +68,14 @@ class EvaluateCommand : public Command {
   EvaluationResult againstSequence(const JudgedRun& run);
   EvaluationResult againstMesh(const JudgedRun& run);
   int besidePictures(const JudgedRun& run, const EvaluateOutputs* outputs);
+  FactSheet::Json hashes() const;
   FrameFiles modelsFor(const JudgedRun& run) const;
   int finish(EvaluationResult result, const EvaluateOutputs* outputs);
 
   std::string run_, reference_, out_, align_ = "none";
   std::vector<std::string> fail_if_;
   double unit_mm_ = 1;
+  RecordPaths paths_;
   bool each_ = false, force_ = false, no_views_ = false;
 
   std::vector<Threshold> thresholds_;
@@ -87,6 +91,7 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
                    "to a mesh: none (the default), rigid (one for all models), icp (each model)");
   arguments.option("--reference-unit-mm", "N", unit_mm_,
                    "what one unit of a mesh measures: 1000 for metres");
+  paths_.declare(arguments);
   arguments.flag("--each", each_, "against a mesh: every model, not the last alone");
   arguments.flag("--no-views", no_views_,
                  "don't draw the model for depth, PSNR and SSIM: saves a fifth of the time");
@@ -164,9 +169,20 @@ int EvaluateCommand::besidePictures(const JudgedRun& folder, const EvaluateOutpu
   FactSheet::Json record = truthlessJson(result);
   const auto outcomes = checkThresholds(thresholds_, record, "view");
   record["thresholds"] = thresholdsJson(outcomes);
+  record["inputs_sha256"] = hashes();
+  record = paths_.applyTo(record);
   if (outputs != nullptr) outputs->write(result, record);
   printResult(record, truthlessFacts(result), {out_}, common.json);
   return exitCodeOf(outcomes);
+}
+
+/// Of run.json, which has those of the run's inputs, and of a mesh; a sequence has too many bytes.
+FactSheet::Json EvaluateCommand::hashes() const {
+  FactSheet::Json hashes = FactSheet::Json::object();
+  const std::filesystem::path record = std::filesystem::path(run_) / "run.json";
+  if (isThere(record)) hashes["run"] = sha256Of(record);
+  if (!isFolder(reference_)) hashes["reference"] = sha256Of(reference_);
+  return hashes;
 }
 
 FrameFiles EvaluateCommand::modelsFor(const JudgedRun& folder) const {
@@ -212,6 +228,8 @@ int EvaluateCommand::finish(EvaluationResult result, const EvaluateOutputs* outp
   record["thresholds"] = thresholdsJson(outcomes);
   record["error_histogram"] = histogramJson(result.surface.pool.all_mm());
   record["frames"] = frames.json();
+  record["inputs_sha256"] = hashes();
+  record = paths_.applyTo(record);
   if (outputs != nullptr) outputs->write(result, frames, record);
   printResult(record, evaluationFacts(result), {out_}, common.json);
   return exitCodeOf(outcomes);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "io/message.h"
+
 namespace softscope {
 namespace {
 
@@ -29,13 +31,15 @@ void FactSheet::addQuietly(const std::string& key, Json value) {
 
 std::string FactSheet::text() const {
   std::size_t widest = 0;
-  for (const auto& line : lines_) widest = std::max(widest, line.first.size());
-  std::string text = title_ + "\n";
-  for (const auto& [label, value] : lines_)
-    text += "  " + label + std::string(widest + 2 - label.size(), ' ') + value + "\n";
-  for (const std::string& problem : problems_) text += "  error: " + problem + "\n";
-  for (const std::string& warning : warnings_) text += "  warning: " + warning + "\n";
-  for (const std::string& lack : missing_) text += "  missing: " + lack + "\n";
+  for (const auto& line : lines_) widest = std::max(widest, printable(line.first).size());
+  std::string text = printable(title_) + "\n";
+  for (const auto& [label, value] : lines_) {
+    const std::string head = printable(label);
+    text += "  " + head + std::string(widest + 2 - head.size(), ' ') + printable(value) + "\n";
+  }
+  for (const std::string& problem : problems_) text += "  error: " + printable(problem) + "\n";
+  for (const std::string& warning : warnings_) text += "  warning: " + printable(warning) + "\n";
+  for (const std::string& lack : missing_) text += "  missing: " + printable(lack) + "\n";
   return text;
 }
 

@@ -280,6 +280,7 @@ int FigureCommand::finish(const VectorDrawing& drawing, const SceneInputs& input
                           Json& record) const {
   record["warnings"] = inputs.warnings();
   for (const std::string& warning : inputs.warnings()) spdlog::warn("{}", warning);
+  record = options_.paths.applyTo(record);
   writeFigure(drawing, options_, record);
   if (common.json) printJson(record);
   return kDone;

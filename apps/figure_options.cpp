@@ -66,6 +66,7 @@ void FigureOptions::declare(ArgumentList& arguments) {
   arguments.option("--dpi", "N", dots_per_inch, "of a PNG (default: the style's)");
   arguments.flag("--neurological", neurological,
                  "patient's left on the left (default: radiological, left on the right)");
+  paths.declare(arguments);
   arguments.flag("--force", force, "overwrite what is there");
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/argument_list.h"
+#include "apps/record_paths.h"
 #include "apps/volume_arguments.h"
 #include "vtk_views/figure_style.h"
 #include "vtk_views/scene.h"
@@ -22,6 +23,7 @@ struct FigureOptions {
   double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = 1;
   bool neurological = false, force = false;
   VolumeArguments volume;
+  RecordPaths paths;
 
   void declare(ArgumentList& arguments);
   /// Throws OptionError: a value out of its range, an unknown ending, a file that is there.

@@ -49,7 +49,8 @@ class InfoCommand : public Command {
     volume_.declare(arguments);
     arguments.positional("PATH", path_, "the file or folder", true);
     arguments.flag("--check", check_, "read every frame of a sequence, not the first alone");
-    arguments.flag("--patient", patient_, "tell a DICOM series' patient fields as well");
+    arguments.flag("--patient", patient_,
+                   "tell a DICOM series' patient fields and its description as well");
   }
 
   int run() override {

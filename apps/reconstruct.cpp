@@ -10,6 +10,7 @@
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
 #include "apps/reconstruct_options.h"
+#include "apps/record_paths.h"
 #include "apps/result_output.h"
 #include "apps/right_offset.h"
 #include "apps/run_folder.h"
@@ -74,6 +75,7 @@ class ReconstructCommand : public Command {
   std::string backend_ = "auto", preset_ = "default", matcher_, scope_;
   int save_every_ = 10, checkpoint_every_ = 100;
   bool no_correspondence_ = false, resume_ = false, force_ = false;
+  RecordPaths paths_;
   SettingsArguments settings_;
   bool interrupted_ = false, all_done_ = false, input_gone_ = false;
 };
@@ -99,6 +101,7 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
                    "bring all files up to date every N frames (default 100)");
   arguments.flag("--resume", resume_, "go on with an interrupted run");
   arguments.flag("--force", force_, "replace an earlier run");
+  paths_.declare(arguments);
   settings_.declare(arguments);
 }
 
@@ -191,13 +194,14 @@ int ReconstructCommand::run() {
   const bool nothing = reconstructor.backend().empty();
   if (nothing && !interrupted_)
     throw InputError(source_.left + ": not one frame could be used; the reasons stand above");
-  if (!nothing) folder.writeRecord(jsonText(record.json()), /*complete=*/!interrupted_);
+  const Json written = paths_.applyTo(record.json());
+  if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
   if (input_gone_)
     throw InputError(source_.left +
                      ": was removed while it was read, or its disk; what is finished "
                      "stays. Put it back and go on with --resume");
   if (common.json)
-    printJson(record.json());
+    printJson(written);
   else
     printFacts(record.text(out_), false);
   return interrupted_ ? kInterrupted : kDone;

@@ -63,7 +63,8 @@ void ReportCommand::declare(ArgumentList& arguments) {
   arguments.option("--seed", "N", seed_, "of resampling for confidence intervals (default 1)");
   arguments.option("--fail-if", "LIMIT", fail_if_,
                    "e.g. p95_mm>2: exit code 1 where it holds for a case; repeatable");
-  arguments.flag("--with-paths", with_paths_, "show the paths of inputs");
+  arguments.flag("--with-paths", with_paths_,
+                 "show the names of inputs, and their paths where the record kept them");
   arguments.flag("--force", force_, "overwrite what is there");
 }
 

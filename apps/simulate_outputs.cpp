@@ -102,13 +102,13 @@ std::string vectorPfm(const Raster<Eigen::Vector3f>& vectors) {
 }
 
 std::string flowBytes(const Raster<Eigen::Vector2f>& flow_px) {
-  constexpr float kUnknown = 1e10F;
+  constexpr float kUnknownFlow = 1e10F;
   std::string bytes = "PIEH";
   append(bytes, std::int32_t(flow_px.width_px));
   append(bytes, std::int32_t(flow_px.height_px));
   for (const Eigen::Vector2f& flow : flow_px.values)
     for (int axis = 0; axis < 2; ++axis)
-      append(bytes, std::isfinite(flow[axis]) ? flow[axis] : kUnknown);
+      append(bytes, std::isfinite(flow[axis]) ? flow[axis] : kUnknownFlow);
   return bytes;
 }
 

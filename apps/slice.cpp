@@ -179,6 +179,7 @@ int SliceCommand::run() {
     record["views"].push_back(viewJson(plane, scene.frame, panels.width_mm));
   record["warnings"] = inputs.warnings();
   for (const std::string& warning : inputs.warnings()) spdlog::warn("{}", warning);
+  record = options_.paths.applyTo(record);
   writeFigure(drawing, options_, record);
   if (common.json) printJson(record);
   return kDone;

@@ -88,7 +88,7 @@ int StudyCommand::run() {
     throw OptionError("--list, --case and --table exclude each other; give one");
   const Study study = readStudy(file_);
   if (list_) {
-    for (const StudyCase& one : study.cases) std::cout << one.name << "\n";
+    for (const StudyCase& one : study.cases) std::cout << printable(one.name) << "\n";
     return kDone;
   }
   if (out_.empty()) throw OptionError("softscope study: --out is missing: folder for everything");
@@ -205,7 +205,8 @@ int StudyCommand::writeAll(const Study& study, const StudyFolder& folder) const 
   if (common.json)
     printJson(studyJson(study, records, commandLine()));
   else
-    std::cout << studyTable(study, records).markdown() << "\nwritten to " << out_ << "\n";
+    std::cout << studyTable(study, records).markdown() << "\nwritten to " << printable(out_)
+              << "\n";
   return failed > 0 ? kThresholdFailed : kDone;
 }
 

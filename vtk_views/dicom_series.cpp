@@ -117,7 +117,7 @@ void addStrays(const std::vector<std::string>& files, const std::vector<std::str
 
 /// Files of the series with most slices; the others are named in `warnings`.
 std::vector<std::string> largestSeries(const std::string& path,
-                                       const std::vector<std::string>& files,
+                                       const std::vector<std::string>& files, bool with_patient,
                                        std::set<std::string>& in_series,
                                        std::vector<std::string>& warnings) {
   vtkNew<vtkStringArray> names;
@@ -141,17 +141,17 @@ std::vector<std::string> largestSeries(const std::string& path,
                        [](const auto& a, const auto& b) { return a.size() < b.size(); });
   for (auto other = series.begin(); other != series.end(); ++other)
     if (other != largest)
-      warnings.push_back("another series lies in this folder, of " + std::to_string(other->size()) +
-                         " files: " +
-                         text(directory->GetMetaDataForSeries(int(other - series.begin())),
-                              DC::SeriesDescription));
+      warnings.push_back(
+          "another series lies in this folder, of " + std::to_string(other->size()) + " files" +
+          (with_patient ? ": " + text(directory->GetMetaDataForSeries(int(other - series.begin())),
+                                      DC::SeriesDescription)
+                        : ""));
   return *largest;
 }
 
 void describe(vtkDICOMMetaData* meta, VolumeSummary& summary) {
   add(summary.details, "modality", text(meta, DC::Modality));
   add(summary.details, "body_part", text(meta, DC::BodyPartExamined));
-  add(summary.details, "series", text(meta, DC::SeriesDescription));
   add(summary.details, "slice_thickness_mm", text(meta, DC::SliceThickness));
   add(summary.details, "manufacturer", text(meta, DC::Manufacturer));
 }
@@ -162,6 +162,7 @@ void describePatient(vtkDICOMMetaData* meta, VolumeSummary& summary) {
   add(summary.patient, "sex", text(meta, DC::PatientSex));
   add(summary.patient, "birth_date", text(meta, DC::PatientBirthDate));
   add(summary.patient, "study_date", text(meta, DC::StudyDate));
+  add(summary.patient, "series", text(meta, DC::SeriesDescription));  // free text: may name anyone
 }
 
 VoxelType voxelTypeOf(const std::string& path, int vtk_type) {
@@ -227,7 +228,7 @@ StoredVolume readSeries(const std::string& path, const std::vector<std::string>&
   std::set<std::string> in_series;
   std::vector<std::string> series = files;
   if (fs::is_directory(path))
-    series = largestSeries(path, files, in_series, volume.summary.warnings);
+    series = largestSeries(path, files, options.with_patient, in_series, volume.summary.warnings);
   std::vector<DicomSlice> slices;
   if (fs::is_directory(path)) addStrays(files, series, in_series, slices, volume.summary.warnings);
   bool rescaled = true;

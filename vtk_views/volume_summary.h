@@ -22,7 +22,7 @@ struct VolumeSummary {
   std::string scalar_type;
   int components = 1;
   std::array<double, 2> value_range{};                       // of the first component
-  std::vector<std::pair<std::string, std::string>> details;  // modality, series …; no patient
+  std::vector<std::pair<std::string, std::string>> details;  // modality, scanner …; no patient
   std::vector<std::pair<std::string, std::string>> patient;  // DICOM, and only if asked for
   std::vector<std::string> warnings;                         // a line each
 };
@@ -38,7 +38,7 @@ struct VolumeOptions {
   /// DICOM: slices that are missing or damaged become voxels without a value (NaN), with a warning;
   /// otherwise they are an error.
   bool allow_missing_slices = false;
-  bool with_patient = false;  // DICOM: name, ID, sex, birth date and study date
+  bool with_patient = false;  // DICOM: name, ID, sex, birth date, study date and series description
 };
 
 /// Reads the whole volume. Of a folder with several DICOM series, the one with most slices; the

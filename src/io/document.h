@@ -24,6 +24,9 @@ struct Document {
 /// No file that we read nests deeper; more is refused, so that the stack holds.
 inline constexpr int kDeepestNesting = 40;
 
+/// Throws InputError where a map has a key twice with different values. The readers below call it.
+void requireUniqueKeys(const Document& document, const std::string& name);
+
 /// The part of YAML that OpenCV, ROS and Python write: maps and lists by indentation or in
 /// brackets, tags and comments skipped; no anchors, no folded texts.
 /// `name` is what errors call the file. All throw InputError with the line where reading stopped.

@@ -17,9 +17,12 @@ std::string say(const Parts&... parts) {
   return text.str();
 }
 
-/// What a file said, in backticks: cut to 40 characters, unprintable ones as `?`, so that an error
-/// stays one line whatever the file holds.
-std::string excerpt(std::string_view found);
+/// One line: control characters, which a terminal would obey (escape, line break, U+009B), as `?`.
+std::string printable(std::string_view text);
+
+/// What a file said, in backticks: cut to `most` characters, unprintable ones as `?`, so that an
+/// error stays one line whatever the file holds.
+std::string excerpt(std::string_view found, std::size_t most = 40);
 
 /// A path as it stands in messages; unprintable characters as `?`.
 std::string shown(const std::filesystem::path& path);

@@ -69,8 +69,8 @@ Settings parseSettings(std::string_view toml, const std::string& name) {
   try {
     flatten(toml::parse(toml), "", name, out);
   } catch (const toml::parse_error& error) {
-    throw InputError(say(name, ":", error.source().begin.line,
-                         ": not valid TOML: ", excerpt(error.description()), ". Mend the line."));
+    throw InputError(say(name, ":", error.source().begin.line, ": not valid TOML: ",
+                         tomlComplaint(error.description()), ". Mend the line."));
   }
   return out;
 }

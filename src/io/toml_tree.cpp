@@ -77,13 +77,20 @@ void requireShallowToml(std::string_view toml, const std::string& name) {
                            " parts, or as many brackets within brackets. Is it a settings file?"));
 }
 
+std::string tomlComplaint(std::string_view description) {
+  constexpr std::size_t kMost = 160;
+  if (const std::size_t end = description.find(": "); end != std::string_view::npos)
+    description.remove_prefix(end + 2);
+  return excerpt(description, kMost);
+}
+
 nlohmann::ordered_json parseTomlTree(std::string_view toml, const std::string& name) {
   requireShallowToml(toml, name);
   try {
     return jsonOf(toml::parse(toml), name);
   } catch (const toml::parse_error& error) {
-    throw InputError(say(name, ":", error.source().begin.line,
-                         ": not valid TOML: ", excerpt(error.description()), ". Mend the line."));
+    throw InputError(say(name, ":", error.source().begin.line, ": not valid TOML: ",
+                         tomlComplaint(error.description()), ". Mend the line."));
   }
 }
 

@@ -114,7 +114,9 @@ class XmlParser {
 }  // namespace
 
 Document parseXml(std::string_view text, const std::string& name) {
-  return XmlParser(text, name).parse();
+  Document document = XmlParser(text, name).parse();
+  requireUniqueKeys(document, name);
+  return document;
 }
 
 }  // namespace softscope

@@ -253,7 +253,9 @@ class BlockParser {
 }  // namespace
 
 Document parseYaml(std::string_view text, const std::string& name) {
-  return BlockParser(text, name).parse();
+  Document document = BlockParser(text, name).parse();
+  requireUniqueKeys(document, name);
+  return document;
 }
 
 }  // namespace softscope

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string contentOf(const fs::path& file) {
+std::string fileContent(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -72,9 +72,22 @@ TEST_F(BadInputs, SidesOfAnUnknownSpaceAreNotCalledLeftAndRight) {
     const Outcome outcome = run(words);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("left and right are unknown"));
-    const auto record = nlohmann::json::parse(contentOf(at(std::string(command) + ".json")));
+    const auto record = nlohmann::json::parse(fileContent(at(std::string(command) + ".json")));
     EXPECT_THAT(record["views"].dump(), testing::AllOf(HasSubstr("+x"), Not(HasSubstr("\"L\""))));
   }
+}
+
+TEST_F(BadInputs, NamesCommandNoTerminal) {
+  const std::string name = "a\x1b]0;x\x07\nb";
+  expectOneError({"info", at(name + ".ply")}, 3, "a?]0;x??b.ply");
+  expectOneError({"info", at("a"), "--" + name}, 2, "?]0;x");
+  expectOneError({"evaluate", at(name), "--reference", at(name)}, 3, "a?]0;x??b");
+  expectOneError({"compare", "--reference", at(name + ".stl"), "--test", at("a.stl")}, 3, "a?]0;x");
+  writePng(at(name + ".png"), ColourImage(16, 16, Rgb8{10, 20, 30}), true);
+  const Outcome told = run({"info", at(name + ".png")});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out + told.err, Not(HasSubstr("\x1b")));
+  EXPECT_THAT(told.out, testing::StartsWith(at("a?]0;x??b.png")));
 }
 
 TEST_F(BadInputs, APipeIsRefusedAtOnce) {
@@ -97,7 +110,7 @@ TEST_F(BadInputs, ALibraryPrintsNothingBesideOurError) {
   // there.
   writePng(at("p.png"), ColourImage(16, 16, Rgb8{10, 20, 30}), true);
   EXPECT_EQ(run({"info", at("p.png"), "--quiet"}).err, "");
-  std::string bytes = contentOf(at("p.png"));
+  std::string bytes = fileContent(at("p.png"));
   const auto header = bytes.find("IHDR");
   bytes[header + 13] = 3;
   const auto sum = crc32(0, reinterpret_cast<const Bytef*>(bytes.data()) + header, 17);
@@ -121,7 +134,7 @@ TEST_F(BadInputs, AFullDiskBehindStdoutIsAnError) {
   const std::string line = executable() + " info " + sequence + " > /dev/full 2> " + at("err");
   const int status = std::system(line.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3);
-  EXPECT_THAT(contentOf(at("err")), HasSubstr("can't be written"));
+  EXPECT_THAT(fileContent(at("err")), HasSubstr("can't be written"));
 }
 
 TEST_F(BadInputs, ResultsAmongTheInputsAreRefused) {

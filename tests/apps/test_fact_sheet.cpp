@@ -26,6 +26,24 @@ TEST(FactSheet, BytesThatAreNoUtf8StillMakeJson) {
   EXPECT_TRUE(nlohmann::json::accept(jsonText(facts.json())));
 }
 
+TEST(FactSheet, NoControlCharacterReachesATerminal) {
+  const std::string name =
+      "a\x1b[2J\nb\x7f\xc2\x9b"
+      "31m\xc3\xa9";
+  FactSheet facts(name);
+  facts.add(name, "name", name);
+  facts.warn(name);
+  facts.missing(name);
+  facts.fail(name);
+  const std::string shown = "a?[2J?b??31m\xc3\xa9";
+  EXPECT_EQ(facts.text(), shown + "\n  " + shown + "  " + shown + "\n  error: " + shown +
+                              "\n  warning: " + shown + "\n  missing: " + shown + "\n");
+  const std::string json = jsonText(facts.json());
+  for (const char* control : {"\x1b", "\x7f", "\xc2\x9b"})
+    EXPECT_EQ(json.find(control), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(json)["name"], name);
+}
+
 TEST(FactSheet, NumbersThatAreNoneBecomeNull) {
   FactSheet facts("title");
   facts.addQuietly("depth_mm", std::numeric_limits<double>::quiet_NaN());

@@ -42,6 +42,33 @@ TEST(Yaml, NamesTheLineThatItCannotRead) {
       {"nested"});
 }
 
+TEST(Documents, AKeyHasOneValue) {
+  const auto expectRefused = [](const char* text) {
+    expectError<InputError>([&] { parseDocument(text, "c"); }, {"c: `M1`", "twice"});
+  };
+  expectRefused("M1: 1\nR: 2\nM1: 3\n");
+  expectRefused("a:\n  M1: 1\n  M1: [1]\n");
+  expectRefused("a: {M1: 1, M1: 2}\n");
+  expectRefused("<r><M1>1</M1><M1>2</M1></r>");
+  expectRefused(R"({"a": [{"M1": [1, 2], "M1": [1, 3]}]})");
+  EXPECT_EQ(parseDocument(R"({"M1": [1, 2.5], "M1": [1, 2.5]})", "c").members.size(), 2U);
+  EXPECT_EQ(parseDocument("M1: 1\nM1: 1\n", "c").find("M1")->text, "1");
+}
+
+TEST(Json, KeepsOrderTextsAndBounds) {
+  const Document d = parseJson(R"({"b": {"x": [1, -2.5, true, null]}, "a": "t"})", "j");
+  EXPECT_EQ(d.members[0].first, "b");
+  const Document& x = *d.find("b")->find("x");
+  ASSERT_EQ(x.items.size(), 4U);
+  EXPECT_EQ(x.items[1].text, "-2.5");
+  EXPECT_EQ(x.items[2].text, "true");
+  EXPECT_EQ(x.items[3].text, "");
+  EXPECT_EQ(d.find("a")->text, "t");
+  expectError<InputError>([] { parseJson(R"({"a": 1e999})", "j"); }, {"beyond all bounds"});
+  expectError<InputError>([] { parseJson(R"({"a": )", "j"); }, {"not valid JSON"});
+  expectError<InputError>([] { parseJson(std::string(100, '['), "j"); }, {"nested"});
+}
+
 TEST(Xml, ReadsElementsAndLists) {
   const Document d = parseXml(
       "<?xml version='1.0'?><!-- c --><root a='1'><x> 1 2 </x><y><_>3</_><_>4</_></y><z/></root>",

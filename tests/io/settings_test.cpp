@@ -106,6 +106,8 @@ TEST(Settings, BrokenFilesNameTheLine) {
                           {"s.toml:2", "TOML"});
   expectError<OptionError>([] { parseSettings("a = [1, 2]\n", "s.toml"); },
                            {"s.toml:1", "`a`", "list"});
+  expectError<InputError>([] { parseSettings("[stereo]\nstep_px = 1\nstep_px = 2\n", "s.toml"); },
+                          {"s.toml:3", "redefine", "step_px"});
   expectError<InputError>([] { readSettings("/no/such.toml"); }, {"no such file"});
 }
 

@@ -1,0 +1,20 @@
+// apps/record_paths.h: names in the place of paths in the JSON that commands write.
+#pragma once
+
+#include "apps/argument_list.h"
+#include "apps/fact_sheet.h"
+
+namespace softscope {
+
+/// --keep-paths, for commands that write a record.
+struct RecordPaths {
+  bool keep = false;
+
+  void declare(ArgumentList& arguments);
+  /// The record as it is written and printed: each path becomes the name of its file or folder, in
+  /// the inputs and within texts. Settings, machine and style stay as they are. With --keep-paths
+  /// the record itself. No command reads a path back from a record.
+  FactSheet::Json applyTo(const FactSheet::Json& record) const;
+};
+
+}  // namespace softscope
