@@ -19,9 +19,9 @@
 namespace softscope {
 namespace {
 
-/// Depth per pixel of disparity, z² / (f b), up to which limits in mm hold as they are: 64 mm away
-/// from a scope of 640 x 480 pixels, f = 560 px, with a baseline of 5.2 mm.
-constexpr double kNearMmPerPx = 1.4;
+/// Depth per pixel of disparity, z² / (f b), up to which limits in mm hold as they are: there the
+/// largest sigma of a new point, 0.5 mm, is twice the 0.1 px that stereo errs by.
+constexpr double kNearMmPerPx = 2.5;
 
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 

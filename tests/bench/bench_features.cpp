@@ -81,8 +81,7 @@ void printErrors(const char* name) {
                                                      : pictureOf(readLeft(folder, frame));
       const MatchPicture live = pictureOf(readLeft(folder, frame + 1));
       const std::clock_t begin = std::clock();
-      errors.add(matcher->match(model, live),
-                 TrueFlow(truth, frame, frame + 1));
+      errors.add(matcher->match(model, live), TrueFlow(truth, frame, frame + 1));
       processor_ms += 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     }
     std::printf("| %s: %s | %zu | %.3f | %.3f | %.2f | %.2f | %.0f |\n",
@@ -125,8 +124,7 @@ void printMatchCounts(const char* name, int frames) {
   for (int frame = 1; frame < frames; ++frame) {
     const MatchPicture after = pictureAt(frame);
     for (MatchCounts* one : {&dense, &sparse})
-      one->counts.push_back(
-          double(one->matcher->match(before, after).size()));
+      one->counts.push_back(double(one->matcher->match(before, after).size()));
     least_factor =
         std::min(least_factor, dense.counts.back() / std::max(1.0, sparse.counts.back()));
     before = after;
