@@ -23,6 +23,10 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSeenSigmas =
     6;  // of a shift that is seen in a single pair: two poses explain it to three
 
+// Of the median residual that a motion of the scope leaves, match errors included; tissue that
+// bends leaves more of it.
+constexpr double kLeftShare = 1.0 / 3;
+
 // Image regions whose errors are independent.
 constexpr int kRegionColumns = 6, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 constexpr int kFewestRegions = 8;  // with pairs; below, neither motion nor error is known
@@ -103,10 +107,11 @@ class Pairs {
     return costAt(other) < costAt(one) ? other : one;
   }
 
-  /// Whether `best` is another pose than `old`: most of the pairs see the difference, and `best`
-  /// explains them significantly better: docs/energy.md (29), (30).
+  /// Whether `best` is another pose than `old`: most of the pairs see the difference, `best` leaves
+  /// little of their residuals, and explains them significantly better: docs/energy.md (29).
   bool differs(const Eigen::Isometry3d& best, const Eigen::Isometry3d& old) const {
-    return medianShift(best, old) > kSeenSigmas && prefers(best, old);
+    return medianShift(best, old) > kSeenSigmas &&
+           medianResidual(best) < kLeftShare * medianResidual(old) && prefers(best, old);
   }
 
   /// Covariance of the pose as a twist in the left camera's frame, clustered by regions: (31).
@@ -142,6 +147,13 @@ class Pairs {
   }
 
  private:
+  double medianResidual(const Eigen::Isometry3d& left_from_world) const {
+    std::vector<double> lengths;
+    for (const Residual& residual : residualsAt(left_from_world))
+      lengths.push_back(residual.value.norm());
+    return medianOf(std::move(lengths));
+  }
+
   /// How far apart two poses put a pair, in its standard errors: the median.
   double medianShift(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) const {
     std::vector<double> shifts;
