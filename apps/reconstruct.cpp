@@ -194,6 +194,7 @@ int ReconstructCommand::run() {
   const bool nothing = reconstructor.backend().empty();
   if (nothing && !interrupted_)
     throw InputError(source_.left + ": not one frame could be used; the reasons stand above");
+  for (const std::string& conclusion : record.conclusions()) spdlog::warn("{}", conclusion);
   const Json written = paths_.applyTo(record.json());
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
   if (input_gone_)

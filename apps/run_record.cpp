@@ -33,6 +33,9 @@ Json rigJson(const RectifiedRig& rig) {
           {"baseline_mm", rig.baseline_mm}};
 }
 
+constexpr double kDoubtful = 0.5;   // confidence of a frame
+constexpr double kToldShare = 0.1;  // of the frames; fewer are not worth a warning
+
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
@@ -70,11 +73,14 @@ void RunRecord::add(const FrameRecord& record) {
   ++frames_of_status_[toString(record.status)];
   for (const auto& [stage, stage_ms] : record.times) elapsed_ms_[stage] += stage_ms;
   frame_ms_.push_back(record.elapsed_ms());
+  located_ += record.pose.found;
+  scope_static_ += record.pose.found && record.pose.scope_static;
   if (!record.fused()) return;
   points_ = record.points;
   if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
   if (record.status == FrameStatus::kStarted) return;
   matches_.push_back(record.pose.inliers);
+  doubtful_ += record.evidence.view.confidence() < kDoubtful;
   if (std::isfinite(record.fusion.corrected.mean_mm))
     backprojection_mm_.push_back(record.fusion.corrected.mean_mm);
   if (std::isfinite(record.evidence.predicted.mean_mm))
@@ -89,6 +95,30 @@ int RunRecord::fusedFrames() const {
         found != frames_of_status_.end())
       fused += found->second;
   return fused;
+}
+
+std::vector<std::string> RunRecord::conclusions() const {
+  std::vector<std::string> all;
+  const int left_out = frames_ - fusedFrames();
+  if (left_out > kToldShare * frames_)
+    all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
+                  " frames were not fused (" + statusText() +
+                  "): the model does not know them; the column reason of frames.csv says why");
+  if (doubtful_ > kToldShare * frames_)
+    all.push_back(std::to_string(doubtful_) + " of " + std::to_string(frames_) +
+                  " frames were fused with a confidence below " + fixed(kDoubtful, 1) +
+                  ": the image shows the tissue elsewhere in many places; blur, weak texture or "
+                  "changing light are likely");
+  if (located_ > 0 && scope_static_ == located_)
+    all.push_back("the scope was never seen to move; if it did, state --scope moving");
+  return all;
+}
+
+std::string RunRecord::statusText() const {
+  std::string statuses;
+  for (const auto& [status, count] : frames_of_status_)
+    statuses += (statuses.empty() ? "" : ", ") + std::to_string(count) + " " + status;
+  return statuses;
 }
 
 double RunRecord::meanOf(const std::vector<double>& values) const {
@@ -109,16 +139,19 @@ Json RunRecord::json() const {
   all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
   Json& stages = all["mean_stage_ms"] = Json::object();
   for (const auto& [stage, sum_ms] : elapsed_ms_) stages[stage] = sum_ms / std::max(1, frames_);
+  all["frames_scope_static"] = scope_static_;
+  all["frames_doubtful"] = doubtful_;
   all["warnings"] = warnings_;
+  for (const std::string& conclusion : conclusions()) all["warnings"].push_back(conclusion);
   return all;
 }
 
 FactSheet RunRecord::text(const std::string& folder) const {
   FactSheet facts("reconstruction of " + std::to_string(frames_) + " frames");
-  std::string statuses;
-  for (const auto& [status, count] : frames_of_status_)
-    statuses += (statuses.empty() ? "" : ", ") + std::to_string(count) + " " + status;
-  facts.addLine("frames", statuses);
+  facts.addLine("frames", statusText());
+  if (located_ > 0)
+    facts.addLine("scope", "static in " + std::to_string(scope_static_) + " of " +
+                               std::to_string(located_) + " frames");
   facts.addLine("model",
                 std::to_string(points_) + " points on " + std::to_string(nodes_) + " nodes");
   if (!matches_.empty())

@@ -28,11 +28,15 @@ class RunRecord {
   void set(const std::string& key, const FactSheet::Json& value) { json_[key] = value; }
 
   int fusedFrames() const;
+  /// What a user should know of the whole run: frames that were not fused, or fused with little
+  /// evidence, a static scope. In json() among the warnings.
+  std::vector<std::string> conclusions() const;
   FactSheet::Json json() const;
   /// A few lines for people.
   FactSheet text(const std::string& folder) const;
 
  private:
+  std::string statusText() const;
   double meanOf(const std::vector<double>& values) const;
 
   FactSheet::Json json_;
@@ -41,6 +45,7 @@ class RunRecord {
   std::map<std::string, double> elapsed_ms_;  // of every stage, over all frames
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
   int frames_ = 0, points_ = 0, nodes_ = 0;
+  int located_ = 0, scope_static_ = 0, doubtful_ = 0;
 };
 
 }  // namespace softscope

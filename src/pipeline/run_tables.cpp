@@ -172,6 +172,10 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
   record.points = std::atoi(cell("points").c_str());
   record.warp.nodes = std::atoi(cell("nodes").c_str());
   record.pose.inliers = std::atoi(cell("inliers").c_str());
+  record.pose.found = !cell("scope_static").empty();
+  record.pose.scope_static = cell("scope_static") == "1";
+  record.evidence.view.depth_share = numberIn(cell("depth_agreement"));
+  record.evidence.view.image_share = numberIn(cell("image_agreement"));
   record.fusion.corrected.mean_mm = numberIn(cell("backprojection_mean_mm"));
   record.evidence.predicted.mean_mm = numberIn(cell("prediction_mean_mm"));
   for (const std::string& stage : timedStages())

@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string bytesOf(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -67,6 +68,24 @@ TEST_F(Reconstruct, WritesTheRunThatOthersRead) {
   const auto record = nlohmann::json::parse(bytesOf(at("run/run.json")));
   EXPECT_EQ(std::string(record["inputs"]["calibration"]["sha256"]).size(), 64u);
   EXPECT_EQ(record["configuration"]["stereo.disparity_max_px"], 63);
+}
+
+TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
+  makeClip(4);
+  const Outcome stated = reconstruct({"--out", at("run"), "--scope", "static", "--json"});
+  ASSERT_EQ(stated.exit_code, 0) << stated.err;
+  EXPECT_EQ(stated.json()["frames_scope_static"], 3);  // of the three after the first
+  EXPECT_THAT(stated.err, HasSubstr("the scope was never seen to move"));
+  const Outcome text = reconstruct({"--out", at("run"), "--scope", "moving", "--force"});
+  EXPECT_THAT(text.out + text.err, HasSubstr("static in 0 of 3 frames"));
+  EXPECT_THAT(text.err, Not(HasSubstr("never seen to move")));
+  const Outcome doubted =
+      reconstruct({"--out", at("run"), "--set", "gate.min_confidence=1", "--json", "--force"});
+  ASSERT_EQ(doubted.exit_code, 0) << doubted.err;
+  EXPECT_EQ(doubted.json()["frames_by_status"]["unconfirmed"], 3);
+  EXPECT_THAT(std::string(doubted.json()["warnings"].back()),
+              HasSubstr("3 of 4 frames were not fused (1 started, 3 unconfirmed)"));
+  EXPECT_EQ(reconstruct({"--out", at("run"), "--scope", "still", "--force"}).exit_code, 2);
 }
 
 TEST_F(Reconstruct, ResumesToTheSameBytes) {
