@@ -48,7 +48,7 @@ void flatten(const toml::table& table, const std::string& head, const std::strin
 
 /// The value as TOML reads it, or a text where it wouldn't.
 Setting valueOf(const std::string& key, const std::string& value) {
-  requireShallowToml(value, "--set " + key);
+  requireShallowToml(value, "--set " + printable(key));
   try {
     const toml::table table = toml::parse("x = " + value);
     if (table.size() == 1) {
