@@ -14,4 +14,16 @@ GrayImage toGray(const ColourImage& colour) {
   return gray;
 }
 
+GrayImage halve(const GrayImage& image) {
+  GrayImage half(image.width_px / 2, image.height_px / 2);
+  parallelRows(half.height_px, [&](int v) {
+    const std::uint8_t *a = image.row(2 * v), *b = image.row(2 * v + 1);
+    std::uint8_t* out = half.row(v);
+    for (int u = 0; u < half.width_px; ++u)
+      out[u] =
+          static_cast<std::uint8_t>((a[2 * u] + a[2 * u + 1] + b[2 * u] + b[2 * u + 1] + 2) / 4);
+  });
+  return half;
+}
+
 }  // namespace softscope

@@ -29,6 +29,10 @@ SOFTSCOPE_HD inline std::uint8_t toGray(Rgb8 colour) {
 }
 GrayImage toGray(const ColourImage& colour);
 
+/// Means of 2 x 2 pixels, rounded; an odd last row or column is left out. Pixel (u, v) of the half
+/// lies at (2 u + 0.5, 2 v + 0.5) of the whole.
+GrayImage halve(const GrayImage& image);
+
 /// The two pictures of one moment.
 struct StereoPair {
   ColourImage left;

@@ -7,22 +7,20 @@
 namespace softscope {
 namespace {
 
-template <class Merge>
-Raster<std::uint8_t> halved(const Raster<std::uint8_t>& fine, const Merge& merge) {
-  Raster<std::uint8_t> coarse(fine.width_px / 2, fine.height_px / 2);
+/// A pixel is ignored if one of its four is.
+Mask halveMask(const Mask& fine) {
+  Mask coarse(fine.width_px / 2, fine.height_px / 2);
   parallelRows(coarse.height_px, [&](int v) {
     const std::uint8_t *above = fine.row(2 * v), *below = fine.row(2 * v + 1);
     for (int u = 0; u < coarse.width_px; ++u)
-      coarse.at(u, v) = static_cast<std::uint8_t>(
-          merge(above[2 * u], above[2 * u + 1], below[2 * u], below[2 * u + 1]));
+      coarse.at(u, v) =
+          (above[2 * u] | above[2 * u + 1] | below[2 * u] | below[2 * u + 1]) != 0 ? 1 : 0;
   });
   return coarse;
 }
 
 MatchPicture halved(const MatchPicture& fine) {
-  const auto mean = [](int a, int b, int c, int d) { return (a + b + c + d + 2) / 4; };
-  const auto any = [](int a, int b, int c, int d) { return (a | b | c | d) != 0; };
-  return {halved(fine.gray, mean), halved(fine.ignore, any), halved(fine.anchor, mean)};
+  return {halve(fine.gray), halveMask(fine.ignore), halve(fine.anchor)};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "features/descriptor_matching.h"
 #include "features/kernels.h"
 #include "features/mask_morphology.h"
@@ -60,9 +61,7 @@ std::vector<PixelMatch> keepSure(std::vector<PixelMatch> matches, double max_sig
   if (matches.empty()) return matches;
   std::vector<float> sigmas;
   for (const PixelMatch& match : matches) sigmas.push_back(match.sigma_px);
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  const float limit_px = std::max(static_cast<float>(max_sigma_px), *middle);
+  const float limit_px = std::max(static_cast<float>(max_sigma_px), medianOf(std::move(sigmas)));
   matches.erase(std::remove_if(matches.begin(), matches.end(),
                                [&](const PixelMatch& match) { return match.sigma_px > limit_px; }),
                 matches.end());

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "fusion/drawn_points.h"
 #include "fusion/sight.h"
 #include "fusion/visibility.h"
 
@@ -31,24 +30,30 @@ BackProjectionError summarise(std::vector<float> differences_mm) {
 
 }  // namespace
 
-BackProjectionError backProjectionError(const PointModel& model, const Observation& observation,
+BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observation& observation,
                                         const Raster<PixelState>& states) {
   observation.validate();
   requireStates(states, observation);
-  const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
-  const DrawnPoints drawing(model, camera);
+  const PosedCamera& camera = drawn.camera();
   std::vector<float> differences_mm;
   for (int v = 0; v < states.height_px; ++v)
     for (int u = 0; u < states.width_px; ++u) {
       if (states.at(u, v) != PixelState::kSure) continue;
-      const int index = drawing.pointAt(u, v);
+      const int index = drawn.pointAt(u, v);
       if (index < 0) continue;
-      const Eigen::Vector3f left = camera.toLeft(model.positions_mm[index]);
+      const Eigen::Vector3f left = camera.toLeft(drawn.model().positions_mm[index]);
       const Eigen::Vector3f lifted = camera.ray(u, v) * observation.depth.depth_mm.at(u, v);
       const float measured_mm = measuredDepth(left, lifted, observation.normals.at(u, v));
       if (std::isfinite(measured_mm)) differences_mm.push_back(left.z() - measured_mm);
     }
   return summarise(std::move(differences_mm));
+}
+
+BackProjectionError backProjectionError(const PointModel& model, const Observation& observation,
+                                        const Raster<PixelState>& states) {
+  observation.validate();
+  const DrawnPoints drawn(model, posedCamera(observation.left, observation.world_from_left));
+  return backProjectionError(drawn, observation, states);
 }
 
 }  // namespace softscope

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/point_model.h"
+#include "fusion/drawn_points.h"
 #include "fusion/observation.h"
 
 namespace softscope {
@@ -16,9 +17,12 @@ struct BackProjectionError {
   int compared_px = 0;
 };
 
-/// Draws the model's nearest points and subtracts the measured depth, over the pixels that are
-/// sure and show a point: docs/fusion.md (F19). No difference is too large to count.
+/// Of the model drawn from the observation's pose: subtracts the measured depth, over the pixels
+/// that are sure and show a point: docs/fusion.md (F19). No difference is too large to count.
 /// Throws OptionError where the arguments don't fit together.
+BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observation& observation,
+                                        const Raster<PixelState>& states);
+/// Draws the model first.
 BackProjectionError backProjectionError(const PointModel& model, const Observation& observation,
                                         const Raster<PixelState>& states);
 

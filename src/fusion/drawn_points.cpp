@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kCellPx = 4;    // squares in which nearer points hide others …
 constexpr float kHideMm = 1;  // … this far behind
-constexpr std::uint64_t kNobody = ~std::uint64_t{0};
+constexpr std::uint64_t kNoPoint = ~std::uint64_t{0};
 
 /// Depth above, index below: the smallest is the nearest point, the first of equals.
 std::uint64_t entry(float depth_mm, int index) {
@@ -25,7 +25,7 @@ DrawnPoints::DrawnPoints(const PointModel& model, const PosedCamera& camera)
       camera_(camera),
       surface_(camera.width_px, camera.height_px, kCellPx),
       nearest_(static_cast<std::size_t>(camera.width_px) * camera.height_px) {
-  for (auto& pixel : nearest_) pixel.store(kNobody, std::memory_order_relaxed);
+  for (auto& pixel : nearest_) pixel.store(kNoPoint, std::memory_order_relaxed);
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) draw(i);
   });
@@ -34,7 +34,7 @@ DrawnPoints::DrawnPoints(const PointModel& model, const PosedCamera& camera)
 int DrawnPoints::pointAt(int u, int v) const {
   const std::uint64_t held =
       nearest_[static_cast<std::size_t>(v) * camera_.width_px + u].load(std::memory_order_relaxed);
-  if (held == kNobody) return -1;
+  if (held == kNoPoint) return -1;
   const int index = static_cast<int>(held & 0xFFFFFFFFu);
   const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[index]);
   const float cosine = -(camera_.left_from_world * model_.normals[index]).dot(left) / left.norm();

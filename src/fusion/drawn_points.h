@@ -12,10 +12,13 @@
 namespace softscope {
 
 /// A depth buffer of points, one pixel each; what lies behind the model's own nearest surface is
-/// hidden. Same input, same result on any number of threads. Model and camera must outlive it.
+/// hidden. Same input, same result on any number of threads. The model must outlive it.
 class DrawnPoints {
  public:
   DrawnPoints(const PointModel& model, const PosedCamera& camera);
+
+  const PointModel& model() const { return model_; }
+  const PosedCamera& camera() const { return camera_; }
 
   /// The point that pixel (u, v) shows; below 0 where there is none.
   int pointAt(int u, int v) const;
@@ -24,7 +27,7 @@ class DrawnPoints {
   void draw(int i);
 
   const PointModel& model_;
-  const PosedCamera& camera_;
+  PosedCamera camera_;
   NearestSurface surface_;
   std::vector<std::atomic<std::uint64_t>> nearest_;
 };

@@ -2,11 +2,10 @@
 
 namespace softscope {
 
-ModelUpdateSummary updateModel(const Observation& observation, const WarpGraph& graph,
-                               const FusionOptions& options, InsertionMemory* memory,
-                               PointModel* model) {
+ModelUpdateSummary updateModel(const Observation& observation, const Raster<PixelState>& states,
+                               const WarpGraph& graph, const FusionOptions& options,
+                               InsertionMemory* memory, PointModel* model) {
   options.validate();
-  const Raster<PixelState> states = judgePixels(observation, options.pixels);
   const Visibility visibility = findVisible(*model, observation, states, options.visibility);
   ModelUpdateSummary summary;
   for (const PointSight& point : visibility.points) summary.seen += point.sight == Sight::kSeen;

@@ -18,12 +18,13 @@ struct ModelUpdateSummary {
   IndexMap index_map;  // from the model with new points at its end to the model as it is now
 };
 
-/// Brings the warped model (world frame) up to the observation. `graph` has live positions. What
+/// Brings the warped model (world frame) up to the observation; `states` are its pixels', judged by
+/// `options.pixels`. `graph` has live positions. What
 /// must outlast a frame is in `memory`; a run that is resumed needs it back.
 /// Throws OptionError for bad options and for arguments that don't fit together; the model and the
 /// memory are then as they were.
-ModelUpdateSummary updateModel(const Observation& observation, const WarpGraph& graph,
-                               const FusionOptions& options, InsertionMemory* memory,
-                               PointModel* model);
+ModelUpdateSummary updateModel(const Observation& observation, const Raster<PixelState>& states,
+                               const WarpGraph& graph, const FusionOptions& options,
+                               InsertionMemory* memory, PointModel* model);
 
 }  // namespace softscope

@@ -5,16 +5,15 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "fusion/drawn_points.h"
 #include "fusion/visibility.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kPlaces = 9;            // where a block is compared: in place, and moved
-constexpr int kShiftShare = 80;       // moved by this part of the image's width: 8 px of 640
-constexpr int kBlockShare = 20;       // blocks are this part of the width: 32 px of 640
-constexpr int kFewestPoints = 40;     // of a block
+constexpr int kPlaces = 9, kInPlace = 4;  // a block is compared in 3 x 3 places, row by row
+constexpr int kShiftShare = 80;           // moved by this part of the image's width: 8 px of 640
+constexpr int kBlockShare = 20;           // blocks are this part of the width: 32 px of 640
+constexpr int kFewestPoints = 40;         // of a block
 constexpr double kLeastVariance = 4;  // of a block's brightness: twice the noise of a good camera
 constexpr double kSigmas = 3;
 
@@ -39,9 +38,9 @@ struct Block {
     return variance > 0 ? covariance / std::sqrt(variance) : 0;  // the model's part is the same
   }
   bool bestInPlace() const {
-    const double here = correlationAt(0);
-    for (int place = 1; place < kPlaces; ++place)
-      if (!(here > correlationAt(place))) return false;
+    const double here = correlationAt(kInPlace);
+    for (int place = 0; place < kPlaces; ++place)
+      if (place != kInPlace && !(here > correlationAt(place))) return false;
     return here > 0;
   }
 };
@@ -53,13 +52,12 @@ struct Votes {
 
 class Comparison {
  public:
-  Comparison(const PointModel& model, const Observation& observation,
+  Comparison(const DrawnPoints& drawn, const Observation& observation,
              const Raster<PixelState>& states, const PixelOptions& options)
-      : model_(model),
+      : drawn_(drawn),
+        model_(drawn.model()),
         observation_(observation),
         states_(states),
-        camera_(posedCamera(observation.left, observation.world_from_left)),
-        drawn_(model, camera_),
         depth_step_(static_cast<float>(options.edge_step)),
         block_px_(std::max(16, states.width_px / kBlockShare)),
         shift_px_(std::max(3, states.width_px / kShiftShare)) {}
@@ -98,7 +96,8 @@ class Comparison {
     if (!observation_.depth.sigma_mm.empty())
       tolerance_mm = std::max(tolerance_mm,
                               static_cast<float>(kSigmas) * observation_.depth.sigma_mm.at(u, v));
-    const float model_mm = camera_.toLeft(model_.positions_mm[static_cast<std::size_t>(point)]).z();
+    const float model_mm =
+        drawn_.camera().toLeft(model_.positions_mm[static_cast<std::size_t>(point)]).z();
     return std::abs(model_mm - measured_mm) <= tolerance_mm;
   }
 
@@ -112,9 +111,8 @@ class Comparison {
     block->model += model;
     block->model_sq += model * model;
     for (int place = 0; place < kPlaces; ++place) {
-      const int step = place == 0 ? 4 : place <= 4 ? place - 1 : place;  // 4 is the middle of 3 x 3
       const double seen =
-          toGray(image.at(u + shift_px_ * (step % 3 - 1), v + shift_px_ * (step / 3 - 1)));
+          toGray(image.at(u + shift_px_ * (place % 3 - 1), v + shift_px_ * (place / 3 - 1)));
       Correlation& sums = block->places[static_cast<std::size_t>(place)];
       sums.image += seen;
       sums.image_sq += seen * seen;
@@ -122,11 +120,10 @@ class Comparison {
     }
   }
 
+  const DrawnPoints& drawn_;
   const PointModel& model_;
   const Observation& observation_;
   const Raster<PixelState>& states_;
-  const PosedCamera camera_;
-  const DrawnPoints drawn_;
   const float depth_step_;
   const int block_px_, shift_px_;
 };
@@ -139,12 +136,12 @@ double ViewEvidence::confidence() const {
   return std::min(depth_share, std::max(0.0, (image_share - kChance) / (1 - kChance)));
 }
 
-ViewEvidence viewEvidence(const PointModel& model, const Observation& observation,
+ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observation,
                           const Raster<PixelState>& states, const PixelOptions& options) {
   options.validate();
   observation.validate();
   requireStates(states, observation);
-  const Comparison comparison(model, observation, states, options);
+  const Comparison comparison(drawn, observation, states, options);
   std::vector<Votes> rows(static_cast<std::size_t>(comparison.rows()));
   parallelRanges(comparison.rows(), 1, [&](int begin, int end) {
     for (int row = begin; row < end; ++row)

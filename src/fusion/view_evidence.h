@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "core/point_model.h"
+#include "fusion/drawn_points.h"
 #include "fusion/observation.h"
 
 namespace softscope {
@@ -20,11 +20,11 @@ struct ViewEvidence {
   double confidence() const;
 };
 
-/// Draws the model into the frame and compares, over the pixels that are sure: its depth, to
-/// `options.edge_step` of the depth or three standard errors, whichever is more; and the brightness
-/// of its points with the image, block by block, in place and moved by some pixels in eight
-/// directions. Throws OptionError where the arguments don't fit together.
-ViewEvidence viewEvidence(const PointModel& model, const Observation& observation,
+/// Of the model drawn from the observation's pose: compares, over the pixels that are sure: its
+/// depth, to `options.edge_step` of the depth or three standard errors, whichever is more; and the
+/// brightness of its points with the image, block by block, in place and moved by some pixels in
+/// eight directions. Throws OptionError where the arguments don't fit together.
+ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observation,
                           const Raster<PixelState>& states, const PixelOptions& options);
 
 }  // namespace softscope

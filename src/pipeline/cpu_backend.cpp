@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "deform/graph_builder.h"
 #include "deform/surface_target.h"
 #include "deform/warp.h"
@@ -31,13 +32,6 @@ MatcherOptions wholePicture(const MatcherOptions& near) {
   options.method = "sift";
   options.reach = 1;
   return options;
-}
-
-double medianOf(std::vector<float> values) {
-  if (values.empty()) return kUnknown;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 class CpuBackend : public ReconstructionBackend {
@@ -104,6 +98,7 @@ class CpuBackend : public ReconstructionBackend {
   FusionOptions fusion_;
   RansacOptions pose_options_;
   Mask not_tissue_;
+  Raster<PixelState> states_;
   MatchPicture live_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
@@ -133,6 +128,8 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   const double mm_per_px = depth_mm * depth_mm / (left().fx_px * depth_.rig().baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   scaleTo(summary);
+  // How sure a pixel is does not depend on where the camera stands.
+  states_ = judgePixels(observe(Eigen::Isometry3d::Identity()), fusion_.pixels);
   if (measured_.rows.known()) summary.row_difference_px = measured_.rows.mean_row_difference_px;
   clock_.lap("mask");
   return summary;
@@ -253,10 +250,8 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   growGraph(options_.graph, &state_.model, &state_.graph);
   state_.tracked.anchor(state_.model);
   clock_.lap("graph");
-  const Observation observation = observe(world_from_left);
-  const Raster<PixelState> states = judgePixels(observation, fusion_.pixels);
   const std::vector<std::int32_t> visible =
-      findVisible(state_.model, observation, states, fusion_.visibility).seen();
+      findVisible(state_.model, observe(world_from_left), states_, fusion_.visibility).seen();
   const DepthTarget surface(measured_.depth, measured_.normals, left(), world_from_left.inverse(),
                             association_);
   clock_.lap("visible");
@@ -280,9 +275,9 @@ void CpuBackend::acceptWarp(bool is_reference) {
 
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
-  const Raster<PixelState> states = judgePixels(observation, fusion_.pixels);
-  const EvidenceSummary evidence{backProjectionError(state_.model, observation, states),
-                                 viewEvidence(state_.model, observation, states, fusion_.pixels)};
+  const DrawnPoints drawn(state_.model, posedCamera(left(), world_from_left));
+  const EvidenceSummary evidence{backProjectionError(drawn, observation, states_),
+                                 viewEvidence(drawn, observation, states_, fusion_.pixels)};
   clock_.lap("check");
   return evidence;
 }
@@ -300,18 +295,17 @@ void CpuBackend::rejectWarp() {
 
 FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
-  const Raster<PixelState> states = judgePixels(observation, fusion_.pixels);
   if (empty()) seedTracks(world_from_left);
   before_ = {};
   FusionSummary summary;
   const ModelUpdateSummary update =
-      updateModel(observation, state_.graph, fusion_, &state_.memory, &state_.model);
+      updateModel(observation, states_, state_.graph, fusion_, &state_.memory, &state_.model);
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {measured_.left, world_from_left};
   state_.tracked.renumber(update.index_map, state_.model);
   state_.tracked.settle(state_.model);
   clock_.lap("fuse");
-  summary.corrected = backProjectionError(state_.model, observation, states);
+  summary.corrected = backProjectionError(state_.model, observation, states_);
   summary.points = static_cast<int>(state_.model.size());
   summary.seen = update.seen;
   summary.fused = update.points.fused;

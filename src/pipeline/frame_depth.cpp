@@ -18,15 +18,6 @@ void drop(Raster<float>& raster, const Mask& mask) {
     if (mask.values[i] != 0) raster.values[i] = kNan;
 }
 
-/// What a roll of the right camera adds to the disparities of row v: AlignedPair::roll_rad.
-void removeRoll(double roll_rad, Raster<float>* disparity_px) {
-  const double centre_v_px = (disparity_px->height_px - 1) / 2.0;
-  for (int v = 0; v < disparity_px->height_px; ++v) {
-    const float excess_px = static_cast<float>(roll_rad * (v - centre_v_px));
-    for (int u = 0; u < disparity_px->width_px; ++u) disparity_px->at(u, v) -= excess_px;
-  }
-}
-
 void dropMasked(MeasuredFrame& measured) {
   drop(measured.disparity.disparity_px, measured.mask);
   drop(measured.disparity.sigma_px, measured.mask);

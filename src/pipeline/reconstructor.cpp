@@ -22,6 +22,9 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
+/// Later motions of the scope are measured against a frame in which it moved.
+bool isReference(const FrameRecord& record) { return !record.pose.scope_static; }
+
 double degreesBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() * 180 / M_PI;
 }
@@ -68,11 +71,13 @@ void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
   const bool was_lost = lost_;
   const Eigen::Isometry3d before = world_from_left_;
   if (!locate(record) && !findAgain(record)) return;
-  if (!deform(record)) {
+  if (!deform(record) || !confirm(record)) {
+    backend_->rejectWarp();
     world_from_left_ = before;
     lost_ = was_lost;
     return;
   }
+  if (isReference(record)) reference_pose_ = world_from_left_;
   fuse(was_lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
 }
 
@@ -131,26 +136,24 @@ bool Reconstructor::deform(FrameRecord& record) {
   const double max_residual_mm = record.depth.limit_scale * gate_.max_residual_mm;
   if (solver.reason != StopReason::kNotFinite && explained >= gate_.min_explained &&
       solver.data_mean_mm_after <= max_residual_mm) {
-    const bool is_reference = !record.pose.scope_static;
-    backend_->acceptWarp(is_reference);
-    record.evidence = backend_->confirm(world_from_left_);
-    if (record.evidence.view.confidence() >= gate_.min_confidence) {
-      if (is_reference) reference_pose_ = world_from_left_;
-      return true;
-    }
-    backend_->rejectWarp();
-    return reject(
-        record, FrameStatus::kUnconfirmed,
-        text("from the pose that was found, the model's depth agrees with the frame on ",
-             100 * record.evidence.view.depth_share, " % of the pixels and its image in ",
-             100 * record.evidence.view.image_share, " % of the blocks (11 % by chance)"));
+    backend_->acceptWarp(isReference(record));
+    return true;
   }
-  backend_->rejectWarp();
   return reject(record, FrameStatus::kSkippedResidual,
                 text("the warp (", toString(solver.reason), ") explains ", 100 * explained,
                      " % of the points in sight, to ", solver.data_mean_mm_after,
                      " mm on average; needed are ", 100 * gate_.min_explained, " % and ",
                      max_residual_mm, " mm"));
+}
+
+bool Reconstructor::confirm(FrameRecord& record) {
+  record.evidence = backend_->confirm(world_from_left_);
+  const ViewEvidence& view = record.evidence.view;
+  if (view.confidence() >= gate_.min_confidence) return true;
+  return reject(record, FrameStatus::kUnconfirmed,
+                text("from the pose that was found, the model's depth agrees with the frame on ",
+                     100 * view.depth_share, " % of the pixels and its image in ",
+                     100 * view.image_share, " % of the blocks (11 % by chance)"));
 }
 
 void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {

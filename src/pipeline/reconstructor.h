@@ -45,6 +45,7 @@ class Reconstructor {
   bool locate(FrameRecord& record);
   bool findAgain(FrameRecord& record);
   bool deform(FrameRecord& record);
+  bool confirm(FrameRecord& record);
   void fuse(FrameStatus status, FrameRecord& record);
   void rememberView();
 

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/error.h"
+#include "core/median.h"
 
 namespace softscope {
 namespace {
@@ -63,13 +65,6 @@ Residual residualOf(const PosePair& pair, Place place, const RectifiedRig& rig,
   return out;
 }
 
-double medianOf(std::vector<double> values) {
-  if (values.empty()) return kNan;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6d& twist) {
   const Eigen::Vector3d turn = twist.head<3>();
   Eigen::Isometry3d by = Eigen::Isometry3d::Identity();
@@ -110,8 +105,22 @@ class Pairs {
   /// Whether `best` is another pose than `old`: most of the pairs see the difference, `best` leaves
   /// little of their residuals, and explains them significantly better: docs/energy.md (29).
   bool differs(const Eigen::Isometry3d& best, const Eigen::Isometry3d& old) const {
-    return medianShift(best, old) > kSeenSigmas &&
-           medianResidual(best) < kLeftShare * medianResidual(old) && prefers(best, old);
+    std::vector<double> shifts, lengths, old_lengths;
+    std::array<double, kRegions> gains{};
+    std::array<int, kRegions> counts{};
+    for (const PosePair& pair : pairs_) {
+      const Residual here = residualAt(pair, best), there = residualAt(pair, old);
+      if (!here.usable || !there.usable) continue;
+      shifts.push_back((here.value - there.value).norm());
+      lengths.push_back(here.value.norm());
+      old_lengths.push_back(there.value.norm());
+      const std::size_t region = regionOf(pair.live_px);
+      gains[region] += costOf(there) - costOf(here);
+      ++counts[region];
+    }
+    return medianOf(std::move(shifts)) > kSeenSigmas &&
+           medianOf(std::move(lengths)) < kLeftShare * medianOf(std::move(old_lengths)) &&
+           isGain(gains, counts);
   }
 
   /// Covariance of the pose as a twist in the left camera's frame, clustered by regions: (31).
@@ -147,43 +156,13 @@ class Pairs {
   }
 
  private:
-  double medianResidual(const Eigen::Isometry3d& left_from_world) const {
-    std::vector<double> lengths;
-    for (const Residual& residual : residualsAt(left_from_world))
-      lengths.push_back(residual.value.norm());
-    return medianOf(std::move(lengths));
-  }
-
-  /// How far apart two poses put a pair, in its standard errors: the median.
-  double medianShift(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) const {
-    std::vector<double> shifts;
-    shifts.reserve(pairs_.size());
-    for (const PosePair& pair : pairs_) {
-      const Residual here = residualAt(pair, one), there = residualAt(pair, other);
-      if (here.usable && there.usable) shifts.push_back((here.value - there.value).norm());
-    }
-    return medianOf(std::move(shifts));
-  }
-
-  /// Student's test of the mean gain of `best` over `old`; regions are the samples.
-  bool prefers(const Eigen::Isometry3d& best, const Eigen::Isometry3d& old) const {
-    std::array<double, kRegions> gains{};
-    std::array<int, kRegions> counts{};
-    double total = 0;
-    int count = 0;
-    for (const PosePair& pair : pairs_) {
-      const Residual here = residualAt(pair, best), there = residualAt(pair, old);
-      if (!here.usable || !there.usable) continue;
-      const double gain = costOf(there) - costOf(here);
-      const std::size_t region = regionOf(pair.live_px);
-      gains[region] += gain;
-      ++counts[region];
-      total += gain;
-      ++count;
-    }
+  /// Student's test that the mean gain is above 0; regions are the samples.
+  bool isGain(const std::array<double, kRegions>& gains,
+              const std::array<int, kRegions>& counts) const {
     const int regions = usedOf(counts);
     if (regions < kFewestRegions) return false;
-    const double mean = total / count;
+    const int count = std::accumulate(counts.begin(), counts.end(), 0);
+    const double mean = std::accumulate(gains.begin(), gains.end(), 0.0) / count;
     double spread = 0;
     for (std::size_t k = 0; k < gains.size(); ++k)
       spread += std::pow(gains[k] - mean * counts[k], 2);

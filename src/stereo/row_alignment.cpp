@@ -39,4 +39,12 @@ AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px) {
   return aligned;
 }
 
+void removeRoll(double roll_rad, Raster<float>* disparity_px) {
+  const double centre_v_px = (disparity_px->height_px - 1) / 2.0;
+  for (int v = 0; v < disparity_px->height_px; ++v) {
+    const float excess_px = static_cast<float>(roll_rad * (v - centre_v_px));
+    for (int u = 0; u < disparity_px->width_px; ++u) disparity_px->at(u, v) -= excess_px;
+  }
+}
+
 }  // namespace softscope

@@ -45,13 +45,16 @@ struct AlignedPair {
   StereoPair pair;
   RowAlignment before;   // as found
   bool removed = false;  // whether the right picture was moved
-  /// Of the right camera about its optical axis, as the rows' tilt shows. Moving rows leaves its
-  /// other half: disparities are too large by roll_rad * (v - centre_v), px.
+  /// Of the right camera about its optical axis, as the rows' tilt shows: see removeRoll().
   double roll_rad = 0;
 };
 
 /// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right picture;
 /// measures once more, since matches are better then, and moves the right picture by both at once.
 AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px);
+
+/// Moving rows removes half of a roll; the other half makes disparities too large by
+/// roll_rad * (v - centre_v), px, which this subtracts.
+void removeRoll(double roll_rad, Raster<float>* disparity_px);
 
 }  // namespace softscope

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/median.h"
+
 namespace softscope {
 namespace {
 
@@ -68,9 +70,7 @@ std::vector<double> residualsOf(const std::vector<RowMatch>& matches,
 
 double medianAbsolute(std::vector<double> values) {
   for (double& x : values) x = std::abs(x);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return medianOf(std::move(values));
 }
 
 std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlignment& alignment) {

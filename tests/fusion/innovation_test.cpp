@@ -91,7 +91,7 @@ PointModel updated(PointModel model, bool follow) {
   options.points.follow_innovation = follow;
   options.density.cell_mm = 0.02;
   InsertionMemory memory;
-  updateModel(noisyPlane(1).observation(), twoNodes(), options, &memory, &model);
+  update(noisyPlane(1), twoNodes(), options, &memory, &model);
   return model;
 }
 

@@ -106,10 +106,19 @@ inline void addWrongPatches(double share, int side_px, unsigned seed, Shot* shot
   }
 }
 
-/// One update, on a graph without nodes.
+/// One update.
+inline ModelUpdateSummary update(const Shot& shot, const WarpGraph& graph,
+                                 const FusionOptions& options, InsertionMemory* memory,
+                                 PointModel* model) {
+  const Observation observation = shot.observation();
+  return updateModel(observation, judgePixels(observation, options.pixels), graph, options, memory,
+                     model);
+}
+
+/// On a graph without nodes.
 inline ModelUpdateSummary update(const Shot& shot, const FusionOptions& options,
                                  InsertionMemory* memory, PointModel* model) {
-  return updateModel(shot.observation(), WarpGraph{}, options, memory, model);
+  return update(shot, WarpGraph{}, options, memory, model);
 }
 
 /// How far each point lies behind the surface, mm along the camera's axis, as this shot's camera

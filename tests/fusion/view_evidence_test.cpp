@@ -43,7 +43,8 @@ ViewEvidence evidenceAt(const PointModel& model, test::Shot shot,
                         const Eigen::Isometry3d& claimed) {
   shot.world_from_left = claimed;
   const Observation observation = shot.observation();
-  return viewEvidence(model, observation, judgePixels(observation, {}), {});
+  const DrawnPoints drawn(model, posedCamera(shot.left, claimed));
+  return viewEvidence(drawn, observation, judgePixels(observation, {}), {});
 }
 
 TEST(ViewEvidence, ConfirmsTheRightPose) {
@@ -107,8 +108,9 @@ TEST(ViewEvidence, IsTheSameOnOneThread) {
 
 TEST(ViewEvidence, NeedsThePixelStatesOfItsObservation) {
   const test::Shot shot = texturedShot(test::shifted(0, 0, 0));
-  EXPECT_THROW(viewEvidence(PointModel(), shot.observation(), Raster<PixelState>(3, 3), {}),
-               OptionError);
+  const PointModel nothing;
+  const DrawnPoints drawn(nothing, posedCamera(shot.left, shot.world_from_left));
+  EXPECT_THROW(viewEvidence(drawn, shot.observation(), Raster<PixelState>(3, 3), {}), OptionError);
 }
 
 }  // namespace

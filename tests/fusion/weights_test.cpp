@@ -86,7 +86,7 @@ float depthAfterOneUpdate(NodeTrust trust, float away_mm) {
   options.points.warp_sigma_mm = 0.1;
   options.points.follow_innovation = false;  // a second reason to follow
   InsertionMemory memory;
-  updateModel(shot.observation(), graph, options, &memory, &model);
+  update(shot, graph, options, &memory, &model);
   return model.positions_mm[0].z();
 }
 
