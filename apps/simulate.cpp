@@ -27,7 +27,8 @@ const char* const kDetails =
     "the left camera at the first frame, mm), and simulation.json with every setting.\n"
     "The same settings and seed give the same bytes on any number of threads.\n"
     "Keys of a scenario: frames, seed, truth_every, pictures, organ.*, texture.*, breathing.*,\n"
-    "heartbeat.*, push.*, cut.*, scope.*, camera.*, instrument.*, smoke, light.*, sensor.*;\n"
+    "heartbeat.*, push.*, cut.*, scope.*, camera.*, instrument.*, smoke, event.*,\n"
+    "light.*, sensor.*;\n"
     "data/scenario.toml has them all.\n"
     "--frames, --size, --seed, --organ and --texture are stronger than --set, --set than "
     "--scenario.";

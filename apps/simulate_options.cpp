@@ -111,6 +111,14 @@ void bindLightAndSensor(SettingsBinder& binder, LightOptions& light, SensorOptio
   binder.bind("sensor.shot_noise", sensor.shot_noise, "and what light adds to it at white");
 }
 
+void bindEvent(SettingsBinder& binder, ScopeEventOptions& event) {
+  binder.bind("event.kind", event.kind, "none, withdraw, cover, wipe, smoke");
+  binder.bind("event.start_s", event.start_s, "");
+  binder.bind("event.length_s", event.length_s, "");
+  binder.bind("event.return_mm", event.return_mm, "withdraw: the scope returns this far aside");
+  binder.bind("event.return_deg", event.return_deg, "withdraw: and turned about its axis");
+}
+
 }  // namespace
 
 void SimulateOptions::validate() const {
@@ -147,6 +155,7 @@ void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options) {
   bindCamera(binder, simulation.camera);
   bindInstrument(binder, simulation.instrument);
   binder.bind("smoke", simulation.smoke, "0: clear air, 1: half of the contrast");
+  bindEvent(binder, simulation.event);
   bindLightAndSensor(binder, simulation.light, simulation.sensor);
 }
 

@@ -74,6 +74,7 @@ void SimulationOptions::validate() const {
   light.validate();
   instrument.validate();
   require(smoke >= 0 && smoke <= 3, "smoke", smoke, "must be 0 to 3");
+  event.validate();
   sensor.validate();
 }
 

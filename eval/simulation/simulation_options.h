@@ -5,6 +5,7 @@
 #include "eval/simulation/camera_path.h"
 #include "eval/simulation/incision.h"
 #include "eval/simulation/organ_mesh.h"
+#include "eval/simulation/scope_event.h"
 #include "eval/simulation/scope_lens.h"
 #include "eval/simulation/scope_shading.h"
 #include "eval/simulation/scope_tool.h"
@@ -52,6 +53,7 @@ struct SimulationOptions {
   LightOptions light;
   ScopeToolOptions instrument;
   double smoke = 0;  // 0: clear air, 1: half of the contrast
+  ScopeEventOptions event;
   SensorOptions sensor;
 
   /// Throws OptionError.

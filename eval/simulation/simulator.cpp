@@ -130,7 +130,8 @@ std::vector<Eigen::Vector3f> Simulator::worldVertices(double time_s) {
 
 TimedPose Simulator::poseAt(double time_s) const {
   if (time_s == 0) return {0, Eigen::Isometry3d::Identity()};
-  return {time_s, world_from_body_ * path_.bodyFromLeft(time_s)};
+  return {time_s, world_from_body_ * path_.bodyFromLeft(time_s) *
+                      options_.event.motionAt(time_s, options_.camera.distance_mm)};
 }
 
 ScopeScene Simulator::sceneAt(const std::vector<Eigen::Vector3f>& vertices_world_mm,
@@ -154,8 +155,11 @@ Simulator::LightPair Simulator::lightOf(const ScopeScene& scene, double time_s) 
   LightPair pair{renderView(scene, skin_, around, {lens_}),
                  renderView(scene, skin_, around, right)};
   const double cloud_mm = kSmokeShare * options_.camera.distance_mm;
-  addSmoke(pair.left, options_.smoke, time_s, 0);
-  addSmoke(pair.right, options_.smoke, time_s, rig_.left.fx_px * rig_.baseline_mm / cloud_mm);
+  const double smoke = options_.smoke + options_.event.smokeAt(time_s);
+  addSmoke(pair.left, smoke, time_s, 0);
+  addSmoke(pair.right, smoke, time_s, rig_.left.fx_px * rig_.baseline_mm / cloud_mm);
+  addEvent(pair.left, options_.event, time_s, 0);
+  addEvent(pair.right, options_.event, time_s, 1);
   return pair;
 }
 

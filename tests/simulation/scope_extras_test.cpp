@@ -1,4 +1,5 @@
-// tests/simulation/scope_extras_test.cpp: instrument, shutter, smoke, blood, misalignment, flow.
+// tests/simulation/scope_extras_test.cpp: instrument, shutter, smoke, blood, events, misalignment,
+// flow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -183,6 +184,44 @@ TEST(Jerk, GoesQuicklyAndRests) {
   EXPECT_LT((at(1.001) - at(0.999)).norm(), 0.01) << "no jump";
 }
 
+double brightness(const ColourImage& a) { return meanOf(a, &Rgb8::green); }
+
+// 25 frames a second: frame 12 is before the event, 37 in its middle, 70 after it.
+TEST(ScopeEvent, TakesTheTissueOutOfSightAndGivesItBack) {
+  SimulationOptions options = small();
+  const ColourImage before = frameOf(options, 12).pictures.left;
+  const ColourImage middle = frameOf(options, 37).pictures.left;
+  const ColourImage after = frameOf(options, 70).pictures.left;
+  for (const char* kind : {"withdraw", "cover", "wipe", "smoke"}) {
+    options.event = {kind, 0.8, 1.4};
+    EXPECT_EQ(frameOf(options, 12).pictures.left.values, before.values) << kind;
+    EXPECT_LT(sharpness(frameOf(options, 37).pictures.left), 0.15 * sharpness(middle)) << kind;
+    EXPECT_EQ(frameOf(options, 70).pictures.left.values, after.values) << kind;
+  }
+  options.event.kind = "withdraw";
+  EXPECT_LT(brightness(frameOf(options, 37).pictures.left), 5);
+  options.event.kind = "wipe";
+  EXPECT_GT(brightness(frameOf(options, 37).pictures.left), 1.5 * brightness(middle));
+}
+
+TEST(ScopeEvent, ReturnsToAnotherPlace) {
+  SimulationOptions options = small();
+  const Eigen::Isometry3d before = frameOf(options, 70).pose.world_from_left;
+  options.event = {"withdraw", 0.8, 1.4, 6, 20};
+  const Eigen::Isometry3d moved = before.inverse() * frameOf(options, 70).pose.world_from_left;
+  EXPECT_LT((moved.translation() - Eigen::Vector3d(6, 0, 0)).norm(), 1e-9);
+  EXPECT_NEAR(Eigen::AngleAxisd(moved.linear()).angle() * 180 / M_PI, 20, 1e-6);
+}
+
+TEST(ScopeEvent, RisesAndFallsWithoutJumps) {
+  const ScopeEventOptions event{"cover", 1, 2};
+  EXPECT_EQ(event.shareAt(1), 0);
+  EXPECT_EQ(event.shareAt(2), 1);
+  EXPECT_EQ(event.shareAt(3), 0);
+  for (double t = 0.9; t < 3.1; t += 0.001)
+    EXPECT_LT(std::abs(event.shareAt(t + 0.001) - event.shareAt(t)), 0.01);
+}
+
 TEST(Extras, RefuseWhatCannotBe) {
   const auto refuses = [](auto change) {
     SimulationOptions options = small();
@@ -192,6 +231,9 @@ TEST(Extras, RefuseWhatCannotBe) {
   refuses([](SimulationOptions& o) { o.instrument.radius_mm = 0.1; });
   refuses([](SimulationOptions& o) { o.instrument.reach = 2; });
   refuses([](SimulationOptions& o) { o.smoke = -1; });
+  refuses([](SimulationOptions& o) { o.event.kind = "sneeze"; });
+  refuses([](SimulationOptions& o) { o.event.start_s = 0; });
+  refuses([](SimulationOptions& o) { o.event.length_s = -1; });
   refuses([](SimulationOptions& o) { o.sensor.shutter = 1.5; });
   refuses([](SimulationOptions& o) { o.texture.blood = 2; });
   refuses([](SimulationOptions& o) { o.scope.roll_error_deg = 10; });
