@@ -29,7 +29,7 @@ constexpr double kSeenSigmas =
 // bends leaves more of it.
 constexpr double kLeftShare = 1.0 / 3;
 
-// Image regions whose errors are independent.
+// Parts of the pairs' extent in the image, whose errors are independent.
 constexpr int kRegionColumns = 6, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 constexpr int kFewestRegions = 8;  // with pairs; below, neither motion nor error is known
 
@@ -87,12 +87,28 @@ double studentQuantile(double probability, double freedom) {
               (((3 * sq + 19) * sq + 17) * sq - 15) / (384 * freedom * freedom * freedom));
 }
 
+/// What the regions divide: the pairs' extent in the live image, but half of the image at least,
+/// because the errors of near pairs are alike.
+Eigen::AlignedBox2d extentOf(const std::vector<PosePair>& pairs, const PinholeCamera& camera) {
+  Eigen::AlignedBox2d extent;
+  for (const PosePair& pair : pairs)
+    if (pair.live_px.allFinite()) extent.extend(pair.live_px);
+  if (extent.isEmpty()) return extent;
+  const Eigen::Vector2d half(0.25 * camera.width_px, 0.25 * camera.height_px);
+  const Eigen::Vector2d middle = extent.center();
+  return extent.extend(Eigen::AlignedBox2d(middle - half, middle + half));
+}
+
 /// The pairs, seen from any pose.
 class Pairs {
  public:
   Pairs(const std::vector<PosePair>& pairs, Place place, const RectifiedRig& rig,
         const RefinePoseOptions& options)
-      : pairs_(pairs), place_(place), rig_(rig), options_(options) {}
+      : pairs_(pairs),
+        place_(place),
+        rig_(rig),
+        options_(options),
+        extent_px_(extentOf(pairs, rig.left)) {}
 
   /// The best end of the searches that begin at both poses.
   Eigen::Isometry3d search(const Eigen::Isometry3d& left_from_world,
@@ -185,12 +201,12 @@ class Pairs {
   }
 
   std::size_t regionOf(const Eigen::Vector2d& live_px) const {
-    const auto region = [](double px, int size_px, int count) {
-      return std::clamp(static_cast<int>(px * count / size_px), 0, count - 1);
+    const Eigen::Array2d share = (live_px - extent_px_.min()).array() / extent_px_.sizes().array();
+    const auto region = [](double part, int count) {
+      return std::clamp(static_cast<int>(part * count), 0, count - 1);
     };
-    return static_cast<std::size_t>(region(live_px.y(), rig_.left.height_px, kRegionRows) *
-                                        kRegionColumns +
-                                    region(live_px.x(), rig_.left.width_px, kRegionColumns));
+    return static_cast<std::size_t>(region(share.y(), kRegionRows) * kRegionColumns +
+                                    region(share.x(), kRegionColumns));
   }
 
   Residual residualAt(const PosePair& pair, const Eigen::Isometry3d& left_from_world) const {
@@ -247,6 +263,7 @@ class Pairs {
   const Place place_;
   const RectifiedRig& rig_;
   const RefinePoseOptions& options_;
+  const Eigen::AlignedBox2d extent_px_;
 };
 
 }  // namespace

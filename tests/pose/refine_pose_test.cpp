@@ -186,6 +186,19 @@ TEST(RefinePose, FollowsTheUsersWordThatTheScopeIsStatic) {
 }
 
 // Pairs in one corner can't tell a turn from a shift.
+// After a loss only a part of the image shows tissue that the model knows.
+TEST(RefinePose, FindsAMotionThatHalfOfTheImageSees) {
+  const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
+  std::vector<PosePair> pairs;
+  for (const PosePair& pair : seenFrom(truth, nothing, 0.05))
+    if (pair.live_px.x() > 400 && pair.live_px.y() > 200) pairs.push_back(pair);
+  ASSERT_GT(pairs.size(), 50u);
+  const RefinedPose found = refined(pairs, poseOf(0.09, {4, -2, 5}), Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(found.scope_static);
+  EXPECT_TRUE(std::isfinite(found.sigma_mm));
+  expectNear(found.world_from_left, truth, 0.3, 5e-3);
+}
+
 TEST(RefinePose, KnowsNoErrorWherePairsLieTooCloseTogether) {
   std::vector<PosePair> corner;
   for (const PosePair& pair : seenFrom(Eigen::Isometry3d::Identity(), nothing))
