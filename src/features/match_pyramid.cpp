@@ -19,11 +19,11 @@ Mask halveMask(const Mask& fine) {
   return coarse;
 }
 
+}  // namespace
+
 MatchPicture halved(const MatchPicture& fine) {
   return {halve(fine.gray), halveMask(fine.ignore), halve(fine.anchor)};
 }
-
-}  // namespace
 
 std::vector<MatchLevel> matchPyramid(const MatchPicture& model, const MatchPicture& live,
                                      int least_side_px) {

@@ -12,8 +12,11 @@ struct MatchLevel {
   MatchPicture model, live;
 };
 
+/// Half as wide and high. A pixel is ignored if one of its four is.
+MatchPicture halved(const MatchPicture& fine);
+
 /// Level 0 is the full resolution, each further level half of it, down to the last one whose
-/// shorter side is at least `least_side_px`. A coarse pixel is ignored if one of its four is.
+/// shorter side is at least `least_side_px`.
 std::vector<MatchLevel> matchPyramid(const MatchPicture& model, const MatchPicture& live,
                                      int least_side_px);
 

@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 4\n";
+constexpr std::string_view kMagic = "softscope checkpoint 5\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -147,7 +147,7 @@ void visit(Archive& archive, Whole& checkpoint) {
   archive.pose(checkpoint.state.world_from_left);
   archive.pose(checkpoint.state.reference_pose);
   archive.array(checkpoint.state.key_views);
-  archive.value(checkpoint.state.lost);
+  archive.value(checkpoint.state.lost_frames);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "fusion/visibility.h"
 #include "pipeline/frame_depth.h"
 #include "pipeline/model_matches.h"
+#include "pipeline/relocaliser.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
 #include "stereo/stage_clock.h"
@@ -26,21 +27,12 @@ constexpr double kNearMmPerPx = 2.5;
 
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
-/// SIFT finds places again wherever they went; the pose is then refined from near.
-MatcherOptions wholePicture(const MatcherOptions& near) {
-  MatcherOptions options = near;
-  options.method = "sift";
-  options.reach = 1;
-  return options;
-}
-
 class CpuBackend : public ReconstructionBackend {
  public:
   CpuBackend(const StereoCalibration& calibration, const ReconstructionOptions& options)
       : options_(options),
         depth_(calibration, options.depth),
-        near_matcher_(makeFeatureMatcher(options.matcher)),
-        whole_matcher_(makeFeatureMatcher(wholePicture(options.matcher))),
+        matcher_(makeFeatureMatcher(options.matcher)),
         solver_(makeDeformSolver(options.deform)) {
     options.validate();
   }
@@ -54,9 +46,9 @@ class CpuBackend : public ReconstructionBackend {
   const StageTimes& times() const override { return clock_.laps(); }
 
   DepthSummary measure(const Frame& frame) override;
-  MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) override;
-  PoseSummary estimatePose(const Eigen::Isometry3d& last,
-                           const Eigen::Isometry3d& reference) override;
+  LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
+                       const Eigen::Isometry3d& reference) override;
+  RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) override;
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
   void acceptWarp(bool is_reference) override;
   EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) override;
@@ -72,6 +64,8 @@ class CpuBackend : public ReconstructionBackend {
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
   void scaleTo(const DepthSummary& summary);
   MatchPicture pictureOf(const ModelView& view) const;
+  MatchSummary match(const Eigen::Isometry3d& viewed_from);
+  PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference);
   void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
               PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
@@ -79,7 +73,7 @@ class CpuBackend : public ReconstructionBackend {
 
   ReconstructionOptions options_;
   FrameDepth depth_;
-  std::unique_ptr<FeatureMatcher> near_matcher_, whole_matcher_;
+  std::unique_ptr<FeatureMatcher> matcher_;
   std::unique_ptr<DeformSolver> solver_;
 
   ModelState state_;
@@ -160,11 +154,27 @@ MatchPicture CpuBackend::pictureOf(const ModelView& view) const {
   return picture;
 }
 
-MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from, MatchReach reach) {
+LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
+                                 const Eigen::Isometry3d& last,
+                                 const Eigen::Isometry3d& reference) {
+  LocateSummary summary;
+  summary.matches = match(viewed_from);
+  summary.pose = estimatePose(last, reference);
+  return summary;
+}
+
+RigidPose CpuBackend::relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) {
+  RigidPose pose = softscope::relocalise(state_.model, viewpoints, live_, measured_, left(),
+                                         options_.model_view, pose_options_);
+  clock_.lap("match");
+  return pose;
+}
+
+MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
   const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
   clock_.lap("view");
-  FeatureMatcher& matcher = reach == MatchReach::kNear ? *near_matcher_ : *whole_matcher_;
-  ModelMatches found = matchModel(view, pictureOf(view), live_, measured_, options_.lift, matcher);
+  ModelMatches found =
+      matchModel(view, pictureOf(view), live_, measured_, options_.lift, *matcher_);
   matches_ = std::move(found.lifted);
   clock_.lap("match");
   return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};

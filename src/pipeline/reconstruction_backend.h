@@ -17,6 +17,7 @@
 #include "fusion/point_insertion.h"
 #include "fusion/view_evidence.h"
 #include "pipeline/material_points.h"
+#include "pose/ransac_pose.h"
 #include "stereo/stereo_matcher.h"
 
 namespace softscope {
@@ -30,12 +31,6 @@ struct DepthSummary {
   double limit_scale = 1;               // of limits in mm, which hold for near tissue
   double row_difference_px = kUnknown;  // as found after rectification
   double coverage() const { return tissue_px > 0 ? double(measured_px) / tissue_px : 0; }
-};
-
-/// How far matches are sought.
-enum class MatchReach {
-  kNear,   // the model is about where it was
-  kWhole,  // anywhere in the picture
 };
 
 struct MatchSummary {
@@ -53,6 +48,12 @@ struct PoseSummary {
   double moved_mm = kUnknown;   // measured motion since the reference pose
   double sigma_mm = kUnknown;   // predicted standard error of the position …
   double sigma_deg = kUnknown;  // … and of the orientation
+};
+
+/// Stages 2 to 4 of one frame.
+struct LocateSummary {
+  MatchSummary matches;
+  PoseSummary pose;
 };
 
 struct WarpSummary {
@@ -100,12 +101,13 @@ class ReconstructionBackend {
 
   /// Stage 1: rectifies, masks and measures. Throws InputError where the frame doesn't fit.
   virtual DepthSummary measure(const Frame& frame) = 0;
-  /// Stages 2 and 3: draws the model from that pose, finds its pixels in the live picture.
-  virtual MatchSummary match(const Eigen::Isometry3d& viewed_from, MatchReach reach) = 0;
-  /// Stage 4: from the last matches; `last` is the pose of the previous frame, `reference` the last
-  /// one that differed significantly from its predecessor.
-  virtual PoseSummary estimatePose(const Eigen::Isometry3d& last,
-                                   const Eigen::Isometry3d& reference) = 0;
+  /// Stages 2 to 4: draws the model from that pose, finds its pixels in the live image, and the
+  /// pose from them. `last` is the pose of the previous frame, `reference` the last one that
+  /// differed significantly from its predecessor.
+  virtual LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
+                               const Eigen::Isometry3d& reference) = 0;
+  /// A pose near enough for locate(), sought over the whole image from all these viewpoints.
+  virtual RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
   virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
   /// Carries points, nodes and tracked points to the live shape. `is_reference`: the shape is what

@@ -1,5 +1,6 @@
 #include "pipeline/reconstructor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -7,6 +8,8 @@
 
 namespace softscope {
 namespace {
+
+constexpr std::size_t kViewpointsAFrame = 3;  // that a lost frame is compared with
 
 bool reject(FrameRecord& record, FrameStatus status, const std::string& reason) {
   record.status = status;
@@ -48,8 +51,7 @@ FrameRecord Reconstructor::process(const Frame& frame) {
   } catch (const InputError& error) {
     reject(record, FrameStatus::kUnreadable, error.what());
   }
-  record.world_from_left = world_from_left_;
-  record.tracked = backend_->tracked(world_from_left_);
+  finish(record);
   record.times = backend_->times();
   return record;
 }
@@ -58,9 +60,16 @@ FrameRecord Reconstructor::skip(int index, const std::string& reason) {
   FrameRecord record;
   record.frame = index;
   reject(record, FrameStatus::kUnreadable, reason);
+  finish(record);
+  return record;
+}
+
+/// Where nothing was fused, the scope and the tracked points stay where they were last seen.
+void Reconstructor::finish(FrameRecord& record) const {
   record.world_from_left = world_from_left_;
   record.tracked = backend_->tracked(world_from_left_);
-  return record;
+  if (record.fused()) return;
+  for (TrackedPosition& point : record.tracked) point.visible = false;
 }
 
 // Song et al. 2018, section III, in its order: depth, visible model, matches, rigid pose, warp
@@ -68,17 +77,18 @@ FrameRecord Reconstructor::skip(int index, const std::string& reason) {
 void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
   if (!measure(frame, record)) return;
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
-  const bool was_lost = lost_;
+  const int were_lost = lost_frames_;
   const Eigen::Isometry3d before = world_from_left_;
-  if (!locate(record) && !findAgain(record)) return;
+  const bool followed = locate(record);
+  if (!followed && !findAgain(record)) return;
   if (!deform(record) || !confirm(record)) {
     backend_->rejectWarp();
     world_from_left_ = before;
-    lost_ = was_lost;
+    lost_frames_ = were_lost;
     return;
   }
   if (isReference(record)) reference_pose_ = world_from_left_;
-  fuse(was_lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
+  fuse(followed ? FrameStatus::kFused : FrameStatus::kRecovered, record);
 }
 
 bool Reconstructor::measure(const Frame& frame, FrameRecord& record) {
@@ -90,42 +100,46 @@ bool Reconstructor::measure(const Frame& frame, FrameRecord& record) {
 }
 
 bool Reconstructor::locate(FrameRecord& record) {
-  if (lost_) return false;
-  record.matches = backend_->match(world_from_left_, MatchReach::kNear);
+  return lost_frames_ == 0 && locateFrom(world_from_left_, record);
+}
+
+bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record) {
+  const LocateSummary found = backend_->locate(viewpoint, world_from_left_, reference_pose_);
+  record.matches = found.matches;
+  record.pose = found.pose;
   if (!matching_) {
+    record.pose.found = true;
     record.pose.world_from_left = world_from_left_;
-    return true;
   }
-  record.pose = backend_->estimatePose(world_from_left_, reference_pose_);
   if (record.pose.found) world_from_left_ = record.pose.world_from_left;
   return record.pose.found;
 }
 
-// A loss: the model is sought from the last pose and from all key views, over the whole picture.
+// A loss: the model is sought over the whole image, then once more from near, for matches that the
+// warp may trust.
 bool Reconstructor::findAgain(FrameRecord& record) {
-  PoseSummary best;
-  std::vector<Eigen::Isometry3d> views{world_from_left_};
-  views.insert(views.end(), key_views_.rbegin(), key_views_.rend());
-  for (const Eigen::Isometry3d& view : views) {
-    backend_->match(view, MatchReach::kWhole);
-    const PoseSummary pose = backend_->estimatePose(world_from_left_, reference_pose_);
-    if (pose.found && pose.inliers > best.inliers) best = pose;
-  }
-  lost_ = true;
-  if (!best.found)
-    return reject(
-        record, FrameStatus::kLost,
-        text("the model was not found: ",
-             record.pose.failure.empty() ? "no view of it matches" : record.pose.failure));
-  // Once more from near, for matches that the warp may trust.
-  record.matches = backend_->match(best.world_from_left, MatchReach::kNear);
-  record.pose = backend_->estimatePose(world_from_left_, reference_pose_);
-  if (!record.pose.found)
+  ++lost_frames_;
+  const RigidPose rough = backend_->relocalise(viewpointsToTry());
+  if (!rough.found)
+    return reject(record, FrameStatus::kLost,
+                  text("no view of the model matches the image: ", rough.failure));
+  if (!locateFrom(rough.target_from_source, record))
     return reject(record, FrameStatus::kLost,
                   text("found, but not confirmed: ", record.pose.failure));
-  world_from_left_ = record.pose.world_from_left;
-  lost_ = false;
+  lost_frames_ = 0;
   return true;
+}
+
+/// The last pose and the key views, latest first. Each frame that stays lost goes on where the one
+/// before it stopped.
+std::vector<Eigen::Isometry3d> Reconstructor::viewpointsToTry() const {
+  std::vector<Eigen::Isometry3d> all{world_from_left_};
+  all.insert(all.end(), key_views_.rbegin(), key_views_.rend());
+  const std::size_t count = std::min(kViewpointsAFrame, all.size());
+  const std::size_t first = static_cast<std::size_t>(lost_frames_ - 1) * count % all.size();
+  std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first), all.end());
+  all.resize(count);
+  return all;
 }
 
 bool Reconstructor::deform(FrameRecord& record) {
@@ -174,7 +188,7 @@ void Reconstructor::rememberView() {
 }
 
 ReconstructionState Reconstructor::state() const {
-  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_};
+  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_frames_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
@@ -182,7 +196,7 @@ void Reconstructor::restore(ReconstructionState state) {
   world_from_left_ = state.world_from_left;
   reference_pose_ = state.reference_pose;
   key_views_ = std::move(state.key_views);
-  lost_ = state.lost;
+  lost_frames_ = state.lost_frames;
 }
 
 }  // namespace softscope

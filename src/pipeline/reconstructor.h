@@ -16,7 +16,7 @@ struct ReconstructionState {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
-  bool lost = false;
+  int lost_frames = 0;  // since the model was last found
 };
 
 /// Owns the order of the stages; the back end owns what they work on.
@@ -43,11 +43,14 @@ class Reconstructor {
   void reconstruct(const Frame& frame, FrameRecord& record);
   bool measure(const Frame& frame, FrameRecord& record);
   bool locate(FrameRecord& record);
+  bool locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record);
   bool findAgain(FrameRecord& record);
   bool deform(FrameRecord& record);
   bool confirm(FrameRecord& record);
   void fuse(FrameStatus status, FrameRecord& record);
+  void finish(FrameRecord& record) const;
   void rememberView();
+  std::vector<Eigen::Isometry3d> viewpointsToTry() const;
 
   std::unique_ptr<ReconstructionBackend> backend_;
   GateOptions gate_;
@@ -55,7 +58,7 @@ class Reconstructor {
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last sure motion
   std::vector<Eigen::Isometry3d> key_views_;
-  bool lost_ = false;
+  int lost_frames_ = 0;  // since the model was last found; 0: it is not lost
 };
 
 }  // namespace softscope

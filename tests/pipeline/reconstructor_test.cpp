@@ -196,6 +196,28 @@ TEST(Reconstructor, FindsTheModelAgainAfterALoss) {
   EXPECT_EQ(found.status, FrameStatus::kRecovered) << found.reason;
 }
 
+// After a withdrawal the scope returns turned and aside, with the image of a third of the model.
+TEST(Reconstructor, FindsTheModelAgainFromAnotherViewpoint) {
+  const ShortClip& clip = clipWithAWithdrawal();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  reconstructor.track(clip.seeds);
+  std::vector<FrameRecord> records;
+  for (const Frame& frame : clip.frames) records.push_back(reconstructor.process(frame));
+  const FrameRecord& dark = records[3];
+  EXPECT_EQ(dark.status, FrameStatus::kSkippedDepth);
+  for (const TrackedPosition& point : dark.tracked) EXPECT_FALSE(point.visible);
+  const auto found = std::find_if(records.begin(), records.end(), [](const FrameRecord& record) {
+    return record.status == FrameStatus::kRecovered;
+  });
+  ASSERT_NE(found, records.end()) << records.back().reason;
+  EXPECT_LE(found - records.begin(), 8) << "within three frames of the return";
+  const FrameRecord& last = records.back();
+  EXPECT_TRUE(last.fused()) << last.reason;
+  const Eigen::Isometry3d off =
+      last.world_from_left.inverse() * clip.truth.back().pose.world_from_left;
+  EXPECT_LT(off.translation().norm(), 2);
+}
+
 TEST(Reconstructor, KeepsInstrumentsOutOfTheModel) {
   const ShortClip& clip = shortClip();
   Reconstructor reconstructor = reconstructorOf(clip, smallOptions());

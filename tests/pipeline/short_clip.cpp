@@ -6,10 +6,7 @@
 namespace softscope::test {
 namespace {
 
-constexpr int kFrames = 6;
-
-ShortClip makeClip() {
-  SimulationOptions options;
+ShortClip makeClip(SimulationOptions options, int frames) {
   options.scope.width_px = 240;
   options.scope.height_px = 180;
   options.organ.cells_per_side = 40;
@@ -19,7 +16,7 @@ ShortClip makeClip() {
   clip.calibration.left.pinhole = clip.calibration.right.pinhole = simulator.rig().left;
   clip.calibration.right_from_left.translation().x() = -simulator.rig().baseline_mm;
   clip.calibration.source = "simulated";
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < frames; ++i) {
     clip.truth.push_back(simulator.frame(i));
     Frame frame;
     frame.index = i;
@@ -38,7 +35,18 @@ ShortClip makeClip() {
 }  // namespace
 
 const ShortClip& shortClip() {
-  static const ShortClip clip = makeClip();
+  static const ShortClip clip = makeClip({}, 6);
+  return clip;
+}
+
+const ShortClip& clipWithAWithdrawal() {
+  SimulationOptions options;
+  options.frames_per_second = 5;
+  options.event = {"withdraw", 0.3, 0.9, 12, 40};
+  options.deformation.breathing.amplitude_mm = 0;
+  options.deformation.heartbeat.amplitude_mm = 0;
+  options.deformation.push.amplitude_mm = 0;
+  static const ShortClip clip = makeClip(options, 10);
   return clip;
 }
 

@@ -22,6 +22,10 @@ struct ShortClip {
 /// Made once a program.
 const ShortClip& shortClip();
 
+/// The same organ at rest and at five frames a second; the scope is withdrawn in frames 2 to 5 and
+/// comes back 12 mm aside, turned by 40 degrees. Made once a program.
+const ShortClip& clipWithAWithdrawal();
+
 /// What a clip of this size wants: fewer disparities, smaller search.
 ReconstructionOptions smallOptions();
 
