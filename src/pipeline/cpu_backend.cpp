@@ -218,6 +218,7 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
       refinePose(pairs, rig, pose_.target_from_source, last, reference, options_.refine_pose);
   summary->world_from_left = best.world_from_left;
   summary->scope_static = best.scope_static;
+  summary->keeps_shape = best.keeps_shape;
   summary->moved_mm = best.moved_mm;
   summary->sigma_mm = best.sigma_mm;
   summary->sigma_deg = best.sigma_deg;

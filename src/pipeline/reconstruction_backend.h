@@ -45,6 +45,7 @@ struct PoseSummary {
   int inliers = 0;
   double rms_mm = kUnknown;
   bool scope_static = false;    // no significant motion since the reference pose
+  bool keeps_shape = true;      // the tissue still has its reference shape, as far as is known
   double moved_mm = kUnknown;   // measured motion since the reference pose
   double sigma_mm = kUnknown;   // predicted standard error of the position …
   double sigma_deg = kUnknown;  // … and of the orientation
@@ -110,8 +111,8 @@ class ReconstructionBackend {
   virtual RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
   virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
-  /// Carries points, nodes and tracked points to the live shape. `is_reference`: the shape is what
-  /// later motions of the scope are measured against.
+  /// Carries points, nodes and tracked points to the live shape. `is_reference`: that is the shape
+  /// in which later poses are measured.
   virtual void acceptWarp(bool is_reference) = 0;
   /// After acceptWarp(): compares the model with the frame, before it learns from it.
   virtual EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) = 0;

@@ -25,9 +25,6 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
-/// Later motions of the scope are measured against a frame in which it moved.
-bool isReference(const FrameRecord& record) { return !record.pose.scope_static; }
-
 double degreesBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() * 180 / M_PI;
 }
@@ -87,7 +84,7 @@ void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
     lost_frames_ = were_lost;
     return;
   }
-  if (isReference(record)) reference_pose_ = world_from_left_;
+  if (!record.pose.scope_static) reference_pose_ = world_from_left_;
   fuse(followed ? FrameStatus::kFused : FrameStatus::kRecovered, record);
 }
 
@@ -150,7 +147,7 @@ bool Reconstructor::deform(FrameRecord& record) {
   const double max_residual_mm = record.depth.limit_scale * gate_.max_residual_mm;
   if (solver.reason != StopReason::kNotFinite && explained >= gate_.min_explained &&
       solver.data_mean_mm_after <= max_residual_mm) {
-    backend_->acceptWarp(isReference(record));
+    backend_->acceptWarp(!record.pose.keeps_shape);
     return true;
   }
   return reject(record, FrameStatus::kSkippedResidual,

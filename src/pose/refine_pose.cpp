@@ -300,6 +300,7 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   refined.sigma_deg = 180 / M_PI * std::sqrt(covariance.diagonal().head<3>().sum());
   const bool moves = options.scope == "moving" || moved_now || moved_since;
   refined.scope_static = options.scope == "static" || !moves;
+  refined.keeps_shape = refined.scope_static || !moved_now || whole;
   refined.world_from_left = refined.scope_static ? reference : measured.inverse();
   return refined;
 }

@@ -26,7 +26,7 @@ struct RefinePoseOptions {
 /// One piece of tissue on the model and in the live image.
 struct PosePair {
   Eigen::Vector3d model_world_mm;      // in the previous frame
-  Eigen::Vector3d reference_world_mm;  // when the scope was last known to move
+  Eigen::Vector3d reference_world_mm;  // in the reference shape
   Eigen::Vector2d live_px;
   double sigma_px = 0;
   double disparity_px = 0;  // measured, live
@@ -36,6 +36,7 @@ struct PosePair {
 struct RefinedPose {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   bool scope_static = false;  // no significant motion, neither since `last` nor since `reference`
+  bool keeps_shape = true;    // as far as is known, the tissue still has its reference shape
   // The rest is NaN where the pairs are too few or too close together.
   double moved_mm = std::numeric_limits<double>::quiet_NaN();   // measured, since `reference`
   double sigma_mm = std::numeric_limits<double>::quiet_NaN();   // predicted standard errors of the

@@ -152,6 +152,27 @@ TEST(RefinePose, FindsASlowMotionOnceItHasAddedUp) {
   EXPECT_NEAR(found.moved_mm, frame * kStepMm, 0.05);
 }
 
+// A model that each frame's error has turned a little: the reference shape has none of it.
+TEST(RefinePose, MeasuresARigidSceneInItsReferenceShape) {
+  const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5}), drift = poseOf(0.002, {0.05, 0, 0});
+  std::vector<PosePair> pairs = seenFrom(truth, nothing, 0.02);
+  for (PosePair& pair : pairs) pair.model_world_mm = drift * pair.model_world_mm;
+  const RefinedPose found = refined(pairs, truth, Eigen::Isometry3d::Identity());
+  EXPECT_TRUE(found.keeps_shape);
+  expectNear(found.world_from_left, truth, 0.02, 4e-4);
+}
+
+TEST(RefinePose, TakesThePresentShapeOfTissueThatHasBent) {
+  const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
+  std::vector<PosePair> pairs = seenFrom(truth, nothing, 0.02);
+  for (PosePair& pair : pairs)
+    pair.reference_world_mm += Eigen::Vector3d(0.5 * std::sin(0.3 * pair.model_world_mm.y()), 0,
+                                               0.8 * std::cos(0.3 * pair.model_world_mm.x()));
+  const RefinedPose found = refined(pairs, truth, Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(found.keeps_shape);
+  expectNear(found.world_from_left, truth, 0.02, 4e-4);
+}
+
 TEST(RefinePose, AStaticScopeIsNotTakenForMovingByNoise) {
   const Eigen::Isometry3d pose = poseOf(0.2, {1, 2, 3});
   EXPECT_TRUE(
