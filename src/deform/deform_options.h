@@ -57,8 +57,6 @@ struct SolverOptions {
   double max_damping = 1e6;
   double step_tolerance_mm = 2e-3;  // converged when no node moves further in one step
   double cost_tolerance = 1e-3;     // or when a step lowers the cost by less than this share
-
-  void validate() const;
 };
 
 /// The energy's weights and everything else that stage 6 may be told. The defaults were found on a

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "features/feature_settings.h"
 #include "features/integral_image.h"
 #include "features/kernels.h"
 
@@ -144,15 +145,10 @@ void describeRow(const Cells& cells, const Layout& layout, const DenseSurfOption
 }  // namespace
 
 void DenseSurfOptions::validate() const {
-  require(grid_px >= 1, "dense_surf.grid_px", grid_px, "must be 1 or more");
-  require(wavelet_px >= 2 && wavelet_px % 2 == 0, "dense_surf.wavelet_px", wavelet_px,
-          "must be even, 2 or more");
-  require(cell_px >= grid_px && cell_px % grid_px == 0, "dense_surf.cell_px", cell_px,
-          "must be a multiple of dense_surf.grid_px");
-  require(max_invalid_share >= 0 && max_invalid_share < 1, "dense_surf.max_invalid_share",
-          max_invalid_share, "must be 0 or more and below 1");
-  require(min_contrast_gray >= 0, "dense_surf.min_contrast_gray", min_contrast_gray,
-          "can't be negative");
+  requireAllowed(*this);
+  require(wavelet_px % 2 == 0, "matcher.dense_surf.wavelet_px", wavelet_px, "must be even");
+  require(cell_px >= grid_px && cell_px % grid_px == 0, "matcher.dense_surf.cell_px", cell_px,
+          "must be a multiple of matcher.dense_surf.grid_px");
 }
 
 DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,

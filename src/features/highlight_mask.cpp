@@ -4,17 +4,12 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "features/feature_settings.h"
 #include "features/mask_morphology.h"
 
 namespace softscope {
 
-void HighlightOptions::validate() const {
-  require(min_brightness >= 1 && min_brightness <= 255, "highlights.min_brightness", min_brightness,
-          "must lie between 1 and 255");
-  require(max_saturation >= 0 && max_saturation <= 1, "highlights.max_saturation", max_saturation,
-          "must lie between 0 and 1");
-  require(grow_px >= 0, "highlights.grow_px", grow_px, "can't be negative");
-}
+void HighlightOptions::validate() const { requireAllowed(*this); }
 
 Mask highlightMask(const ColourImage& image, const HighlightOptions& options) {
   options.validate();

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "features/feature_settings.h"
 #include "features/mask_morphology.h"
 
 namespace softscope {
@@ -58,19 +59,7 @@ Mask largeFromBorder(const Mask& mask, const InstrumentOptions& options) {
 
 }  // namespace
 
-void InstrumentOptions::validate() const {
-  require(max_redness > -1 && max_redness < 1, "instruments.max_redness", max_redness,
-          "must lie between -1 and 1");
-  require(min_brightness >= 0 && min_brightness <= 255, "instruments.min_brightness",
-          min_brightness, "must lie between 0 and 255");
-  require(open_px >= 0, "instruments.open_px", open_px, "can't be negative");
-  require(close_px >= 0, "instruments.close_px", close_px, "can't be negative");
-  require(min_area_share >= 0 && min_area_share <= 1, "instruments.min_area_share", min_area_share,
-          "must lie between 0 and 1");
-  require(max_border_gap_px >= 0, "instruments.max_border_gap_px", max_border_gap_px,
-          "can't be negative");
-  require(grow_px >= 0, "instruments.grow_px", grow_px, "can't be negative");
-}
+void InstrumentOptions::validate() const { requireAllowed(*this); }
 
 Mask detectInstruments(const ColourImage& image, const InstrumentOptions& options) {
   options.validate();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "features/feature_settings.h"
 
 namespace softscope {
 namespace {
@@ -20,9 +21,7 @@ float sigmaAt(const DepthMap& depth, const Eigen::Vector2f& place_px) {
 
 }  // namespace
 
-void LiftOptions::validate() const {
-  require(max_step_mm > 0, "lift.max_step_mm", max_step_mm, "must be above 0");
-}
+void LiftOptions::validate() const { requireAllowed(*this); }
 
 float depthAt(const Raster<float>& depth_mm, const Eigen::Vector2f& place_px, float max_step_mm) {
   const float fu = std::floor(place_px.x()), fv = std::floor(place_px.y());

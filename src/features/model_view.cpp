@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "features/feature_settings.h"
 #include "features/gap_filling.h"
 #include "features/kernels.h"
 
@@ -203,14 +204,7 @@ void drawBand(const std::vector<ChunkDiscs>& chunks, int index, BandCanvas* canv
 
 }  // namespace
 
-void ModelViewOptions::validate() const {
-  require(point_spacing_mm > 0, "view.point_spacing_mm", point_spacing_mm, "must be above 0");
-  require(disc_spacings > 0, "view.disc_spacings", disc_spacings, "must be above 0");
-  require(min_disc_px >= 1 && min_disc_px <= kLargestDiscPx, "view.min_disc_px", min_disc_px,
-          "must lie between 1 and 12");
-  require(surface_depth_mm > 0, "view.surface_depth_mm", surface_depth_mm, "must be above 0");
-  require(gap_px >= 0, "view.gap_px", gap_px, "can't be negative");
-}
+void ModelViewOptions::validate() const { requireAllowed(*this); }
 
 ModelView renderModelView(const PointModel& model, const PinholeCamera& camera,
                           const Eigen::Isometry3d& world_from_left,

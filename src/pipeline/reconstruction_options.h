@@ -23,8 +23,6 @@ struct GateOptions {
   int max_key_views = 12;         // poses kept to find the model again after a loss
   double key_view_step_mm = 10;   // the scope moved this far from all of them …
   double key_view_step_deg = 15;  // … or turned this much: another key view
-
-  void validate() const;  // see ReconstructionOptions::validate()
 };
 
 /// What of the picture is not tissue.

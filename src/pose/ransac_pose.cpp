@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "pose/pose_settings.h"
 
 namespace softscope {
 namespace {
@@ -129,17 +130,7 @@ void keepPose(const PointPairs& pairs, const std::vector<int>& inliers,
 
 }  // namespace
 
-void RansacOptions::validate() const {
-  require(threshold_mm > 0, "pose.threshold_mm", threshold_mm, "must be above 0");
-  require(confidence > 0 && confidence < 1, "pose.confidence", confidence,
-          "must lie between 0 and 1");
-  require(max_trials >= 1, "pose.max_trials", max_trials, "must be 1 or more");
-  require(refits >= 1, "pose.refits", refits, "must be 1 or more");
-  require(min_inliers >= 3, "pose.min_inliers", min_inliers, "must be 3 or more");
-  require(min_share >= 0 && min_share <= 1, "pose.min_share", min_share,
-          "must lie between 0 and 1");
-  require(min_spread_mm > 0, "pose.min_spread_mm", min_spread_mm, "must be above 0");
-}
+void RansacOptions::validate() const { requireAllowed(*this); }
 
 RigidPose estimateRigidPose(const PointPairs& pairs, const RansacOptions& options) {
   options.validate();

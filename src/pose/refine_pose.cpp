@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/median.h"
+#include "pose/pose_settings.h"
 
 namespace softscope {
 namespace {
@@ -268,17 +269,7 @@ class Pairs {
 
 }  // namespace
 
-void RefinePoseOptions::validate() const {
-  require(iterations >= 0, "pose.refine.iterations", iterations, "can't be negative");
-  require(noise_px > 0, "pose.refine.noise_px", noise_px, "must be above 0");
-  require(disparity_noise_px > 0, "pose.refine.disparity_noise_px", disparity_noise_px,
-          "must be above 0");
-  require(robust_scale > 0, "pose.refine.robust_scale", robust_scale, "must be above 0");
-  require(scope == "auto" || scope == "static" || scope == "moving", "pose.scope", scope,
-          "must be auto, static or moving");
-  require(significance > 0 && significance < 0.5, "pose.significance", significance,
-          "must be above 0 and below 0.5");
-}
+void RefinePoseOptions::validate() const { requireAllowed(*this); }
 
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,

@@ -37,8 +37,6 @@ struct ElasOptions {
   // Where a picture is too weak to be matched pixel by pixel, its half may do, or the half's half.
   int coarser_levels = 2;
   double coarser_above = 0.05;  // share of unmatched pixels from which that is tried
-
-  void validate() const;  // see StereoOptions::validate()
 };
 
 /// Sub-pixel refinement: a plane fitted to the brightness in a window about each pixel.
@@ -59,7 +57,6 @@ struct RefinementOptions {
   double independentPx2() const { return 4 * M_PI * windowSigmaPx() * windowSigmaPx(); }
 
   static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row
-  void validate() const;                      // see StereoOptions::validate()
 };
 
 /// Smoothing: every pixel moves towards the curved patch that its neighbours agree on.
@@ -73,7 +70,6 @@ struct SmoothingOptions {
   int blockPx(int width_px) const {
     return block_px > 0 ? block_px : std::max(kSmallestBlockPx, (width_px + 40) / 80);
   }
-  void validate() const;  // see StereoOptions::validate()
 };
 
 /// What any matcher needs.

@@ -42,16 +42,16 @@ TEST(DeformOptions, NamesWhatIsWrong) {
   expectRefused(options, "deform.regularisation_weight");
   options = {};
   options.association.max_angle_deg = 91;
-  expectRefused(options, "deform.association.max_angle_deg");
+  expectRefused(options, "deform.max_angle_deg");
   options = {};
   options.data_robust.scale_mm = 0;
-  expectRefused(options, "deform.data_robust.scale_mm");
+  expectRefused(options, "deform.data_scale_mm");
   options = {};
   options.solver.max_iterations = 0;
-  expectRefused(options, "deform.solver.max_iterations");
+  expectRefused(options, "deform.max_iterations");
   options = {};
   options.solver.initial_damping = 1e9;
-  expectRefused(options, "deform.solver.initial_damping");
+  expectRefused(options, "deform.initial_damping");
 }
 
 TEST(DeformSolver, SaysWhichNodesItSolvesFor) {
