@@ -39,6 +39,7 @@ RunOptions optionsOf(const fs::path& run) {
   RunOptions options;
   settingsOf(options).apply(settings);
   options.validate();
+  options.method = withSharedQuantities(options.method);
   return options;
 }
 
@@ -98,8 +99,8 @@ Answer answerOf(const char* method, const char* name, const ModelView& view,
                 const ReconstructionOptions& options) {
   MatcherOptions matcher = options.matcher;
   matcher.method = method;
-  const ModelMatches found = matchModel(view, modelPicture(view), live, measured, options.lift,
-                                        *makeFeatureMatcher(matcher));
+  const ModelMatches found =
+      matchModel(view, modelPicture(view), live, measured, *makeFeatureMatcher(matcher));
   const RigidPose pose = estimateRigidPose(posePairs(found.lifted), options.pose);
   Answer answer;
   for (std::size_t i = 0; i < found.lifted.size(); ++i) {
@@ -130,8 +131,7 @@ RunFigure drawMatchFigure(const RunFigureOptions& options, SceneInputs& inputs) 
       readFrame(options.sequence, moment.frame, settings.sequence, inputs, &calibration);
   FrameDepth depth(calibration, settings.method.depth);
   const MeasuredFrame measured = depth.measure(frame);
-  const MatchPicture live =
-      livePicture(measured, notTissue(measured, settings.method.tissue), settings.method.tissue);
+  const MatchPicture live = livePicture(measured, notTissue(measured, settings.method.tissue));
   const fs::path file = run.models.at(moment.model_frame);
   inputs.note("model", file.string());
   const ModelView view = renderModelView(readModel(file).model, depth.rig().left,

@@ -7,8 +7,8 @@ namespace softscope {
 
 void GraphOptions::validate() const {
   requireAllowed(*this);
-  require(cell_mm <= node_spacing_mm / 2, "graph.cell_mm", cell_mm,
-          "must be at most half of graph.node_spacing_mm");
+  require(cell_mm > 0 && cell_mm <= node_spacing_mm / 2, "graph.node_spacing_mm", node_spacing_mm,
+          "must be at least twice the cell of the graph");
 }
 
 void AssociationOptions::validate() const { requireAllowed(*this); }
@@ -29,12 +29,6 @@ DeformOptions DeformOptions::paper() {
   return options;
 }
 
-void DeformOptions::validate() const {
-  requireAllowed(*this);
-  require(solver.initial_damping >= solver.min_damping &&
-              solver.initial_damping <= solver.max_damping,
-          "deform.initial_damping", solver.initial_damping,
-          "must lie between deform.min_damping and deform.max_damping");
-}
+void DeformOptions::validate() const { requireAllowed(*this); }
 
 }  // namespace softscope

@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "features/feature_settings.h"
 #include "features/integral_image.h"
 #include "features/kernels.h"
 
@@ -65,7 +64,7 @@ void addRow(const WaveletRow& row, int grid, int columns, std::int32_t* sums, st
 
 Squares squaresOf(const Integrals& integrals, int width, int height,
                   const DenseSurfOptions& options) {
-  const int grid = options.grid_px, h = options.wavelet_px / 2;
+  const int grid = options.kGridPx, h = options.kWaveletPx / 2;
   const int columns = width / grid, rows = height / grid;
   Squares out{Raster<std::int32_t>(kSums * columns, rows, 0),
               Raster<std::int32_t>(columns, rows, 0)};
@@ -113,9 +112,9 @@ struct Layout {
 
 Layout layoutOf(const DenseSurfOptions& options) {
   const int side = kCells * options.cell_px;
-  const double half_wavelet = 0.5 * options.wavelet_px * options.wavelet_px;
-  return {options.cell_px / options.grid_px,
-          static_cast<int>((1 - options.max_invalid_share) * side * side),
+  const double half_wavelet = 0.5 * options.kWaveletPx * options.kWaveletPx;
+  return {options.cell_px / options.kGridPx,
+          static_cast<int>((1 - options.kMaxInvalidShare) * side * side),
           static_cast<float>(1 / (half_wavelet * 2 * side * side))};
 }
 
@@ -138,30 +137,22 @@ void describeRow(const Cells& cells, const Layout& layout, const DenseSurfOption
     out->contrast_gray.values[node] = absolute * layout.gray_per_sum;
     out->valid.values[node] =
         valid >= layout.least_valid &&
-        out->contrast_gray.values[node] >= static_cast<float>(options.min_contrast_gray);
+        out->contrast_gray.values[node] >= static_cast<float>(options.kMinContrastGray);
   }
 }
 
 }  // namespace
 
-void DenseSurfOptions::validate() const {
-  requireAllowed(*this);
-  require(wavelet_px % 2 == 0, "matcher.dense_surf.wavelet_px", wavelet_px, "must be even");
-  require(cell_px >= grid_px && cell_px % grid_px == 0, "matcher.dense_surf.cell_px", cell_px,
-          "must be a multiple of matcher.dense_surf.grid_px");
-}
-
 DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
                            const DenseSurfOptions& options) {
-  options.validate();
   if (!ignore.empty() && !ignore.sameShape(image))
     throw Error("dense SURF: the mask has another shape than the picture");
   const Layout layout = layoutOf(options);
   DenseDescriptors out;
-  out.grid_px = options.grid_px;
+  out.grid_px = options.kGridPx;
   // Wavelet u lies between the pixels u - 1 and u, so that the middle of the cells is a pixel.
   out.first_px = kCells / 2 * options.cell_px - 1;
-  const int least_side = std::max(kCells * options.cell_px, options.wavelet_px);
+  const int least_side = std::max(kCells * options.cell_px, options.kWaveletPx);
   if (image.width_px < least_side || image.height_px < least_side) return out;
 
   const Squares squares =

@@ -85,10 +85,10 @@ class DenseSurfMatcher : public FeatureMatcher {
       const GrayImage& gray = levels[k].model.gray;
       const double radius_px = k + 1 == levels.size()
                                    ? options_.reach * std::max(gray.width_px, gray.height_px)
-                                   : options_.search_radius_px;
+                                   : options_.kSearchRadiusPx;
       const std::vector<PixelMatch> rough = roughMatches(levels[k], predicted, radius_px);
       matches = withCoarser(refined(levels[k], rough), toFinerLevel(std::move(matches)),
-                            gray.width_px, gray.height_px, options_.coarse_spacing_px);
+                            gray.width_px, gray.height_px, options_.kCoarseSpacingPx);
       if (k > 0)
         predicted = ShiftField(toFinerLevel(keepConsistent(rough, options_.consistency)),
                                levels[k - 1].model.gray.width_px,
@@ -107,7 +107,7 @@ class DenseSurfMatcher : public FeatureMatcher {
              denseSurf(level.model.gray, level.model.ignore, surf),
              denseSurf(level.live.gray, level.live.ignore, surf), predicted, radius_px, options_))
       rough.push_back({node.model_px, whole_nodes ? node.live_px : node.parabola_px,
-                       0.5f * static_cast<float>(surf.grid_px), 0});
+                       0.5f * static_cast<float>(surf.kGridPx), 0});
     return rough;
   }
 
@@ -115,7 +115,7 @@ class DenseSurfMatcher : public FeatureMatcher {
                                   const std::vector<PixelMatch>& rough) const {
     if (options_.subpixel.method != "gauss-newton") return rough;
     return keepConsistent(keepSure(refineMatches(level.model, level.live, rough, options_.subpixel),
-                                   options_.subpixel.max_sigma_px),
+                                   options_.subpixel.kMaxSigmaPx),
                           options_.consistency);
   }
 
@@ -133,8 +133,8 @@ class NoMatcher : public FeatureMatcher {
 MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& options) {
   Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
   for (std::size_t i = 0; i < dark.size(); ++i)
-    dark.values[i] = picture.gray.values[i] < options.darkest_gray;
-  MatchPicture out{picture.gray, grown(dark, options.dark_margin_px), picture.anchor};
+    dark.values[i] = picture.gray.values[i] < options.kDarkestGray;
+  MatchPicture out{picture.gray, grown(dark, options.kDarkMarginPx), picture.anchor};
   for (std::size_t i = 0; i < picture.ignore.size(); ++i)
     if (picture.ignore.values[i] != 0) out.ignore.values[i] = 1;
   return out;
@@ -166,10 +166,7 @@ std::unique_ptr<FeatureMatcher> makeUnchecked(const MatcherOptions& options) {
 
 }  // namespace
 
-void MatcherOptions::validate() const {
-  requireAllowed(*this);
-  dense_surf.validate();
-}
+void MatcherOptions::validate() const { requireAllowed(*this); }
 
 std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options) {
   options.validate();

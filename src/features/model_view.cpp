@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "features/feature_settings.h"
 #include "features/gap_filling.h"
 #include "features/kernels.h"
 
@@ -35,8 +34,8 @@ struct Projector {
         fy(static_cast<float>(camera.fy_px)),
         cx(static_cast<float>(camera.cx_px)),
         cy(static_cast<float>(camera.cy_px)),
-        radius_mm(static_cast<float>(options.disc_spacings * options.point_spacing_mm)),
-        min_radius_px(static_cast<float>(options.min_disc_px)) {}
+        radius_mm(static_cast<float>(options.kDiscSpacings * options.point_spacing_mm)),
+        min_radius_px(static_cast<float>(options.kMinDiscPx)) {}
 
   /// False where the point can't be seen.
   bool discOf(const PointModel& model, std::size_t i, SplatDisc* disc) const {
@@ -204,12 +203,9 @@ void drawBand(const std::vector<ChunkDiscs>& chunks, int index, BandCanvas* canv
 
 }  // namespace
 
-void ModelViewOptions::validate() const { requireAllowed(*this); }
-
 ModelView renderModelView(const PointModel& model, const PinholeCamera& camera,
                           const Eigen::Isometry3d& world_from_left,
                           const ModelViewOptions& options) {
-  options.validate();
   ModelView view;
   view.camera = camera;
   view.world_from_left = world_from_left;
@@ -228,7 +224,7 @@ ModelView renderModelView(const PointModel& model, const PinholeCamera& camera,
       chunks[static_cast<std::size_t>(c)] = discsOfChunk(model, projector, c, bands);
   });
   Raster<BlendedPixel> blended(camera.width_px, camera.height_px);
-  const float surface_depth_mm = static_cast<float>(options.surface_depth_mm);
+  const float surface_depth_mm = static_cast<float>(options.kSurfaceDepthMm);
   parallelRanges(bands, 1, [&](int begin, int end) {
     BandCanvas canvas(camera.width_px, surface_depth_mm);
     for (int b = begin; b < end; ++b) drawBand(chunks, b, &canvas, &blended, &view);

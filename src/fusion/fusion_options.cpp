@@ -5,11 +5,9 @@
 namespace softscope {
 
 void PixelOptions::validate() const { requireAllowed(*this); }
-void VisibilityOptions::validate() const { requireAllowed(*this); }
 void PointFusionOptions::validate() const { requireAllowed(*this); }
 void ColourOptions::validate() const { requireAllowed(*this); }
 void InsertionOptions::validate() const { requireAllowed(*this); }
-void DensityOptions::validate() const { requireAllowed(*this); }
 void FusionOptions::validate() const { requireAllowed(*this); }
 
 FusionOptions FusionOptions::paper() {

@@ -8,27 +8,8 @@ namespace softscope {
 
 template <class Visitor>
 void describe(Visitor& v, PixelOptions& o) {
-  v("fusion.max_depth_mm", o.max_depth_mm, above(0), "larger depths are ignored");
   v("fusion.max_sigma_mm", o.max_sigma_mm, above(0),
     "depths with a larger predicted sigma are ignored");
-  v("fusion.edge_step", o.edge_step, above(0),
-    "larger steps, as a share of the depth, are depth discontinuities");
-  v("fusion.edge_radius_px", o.edge_radius_px, between(0, 16),
-    "pixels this near to a depth discontinuity are ignored");
-  v("fusion.min_cosine", o.min_cosine, fromToBelow(0.01, 1),
-    "pixels with a smaller cosine of normal and ray are ignored");
-}
-
-template <class Visitor>
-void describe(Visitor& v, VisibilityOptions& o) {
-  v("fusion.visible_distance_mm", o.max_distance_mm, above(0),
-    "largest distance of a visible point from the depth, epsilon_d");
-  v("fusion.visible_angle_deg", o.max_angle_deg, aboveUpTo(0, 90),
-    "largest angle of both normals, epsilon_n");
-  v("fusion.occlusion_mm", o.occlusion_mm, above(0),
-    "points this far behind the front surface are hidden");
-  v("fusion.occlusion_cell_px", o.occlusion_cell_px, between(1, 64),
-    "resolution of the front surface");
 }
 
 template <class Visitor>
@@ -46,17 +27,11 @@ void describe(Visitor& v, PointFusionOptions& o) {
                            {"nearer", NodeTrust::kNearer},
                            {"paper", NodeTrust::kPaper}}},
     "weight of a warped point by the distance of its nodes");
-  v("fusion.node_spacing_mm", o.node_spacing_mm, above(0), "epsilon of the paper");
-  v("fusion.warp_sigma_mm", o.warp_sigma_mm, atLeast(0), "error of one warp away from nodes");
   v("fusion.along_ray", o.along_ray, "points move along their ray alone");
-  v("fusion.contradiction_loss", o.contradiction_loss, between(0, 1),
-    "share of its weight that a point loses by a free-space violation");
   v("fusion.follow_innovation", o.follow_innovation,
     "the model's weight falls where frames differ by more than their sigma");
   v("fusion.buried_mm", o.buried_mm, atLeast(0),
     "points less than this behind the measured surface lose weight");
-  v("fusion.confirmed_weight", o.confirmed_weight, atLeast(0),
-    "points of a smaller weight lose it where they are not measured again");
 }
 
 template <class Visitor>
@@ -79,27 +54,15 @@ void describe(Visitor& v, ColourOptions& o) {
 
 template <class Visitor>
 void describe(Visitor& v, InsertionOptions& o) {
-  v("fusion.insert_spacing_mm", o.spacing_mm, atLeast(0.01), "between new points");
-  v("fusion.insert_max_sigma_mm", o.max_sigma_mm, above(0),
-    "depths with a larger predicted sigma make no points");
-  v("fusion.insert_band_mm", o.band_mm, above(0), "a model point this near explains a pixel");
+  v("fusion.point_spacing_mm", o.spacing_mm, atLeast(0.01), "of the model's points");
   v("fusion.insert_confirm", o.confirm, "two frames in a row must agree");
-}
-
-template <class Visitor>
-void describe(Visitor& v, DensityOptions& o) {
-  v("fusion.cell_mm", o.cell_mm, atLeast(0.01), "at most one point per cell and side");
-  v("fusion.cell_angle_deg", o.max_angle_deg, aboveUpTo(0, 90),
-    "largest angle of normals of points that are merged");
 }
 
 template <class Visitor>
 void describe(Visitor& v, FusionOptions& o) {
   describe(v, o.pixels);
-  describe(v, o.visibility);
   describe(v, o.points);
   describe(v, o.insertion);
-  describe(v, o.density);
   describe(v, o.colour);
 }
 

@@ -40,7 +40,7 @@ class Fuser {
         camera_(posedCamera(observation.left, observation.world_from_left)),
         truncation_mm_(static_cast<float>(options.truncation_mm)),
         reference_mm_(static_cast<float>(options.reference_sigma_mm)),
-        confirmed_weight_(static_cast<float>(options.confirmed_weight)),
+        confirmed_weight_(static_cast<float>(options.kConfirmedWeight)),
         unseen_mm_(static_cast<float>(options.truncation_mm)),
         buried_mm_(static_cast<float>(options.buried_mm)) {
     const double reference = options.reference_sigma_mm > 0 ? options.reference_sigma_mm : 0.1;
@@ -63,7 +63,7 @@ class Fuser {
     model_.weights[i] = contradictedWeight(
         weightAfterInnovation(model_.weights[i], around.excess_mm2, reference_mm_),
         std::min(1.0f, depthWeightAt(point.pixel)),
-        static_cast<float>(options_.contradiction_loss));
+        static_cast<float>(options_.kContradictionLoss));
   }
 
   /// docs/fusion.md (F8), (F9), (F13); false where the measurement has no weight.

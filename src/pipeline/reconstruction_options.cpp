@@ -1,5 +1,7 @@
 #include "pipeline/reconstruction_options.h"
 
+#include <algorithm>
+
 #include "pipeline/reconstruction_settings.h"
 
 namespace softscope {
@@ -12,12 +14,17 @@ ReconstructionOptions ReconstructionOptions::paper() {
   return options;
 }
 
+ReconstructionOptions withSharedQuantities(ReconstructionOptions options) {
+  options.model_view.point_spacing_mm = options.fusion.insertion.spacing_mm;
+  options.fusion.density.cell_mm = options.fusion.insertion.spacing_mm;
+  options.fusion.points.node_spacing_mm = options.graph.node_spacing_mm;
+  options.graph.cell_mm = std::min(options.graph.cell_mm, options.graph.node_spacing_mm / 2);
+  return options;
+}
+
 void ReconstructionOptions::validate() const {
   requireAllowed(*this);
   depth.stereo.validate();  // what one setting demands of another
-  matcher.validate();
-  graph.validate();
-  deform.validate();
 }
 
 }  // namespace softscope

@@ -23,8 +23,6 @@ template <class Visitor>
 void describe(Visitor& v, TissueMaskOptions& o) {
   v("tissue.margin_px", o.margin_px, between(0, 100), "dilation of the ignored pixels");
   v("tissue.detect_instruments", o.detect_instruments, "by colour, beside mask files");
-  describe(v, o.highlights);
-  describe(v, o.instruments);
 }
 
 template <class Visitor>
@@ -35,20 +33,15 @@ void describe(Visitor& v, GateOptions& o) {
   v("gate.min_explained", o.min_explained, between(0, 1),
     "least share of the points in sight with a target");
   v("gate.min_confidence", o.min_confidence, between(0, 1), "least confidence of pose and warp");
-  v("gate.max_key_views", o.max_key_views, atLeast(1), "keyframes kept to relocalise");
-  v("gate.key_view_step_mm", o.key_view_step_mm, above(0), "between keyframes");
-  v("gate.key_view_step_deg", o.key_view_step_deg, above(0), "between keyframes");
 }
 
 template <class Visitor>
 void describe(Visitor& v, ReconstructionOptions& o) {
   describe(v, o.depth);
   describe(v, o.tissue);
-  describe(v, o.model_view);
   describe(v, o.matcher);
   v("matcher.last_picture", o.match_last_picture,
     "match the previous image and not the model, for comparison");
-  describe(v, o.lift);
   describe(v, o.pose);
   describe(v, o.refine_pose);
   describe(v, o.graph);

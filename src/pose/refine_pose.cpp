@@ -49,8 +49,8 @@ Residual residualOf(const PosePair& pair, Place place, const RectifiedRig& rig,
                     const Eigen::Isometry3d& left_from_world, const RefinePoseOptions& options) {
   Residual out;
   const Eigen::Vector3d p = left_from_world * pair.*place;
-  const double across = 1 / std::hypot(options.noise_px, pair.sigma_px);
-  const double along = 1 / std::hypot(options.disparity_noise_px, pair.sigma_disparity_px);
+  const double across = 1 / std::hypot(options.kNoisePx, pair.sigma_px);
+  const double along = 1 / std::hypot(options.kDisparityNoisePx, pair.sigma_disparity_px);
   if (!(p.z() > 1e-3) || !std::isfinite(across) || !std::isfinite(along)) return out;
   const double fx = rig.left.fx_px, fy = rig.left.fy_px, z = p.z();
   Eigen::Matrix3d by_point;
@@ -248,7 +248,7 @@ class Pairs {
     std::vector<double> squares;
     for (const Residual& residual : residuals) squares.push_back(residual.value.squaredNorm());
     const double scale_sq =
-        std::max(1.0, options_.robust_scale * options_.robust_scale * medianOf(squares));
+        std::max(1.0, options_.kRobustScale * options_.kRobustScale * medianOf(squares));
     Matrix6d normal = Matrix6d::Zero();
     Vector6d right = Vector6d::Zero();
     for (const Residual& residual : residuals) {

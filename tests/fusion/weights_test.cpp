@@ -117,13 +117,10 @@ TEST(FusionOptionsTest, AreCheckedFieldByField) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refuses([&](auto& o) { o.pixels.max_sigma_mm = nan; }, "fusion.max_sigma_mm");
-  refuses([&](auto& o) { o.pixels.edge_radius_px = -1; }, "fusion.edge_radius_px");
-  refuses([&](auto& o) { o.visibility.max_distance_mm = 0; }, "fusion.visible_distance_mm");
   refuses([&](auto& o) { o.points.truncation_mm = -1; }, "fusion.truncation_mm");
   refuses([&](auto& o) { o.points.max_weight = 0.5; }, "fusion.max_weight");
   refuses([&](auto& o) { o.colour.gamma = 0; }, "colour.gamma");
-  refuses([&](auto& o) { o.insertion.spacing_mm = 0; }, "fusion.insert_spacing_mm");
-  refuses([&](auto& o) { o.density.cell_mm = nan; }, "fusion.cell_mm");
+  refuses([&](auto& o) { o.insertion.spacing_mm = 0; }, "fusion.point_spacing_mm");
 }
 
 }  // namespace
