@@ -11,11 +11,8 @@ namespace softscope {
 /// Rigid has 6 unknowns, a twist, and needs no E_rot.
 enum class NodeModel { kRigid, kAffine };
 
-/// How a term treats residuals that are too large to be noise: docs/energy.md (13) to (15).
-enum class RobustLoss { kNone, kHuber, kTukey };
-
-/// What edges between nodes of different distance weigh: docs/energy.md (7).
-enum class EdgeWeighting { kUniform, kDistance };
+/// How a term treats residuals that are too large to be noise: docs/energy.md (13), (14).
+enum class RobustLoss { kNone, kHuber };
 
 /// How nodes are laid over the model.
 struct GraphOptions {
@@ -24,7 +21,6 @@ struct GraphOptions {
   // a node carries a point only if the way along the surface is at most this times the straight
   // line (plus two cells)
   static constexpr double kDetourRatio = 1.6;
-  EdgeWeighting edge_weighting = EdgeWeighting::kDistance;
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;

@@ -9,10 +9,6 @@ namespace softscope {
 template <class Visitor>
 void describe(Visitor& v, GraphOptions& o) {
   v("graph.node_spacing_mm", o.node_spacing_mm, above(0), "of the nodes, along the surface");
-  v("graph.edge_weighting", o.edge_weighting,
-    ChoiceRule<EdgeWeighting>{
-        {{"uniform", EdgeWeighting::kUniform}, {"distance", EdgeWeighting::kDistance}}},
-    "weights of the graph's edges");
 }
 
 template <class Visitor>
@@ -29,8 +25,7 @@ void describe(Visitor& v, SolverOptions& o) {
 }
 
 inline ChoiceRule<RobustLoss> robustLosses() {
-  return {
-      {{"none", RobustLoss::kNone}, {"huber", RobustLoss::kHuber}, {"tukey", RobustLoss::kTukey}}};
+  return {{{"none", RobustLoss::kNone}, {"huber", RobustLoss::kHuber}}};
 }
 
 template <class Visitor>

@@ -8,7 +8,7 @@ namespace softscope {
 
 template <class Visitor>
 void describe(Visitor& v, SubpixelOptions& o) {
-  v("matcher.subpixel.method", o.method, oneOf({"gauss-newton", "parabola", "none"}),
+  v("matcher.subpixel.method", o.method, oneOf({"gauss-newton", "none"}),
     "sub-pixel refinement of matches");
 }
 

@@ -9,7 +9,7 @@ namespace softscope {
 
 /// Gauss-Newton on a window around each match; blind to gain and offset of the brightness.
 struct SubpixelOptions {
-  std::string method = "gauss-newton";  // or "parabola" (dense SURF only), or "none"
+  std::string method = "gauss-newton";  // or "none"
   static constexpr int kRadiusPx = 7;   // window is (2 r + 1)², at most 15²
   static constexpr int kIterations = 8;
   static constexpr double kMaxShiftPx = 3.0;     // from where it began

@@ -7,14 +7,7 @@ namespace softscope {
 enum class NodeTrust {
   kEqual,      // everywhere alike
   kWarpNoise,  // the warp adds noise that grows away from nodes: old weight fades, new counts fully
-  kNearer,     // the text of the paper: what is measured near nodes weighs more
   kPaper,      // the formula of the paper as printed: what is measured near nodes weighs less
-};
-
-/// How light falls on the tissue: docs/fusion.md (F12).
-enum class Illumination {
-  kNone,       // colours are kept as seen
-  kHeadlight,  // the light sits at the scope: colours are kept as seen from reference_distance_mm
 };
 
 /// Which pixels may speak at all.
@@ -54,7 +47,6 @@ struct PointFusionOptions {
   double warp_sigma_mm = 0.02;    // error of one warp, half a node spacing away from all nodes
   bool follow_innovation = true;  // where frame and warped model differ by more than depth errs,
                                   // the model is that much less sure
-  bool along_ray = true;          // false: the full position is averaged with the pixel's
   // share of its weight, and half as much again of one measurement's, that a point seen through
   // loses a frame
   static constexpr double kContradictionLoss = 0.85;
@@ -66,16 +58,13 @@ struct PointFusionOptions {
   void validate() const;
 };
 
-/// How colours follow the picture: docs/fusion.md (F11) to (F13).
+/// How colours follow the picture: docs/fusion.md (F11), (F13).
 struct ColourOptions {
   bool compensate_gain = true;  // of the frame against the model, a factor per channel
-  Illumination illumination = Illumination::kNone;
-  double reference_distance_mm = 60.0;  // headlight colours are as seen from here, head on
-  double gamma = 2.2;                   // of the pictures' encoding
-  double max_weight = 4.0;              // new colours count at least 1 / (1 + max_weight)
-  double anchor_weight = 40.0;          // and, for what matches hold on to, about 1 / this
-  int highlight_level = 225;            // brighter in all channels = specular, not the tissue
-  int brightening_limit = 50;           // so much brighter than the point in every channel: too
+  double max_weight = 4.0;      // new colours count at least 1 / (1 + max_weight)
+  double anchor_weight = 40.0;  // and, for what matches hold on to, about 1 / this
+  int highlight_level = 225;    // brighter in all channels = specular, not the tissue
+  int brightening_limit = 50;   // so much brighter than the point in every channel: too
 
   void validate() const;
 };

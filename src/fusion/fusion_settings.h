@@ -24,10 +24,8 @@ void describe(Visitor& v, PointFusionOptions& o) {
   v("fusion.node_trust", o.node_trust,
     ChoiceRule<NodeTrust>{{{"equal", NodeTrust::kEqual},
                            {"warp-noise", NodeTrust::kWarpNoise},
-                           {"nearer", NodeTrust::kNearer},
                            {"paper", NodeTrust::kPaper}}},
     "weight of a warped point by the distance of its nodes");
-  v("fusion.along_ray", o.along_ray, "points move along their ray alone");
   v("fusion.follow_innovation", o.follow_innovation,
     "the model's weight falls where frames differ by more than their sigma");
   v("fusion.buried_mm", o.buried_mm, atLeast(0),
@@ -37,12 +35,6 @@ void describe(Visitor& v, PointFusionOptions& o) {
 template <class Visitor>
 void describe(Visitor& v, ColourOptions& o) {
   v("colour.compensate_gain", o.compensate_gain, "of the frame against the model, per channel");
-  v("colour.illumination", o.illumination,
-    ChoiceRule<Illumination>{
-        {{"none", Illumination::kNone}, {"headlight", Illumination::kHeadlight}}},
-    "model of the light");
-  v("colour.reference_distance_mm", o.reference_distance_mm, above(0), "of the headlight");
-  v("colour.gamma", o.gamma, between(1, 3), "of the images' encoding");
   v("colour.max_weight", o.max_weight, atLeast(0), "new colours have at least 1 / (1 + this)");
   v("colour.anchor_weight", o.anchor_weight, atLeast(0),
     "the same for the reference intensity of matches");

@@ -45,9 +45,9 @@ std::vector<Row> rows() {
   std::vector<Row> all;
   for (const bool view : {false, true})
     for (const char* method : {"dense-surf", "dis-flow", "sift"})
-      for (const char* refinement : {"gauss-newton", "parabola", "none"}) {
+      for (const char* refinement : {"gauss-newton", "none"}) {
         const std::string m = method, r = refinement;
-        if ((m == "sift" && r != "none") || (m == "dis-flow" && r == "parabola")) continue;
+        if (m == "sift" && r != "none") continue;
         Row row{m + ", " + r, {}, view};
         row.options.method = m;
         row.options.subpixel.method = r;

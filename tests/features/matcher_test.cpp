@@ -42,15 +42,14 @@ TEST(DenseSurfMatcher, FindsASmoothDeformationToATenthOfAPixel) {
 
 TEST(DenseSurfMatcher, RefinementIsWorthItsTime) {
   const test::WarpedPair pair = test::makeWarpedPair(2.0);
-  double medians[3];
-  const char* methods[] = {"none", "parabola", "gauss-newton"};
-  for (int k = 0; k < 3; ++k) {
+  double medians[2];
+  const char* methods[] = {"none", "gauss-newton"};
+  for (int k = 0; k < 2; ++k) {
     MatcherOptions options;
     options.subpixel.method = methods[k];
     medians[k] = test::errorsOf(matchBy(options, pair)).median_px;
   }
-  EXPECT_LT(medians[1], medians[0]);
-  EXPECT_LT(medians[2], 0.2 * medians[1]);
+  EXPECT_LT(medians[1], 0.1 * medians[0]);
 }
 
 /// The model's texture has slipped by `slip_px` to the right since its anchor was set.
