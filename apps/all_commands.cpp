@@ -17,6 +17,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeExportCommand());
   commands.push_back(makeViewCommand());
   commands.push_back(makeInfoCommand());
+  commands.push_back(makeSettingsCommand());
   commands.push_back(makeDoctorCommand());
   return commands;
 }

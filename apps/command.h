@@ -27,6 +27,7 @@ class Command {
 
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeDepthCommand();
+std::unique_ptr<Command> makeSettingsCommand();
 std::unique_ptr<Command> makeDoctorCommand();
 std::unique_ptr<Command> makeEvaluateCommand();
 std::unique_ptr<Command> makeExportCommand();

@@ -19,8 +19,16 @@ void CommonOptions::validate() const {
 
 void SettingsArguments::declare(ArgumentList& arguments) {
   arguments.option("--config", "FILE", config_file, "settings file (TOML)");
-  arguments.option("--set", "KEY=VALUE", assignments,
-                   "one setting, e.g. stereo.method=sgbm; stronger than --config; repeatable");
+  arguments.option(
+      "--set", "KEY=VALUE", assignments,
+      "one of `softscope settings`, e.g. stereo.method=sgbm; stronger than --config; repeatable");
+}
+
+Settings SettingsArguments::read() const {
+  Settings settings;
+  if (!config_file.empty()) settings = readSettings(config_file);
+  for (const std::string& assignment : assignments) addAssignment(settings, assignment);
+  return settings;
 }
 
 }  // namespace softscope

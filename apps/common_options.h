@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/argument_list.h"
+#include "io/settings.h"
 
 namespace softscope {
 
@@ -26,6 +27,8 @@ struct SettingsArguments {
   std::vector<std::string> assignments;  // "stereo.method=sgbm"
 
   void declare(ArgumentList& arguments);
+  /// --config, then --set. Throws OptionError or InputError.
+  Settings read() const;
 };
 
 }  // namespace softscope

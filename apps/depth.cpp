@@ -8,7 +8,6 @@
 
 #include "apps/command.h"
 #include "apps/depth_estimator.h"
-#include "apps/depth_options.h"
 #include "apps/depth_outputs.h"
 #include "apps/depth_record.h"
 #include "apps/depth_text.h"
@@ -95,9 +94,8 @@ int DepthCommand::run() {
   if (!range_text_.empty()) range_ = parseDepthRange(range_text_);
   const DepthOutputKinds kinds = DepthOutputKinds::parse(write_);
   DepthOptions options;
-  SettingsBinder binder;
-  bindDepthOptions(binder, options);
-  binder.apply(readSettingsArguments(settings_));
+  SettingsBinder binder = settingsOf(options);
+  binder.apply(settings_.read());
   source_.applyFrames(options.sequence);
   options.validate();
 

@@ -1,11 +1,11 @@
 // apps/depth_estimator.h: one stereo frame to everything that `softscope depth` writes.
 #pragma once
 
-#include "apps/depth_options.h"
 #include "core/frame.h"
 #include "core/point_cloud.h"
 #include "core/stereo_rig.h"
 #include "pipeline/frame_depth.h"
+#include "pipeline/run_options.h"
 
 namespace softscope {
 

@@ -5,13 +5,13 @@
 
 #include "apps/evaluate_folders.h"
 #include "apps/evaluate_points.h"
-#include "apps/reconstruct_options.h"
 #include "core/error.h"
 #include "io/file_bytes.h"
 #include "io/message.h"
 #include "io/sequence_paths.h"
 #include "io/sequence_reader.h"
 #include "pipeline/model_matches.h"
+#include "pipeline/run_options.h"
 #include "pose/ransac_pose.h"
 #include "vtk_views/match_figure.h"
 
@@ -24,7 +24,7 @@ using Json = FactSheet::Json;
 constexpr std::uintmax_t kRecordLimitBytes = std::uintmax_t{1} << 26;
 
 /// As the run was told, from its run.json.
-ReconstructOptions optionsOf(const fs::path& run) {
+RunOptions optionsOf(const fs::path& run) {
   const fs::path file = run / "run.json";
   const Json record = Json::parse(readBytes(file, kRecordLimitBytes), nullptr, false);
   if (!record.is_object() || !record.contains("configuration"))
@@ -36,11 +36,10 @@ ReconstructOptions optionsOf(const fs::path& run) {
     if (value.is_string()) setting.value = setting.text = value.get<std::string>();
     setting.origin = shown(file);
   }
-  ReconstructOptions options("default");
-  SettingsBinder binder;
-  bindReconstructOptions(binder, options);
-  binder.apply(settings);
-  options.resolve();
+  RunOptions options;
+  settingsOf(options).apply(settings);
+  options.validate();
+  options.method = withSharedQuantities(options.method);
   return options;
 }
 
@@ -100,8 +99,8 @@ Answer answerOf(const char* method, const char* name, const ModelView& view,
                 const ReconstructionOptions& options) {
   MatcherOptions matcher = options.matcher;
   matcher.method = method;
-  const ModelMatches found = matchModel(view, modelPicture(view), live, measured, options.lift,
-                                        *makeFeatureMatcher(matcher));
+  const ModelMatches found =
+      matchModel(view, modelPicture(view), live, measured, *makeFeatureMatcher(matcher));
   const RigidPose pose = estimateRigidPose(posePairs(found.lifted), options.pose);
   Answer answer;
   for (std::size_t i = 0; i < found.lifted.size(); ++i) {
@@ -126,14 +125,13 @@ Answer answerOf(const char* method, const char* name, const ModelView& view,
 RunFigure drawMatchFigure(const RunFigureOptions& options, SceneInputs& inputs) {
   const JudgedRun run = openJudgedRun(options.run);
   const MatchMoment moment = momentOf(run, options.frames);
-  const ReconstructOptions settings = optionsOf(run.folder);
+  const RunOptions settings = optionsOf(run.folder);
   StereoCalibration calibration;
   const Frame frame =
       readFrame(options.sequence, moment.frame, settings.sequence, inputs, &calibration);
   FrameDepth depth(calibration, settings.method.depth);
   const MeasuredFrame measured = depth.measure(frame);
-  const MatchPicture live =
-      livePicture(measured, notTissue(measured, settings.method.tissue), settings.method.tissue);
+  const MatchPicture live = livePicture(measured, notTissue(measured, settings.method.tissue));
   const fs::path file = run.models.at(moment.model_frame);
   inputs.note("model", file.string());
   const ModelView view = renderModelView(readModel(file).model, depth.rig().left,

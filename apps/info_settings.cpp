@@ -1,7 +1,7 @@
 // apps/info_settings.cpp: a settings file, key by key.
-#include "apps/depth_options.h"
 #include "apps/info_parts.h"
 #include "core/error.h"
+#include "pipeline/run_options.h"
 
 namespace softscope {
 namespace {
@@ -31,9 +31,8 @@ FactSheet describeSettings(const std::string& file) {
   FactSheet facts(file + ": settings");
   facts.addQuietly("kind", "settings");
   FactSheet::Json values = FactSheet::Json::object();
-  DepthOptions options;
-  SettingsBinder binder;
-  bindDepthOptions(binder, options);
+  RunOptions options;
+  SettingsBinder binder = settingsOf(options);
   for (const auto& [key, setting] : settings) {
     addSetting(key, setting, binder, facts);
     values[key] = setting.text;

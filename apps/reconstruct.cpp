@@ -5,11 +5,9 @@
 #include <iostream>
 
 #include "apps/command.h"
-#include "apps/depth_options.h"
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
-#include "apps/reconstruct_options.h"
 #include "apps/record_paths.h"
 #include "apps/result_output.h"
 #include "apps/right_offset.h"
@@ -24,6 +22,7 @@
 #include "pipeline/backends.h"
 #include "pipeline/cpu_backend.h"
 #include "pipeline/reconstructor.h"
+#include "pipeline/run_options.h"
 
 namespace softscope {
 namespace {
@@ -138,16 +137,15 @@ std::unique_ptr<ReconstructionBackend> ReconstructCommand::makeBackend(
 }
 
 int ReconstructCommand::run() {
-  ReconstructOptions options(preset_);
-  SettingsBinder binder;
-  bindReconstructOptions(binder, options);
-  Settings settings = readSettingsArguments(settings_);
+  RunOptions options = RunOptions::ofPreset(preset_);
+  SettingsBinder binder = settingsOf(options);
+  Settings settings = settings_.read();
   if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
   if (!scope_.empty()) addAssignment(settings, "pose.scope=" + scope_);
   if (no_correspondence_) addAssignment(settings, "deform.use_correspondences=false");
   binder.apply(settings);
   source_.applyFrames(options.sequence);
-  options.resolve();
+  options.validate();
   require(checkpoint_every_ >= 1, "--checkpoint-every", checkpoint_every_, "must be 1 or more");
 
   const SequencePaths where = source_.paths("reconstruct");

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
-#include "fusion/illumination.h"
+#include "fusion/colour_levels.h"
 #include "io/atomic_file.h"
 #include "io/file_bytes.h"
 #include "io/folder.h"

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "apps/reconstruct_options.h"
 #include "apps/simulate_options.h"
 #include "core/error.h"
 #include "io/message.h"
 #include "io/nearest_name.h"
 #include "io/sequence_options.h"
 #include "io/text_lines.h"
+#include "pipeline/run_options.h"
 
 namespace softscope {
 namespace {
@@ -76,7 +76,7 @@ void checkReconstructValues(const StudyCase& study_case) {
   requireOneOf(study_case, "reconstruct.backend", valueOr(values, "backend", "auto"),
                {"auto", "cpu", "cuda"});
   requireOneOf(study_case, "reconstruct.preset", valueOr(values, "preset", "default"),
-               {"default", "paper"});
+               presetNames());
   const std::string save_every = valueOr(values, "save_every", "5");
   const auto number = numberOf(save_every);
   if (!number || *number < 0 || *number > 1e9 || *number != std::floor(*number))
@@ -151,11 +151,10 @@ std::string reconstructionText(const StudyCase& study_case) {
   const StudyValues& values = study_case.reconstruct;
   checkReconstructValues(study_case);
   const std::string preset = valueOr(values, "preset", "default");
-  ReconstructOptions options(preset);
-  SettingsBinder binder;
-  bindReconstructOptions(binder, options);
+  RunOptions options = RunOptions::ofPreset(preset);
+  SettingsBinder binder = settingsOf(options);
   binder.apply(settingsOf(study_case, values, kReconstructOptions));
-  options.resolve();
+  options.validate();
   return "preset=" + preset + "\nframes=" + valueOr(values, "frames", "") +
          "\nsave_every=" + valueOr(values, "save_every", "5") +
          "\nbackend=" + valueOr(values, "backend", "auto") + "\n" + lines(binder);

@@ -11,19 +11,16 @@ namespace softscope {
 /// Rigid has 6 unknowns, a twist, and needs no E_rot.
 enum class NodeModel { kRigid, kAffine };
 
-/// How a term treats residuals that are too large to be noise: docs/energy.md (13) to (15).
-enum class RobustLoss { kNone, kHuber, kTukey };
-
-/// What edges between nodes of different distance weigh: docs/energy.md (7).
-enum class EdgeWeighting { kUniform, kDistance };
+/// How a term treats residuals that are too large to be noise: docs/energy.md (13), (14).
+enum class RobustLoss { kNone, kHuber };
 
 /// How nodes are laid over the model.
 struct GraphOptions {
   double node_spacing_mm = 4.0;  // no point lies further than this from a node, along the surface
   double cell_mm = 1.0;          // gaps of less than this, up to twice this, count as surface
-  double detour_ratio = 1.6;     // a node carries a point only if the way along the surface is at
-                                 // most this times the straight line (plus two cells)
-  EdgeWeighting edge_weighting = EdgeWeighting::kDistance;
+  // a node carries a point only if the way along the surface is at most this times the straight
+  // line (plus two cells)
+  static constexpr double kDetourRatio = 1.6;
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;
@@ -31,12 +28,12 @@ struct GraphOptions {
 
 /// Which model points the depth map may pull, and where: docs/energy.md (9) to (11).
 struct AssociationOptions {
-  double max_distance_mm = 5.0;      // epsilon_d
-  double max_angle_deg = 45.0;       // epsilon_n
+  double max_distance_mm = 5.0;                 // epsilon_d
+  static constexpr double kMaxAngleDeg = 45.0;  // epsilon_n
   double reference_sigma_mm = 0.15;  // depth this sure weighs 1, others by inverse variance;
                                      // 0: all depths weigh 1
-  double max_reliability = 4.0;      // no depth weighs more than this
-  int max_points = 0;                // use an even subset, each standing for many; 0 = all
+  static constexpr double kMaxReliability = 4.0;  // no depth weighs more than this
+  int max_points = 0;  // use an even subset, each standing for many; 0 = all
 
   void validate() const;
 };
@@ -50,15 +47,13 @@ struct RobustOptions {
 /// Levenberg-Marquardt: docs/energy.md (16) to (19).
 struct SolverOptions {
   int max_iterations = 8;  // linear systems solved and accepted, over all associations
-  int iterations_per_association = 1;
-  int max_rejections = 8;         // in a row, before we say that there is no better step
-  double initial_damping = 1e-7;  // lambda, relative to the block diagonal
-  double min_damping = 1e-10;
-  double max_damping = 1e6;
+  static constexpr int kIterationsPerAssociation = 1;
+  static constexpr int kMaxRejections = 8;  // in a row, before we say that there is no better step
+  static constexpr double kInitialDamping = 1e-7;  // lambda, relative to the block diagonal
+  static constexpr double kMinDamping = 1e-10;
+  static constexpr double kMaxDamping = 1e6;
   double step_tolerance_mm = 2e-3;  // converged when no node moves further in one step
   double cost_tolerance = 1e-3;     // or when a step lowers the cost by less than this share
-
-  void validate() const;
 };
 
 /// The energy's weights and everything else that stage 6 may be told. The defaults were found on a

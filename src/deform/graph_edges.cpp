@@ -97,10 +97,7 @@ std::vector<GraphEdge> makeEdges(const WarpGraph& graph, const GraphOptions& opt
   edges.reserve(pairs.size());
   for (const auto& [a, b] : pairs) {
     const double length_mm = (graph.positions_mm[a] - graph.positions_mm[b]).norm();
-    const double weight = options.edge_weighting == EdgeWeighting::kUniform
-                              ? 1.0
-                              : edgeWeight(length_mm, options.node_spacing_mm);
-    edges.push_back({a, b, weight});
+    edges.push_back({a, b, edgeWeight(length_mm, options.node_spacing_mm)});
   }
   return edges;
 }

@@ -100,10 +100,10 @@ class Solver : public DeformSolver {
 
   void iterate(const SurfaceTarget* surface, WarpGraph* graph, DeformSummary* summary) {
     const SolverOptions& rules = options_.solver;
-    damping_ = rules.initial_damping;
+    damping_ = rules.kInitialDamping;
     summary->reason = StopReason::kIterationLimit;
     while (summary->iterations < rules.max_iterations) {
-      if (summary->iterations % rules.iterations_per_association == 0) {
+      if (summary->iterations % rules.kIterationsPerAssociation == 0) {
         if (!reassociate(surface, *graph, summary)) {
           summary->reason = StopReason::kNothingToFit;
           break;
@@ -173,7 +173,7 @@ class Solver : public DeformSolver {
     }
     const std::vector<NodeTransform> start = graph->transforms;
     double growth = 2;
-    for (int attempt = 0; attempt < options_.solver.max_rejections; ++attempt) {
+    for (int attempt = 0; attempt < options_.solver.kMaxRejections; ++attempt) {
       Eigen::VectorXd step;
       if (findStep(&step, summary)) {
         const double predicted = predictedDecrease(step);
@@ -190,9 +190,9 @@ class Solver : public DeformSolver {
       ++summary->rejections;
       damping_ *= growth;
       growth *= 2;
-      if (damping_ > options_.solver.max_damping) break;
+      if (damping_ > options_.solver.kMaxDamping) break;
     }
-    damping_ = std::min(damping_, options_.solver.max_damping);
+    damping_ = std::min(damping_, options_.solver.kMaxDamping);
     return Step::kNone;
   }
 
@@ -223,7 +223,7 @@ class Solver : public DeformSolver {
   void relax(double gain) {
     const double factor = std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3));
     damping_ =
-        std::clamp(damping_ * factor, options_.solver.min_damping, options_.solver.max_damping);
+        std::clamp(damping_ * factor, options_.solver.kMinDamping, options_.solver.kMaxDamping);
   }
 
   /// A step that is small only because it was damped is no sign of convergence.

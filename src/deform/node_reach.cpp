@@ -25,7 +25,7 @@ std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm)
       const float straight_mm = (cells_.centre(cell) - position_mm).norm();
       if (straight_mm > reach_mm) continue;
       // On an even surface a walk takes about one step a cell of straight line, never many more.
-      const bool direct = steps <= 2 + options_.detour_ratio * straight_mm / cells_.cellMm();
+      const bool direct = steps <= 2 + options_.kDetourRatio * straight_mm / cells_.cellMm();
       if (direct && enter(node, straight_mm, &near_[cell]) <= kNodesPerPoint)
         entered.push_back(cell);
       for (int i = cells_.neighboursBegin(cell); i < cells_.neighboursEnd(cell); ++i) {

@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// Cost rho and weight rho' of a squared residual, docs/energy.md (13) to (15). For small residuals
+/// Cost rho and weight rho' of a squared residual, docs/energy.md (13), (14). For small residuals
 /// they equal the squared residual and 1.
 struct RobustValue {
   double cost;
@@ -17,10 +17,6 @@ struct RobustValue {
 
 SOFTSCOPE_HD inline RobustValue robustValue(const RobustOptions& robust, double squared) {
   const double limit = robust.scale_mm * robust.scale_mm;
-  if (robust.loss == RobustLoss::kTukey) {
-    const double rest = squared < limit ? 1 - squared / limit : 0;
-    return {limit / 3 * (1 - rest * rest * rest), rest * rest};
-  }
   if (robust.loss == RobustLoss::kHuber && squared > limit) {
     const double size = std::sqrt(squared);
     return {2 * robust.scale_mm * size - limit, robust.scale_mm / size};

@@ -33,10 +33,10 @@ DepthTarget::DepthTarget(const DepthMap& depth, const NormalMap& normals, const 
       left_from_world_translation_mm_(left_from_world.translation().cast<float>()),
       squared_distance_limit_(
           static_cast<float>(options.max_distance_mm * options.max_distance_mm)),
-      cosine_limit_(static_cast<float>(std::cos(options.max_angle_deg * M_PI / 180))),
+      cosine_limit_(static_cast<float>(std::cos(options.kMaxAngleDeg * M_PI / 180))),
       use_sigma_(options.reference_sigma_mm > 0 && !depth.sigma_mm.empty()),
       reference_sigma_mm_(static_cast<float>(options.reference_sigma_mm)),
-      max_reliability_(static_cast<float>(options.max_reliability)) {
+      max_reliability_(static_cast<float>(options.kMaxReliability)) {
   options.validate();
   requireShape(depth.depth_mm.width_px, depth.depth_mm.height_px, left, "depth map");
   requireShape(normals.width_px, normals.height_px, left, "normal map");

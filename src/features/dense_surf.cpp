@@ -64,7 +64,7 @@ void addRow(const WaveletRow& row, int grid, int columns, std::int32_t* sums, st
 
 Squares squaresOf(const Integrals& integrals, int width, int height,
                   const DenseSurfOptions& options) {
-  const int grid = options.grid_px, h = options.wavelet_px / 2;
+  const int grid = options.kGridPx, h = options.kWaveletPx / 2;
   const int columns = width / grid, rows = height / grid;
   Squares out{Raster<std::int32_t>(kSums * columns, rows, 0),
               Raster<std::int32_t>(columns, rows, 0)};
@@ -112,9 +112,9 @@ struct Layout {
 
 Layout layoutOf(const DenseSurfOptions& options) {
   const int side = kCells * options.cell_px;
-  const double half_wavelet = 0.5 * options.wavelet_px * options.wavelet_px;
-  return {options.cell_px / options.grid_px,
-          static_cast<int>((1 - options.max_invalid_share) * side * side),
+  const double half_wavelet = 0.5 * options.kWaveletPx * options.kWaveletPx;
+  return {options.cell_px / options.kGridPx,
+          static_cast<int>((1 - options.kMaxInvalidShare) * side * side),
           static_cast<float>(1 / (half_wavelet * 2 * side * side))};
 }
 
@@ -137,35 +137,22 @@ void describeRow(const Cells& cells, const Layout& layout, const DenseSurfOption
     out->contrast_gray.values[node] = absolute * layout.gray_per_sum;
     out->valid.values[node] =
         valid >= layout.least_valid &&
-        out->contrast_gray.values[node] >= static_cast<float>(options.min_contrast_gray);
+        out->contrast_gray.values[node] >= static_cast<float>(options.kMinContrastGray);
   }
 }
 
 }  // namespace
 
-void DenseSurfOptions::validate() const {
-  require(grid_px >= 1, "dense_surf.grid_px", grid_px, "must be 1 or more");
-  require(wavelet_px >= 2 && wavelet_px % 2 == 0, "dense_surf.wavelet_px", wavelet_px,
-          "must be even, 2 or more");
-  require(cell_px >= grid_px && cell_px % grid_px == 0, "dense_surf.cell_px", cell_px,
-          "must be a multiple of dense_surf.grid_px");
-  require(max_invalid_share >= 0 && max_invalid_share < 1, "dense_surf.max_invalid_share",
-          max_invalid_share, "must be 0 or more and below 1");
-  require(min_contrast_gray >= 0, "dense_surf.min_contrast_gray", min_contrast_gray,
-          "can't be negative");
-}
-
 DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
                            const DenseSurfOptions& options) {
-  options.validate();
   if (!ignore.empty() && !ignore.sameShape(image))
     throw Error("dense SURF: the mask has another shape than the picture");
   const Layout layout = layoutOf(options);
   DenseDescriptors out;
-  out.grid_px = options.grid_px;
+  out.grid_px = options.kGridPx;
   // Wavelet u lies between the pixels u - 1 and u, so that the middle of the cells is a pixel.
   out.first_px = kCells / 2 * options.cell_px - 1;
-  const int least_side = std::max(kCells * options.cell_px, options.wavelet_px);
+  const int least_side = std::max(kCells * options.cell_px, options.kWaveletPx);
   if (image.width_px < least_side || image.height_px < least_side) return out;
 
   const Squares squares =

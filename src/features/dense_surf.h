@@ -10,14 +10,13 @@ namespace softscope {
 
 /// Upright, at one scale. SURF's scale s stands for wavelets of 2 s and cells of 5 s pixels.
 struct DenseSurfOptions {
-  int grid_px = 3;                 // from one descriptor to the next
-  int wavelet_px = 4;              // side of the Haar wavelets; even
-  int cell_px = 6;                 // side of the 4 x 4 cells; a multiple of grid_px
-  double max_invalid_share = 0.2;  // of a descriptor's wavelets that touch ignored pixels
-  double min_contrast_gray = 0.8;  // mean difference of the wavelets' halves, or there's nothing
-
-  /// Throws OptionError: the field, its value, the rule it breaks.
-  void validate() const;
+  static constexpr int kGridPx = 3;     // from one descriptor to the next
+  static constexpr int kWaveletPx = 4;  // side of the Haar wavelets; even
+  int cell_px = 6;                      // side of the 4 x 4 cells; a multiple of grid_px
+  // of a descriptor's wavelets that touch ignored pixels
+  static constexpr double kMaxInvalidShare = 0.2;
+  // mean difference of the wavelets' halves, or there's nothing
+  static constexpr double kMinContrastGray = 0.8;
 };
 
 /// Descriptors on a grid: node (i, j) describes the square of 4 cells around pixel
@@ -41,7 +40,7 @@ struct DenseDescriptors {
 /// its grid square, each square once into its cells, and a cell serves the 16 descriptors that
 /// share it. Without SURF's Gaussian weights, which would forbid the sharing. `ignore` is empty or
 /// has the picture's shape, non-zero = invalid. A picture smaller than one descriptor gives none.
-/// Throws OptionError on bad options, Error where the shapes differ.
+/// Throws Error where the shapes differ.
 DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
                            const DenseSurfOptions& options);
 

@@ -93,7 +93,7 @@ struct Reach {
 
 Reach reachOf(const MatcherOptions& options, int grid_px, double radius_px) {
   const auto nodes = [&](double px) { return static_cast<int>(std::lround(px / grid_px)); };
-  return {std::max(1, nodes(radius_px)), nodes(options.elsewhere_px), nodes(options.mutual_px)};
+  return {std::max(1, nodes(radius_px)), nodes(options.kElsewherePx), nodes(options.kMutualPx)};
 }
 
 Eigen::Vector2f pixelOf(const DenseDescriptors& grid, int column, int row) {
@@ -177,8 +177,8 @@ std::vector<NodeMatch> matchDescriptors(const DenseDescriptors& model, const Den
                                         const MatcherOptions& options) {
   if (model.valid.empty() || live.valid.empty()) return {};
   const PairOfGrids grids(model, live, predicted, reachOf(options, model.grid_px, radius_px),
-                          static_cast<float>(options.max_ratio));
-  const int side = std::max(1, options.spacing_px / model.grid_px);
+                          static_cast<float>(options.kMaxRatio));
+  const int side = std::max(1, options.kSpacingPx / model.grid_px);
   const int square_rows = (model.rows() + side - 1) / side;
   std::vector<std::vector<NodeMatch>> found(static_cast<std::size_t>(square_rows));
   parallelRanges(square_rows, 4, [&](int begin, int end) {

@@ -5,16 +5,7 @@
 
 namespace softscope {
 
-struct HighlightOptions {
-  int min_brightness = 235;      // of the brightest channel, 0 to 255
-  double max_saturation = 0.25;  // (max - min) / max of the channels
-  int grow_px = 3;               // the halo around them goes too
-
-  /// Throws OptionError: the field, its value, the rule it breaks.
-  void validate() const;
-};
-
 /// 1 at specular highlights: bright and colourless pixels, and their surroundings. Same shape.
-Mask highlightMask(const ColourImage& image, const HighlightOptions& options);
+Mask highlightMask(const ColourImage& image);
 
 }  // namespace softscope

@@ -2,12 +2,19 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "features/mask_morphology.h"
 
 namespace softscope {
 namespace {
+
+constexpr double kInstrumentRedness = -0.02;   // largest (R - (G + B) / 2) / (R + G + B)
+constexpr int kLeastColourBrightness = 25;     // mean of the channels; darker has no colour
+constexpr int kInstrumentOpenPx = 4;           // candidates narrower than twice this are dropped
+constexpr int kInstrumentClosePx = 6;          // holes narrower than twice this are filled
+constexpr double kInstrumentAreaShare = 0.01;  // least, of the image
+constexpr int kInstrumentBorderGapPx = 8;      // an instrument begins this near to the border
+constexpr int kInstrumentRimPx = 10;           // dilation: the shadowed rim is masked too
 
 /// 3 x 3 box means, because chroma of single pixels is mostly JPEG blocks.
 ColourImage softened(const ColourImage& image) {
@@ -19,26 +26,26 @@ ColourImage softened(const ColourImage& image) {
   return out;
 }
 
-Mask colourlessPixels(const ColourImage& image, const InstrumentOptions& options) {
+Mask colourlessPixels(const ColourImage& image) {
   Mask mask(image.width_px, image.height_px, 0);
   parallelRows(image.height_px, [&](int v) {
     const Rgb8* in = image.row(v);
     for (int u = 0; u < image.width_px; ++u) {
       const int sum = in[u].red + in[u].green + in[u].blue;
       const double redness = in[u].red - 0.5 * (in[u].green + in[u].blue);
-      mask.at(u, v) = sum >= 3 * options.min_brightness && redness <= options.max_redness * sum;
+      mask.at(u, v) = sum >= 3 * kLeastColourBrightness && redness <= kInstrumentRedness * sum;
     }
   });
   return mask;
 }
 
 /// Keeps connected regions that are large and begin at the border.
-Mask largeFromBorder(const Mask& mask, const InstrumentOptions& options) {
+Mask largeFromBorder(const Mask& mask) {
   const cv::Mat from(mask.height_px, mask.width_px, CV_8U,
                      const_cast<std::uint8_t*>(mask.values.data()));
   cv::Mat labels, boxes, centres;
   const int count = cv::connectedComponentsWithStats(from, labels, boxes, centres, 8, CV_32S);
-  const double least = options.min_area_share * mask.width_px * mask.height_px;
+  const double least = kInstrumentAreaShare * mask.width_px * mask.height_px;
   std::vector<std::uint8_t> kept(static_cast<std::size_t>(count), 0);
   for (int i = 1; i < count; ++i) {
     const int* box = boxes.ptr<int>(i);
@@ -47,7 +54,7 @@ Mask largeFromBorder(const Mask& mask, const InstrumentOptions& options) {
     const int gap = std::min({box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP], mask.width_px - right,
                               mask.height_px - bottom});
     kept[static_cast<std::size_t>(i)] =
-        box[cv::CC_STAT_AREA] >= least && gap <= options.max_border_gap_px;
+        box[cv::CC_STAT_AREA] >= least && gap <= kInstrumentBorderGapPx;
   }
   Mask out(mask.width_px, mask.height_px, 0);
   for (int v = 0; v < mask.height_px; ++v)
@@ -58,27 +65,12 @@ Mask largeFromBorder(const Mask& mask, const InstrumentOptions& options) {
 
 }  // namespace
 
-void InstrumentOptions::validate() const {
-  require(max_redness > -1 && max_redness < 1, "instruments.max_redness", max_redness,
-          "must lie between -1 and 1");
-  require(min_brightness >= 0 && min_brightness <= 255, "instruments.min_brightness",
-          min_brightness, "must lie between 0 and 255");
-  require(open_px >= 0, "instruments.open_px", open_px, "can't be negative");
-  require(close_px >= 0, "instruments.close_px", close_px, "can't be negative");
-  require(min_area_share >= 0 && min_area_share <= 1, "instruments.min_area_share", min_area_share,
-          "must lie between 0 and 1");
-  require(max_border_gap_px >= 0, "instruments.max_border_gap_px", max_border_gap_px,
-          "can't be negative");
-  require(grow_px >= 0, "instruments.grow_px", grow_px, "can't be negative");
-}
-
-Mask detectInstruments(const ColourImage& image, const InstrumentOptions& options) {
-  options.validate();
+Mask detectInstruments(const ColourImage& image) {
   if (image.empty()) return Mask();
-  const Mask colourless = colourlessPixels(softened(image), options);
-  const Mask opened = grown(shrunk(colourless, options.open_px), options.open_px);
-  const Mask closed = shrunk(grown(opened, options.close_px), options.close_px);
-  return grown(largeFromBorder(closed, options), options.grow_px);
+  const Mask colourless = colourlessPixels(softened(image));
+  const Mask opened = grown(shrunk(colourless, kInstrumentOpenPx), kInstrumentOpenPx);
+  const Mask closed = shrunk(grown(opened, kInstrumentClosePx), kInstrumentClosePx);
+  return grown(largeFromBorder(closed), kInstrumentRimPx);
 }
 
 }  // namespace softscope

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
-
 namespace softscope {
 namespace {
+
+constexpr float kLiftStepMm = 1;  // larger differences of four pixels are depth discontinuities
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -19,10 +19,6 @@ float sigmaAt(const DepthMap& depth, const Eigen::Vector2f& place_px) {
 }
 
 }  // namespace
-
-void LiftOptions::validate() const {
-  require(max_step_mm > 0, "lift.max_step_mm", max_step_mm, "must be above 0");
-}
 
 float depthAt(const Raster<float>& depth_mm, const Eigen::Vector2f& place_px, float max_step_mm) {
   const float fu = std::floor(place_px.x()), fv = std::floor(place_px.y());
@@ -41,16 +37,13 @@ float depthAt(const Raster<float>& depth_mm, const Eigen::Vector2f& place_px, fl
 }
 
 std::vector<LiftedMatch> liftMatches(const std::vector<PixelMatch>& matches, const ModelView& view,
-                                     const DepthMap& live_depth, const PinholeCamera& live_camera,
-                                     const LiftOptions& options) {
-  options.validate();
-  const float max_step_mm = static_cast<float>(options.max_step_mm);
+                                     const DepthMap& live_depth, const PinholeCamera& live_camera) {
   const Eigen::Isometry3f world_from_left = view.world_from_left.cast<float>();
   std::vector<LiftedMatch> lifted;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const PixelMatch& match = matches[i];
-    const float model_mm = depthAt(view.depth_mm, match.model_px, max_step_mm);
-    const float live_mm = depthAt(live_depth.depth_mm, match.live_px, max_step_mm);
+    const float model_mm = depthAt(view.depth_mm, match.model_px, kLiftStepMm);
+    const float live_mm = depthAt(live_depth.depth_mm, match.live_px, kLiftStepMm);
     if (!(model_mm > 0 && live_mm > 0)) continue;
     const std::int32_t point =
         view.point_index.at(nearestPixel(match.model_px.x()), nearestPixel(match.model_px.y()));

@@ -12,13 +12,6 @@
 
 namespace softscope {
 
-struct LiftOptions {
-  double max_step_mm = 1.0;  // among the four pixels around a place; more is a depth step
-
-  /// Throws OptionError: the field, its value, the rule it breaks.
-  void validate() const;
-};
-
 /// One piece of tissue, on the model and as it was measured now.
 struct LiftedMatch {
   std::int32_t model_point = 0;     // of the model, nearest to the ray
@@ -37,7 +30,6 @@ float depthAt(const Raster<float>& depth_mm, const Eigen::Vector2f& place_px, fl
 /// Lifts the model side by the view's depth and the live side by the depth map (sigma_mm may be
 /// empty); leaves out what has no depth. Keeps the order.
 std::vector<LiftedMatch> liftMatches(const std::vector<PixelMatch>& matches, const ModelView& view,
-                                     const DepthMap& live_depth, const PinholeCamera& live_camera,
-                                     const LiftOptions& options);
+                                     const DepthMap& live_depth, const PinholeCamera& live_camera);
 
 }  // namespace softscope

@@ -46,11 +46,11 @@ class Squares {
 
 std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
                                        const ConsistencyOptions& options) {
-  if (options.min_share <= 0) return matches;
-  const float reach_sq = static_cast<float>(options.reach_px * options.reach_px);
-  const auto least_px = static_cast<float>(options.agree_px);
+  if (options.kMinShare <= 0) return matches;
+  const float reach_sq = static_cast<float>(options.kReachPx * options.kReachPx);
+  const auto least_px = static_cast<float>(options.kAgreePx);
   const auto max_strain = static_cast<float>(options.max_strain);
-  const Squares squares(matches, static_cast<float>(options.reach_px));
+  const Squares squares(matches, static_cast<float>(options.kReachPx));
   std::vector<std::uint8_t> kept(matches.size(), 0);
   parallelRanges(static_cast<int>(matches.size()), 256, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
@@ -63,7 +63,7 @@ std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
         agreeing +=
             (matches[k].live_px - matches[i].live_px - apart).squaredNorm() <= agree_px * agree_px;
       });
-      kept[i] = agreeing >= 1 && agreeing >= options.min_share * others;
+      kept[i] = agreeing >= 1 && agreeing >= options.kMinShare * others;
     }
   });
   std::vector<PixelMatch> consistent;

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/median.h"
 #include "features/descriptor_matching.h"
+#include "features/feature_settings.h"
 #include "features/kernels.h"
 #include "features/mask_morphology.h"
 #include "features/match_consistency.h"
@@ -84,10 +85,10 @@ class DenseSurfMatcher : public FeatureMatcher {
       const GrayImage& gray = levels[k].model.gray;
       const double radius_px = k + 1 == levels.size()
                                    ? options_.reach * std::max(gray.width_px, gray.height_px)
-                                   : options_.search_radius_px;
+                                   : options_.kSearchRadiusPx;
       const std::vector<PixelMatch> rough = roughMatches(levels[k], predicted, radius_px);
       matches = withCoarser(refined(levels[k], rough), toFinerLevel(std::move(matches)),
-                            gray.width_px, gray.height_px, options_.coarse_spacing_px);
+                            gray.width_px, gray.height_px, options_.kCoarseSpacingPx);
       if (k > 0)
         predicted = ShiftField(toFinerLevel(keepConsistent(rough, options_.consistency)),
                                levels[k - 1].model.gray.width_px,
@@ -106,7 +107,7 @@ class DenseSurfMatcher : public FeatureMatcher {
              denseSurf(level.model.gray, level.model.ignore, surf),
              denseSurf(level.live.gray, level.live.ignore, surf), predicted, radius_px, options_))
       rough.push_back({node.model_px, whole_nodes ? node.live_px : node.parabola_px,
-                       0.5f * static_cast<float>(surf.grid_px), 0});
+                       0.5f * static_cast<float>(surf.kGridPx), 0});
     return rough;
   }
 
@@ -114,7 +115,7 @@ class DenseSurfMatcher : public FeatureMatcher {
                                   const std::vector<PixelMatch>& rough) const {
     if (options_.subpixel.method != "gauss-newton") return rough;
     return keepConsistent(keepSure(refineMatches(level.model, level.live, rough, options_.subpixel),
-                                   options_.subpixel.max_sigma_px),
+                                   options_.subpixel.kMaxSigmaPx),
                           options_.consistency);
   }
 
@@ -132,8 +133,8 @@ class NoMatcher : public FeatureMatcher {
 MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& options) {
   Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
   for (std::size_t i = 0; i < dark.size(); ++i)
-    dark.values[i] = picture.gray.values[i] < options.darkest_gray;
-  MatchPicture out{picture.gray, grown(dark, options.dark_margin_px), picture.anchor};
+    dark.values[i] = picture.gray.values[i] < options.kDarkestGray;
+  MatchPicture out{picture.gray, grown(dark, options.kDarkMarginPx), picture.anchor};
   for (std::size_t i = 0; i < picture.ignore.size(); ++i)
     if (picture.ignore.values[i] != 0) out.ignore.values[i] = 1;
   return out;
@@ -165,48 +166,7 @@ std::unique_ptr<FeatureMatcher> makeUnchecked(const MatcherOptions& options) {
 
 }  // namespace
 
-void MatcherOptions::validate() const {
-  require(
-      method == "dense-surf" || method == "sift" || method == "dis-flow" || method == "surf-off",
-      "matcher.method", method, "must be dense-surf, sift, dis-flow or surf-off");
-  require(reach > 0 && reach <= 1, "matcher.reach", reach, "must be above 0 and at most 1");
-  require(coarse_spacing_px >= 1, "matcher.coarse_spacing_px", coarse_spacing_px,
-          "must be 1 or more");
-  require(search_radius_px > 0, "matcher.search_radius_px", search_radius_px, "must be above 0");
-  require(max_ratio > 0 && max_ratio <= 1, "matcher.max_ratio", max_ratio,
-          "must be above 0 and at most 1");
-  require(elsewhere_px >= 0, "matcher.elsewhere_px", elsewhere_px, "can't be negative");
-  require(mutual_px >= 0, "matcher.mutual_px", mutual_px, "can't be negative");
-  require(spacing_px >= 1, "matcher.spacing_px", spacing_px, "must be 1 or more");
-  require(darkest_gray >= 0 && darkest_gray <= 255, "matcher.darkest_gray", darkest_gray,
-          "must lie between 0 and 255");
-  require(dark_margin_px >= 0, "matcher.dark_margin_px", dark_margin_px, "can't be negative");
-  require(sift_features >= 1, "matcher.sift_features", sift_features, "must be 1 or more");
-  const std::string& refinement = subpixel.method;
-  require(refinement == "gauss-newton" || refinement == "parabola" || refinement == "none",
-          "matcher.subpixel.method", refinement, "must be gauss-newton, parabola or none");
-  require(subpixel.radius_px >= 1 && 2 * subpixel.radius_px + 1 <= kLargestWindow,
-          "matcher.subpixel.radius_px", subpixel.radius_px, "must lie between 1 and 7");
-  require(subpixel.iterations >= 1, "matcher.subpixel.iterations", subpixel.iterations,
-          "must be 1 or more");
-  require(subpixel.max_shift_px > 0, "matcher.subpixel.max_shift_px", subpixel.max_shift_px,
-          "must be above 0");
-  require(subpixel.max_sigma_px > 0, "matcher.subpixel.max_sigma_px", subpixel.max_sigma_px,
-          "must be above 0");
-  require(subpixel.floor_sigma_px >= 0, "matcher.subpixel.floor_sigma_px", subpixel.floor_sigma_px,
-          "can't be negative");
-  require(subpixel.drift_px >= 0, "matcher.subpixel.drift_px", subpixel.drift_px,
-          "can't be negative");
-  require(consistency.reach_px > 0, "matcher.consistency.reach_px", consistency.reach_px,
-          "must be above 0");
-  require(consistency.agree_px > 0, "matcher.consistency.agree_px", consistency.agree_px,
-          "must be above 0");
-  require(consistency.max_strain >= 0 && consistency.max_strain < 1,
-          "matcher.consistency.max_strain", consistency.max_strain, "must be 0 or above, below 1");
-  require(consistency.min_share >= 0 && consistency.min_share <= 1, "matcher.consistency.min_share",
-          consistency.min_share, "must lie between 0 and 1");
-  dense_surf.validate();
-}
+void MatcherOptions::validate() const { requireAllowed(*this); }
 
 std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options) {
   options.validate();

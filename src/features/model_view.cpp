@@ -34,8 +34,8 @@ struct Projector {
         fy(static_cast<float>(camera.fy_px)),
         cx(static_cast<float>(camera.cx_px)),
         cy(static_cast<float>(camera.cy_px)),
-        radius_mm(static_cast<float>(options.disc_spacings * options.point_spacing_mm)),
-        min_radius_px(static_cast<float>(options.min_disc_px)) {}
+        radius_mm(static_cast<float>(options.kDiscSpacings * options.point_spacing_mm)),
+        min_radius_px(static_cast<float>(options.kMinDiscPx)) {}
 
   /// False where the point can't be seen.
   bool discOf(const PointModel& model, std::size_t i, SplatDisc* disc) const {
@@ -203,19 +203,9 @@ void drawBand(const std::vector<ChunkDiscs>& chunks, int index, BandCanvas* canv
 
 }  // namespace
 
-void ModelViewOptions::validate() const {
-  require(point_spacing_mm > 0, "view.point_spacing_mm", point_spacing_mm, "must be above 0");
-  require(disc_spacings > 0, "view.disc_spacings", disc_spacings, "must be above 0");
-  require(min_disc_px >= 1 && min_disc_px <= kLargestDiscPx, "view.min_disc_px", min_disc_px,
-          "must lie between 1 and 12");
-  require(surface_depth_mm > 0, "view.surface_depth_mm", surface_depth_mm, "must be above 0");
-  require(gap_px >= 0, "view.gap_px", gap_px, "can't be negative");
-}
-
 ModelView renderModelView(const PointModel& model, const PinholeCamera& camera,
                           const Eigen::Isometry3d& world_from_left,
                           const ModelViewOptions& options) {
-  options.validate();
   ModelView view;
   view.camera = camera;
   view.world_from_left = world_from_left;
@@ -234,7 +224,7 @@ ModelView renderModelView(const PointModel& model, const PinholeCamera& camera,
       chunks[static_cast<std::size_t>(c)] = discsOfChunk(model, projector, c, bands);
   });
   Raster<BlendedPixel> blended(camera.width_px, camera.height_px);
-  const float surface_depth_mm = static_cast<float>(options.surface_depth_mm);
+  const float surface_depth_mm = static_cast<float>(options.kSurfaceDepthMm);
   parallelRanges(bands, 1, [&](int begin, int end) {
     BandCanvas canvas(camera.width_px, surface_depth_mm);
     for (int b = begin; b < end; ++b) drawBand(chunks, b, &canvas, &blended, &view);

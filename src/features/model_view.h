@@ -11,14 +11,12 @@
 namespace softscope {
 
 struct ModelViewOptions {
-  double point_spacing_mm = 0.2;  // of the model's points
-  double disc_spacings = 0.9;     // radius of a disc, in spacings; larger discs blur
-  double min_disc_px = 1.25;      // so that far points leave no holes between pixels
-  double surface_depth_mm = 1.0;  // points this far behind the front one belong to its surface
-  int gap_px = 4;                 // gaps up to this wide in a nearer surface are closed
-
-  /// Throws OptionError: the field, its value, the rule it breaks.
-  void validate() const;
+  double point_spacing_mm = 0.2;                // of the model's points: fusion.point_spacing_mm
+  static constexpr double kDiscSpacings = 0.9;  // radius of a disc, in spacings; larger discs blur
+  static constexpr double kMinDiscPx = 1.25;    // so that far points leave no holes between pixels
+  // points this far behind the front one belong to its surface
+  static constexpr double kSurfaceDepthMm = 1.0;
+  int gap_px = 4;  // gaps up to this wide in a nearer surface are closed
 };
 
 /// All rasters have the camera's shape.

@@ -60,7 +60,7 @@ std::vector<int> nearestWithin(const KeyPoints& from, const KeyPoints& to, float
 class SiftMatcher : public FeatureMatcher {
  public:
   explicit SiftMatcher(const MatcherOptions& options)
-      : options_(options), sift_(cv::SIFT::create(options.sift_features)) {}
+      : options_(options), sift_(cv::SIFT::create(options.kSiftFeatures)) {}
   std::string name() const override { return "sift"; }
 
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
@@ -69,8 +69,8 @@ class SiftMatcher : public FeatureMatcher {
     const KeyPoints a = siftOf(*sift_, model), b = siftOf(*sift_, live);
     const float radius_px = static_cast<float>(options_.reach) *
                             static_cast<float>(std::max(model.gray.width_px, model.gray.height_px));
-    const std::vector<int> there = nearestWithin(a, b, radius_px, options_.max_ratio);
-    const std::vector<int> back = nearestWithin(b, a, radius_px, options_.max_ratio);
+    const std::vector<int> there = nearestWithin(a, b, radius_px, options_.kMaxRatio);
+    const std::vector<int> back = nearestWithin(b, a, radius_px, options_.kMaxRatio);
     for (std::size_t i = 0; i < there.size(); ++i) {
       if (there[i] < 0 || back[static_cast<std::size_t>(there[i])] != static_cast<int>(i)) continue;
       const cv::Point2f p = a.places[i].pt, q = b.places[static_cast<std::size_t>(there[i])].pt;
@@ -96,7 +96,7 @@ class FlowMatcher : public FeatureMatcher {
     if (model.gray.width_px < kSmallestSide || model.gray.height_px < kSmallestSide) return rough;
     cv::Mat flow;
     flow_->calc(viewOf(model.gray), viewOf(live.gray), flow);
-    const int step = options_.spacing_px;
+    const int step = options_.kSpacingPx;
     for (int v = step / 2; v < flow.rows; v += step)
       for (int u = step / 2; u < flow.cols; u += step) {
         const cv::Vec2f shift = flow.at<cv::Vec2f>(v, u);

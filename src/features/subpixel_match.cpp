@@ -75,19 +75,19 @@ class Refiner {
     if (anchor_.empty()) return refineBy(model_, match);
     PixelMatch anchored = *match, present = *match;
     const bool held = refineBy(anchor_, &anchored);
-    if (held && anchored.sigma_px <= static_cast<float>(options_.max_sigma_px)) {
+    if (held && anchored.sigma_px <= static_cast<float>(options_.kMaxSigmaPx)) {
       *match = anchored;
       return true;
     }
     const bool seen = refineBy(model_, &present);
-    present.sigma_px = std::hypot(present.sigma_px, static_cast<float>(options_.drift_px));
+    present.sigma_px = std::hypot(present.sigma_px, static_cast<float>(options_.kDriftPx));
     *match = held && (!seen || anchored.sigma_px < present.sigma_px) ? anchored : present;
     return held || seen;
   }
 
  private:
   bool refineBy(const Raster<float>& model, PixelMatch* match) const {
-    const int r = options_.radius_px;
+    const int r = options_.kRadiusPx;
     const int mu = static_cast<int>(std::lround(match->model_px.x()));
     const int mv = static_cast<int>(std::lround(match->model_px.y()));
     if (!insideModel(mu, mv, r)) return false;
@@ -106,7 +106,7 @@ class Refiner {
   }
 
   void fillWindow() {
-    const int r = options_.radius_px;
+    const int r = options_.kRadiusPx;
     const float sigma = 0.8f * static_cast<float>(r) + 0.5f;
     for (int y = -r; y <= r; ++y)
       for (int x = -r; x <= r; ++x)
@@ -127,7 +127,7 @@ class Refiner {
 
   /// Weights of the window without what either picture ignores, sum 1.
   bool weigh(int mu, int mv, int lu, int lv, Patch* patch) const {
-    const int r = options_.radius_px;
+    const int r = options_.kRadiusPx;
     patch->rows = 2 * r + 1;
     patch->weight.fill(0);
     float all = 0, kept = 0;
@@ -153,7 +153,7 @@ class Refiner {
 
   /// Gradients and contrast of the model's window; projects mean and contrast out of the gradients.
   bool prepare(const Raster<float>& model, int mu, int mv, Patch* patch) const {
-    const int r = options_.radius_px;
+    const int r = options_.kRadiusPx;
     patch->steepest_u.fill(0);
     patch->steepest_v.fill(0);
     patch->contrast.fill(0);
@@ -200,14 +200,14 @@ class Refiner {
   bool iterate(const Patch& patch, Eigen::Vector2f* centre, PixelMatch* match) const {
     const Eigen::Matrix2f inverse = patch.information.inverse();
     const Eigen::Vector2f start = *centre;
-    const float farthest = static_cast<float>(options_.max_shift_px);
-    for (int i = 0; i < options_.iterations; ++i) {
+    const float farthest = static_cast<float>(options_.kMaxShiftPx);
+    for (int i = 0; i < options_.kIterations; ++i) {
       const WindowSums sums = sample(patch, *centre);
       const float gain = sums.along_contrast / patch.contrast_sq;
       if (!(gain > 0.1f && gain < 10.0f)) return false;
       const Eigen::Vector2f step = inverse * Eigen::Vector2f(sums.along_u, sums.along_v) / gain;
       *centre -= step;
-      if (!((*centre - start).norm() <= farthest) || !insideLive(*centre, options_.radius_px))
+      if (!((*centre - start).norm() <= farthest) || !insideLive(*centre, options_.kRadiusPx))
         return false;
       if (step.norm() < kConvergedPx) break;
     }
@@ -215,8 +215,8 @@ class Refiner {
   }
 
   WindowSums sample(const Patch& patch, const Eigen::Vector2f& centre) const {
-    const float u = centre.x() - static_cast<float>(options_.radius_px);
-    const float v = centre.y() - static_cast<float>(options_.radius_px);
+    const float u = centre.x() - static_cast<float>(options_.kRadiusPx);
+    const float v = centre.y() - static_cast<float>(options_.kRadiusPx);
     const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
     return featureKernels().windowSums(patch.view(), live_.row(v0) + u0, live_.width_px,
                                        u - static_cast<float>(u0), v - static_cast<float>(v0));
@@ -233,10 +233,10 @@ class Refiner {
     const float half_trace = 0.5f * inverse.trace();
     const float worst =
         half_trace + std::sqrt(std::max(0.0f, half_trace * half_trace - inverse.determinant()));
-    const float floor = static_cast<float>(options_.floor_sigma_px);
+    const float floor = static_cast<float>(options_.kFloorSigmaPx);
     match->sigma_px = std::sqrt(
         kCorrelatedPixels * patch.weight_sq * unexplained * worst / (gain * gain) + floor * floor);
-    return match->similarity >= static_cast<float>(options_.min_similarity) &&
+    return match->similarity >= static_cast<float>(options_.kMinSimilarity) &&
            match->sigma_px <= kLargestSigmaPx;
   }
 

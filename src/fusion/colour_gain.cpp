@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fusion/illumination.h"
+#include "fusion/colour_levels.h"
 
 namespace softscope {
 namespace {
@@ -36,15 +36,6 @@ struct RatioHistogram {
   }
 };
 
-float pointShading(const PointModel& model, std::size_t i, const PosedCamera& camera,
-                   const ColourOptions& options) {
-  if (options.illumination == Illumination::kNone) return 1;
-  const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);
-  const float distance_mm = left.norm();
-  return shading(options, distance_mm,
-                 -(camera.left_from_world * model.normals[i]).dot(left) / distance_mm);
-}
-
 bool usable(Rgb8 colour, const ColourOptions& options) {
   return std::min({colour.red, colour.green, colour.blue}) >= kDarkest &&
          std::max({colour.red, colour.green, colour.blue}) < 250 && !isHighlight(colour, options);
@@ -55,7 +46,6 @@ bool usable(Rgb8 colour, const ColourOptions& options) {
 ColourGain estimateGain(const PointModel& model, const Observation& observation,
                         const Visibility& visibility, const ColourOptions& options) {
   if (!options.compensate_gain || observation.colour.empty()) return {};
-  const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
   const std::size_t stride = 1 + model.size() / kMostPoints;
   RatioHistogram red, green, blue;
   for (std::size_t i = 0; i < model.size(); i += stride) {
@@ -64,16 +54,15 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
     const Rgb8 seen = observation.colour.values[static_cast<std::size_t>(point.pixel)];
     const Rgb8 known = model.colours[i];
     if (!usable(seen, options) || !usable(known, options)) continue;
-    const float inverse_shade = 1 / pointShading(model, i, camera, options);
-    red.add(static_cast<float>(seen.red) / known.red * inverse_shade);
-    green.add(static_cast<float>(seen.green) / known.green * inverse_shade);
-    blue.add(static_cast<float>(seen.blue) / known.blue * inverse_shade);
+    red.add(static_cast<float>(seen.red) / known.red);
+    green.add(static_cast<float>(seen.green) / known.green);
+    blue.add(static_cast<float>(seen.blue) / known.blue);
   }
   return {red.median(), green.median(), blue.median()};
 }
 
-Rgb8 modelColour(Rgb8 seen, float shade, const ColourGain& gain) {
-  return scaled(seen, 1 / (shade * gain.red), 1 / (shade * gain.green), 1 / (shade * gain.blue));
+Rgb8 modelColour(Rgb8 seen, const ColourGain& gain) {
+  return scaled(seen, 1 / gain.red, 1 / gain.green, 1 / gain.blue);
 }
 
 }  // namespace softscope

@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// picture = colour of the model * shading * gain, channel by channel: docs/fusion.md (F11).
+/// image = colour of the model * gain, channel by channel: docs/fusion.md (F11).
 struct ColourGain {
   float red = 1, green = 1, blue = 1;
 };
@@ -18,8 +18,8 @@ struct ColourGain {
 ColourGain estimateGain(const PointModel& model, const Observation& observation,
                         const Visibility& visibility, const ColourOptions& options);
 
-/// The pixel's colour as the model keeps it: without gain and shading.
-Rgb8 modelColour(Rgb8 seen, float shade, const ColourGain& gain);
+/// The pixel's colour as the model keeps it: without gain.
+Rgb8 modelColour(Rgb8 seen, const ColourGain& gain);
 
 /// Whether the pixel shows the light, not the tissue: (F13).
 inline bool isHighlight(Rgb8 seen, const ColourOptions& options) {

@@ -101,9 +101,8 @@ IndexMap indexMap(std::vector<std::int32_t> heir, std::vector<std::int32_t>* old
 }  // namespace
 
 IndexMap keepDensity(const DensityOptions& options, PointModel* model) {
-  options.validate();
   const std::vector<CellKey> keys = cellsOf(*model, static_cast<float>(options.cell_mm));
-  const float cosine = static_cast<float>(std::cos(options.max_angle_deg * M_PI / 180));
+  const float cosine = static_cast<float>(std::cos(options.kMaxAngleDeg * M_PI / 180));
   std::vector<std::int32_t> old_of_new;
   IndexMap map = indexMap(mergeCells(keys, cosine, model), &old_of_new);
   if (!map.identity()) compact(model, old_of_new);

@@ -7,23 +7,19 @@ namespace softscope {
 enum class NodeTrust {
   kEqual,      // everywhere alike
   kWarpNoise,  // the warp adds noise that grows away from nodes: old weight fades, new counts fully
-  kNearer,     // the text of the paper: what is measured near nodes weighs more
   kPaper,      // the formula of the paper as printed: what is measured near nodes weighs less
-};
-
-/// How light falls on the tissue: docs/fusion.md (F12).
-enum class Illumination {
-  kNone,       // colours are kept as seen
-  kHeadlight,  // the light sits at the scope: colours are kept as seen from reference_distance_mm
 };
 
 /// Which pixels may speak at all.
 struct PixelOptions {
-  double max_depth_mm = 500;  // no endoscope sees further: such depths are no depths
+  static constexpr double kMaxDepthMm =
+      500;                    // no endoscope sees further: such depths are no depths
   double max_sigma_mm = 1.0;  // depths less sure than this are not heard
-  double edge_step = 0.02;    // share of the depth: neighbours further apart are a depth edge …
-  int edge_radius_px = 2;     // … and pixels this near to it are not heard
-  double min_cosine = 0.2;    // between normal and ray: more grazing surfaces are not heard
+  // share of the depth: neighbours further apart are a depth edge …
+  static constexpr double kEdgeStep = 0.02;
+  static constexpr int kEdgeRadiusPx = 2;  // … and pixels this near to it are not heard
+  // between normal and ray: more grazing surfaces are not heard
+  static constexpr double kMinCosine = 0.2;
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;
@@ -31,12 +27,11 @@ struct PixelOptions {
 
 /// Which points the camera sees: docs/fusion.md (F3), (F4).
 struct VisibilityOptions {
-  double max_distance_mm = 2.0;  // epsilon_d, along the ray
-  double max_angle_deg = 60.0;   // epsilon_n
-  double occlusion_mm = 1.0;     // a point this far behind the model's nearest surface is hidden
-  int occlusion_cell_px = 4;     // that surface is known by squares of this size
-
-  void validate() const;
+  double max_distance_mm = 2.0;                 // epsilon_d, along the ray
+  static constexpr double kMaxAngleDeg = 60.0;  // epsilon_n
+  // a point this far behind the model's nearest surface is hidden
+  static constexpr double kOcclusionMm = 1.0;
+  static constexpr int kOcclusionCellPx = 4;  // that surface is known by squares of this size
 };
 
 /// How measurements move points: docs/fusion.md (F5) to (F10), (F21) to (F23).
@@ -48,31 +43,28 @@ struct PointFusionOptions {
                                         // 0: all depths weigh 1
   double max_measurement_weight = 2.0;  // no depth weighs more than this
   NodeTrust node_trust = NodeTrust::kWarpNoise;
-  double node_spacing_mm = 4.0;      // epsilon of the paper
-  double warp_sigma_mm = 0.02;       // error of one warp, half a node spacing away from all nodes
-  bool follow_innovation = true;     // where frame and warped model differ by more than depth errs,
-                                     // the model is that much less sure
-  bool along_ray = true;             // false: the full position is averaged with the pixel's
-  double contradiction_loss = 0.85;  // share of its weight, and half as much again of one
-                                     // measurement's, that a point seen through loses a frame
-  double buried_mm = 6.0;         // points less than this behind the measured surface lose weight
-                                  // too: the surface came nearer, and they are what it was
-  double confirmed_weight = 3.0;  // below it, a point that isn't found again where it should be
-                                  // loses weight in the same way
+  double node_spacing_mm = 4.0;   // epsilon of the paper
+  double warp_sigma_mm = 0.02;    // error of one warp, half a node spacing away from all nodes
+  bool follow_innovation = true;  // where frame and warped model differ by more than depth errs,
+                                  // the model is that much less sure
+  // share of its weight, and half as much again of one measurement's, that a point seen through
+  // loses a frame
+  static constexpr double kContradictionLoss = 0.85;
+  double buried_mm = 6.0;  // points less than this behind the measured surface lose weight
+                           // too: the surface came nearer, and they are what it was
+  // below it, a point that isn't found again where it should be loses weight in the same way
+  static constexpr double kConfirmedWeight = 3.0;
 
   void validate() const;
 };
 
-/// How colours follow the picture: docs/fusion.md (F11) to (F13).
+/// How colours follow the picture: docs/fusion.md (F11), (F13).
 struct ColourOptions {
   bool compensate_gain = true;  // of the frame against the model, a factor per channel
-  Illumination illumination = Illumination::kNone;
-  double reference_distance_mm = 60.0;  // headlight colours are as seen from here, head on
-  double gamma = 2.2;                   // of the pictures' encoding
-  double max_weight = 4.0;              // new colours count at least 1 / (1 + max_weight)
-  double anchor_weight = 40.0;          // and, for what matches hold on to, about 1 / this
-  int highlight_level = 225;            // brighter in all channels = specular, not the tissue
-  int brightening_limit = 50;           // so much brighter than the point in every channel: too
+  double max_weight = 4.0;      // new colours count at least 1 / (1 + max_weight)
+  double anchor_weight = 40.0;  // and, for what matches hold on to, about 1 / this
+  int highlight_level = 225;    // brighter in all channels = specular, not the tissue
+  int brightening_limit = 50;   // so much brighter than the point in every channel: too
 
   void validate() const;
 };
@@ -90,9 +82,8 @@ struct InsertionOptions {
 /// How dense the model stays: docs/fusion.md (F17), (F18).
 struct DensityOptions {
   double cell_mm = 0.2;
-  double max_angle_deg = 60.0;  // between normals of points that are merged: two sides stay two
-
-  void validate() const;
+  // between normals of points that are merged: two sides stay two
+  static constexpr double kMaxAngleDeg = 60.0;
 };
 
 /// Everything that stage 7 may be told.

@@ -27,7 +27,6 @@ SOFTSCOPE_HD inline float truncationWeight(float ahead_mm, float truncation_mm, 
 SOFTSCOPE_HD inline float nodeWeight(NodeTrust trust, float half_spacings) {
   const float share = half_spacings < 1 ? half_spacings : 1.0f;
   if (trust == NodeTrust::kPaper) return share;
-  if (trust == NodeTrust::kNearer) return 1 - 0.5f * share;
   return 1;
 }
 

@@ -59,7 +59,7 @@ bool isSure(const Observation& observation, const PosedCamera& camera, int u, in
   }
   const Eigen::Vector3f ray = camera.ray(u, v);
   const float towards = -observation.normals.at(u, v).dot(ray);  // NaN where there is no normal
-  return towards >= static_cast<float>(options.min_cosine) * ray.norm();
+  return towards >= static_cast<float>(options.kMinCosine) * ray.norm();
 }
 
 }  // namespace
@@ -98,15 +98,15 @@ Raster<PixelState> judgePixels(const Observation& observation, const PixelOption
   const int width = depth_mm.width_px, height = depth_mm.height_px;
   Raster<float> nearest(width, height), farthest(width, height);
   parallelRows(height, [&](int v) {
-    spanRow(depth_mm.row(v), width, options.edge_radius_px, nearest.row(v), farthest.row(v));
+    spanRow(depth_mm.row(v), width, options.kEdgeRadiusPx, nearest.row(v), farthest.row(v));
   });
   Raster<PixelState> states(width, height, PixelState::kUnmeasured);
-  const float step = static_cast<float>(options.edge_step);
-  const float max_depth_mm = static_cast<float>(options.max_depth_mm);
+  const float step = static_cast<float>(options.kEdgeStep);
+  const float max_depth_mm = static_cast<float>(options.kMaxDepthMm);
   parallelRanges(height, 8, [&](int begin, int end) {
     std::vector<float> low(static_cast<std::size_t>(width)), high(low.size());
     for (int v = begin; v < end; ++v) {
-      spanColumn(nearest, farthest, v, options.edge_radius_px, low.data(), high.data());
+      spanColumn(nearest, farthest, v, options.kEdgeRadiusPx, low.data(), high.data());
       for (int u = 0; u < width; ++u) {
         const float z = depth_mm.at(u, v);
         PixelState& state = states.at(u, v);

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "fusion/colour_levels.h"
 #include "fusion/fusion_weights.h"
-#include "fusion/illumination.h"
 #include "fusion/innovation.h"
 
 namespace softscope {
@@ -40,7 +40,7 @@ class Fuser {
         camera_(posedCamera(observation.left, observation.world_from_left)),
         truncation_mm_(static_cast<float>(options.truncation_mm)),
         reference_mm_(static_cast<float>(options.reference_sigma_mm)),
-        confirmed_weight_(static_cast<float>(options.confirmed_weight)),
+        confirmed_weight_(static_cast<float>(options.kConfirmedWeight)),
         unseen_mm_(static_cast<float>(options.truncation_mm)),
         buried_mm_(static_cast<float>(options.buried_mm)) {
     const double reference = options.reference_sigma_mm > 0 ? options.reference_sigma_mm : 0.1;
@@ -63,7 +63,7 @@ class Fuser {
     model_.weights[i] = contradictedWeight(
         weightAfterInnovation(model_.weights[i], around.excess_mm2, reference_mm_),
         std::min(1.0f, depthWeightAt(point.pixel)),
-        static_cast<float>(options_.contradiction_loss));
+        static_cast<float>(options_.kContradictionLoss));
   }
 
   /// docs/fusion.md (F8), (F9), (F13); false where the measurement has no weight.
@@ -104,15 +104,8 @@ class Fuser {
                    float gain) const {
     Eigen::Vector3f& position = model_.positions_mm[i];
     const std::size_t pixel = static_cast<std::size_t>(point.pixel);
-    if (options_.along_ray) {
-      const Eigen::Vector3f step = left * (gain * point.ahead_mm / left.norm());
-      position += camera_.left_from_world.transpose() * step;
-    } else {
-      const Eigen::Vector3f lifted =
-          camera_.ray(point.pixel % camera_.width_px, point.pixel / camera_.width_px) *
-          observation_.depth.depth_mm.values[pixel];
-      position += gain * (camera_.toWorld(lifted) - position);
-    }
+    const Eigen::Vector3f step = left * (gain * point.ahead_mm / left.norm());
+    position += camera_.left_from_world.transpose() * step;
     const Eigen::Vector3f measured =
         camera_.left_from_world.transpose() * observation_.normals.values[pixel];
     model_.normals[i] = ((1 - gain) * model_.normals[i] + gain * measured).normalized();
@@ -147,10 +140,7 @@ class Fuser {
     if (observation_.colour.empty()) return;
     const Rgb8 seen = observation_.colour.values[static_cast<std::size_t>(pixel)];
     if (isHighlight(seen, colour_options_)) return;
-    const float distance_mm = left.norm();
-    const float cosine = -(camera_.left_from_world * model_.normals[i]).dot(left) / distance_mm;
-    const Rgb8 fresh =
-        modelColour(colourAt(left), shading(colour_options_, distance_mm, cosine), gain_);
+    const Rgb8 fresh = modelColour(colourAt(left), gain_);
     Rgb8& known = model_.colours[i];
     const int limit = colour_options_.brightening_limit;
     const bool brightened = fresh.red - known.red >= limit && fresh.green - known.green >= limit &&

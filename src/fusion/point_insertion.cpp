@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fusion/cell_table.h"
+#include "fusion/colour_levels.h"
 #include "fusion/fusion_weights.h"
-#include "fusion/illumination.h"
 #include "fusion/nearest_surface.h"
 
 namespace softscope {
@@ -122,10 +122,8 @@ void addPoint(std::int32_t pixel, const Observation& observation, const PosedCam
   const Eigen::Vector3f left = camera.ray(pixel % camera.width_px, pixel / camera.width_px) *
                                observation.depth.depth_mm.values[i];
   const Eigen::Vector3f& normal = observation.normals.values[i];
-  const float distance_mm = left.norm();
-  const float shade = shading(options.colour, distance_mm, -normal.dot(left) / distance_mm);
   const Rgb8 colour =
-      observation.colour.empty() ? Rgb8{} : modelColour(observation.colour.values[i], shade, gain);
+      observation.colour.empty() ? Rgb8{} : modelColour(observation.colour.values[i], gain);
   const float weight = observation.depth.sigma_mm.empty()
                            ? 1.0f
                            : depthWeight(observation.depth.sigma_mm.values[i],

@@ -58,7 +58,7 @@ class Comparison {
         model_(drawn.model()),
         observation_(observation),
         states_(states),
-        depth_step_(static_cast<float>(options.edge_step)),
+        depth_step_(static_cast<float>(options.kEdgeStep)),
         block_px_(std::max(16, states.width_px / kBlockShare)),
         shift_px_(std::max(3, states.width_px / kShiftShare)) {}
 

@@ -21,7 +21,7 @@ struct ViewEvidence {
 };
 
 /// Of the model drawn from the observation's pose: compares, over the pixels that are sure: its
-/// depth, to `options.edge_step` of the depth or three standard errors, whichever is more; and the
+/// depth, to `options.kEdgeStep` of the depth or three standard errors, whichever is more; and the
 /// brightness of its points with the image, block by block, in place and moved by some pixels in
 /// eight directions. Throws OptionError where the arguments don't fit together.
 ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observation,

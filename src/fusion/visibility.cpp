@@ -41,7 +41,7 @@ PointSight sightOf(const Eigen::Vector3f& point_left, const Eigen::Vector3f& nor
 void hideBehindModel(const PointModel& model, const PosedCamera& camera,
                      const NearestSurface& nearest, const VisibilityOptions& options,
                      Visibility* visibility) {
-  const float margin_mm = static_cast<float>(options.occlusion_mm);
+  const float margin_mm = static_cast<float>(options.kOcclusionMm);
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       PointSight& point = visibility->points[i];
@@ -80,13 +80,12 @@ void requireVisibility(const Visibility& visibility, const PointModel& model) {
 
 Visibility findVisible(const PointModel& model, const Observation& observation,
                        const Raster<PixelState>& states, const VisibilityOptions& options) {
-  options.validate();
   observation.validate();
   requireStates(states, observation);
   const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
   const SightLimits limits{static_cast<float>(options.max_distance_mm),
-                           static_cast<float>(std::cos(options.max_angle_deg * M_PI / 180))};
-  NearestSurface nearest(camera.width_px, camera.height_px, options.occlusion_cell_px);
+                           static_cast<float>(std::cos(options.kMaxAngleDeg * M_PI / 180))};
+  NearestSurface nearest(camera.width_px, camera.height_px, options.kOcclusionCellPx);
   Visibility visibility;
   visibility.points.resize(model.size());
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {

@@ -7,6 +7,7 @@
 #include "io/file_bytes.h"
 #include "io/message.h"
 #include "io/npy_file.h"
+#include "io/sequence_settings.h"
 #include "io/text_lines.h"
 
 namespace softscope {
@@ -117,14 +118,7 @@ CalibrationDraft draftFromSet(CalibrationSet set, const std::vector<NamedText>& 
 
 }  // namespace
 
-void CalibrationHints::validate() const {
-  require(image_width_px >= 0, "calibration.image_width_px", image_width_px, "can't be negative");
-  require(image_height_px >= 0, "calibration.image_height_px", image_height_px,
-          "can't be negative");
-  require(baseline_mm >= 0, "calibration.baseline_mm", baseline_mm, "can't be negative");
-  require(unit.empty() || unit == "mm" || unit == "cm" || unit == "m", "calibration.unit", unit,
-          "must be mm, cm or m");
-}
+void CalibrationHints::validate() const { requireAllowed(*this); }
 
 StereoCalibration readCalibration(const fs::path& file_or_folder, const CalibrationHints& hints) {
   hints.validate();

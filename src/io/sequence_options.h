@@ -7,8 +7,6 @@
 
 namespace softscope {
 
-class SettingsBinder;
-
 /// Frames begin, begin + 1, …, end - 1.
 struct FrameRange {
   int begin = 0;
@@ -33,8 +31,5 @@ struct SequenceOptions {
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;
 };
-
-/// Binds sequence.* and calibration.*; these are the keys that messages name.
-void bindSequenceOptions(SettingsBinder& binder, SequenceOptions& options);
 
 }  // namespace softscope

@@ -106,7 +106,7 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   measured_ = depth_.measure(frame);
   clock_.lap("depth");
   not_tissue_ = notTissue(measured_, options_.tissue);
-  live_ = livePicture(measured_, not_tissue_, options_.tissue);
+  live_ = livePicture(measured_, not_tissue_);
   DepthSummary summary;
   std::vector<float> sigmas, depths_mm;
   for (std::size_t i = 0; i < not_tissue_.size(); ++i) {
@@ -173,8 +173,7 @@ RigidPose CpuBackend::relocalise(const std::vector<Eigen::Isometry3d>& viewpoint
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
   const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
   clock_.lap("view");
-  ModelMatches found =
-      matchModel(view, pictureOf(view), live_, measured_, options_.lift, *matcher_);
+  ModelMatches found = matchModel(view, pictureOf(view), live_, measured_, *matcher_);
   matches_ = std::move(found.lifted);
   clock_.lap("match");
   return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
@@ -339,7 +338,7 @@ bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
             v = static_cast<int>(std::lround(pixel.y()));
   if (!not_tissue_.contains(u, v) || not_tissue_.at(u, v) != 0) return false;
   const float depth_mm = measured_.depth.depth_mm.at(u, v);
-  return !(point_left.z() - depth_mm > fusion_.visibility.occlusion_mm);
+  return !(point_left.z() - depth_mm > VisibilityOptions::kOcclusionMm);
 }
 
 std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_from_left) const {
@@ -356,7 +355,7 @@ std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_
 std::unique_ptr<ReconstructionBackend> makeCpuBackend(const StereoCalibration& calibration,
                                                       const ReconstructionOptions& options) {
   options.validate();
-  return std::make_unique<CpuBackend>(calibration, options);
+  return std::make_unique<CpuBackend>(calibration, withSharedQuantities(options));
 }
 
 }  // namespace softscope

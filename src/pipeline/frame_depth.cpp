@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "pipeline/reconstruction_settings.h"
 #include "stereo/depth_from_disparity.h"
 #include "stereo/stage_clock.h"
 
@@ -28,8 +29,7 @@ void dropMasked(MeasuredFrame& measured) {
 }  // namespace
 
 void FrameDepthOptions::validate() const {
-  require(source == "auto" || source == "stereo" || source == "files", "depth.source", source,
-          "must be auto, stereo or files");
+  requireAllowed(*this);
   stereo.validate();
 }
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/highlight_mask.h"
+#include "features/instrument_detector.h"
+#include "features/lift_matches.h"
 #include "features/mask_morphology.h"
 
 namespace softscope {
@@ -25,14 +28,13 @@ Mask unseen(const ModelView& view) {
 Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options) {
   Mask mask(frame.left.width_px, frame.left.height_px, 0);
   if (!frame.mask.empty()) addTo(mask, frame.mask);
-  if (options.detect_instruments) addTo(mask, detectInstruments(frame.left, options.instruments));
+  if (options.detect_instruments) addTo(mask, detectInstruments(frame.left));
   return options.margin_px > 0 ? grown(mask, options.margin_px) : mask;
 }
 
-MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue,
-                         const TissueMaskOptions& options) {
+MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue) {
   MatchPicture live{toGray(frame.left), not_tissue};
-  addTo(live.ignore, highlightMask(frame.left, options.highlights));
+  addTo(live.ignore, highlightMask(frame.left));
   return live;
 }
 
@@ -42,10 +44,10 @@ MatchPicture modelPicture(const ModelView& view) {
 
 ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
                         const MatchPicture& live, const MeasuredFrame& frame,
-                        const LiftOptions& options, FeatureMatcher& matcher) {
+                        FeatureMatcher& matcher) {
   ModelMatches matches;
   matches.pixels = matcher.match(picture, live);
-  matches.lifted = liftMatches(matches.pixels, view, frame.depth, view.camera, options);
+  matches.lifted = liftMatches(matches.pixels, view, frame.depth, view.camera);
   return matches;
 }
 

@@ -15,8 +15,7 @@ namespace softscope {
 Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options);
 
 /// The rectified left picture as it is matched: without what is no tissue, without highlights.
-MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue,
-                         const TissueMaskOptions& options);
+MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue);
 
 struct ModelMatches {
   std::vector<PixelMatch> pixels;
@@ -30,7 +29,7 @@ MatchPicture modelPicture(const ModelView& view);
 /// `picture`: modelPicture(), or another picture from the same place.
 ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
                         const MatchPicture& live, const MeasuredFrame& frame,
-                        const LiftOptions& options, FeatureMatcher& matcher);
+                        FeatureMatcher& matcher);
 
 /// From the live camera's frame to the world, weighted by their inverse variances.
 PointPairs posePairs(const std::vector<LiftedMatch>& matches);

@@ -2,9 +2,6 @@
 #pragma once
 
 #include "deform/deform_options.h"
-#include "features/highlight_mask.h"
-#include "features/instrument_detector.h"
-#include "features/lift_matches.h"
 #include "features/matcher_options.h"
 #include "features/model_view.h"
 #include "fusion/fusion_options.h"
@@ -16,23 +13,19 @@ namespace softscope {
 
 /// Which frames are good enough to change the model.
 struct GateOptions {
-  double min_coverage = 0.1;      // share of the unmasked pixels that have depth
-  double max_residual_mm = 2.0;   // mean distance of the warped model from the depth
-  double min_explained = 0.3;     // share of the points in sight that the depth still pulls
-  double min_confidence = 0.1;    // of the evidence for pose and warp: docs/fusion.md (F27)
-  int max_key_views = 12;         // poses kept to find the model again after a loss
-  double key_view_step_mm = 10;   // the scope moved this far from all of them …
-  double key_view_step_deg = 15;  // … or turned this much: another key view
-
-  void validate() const;  // see ReconstructionOptions::validate()
+  double min_coverage = 0.1;     // share of the unmasked pixels that have depth
+  double max_residual_mm = 2.0;  // mean distance of the warped model from the depth
+  double min_explained = 0.3;    // share of the points in sight that the depth still pulls
+  double min_confidence = 0.1;   // of the evidence for pose and warp: docs/fusion.md (F27)
+  static constexpr int kMaxKeyViews = 12;        // poses kept to find the model again after a loss
+  static constexpr double kKeyViewStepMm = 10;   // the scope moved this far from all of them …
+  static constexpr double kKeyViewStepDeg = 15;  // … or turned this much: another key view
 };
 
 /// What of the picture is not tissue.
 struct TissueMaskOptions {
   int margin_px = 6;  // pixels this near to a masked one are left out: the stereo window's reach
   bool detect_instruments = false;  // by colour, beside mask files
-  HighlightOptions highlights;      // out of matching
-  InstrumentOptions instruments;
 };
 
 /// One struct a stage, in the order of the loop.
@@ -41,7 +34,6 @@ struct ReconstructionOptions {
   TissueMaskOptions tissue;
   ModelViewOptions model_view;
   MatcherOptions matcher;
-  LiftOptions lift;
   RansacOptions pose;
   RefinePoseOptions refine_pose;  // 0 iterations: RANSAC's fit is the pose
   GraphOptions graph;
@@ -58,5 +50,9 @@ struct ReconstructionOptions {
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;
 };
+
+/// `options` with each quantity that several stages need at its one setting's value:
+/// fusion.point_spacing_mm and graph.node_spacing_mm.
+ReconstructionOptions withSharedQuantities(ReconstructionOptions options);
 
 }  // namespace softscope

@@ -176,11 +176,11 @@ void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {
 
 void Reconstructor::rememberView() {
   for (const Eigen::Isometry3d& view : key_views_)
-    if ((view.translation() - world_from_left_.translation()).norm() < gate_.key_view_step_mm &&
-        degreesBetween(view, world_from_left_) < gate_.key_view_step_deg)
+    if ((view.translation() - world_from_left_.translation()).norm() < gate_.kKeyViewStepMm &&
+        degreesBetween(view, world_from_left_) < gate_.kKeyViewStepDeg)
       return;
   key_views_.push_back(world_from_left_);
-  if (key_views_.size() > static_cast<std::size_t>(gate_.max_key_views))
+  if (key_views_.size() > static_cast<std::size_t>(gate_.kMaxKeyViews))
     key_views_.erase(key_views_.begin());
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "pose/pose_settings.h"
 
 namespace softscope {
 namespace {
@@ -81,9 +82,9 @@ bool plausible(const PointPairs& pairs, const std::vector<int>& drawn, double th
 int trialsNeeded(double inlier_share, const RansacOptions& options) {
   const double all_good = std::pow(inlier_share, 3);
   if (all_good >= 1) return 1;
-  if (all_good <= 0) return options.max_trials;
-  const double needed = std::log(1 - options.confidence) / std::log1p(-all_good);
-  return static_cast<int>(std::min<double>(std::ceil(needed), options.max_trials));
+  if (all_good <= 0) return options.kMaxTrials;
+  const double needed = std::log(1 - options.kConfidence) / std::log1p(-all_good);
+  return static_cast<int>(std::min<double>(std::ceil(needed), options.kMaxTrials));
 }
 
 Eigen::Isometry3d bestOfTrials(const PointPairs& pairs, const std::vector<int>& usable,
@@ -94,7 +95,7 @@ Eigen::Isometry3d bestOfTrials(const PointPairs& pairs, const std::vector<int>& 
   // Standing still is tried first: for free, and right for many frames.
   double best_score = truncatedScore(pairs, usable, best.cast<float>(), limit,
                                      std::numeric_limits<double>::infinity());
-  int needed = options.max_trials;
+  int needed = options.kMaxTrials;
   for (*trials = 0; *trials < needed; ++*trials) {
     const std::vector<int> drawn = drawThree(usable, &random);
     if (!plausible(pairs, drawn, options.threshold_mm)) continue;
@@ -129,17 +130,7 @@ void keepPose(const PointPairs& pairs, const std::vector<int>& inliers,
 
 }  // namespace
 
-void RansacOptions::validate() const {
-  require(threshold_mm > 0, "pose.threshold_mm", threshold_mm, "must be above 0");
-  require(confidence > 0 && confidence < 1, "pose.confidence", confidence,
-          "must lie between 0 and 1");
-  require(max_trials >= 1, "pose.max_trials", max_trials, "must be 1 or more");
-  require(refits >= 1, "pose.refits", refits, "must be 1 or more");
-  require(min_inliers >= 3, "pose.min_inliers", min_inliers, "must be 3 or more");
-  require(min_share >= 0 && min_share <= 1, "pose.min_share", min_share,
-          "must lie between 0 and 1");
-  require(min_spread_mm > 0, "pose.min_spread_mm", min_spread_mm, "must be above 0");
-}
+void RansacOptions::validate() const { requireAllowed(*this); }
 
 RigidPose estimateRigidPose(const PointPairs& pairs, const RansacOptions& options) {
   options.validate();
@@ -148,22 +139,22 @@ RigidPose estimateRigidPose(const PointPairs& pairs, const RansacOptions& option
   pose.inlier.assign(pairs.sources_mm.size(), 0);
   const std::vector<int> usable = usablePairs(pairs);
   pose.usable = static_cast<int>(usable.size());
-  if (pose.usable < options.min_inliers) {
-    pose.failure = tooFew(usable.size(), "usable pairs", options.min_inliers);
+  if (pose.usable < options.kMinInliers) {
+    pose.failure = tooFew(usable.size(), "usable pairs", options.kMinInliers);
     return pose;
   }
   const float limit = static_cast<float>(options.threshold_mm * options.threshold_mm);
   const int needed =
-      std::max(options.min_inliers, static_cast<int>(std::ceil(options.min_share * pose.usable)));
+      std::max(options.kMinInliers, static_cast<int>(std::ceil(options.kMinShare * pose.usable)));
   Eigen::Isometry3d motion = bestOfTrials(pairs, usable, options, &pose.trials);
   std::vector<int> inliers = inliersOf(pairs, usable, motion, limit);
-  for (int k = 0; k < options.refits; ++k) {
+  for (int k = 0; k < options.kRefits; ++k) {
     if (static_cast<int>(inliers.size()) < needed) {
       pose.failure = tooFew(inliers.size(), "inliers", needed);
       return pose;
     }
     const PairFit fit = fitPairs(pairs, inliers);
-    if (!(fit.spread_mm >= options.min_spread_mm)) {
+    if (!(fit.spread_mm >= options.kMinSpreadMm)) {
       pose.failure = "the inliers lie on a line, which leaves the rotation about it open";
       return pose;
     }

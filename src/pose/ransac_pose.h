@@ -11,13 +11,15 @@
 namespace softscope {
 
 struct RansacOptions {
-  double threshold_mm = 2.0;   // a pair farther off than this is an outlier
-  double confidence = 0.9999;  // that one trial drew inliers only; ends the search early
-  int max_trials = 500;
-  int refits = 2;              // fits to all inliers, each followed by a new choice of inliers
-  int min_inliers = 12;        // fewer are no pose
-  double min_share = 0.2;      // of the usable pairs that must be inliers
-  double min_spread_mm = 0.5;  // of the inliers across their line, see PairFit
+  double threshold_mm = 2.0;  // a pair farther off than this is an outlier
+  // that one trial drew inliers only; ends the search early
+  static constexpr double kConfidence = 0.9999;
+  static constexpr int kMaxTrials = 500;
+  static constexpr int kRefits =
+      2;  // fits to all inliers, each followed by a new choice of inliers
+  static constexpr int kMinInliers = 12;       // fewer are no pose
+  static constexpr double kMinShare = 0.2;     // of the usable pairs that must be inliers
+  static constexpr double kMinSpreadMm = 0.5;  // of the inliers across their line, see PairFit
   std::uint32_t seed = 1;
 
   /// Throws OptionError: the field, its value, the rule it breaks.

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/median.h"
+#include "pose/pose_settings.h"
 
 namespace softscope {
 namespace {
@@ -48,8 +49,8 @@ Residual residualOf(const PosePair& pair, Place place, const RectifiedRig& rig,
                     const Eigen::Isometry3d& left_from_world, const RefinePoseOptions& options) {
   Residual out;
   const Eigen::Vector3d p = left_from_world * pair.*place;
-  const double across = 1 / std::hypot(options.noise_px, pair.sigma_px);
-  const double along = 1 / std::hypot(options.disparity_noise_px, pair.sigma_disparity_px);
+  const double across = 1 / std::hypot(options.kNoisePx, pair.sigma_px);
+  const double along = 1 / std::hypot(options.kDisparityNoisePx, pair.sigma_disparity_px);
   if (!(p.z() > 1e-3) || !std::isfinite(across) || !std::isfinite(along)) return out;
   const double fx = rig.left.fx_px, fy = rig.left.fy_px, z = p.z();
   Eigen::Matrix3d by_point;
@@ -247,7 +248,7 @@ class Pairs {
     std::vector<double> squares;
     for (const Residual& residual : residuals) squares.push_back(residual.value.squaredNorm());
     const double scale_sq =
-        std::max(1.0, options_.robust_scale * options_.robust_scale * medianOf(squares));
+        std::max(1.0, options_.kRobustScale * options_.kRobustScale * medianOf(squares));
     Matrix6d normal = Matrix6d::Zero();
     Vector6d right = Vector6d::Zero();
     for (const Residual& residual : residuals) {
@@ -268,17 +269,7 @@ class Pairs {
 
 }  // namespace
 
-void RefinePoseOptions::validate() const {
-  require(iterations >= 0, "pose.refine.iterations", iterations, "can't be negative");
-  require(noise_px > 0, "pose.refine.noise_px", noise_px, "must be above 0");
-  require(disparity_noise_px > 0, "pose.refine.disparity_noise_px", disparity_noise_px,
-          "must be above 0");
-  require(robust_scale > 0, "pose.refine.robust_scale", robust_scale, "must be above 0");
-  require(scope == "auto" || scope == "static" || scope == "moving", "pose.scope", scope,
-          "must be auto, static or moving");
-  require(significance > 0 && significance < 0.5, "pose.significance", significance,
-          "must be above 0 and below 0.5");
-}
+void RefinePoseOptions::validate() const { requireAllowed(*this); }
 
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,

@@ -13,11 +13,11 @@ namespace softscope {
 
 struct RefinePoseOptions {
   int iterations = 20;
-  double noise_px = 0.1;             // floor of what matching and the model's places err by
-  double disparity_noise_px = 0.25;  // floor of what the live disparity errs by
-  double robust_scale = 1.5;         // of the median residual: what moves more is tissue
-  std::string scope = "auto";        // "static" or "moving" where the user knows
-  double significance = 1e-5;        // probability to take a static scope for a moving one
+  static constexpr double kNoisePx = 0.1;  // floor of what matching and the model's places err by
+  static constexpr double kDisparityNoisePx = 0.25;  // floor of what the live disparity errs by
+  static constexpr double kRobustScale = 1.5;  // of the median residual: what moves more is tissue
+  std::string scope = "auto";                  // "static" or "moving" where the user knows
+  double significance = 1e-5;  // probability to take a static scope for a moving one
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;

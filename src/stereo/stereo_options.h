@@ -7,73 +7,80 @@
 
 namespace softscope {
 
+/// Fields are settings (stereo_settings.h) or vary between the uses of a matcher; everything else
+/// is a constant of the method.
+
 /// ELAS (Geiger, Roser, Urtasun, ACCV 2010), stage by stage. Costs are mean absolute differences
 /// of the gradient descriptors, so that thresholds don't depend on the window's size.
 struct ElasOptions {
   // Gradients: Sobel responses become 8-bit descriptors, 128 = flat.
-  double gradient_gain = 0.5;  // 8-bit steps per Sobel unit; larger sees weaker texture
+  // 8-bit steps per Sobel unit; larger sees weaker texture
+  static constexpr double gradient_gain = 0.5;
 
   // Support points: pixels that can be matched without help.
-  int support_step_px = 5;          // grid on which they are sought
-  double support_texture = 1.0;     // least mean |gradient| of the window
-  double support_uniqueness = 0.8;  // best cost over second best, at most
-  int support_left_right_px = 1;    // right-to-left match returns this close
-  int support_window_cells = 5;     // neighbours, in grid steps, that must agree …
-  int support_agreement_px = 5;     // … to this many pixels …
-  int support_min_neighbours = 5;   // … and at least so many of them
+  int support_step_px = 5;                           // grid on which they are sought
+  static constexpr double support_texture = 1.0;     // least mean |gradient| of the window
+  static constexpr double support_uniqueness = 0.8;  // best cost over second best, at most
+  static constexpr int support_left_right_px = 1;    // right-to-left match returns this close
+  static constexpr int support_window_cells = 5;  // neighbours, in grid steps, that must agree …
+  static constexpr int support_agreement_px = 5;  // … to this many pixels …
+  static constexpr int support_min_neighbours = 5;  // … and at least so many of them
   int support_redundant_cells = 4;  // a point between two equal ones this near is left out
 
   // Prior: the planes of the triangles between support points.
-  double prior_sigma_px = 1.0;  // how far the surface leaves its triangle
-  double prior_weight = 1.0;    // cost of leaving it altogether, in mean gradient steps
+  static constexpr double prior_sigma_px = 1.0;  // how far the surface leaves its triangle
+  // cost of leaving it altogether, in mean gradient steps
+  static constexpr double prior_weight = 1.0;
 
   // Post-processing.
-  int left_right_px = 1;         // left and right disparity agree to this
-  int speckle_size_px = 150;     // smaller islands are removed
-  double speckle_step_px = 1.0;  // neighbours of one island differ at most by this
-  int gap_width_px = 6;          // gaps in a row or column up to this are interpolated …
-  double gap_step_px = 2.0;      // … if both sides differ at most by this
+  static constexpr int left_right_px = 1;         // left and right disparity agree to this
+  int speckle_size_px = 150;                      // smaller islands are removed
+  static constexpr double speckle_step_px = 1.0;  // neighbours of one island differ at most by this
+  static constexpr int gap_width_px = 6;  // gaps in a row or column up to this are interpolated …
+  static constexpr double gap_step_px = 2.0;  // … if both sides differ at most by this
 
   // Where a picture is too weak to be matched pixel by pixel, its half may do, or the half's half.
   int coarser_levels = 2;
-  double coarser_above = 0.05;  // share of unmatched pixels from which that is tried
-
-  void validate() const;  // see StereoOptions::validate()
+  // share of unmatched pixels from which that is tried
+  static constexpr double coarser_above = 0.05;
 };
 
 /// Sub-pixel refinement: a plane fitted to the brightness in a window about each pixel.
 struct RefinementOptions {
-  int iterations = 3;
-  int radius_px = 6;              // window is (2 r + 1)²
-  double highpass_sigma_px = 3;   // brightness slower than this is left out (light, exposure)
-  double noise_gray = 2.0;        // residual, in grey levels, that halves a pixel's weight
-  double noise_floor_gray = 0.4;  // noise that even a perfect match leaves
-  double model_sigma_px = 0.05;   // error that no amount of texture removes
-  double prior_sigma_px = 1.0;    // trust in the matched disparity where texture is weak
-  double relaxation = 1.5;        // share of each step taken, but for the last
-  double max_difference = 0.5;    // (R - L)² as a share of R² + L²; unrelated pictures have 1
-  double max_sigma_px = 2.0;      // pixels whose predicted standard error is larger are dropped
+  static constexpr int iterations = 3;
+  static constexpr int radius_px = 6;  // window is (2 r + 1)²
+  // brightness slower than this is left out (light, exposure)
+  static constexpr double highpass_sigma_px = 3;
+  // residual, in grey levels, that halves a pixel's weight
+  static constexpr double noise_gray = 2.0;
+  static constexpr double noise_floor_gray = 0.4;  // noise that even a perfect match leaves
+  static constexpr double model_sigma_px = 0.05;   // error that no amount of texture removes
+  // trust in the matched disparity where texture is weak
+  static constexpr double prior_sigma_px = 1.0;
+  static constexpr double relaxation = 1.5;  // share of each step taken, but for the last
+  // (R - L)² as a share of R² + L²; unrelated pictures have 1
+  static constexpr double max_difference = 0.5;
+  // pixels whose predicted standard error is larger are dropped
+  static constexpr double max_sigma_px = 2.0;
 
   /// Standard deviation of the window's Gaussian, and the area within which errors are alike.
   double windowSigmaPx() const { return 0.55 * radius_px; }
   double independentPx2() const { return 4 * M_PI * windowSigmaPx() * windowSigmaPx(); }
 
   static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row
-  void validate() const;                      // see StereoOptions::validate()
 };
 
 /// Smoothing: every pixel moves towards the curved patch that its neighbours agree on.
 struct SmoothingOptions {
-  int block_px = 0;        // squares whose means stand for their pixels; 0: an 80th of the width
-  int reach_blocks = 2;    // of a window, to each side; 0: no smoothing
-  double relief_px = 0.1;  // that tissue has and no patch follows
+  int block_px = 0;      // squares whose means stand for their pixels; 0: an 80th of the width
+  int reach_blocks = 2;  // of a window, to each side; 0: no smoothing
+  static constexpr double relief_px = 0.1;  // that tissue has and no patch follows
 
   static constexpr int kSmallestBlockPx = 4;
   /// In pictures of this width.
   int blockPx(int width_px) const {
     return block_px > 0 ? block_px : std::max(kSmallestBlockPx, (width_px + 40) / 80);
   }
-  void validate() const;  // see StereoOptions::validate()
 };
 
 /// What any matcher needs.
@@ -81,15 +88,16 @@ struct StereoOptions {
   std::string method = "elas";  // "elas" or "sgbm"
   int disparity_min_px = 0;
   int disparity_max_px = 255;
-  int darkest_gray = 10;      // darker pixels can't be matched …
-  int dark_margin_px = 4;     // … nor those this near to them
-  int erode_edges_px = 1;     // measured pixels this near to a depth step are dropped …
-  double edge_step_px = 2.0;  // … where neighbours differ by more than this
-  int border_px = 2;          // pixels this near to the picture's border are dropped
+  static constexpr int darkest_gray = 10;  // darker pixels can't be matched …
+  int dark_margin_px = 4;                  // … nor those this near to them
+  // measured pixels this near to a depth step are dropped …
+  static constexpr int erode_edges_px = 1;
+  static constexpr double edge_step_px = 2.0;  // … where neighbours differ by more than this
+  static constexpr int border_px = 2;  // pixels this near to the picture's border are dropped
   ElasOptions elas;
   RefinementOptions refinement;
   SmoothingOptions smoothing;
-  int sgbm_block_px = 5;
+  static constexpr int sgbm_block_px = 5;
 
   static constexpr int kLargestDisparityPx = 1023;
 

@@ -88,7 +88,21 @@ TEST(CommandLine, MisspeltSettingGetsTheNearestKey) {
 TEST(CommandLine, AnOptionOutOfItsRangeIsNamed) {
   const Outcome outcome = run({"depth", "a", "--out", "x", "--set", "stereo.method=magic"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("stereo.method is magic, but must be elas or sgbm"));
+  EXPECT_THAT(outcome.err, HasSubstr("--set: stereo.method is magic, expected elas or sgbm"));
+}
+
+TEST(CommandLine, SettingsAreListedWithRangeUnitAndMeaning) {
+  const Outcome table = run({"settings"});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out,
+              testing::ContainsRegex("fusion.max_weight +10 +1 or more +largest weight"));
+  const Outcome json = run({"settings", "--preset", "paper", "--json"});
+  EXPECT_EQ(json.exit_code, 0) << json.err;
+  EXPECT_THAT(json.out, HasSubstr("\"key\": \"deform.node_model\""));
+  EXPECT_THAT(json.out, HasSubstr("\"default\": \"affine\""));
+  const Outcome both = run({"settings", "--toml", "--json"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, HasSubstr("--toml"));
 }
 
 }  // namespace

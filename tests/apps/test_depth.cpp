@@ -56,7 +56,7 @@ TEST_F(Depth, APairGivesEveryFile) {
   EXPECT_EQ(json["frames_done"], 1);
   EXPECT_GT(json["mean_coverage"], 0.7);  // the left rim has no partner in the right picture
   EXPECT_NEAR(json["frames"][0]["depth_mm"]["median"], 50, 1);
-  EXPECT_TRUE(json["options"].contains("stereo.elas.support_step_px"));
+  EXPECT_TRUE(json["options"].contains("stereo.elas.coarser_levels"));
 }
 
 TEST_F(Depth, FilesAgreeWithEachOtherAndWithTheScene) {

@@ -45,9 +45,9 @@ std::vector<Row> rows() {
   std::vector<Row> all;
   for (const bool view : {false, true})
     for (const char* method : {"dense-surf", "dis-flow", "sift"})
-      for (const char* refinement : {"gauss-newton", "parabola", "none"}) {
+      for (const char* refinement : {"gauss-newton", "none"}) {
         const std::string m = method, r = refinement;
-        if ((m == "sift" && r != "none") || (m == "dis-flow" && r == "parabola")) continue;
+        if (m == "sift" && r != "none") continue;
         Row row{m + ", " + r, {}, view};
         row.options.method = m;
         row.options.subpixel.method = r;
@@ -143,7 +143,7 @@ void printInstruments() {
   double both = 0, found = 0, marked = 0;
   for (int frame = 1; frame < 63; ++frame) {
     const Mask mask = readMask(folder / "mask" / (frameName(frame) + ".png"));
-    const Mask detected = detectInstruments(readLeft(folder, frame), {});
+    const Mask detected = detectInstruments(readLeft(folder, frame));
     for (std::size_t i = 0; i < mask.size(); ++i) {
       found += detected.values[i] != 0;
       marked += mask.values[i] != 0;
@@ -166,7 +166,7 @@ void printStages(const char* name) {
   const auto matcher = makeFeatureMatcher({});
   const auto matches = matcher->match(model, live);
   const DepthMap live_depth{depth, {}};
-  const auto lifted = liftMatches(matches, view, live_depth, truth.camera, {});
+  const auto lifted = liftMatches(matches, view, live_depth, truth.camera);
   PointPairs pairs;
   for (const LiftedMatch& match : lifted) {
     pairs.sources_mm.push_back(match.target_left_mm);
@@ -180,9 +180,9 @@ void printStages(const char* name) {
   line("model view", timesOf([&] { renderModelView(points, truth.camera, pose, {}); }));
   line("dense SURF, one picture", timesOf([&] { denseSurf(live.gray, live.ignore, {}); }));
   line("matching, all", timesOf([&] { matcher->match(model, live); }));
-  line("highlights", timesOf([&] { highlightMask(colour, {}); }));
-  line("instruments", timesOf([&] { detectInstruments(colour, {}); }));
-  line("lifting", timesOf([&] { liftMatches(matches, view, live_depth, truth.camera, {}); }));
+  line("highlights", timesOf([&] { highlightMask(colour); }));
+  line("instruments", timesOf([&] { detectInstruments(colour); }));
+  line("lifting", timesOf([&] { liftMatches(matches, view, live_depth, truth.camera); }));
   line("rigid pose", timesOf([&] { estimateRigidPose(pairs, {}); }));
 }
 

@@ -198,7 +198,7 @@ TEST(RobustSolve, WrongMatchesLoseTheirSay) {
   for (std::size_t i = 0; i < seen.matches.size(); i += 10)
     seen.matches[i].target_mm += Eigen::Vector3f(4, 3, 0);
   double errors[2];
-  for (const RobustLoss loss : {RobustLoss::kNone, RobustLoss::kTukey}) {
+  for (const RobustLoss loss : {RobustLoss::kNone, RobustLoss::kHuber}) {
     DeformOptions options = optionsFor(NodeModel::kRigid);
     options.correspondence_robust = {loss, 2.5};
     WarpGraph graph = start;
@@ -206,7 +206,7 @@ TEST(RobustSolve, WrongMatchesLoseTheirSay) {
     expectMonotone(summary);
     PointModel warped = model;
     warpModel(graph, &warped);
-    errors[loss == RobustLoss::kTukey] = scenes::meanError(model, warped, truth);
+    errors[loss == RobustLoss::kHuber] = scenes::meanError(model, warped, truth);
   }
   EXPECT_GT(errors[0], 0.3);  // a tenth of the matches is 5 mm off
   EXPECT_LT(errors[1], 0.01);

@@ -18,7 +18,7 @@ namespace {
 /// A descriptor straight from its definition: no integral image, nothing shared.
 std::array<double, 64> byDefinition(const GrayImage& image, int centre_u, int centre_v,
                                     const DenseSurfOptions& options) {
-  const int h = options.wavelet_px / 2, cell = options.cell_px;
+  const int h = options.kWaveletPx / 2, cell = options.cell_px;
   const int left = centre_u + 1 - 2 * cell, top = centre_v + 1 - 2 * cell;
   std::array<double, 64> sums{};
   for (int y = 0; y < 4 * cell; ++y)

@@ -22,7 +22,7 @@ TEST(LiftMatches, IsExactOnASlantedPlane) {
   view.point_index = Raster<std::int32_t>(320, 240, 42);
   const DepthMap live{scene.depth_mm, Raster<float>(320, 240, 0.25f)};
   const auto lifted =
-      liftMatches({{{100, 90}, {103.3f, 88.8f}, 0.1f, 0.9f}}, view, live, scene.rig.left, {});
+      liftMatches({{{100, 90}, {103.3f, 88.8f}, 0.1f, 0.9f}}, view, live, scene.rig.left);
   ASSERT_EQ(lifted.size(), 1u);
   const Eigen::Vector3f source = lifted[0].source_world_mm - Eigen::Vector3f(1, 2, 3);
   const Eigen::Vector3f target = lifted[0].target_left_mm;

@@ -24,11 +24,11 @@ TEST(HighlightMask, MarksWhiteWithItsHaloAndNothingElse) {
   paint(&image, 10, 10, 30, 30, kFat);
   paint(&image, 60, 40, 64, 44, {255, 252, 246});
   paint(&image, 80, 40, 84, 44, {255, 120, 90});  // saturated red is no highlight
-  const Mask mask = highlightMask(image, {});
+  const Mask mask = highlightMask(image);
   EXPECT_EQ(marked(mask), 10 * 10);  // 4 px and 3 px of halo on both sides
   EXPECT_EQ(mask.at(57, 37), 1);
   EXPECT_EQ(mask.at(56, 37), 0);
-  EXPECT_TRUE(highlightMask({}, {}).empty());
+  EXPECT_TRUE(highlightMask({}).empty());
 }
 
 TEST(InstrumentDetector, MarksAShaftFromTheBorderAndNotAGreySpot) {
@@ -36,7 +36,7 @@ TEST(InstrumentDetector, MarksAShaftFromTheBorderAndNotAGreySpot) {
   paint(&image, 0, 100, 120, 140, kSteel);  // a shaft
   paint(&image, 200, 60, 230, 90, kSteel);  // grey-blue tissue in the middle
   paint(&image, 300, 0, 320, 200, kFat);
-  const Mask mask = detectInstruments(image, {});
+  const Mask mask = detectInstruments(image);
   for (int v = 100; v < 140; ++v)
     for (int u = 0; u < 120; ++u) ASSERT_EQ(mask.at(u, v), 1) << u << ", " << v;
   EXPECT_EQ(mask.at(215, 75), 0);
@@ -45,18 +45,9 @@ TEST(InstrumentDetector, MarksAShaftFromTheBorderAndNotAGreySpot) {
 }
 
 TEST(InstrumentDetector, TissueAloneBlackAndNothingGiveNone) {
-  EXPECT_EQ(marked(detectInstruments(ColourImage(64, 64, kTissue), {})), 0);
-  EXPECT_EQ(marked(detectInstruments(ColourImage(64, 64, {0, 0, 0}), {})), 0);
-  EXPECT_TRUE(detectInstruments({}, {}).empty());
-}
-
-TEST(Masks, OptionsAreChecked) {
-  HighlightOptions highlights;
-  highlights.max_saturation = 2;
-  EXPECT_THROW(highlightMask({}, highlights), OptionError);
-  InstrumentOptions instruments;
-  instruments.open_px = -1;
-  EXPECT_THROW(detectInstruments({}, instruments), OptionError);
+  EXPECT_EQ(marked(detectInstruments(ColourImage(64, 64, kTissue))), 0);
+  EXPECT_EQ(marked(detectInstruments(ColourImage(64, 64, {0, 0, 0}))), 0);
+  EXPECT_TRUE(detectInstruments({}).empty());
 }
 
 }  // namespace

@@ -42,15 +42,14 @@ TEST(DenseSurfMatcher, FindsASmoothDeformationToATenthOfAPixel) {
 
 TEST(DenseSurfMatcher, RefinementIsWorthItsTime) {
   const test::WarpedPair pair = test::makeWarpedPair(2.0);
-  double medians[3];
-  const char* methods[] = {"none", "parabola", "gauss-newton"};
-  for (int k = 0; k < 3; ++k) {
+  double medians[2];
+  const char* methods[] = {"none", "gauss-newton"};
+  for (int k = 0; k < 2; ++k) {
     MatcherOptions options;
     options.subpixel.method = methods[k];
     medians[k] = test::errorsOf(matchBy(options, pair)).median_px;
   }
-  EXPECT_LT(medians[1], medians[0]);
-  EXPECT_LT(medians[2], 0.2 * medians[1]);
+  EXPECT_LT(medians[1], 0.1 * medians[0]);
 }
 
 /// The model's texture has slipped by `slip_px` to the right since its anchor was set.
@@ -86,7 +85,7 @@ TEST(Anchor, IsLeftWhereTheTissueLooksDifferent) {
   const auto errors = test::errorsOf(matches);
   EXPECT_GT(errors.count, plain.count * 9 / 10);
   EXPECT_LT(errors.median_px, 0.1);
-  const float drift_px = static_cast<float>(MatcherOptions().subpixel.drift_px);
+  const float drift_px = static_cast<float>(SubpixelOptions::kDriftPx);
   int doubted = 0;
   for (const PixelMatch& match : matches) doubted += match.sigma_px >= drift_px;
   EXPECT_GT(doubted, static_cast<int>(matches.size()) * 95 / 100);
@@ -221,17 +220,7 @@ TEST(MatcherOptions, AreCheckedOneByOne) {
   };
   refused([](MatcherOptions& o) { o.reach = 0; });
   refused([](MatcherOptions& o) { o.reach = 1.1; });
-  refused([](MatcherOptions& o) { o.search_radius_px = 0; });
-  refused([](MatcherOptions& o) { o.coarse_spacing_px = 0; });
-  refused([](MatcherOptions& o) { o.max_ratio = 1.1; });
-  refused([](MatcherOptions& o) { o.elsewhere_px = -1; });
-  refused([](MatcherOptions& o) { o.mutual_px = -1; });
-  refused([](MatcherOptions& o) { o.spacing_px = 0; });
   refused([](MatcherOptions& o) { o.subpixel.method = "magic"; });
-  refused([](MatcherOptions& o) { o.subpixel.radius_px = 8; });
-  refused([](MatcherOptions& o) { o.subpixel.iterations = 0; });
-  refused([](MatcherOptions& o) { o.dense_surf.cell_px = 7; });
-  refused([](MatcherOptions& o) { o.dense_surf.wavelet_px = 3; });
 }
 
 }  // namespace

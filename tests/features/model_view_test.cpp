@@ -178,11 +178,5 @@ TEST(ModelView, GivesTheSameBytesOnOneThread) {
   EXPECT_TRUE(alone.point_index.values == many.point_index.values);
 }
 
-TEST(ModelView, RefusesBadOptions) {
-  ModelViewOptions options;
-  options.min_disc_px = 0.5;
-  EXPECT_THROW(renderModelView({}, camera(), kHome, options), OptionError);
-}
-
 }  // namespace
 }  // namespace softscope

@@ -85,7 +85,7 @@ TEST(RealTissue, WhatIsTakenForAnInstrumentIsOne) {
   SOFTSCOPE_DATA_OR_SKIP(folder, "endonerf_pulling");
   double both = 0, found = 0, true_pixels = 0;
   for (int frame = 0; frame < 63; frame += 20) {
-    const Mask detected = detectInstruments(test::readLeft(folder, frame), {});
+    const Mask detected = detectInstruments(test::readLeft(folder, frame));
     const Mask truth = readMask(folder / "mask" / (test::frameName(frame) + ".png"));
     for (std::size_t i = 0; i < truth.size(); ++i) {
       found += detected.values[i] != 0;

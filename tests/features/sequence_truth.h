@@ -36,7 +36,7 @@ inline ColourImage readLeft(const std::filesystem::path& folder, int frame) {
 
 /// The live side: grey, without highlights and what `mask` (may be empty) names.
 inline MatchPicture pictureOf(const ColourImage& colour, const Mask& mask = {}) {
-  MatchPicture picture{toGray(colour), highlightMask(colour, {})};
+  MatchPicture picture{toGray(colour), highlightMask(colour)};
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (mask.values[i] != 0) picture.ignore.values[i] = 1;
   return picture;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fusion/colour_gain.h"
-#include "fusion/illumination.h"
+#include "fusion/colour_levels.h"
 #include "fusion/made_shots.h"
 
 namespace softscope::test {
@@ -157,38 +157,6 @@ TEST(Colour, ThePaperTakesTheLatest) {
          &model);
   EXPECT_EQ(largestDifference(model, {10, 20, 30}), 0);
   for (const std::uint8_t anchor : model.anchors) ASSERT_EQ(anchor, toGray(Rgb8{10, 20, 30}));
-}
-
-TEST(Headlight, ShadesByDistanceAndAngle) {
-  EXPECT_FLOAT_EQ(shading(60, 1, 60, 2.2f), 1);
-  EXPECT_FLOAT_EQ(shading(120, 1, 60, 1), 0.25f);
-  EXPECT_FLOAT_EQ(shading(60, 0.5f, 60, 1), 0.5f);
-  EXPECT_NEAR(shading(90, 1, 60, 2.2f), std::pow(1 / 2.25, 1 / 2.2), 1e-6);
-  EXPECT_FLOAT_EQ(shading(1, 1, 60, 2.2f), 4);  // bounded
-  EXPECT_FLOAT_EQ(shading(1e9f, 1, 60, 2.2f), 0.25f);
-}
-
-// The scope comes nearer, the picture brightens, the tissue stays the same. A fixed exposure, so
-// nothing may be explained by gain. 2 levels: 8-bit pictures, undone by factors up to 1.25.
-TEST(Headlight, AlbedoStaysAsTheScopeComesNearer) {
-  FusionOptions options;
-  options.colour.illumination = Illumination::kHeadlight;
-  options.colour.compensate_gain = false;
-  options.colour.reference_distance_mm = 60;
-  PointModel model;
-  InsertionMemory memory;
-  for (int k = 0; k < 12; ++k) {
-    const double z = 70 - 2.0 * k;
-    Shot shot = takeShot(plane(70), smallCamera(), shifted(0, 0, 70 - z));
-    for (int v = 0; v < 72; ++v)
-      for (int u = 0; u < 96; ++u) {
-        const Eigen::Vector3f p = liftPixel<float>(shot.left, u, v, static_cast<float>(z));
-        shot.colour.at(u, v) = relit(kTissue, shading(options.colour, p.norm(), p.z() / p.norm()));
-      }
-    update(shot, options, &memory, &model);
-  }
-  ASSERT_FALSE(model.empty());
-  EXPECT_LE(largestDifference(model, kTissue), 2);
 }
 
 TEST(Gain, IsOneWhereNobodySpeaks) {

@@ -155,9 +155,6 @@ TEST(Visibility, RefusesRastersThatDoNotFit) {
   bad = shot;
   bad.world_from_left.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(judgePixels(bad.observation(), {}), OptionError);
-  VisibilityOptions options;
-  options.max_angle_deg = 0;
-  EXPECT_THROW(see({}, shot, options), OptionError);
 }
 
 }  // namespace

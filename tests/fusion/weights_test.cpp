@@ -28,12 +28,10 @@ TEST(FusionWeights, AreTruncated) {
 }
 
 TEST(FusionWeights, KeepTheReadingsOfThePaperApart) {
-  // As printed, a point on a node never learns anything new; read as the text says, it learns most.
+  // As printed, a point on a node never learns anything new.
   EXPECT_FLOAT_EQ(nodeWeight(NodeTrust::kPaper, 0), 0);
   EXPECT_FLOAT_EQ(nodeWeight(NodeTrust::kPaper, 0.4f), 0.4f);
   EXPECT_FLOAT_EQ(nodeWeight(NodeTrust::kPaper, 3), 1);
-  EXPECT_FLOAT_EQ(nodeWeight(NodeTrust::kNearer, 0), 1);
-  EXPECT_FLOAT_EQ(nodeWeight(NodeTrust::kNearer, 3), 0.5f);
   EXPECT_FLOAT_EQ(nodeWeight(NodeTrust::kWarpNoise, 0.7f), 1);
 }
 
@@ -91,14 +89,12 @@ float depthAfterOneUpdate(NodeTrust trust, float away_mm) {
 }
 
 // Tissue between nodes is carried less well, so there the new measurement must count for more
-// against what was carried along. Printed formula and warp noise agree on that; the text doesn't.
+// against what was carried along. Printed formula and warp noise agree on that.
 TEST(FusionWeights, FollowTheMeasurementMoreFarFromNodes) {
   EXPECT_GT(depthAfterOneUpdate(NodeTrust::kWarpNoise, 2),
             depthAfterOneUpdate(NodeTrust::kWarpNoise, 0) + 0.01f);
   EXPECT_GT(depthAfterOneUpdate(NodeTrust::kPaper, 2),
             depthAfterOneUpdate(NodeTrust::kPaper, 0) + 0.01f);
-  EXPECT_LT(depthAfterOneUpdate(NodeTrust::kNearer, 2),
-            depthAfterOneUpdate(NodeTrust::kNearer, 0) - 0.01f);
   EXPECT_FLOAT_EQ(depthAfterOneUpdate(NodeTrust::kPaper, 0), 54.7f);
 }
 
@@ -116,14 +112,11 @@ TEST(FusionOptionsTest, AreCheckedFieldByField) {
     }
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refuses([&](auto& o) { o.pixels.max_sigma_mm = nan; }, "fusion.pixels.max_sigma_mm");
-  refuses([&](auto& o) { o.pixels.edge_radius_px = -1; }, "fusion.pixels.edge_radius_px");
-  refuses([&](auto& o) { o.visibility.max_distance_mm = 0; }, "fusion.visibility.max_distance_mm");
-  refuses([&](auto& o) { o.points.truncation_mm = -1; }, "fusion.points.truncation_mm");
-  refuses([&](auto& o) { o.points.max_weight = 0.5; }, "fusion.points.max_weight");
-  refuses([&](auto& o) { o.colour.gamma = 0; }, "fusion.colour.gamma");
-  refuses([&](auto& o) { o.insertion.spacing_mm = 0; }, "fusion.insertion.spacing_mm");
-  refuses([&](auto& o) { o.density.cell_mm = nan; }, "fusion.density.cell_mm");
+  refuses([&](auto& o) { o.pixels.max_sigma_mm = nan; }, "fusion.max_sigma_mm");
+  refuses([&](auto& o) { o.points.truncation_mm = -1; }, "fusion.truncation_mm");
+  refuses([&](auto& o) { o.points.max_weight = 0.5; }, "fusion.max_weight");
+  refuses([&](auto& o) { o.colour.highlight_level = 0; }, "colour.highlight_level");
+  refuses([&](auto& o) { o.insertion.spacing_mm = 0; }, "fusion.point_spacing_mm");
 }
 
 }  // namespace

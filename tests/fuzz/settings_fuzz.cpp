@@ -1,6 +1,7 @@
 // tests/fuzz/settings_fuzz.cpp: settings files, assignments, frame ranges.
 #include "fuzz/fuzz_target.h"
 #include "io/sequence_options.h"
+#include "io/sequence_settings.h"
 #include "io/settings.h"
 #include "io/settings_binder.h"
 
@@ -10,7 +11,7 @@ namespace {
 SequenceOptions optionsOf(const Settings& settings) {
   SequenceOptions options;
   SettingsBinder binder;
-  bindSequenceOptions(binder, options);
+  describe(binder, options);
   binder.apply(settings);
   options.validate();
   return options;

@@ -7,6 +7,7 @@
 
 #include "io/depth_files.h"
 #include "io/sequence_folder.h"
+#include "io/sequence_settings.h"
 #include "io/settings_binder.h"
 
 namespace softscope::test {
@@ -253,7 +254,7 @@ TEST(SequenceReader, KeepsFewFramesReadyAndStopsWhenLeft) {
 TEST(SequenceReader, OptionsAreBoundAndChecked) {
   SequenceOptions options;
   SettingsBinder binder;
-  bindSequenceOptions(binder, options);
+  describe(binder, options);
   Settings settings;
   addAssignment(settings, "sequence.layout=top-bottom");
   addAssignment(settings, "calibration.baseline_mm=4.3");

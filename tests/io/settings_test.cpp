@@ -4,24 +4,35 @@
 
 #include "io/nearest_name.h"
 #include "io/settings_binder.h"
+#include "io/settings_text.h"
 #include "io/temporary_folder.h"
 
 namespace softscope::test {
 namespace {
+
+enum class Loss { kNone, kHuber };
 
 struct Options {
   bool fill = true;
   int step_px = 5;
   double weight = 1.5;
   std::string method = "elas";
+  Loss loss = Loss::kNone;
 };
+
+template <class Visitor>
+void describe(Visitor& v, Options& o) {
+  v("stereo.fill", o.fill, "close gaps");
+  v("stereo.step_px", o.step_px, between(1, 9), "grid");
+  v("deform.weight", o.weight, above(0), "rigidity");
+  v("stereo.method", o.method, FreeText{"a method"}, "of stereo");
+  v("stereo.loss", o.loss, ChoiceRule<Loss>{{{"none", Loss::kNone}, {"huber", Loss::kHuber}}},
+    "robust");
+}
 
 SettingsBinder binderOf(Options& options) {
   SettingsBinder binder;
-  binder.bind("stereo.fill", options.fill, "close gaps");
-  binder.bind("stereo.step_px", options.step_px, "grid");
-  binder.bind("deform.weight", options.weight, "rigidity");
-  binder.bind("stereo.method", options.method, "elas or sgbm");
+  describe(binder, options);
   return binder;
 }
 
@@ -81,7 +92,7 @@ TEST(Settings, AnUnknownKeyGetsTheNearestName) {
   expectError<OptionError>(apply("\nstereo.stepp_px = 3"),
                            {"s.toml:2", "`stereo.stepp_px`", "Did you mean stereo.step_px?"});
   expectError<OptionError>(apply("weight = 3"), {"Did you mean deform.weight?"});
-  expectError<OptionError>(apply("camera.brightness = 3"), {"--help"});
+  expectError<OptionError>(apply("camera.brightness = 3"), {"`softscope settings`"});
 }
 
 TEST(Settings, TypesAreCheckedAndNothingIsSetByHalves) {
@@ -118,13 +129,45 @@ TEST(Settings, ListShowsDefaultsAndWhatIsSet) {
   addAssignment(settings, "deform.weight=0.1");
   binder.apply(settings);
   const auto list = binder.list();
-  ASSERT_EQ(list.size(), 4U);
+  ASSERT_EQ(list.size(), 5U);
   EXPECT_EQ(list[0].key, "stereo.fill");
   EXPECT_EQ(list[0].type, "true/false");
   EXPECT_EQ(list[2].default_text, "1.5");
   EXPECT_EQ(list[2].current_text, "0.1");
   EXPECT_EQ(list[2].help, "rigidity");
+  EXPECT_EQ(list[1].range, "1 to 9");
+  EXPECT_EQ(list[1].unit, "px");
+  EXPECT_EQ(list[4].range, "none or huber");
   expectError<Error>([&] { binder.bind("stereo.fill", options.fill, ""); }, {"twice"});
+}
+
+TEST(Settings, RangesAreCheckedAndNamed) {
+  Options options;
+  SettingsBinder binder = binderOf(options);
+  const auto expectRange = [&](const std::string& toml, const std::vector<std::string>& parts) {
+    expectError<OptionError>([&] { binder.apply(parseSettings(toml, "s.toml")); }, parts);
+  };
+  expectRange("stereo.step_px = 10", {"s.toml:1: stereo.step_px is 10, expected 1 to 9"});
+  expectRange("deform.weight = 0", {"s.toml:1: deform.weight is 0, expected above 0"});
+  expectRange("stereo.loss = 'tukey'", {"s.toml:1: stereo.loss is tukey, expected none or huber"});
+  expectRange("stereo.step_px = 2\ndeform.weight = -1", {"s.toml:2"});
+  EXPECT_EQ(options.step_px, 5);
+  binder.apply(parseSettings("stereo.loss = 'huber'", "s.toml"));
+  EXPECT_EQ(options.loss, Loss::kHuber);
+}
+
+TEST(Settings, TheFileOfAListReadsBack) {
+  Options options;
+  options.method = "a \"quoted\" \\ text";
+  options.weight = 1e-7;
+  options.loss = Loss::kHuber;
+  const std::string toml = settingsToml(binderOf(options).list());
+  Options again;
+  binderOf(again).apply(parseSettings(toml, "s.toml"));
+  EXPECT_EQ(again.method, options.method);
+  EXPECT_EQ(again.weight, options.weight);
+  EXPECT_EQ(again.loss, options.loss);
+  EXPECT_NE(toml.find("# grid: 1 to 9 px\nstereo.step_px = 5\n"), std::string::npos) << toml;
 }
 
 TEST(NearestName, CountsEditsAndSwaps) {

@@ -30,17 +30,11 @@ TEST(StereoOptions, RefuseWrongValuesByName) {
   o.disparity_max_px = 5000;
   expectRefused(o, "stereo.disparity_max_px");
   o = {};
-  o.elas.support_step_px = 0;
-  expectRefused(o, "stereo.elas.support_step_px");
+  o.elas.coarser_levels = -1;
+  expectRefused(o, "stereo.elas.coarser_levels");
   o = {};
-  o.elas.prior_sigma_px = -1;
-  expectRefused(o, "stereo.elas.prior_sigma_px");
-  o = {};
-  o.refinement.radius_px = 8;
-  expectRefused(o, "stereo.refinement.radius_px");
-  o = {};
-  o.refinement.noise_gray = std::numeric_limits<double>::quiet_NaN();
-  expectRefused(o, "stereo.refinement.noise_gray");
+  o.smoothing.reach_blocks = -1;
+  expectRefused(o, "stereo.smoothing.reach_blocks");
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+// apps/settings.cpp: `softscope settings`: every setting of a reconstruction.
+#include <iostream>
+
+#include "apps/command.h"
+#include "apps/exit_codes.h"
+#include "apps/result_output.h"
+#include "apps/setting_json.h"
+#include "core/error.h"
+#include "io/settings_text.h"
+#include "pipeline/run_options.h"
+
+namespace softscope {
+namespace {
+
+using Json = FactSheet::Json;
+
+std::vector<SettingInfo> listOf(const std::string& preset) {
+  RunOptions options = RunOptions::ofPreset(preset);
+  return settingsOf(options).list();
+}
+
+Json jsonOf(const std::vector<SettingInfo>& settings) {
+  Json json{{"schema_version", 1}, {"settings", Json::array()}};
+  for (const SettingInfo& setting : settings)
+    json["settings"].push_back({{"key", setting.key},
+                                {"type", setting.type},
+                                {"default", valueOf(setting)},
+                                {"range", setting.range},
+                                {"unit", setting.unit},
+                                {"meaning", setting.help}});
+  return json;
+}
+
+class SettingsCommand : public Command {
+ public:
+  std::string name() const override { return "settings"; }
+  std::string summary() const override {
+    return "every setting with its range, default, unit and meaning; or a settings file";
+  }
+  std::string details() const override {
+    return "These are the keys of --set and of the TOML files of --config. --toml writes a file "
+           "of\n"
+           "the defaults, a comment with each, which --config reads back.";
+  }
+  std::string example() const override { return "softscope settings --toml > settings.toml"; }
+  void declare(ArgumentList& arguments) override {
+    arguments.option("--preset", "NAME", preset_, "whose defaults: default, or paper");
+    arguments.flag("--toml", toml_, "as a commented settings file");
+    arguments.flag("--markdown", markdown_, "as docs/settings.md, with both presets");
+  }
+
+  int run() override {
+    if (toml_ + markdown_ + common.json > 1)
+      throw OptionError("--toml, --markdown and --json exclude each other; give one");
+    const std::vector<SettingInfo> settings = listOf(preset_);
+    if (common.json)
+      printJson(jsonOf(settings));
+    else
+      std::cout << (toml_       ? settingsToml(settings)
+                    : markdown_ ? settingsDocument(listOf("default"), listOf("paper"))
+                                : settingsTable(settings))
+                << std::flush;
+    return kDone;
+  }
+
+ private:
+  std::string preset_ = "default";
+  bool toml_ = false, markdown_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeSettingsCommand() { return std::make_unique<SettingsCommand>(); }
+
+}  // namespace softscope

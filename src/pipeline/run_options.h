@@ -1,0 +1,40 @@
+// src/pipeline/run_options.h: what a command that reads a sequence may be told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/sequence_options.h"
+#include "io/settings_binder.h"
+#include "pipeline/reconstruction_options.h"
+
+namespace softscope {
+
+/// Of one run of `softscope reconstruct`.
+struct RunOptions {
+  ReconstructionOptions method;
+  SequenceOptions sequence;
+
+  /// Of `preset`. Throws OptionError on another name than presetNames() has.
+  static RunOptions ofPreset(const std::string& preset);
+
+  /// Throws OptionError: the key, its value, the rule it breaks.
+  void validate() const;
+};
+
+const std::vector<std::string>& presetNames();
+
+/// Of one run of `softscope depth`.
+struct DepthOptions {
+  FrameDepthOptions measurement;
+  SequenceOptions sequence;
+
+  /// Throws OptionError.
+  void validate() const;
+};
+
+/// Every setting of `options`, which must outlive the binder.
+SettingsBinder settingsOf(RunOptions& options);
+SettingsBinder settingsOf(DepthOptions& options);
+
+}  // namespace softscope
