@@ -24,6 +24,9 @@ Outcome run(const std::vector<std::string>& arguments);
 
 std::string executable();
 
+/// All bytes of a file; nothing where there is none.
+std::string textOf(const std::filesystem::path& file);
+
 /// A folder of its own for each test, gone afterwards.
 class InFolder : public testing::Test {
  protected:

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <thread>
 
 #include "apps/study_case.h"
@@ -23,11 +22,6 @@ const std::string kSimulated =
     "organ.cells_per_side = 20\ntruth_every = 1\n"
     "[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 1\n";
 
-std::string contentOf(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 class StudyCommand : public InFolder {
  protected:
   Outcome study(const std::string& toml, std::vector<std::string> more = {}) const {
@@ -41,9 +35,9 @@ class StudyCommand : public InFolder {
     return "sequence = '" + makeSequence("clip", 2) +
            "'\n[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 0\n";
   }
-  nlohmann::json result() const { return nlohmann::json::parse(contentOf(at("out/study.json"))); }
+  nlohmann::json result() const { return nlohmann::json::parse(textOf(at("out/study.json"))); }
   nlohmann::json record(const std::string& name) const {
-    return nlohmann::json::parse(contentOf(at("out/cases/" + name + "/case.json")));
+    return nlohmann::json::parse(textOf(at("out/cases/" + name + "/case.json")));
   }
 };
 
@@ -60,7 +54,7 @@ TEST_F(StudyCommand, RunsItsCasesAndWritesTheTable) {
     EXPECT_GT(one["evaluation"]["tracks"]["n"], 0) << "material points were judged";
   }
   EXPECT_THAT(done.out, HasSubstr("| surf |"));
-  EXPECT_EQ(contentOf(at("out/table.md")), done.out.substr(0, done.out.find("\nwritten to")));
+  EXPECT_EQ(textOf(at("out/table.md")), done.out.substr(0, done.out.find("\nwritten to")));
   for (const char* name :
        {"table.csv", "report.html", "plots/points.svg", "plots/points.pdf", "cases/surf/log.txt",
         "cases/surf/run/model.ply", "cases/surf/evaluation/evaluation.json"})
@@ -95,7 +89,7 @@ TEST_F(StudyCommand, AFailedCaseIsToldAndDoesNotStopTheOthers) {
   EXPECT_EQ(record("broken")["status"], "failed");
   EXPECT_EQ(record("absent")["status"], "skipped");
   EXPECT_EQ(record("fine")["status"], "done");
-  EXPECT_THAT(contentOf(at("out/table.md")), HasSubstr("- absent: nowhere is not here"));
+  EXPECT_THAT(textOf(at("out/table.md")), HasSubstr("- absent: nowhere is not here"));
 }
 
 TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
@@ -149,11 +143,11 @@ TEST_F(StudyCommand, NoFoldersOfTheMachineInWhatItShows) {
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_THAT(record("absent")["reason"], "no where is not here");
   for (const char* name : {"report.html", "table.md", "table.csv", "study.json"}) {
-    EXPECT_THAT(contentOf(at("out/" + std::string(name))), testing::Not(HasSubstr(folder.string())))
+    EXPECT_THAT(textOf(at("out/" + std::string(name))), testing::Not(HasSubstr(folder.string())))
         << name;
-    EXPECT_THAT(contentOf(at("out/" + std::string(name))), testing::Not(HasSubstr("Doe"))) << name;
+    EXPECT_THAT(textOf(at("out/" + std::string(name))), testing::Not(HasSubstr("Doe"))) << name;
   }
-  EXPECT_THAT(contentOf(at("out/report.html")),
+  EXPECT_THAT(textOf(at("out/report.html")),
               HasSubstr("<code>softscope study study.toml --out out</code>"));
 }
 
@@ -179,7 +173,7 @@ TEST_F(StudyCommand, LeavesFoldersOfOthersAlone) {
   const Outcome refused = study(small());
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("plots"));
-  EXPECT_EQ(contentOf(at("out/plots/mine.txt")), "mine");
+  EXPECT_EQ(textOf(at("out/plots/mine.txt")), "mine");
 }
 
 // An ignored SIGCHLD is inherited; then nobody could wait for a child.
