@@ -35,6 +35,7 @@ OTHERS = {
     "movie": ["view", "run", "--movie", "out/m.mp4", "--size", "320x240", "--seconds", "0.2"],
 }
 FOLDERS = {"depth", "evaluate", "compare", "simulate"}  # cleaned of what a killed process left
+STOP_SIGNALS = 60  # 5 ms apart
 TIMES = ("_ms", "_s", "resumed_at_frame")
 
 
@@ -121,6 +122,18 @@ class Faults:
             self.wrong(what, "ended with 0")
         self.resume(what, wanted)
 
+    def stop_at(self, milliseconds, wanted):
+        """A stop signal at any time, also before the first line of the command."""
+        self.fresh()
+        outcome = self.softscope(RUN, fault="timer", event=max(1, int(1000 * milliseconds)))
+        what = f"run, SIGTERM after {milliseconds} ms"
+        self.done["stop signal"] += 1
+        if outcome.code not in (0, 130, -signal.SIGTERM):
+            self.wrong(what, f"ended with {outcome.code}: {outcome.err.strip()}")
+        if outcome.code == -signal.SIGTERM and (self.out / "writing.lock").exists():
+            self.wrong(what, "was killed while it wrote")
+        self.resume(what, wanted)
+
     def close_streams(self, wanted):
         for out, err in (("pipe", "pipe"), ("closed", "closed"), ("out.txt", "closed"),
                          ("closed", "err.txt"), ("out.txt", "pipe")):
@@ -191,6 +204,7 @@ def plan(faults, only, rng):
         wanted, events = faults.reference(RUN)
         print(f"run: {events} events", flush=True)
         faults.close_streams(wanted)
+        calls += [(faults.stop_at, 5 * i, wanted) for i in range(STOP_SIGNALS)]
         for kind in ("kill", "full", "error", "term"):
             calls += [(faults.disturb_run, kind, event, wanted) for event in range(1, events + 1)]
     for name, words in OTHERS.items():

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -63,6 +64,17 @@ ssize_t writeHere(int descriptor, const void* bytes, std::size_t count) {
   return syscall(SYS_write, descriptor, bytes, count);
 }
 
+void startTimer(long microseconds) {
+  sigevent what{};
+  what.sigev_notify = SIGEV_SIGNAL;
+  what.sigev_signo = SIGTERM;
+  timer_t timer{};
+  if (timer_create(CLOCK_MONOTONIC, &what, &timer) != 0) return;
+  itimerspec when{};
+  when.it_value = {microseconds / 1000000, microseconds % 1000000 * 1000};
+  timer_settime(timer, 0, &when, nullptr);
+}
+
 }  // namespace
 
 void armFault(const std::string& kind, long event, FaultCounter* counter) {
@@ -73,6 +85,7 @@ void armFault(const std::string& kind, long event, FaultCounter* counter) {
                                   : Fault::kNone;
   armed.event = event;
   armed.counter = counter;
+  if (kind == "timer") startTimer(event);
 }
 
 }  // namespace softscope::test

@@ -174,7 +174,7 @@ def judge_files(folder, words, code):
     return found
 
 
-def judge(outcome, words, folder):
+def judge(outcome, words, folder, most_ms=MOST_MS):
     """A line for each thing that must not be."""
     found = []
     if outcome.code < 0:
@@ -184,7 +184,7 @@ def judge(outcome, words, folder):
         found.append("exit 70")
     elif outcome.code not in KNOWN_CODES:
         found.append(f"crash: exit {outcome.code}")
-    if outcome.cpu_ms > MOST_MS and "hang" not in found:
+    if outcome.cpu_ms > most_ms and "hang" not in found:
         found.append("hang")
     if outcome.memory_kb > MOST_KB:
         found.append(f"memory: {outcome.memory_kb >> 10} MB")

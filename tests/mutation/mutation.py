@@ -55,10 +55,10 @@ class Trial:
         target.unlink()
         target.write_bytes(self.bytes)
 
-    def run(self, server, root, folder):
+    def run(self, server, root, folder, hang_seconds):
         self.prepare(root, folder)
-        outcome = server.run([*self.words, "--threads", "1"], folder)
-        return outcome, judge(outcome, self.words, folder)
+        outcome = server.run([*self.words, "--threads", "1"], folder, seconds=hang_seconds + 5)
+        return outcome, judge(outcome, self.words, folder, 1000 * hang_seconds)
 
 
 class Tally:
@@ -99,7 +99,7 @@ def work(options, forms, root, place, numbers, tally, deadline):
         except queue.Empty:
             break
         trial = Trial(forms, root, options.seed, number)
-        outcome, found = trial.run(server, root, place)
+        outcome, found = trial.run(server, root, place, options.hang_seconds)
         tally.add(trial, outcome, found)
         for what in found:
             print(f"run {number}: {what}: {trial.form.name}, {trial.file}: softscope "
@@ -128,7 +128,7 @@ def run_one(options, forms, root):
     trial = Trial(forms, root, options.seed, options.only)
     folder = Path(tempfile.mkdtemp(prefix=f"softscope_run_{options.only}_"))
     server = Server(options.server)
-    outcome, found = trial.run(server, root, folder)
+    outcome, found = trial.run(server, root, folder, options.hang_seconds)
     server.close()
     print(f"{trial.form.name}: {trial.file} is damaged\ncd {folder}; softscope {' '.join(trial.words)}")
     print(f"exit {outcome.code}, {outcome.cpu_ms} ms, {outcome.memory_kb >> 10} MB\n{outcome.err}", end="")
@@ -144,6 +144,8 @@ def options_of(words):
     parser.add_argument("--seconds", type=float, help="ends earlier")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--hang-seconds", type=int, default=20,
+                        help="of processor time; more under sanitizers")
     parser.add_argument("--form", help="damages this form alone")
     parser.add_argument("--only", type=int, help="repeats one run, keeps its folder")
     return parser.parse_args(words)
