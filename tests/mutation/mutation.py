@@ -9,6 +9,7 @@ import collections
 import os
 import queue
 import random
+import shlex
 import shutil
 import sys
 import tempfile
@@ -86,9 +87,10 @@ class Tally:
 
 
 def repeat_line(options, trial):
-    return (f"{sys.executable} -B {Path(__file__).name} --server {options.server} "
-            + (f"--form {options.form} " if options.form else "")
-            + f"--seed {options.seed} --only {trial.number}")
+    words = [sys.executable, "-B", Path(__file__).name, "--server", options.server,
+             *(["--form", options.form] if options.form else []), "--seed", str(options.seed),
+             "--only", str(trial.number)]
+    return shlex.join(words)
 
 
 def work(options, forms, root, place, numbers, tally, deadline):

@@ -221,6 +221,10 @@ def write_texts(root, clip):
     (root / "pixels/track.csv").write_text("id,u_px,v_px\n0,40,40\n1,50,30\n2,60,50\n")
 
 
+RECONSTRUCT = ["reconstruct", "clip", "--save-every", "1", "--set", "stereo.disparity_max_px=63", "--out",
+               "out", "--quiet"]
+
+
 def make_seeds(root, server):
     """Fills `root` and returns the forms. Raises RuntimeError where softscope can't make them."""
     def softscope(*words):
@@ -244,7 +248,37 @@ def make_seeds(root, server):
     pictures.mkdir()
     for view in ("left", "right"):
         shutil.copy(root / "clip" / view / "000000.png", pictures / f"{view}.png")
+    make_study_record(root)
+    make_stopped_run(root, server)
     return forms(video=make_video(root, softscope))
+
+
+def make_study_record(root):
+    """A case that was run, as `study --table` finds it."""
+    case = root / "studied/out/cases/a"
+    case.mkdir(parents=True)
+    (case.parent / ".softscope_study").write_text("A folder of softscope study.\n")
+    run, evaluation = (json.loads((root / file).read_text())
+                       for file in ("run/run.json", "ev/evaluation.json"))
+    record = {"schema_version": 1, "softscope": run["softscope"], "name": "a", "case": "a",
+              "variant": "", "sweep": "", "level": None, "status": "done", "reason": "", "notes": "",
+              "digest": "0" * 64, "run": run, "evaluation": evaluation}
+    (case / "case.json").write_text(json.dumps(record, indent=2))
+    shutil.copytree(root / "clip", root / "studied/clip")
+    (root / "studied/study.toml").write_text('title = "one"\n[[case]]\nname = "a"\nsequence = "clip"\n')
+
+
+def make_stopped_run(root, server):
+    """A run that was killed behind its first checkpoint."""
+    (root / "stopped").mkdir()
+    shutil.copytree(root / "clip", root / "stopped/clip")
+    words = [*RECONSTRUCT, "--checkpoint-every", "1", "--threads", "1"]
+    events = server.run(words, root / "stopped", seconds=120).events
+    shutil.rmtree(root / "stopped/out")
+    server.run(words, root / "stopped", seconds=120, fault="kill", event=2 * events // 3)
+    for file in [root / "stopped/out.txt", root / "stopped/err.txt",
+                 *(root / "stopped/out").rglob(".*.part")]:
+        file.unlink()
 
 
 def make_video(root, softscope):
@@ -314,9 +348,16 @@ def forms(video):
             ["evaluate", "run", "--reference", "clip", "--json", "--quiet"],
             ["export", "run", "--out", "o.obj", "--quiet"],
             ["figure", "run", "--reference", "clip", "--out", "o.svg", "--quiet"],
-            ["figure", "run", "--kind", "frames", "--out", "o.svg", "--quiet"]], weight=0.7),
+            ["figure", "run", "--kind", "frames", "--out", "o.svg", "--quiet"],
+            ["view", "run", "--screenshot", "o.png", "--size", "320x240", "--quiet"]], weight=0.7),
+        Form("stopped run", "stopped", ["out/*.*", "out/models/*"], [
+            [*RECONSTRUCT, "--checkpoint-every", "1", "--resume"]], weight=0.5),
+        Form("study record", "studied", ["out/cases/a/case.json", "study.toml"], [
+            ["study", "study.toml", "--out", "out", "--table", "--quiet"]]),
         Form("evaluation", "case", ["ev/*.json", "ev/*.csv", "ev/errors/*", "ev/*.pvd"], [
-            ["report", "ev", "--out", "o.html", "--quiet"]], weight=0.5),
+            ["report", "ev", "--out", "o.html", "--quiet"],
+            ["view", "run", "--evaluation", "ev", "--screenshot", "o.png", "--size", "320x240",
+             "--quiet"]], weight=0.5),
         Form("landmarks", "marks", ["p.csv"], [
             ["compare", "--reference", "good/m.stl", "--test", "good/m.stl", "--landmarks", "p.csv",
              "--json", "--quiet"]], shared=["good"]),
