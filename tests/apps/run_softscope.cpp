@@ -63,20 +63,6 @@ std::string textOf(const fs::path& file) {
   return text.str();
 }
 
-void InFolder::SetUp() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  folder = fs::temp_directory_path() / ("softscope_" + std::string(test->test_suite_name()) + "_" +
-                                        test->name() + "_" + std::to_string(getpid()));
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-}
-
-std::string InFolder::write(const std::string& name, const std::string& bytes) const {
-  fs::create_directories((folder / name).parent_path());
-  std::ofstream(folder / name, std::ios::binary) << bytes;
-  return at(name);
-}
-
 RectifiedRig sequenceRig() { return endoscope(160, 120); }
 
 std::string InFolder::makeSequence(const std::string& name, int frames) const {

@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Simulated clips of two frames, 160 x 120: half a second a case.
 const std::string kSimulated =
@@ -142,13 +143,39 @@ TEST_F(StudyCommand, NoFoldersOfTheMachineInWhatItShows) {
             "'\n[[case]]\nname = 'absent'\n" + "sequence = '" + at("no where") + "'\n");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_THAT(record("absent")["reason"], "no where is not here");
-  for (const char* name : {"report.html", "table.md", "table.csv", "study.json"}) {
+  for (const char* name : {"report.html", "table.md", "table.csv", "study.json",
+                           "cases/broken/case.json", "cases/absent/case.json"}) {
     EXPECT_THAT(textOf(at("out/" + std::string(name))), testing::Not(HasSubstr(folder.string())))
         << name;
     EXPECT_THAT(textOf(at("out/" + std::string(name))), testing::Not(HasSubstr("Doe"))) << name;
   }
   EXPECT_THAT(textOf(at("out/report.html")),
               HasSubstr("<code>softscope study study.toml --out out</code>"));
+}
+
+TEST_F(StudyCommand, AKilledSimulationLeavesNoPart) {
+  const std::string toml = kSimulated + "[[case]]\nname = 'a'\n";
+  ASSERT_EQ(study(toml).exit_code, 0);
+  for (const auto& entry : fs::directory_iterator(at("out/sequences")))
+    if (entry.is_directory()) fs::rename(entry.path(), entry.path().string() + ".part-77");
+  ASSERT_EQ(study(toml, {"--force"}).exit_code, 0);
+  int folders = 0;
+  for (const auto& entry : fs::directory_iterator(at("out/sequences")))
+    folders += entry.is_directory() ? 1 : 0;
+  EXPECT_EQ(folders, 1);
+}
+
+TEST_F(StudyCommand, ARecordNamesNoFolderOfItsInputs) {
+  fs::create_directories(at("of Jane Doe"));
+  fs::rename(makeSequence("clip", 2), at("of Jane Doe/clip"));
+  const Outcome done = study("[[case]]\nname = 'a'\nsequence = '" + at("of Jane Doe/clip") +
+                             "'\n[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 0\n");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(record("a")["status"], "done");
+  for (const char* name : {"cases/a/case.json", "cases/a/run/run.json", "study.json"})
+    EXPECT_THAT(textOf(at("out/" + std::string(name))),
+                testing::AllOf(Not(HasSubstr("Doe")), Not(HasSubstr(folder.string()))))
+        << name;
 }
 
 TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
