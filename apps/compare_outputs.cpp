@@ -41,6 +41,7 @@ CompareOutputs::CompareOutputs(fs::path folder, bool overwrite)
   if (fs::exists(folder_) && !fs::is_directory(folder_))
     throw OptionError("--out " + shown(folder_) +
                       ": is a file, but must be a folder, there or not yet");
+  removeAbandoned(folder_);
   for (const char* name : {"comparison.json", "metrics.csv", "errors.vtp", "error_map.vtp",
                            "error_histogram.svg", "error_histogram.pdf", "error_histogram.png",
                            "error_map.svg", "error_map.pdf", "error_map.png"})
@@ -48,19 +49,21 @@ CompareOutputs::CompareOutputs(fs::path folder, bool overwrite)
 }
 
 void CompareOutputs::put(const std::string& name, const std::string& bytes) const {
-  writeFile(folder_ / name, bytes, overwrite_);
+  new_files_.make(folder_ / name, [&] { writeFile(folder_ / name, bytes, overwrite_); });
 }
 
 void CompareOutputs::putFigure(const std::string& name, const VectorDrawing& figure) const {
   put(name + ".svg", svgBytes(figure));
   put(name + ".pdf", pdfBytes(figure));
-  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_);
+  const fs::path png = folder_ / (name + ".png");
+  new_files_.make(
+      png, [&] { writePng(png, rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_); });
 }
 
 std::string CompareOutputs::write(const ComparisonResult& result, const TriangleMesh& reference,
                                   const TriangleMesh& test, const ErrorColourOptions& picture,
                                   const FactSheet::Json& record) const {
-  fs::create_directories(folder_);
+  new_files_.makeFolder(folder_);
   put("metrics.csv", metricsCsv(record));
   put("errors.vtp", errorSurfaceVtp(test, vertexErrors(test, result.comparison)));
   put("error_map.vtp", errorMapVtp(comparisonMap(result, reference, test)));
@@ -75,7 +78,8 @@ std::string CompareOutputs::write(const ComparisonResult& result, const Triangle
   } catch (const BackendError& error) {
     not_drawn = std::string("no error_map: ") + error.what();
   }
-  put("comparison.json", jsonText(record));  // last: who finds it finds the others
+  put("comparison.json", jsonText(record));  // last: where it is, the others are
+  new_files_.keep();
   return not_drawn;
 }
 

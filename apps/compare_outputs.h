@@ -7,11 +7,12 @@
 #include "apps/compare_record.h"
 #include "apps/surface_error_map.h"
 #include "core/triangle_mesh.h"
+#include "io/new_files.h"
 #include "vtk_views/vector_drawing.h"
 
 namespace softscope {
 
-/// Each file appears whole or not at all.
+/// Each file appears whole or not at all, and a failure takes back those that were written.
 class CompareOutputs {
  public:
   /// Throws OptionError where `folder` is a file, or a file to be written is there and `overwrite`
@@ -30,6 +31,7 @@ class CompareOutputs {
 
   std::filesystem::path folder_;
   bool overwrite_;
+  mutable NewFiles new_files_;
 };
 
 /// metric,value: every number by its path in the record; an empty cell where it wasn't measured.

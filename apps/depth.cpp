@@ -60,6 +60,7 @@ class DepthCommand : public Command {
   bool is_sequence_ = false;  // files are numbered
   bool row_warning_given_ = false;
   bool interrupted_ = false;
+  std::optional<InterruptGuard> interrupt_;
   std::optional<DepthRange> range_;
 };
 
@@ -90,6 +91,7 @@ std::map<std::string, std::string> DepthCommand::inputs() const {
 }
 
 int DepthCommand::run() {
+  interrupt_.emplace();
   require(frame_ == "left" || frame_ == "raw-left", "--frame", frame_, "must be left or raw-left");
   if (!range_text_.empty()) range_ = parseDepthRange(range_text_);
   const DepthOutputKinds kinds = DepthOutputKinds::parse(write_);
@@ -115,7 +117,8 @@ int DepthCommand::run() {
     throw InputError(source_.left + ": not one frame could be measured; the reasons stand above");
   if (interrupted_) record.setInterrupted();
   const auto summary = paths_.applyTo(record.json());
-  if (record.goodFrames() > 0) writeFile(outputs.summaryFile(), jsonText(summary), force_);
+  if (record.goodFrames() > 0) outputs.writeSummary(jsonText(summary));
+  outputs.keep();
   if (common.json)
     printJson(summary);
   else
@@ -134,12 +137,11 @@ void DepthCommand::requireFreeOutputs(const DepthOutputs& outputs, const Sequenc
 
 void DepthCommand::measureAll(SequenceReader& reader, DepthEstimator& estimator,
                               const DepthOutputs& outputs, DepthRecord& record) {
-  const InterruptGuard interrupt;
   ProgressBar progress("depth", reader.frameCount(),
                        is_sequence_ ? progressStyle(common.quiet) : ProgressBar::Style::kSilent,
                        std::cerr);
   while (const auto result = reader.next()) {
-    if (interrupt.requested()) {
+    if (interrupt_->requested()) {
       interrupted_ = true;
       spdlog::warn("interrupted: what is finished stays");
       return;
@@ -170,7 +172,6 @@ void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimat
     spdlog::warn("frame {}: {}", result.index, warning);
     record.addWarning("frame " + std::to_string(result.index) + ": " + warning);
   }
-  fs::create_directories(out_);
   const auto start = std::chrono::steady_clock::now();
   outputs.write(prefixOf(result.index), measured, *range_,
                 titleOf(measured.method, source_.left, is_sequence_ ? result.index : -1));

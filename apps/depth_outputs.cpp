@@ -63,6 +63,7 @@ std::vector<std::string> DepthOutputs::names() const {
 }
 
 void DepthOutputs::requireFree(const std::vector<std::string>& prefixes) const {
+  removeAbandoned(options_.folder);
   requireWritable(summaryFile(), options_.overwrite);
   for (const std::string& prefix : prefixes)
     for (const std::string& name : names())
@@ -73,29 +74,42 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
                          const DepthRange& range, const std::string& title) const {
   const bool force = options_.overwrite;
   const bool matched = !measured.disparity.disparity_px.empty();  // else depth came from a file
+  new_files_.makeFolder(options_.folder);
   const auto rasters = [&] {
     if (options_.kinds.disparity && matched) {
-      writePfm(file(prefix, "disparity.pfm"), measured.disparity.disparity_px, force);
-      writeDisparityPng(file(prefix, "disparity.png"), measured.disparity.disparity_px, force);
+      const auto& disparity_px = measured.disparity.disparity_px;
+      make(prefix, "disparity.pfm", [&](const auto& path) { writePfm(path, disparity_px, force); });
+      make(prefix, "disparity.png",
+           [&](const auto& path) { writeDisparityPng(path, disparity_px, force); });
     }
     if (options_.kinds.depth) {
-      writePfm(file(prefix, "depth.pfm"), measured.depth.depth_mm, force);
-      writeDepthPng(file(prefix, "depth.png"), measured.depth.depth_mm, kDepthStepMm, force);
+      const auto& depth_mm = measured.depth.depth_mm;
+      make(prefix, "depth.pfm", [&](const auto& path) { writePfm(path, depth_mm, force); });
+      make(prefix, "depth.png",
+           [&](const auto& path) { writeDepthPng(path, depth_mm, kDepthStepMm, force); });
     }
     if (options_.kinds.confidence && matched)
-      writePng(file(prefix, "confidence.png"), confidenceImage(measured.disparity), force);
+      make(prefix, "confidence.png",
+           [&](const auto& path) { writePng(path, confidenceImage(measured.disparity), force); });
   };
   const auto drawings = [&] {
     if (options_.kinds.cloud)
-      writePly(file(prefix, "cloud.ply"), measured.cloud,
-               {options_.raw_left ? "raw left" : "left", ""}, force);
+      make(prefix, "cloud.ply", [&](const auto& path) {
+        writePly(path, measured.cloud, {options_.raw_left ? "raw left" : "left", ""}, force);
+      });
     if (options_.kinds.picture)
-      writePng(file(prefix, "picture.png"),
-               drawDepthPicture(measured.left, measured.depth.depth_mm, measured.mask, range,
-                                {title, noteOf(measured)}),
-               force);
+      make(prefix, "picture.png", [&](const auto& path) {
+        writePng(path,
+                 drawDepthPicture(measured.left, measured.depth.depth_mm, measured.mask, range,
+                                  {title, noteOf(measured)}),
+                 force);
+      });
   };
   parallelInvoke(rasters, drawings);
+}
+
+void DepthOutputs::writeSummary(const std::string& json) const {
+  new_files_.make(summaryFile(), [&] { writeFile(summaryFile(), json, options_.overwrite); });
 }
 
 GrayImage confidenceImage(const DisparityMap& disparity) {

@@ -7,6 +7,7 @@
 
 #include "apps/depth_estimator.h"
 #include "core/stereo_rig.h"
+#include "io/new_files.h"
 #include "vtk_views/depth_picture.h"
 
 namespace softscope {
@@ -26,6 +27,7 @@ struct DepthOutputOptions {
   bool raw_left = false;  // the frame that the cloud's header names
 };
 
+/// Without keep() its destructor takes back what it wrote.
 class DepthOutputs {
  public:
   explicit DepthOutputs(DepthOutputOptions options) : options_(std::move(options)) {}
@@ -37,14 +39,22 @@ class DepthOutputs {
   void write(const std::string& prefix, const DepthResult& measured, const DepthRange& range,
              const std::string& title) const;
 
-  std::filesystem::path summaryFile() const { return options_.folder / "summary.json"; }
+  void writeSummary(const std::string& json) const;
+  void keep() const { new_files_.keep(); }
 
  private:
   std::vector<std::string> names() const;
+  std::filesystem::path summaryFile() const { return options_.folder / "summary.json"; }
+  template <class Write>
+  void make(const std::string& prefix, const char* name, const Write& write) const {
+    const std::filesystem::path path = file(prefix, name);
+    new_files_.make(path, [&] { write(path); });
+  }
   std::filesystem::path file(const std::string& prefix, const char* name) const {
     return options_.folder / (prefix + name);
   }
   DepthOutputOptions options_;
+  mutable NewFiles new_files_;
 };
 
 /// 255 times the probability that a pixel's error is below half a pixel, were it normally

@@ -79,6 +79,7 @@ class EvaluateCommand : public Command {
   bool each_ = false, force_ = false, no_views_ = false;
 
   std::vector<Threshold> thresholds_;
+  std::optional<InterruptGuard> interrupt_;
 };
 
 void EvaluateCommand::declare(ArgumentList& arguments) {
@@ -106,6 +107,7 @@ MeshAlignment EvaluateCommand::alignment() const {
 }
 
 int EvaluateCommand::run() {
+  interrupt_.emplace();
   for (const std::string& text : fail_if_) thresholds_.push_back(parseThreshold(text));
   const bool sequence = isFolder(reference_);
   if (sequence && (alignment() != MeshAlignment::kNone || each_))
@@ -139,12 +141,11 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
   result.tracks = judgeTracks(folder, truth);
   result.backprojection_mm = folder.backprojection_mm;
   const auto frames = framesToJudge(folder, truth);
-  const InterruptGuard interrupt;
   ProgressBar progress("evaluate", static_cast<int>(frames.size()), progressStyle(common.quiet),
                        std::cerr);
   result.surface = judgeSeries(folder, truth, !no_views_, [&] {
     progress.advance();
-    return !interrupt.requested();
+    return !interrupt_->requested();
   });
   result.revisits = judgeRevisits(folder, truth, result);
   result.warnings = sequenceWarnings(folder, truth, result);
@@ -153,12 +154,11 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
 }
 
 int EvaluateCommand::besidePictures(const JudgedRun& folder, const EvaluateOutputs* outputs) {
-  const InterruptGuard interrupt;
   ProgressBar progress("evaluate", static_cast<int>(folder.models.size()),
                        progressStyle(common.quiet), std::cerr);
   TruthlessResult result = judgeWithoutTruth(folder, reference_, !no_views_, [&] {
     progress.advance();
-    return !interrupt.requested();
+    return !interrupt_->requested();
   });
   if (result.interrupted) {
     spdlog::warn("interrupted: nothing is written");
@@ -206,13 +206,12 @@ EvaluationResult EvaluateCommand::againstMesh(const JudgedRun& folder) {
   result.alignment = how;
   for (const std::string& warning : meshWarnings(checkMesh(mesh)))
     result.warnings.push_back(reference_ + ": " + warning);
-  const InterruptGuard interrupt;
   ProgressBar progress("evaluate", static_cast<int>(models.size()),
                        each_ ? progressStyle(common.quiet) : ProgressBar::Style::kSilent,
                        std::cerr);
   AlignedSeries series = judgeAgainstMesh(folder, models, mesh, how, [&] {
     progress.advance();
-    return !interrupt.requested();
+    return !interrupt_->requested();
   });
   result.surface = std::move(series.surface);
   result.alignments = std::move(series.alignments);

@@ -46,17 +46,20 @@ EvaluateOutputs::EvaluateOutputs(fs::path folder, bool overwrite)
   if (fs::exists(folder_) && !fs::is_directory(folder_))
     throw OptionError("--out " + shown(folder_) +
                       ": is a file, but must be a folder, there or not yet");
+  for (const fs::path& written : {folder_, folder_ / "errors"}) removeAbandoned(written);
   for (const char* name : kFiles) requireWritable(folder_ / name, overwrite_);
 }
 
 void EvaluateOutputs::put(const std::string& name, const std::string& bytes) const {
-  writeFile(folder_ / name, bytes, overwrite_);
+  new_files_.make(folder_ / name, [&] { writeFile(folder_ / name, bytes, overwrite_); });
 }
 
 void EvaluateOutputs::putFigure(const std::string& name, const VectorDrawing& figure) const {
   put(name + ".svg", svgBytes(figure));
   put(name + ".pdf", pdfBytes(figure));
-  writePng(folder_ / (name + ".png"), rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_);
+  const fs::path png = folder_ / (name + ".png");
+  new_files_.make(
+      png, [&] { writePng(png, rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_); });
 }
 
 /// What an earlier evaluation left is removed, for it may have judged other frames.
@@ -66,14 +69,14 @@ void EvaluateOutputs::putMaps(const std::vector<ErrorMap>& maps) const {
       if (file.stem().string().find_first_not_of("0123456789") == std::string::npos)
         fs::remove(file);
   if (maps.empty()) return;
-  fs::create_directories(folder_ / "errors");
+  new_files_.makeFolder(folder_ / "errors");
   for (const ErrorMap& map : maps) put(mapName(map), errorMapVtp(map));
   put("errors.pvd", mapsPvd(maps));
 }
 
 void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& frames,
                             const FactSheet::Json& record) const {
-  fs::create_directories(folder_);
+  new_files_.makeFolder(folder_);
   put("frames.csv", frames.csv());
   if (result.tracks) put("tracks.csv", tracksCsv(*result.tracks));
   if (!result.surface.models.empty()) {
@@ -84,15 +87,17 @@ void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& fr
     putFigure("worst_frames", drawWorstFrames(worstFramesData(result)));
   }
   putMaps(result.surface.maps);
-  put("evaluation.json", jsonText(record));  // last: who finds it finds the others
+  put("evaluation.json", jsonText(record));  // last: where it is, the others are
+  new_files_.keep();
 }
 
 void EvaluateOutputs::write(const TruthlessResult& result, const FactSheet::Json& record) const {
-  fs::create_directories(folder_);
+  new_files_.makeFolder(folder_);
   put("frames.csv", truthlessCsv(result));
   const VectorDrawing plots = truthlessPlots(result);
   if (plots.height_pt > 0) putFigure("quality_series", plots);
   put("evaluation.json", jsonText(record));
+  new_files_.keep();
 }
 
 }  // namespace softscope

@@ -7,11 +7,12 @@
 #include "apps/evaluate_result.h"
 #include "apps/fact_sheet.h"
 #include "apps/truthless_result.h"
+#include "io/new_files.h"
 #include "vtk_views/vector_drawing.h"
 
 namespace softscope {
 
-/// Each file appears whole or not at all.
+/// Each file appears whole or not at all, and a failure takes back those that were written.
 class EvaluateOutputs {
  public:
   /// Throws OptionError where `folder` is a file, or a file to be written is there and `overwrite`
@@ -33,6 +34,7 @@ class EvaluateOutputs {
 
   std::filesystem::path folder_;
   bool overwrite_;
+  mutable NewFiles new_files_;
 };
 
 }  // namespace softscope

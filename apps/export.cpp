@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/message.h"
+#include "io/new_files.h"
 
 namespace softscope {
 namespace {
@@ -156,7 +157,8 @@ void ExportCommand::exportSeries() {
   const fs::path folder = fs::path(out_).replace_extension();
   for (const SavedModel& model : models)
     requireWritable(folder / (model.file.stem().string() + ".vtp"), force_);
-  fs::create_directories(folder);
+  NewFiles files;
+  files.makeFolder(folder);
   ProgressBar progress("export", int(models.size()), progressStyle(common.quiet), std::cerr);
   Json frames = Json::array();
   std::string list;
@@ -164,7 +166,8 @@ void ExportCommand::exportSeries() {
     FactSheet facts(shown(model.file));
     const ModelSurface surface = surfaceOf(model.file, facts);
     const fs::path file = folder / (model.file.stem().string() + ".vtp");
-    writeFile(file, modelBytes(surface, ModelFormat::kVtp, unit), force_);
+    const std::string bytes = modelBytes(surface, ModelFormat::kVtp, unit);
+    files.make(file, [&] { writeFile(file, bytes, force_); });
     list += pvdLine(model.time_s, fs::path(folder.filename()) / file.filename());
     addModelFacts(surface, facts);
     facts.addQuietly("frame", model.frame);
@@ -173,7 +176,8 @@ void ExportCommand::exportSeries() {
     frames.push_back(facts.json());
     progress.advance();
   }
-  writeFile(out_, pvdFile(list), force_);
+  files.make(out_, [&] { writeFile(out_, pvdFile(list), force_); });
+  files.keep();
   FactSheet facts(shown(input_));
   facts.add("models", "models", int(models.size()));
   facts.add("unit", "unit", unit.name);

@@ -7,6 +7,7 @@
 #include "apps/version.h"
 #include "io/atomic_file.h"
 #include "io/image_writer.h"
+#include "io/new_files.h"
 
 namespace softscope {
 namespace {
@@ -20,16 +21,21 @@ Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void writeFigure(const VectorDrawing& drawing, const FigureOptions& options, const Json& record) {
   const double dots_per_inch = options.figureStyle().dots_per_inch;
+  NewFiles files;
   for (const std::string& name : options.out) {
     const fs::path file = name;
-    if (file.has_parent_path()) fs::create_directories(file.parent_path());
-    if (file.extension() == ".png")
-      writePng(file, rasterise(drawing, dots_per_inch), dots_per_inch, options.force);
-    else
-      writeFile(file, file.extension() == ".pdf" ? pdfBytes(drawing) : svgBytes(drawing),
-                options.force);
+    if (file.has_parent_path()) files.makeFolder(file.parent_path());
+    files.make(file, [&] {
+      if (file.extension() == ".png")
+        writePng(file, rasterise(drawing, dots_per_inch), dots_per_inch, options.force);
+      else
+        writeFile(file, file.extension() == ".pdf" ? pdfBytes(drawing) : svgBytes(drawing),
+                  options.force);
+    });
   }
-  writeFile(options.recordFile(), jsonText(record), options.force);
+  files.make(options.recordFile(),
+             [&] { writeFile(options.recordFile(), jsonText(record), options.force); });
+  files.keep();
 }
 
 Json viewJson(const ViewPlane& view, SceneFrame frame, double width_mm) {

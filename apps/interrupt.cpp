@@ -20,14 +20,12 @@ InterruptGuard::InterruptGuard() {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
   if (std::signal(SIGHUP, onSignal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   if (std::signal(SIGHUP, SIG_DFL) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  std::signal(SIGPIPE, SIG_DFL);
 }
 
 bool InterruptGuard::requested() const { return interrupt_requested != 0; }

@@ -5,7 +5,7 @@ namespace softscope {
 
 /// While it lives, the first Ctrl-C (or SIGTERM, or the SIGHUP of a closed terminal, unless nohup
 /// ignores it) only sets a flag that long work looks at between frames; the second ends the program
-/// at once. A closed pipe behind stderr ends nothing.
+/// at once. A command makes it before its first file, so that no work is lost to an early signal.
 class InterruptGuard {
  public:
   InterruptGuard();

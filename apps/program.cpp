@@ -1,8 +1,11 @@
 // apps/program.cpp: softscope <command>; the one place where failures become exit codes.
 #include "apps/program.h"
 
+#include <fcntl.h>
 #include <malloc.h>
+#include <signal.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <iostream>
@@ -53,9 +56,18 @@ void keepMemoryAtHand() {
   mallopt(M_TRIM_THRESHOLD, kLargestBuffer);
 }
 
+/// A closed stdin, stdout or stderr would give its number to the next file that is opened, and
+/// lines meant for it would be written there. A pipe without a reader is an error of the write.
+void secureStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // takes the lowest free number
+  signal(SIGPIPE, SIG_IGN);
+}
+
 }  // namespace
 
 int runProgram(const std::vector<std::string>& words) {
+  secureStreams();
   quietLibraries();
   setUpLog({});
   keepMemoryAtHand();

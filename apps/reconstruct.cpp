@@ -23,6 +23,7 @@
 #include "pipeline/cpu_backend.h"
 #include "pipeline/reconstructor.h"
 #include "pipeline/run_options.h"
+#include "pipeline/run_tables.h"
 
 namespace softscope {
 namespace {
@@ -65,9 +66,15 @@ class ReconstructCommand : public Command {
   std::vector<TrackSeed> seeds() const;
   std::unique_ptr<ReconstructionBackend> makeBackend(const StereoCalibration& calibration,
                                                      const ReconstructionOptions& options) const;
-  void reconstructAll(const SequencePaths& sequence, SequenceReader& reader,
-                      Reconstructor& reconstructor, RunFolder& folder, RunRecord& record,
-                      Checkpoint& checkpoint);
+  void readOptions(SettingsBinder& binder, RunOptions& options) const;
+  /// The state to go on from; nothing for a run that starts. Throws OptionError.
+  std::optional<Checkpoint> earlierState(const RunFolder& folder,
+                                         const std::string& settings) const;
+  void skipDone(const Checkpoint& earlier, const SequencePaths& where, SequenceOptions& sequence);
+  void reconstructAll(const SequencePaths& sequence, const InterruptGuard& interrupt,
+                      SequenceReader& reader, Reconstructor& reconstructor, RunFolder& folder,
+                      RunRecord& record, Checkpoint& checkpoint);
+  int finish(bool nothing, RunFolder& folder, RunRecord& record) const;
 
   SequenceArguments source_;
   std::string out_, track_;
@@ -136,9 +143,7 @@ std::unique_ptr<ReconstructionBackend> ReconstructCommand::makeBackend(
   return makeCpuBackend(calibration, options);
 }
 
-int ReconstructCommand::run() {
-  RunOptions options = RunOptions::ofPreset(preset_);
-  SettingsBinder binder = settingsOf(options);
+void ReconstructCommand::readOptions(SettingsBinder& binder, RunOptions& options) const {
   Settings settings = settings_.read();
   if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
   if (!scope_.empty()) addAssignment(settings, "pose.scope=" + scope_);
@@ -147,7 +152,37 @@ int ReconstructCommand::run() {
   source_.applyFrames(options.sequence);
   options.validate();
   require(checkpoint_every_ >= 1, "--checkpoint-every", checkpoint_every_, "must be 1 or more");
+}
 
+std::optional<Checkpoint> ReconstructCommand::earlierState(const RunFolder& folder,
+                                                           const std::string& settings) const {
+  if (!resume_) return std::nullopt;
+  std::optional<Checkpoint> earlier = folder.readCheckpoint();
+  if (!earlier && !folder.wasKilled())
+    throw OptionError("--resume: " + out_ + " holds no interrupted run; start it without --resume");
+  if (!earlier)
+    spdlog::warn("the run in {} was killed before its first checkpoint: it starts anew", out_);
+  if (earlier && earlier->settings != settings)
+    throw OptionError(
+        "--resume: the run in " + out_ +
+        " was begun with other settings, pictures, calibration or tracked pixels; give the "
+        "same, or start again without --resume");
+  return earlier;
+}
+
+/// Where no frame is left, the run was stopped between its last one and its record.
+void ReconstructCommand::skipDone(const Checkpoint& earlier, const SequencePaths& where,
+                                  SequenceOptions& sequence) {
+  const int done = earlier.next_frame - sequence.frames.begin;
+  all_done_ = done >= SequenceReader(where, sequence).frameCount();
+  if (!all_done_) sequence.frames.begin = earlier.next_frame;
+}
+
+int ReconstructCommand::run() {
+  const InterruptGuard interrupt;
+  RunOptions options = RunOptions::ofPreset(preset_);
+  SettingsBinder binder = settingsOf(options);
+  readOptions(binder, options);
   const SequencePaths where = source_.paths("reconstruct");
   const std::vector<TrackSeed> tracked = seeds();
   requireOutside(out_, where);
@@ -157,39 +192,27 @@ int ReconstructCommand::run() {
     settleRightOffset(where, options.sequence, depth.stereo.disparity_max_px);
   const Json inputs = inputsJson(where);
   Checkpoint checkpoint{digestOf(inputs, binder), options.sequence.frames.begin, {}};
-  const std::optional<Checkpoint> earlier = resume_ ? folder.readCheckpoint() : std::nullopt;
-  if (resume_ && !earlier && !folder.wasKilled())
-    throw OptionError("--resume: " + out_ + " holds no interrupted run; start it without --resume");
-  if (resume_ && !earlier)
-    spdlog::warn("the run in {} was killed before its first checkpoint: it starts anew", out_);
-  if (earlier && earlier->settings != checkpoint.settings)
-    throw OptionError(
-        "--resume: the run in " + out_ +
-        " was begun with other settings, pictures, calibration or tracked pixels; give the "
-        "same, or start again without --resume");
-  if (earlier) {  // where no frame is left, the run was stopped between its last one and its record
-    const int done = earlier->next_frame - options.sequence.frames.begin;
-    all_done_ = done >= SequenceReader(where, options.sequence).frameCount();
-    if (!all_done_) options.sequence.frames.begin = earlier->next_frame;
-  }
+  const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);
+  if (earlier) skipDone(*earlier, where, options.sequence);
 
   SequenceReader reader(where, options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
   Reconstructor reconstructor(makeBackend(reader.calibration(), options.method), options.method);
   reconstructor.track(tracked);
   folder.tellCamera(reconstructor.backend().rig().left);
+  RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
   if (earlier) {
     folder.takeOver(earlier->next_frame);
     reconstructor.restore(earlier->state);
-  }
-  RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
-  if (earlier) {
     record.set("resumed_at_frame", earlier->next_frame);
     for (const FrameRecord& frame : folder.earlierFrames()) record.add(frame);
   }
-  reconstructAll(where, reader, reconstructor, folder, record, checkpoint);
+  reconstructAll(where, interrupt, reader, reconstructor, folder, record, checkpoint);
+  return finish(reconstructor.backend().empty(), folder, record);
+}
+
+int ReconstructCommand::finish(bool nothing, RunFolder& folder, RunRecord& record) const {
   record.set("interrupted", interrupted_);
-  const bool nothing = reconstructor.backend().empty();
   if (nothing && !interrupted_)
     throw InputError(source_.left + ": not one frame could be used; the reasons stand above");
   for (const std::string& conclusion : record.conclusions()) spdlog::warn("{}", conclusion);
@@ -206,10 +229,10 @@ int ReconstructCommand::run() {
   return interrupted_ ? kInterrupted : kDone;
 }
 
-void ReconstructCommand::reconstructAll(const SequencePaths& sequence, SequenceReader& reader,
+void ReconstructCommand::reconstructAll(const SequencePaths& sequence,
+                                        const InterruptGuard& interrupt, SequenceReader& reader,
                                         Reconstructor& reconstructor, RunFolder& folder,
                                         RunRecord& record, Checkpoint& checkpoint) {
-  const InterruptGuard interrupt;
   ProgressBar progress("reconstruct", reader.frameCount(), progressStyle(common.quiet), std::cerr);
   int since_flush = 0, processed = 0;
   bool at_end = all_done_;
@@ -223,7 +246,7 @@ void ReconstructCommand::reconstructAll(const SequencePaths& sequence, SequenceR
     if (!frame.reason.empty())
       spdlog::warn("frame {}: {}: {}", frame.frame, toString(frame.status), frame.reason);
     folder.add(frame);
-    record.add(frame);
+    record.add(asTabled(frame));
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
       folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
     checkpoint.next_frame = frame.frame + 1;

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/message.h"
+#include "io/new_files.h"
 #include "vtk_views/report_html.h"
 #include "vtk_views/report_pdf.h"
 
@@ -111,8 +112,10 @@ int ReportCommand::run() {
   const ReportDocument document = makeReport(std::move(request));
   const std::string html = reportHtml(document.page);
   const std::string pdf = pdf_.empty() ? "" : reportPdf(document.page);
-  writeFile(out_, html, force_);
-  if (!pdf_.empty()) writeFile(pdf_, pdf, force_);
+  NewFiles files;
+  files.make(out_, [&] { writeFile(out_, html, force_); });
+  if (!pdf_.empty()) files.make(pdf_, [&] { writeFile(pdf_, pdf, force_); });
+  files.keep();
   printResult(document.metrics, document.facts, {out_, pdf_}, common.json);
   return exitCodeOf(document.outcomes);
 }

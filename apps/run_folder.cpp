@@ -136,13 +136,12 @@ std::optional<Checkpoint> RunFolder::readCheckpoint() const {
 
 bool RunFolder::wasKilled() const { return fs::exists(file(kRunLock)) && !isHeld(file(kRunLock)); }
 
-/// Until the run has ended, or its process, however it does: who finds the file but no holder knows
-/// that nothing more will come.
+/// Until the run or its process has ended: a lock file that no process holds marks a killed run.
 void RunFolder::hold() {
   lock_.emplace(file(kRunLock));
   if (!lock_->tryToHold()) refuseBusy(options_.folder);
   for (const fs::path& folder : {options_.folder, file(kModels), file(kNodes)})
-    removeTemporaries(folder);  // of a process that was killed: nobody else writes here now
+    removeTemporaries(folder);  // of a killed process; the lock excludes any other writer
 }
 
 std::vector<FrameRecord> RunFolder::earlierFrames() const {

@@ -36,7 +36,7 @@ class RunFolder {
 
   /// The state that an interrupted run left; nothing where there is none. Throws InputError.
   std::optional<Checkpoint> readCheckpoint() const;
-  /// Whether the process that wrote the run died: its lock is there and nobody holds it.
+  /// Whether the process that wrote the run died: its lock file exists, and no process holds it.
   bool wasKilled() const;
   /// Takes over the tables of the frames before `next_frame`.
   void takeOver(int next_frame);

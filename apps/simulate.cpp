@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <optional>
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
@@ -55,6 +56,7 @@ class SimulateCommand : public Command {
   std::string out_, scenario_, organ_, texture_, size_, frames_, seed_, truth_;
   std::vector<std::string> assignments_;
   bool force_ = false;
+  std::optional<InterruptGuard> interrupt_;
 };
 
 void SimulateCommand::declare(ArgumentList& arguments) {
@@ -97,6 +99,7 @@ FactSheet::Json SimulateCommand::record(const SettingsBinder& binder) const {
 }
 
 int SimulateCommand::run() {
+  interrupt_.emplace();
   SimulateOptions options;
   SettingsBinder binder;
   readOptions(binder, options);
@@ -116,10 +119,9 @@ int SimulateCommand::run() {
 
 int SimulateCommand::simulateAll(Simulator& simulator, SimulateOutputs& outputs,
                                  const SimulateOptions& options) {
-  const InterruptGuard interrupt;
   ProgressBar progress("simulate", options.frames, progressStyle(common.quiet), std::cerr);
   for (int i = 0; i < options.frames; ++i) {
-    if (interrupt.requested()) {
+    if (interrupt_->requested()) {
       spdlog::warn("interrupted: a sequence of {} frames stays", i);
       return i;
     }

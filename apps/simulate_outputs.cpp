@@ -31,6 +31,7 @@ constexpr const char* kFrameFolders[] = {"left",
                                          "groundtruth/mesh",
                                          "groundtruth/normals",
                                          "groundtruth/flow"};
+constexpr const char* kVideos[] = {"left.mp4", "right.mp4"};
 constexpr double kDepthStepMm = 0.01;
 
 bool isNumberedFrame(const fs::path& file) {
@@ -53,11 +54,21 @@ void removeEarlierFrames(const fs::path& folder) {
     fs::remove(folder / name);
 }
 
+/// Folders alone are what a stopped simulation leaves.
+bool holdsFile(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) return true;
+  return false;
+}
+
 void requireUsableFolder(const fs::path& folder, bool overwrite) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
     throw OptionError("--out: " + shown(folder) + " is a file, but must be a folder");
-  if (fs::is_empty(folder)) return;
+  removeAbandoned(folder);
+  for (const char* name : kFrameFolders) removeAbandoned(folder / name);
+  removeAbandoned(folder / "groundtruth");
+  if (!holdsFile(folder)) return;
   if (!overwrite)
     throw OptionError("--out: " + shown(folder) +
                       " is not empty; choose another folder, or give --force");
@@ -116,17 +127,18 @@ SimulateOutputs::SimulateOutputs(SimulateOutputOptions options, const std::strin
     : options_(std::move(options)) {
   requireUsableFolder(options_.folder, options_.overwrite);
   if (options_.overwrite) removeEarlierFrames(options_.folder);
-  fs::create_directories(options_.folder);
+  new_files_.makeFolder(options_.folder);
   if (options_.pictures != "mp4")
-    for (const char* name : {"left", "right"}) fs::create_directories(options_.folder / name);
-  if (options_.input_depth) fs::create_directories(options_.folder / "depth");
-  if (options_.truth.depth) fs::create_directories(options_.folder / "groundtruth/depth");
-  if (options_.truth.mesh) fs::create_directories(options_.folder / "groundtruth/mesh");
-  if (options_.truth.normals) fs::create_directories(options_.folder / "groundtruth/normals");
-  if (options_.truth.flow) fs::create_directories(options_.folder / "groundtruth/flow");
+    for (const char* name : {"left", "right"}) new_files_.makeFolder(options_.folder / name);
+  if (options_.input_depth) new_files_.makeFolder(options_.folder / "depth");
+  if (options_.truth.depth) new_files_.makeFolder(options_.folder / "groundtruth/depth");
+  if (options_.truth.mesh) new_files_.makeFolder(options_.folder / "groundtruth/mesh");
+  if (options_.truth.normals) new_files_.makeFolder(options_.folder / "groundtruth/normals");
+  if (options_.truth.flow) new_files_.makeFolder(options_.folder / "groundtruth/flow");
   if (options_.truth.trajectory || options_.truth.tracks)
-    fs::create_directories(options_.folder / "groundtruth");
-  writeFile(options_.folder / kRecord, record_json, options_.overwrite);
+    new_files_.makeFolder(options_.folder / "groundtruth");
+  make(options_.folder / kRecord,
+       [&](const fs::path& file) { writeFile(file, record_json, options_.overwrite); });
 }
 
 fs::path SimulateOutputs::numbered(const char* folder, int index, const std::string& end) const {
@@ -135,15 +147,16 @@ fs::path SimulateOutputs::numbered(const char* folder, int index, const std::str
 
 void SimulateOutputs::writePicture(const char* folder, int index,
                                    const ColourImage& picture) const {
-  const fs::path file = numbered(folder, index, options_.pictures);
-  if (options_.pictures == "jpg")
-    writeJpeg(file, picture, options_.jpeg_quality, options_.overwrite);
-  else
-    writePng(file, picture, options_.overwrite);
+  make(numbered(folder, index, options_.pictures), [&](const fs::path& file) {
+    if (options_.pictures == "jpg")
+      writeJpeg(file, picture, options_.jpeg_quality, options_.overwrite);
+    else
+      writePng(file, picture, options_.overwrite);
+  });
 }
 
 void SimulateOutputs::addToVideos(const StereoPair& pair) {
-  for (const char* name : {"left.mp4", "right.mp4"})
+  for (const char* name : kVideos)
     if (videos_.size() < 2)
       videos_.emplace_back(options_.folder / name, pair.left.width_px, pair.left.height_px,
                            options_.frames_per_second, options_.overwrite);
@@ -166,29 +179,35 @@ void SimulateOutputs::addTracks(int index, const SimulatedFrame& frame) {
   }
 }
 
+void SimulateOutputs::writeDepth(const char* folder, int index,
+                                 const Raster<float>& depth_mm) const {
+  make(numbered(folder, index, "png"), [&](const fs::path& file) {
+    writeDepthPng(file, depth_mm, kDepthStepMm, options_.overwrite);
+  });
+}
+
 void SimulateOutputs::writeTruth(int index, const SimulatedFrame& frame,
                                  const std::vector<Triangle>& triangles) const {
   const bool force = options_.overwrite;
-  if (options_.truth.depth)
-    writeDepthPng(numbered("groundtruth/depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
+  const auto put = [&](const char* folder, const char* end, const std::string& bytes) {
+    make(numbered(folder, index, end),
+         [&](const fs::path& file) { writeFile(file, bytes, force); });
+  };
+  if (options_.truth.depth) writeDepth("groundtruth/depth", index, frame.depth_mm);
   if (options_.truth.mesh)
-    writeFile(numbered("groundtruth/mesh", index, "ply"),
-              meshPly(frame.vertices_world_mm, triangles), force);
-  if (options_.truth.normals)
-    writeFile(numbered("groundtruth/normals", index, "pfm"), vectorPfm(frame.normals), force);
-  if (options_.truth.flow)
-    writeFile(numbered("groundtruth/flow", index, "flo"), flowBytes(frame.flow_px), force);
+    put("groundtruth/mesh", "ply", meshPly(frame.vertices_world_mm, triangles));
+  if (options_.truth.normals) put("groundtruth/normals", "pfm", vectorPfm(frame.normals));
+  if (options_.truth.flow) put("groundtruth/flow", "flo", flowBytes(frame.flow_px));
 }
 
 void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
                                const std::vector<Triangle>& triangles, bool with_truth) {
-  const bool force = options_.overwrite;
   writePictures(index, frame.pictures);
-  if (options_.input_depth)
-    writeDepthPng(numbered("depth", index, "png"), frame.depth_mm, kDepthStepMm, force);
+  if (options_.input_depth) writeDepth("depth", index, frame.depth_mm);
   if (options_.masks && !frame.instrument.empty()) {
-    fs::create_directories(options_.folder / "mask");
-    writePng(numbered("mask", index, "png"), frame.instrument, force);
+    new_files_.makeFolder(options_.folder / "mask");
+    make(numbered("mask", index, "png"),
+         [&](const fs::path& file) { writePng(file, frame.instrument, options_.overwrite); });
   }
   if (with_truth) writeTruth(index, frame, triangles);
   trajectory_.push_back(frame.pose);
@@ -197,16 +216,21 @@ void SimulateOutputs::addFrame(int index, const SimulatedFrame& frame,
 
 void SimulateOutputs::finish(const Simulator& simulator) {
   const bool force = options_.overwrite;
-  for (VideoWriter& video : videos_) video.finish();
+  const auto put = [&](const char* name, const std::string& bytes) {
+    make(options_.folder / name, [&](const fs::path& file) { writeFile(file, bytes, force); });
+  };
+  for (std::size_t i = 0; i < videos_.size(); ++i)
+    make(options_.folder / kVideos[i], [&](const fs::path& /*file*/) { videos_[i].finish(); });
   if (options_.truth.trajectory)
-    writeTrajectory(options_.folder / "groundtruth/trajectory.txt", trajectory_, force);
+    make(options_.folder / "groundtruth/trajectory.txt",
+         [&](const fs::path& file) { writeTrajectory(file, trajectory_, force); });
   if (options_.truth.tracks) {
     std::string points = "id,u_px,v_px\n";
     for (std::size_t id = 0; id < simulator.trackPoints().size(); ++id)
       points += say(id, ",", simulator.trackPoints()[id].u_px, ",",
                     simulator.trackPoints()[id].v_px, "\n");
-    writeFile(options_.folder / "groundtruth/tracks.csv", tracks_csv_, force);
-    writeFile(options_.folder / "track_points.csv", points, force);
+    put("groundtruth/tracks.csv", tracks_csv_);
+    put("track_points.csv", points);
   }
   if (trajectory_.size() > 1) {
     std::string times;
@@ -215,9 +239,11 @@ void SimulateOutputs::finish(const Simulator& simulator) {
       std::snprintf(row, sizeof row, "%.6f\n", pose.time_s);
       times += row;
     }
-    writeFile(options_.folder / "timestamps.txt", times, force);
+    put("timestamps.txt", times);
   }
-  writeCalibration(options_.folder / "calibration.yaml", simulator.calibration(), force);
+  make(options_.folder / "calibration.yaml",
+       [&](const fs::path& file) { writeCalibration(file, simulator.calibration(), force); });
+  new_files_.keep();
 }
 
 }  // namespace softscope

@@ -8,6 +8,7 @@
 #include "apps/simulate_options.h"
 #include "core/trajectory.h"
 #include "eval/simulation/simulator.h"
+#include "io/new_files.h"
 #include "io/video_writer.h"
 
 namespace softscope {
@@ -23,7 +24,8 @@ struct SimulateOutputOptions {
   bool overwrite = false;
 };
 
-/// Each file appears whole or not at all. Frames first, what speaks of all frames last.
+/// Each file appears whole or not at all. Frames first, what speaks of all frames last. Without
+/// finish() the destructor takes back what was written.
 class SimulateOutputs {
  public:
   /// With `overwrite`, frames of an earlier simulation in the folder are removed. Throws
@@ -48,7 +50,14 @@ class SimulateOutputs {
                   const std::vector<Triangle>& triangles) const;
   void addTracks(int index, const SimulatedFrame& frame);
 
+  void writeDepth(const char* folder, int index, const Raster<float>& depth_mm) const;
+  template <class Write>
+  void make(const std::filesystem::path& file, const Write& write) const {
+    new_files_.make(file, [&] { write(file); });
+  }
+
   SimulateOutputOptions options_;
+  mutable NewFiles new_files_;
   Trajectory trajectory_;
   std::vector<VideoWriter> videos_;  // left, right; of pictures as mp4
   std::string tracks_csv_ = "frame,id,x_mm,y_mm,z_mm,visible\n";

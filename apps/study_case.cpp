@@ -88,6 +88,16 @@ Json recordWithStatus(const StudyCase& one, const char* status, const std::strin
   return record;
 }
 
+/// Of processes that were killed. The caller holds the sequence's lock, so that no other one
+/// writes.
+void removeParts(const fs::path& target) {
+  const std::string prefix = target.filename().string() + ".part-";
+  std::vector<fs::path> parts;
+  for (const auto& entry : fs::directory_iterator(target.parent_path()))
+    if (entry.path().filename().string().rfind(prefix, 0) == 0) parts.push_back(entry.path());
+  for (const fs::path& part : parts) fs::remove_all(part);
+}
+
 class CaseRunner {
  public:
   CaseRunner(const StudyCase& study_case, const StudyFolder& folder, int threads,
@@ -163,6 +173,7 @@ fs::path CaseRunner::sequence() {
   const fs::path target = folder_.sequences() / sha256OfBytes(made_by).substr(0, kFolderLetters);
   const FileLock lock(target.string() + ".lock");
   waitFor(lock);
+  removeParts(target);
   if (!fs::exists(target)) simulate(target);
   return target;
 }

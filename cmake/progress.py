@@ -86,6 +86,16 @@ def lines_of(command, environment=None):
     return status
 
 
+def for_each(lines, show):
+    """Shows each line; returns the exit status that the lines end with."""
+    while True:
+        try:
+            line = next(lines)
+        except StopIteration as end:
+            return end.value
+        show(line)
+
+
 def processor_time():
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
 
@@ -94,17 +104,14 @@ def processor_time():
 
 def follow_build(lines, progress):
     """Ninja's lines become a count; what compilers say stays. Returns the exit status."""
-    while True:
-        try:
-            line = next(lines)
-        except StopIteration as end:
-            return end.value
+    def show(line):
         found = BUILD_STATUS.match(line)
         if found:
             done, total = int(found[1]), int(found[2])
             progress.tell(done, total, done / total)
         elif line:
             progress.say(f"{INDENT}{line}")
+    return for_each(lines, show)
 
 
 def build(preset, targets):
@@ -143,11 +150,7 @@ class TestWeights:
 
 def follow_tests(lines, progress, weights):
     """ctest's lines become a count; a failed test is named at once. Returns the exit status."""
-    while True:
-        try:
-            line = next(lines)
-        except StopIteration as end:
-            return end.value
+    def show(line):
         found = TEST_STATUS.match(line)
         if found:
             done, total, name, outcome = int(found[1]), int(found[2]), found[3], found[4]
@@ -156,6 +159,7 @@ def follow_tests(lines, progress, weights):
             progress.tell(done, total, weights.share(name, done, total))
         elif line.startswith(("CMake Error", "Unable to find", "No tests were found")):
             progress.say(f"{INDENT}{line}")
+    return for_each(lines, show)
 
 
 def message_of(output):

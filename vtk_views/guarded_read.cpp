@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uintmax_t kMegabyte = std::uintmax_t{1} << 20;
 constexpr std::uintmax_t kBaseMemory = 2048 * kMegabyte;
 constexpr std::uintmax_t kMemoryPerByte = 16;
-constexpr int kBaseSeconds = 20;
+constexpr int kBaseSeconds = 10;
 
 // The first byte of the child's answer.
 constexpr char kResult = 'r', kInputFault = 'i', kOtherFault = 'o', kOutOfMemory = 'm';

@@ -1,12 +1,14 @@
 #include "io/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 #include <system_error>
 #include <vector>
 
@@ -44,28 +46,36 @@ int renameTo(const fs::path& from, const fs::path& to, bool overwrite) {
   return ::rename(from.c_str(), to.c_str());
 }
 
-/// ".NAME.PROCESS-NUMBER.part", as temporaryBeside() makes it.
-bool isTemporary(const std::string& name) {
-  const std::string end = ".part";
-  if (name.size() < end.size() + 5 || name[0] != '.' ||
-      name.compare(name.size() - end.size(), end.size(), end) != 0)
-    return false;
-  const std::string stem = name.substr(0, name.size() - end.size());
-  const auto dash = stem.find_last_not_of("0123456789");
-  if (dash == std::string::npos || stem[dash] != '-' || dash + 1 == stem.size()) return false;
-  const auto dot = stem.find_last_not_of("0123456789", dash - 1);
-  return dot != std::string::npos && dot > 0 && stem[dot] == '.' && dot + 1 < dash;
+/// The process of ".NAME.PROCESS-NUMBER.part", as temporaryBeside() makes it, or of a video's
+/// ".NAME.PROCESS.part.END"; 0 where `name` is another.
+pid_t writerOf(const std::string& name) {
+  static const std::regex kTemporary(R"(\..+\.(\d{1,9})(-\d+\.part|\.part\.\w+))");
+  std::smatch parts;
+  return std::regex_match(name, parts, kTemporary) ? std::stoi(parts[1]) : 0;
+}
+
+bool runsHere(pid_t process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
+
+std::vector<fs::path> temporariesIn(const fs::path& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
+    if (entry->is_regular_file(ignored) && writerOf(entry->path().filename().string()) > 0)
+      found.push_back(entry->path());
+  return found;
 }
 
 }  // namespace
 
 void removeTemporaries(const fs::path& folder) {
   std::error_code ignored;
-  std::vector<fs::path> found;
-  for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
-    if (entry->is_regular_file(ignored) && isTemporary(entry->path().filename().string()))
-      found.push_back(entry->path());
-  for (const fs::path& file : found) fs::remove(file, ignored);
+  for (const fs::path& file : temporariesIn(folder)) fs::remove(file, ignored);
+}
+
+void removeAbandoned(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::path& file : temporariesIn(folder))
+    if (!runsHere(writerOf(file.filename().string()))) fs::remove(file, ignored);
 }
 
 void requireWritable(const fs::path& target, bool overwrite) {

@@ -39,6 +39,11 @@ class AtomicFile {
 /// there is no such folder. For a folder that no other process writes to.
 void removeTemporaries(const std::filesystem::path& folder);
 
+/// The same of processes that no longer run on this machine: for a folder that others may write to
+/// at the same time. A process on another machine that shares the folder counts as one that no
+/// longer runs.
+void removeAbandoned(const std::filesystem::path& folder);
+
 /// All of it at once.
 void writeFile(const std::filesystem::path& target, std::string_view bytes, bool overwrite);
 

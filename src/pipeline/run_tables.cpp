@@ -184,6 +184,12 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
   return record;
 }
 
+FrameRecord asTabled(const FrameRecord& record) {
+  std::string line = framesCsvLine(record);
+  line.pop_back();  // its end
+  return readFramesCsvLine(line, "frames.csv");
+}
+
 std::string tracksCsvLines(const FrameRecord& record) {
   std::string lines;
   for (const TrackedPosition& point : record.tracked) {

@@ -21,6 +21,10 @@ std::string framesCsvLine(const FrameRecord& record);
 /// back-projection and prediction, times. Throws InputError naming `name`.
 FrameRecord readFramesCsvLine(std::string_view line, const std::string& name);
 
+/// What frames.csv keeps of it: a run that goes on after a stop then sums the same numbers as one
+/// that was never stopped.
+FrameRecord asTabled(const FrameRecord& record);
+
 /// One line a tracked point.
 std::string tracksCsvLines(const FrameRecord& record);
 

@@ -21,12 +21,6 @@ inline constexpr int kFrames = 6;
 inline constexpr double kFloats =
     2e-5;  // floats near 100 mm, and text with 6 digits after the point
 
-inline std::string textOf(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 class Evaluate : public InFolder {
  protected:
   void SetUp() override {

@@ -31,12 +31,6 @@ int spawn(const std::vector<std::string>& arguments, const std::string& out,
   return std::system((line + " >" + quoted(out) + " 2>" + quoted(err)).c_str());
 }
 
-std::string contentOf(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 ColourImage tinted(const GrayImage& gray) {
   ColourImage colour(gray.width_px, gray.height_px);
   for (std::size_t i = 0; i < gray.size(); ++i) {
@@ -57,25 +51,16 @@ Outcome run(const std::vector<std::string>& arguments) {
   const std::string out = base.string() + ".out", err = base.string() + ".err";
   const bool runs_itself = !arguments.empty() && arguments[0] == "study";  // by its own file
   const int status = runs_itself ? spawn(arguments, out, err) : runForked(arguments, out, err);
-  const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(out),
-                        contentOf(err)};
+  const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(out), textOf(err)};
   fs::remove(out);
   fs::remove(err);
   return outcome;
 }
 
-void InFolder::SetUp() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  folder = fs::temp_directory_path() / ("softscope_" + std::string(test->test_suite_name()) + "_" +
-                                        test->name() + "_" + std::to_string(getpid()));
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-}
-
-std::string InFolder::write(const std::string& name, const std::string& bytes) const {
-  fs::create_directories((folder / name).parent_path());
-  std::ofstream(folder / name, std::ios::binary) << bytes;
-  return at(name);
+std::string textOf(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
 }
 
 RectifiedRig sequenceRig() { return endoscope(160, 120); }

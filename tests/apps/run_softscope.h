@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/stereo_rig.h"
+#include "support/folder_test.h"
 
 namespace softscope::test {
 
@@ -24,21 +25,17 @@ Outcome run(const std::vector<std::string>& arguments);
 
 std::string executable();
 
-/// A folder of its own for each test, gone afterwards.
-class InFolder : public testing::Test {
- protected:
-  void SetUp() override;
-  void TearDown() override { std::filesystem::remove_all(folder); }
+/// All bytes of a file; nothing where there is none.
+std::string textOf(const std::filesystem::path& file);
 
+class InFolder : public FolderTest {
+ protected:
   /// Path of something in the folder.
   std::string at(const std::string& name) const { return folder / name; }
-  std::string write(const std::string& name, const std::string& bytes) const;
   /// A sequence of `frames` pairs, 160 x 120, of a textured slope some 50 mm away.
   std::string makeSequence(const std::string& name, int frames) const;
   /// How many files there are, temporary ones included.
   static int countFiles(const std::string& path);
-
-  std::filesystem::path folder;
 };
 
 /// What the sequence's calibration says.

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "io/image_writer.h"
 #include "tests/apps/run_softscope.h"
@@ -19,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string fileContent(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 class BadInputs : public InFolder {
  protected:
@@ -72,7 +65,7 @@ TEST_F(BadInputs, SidesOfAnUnknownSpaceAreNotCalledLeftAndRight) {
     const Outcome outcome = run(words);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("left and right are unknown"));
-    const auto record = nlohmann::json::parse(fileContent(at(std::string(command) + ".json")));
+    const auto record = nlohmann::json::parse(textOf(at(std::string(command) + ".json")));
     EXPECT_THAT(record["views"].dump(), testing::AllOf(HasSubstr("+x"), Not(HasSubstr("\"L\""))));
   }
 }
@@ -110,7 +103,7 @@ TEST_F(BadInputs, ALibraryPrintsNothingBesideOurError) {
   // there.
   writePng(at("p.png"), ColourImage(16, 16, Rgb8{10, 20, 30}), true);
   EXPECT_EQ(run({"info", at("p.png"), "--quiet"}).err, "");
-  std::string bytes = fileContent(at("p.png"));
+  std::string bytes = textOf(at("p.png"));
   const auto header = bytes.find("IHDR");
   bytes[header + 13] = 3;
   const auto sum = crc32(0, reinterpret_cast<const Bytef*>(bytes.data()) + header, 17);
@@ -134,7 +127,48 @@ TEST_F(BadInputs, AFullDiskBehindStdoutIsAnError) {
   const std::string line = executable() + " info " + sequence + " > /dev/full 2> " + at("err");
   const int status = std::system(line.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3);
-  EXPECT_THAT(fileContent(at("err")), HasSubstr("can't be written"));
+  EXPECT_THAT(textOf(at("err")), HasSubstr("can't be written"));
+}
+
+TEST_F(BadInputs, StdoutOnAFullDiskIsAnErrorOfEveryCommand) {
+  const std::string sequence = makeSequence("s", 2);
+  write("flat.obj", "v 0 0 50\nv 9 0 50\nv 0 9 50\nf 1 2 3\n");
+  const std::string run_folder = at("r"), flat = at("flat.obj");
+  ASSERT_EQ(run({"reconstruct", sequence, "--out", run_folder}).exit_code, 0);
+  for (const std::string& words :
+       std::vector<std::string>{"doctor", "--help", "--version", ("info " + sequence + " --json"),
+                                ("depth " + sequence + " --out " + at("d")),
+                                ("reconstruct " + sequence + " --out " + at("r2")),
+                                ("simulate --frames 1 --size 96x80 --out " + at("c")),
+                                ("evaluate " + run_folder + " --reference " + flat),
+                                ("compare --reference " + flat + " --test " + flat),
+                                ("export " + flat + " --out " + at("o.stl")),
+                                ("slice --surface " + flat + " --json --out " + at("s.svg")),
+                                ("figure --reference " + flat + " --json --out " + at("f.svg"))}) {
+    const std::string line = executable() + " " + words + " --quiet > /dev/full 2> " + at("err");
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 3) << words;
+    EXPECT_THAT(textOf(at("err")), HasSubstr("can't be written")) << words;
+  }
+}
+
+TEST_F(BadInputs, ClosedStreamsReachNoFile) {
+  const std::string sequence = makeSequence("s", 2), same = " --threads 1 --out ";
+  const std::string line = executable() + " reconstruct " + sequence + same;
+  ASSERT_EQ(std::system((line + at("open") + " > /dev/null 2>&1").c_str()), 0);
+  ASSERT_EQ(std::system((line + at("shut") + " <&- >&- 2>&-").c_str()), 0);
+  for (const char* name : {"model.ply", "trajectory.txt", "models.pvd"})
+    EXPECT_EQ(textOf(at("shut/" + std::string(name))), textOf(at("open/" + std::string(name))));
+  EXPECT_EQ(std::system((line + at("pipe") + " 2>&1 > /dev/null | true").c_str()), 0);
+  EXPECT_TRUE(nlohmann::json::accept(textOf(at("pipe/run.json"))));
+}
+
+TEST_F(BadInputs, AFigureThatFailsLeavesNoneOfItsFiles) {
+  write("flat.obj", "v 0 0 50\nv 9 0 50\nv 0 9 50\nf 1 2 3\n");
+  write("occupied", "a file");
+  expectOneError({"slice", "--surface", at("flat.obj"), "--out", at("new/a.svg"), "--out",
+                  at("occupied/b.svg"), "--quiet"},
+                 3, "occupied");
+  EXPECT_FALSE(fs::exists(at("new"))) << "the first file and its folder are taken back";
 }
 
 TEST_F(BadInputs, ResultsAmongTheInputsAreRefused) {

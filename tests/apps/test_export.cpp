@@ -43,11 +43,6 @@ class Export : public InFolder {
     writePly(at(name), wave(), comments, true);
     return at(name);
   }
-  std::string readText(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(at(name), std::ios::binary).rdbuf();
-    return text.str();
-  }
 };
 
 TEST_F(Export, MakesASurfaceOfPointsWithTheirColours) {
@@ -105,7 +100,7 @@ TEST_F(Export, TakesRunsTheirFramesAndTheirSeries) {
   EXPECT_TRUE(fs::exists(at("all/000000.vtp")));
   EXPECT_TRUE(fs::exists(at("all/000002.vtp")));
   EXPECT_FALSE(fs::exists(at("all/000001.vtp")));
-  const std::string list = readText("all.pvd");
+  const std::string list = textOf(at("all.pvd"));
   EXPECT_THAT(list, HasSubstr("file=\"all/000002.vtp\""));
   EXPECT_THAT(run({"export", at("run"), "--frame", "9", "--out", at("c.ply")}).err,
               HasSubstr("saved are the frames 0, 1, 2, 3"));
@@ -116,7 +111,7 @@ TEST_F(Export, OverwritesNothingUnlessAskedTo) {
   const Outcome refused = run({"export", wavePly(), "--out", at("a.ply")});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--force"));
-  EXPECT_EQ(readText("a.ply"), "mine");
+  EXPECT_EQ(textOf(at("a.ply")), "mine");
   EXPECT_EQ(run({"export", wavePly(), "--out", at("a.ply"), "--force"}).exit_code, 0);
 }
 
@@ -169,7 +164,7 @@ class ExportDicom : public Export {
     const std::string line =
         "dcmdump -q +P " + number + " '" + at(file) + "' > '" + at("dump.txt") + "' 2>&1";
     EXPECT_EQ(std::system(line.c_str()), 0);
-    return readText("dump.txt");
+    return textOf(at("dump.txt"));
   }
 };
 
@@ -181,7 +176,7 @@ TEST_F(ExportDicom, AReportBecomesAnEncapsulatedPdfOfNobody) {
   EXPECT_THAT(tag("r.dcm", "0042,0010"), HasSubstr("[Made; $(up)]"));  // no shell has read it
   EXPECT_THAT(tag("r.dcm", "0010,0010"), HasSubstr("no value"));
   EXPECT_THAT(tag("r.dcm", "0010,0020"), HasSubstr("no value"));
-  EXPECT_THAT(readText("r.dcm"), HasSubstr("/MediaBox[0 0 9 9]"));
+  EXPECT_THAT(textOf(at("r.dcm")), HasSubstr("/MediaBox[0 0 9 9]"));
 }
 
 TEST_F(ExportDicom, APictureBecomesASecondaryCaptureAsItIs) {
@@ -197,7 +192,7 @@ TEST_F(ExportDicom, APictureBecomesASecondaryCaptureAsItIs) {
   EXPECT_THAT(tag("p.dcm", "0010,0020"), HasSubstr("[7]"));
   EXPECT_THAT(tag("p.dcm", "0028,0011"), HasSubstr("US 3"));
   // Row by row from the top, red first: the last of six pixels, then one byte to an even length.
-  EXPECT_THAT(readText("p.dcm"), testing::EndsWith(std::string("\0\0\0\1\2\3", 6)));
+  EXPECT_THAT(textOf(at("p.dcm")), testing::EndsWith(std::string("\0\0\0\1\2\3", 6)));
 }
 
 TEST_F(ExportDicom, WhatIsNoPdfIsRefused) {
@@ -213,7 +208,7 @@ TEST_F(Export, WithoutDcmtkSaysWhatToInstall) {
   const std::string line = "PATH=/nonexistent '" + executable() + "' export '" + at("report.pdf") +
                            "' --out '" + at("r.dcm") + "' 2> '" + at("err.txt") + "'";
   EXPECT_EQ(std::system(line.c_str()) / 256, 4);
-  EXPECT_THAT(readText("err.txt"), HasSubstr("apt install dcmtk"));
+  EXPECT_THAT(textOf(at("err.txt")), HasSubstr("apt install dcmtk"));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <thread>
 
@@ -23,13 +22,8 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string bytesOf(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 int linesOf(const fs::path& file) {
-  const std::string bytes = bytesOf(file);
+  const std::string bytes = textOf(file);
   return static_cast<int>(std::count(bytes.begin(), bytes.end(), '\n'));
 }
 
@@ -64,8 +58,8 @@ TEST_F(Reconstruct, WritesTheRunThatOthersRead) {
   EXPECT_EQ(linesOf(at("run/frames.csv")), 1 + 5);
   EXPECT_EQ(linesOf(at("run/trajectory.txt")), 1 + 5);
   EXPECT_EQ((linesOf(at("run/tracks.csv")) - 1) % 5, 0);
-  EXPECT_THAT(bytesOf(at("run/model.ply")), HasSubstr("property float weight"));
-  const auto record = nlohmann::json::parse(bytesOf(at("run/run.json")));
+  EXPECT_THAT(textOf(at("run/model.ply")), HasSubstr("property float weight"));
+  const auto record = nlohmann::json::parse(textOf(at("run/run.json")));
   EXPECT_EQ(std::string(record["inputs"]["calibration"]["sha256"]).size(), 64u);
   EXPECT_EQ(record["configuration"]["stereo.disparity_max_px"], 63);
 }
@@ -107,14 +101,14 @@ TEST_F(Reconstruct, ResumesToTheSameBytes) {
   ASSERT_TRUE(WIFEXITED(status));
   if (WEXITSTATUS(status) == 0) GTEST_SKIP() << "the run was over before the signal came";
   ASSERT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_TRUE(nlohmann::json::parse(bytesOf(out + "/run.json"))["interrupted"]);
+  EXPECT_TRUE(nlohmann::json::parse(textOf(out + "/run.json"))["interrupted"]);
   ASSERT_EQ(reconstruct({"--out", out, "--set", "graph.node_spacing_mm=5", "--resume"}).exit_code,
             2)
       << "other settings can't be gone on with";
   const Outcome resumed = reconstruct({"--out", out, "--checkpoint-every", "1", "--resume"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   for (const char* name : {"model.ply", "trajectory.txt", "models/000000.ply", "models.pvd"})
-    EXPECT_TRUE(bytesOf(out + "/" + name) == bytesOf(at("whole") + "/" + name)) << name;
+    EXPECT_TRUE(textOf(out + "/" + name) == textOf(at("whole") + "/" + name)) << name;
   EXPECT_EQ(linesOf(out + "/frames.csv"), 1 + 8);
 }
 
@@ -145,11 +139,11 @@ TEST_F(Reconstruct, PairsTheViewsOfOneMoment) {
 TEST_F(Reconstruct, NeverOverwritesUnasked) {
   makeClip(2);
   ASSERT_EQ(reconstruct({"--out", at("run")}).exit_code, 0);
-  const std::string before = bytesOf(at("run/model.ply"));
+  const std::string before = textOf(at("run/model.ply"));
   const Outcome again = reconstruct({"--out", at("run")});
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_THAT(again.err, HasSubstr("--force"));
-  EXPECT_EQ(bytesOf(at("run/model.ply")), before);
+  EXPECT_EQ(textOf(at("run/model.ply")), before);
   EXPECT_EQ(reconstruct({"--out", at("run"), "--force", "--frames", "0:1"}).exit_code, 0);
   EXPECT_EQ(linesOf(at("run/frames.csv")), 2);
   EXPECT_FALSE(fs::exists(at("run/writing.lock"))) << "the run has ended";
@@ -203,7 +197,7 @@ TEST_F(Reconstruct, SurvivesDamagedInput) {
   int done = 0;
   for (int round = 0; round < kDamages; ++round) {
     const fs::path victim = victims[static_cast<std::size_t>(round) % victims.size()];
-    const std::string good = bytesOf(victim);
+    const std::string good = textOf(victim);
     std::string bad = good;
     for (int k = 0; k < 1 + round % 8; ++k)
       bad[random() % bad.size()] = static_cast<char>(random());

@@ -9,7 +9,6 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <thread>
 
 #include "tests/apps/run_softscope.h"
@@ -20,13 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string readText(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 int framesIn(const fs::path& run_folder) {
-  const std::string csv = readText(run_folder / "frames.csv");
+  const std::string csv = textOf(run_folder / "frames.csv");
   return static_cast<int>(std::count(csv.begin(), csv.end(), '\n')) - 1;
 }
 
@@ -68,14 +62,14 @@ class Resume : public InFolder {
 TEST_F(Resume, ARunStoppedAfterItsLastFrameIsFinished) {
   const int done = interruptedRun(SIGINT);
   ASSERT_GE(done, 3);
-  const std::string model = readText(at("run/model.ply"));
+  const std::string model = textOf(at("run/model.ply"));
   std::ofstream(at("run/.model.ply.123-4.part")) << "half";
   std::ofstream(at("run/models/.000001.ply.123-77.part")) << "half";
   std::ofstream(at("run/.mine.part")) << "another program's";
   const Outcome resumed = resume({"--frames", "0:" + std::to_string(done)});  // none is left
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_EQ(readText(at("run/model.ply")), model);
-  const auto record = nlohmann::json::parse(readText(at("run/run.json")));
+  EXPECT_EQ(textOf(at("run/model.ply")), model);
+  const auto record = nlohmann::json::parse(textOf(at("run/run.json")));
   EXPECT_EQ(record["frames"], done) << "those before the stop count";
   EXPECT_EQ(record["interrupted"], false);
   EXPECT_EQ(framesIn(at("run")), done);
@@ -83,7 +77,7 @@ TEST_F(Resume, ARunStoppedAfterItsLastFrameIsFinished) {
   EXPECT_FALSE(fs::exists(at("run/.model.ply.123-4.part")));
   EXPECT_FALSE(fs::exists(at("run/models/.000001.ply.123-77.part")));
   EXPECT_TRUE(fs::exists(at("run/.mine.part"))) << "only what AtomicFile leaves is removed";
-  const std::string list = readText(at("run/models.pvd"));
+  const std::string list = textOf(at("run/models.pvd"));
   EXPECT_EQ(list.find("000002.vtp"), list.rfind("000002.vtp")) << "each model once";
 }
 
@@ -105,7 +99,7 @@ TEST_F(Resume, PicturesThatVanishEndTheRunAndCanBePutBack) {
   fs::rename(at("clip/gone"), at("clip/left"));
   const Outcome resumed = resume({"--frames", "0:" + std::to_string(done + 1)});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_EQ(nlohmann::json::parse(readText(at("run/run.json")))["frames"], done + 1);
+  EXPECT_EQ(nlohmann::json::parse(textOf(at("run/run.json")))["frames"], done + 1);
 }
 
 TEST_F(Resume, ARunKilledBeforeItsFirstCheckpointStartsAnew) {
@@ -114,7 +108,7 @@ TEST_F(Resume, ARunKilledBeforeItsFirstCheckpointStartsAnew) {
   const Outcome resumed = resume({"--frames", "0:3"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("starts anew"));
-  EXPECT_EQ(nlohmann::json::parse(readText(at("run/run.json")))["frames"], 3);
+  EXPECT_EQ(nlohmann::json::parse(textOf(at("run/run.json")))["frames"], 3);
   EXPECT_EQ(countFiles(at("run/models")), 6)
       << "nothing of the killed run, a PLY and VTP per frame";
   EXPECT_EQ(resume({}).exit_code, 2) << "a complete run is none to resume";
@@ -125,7 +119,7 @@ TEST_F(Resume, AClosedTerminalLosesNothing) {
   ASSERT_GE(done, 3);
   const Outcome resumed = resume({"--frames", "0:" + std::to_string(done + 1)});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  const auto record = nlohmann::json::parse(readText(at("run/run.json")));
+  const auto record = nlohmann::json::parse(textOf(at("run/run.json")));
   EXPECT_EQ(record["frames"], done + 1);
   EXPECT_EQ(record["resumed_at_frame"], done);
 }

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <thread>
 
 #include "apps/study_case.h"
@@ -16,17 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Simulated clips of two frames, 160 x 120: half a second a case.
 const std::string kSimulated =
     "[simulate]\nframes = 2\nscope.width_px = 160\nscope.height_px = 120\n"
     "organ.cells_per_side = 20\ntruth_every = 1\n"
     "[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 1\n";
-
-std::string contentOf(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 class StudyCommand : public InFolder {
  protected:
@@ -41,9 +36,9 @@ class StudyCommand : public InFolder {
     return "sequence = '" + makeSequence("clip", 2) +
            "'\n[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 0\n";
   }
-  nlohmann::json result() const { return nlohmann::json::parse(contentOf(at("out/study.json"))); }
+  nlohmann::json result() const { return nlohmann::json::parse(textOf(at("out/study.json"))); }
   nlohmann::json record(const std::string& name) const {
-    return nlohmann::json::parse(contentOf(at("out/cases/" + name + "/case.json")));
+    return nlohmann::json::parse(textOf(at("out/cases/" + name + "/case.json")));
   }
 };
 
@@ -60,7 +55,7 @@ TEST_F(StudyCommand, RunsItsCasesAndWritesTheTable) {
     EXPECT_GT(one["evaluation"]["tracks"]["n"], 0) << "material points were judged";
   }
   EXPECT_THAT(done.out, HasSubstr("| surf |"));
-  EXPECT_EQ(contentOf(at("out/table.md")), done.out.substr(0, done.out.find("\nwritten to")));
+  EXPECT_EQ(textOf(at("out/table.md")), done.out.substr(0, done.out.find("\nwritten to")));
   for (const char* name :
        {"table.csv", "report.html", "plots/points.svg", "plots/points.pdf", "cases/surf/log.txt",
         "cases/surf/run/model.ply", "cases/surf/evaluation/evaluation.json"})
@@ -95,7 +90,7 @@ TEST_F(StudyCommand, AFailedCaseIsToldAndDoesNotStopTheOthers) {
   EXPECT_EQ(record("broken")["status"], "failed");
   EXPECT_EQ(record("absent")["status"], "skipped");
   EXPECT_EQ(record("fine")["status"], "done");
-  EXPECT_THAT(contentOf(at("out/table.md")), HasSubstr("- absent: nowhere is not here"));
+  EXPECT_THAT(textOf(at("out/table.md")), HasSubstr("- absent: nowhere is not here"));
 }
 
 TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
@@ -148,13 +143,39 @@ TEST_F(StudyCommand, NoFoldersOfTheMachineInWhatItShows) {
             "'\n[[case]]\nname = 'absent'\n" + "sequence = '" + at("no where") + "'\n");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_THAT(record("absent")["reason"], "no where is not here");
-  for (const char* name : {"report.html", "table.md", "table.csv", "study.json"}) {
-    EXPECT_THAT(contentOf(at("out/" + std::string(name))), testing::Not(HasSubstr(folder.string())))
+  for (const char* name : {"report.html", "table.md", "table.csv", "study.json",
+                           "cases/broken/case.json", "cases/absent/case.json"}) {
+    EXPECT_THAT(textOf(at("out/" + std::string(name))), testing::Not(HasSubstr(folder.string())))
         << name;
-    EXPECT_THAT(contentOf(at("out/" + std::string(name))), testing::Not(HasSubstr("Doe"))) << name;
+    EXPECT_THAT(textOf(at("out/" + std::string(name))), testing::Not(HasSubstr("Doe"))) << name;
   }
-  EXPECT_THAT(contentOf(at("out/report.html")),
+  EXPECT_THAT(textOf(at("out/report.html")),
               HasSubstr("<code>softscope study study.toml --out out</code>"));
+}
+
+TEST_F(StudyCommand, AKilledSimulationLeavesNoPart) {
+  const std::string toml = kSimulated + "[[case]]\nname = 'a'\n";
+  ASSERT_EQ(study(toml).exit_code, 0);
+  for (const auto& entry : fs::directory_iterator(at("out/sequences")))
+    if (entry.is_directory()) fs::rename(entry.path(), entry.path().string() + ".part-77");
+  ASSERT_EQ(study(toml, {"--force"}).exit_code, 0);
+  int folders = 0;
+  for (const auto& entry : fs::directory_iterator(at("out/sequences")))
+    folders += entry.is_directory() ? 1 : 0;
+  EXPECT_EQ(folders, 1);
+}
+
+TEST_F(StudyCommand, ARecordNamesNoFolderOfItsInputs) {
+  fs::create_directories(at("of Jane Doe"));
+  fs::rename(makeSequence("clip", 2), at("of Jane Doe/clip"));
+  const Outcome done = study("[[case]]\nname = 'a'\nsequence = '" + at("of Jane Doe/clip") +
+                             "'\n[reconstruct]\nstereo.disparity_max_px = 63\nsave_every = 0\n");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(record("a")["status"], "done");
+  for (const char* name : {"cases/a/case.json", "cases/a/run/run.json", "study.json"})
+    EXPECT_THAT(textOf(at("out/" + std::string(name))),
+                testing::AllOf(Not(HasSubstr("Doe")), Not(HasSubstr(folder.string()))))
+        << name;
 }
 
 TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
@@ -179,7 +200,7 @@ TEST_F(StudyCommand, LeavesFoldersOfOthersAlone) {
   const Outcome refused = study(small());
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("plots"));
-  EXPECT_EQ(contentOf(at("out/plots/mine.txt")), "mine");
+  EXPECT_EQ(textOf(at("out/plots/mine.txt")), "mine");
 }
 
 // An ignored SIGCHLD is inherited; then nobody could wait for a child.

@@ -80,5 +80,20 @@ TEST(FileBytes, SaysWhatIsWrongWithAFile) {
   expectError<InputError>([&] { readBytes(folder / "two\nlines"); }, {"two?lines"});
 }
 
+TEST(AtomicFile, OnlyWhatDeadProcessesLeftIsAbandoned) {
+  TemporaryFolder folder;
+  const std::string dead = "999999999";  // above the largest number that Linux gives
+  for (const std::string& name : {".a.txt." + dead + "-3.part", ".film." + dead + ".part.mp4"})
+    put(folder / name, "half");
+  const std::string alive = ".a.txt." + std::to_string(::getpid()) + "-7.part";
+  for (const std::string& name : {alive, std::string(".mine.part"), std::string("a.5-1.part")})
+    put(folder / name, "another's");
+  removeAbandoned(folder.path());
+  EXPECT_EQ(entriesOf(folder.path()), 3);
+  EXPECT_TRUE(fs::exists(folder / alive));
+  removeTemporaries(folder.path());
+  EXPECT_EQ(entriesOf(folder.path()), 2) << "only names that AtomicFile gives";
+}
+
 }  // namespace
 }  // namespace softscope::test

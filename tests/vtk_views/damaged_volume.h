@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "core/error.h"
+#include "support/folder_test.h"
 #include "vtk_views/volume.h"
 
 namespace softscope::test {
@@ -23,20 +22,11 @@ inline std::string replaced(std::string text, const std::string& what, const std
 }
 
 /// 20 x 24 x 12 voxels of 16 bits, 2 x 2 x 3 mm.
-class DamagedVolume : public testing::Test {
+class DamagedVolume : public FolderTest {
  protected:
   void SetUp() override {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder = std::filesystem::temp_directory_path() / ("softscope_damage_" + test);
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+    FolderTest::SetUp();
     for (std::size_t i = 0; i < 2 * kVoxels; ++i) voxels += char(i * 7 % 251);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-    return folder / name;
   }
 
   /// Reads it; the message, which names the file, in one line. Fails where it was read.
@@ -70,7 +60,6 @@ class DamagedVolume : public testing::Test {
     return result;
   }
 
-  std::filesystem::path folder;
   std::string voxels;
   const std::string mha =
       "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"

@@ -8,12 +8,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <new>
 #include <stdexcept>
 
 #include "core/error.h"
+#include "support/folder_test.h"
 #include "vtk_views/error_map.h"
 #include "vtk_views/guarded_read.h"
 #include "vtk_views/vtk_errors.h"
@@ -81,19 +81,8 @@ TEST(GuardedRead, IsTheOnlyDoorToReadersOfVtk) {
   EXPECT_FALSE(insideGuardedRead());
 }
 
-class DamagedSurface : public testing::Test {
+class DamagedSurface : public test::FolderTest {
  protected:
-  void SetUp() override {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder = std::filesystem::temp_directory_path() / ("softscope_damaged_" + test);
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-    return folder / name;
-  }
   static std::string vtp(const std::string& field_type, const std::string& points) {
     return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
            "byte_order=\"LittleEndian\">\n<PolyData><FieldData><DataArray type=\"" +
@@ -108,7 +97,6 @@ class DamagedSurface : public testing::Test {
            "Name=\"offsets\" "
            "format=\"ascii\">3</DataArray></Polys>\n</Piece></PolyData></VTKFile>\n";
   }
-  std::filesystem::path folder;
 };
 
 TEST_F(DamagedSurface, OfVtkIsAnInputErrorAndNeverACrash) {

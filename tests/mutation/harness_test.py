@@ -1,0 +1,86 @@
+"""The harness finds planted faults, and none where there is none."""
+import random
+import tempfile
+import unittest
+from pathlib import Path
+
+import seeds
+from damage import damaged
+from fault_injection import difference, without_times
+from judge import judge
+from server import Outcome
+
+INFO = ["info", "v.mha", "--json", "--quiet"]
+SOUND = '{"spacing_mm": [2.0, 2.5, 3.0], "value_range": [0, 1]}'
+
+
+def outcome(code=0, out=SOUND, err="", cpu_ms=10, memory_kb=1000):
+    return Outcome(code, cpu_ms, memory_kb, 0, 0, out, err)
+
+
+class Judge(unittest.TestCase):
+    def setUp(self):
+        self.place = tempfile.TemporaryDirectory()
+        self.addCleanup(self.place.cleanup)
+        self.folder = Path(self.place.name)
+        (self.folder / "v.mha").write_bytes(seeds.meta_image(seeds.voxels(), False))
+
+    def found(self, words=None, **facts):
+        return judge(outcome(**facts), words or INFO, self.folder)
+
+    def test_sound_outcomes_are_no_findings(self):
+        self.assertEqual(self.found(), [])
+        self.assertEqual(self.found(code=3, out="", err="error: v.mha: is cut short\n"), [])
+        self.assertEqual(self.found(code=2, out="", err="warning: a\nerror: b\n"), [])
+
+    def test_each_fault_is_a_finding(self):
+        for facts, what in [({"code": -11}, "crash"), ({"code": -24}, "hang"),
+                            ({"cpu_ms": 20_001}, "hang"), ({"memory_kb": 5 << 20}, "memory"),
+                            ({"code": 70, "err": "error: unexpected\n"}, "exit 70"),
+                            ({"code": 99}, "crash"), ({"code": 3, "out": ""}, "no error line"),
+                            ({"err": "libpng warning: x\n"}, "foreign line"),
+                            ({"out": '{"a": NaN}'}, "stdout is no JSON"),
+                            ({"out": '{"a": null}'}, "number that is not finite"),
+                            ({"out": '{"length_mm": 1e34}'}, "absurd number")]:
+            found = self.found(**facts)
+            self.assertTrue(found and found[0].startswith(what), (facts, found))
+
+    def test_geometry_that_the_file_does_not_state_is_invented(self):
+        self.assertIn("invented geometry",
+                      self.found(out='{"spacing_mm": [1, 1, 1], "value_range": [0, 1]}')[0])
+        text = (self.folder / "v.mha").read_bytes().replace(b"ElementSpacing", b"ElementSpaceing")
+        (self.folder / "v.mha").write_bytes(text)
+        self.assertIn("invented geometry", self.found()[0])
+
+    def test_files_left_behind_are_findings(self):
+        (self.folder / ".o.svg.12-3.part").write_text("half")
+        self.assertIn("left behind", self.found()[0])
+
+    def test_coordinates_that_are_no_numbers_are_findings(self):
+        words = ["export", "m.ply", "--out", "o.obj"]
+        (self.folder / "o.obj").write_text("v 1 2 3\nv nan 0 0\n")
+        self.assertIn("not finite", self.found(words=words, out="")[0])
+
+
+class Damage(unittest.TestCase):
+    def test_it_is_the_seeds_and_changes_nearly_every_file(self):
+        sound = seeds.meta_image(seeds.voxels(), False)
+        again = [damaged(sound, random.Random(i)) for i in range(200)]
+        self.assertEqual(again, [damaged(sound, random.Random(i)) for i in range(200)])
+        self.assertGreater(sum(one != sound for one in again), 190)
+        self.assertGreater(len(set(again)), 150)
+
+
+class Faults(unittest.TestCase):
+    def test_a_difference_is_told_and_clocks_are_none(self):
+        self.assertEqual(difference({"a": 1}, {"a": 1}), "")
+        self.assertEqual(difference({"a": 1, ".p.part": 2}, {"a": 2, "b": 3}),
+                         "left behind .p.part; missing b; other bytes a")
+        for name, one, other in [("run.json", b'{"x": 1, "mean_ms": 4}', b'{"x": 1, "mean_ms": 5}'),
+                                 ("frames.csv", b"frame,fuse_ms\n0,4", b"frame,fuse_ms\n0,5")]:
+            self.assertEqual(without_times(name, one), without_times(name, other))
+        self.assertNotEqual(without_times("run.json", b'{"x": 1}'), without_times("run.json", b'{"x": 2}'))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,173 @@
+"""Damaged inputs of every form through every command that reads them.
+
+A run's number and the seed decide it wholly: `--only N` repeats one and keeps its folder. Counts
+crashes, hangs (20 s of processor time), more than 4 GB, exit 70, and exit 0 with a number that isn't
+finite, an invented geometry or a half-written file. Exit code 1: there was a finding.
+"""
+import argparse
+import collections
+import os
+import queue
+import random
+import shlex
+import shutil
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+from damage import damaged
+from judge import judge
+from seeds import make_seeds
+from server import Server
+
+FIRST_COMMAND_SHARE = 0.5
+
+
+def link_tree(source, target):
+    """Files are shared: softscope never writes into its inputs, damage replaces a whole file."""
+    shutil.copytree(source, target, copy_function=os.link, dirs_exist_ok=True)
+
+
+class Trial:
+    """One run: a form, a file, its damage, a command line."""
+
+    def __init__(self, forms, root, seed, number):
+        rng = random.Random(f"{seed}:{number}")
+        self.number = number
+        self.form = rng.choices(forms, [form.weight for form in forms])[0]
+        rest = self.form.commands[1:]
+        first = not rest or rng.random() < FIRST_COMMAND_SHARE
+        self.words = self.form.commands[0] if first else rng.choice(rest)
+        home = root / self.form.folder
+        files = sorted(file for pattern in self.form.damage for file in home.glob(pattern)
+                       if file.is_file())
+        file = rng.choice(files)
+        self.file = file.relative_to(home)
+        self.bytes = damaged(file.read_bytes(), rng)
+
+    def prepare(self, root, folder):
+        shutil.rmtree(folder, ignore_errors=True)
+        link_tree(root / self.form.folder, folder)
+        for shared in self.form.shared:
+            link_tree(root / shared, folder / shared)
+        target = folder / self.file
+        target.unlink()
+        target.write_bytes(self.bytes)
+
+    def run(self, server, root, folder, hang_seconds):
+        self.prepare(root, folder)
+        outcome = server.run([*self.words, "--threads", "1"], folder, seconds=hang_seconds + 5)
+        return outcome, judge(outcome, self.words, folder, 1000 * hang_seconds)
+
+
+class Tally:
+    def __init__(self):
+        self.runs, self.findings, self.started = 0, [], time.monotonic()
+        self.codes, self.of_form, self.slowest_ms = collections.Counter(), collections.Counter(), 0
+        self.lock = threading.Lock()
+
+    def add(self, trial, outcome, found):
+        with self.lock:
+            self.runs += 1
+            self.codes[outcome.code] += 1
+            self.of_form[trial.form.name] += 1
+            self.slowest_ms = max(self.slowest_ms, outcome.cpu_ms)
+            self.findings += [(trial, what) for what in found]
+
+    def text(self):
+        kinds = collections.Counter(what.split(":")[0] for _, what in self.findings)
+        codes = ", ".join(f"{count} with {code}" for code, count in sorted(self.codes.items()))
+        lines = [f"{self.runs} runs in {time.monotonic() - self.started:.0f} s; exit codes: {codes}",
+                 "forms: " + ", ".join(f"{name} {n}" for name, n in sorted(self.of_form.items())),
+                 f"largest processor time of one run: {self.slowest_ms / 1000:.1f} s",
+                 "findings: " + (", ".join(f"{n} {kind}" for kind, n in kinds.items()) or "none")]
+        return "\n".join(lines)
+
+
+def repeat_line(options, trial):
+    words = [sys.executable, "-B", Path(__file__).name, "--server", options.server,
+             *(["--form", options.form] if options.form else []), "--seed", str(options.seed),
+             "--only", str(trial.number)]
+    return shlex.join(words)
+
+
+def work(options, forms, root, place, numbers, tally, deadline):
+    server = Server(options.server)
+    while time.monotonic() < deadline:
+        try:
+            number = numbers.get_nowait()
+        except queue.Empty:
+            break
+        trial = Trial(forms, root, options.seed, number)
+        outcome, found = trial.run(server, root, place, options.hang_seconds)
+        tally.add(trial, outcome, found)
+        for what in found:
+            print(f"run {number}: {what}: {trial.form.name}, {trial.file}: softscope "
+                  f"{' '.join(trial.words)}\n  again: {repeat_line(options, trial)}", flush=True)
+    server.close()
+
+
+def run_all(options, forms, root, scratch):
+    numbers, tally = queue.Queue(), Tally()
+    for number in range(options.first, options.first + options.runs):
+        numbers.put(number)
+    deadline = time.monotonic() + (options.seconds or 1e9)
+    threads = [threading.Thread(target=work, args=(options, forms, root, scratch / f"job{job}",
+                                                   numbers, tally, deadline))
+               for job in range(options.jobs)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    print(tally.text())
+    return 1 if tally.findings or tally.runs == 0 else 0
+
+
+def run_one(options, forms, root):
+    """Repeats a run; its folder stays."""
+    trial = Trial(forms, root, options.seed, options.only)
+    folder = Path(tempfile.mkdtemp(prefix=f"softscope_run_{options.only}_"))
+    server = Server(options.server)
+    outcome, found = trial.run(server, root, folder, options.hang_seconds)
+    server.close()
+    print(f"{trial.form.name}: {trial.file} is damaged\ncd {folder}; softscope {' '.join(trial.words)}")
+    print(f"exit {outcome.code}, {outcome.cpu_ms} ms, {outcome.memory_kb >> 10} MB\n{outcome.err}", end="")
+    print("\n".join(found) or "no finding")
+    return 1 if found else 0
+
+
+def options_of(words):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--server", required=True, help="the program softscope_server of a build")
+    parser.add_argument("--runs", type=int, default=1000)
+    parser.add_argument("--first", type=int, default=0, help="number of the first run")
+    parser.add_argument("--seconds", type=float, help="ends earlier")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--hang-seconds", type=int, default=20,
+                        help="of processor time; more under sanitizers")
+    parser.add_argument("--form", help="damages this form alone")
+    parser.add_argument("--only", type=int, help="repeats one run, keeps its folder")
+    return parser.parse_args(words)
+
+
+def main(words):
+    options = options_of(words)
+    options.server = str(Path(options.server).resolve())
+    with tempfile.TemporaryDirectory(prefix="softscope_mutation_") as scratch:
+        root = Path(scratch, "seeds")
+        root.mkdir()
+        server = Server(options.server)
+        forms = make_seeds(root, server)
+        server.close()
+        if options.form:
+            forms = [form for form in forms if form.name == options.form]
+        if options.only is not None:
+            return run_one(options, forms, root)
+        return run_all(options, forms, root, Path(scratch))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
