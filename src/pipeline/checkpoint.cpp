@@ -147,7 +147,8 @@ void visit(Archive& archive, Whole& checkpoint) {
   archive.pose(checkpoint.state.world_from_left);
   archive.pose(checkpoint.state.reference_pose);
   archive.array(checkpoint.state.key_views);
-  archive.value(checkpoint.state.lost_frames);
+  archive.value(checkpoint.state.lost);
+  archive.value(checkpoint.state.unfused_frames);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ class CpuBackend : public ReconstructionBackend {
 
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
-                       const Eigen::Isometry3d& reference) override;
+                       const Eigen::Isometry3d& reference, bool maybe_static) override;
   RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) override;
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
   void acceptWarp(bool is_reference) override;
@@ -65,8 +65,9 @@ class CpuBackend : public ReconstructionBackend {
   void scaleTo(const DepthSummary& summary);
   MatchPicture pictureOf(const ModelView& view) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
-  PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference);
-  void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
+  PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
+                           bool maybe_static);
+  void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, bool maybe_static,
               PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
@@ -155,11 +156,11 @@ MatchPicture CpuBackend::pictureOf(const ModelView& view) const {
 }
 
 LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
-                                 const Eigen::Isometry3d& last,
-                                 const Eigen::Isometry3d& reference) {
+                                 const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
+                                 bool maybe_static) {
   LocateSummary summary;
   summary.matches = match(viewed_from);
-  summary.pose = estimatePose(last, reference);
+  summary.pose = estimatePose(last, reference, maybe_static);
   return summary;
 }
 
@@ -180,18 +181,18 @@ MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
 }
 
 PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
-                                     const Eigen::Isometry3d& reference) {
+                                     const Eigen::Isometry3d& reference, bool maybe_static) {
   pose_ = estimateRigidPose(posePairs(matches_), pose_options_);
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;
-  if (pose_.found) refine(last, reference, &summary);
+  if (pose_.found) refine(last, reference, maybe_static, &summary);
   clock_.lap("pose");
   return summary;
 }
 
 void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
-                        PoseSummary* summary) {
+                        bool maybe_static, PoseSummary* summary) {
   summary->world_from_left = pose_.target_from_source;
   summary->inliers = pose_.inliers;
   summary->rms_mm = pose_.rms_mm;
@@ -213,8 +214,10 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
                      projectPoint(rig.left, live), match.across_mm * px_per_mm,
                      rig.disparityPx(live.z()), sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
   }
+  RefinePoseOptions refine = options_.refine_pose;
+  if (!maybe_static && refine.scope == "auto") refine.scope = "moving";
   const RefinedPose best =
-      refinePose(pairs, rig, pose_.target_from_source, last, reference, options_.refine_pose);
+      refinePose(pairs, rig, pose_.target_from_source, last, reference, refine);
   summary->world_from_left = best.world_from_left;
   summary->scope_static = best.scope_static;
   summary->keeps_shape = best.keeps_shape;

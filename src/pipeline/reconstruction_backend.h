@@ -103,10 +103,11 @@ class ReconstructionBackend {
   /// Stage 1: rectifies, masks and measures. Throws InputError where the frame doesn't fit.
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 to 4: draws the model from that pose, finds its pixels in the live image, and the
-  /// pose from them. `last` is the pose of the previous frame, `reference` the last one that
-  /// differed significantly from its predecessor.
+  /// pose from them. `last` is the pose of the last frame that was fused, `reference` the last one
+  /// that differed significantly from its predecessor; with `maybe_static` an insignificant motion
+  /// counts as none.
   virtual LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
-                               const Eigen::Isometry3d& reference) = 0;
+                               const Eigen::Isometry3d& reference, bool maybe_static) = 0;
   /// A pose near enough for locate(), sought over the whole image from all these viewpoints.
   virtual RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().

@@ -62,9 +62,10 @@ FrameRecord Reconstructor::skip(int index, const std::string& reason) {
 }
 
 /// Where nothing was fused, the scope and the tracked points stay where they were last seen.
-void Reconstructor::finish(FrameRecord& record) const {
+void Reconstructor::finish(FrameRecord& record) {
   record.world_from_left = world_from_left_;
   record.tracked = backend_->tracked(world_from_left_);
+  unfused_frames_ = record.fused() ? 0 : unfused_frames_ + 1;
   if (record.fused()) return;
   for (TrackedPosition& point : record.tracked) point.visible = false;
 }
@@ -74,14 +75,14 @@ void Reconstructor::finish(FrameRecord& record) const {
 void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
   if (!measure(frame, record)) return;
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
-  const int were_lost = lost_frames_;
+  const bool was_lost = lost_;
   const Eigen::Isometry3d before = world_from_left_;
   const bool followed = locate(record);
   if (!followed && !findAgain(record)) return;
   if (!deform(record) || !confirm(record)) {
     backend_->rejectWarp();
     world_from_left_ = before;
-    lost_frames_ = were_lost;
+    lost_ = was_lost;
     return;
   }
   if (!record.pose.scope_static) reference_pose_ = world_from_left_;
@@ -97,11 +98,14 @@ bool Reconstructor::measure(const Frame& frame, FrameRecord& record) {
 }
 
 bool Reconstructor::locate(FrameRecord& record) {
-  return lost_frames_ == 0 && locateFrom(world_from_left_, record);
+  return !lost_ && locateFrom(world_from_left_, record);
 }
 
 bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record) {
-  const LocateSummary found = backend_->locate(viewpoint, world_from_left_, reference_pose_);
+  // While the tissue was out of sight, nothing tells that the scope stood still.
+  const bool maybe_static = unfused_frames_ == 0;
+  const LocateSummary found =
+      backend_->locate(viewpoint, world_from_left_, reference_pose_, maybe_static);
   record.matches = found.matches;
   record.pose = found.pose;
   if (!matching_) {
@@ -115,7 +119,7 @@ bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& 
 // A loss: the model is sought over the whole image, then once more from near, for matches that the
 // warp may trust.
 bool Reconstructor::findAgain(FrameRecord& record) {
-  ++lost_frames_;
+  lost_ = true;
   const RigidPose rough = backend_->relocalise(viewpointsToTry());
   if (!rough.found)
     return reject(record, FrameStatus::kLost,
@@ -123,7 +127,7 @@ bool Reconstructor::findAgain(FrameRecord& record) {
   if (!locateFrom(rough.target_from_source, record))
     return reject(record, FrameStatus::kLost,
                   text("found, but not confirmed: ", record.pose.failure));
-  lost_frames_ = 0;
+  lost_ = false;
   return true;
 }
 
@@ -133,7 +137,7 @@ std::vector<Eigen::Isometry3d> Reconstructor::viewpointsToTry() const {
   std::vector<Eigen::Isometry3d> all{world_from_left_};
   all.insert(all.end(), key_views_.rbegin(), key_views_.rend());
   const std::size_t count = std::min(kViewpointsAFrame, all.size());
-  const std::size_t first = static_cast<std::size_t>(lost_frames_ - 1) * count % all.size();
+  const std::size_t first = static_cast<std::size_t>(unfused_frames_) * count % all.size();
   std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first), all.end());
   all.resize(count);
   return all;
@@ -185,7 +189,7 @@ void Reconstructor::rememberView() {
 }
 
 ReconstructionState Reconstructor::state() const {
-  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_frames_};
+  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_, unfused_frames_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
@@ -193,7 +197,8 @@ void Reconstructor::restore(ReconstructionState state) {
   world_from_left_ = state.world_from_left;
   reference_pose_ = state.reference_pose;
   key_views_ = std::move(state.key_views);
-  lost_frames_ = state.lost_frames;
+  lost_ = state.lost;
+  unfused_frames_ = state.unfused_frames;
 }
 
 }  // namespace softscope

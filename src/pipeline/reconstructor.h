@@ -16,7 +16,8 @@ struct ReconstructionState {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
-  int lost_frames = 0;  // since the model was last found
+  bool lost = false;
+  int unfused_frames = 0;  // since the last one that was fused
 };
 
 /// Owns the order of the stages; the back end owns what they work on.
@@ -48,7 +49,7 @@ class Reconstructor {
   bool deform(FrameRecord& record);
   bool confirm(FrameRecord& record);
   void fuse(FrameStatus status, FrameRecord& record);
-  void finish(FrameRecord& record) const;
+  void finish(FrameRecord& record);
   void rememberView();
   std::vector<Eigen::Isometry3d> viewpointsToTry() const;
 
@@ -58,7 +59,8 @@ class Reconstructor {
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last sure motion
   std::vector<Eigen::Isometry3d> key_views_;
-  int lost_frames_ = 0;  // since the model was last found; 0: it is not lost
+  bool lost_ = false;
+  int unfused_frames_ = 0;  // since the last one that was fused
 };
 
 }  // namespace softscope

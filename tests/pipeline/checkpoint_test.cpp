@@ -24,7 +24,8 @@ Checkpoint someCheckpoint() {
   model.exposure = {0.9f, 1.1f, 1.2f};
   checkpoint.state.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
   checkpoint.state.key_views.resize(2, checkpoint.state.world_from_left);
-  checkpoint.state.lost_frames = 3;
+  checkpoint.state.lost = true;
+  checkpoint.state.unfused_frames = 3;
   return checkpoint;
 }
 
@@ -40,7 +41,8 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.tracked.points[0].id, 9);
   EXPECT_EQ(after.state.model.exposure.green, 1.1f);
   EXPECT_EQ(after.state.model.last.left.at(1, 0), (Rgb8{7, 8, 9}));
-  EXPECT_EQ(after.state.lost_frames, 3);
+  EXPECT_TRUE(after.state.lost);
+  EXPECT_EQ(after.state.unfused_frames, 3);
   EXPECT_EQ(checkpointBytes(after), bytes);
 }
 
