@@ -1,0 +1,290 @@
+#include <cstring>
+#include <optional>
+
+#include "cuda/device_executor.cuh"
+#include "cuda/device_info.h"
+#include "cuda/event_clock.h"
+#include "cuda/stereo.h"
+#include "cuda/stereo_passes.h"
+
+namespace softscope::cuda {
+namespace {
+
+/// Throws the reason why no kernel of this build can run.
+void requireDevice() {
+  const DeviceInfo info = queryDevices();
+  if (info.devices.empty()) throw BackendError("CUDA: " + info.why_none);
+  if (!info.devices.front().problem.empty())
+    throw BackendError("CUDA: " + info.devices.front().name + ": " + info.devices.front().problem +
+                       ". This build has machine code for compute capability 7.5 and newer");
+  check(cudaSetDevice(0), "choosing the first device");
+}
+
+std::size_t bytesFor(const StereoOptions& options, int width_px, int height_px) {
+  Arena counting;
+  StereoLayout(counting, options, width_px, height_px);
+  return counting.bytes();
+}
+
+class Stream {
+ public:
+  Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a stream"); }
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+  ~Stream() { cudaStreamDestroy(stream_); }
+  operator cudaStream_t() const { return stream_; }
+
+ private:
+  cudaStream_t stream_ = nullptr;
+};
+
+/// A sequence of launches that starts with one call.
+class Graph {
+ public:
+  Graph() = default;
+  Graph(const Graph&) = delete;
+  Graph& operator=(const Graph&) = delete;
+  ~Graph() {
+    if (graph_ != nullptr) cudaGraphExecDestroy(graph_);
+  }
+  /// Captures what `enqueue()` does on the stream the first time, and launches it.
+  template <class Enqueue>
+  void launch(cudaStream_t stream, const Enqueue& enqueue) {
+    if (graph_ == nullptr) capture(stream, enqueue);
+    check(cudaGraphLaunch(graph_, stream), "starting a graph");
+  }
+
+ private:
+  template <class Enqueue>
+  void capture(cudaStream_t stream, const Enqueue& enqueue) {
+    check(cudaStreamBeginCapture(stream, cudaStreamCaptureModeThreadLocal), "capturing a graph");
+    cudaGraph_t captured = nullptr;
+    try {
+      enqueue();
+    } catch (...) {
+      cudaStreamEndCapture(stream, &captured);
+      if (captured != nullptr) cudaGraphDestroy(captured);
+      throw;
+    }
+    check(cudaStreamEndCapture(stream, &captured), "capturing a graph");
+    const cudaError_t status = cudaGraphInstantiate(&graph_, captured, 0);
+    cudaGraphDestroy(captured);
+    check(status, "building a graph");
+  }
+  cudaGraphExec_t graph_ = nullptr;
+};
+
+/// What crosses between host and device; pinned.
+struct Exchange {
+  FrameInputs inputs;
+  OpenShare shares[16];
+};
+
+}  // namespace
+
+class Stereo::Device {
+ public:
+  Device(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px)
+      : memory_((check(options, width_px), bytesFor(options, width_px, height_px)),
+                "memory for stereo"),
+        arena_(memory_.data()),
+        layout_(arena_, options, width_px, height_px),
+        rig_(rig),
+        pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
+        staging_(2 * pixels_ * sizeof(Rgb8), "pinned memory for images"),
+        exchange_memory_(sizeof(Exchange), "pinned memory"),
+        executor_(stream_, nullptr),
+        passes_(executor_, layout_),
+        timed_executor_(stream_, &clock_),
+        timed_passes_(timed_executor_, layout_),
+        levels_(layout_.levels.size()),
+        ascents_(layout_.levels.size()) {
+    std::memset(exchange_memory_.data(), 0, sizeof(Exchange));
+    cuda::check(cudaMemsetAsync(memory_.data(), 0, memory_.bytes(), stream_), "clearing memory");
+    passes_.initialise();
+    cuda::check(cudaEventCreateWithFlags(&share_read_, cudaEventDisableTiming), "an event");
+    wait();
+  }
+  ~Device() { cudaEventDestroy(share_read_); }
+
+  void upload(const GrayImage& left, const GrayImage& right) {
+    requireShape(left);
+    requireShape(right);
+    auto* staged = static_cast<std::uint8_t*>(stage());
+    const GrayImage* images[] = {&left, &right};
+    for (int view = 0; view < 2; ++view) {
+      std::memcpy(staged + view * pixels_, images[view]->values.data(), pixels_);
+      copy(full().gray[view].data, staged + view * pixels_, pixels_);
+    }
+  }
+  void upload(const ColourImage& left, const ColourImage& right) {
+    requireShape(left);
+    requireShape(right);
+    auto* staged = static_cast<Rgb8*>(stage());
+    const ColourImage* images[] = {&left, &right};
+    for (int view = 0; view < 2; ++view) {
+      std::memcpy(static_cast<void*>(staged + view * pixels_), images[view]->values.data(),
+                  pixels_ * sizeof(Rgb8));
+      copy(layout_.colour[view].data, staged + view * pixels_, pixels_ * sizeof(Rgb8));
+    }
+    passes_.toGray();
+  }
+  void setMask(const Mask& mask) {
+    wait();
+    exchange().inputs.masked = mask.empty() ? 0 : 1;
+    if (mask.empty()) return;
+    requireShape(mask);
+    copy(layout_.mask.data, mask.values.data(), pixels_);
+    wait();
+  }
+
+  void compute(double roll_rad) {
+    if (is_enqueued_) wait();  // the exchange is in use
+    exchange().inputs.roll_rad = roll_rad;
+    is_enqueued_ = true;
+    if (is_timed_) {
+      clock_.restart(stream_);
+      run(timed_passes_, [](Graph&, const auto& enqueue) { enqueue(); });
+      stage_times_ = clock_.laps();
+    } else {
+      run(passes_, [&](Graph& graph, const auto& enqueue) { graph.launch(stream_, enqueue); });
+    }
+  }
+  void wait() {
+    cuda::check(cudaStreamSynchronize(stream_), "waiting for the device");
+    is_enqueued_ = false;
+  }
+
+  StereoDepth download() {
+    wait();
+    StereoDepth found;
+    const int width = full().width, height = full().height;
+    found.disparity = {Raster<float>(width, height), Raster<float>(width, height)};
+    found.depth = {Raster<float>(width, height), Raster<float>(width, height)};
+    found.normals = NormalMap(width, height, Eigen::Vector3f::Zero());
+    fetch(layout_.disparity, found.disparity.disparity_px.values.data());
+    fetch(layout_.sigma, found.disparity.sigma_px.values.data());
+    fetch(layout_.depth, found.depth.depth_mm.values.data());
+    fetch(layout_.depth_sigma, found.depth.sigma_mm.values.data());
+    static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
+    fetch(layout_.normals, reinterpret_cast<NormalPixel*>(found.normals.values.data()));
+    wait();
+    found.levels = levels_run_;
+    return found;
+  }
+
+  void timeStages(bool on) { is_timed_ = on; }
+  const std::vector<std::pair<std::string, double>>& stageTimes() const { return stage_times_; }
+  std::size_t deviceBytes() const { return memory_.bytes(); }
+
+ private:
+  /// Checks come before any memory is taken.
+  static void check(const StereoOptions& options, int width_px) {
+    requireDeviceLimits(options, width_px);
+    requireDevice();
+  }
+  const StereoLevel& full() const { return layout_.levels.front(); }
+  const StereoLevel& level(int k) const { return layout_.levels[static_cast<std::size_t>(k)]; }
+  Exchange& exchange() { return *static_cast<Exchange*>(exchange_memory_.data()); }
+
+  template <class Image>
+  void requireShape(const Image& image) const {
+    if (image.width_px == full().width && image.height_px == full().height) return;
+    throw InputError("the image has " + std::to_string(image.width_px) + " x " +
+                     std::to_string(image.height_px) + " pixels, but the GPU was prepared for " +
+                     std::to_string(full().width) + " x " + std::to_string(full().height));
+  }
+  /// The staging memory, free again.
+  void* stage() {
+    wait();
+    return staging_.data();
+  }
+  void copy(void* to, const void* from, std::size_t bytes) {
+    cuda::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_),
+                "copying to the device");
+  }
+  template <class T>
+  void fetch(const View<T>& from, T* to) {
+    cuda::check(
+        cudaMemcpyAsync(to, from.data, pixels_ * sizeof(T), cudaMemcpyDeviceToHost, stream_),
+        "copying from the device");
+  }
+
+  /// `launch(graph, enqueue)`: enqueues, or launches the graph of it.
+  template <class Passes, class Launch>
+  void run(Passes& passes, const Launch& launch) {
+    const auto fetchShare = [&](int k) {
+      cuda::check(cudaMemcpyAsync(&exchange().shares[k], &level(k).counters->share,
+                                  sizeof(OpenShare), cudaMemcpyDeviceToHost, stream_),
+                  "copying from the device");
+    };
+    const auto finish = [&] { launch(finish_, [&] { passes.finish(rig_); }); };
+    launch(levels_[0], [&] {
+      copy(layout_.inputs, &exchange().inputs, sizeof(FrameInputs));
+      passes.matchLevel(full());
+      fetchShare(0);
+    });
+    cuda::check(cudaEventRecord(share_read_, stream_), "recording an event");
+    // In most frames the full size is enough: the rest follows while the host looks.
+    finish();
+    levels_run_ = runCoarserLevels(
+        layout_,
+        [&](int k) {
+          cuda::check(cudaEventSynchronize(share_read_), "waiting for a level");
+          return exchange().shares[k];
+        },
+        [&](int k) {
+          launch(levels_[static_cast<std::size_t>(k)], [&] {
+            passes.halve(level(k - 1), level(k));
+            passes.matchLevel(level(k));
+            fetchShare(k);
+          });
+          cuda::check(cudaEventRecord(share_read_, stream_), "recording an event");
+        },
+        [&](int k) {
+          launch(ascents_[static_cast<std::size_t>(k)],
+                 [&] { passes.fillFromHalf(level(k + 1), level(k)); });
+        });
+    if (levels_run_ > 1) finish();
+  }
+
+  using Executor = DeviceExecutor<EventClock>;
+  DeviceMemory memory_;
+  Arena arena_;
+  StereoLayout layout_;
+  RectifiedRig rig_;
+  std::size_t pixels_;
+  PinnedMemory staging_, exchange_memory_;
+  Stream stream_;
+  EventClock clock_;
+  Executor executor_;
+  StereoPasses<Executor> passes_;
+  Executor timed_executor_;
+  StereoPasses<Executor> timed_passes_;
+  std::vector<Graph> levels_, ascents_;
+  Graph finish_;
+  cudaEvent_t share_read_ = nullptr;
+  bool is_enqueued_ = false, is_timed_ = false;
+  int levels_run_ = 0;
+  std::vector<std::pair<std::string, double>> stage_times_;
+};
+
+Stereo::Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px)
+    : device_(std::make_unique<Device>(options, rig, width_px, height_px)) {}
+Stereo::~Stereo() = default;
+
+void Stereo::upload(const GrayImage& left, const GrayImage& right) { device_->upload(left, right); }
+void Stereo::upload(const ColourImage& left, const ColourImage& right) {
+  device_->upload(left, right);
+}
+void Stereo::setMask(const Mask& mask) { device_->setMask(mask); }
+void Stereo::compute(double roll_rad) { device_->compute(roll_rad); }
+void Stereo::wait() { device_->wait(); }
+StereoDepth Stereo::download() { return device_->download(); }
+void Stereo::timeStages(bool on) { device_->timeStages(on); }
+const std::vector<std::pair<std::string, double>>& Stereo::stageTimes() const {
+  return device_->stageTimes();
+}
+std::size_t Stereo::deviceBytes() const { return device_->deviceBytes(); }
+
+}  // namespace softscope::cuda
