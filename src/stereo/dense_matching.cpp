@@ -8,6 +8,7 @@
 #include "stereo/kernel_sets.h"
 #include "stereo/matching_formulas.h"
 #include "stereo/plane_prior.h"
+#include "stereo/row_prior.h"
 
 namespace softscope {
 namespace {
@@ -131,7 +132,9 @@ Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& 
   const int width = left.width_px(), height = left.height_px();
   Raster<std::int16_t> disparity(width, height, -1);
   if (points.empty()) return disparity;
-  const Raster<std::int16_t> prior = interpolatePlanes(points, width, height);
+  const Raster<std::int16_t> prior = options.elas.prior == "rows"
+                                         ? interpolateRows(points, width, height)
+                                         : interpolatePlanes(points, width, height);
   const int columns = (width + kTileWidth - 1) / kTileWidth;
   const int rows = (height + kTileHeight - 1) / kTileHeight;
   const SharedDisparities shared(points, columns, rows);

@@ -18,12 +18,6 @@ namespace {
 
 constexpr double kEverything = 2;  // more than any share
 
-/// The same points as the right picture sees them.
-std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
-  for (SupportPoint& p : points) p.u_px -= static_cast<int>(p.disparity_px + 0.5f);
-  return points;
-}
-
 /// One level of the pyramid, times into `clock`.
 DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const StereoOptions& options,
                         StageClock& clock) {

@@ -27,7 +27,9 @@ struct ElasOptions {
   static constexpr int support_min_neighbours = 5;  // … and at least so many of them
   int support_redundant_cells = 4;  // a point between two equal ones this near is left out
 
-  // Prior: the planes of the triangles between support points.
+  // Prior between support points: the "planes" of their triangles, or "rows", interpolated along
+  // and between the rows of the grid, which the GPU computes by itself.
+  std::string prior = "planes";
   static constexpr double prior_sigma_px = 1.0;  // how far the surface leaves its triangle
   // cost of leaving it altogether, in mean gradient steps
   static constexpr double prior_weight = 1.0;

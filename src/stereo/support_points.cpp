@@ -175,12 +175,24 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
   matchRows(left, right, options, row_offset_px, first_rows, grid);
   matchRows(left, right, narrowedTo(foundIn(grid), options), row_offset_px, other_rows, grid);
   grid = removeLonely(grid, options.elas);
-  removeRedundant(grid, 0, 1, options.elas.support_redundant_cells);
-  removeRedundant(grid, 1, 0, options.elas.support_redundant_cells);
+  return pointsOf(grid, options.elas);
+}
+
+std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options) {
+  if (options.prior == "planes") {  // triangles don't need what their neighbours say already
+    removeRedundant(grid, 0, 1, options.support_redundant_cells);
+    removeRedundant(grid, 1, 0, options.support_redundant_cells);
+  }
+  const int step = options.support_step_px;
   std::vector<SupportPoint> points;
   for (int r = 0; r < grid.height_px; ++r)
     for (int c = 0; c < grid.width_px; ++c)
       if (grid.at(c, r) != kNone) points.push_back({c * step, r * step, grid.at(c, r)});
+  return points;
+}
+
+std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
+  for (SupportPoint& p : points) p.u_px -= static_cast<int>(p.disparity_px + 0.5f);
   return points;
 }
 
