@@ -78,14 +78,17 @@ class Graph {
 struct Exchange {
   FrameInputs inputs;
   OpenShare shares[16];
+  int point_count;  // of the prior from the host
 };
 
 }  // namespace
 
 class Stereo::Device {
  public:
-  Device(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px)
-      : memory_((check(options, width_px), bytesFor(options, width_px, height_px)),
+  Device(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
+         HostPriorFunction host_prior)
+      : host_prior_(std::move(host_prior)),
+        memory_((check(options, width_px, host_prior_), bytesFor(options, width_px, height_px)),
                 "memory for stereo"),
         arena_(memory_.data()),
         layout_(arena_, options, width_px, height_px),
@@ -93,14 +96,15 @@ class Stereo::Device {
         pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
         staging_(2 * pixels_ * sizeof(Rgb8), "pinned memory for images"),
         exchange_memory_(sizeof(Exchange), "pinned memory"),
+        points_memory_(pointBytes(full()), "pinned memory for support points"),
         executor_(stream_, nullptr),
         passes_(executor_, layout_),
         timed_executor_(stream_, &clock_),
         timed_passes_(timed_executor_, layout_),
         levels_(layout_.levels.size()),
+        level_ends_(layout_.levels.size()),
         ascents_(layout_.levels.size()) {
     std::memset(exchange_memory_.data(), 0, sizeof(Exchange));
-    cuda::check(cudaMemsetAsync(memory_.data(), 0, memory_.bytes(), stream_), "clearing memory");
     passes_.initialise();
     cuda::check(cudaEventCreateWithFlags(&share_read_, cudaEventDisableTiming), "an event");
     wait();
@@ -179,8 +183,11 @@ class Stereo::Device {
 
  private:
   /// Checks come before any memory is taken.
-  static void check(const StereoOptions& options, int width_px) {
+  static void check(const StereoOptions& options, int width_px,
+                    const HostPriorFunction& host_prior) {
     requireDeviceLimits(options, width_px);
+    require(options.elas.prior == "rows" || host_prior != nullptr, "stereo.elas.prior",
+            options.elas.prior, "the GPU has the prior by rows alone");
     requireDevice();
   }
   const StereoLevel& full() const { return layout_.levels.front(); }
@@ -210,6 +217,33 @@ class Stereo::Device {
         "copying from the device");
   }
 
+  static std::size_t pointBytes(const StereoLevel& level) {
+    return sizeof(float) * static_cast<std::size_t>(level.grid.columns) *
+           static_cast<std::size_t>(level.grid.rows);
+  }
+  /// Fetches the level's support points and brings their prior.
+  void priorFromHost(const StereoLevel& level) {
+    auto* points = static_cast<float*>(points_memory_.data());
+    cuda::check(
+        cudaMemcpyAsync(points, level.kept, pointBytes(level), cudaMemcpyDeviceToHost, stream_),
+        "copying from the device");
+    cuda::check(cudaStreamSynchronize(stream_), "waiting for support points");
+    Raster<float> confirmed(level.grid.columns, level.grid.rows);
+    std::memcpy(confirmed.values.data(), points, pointBytes(level));
+    const HostPrior prior = host_prior_(confirmed, level.options, level.width, level.height);
+    std::memcpy(points, prior.support.values.data(), pointBytes(level));
+    copy(level.kept, points, pointBytes(level));
+    exchange().point_count = prior.point_count;
+    copy(&level.counters->point_count, &exchange().point_count, sizeof(int));
+    auto* staged = static_cast<std::int16_t*>(staging_.data());
+    for (const Raster<std::int16_t>* px8 : {&prior.left_px8, &prior.right_px8}) {
+      std::memcpy(staged, px8->values.data(), px8->size() * sizeof(std::int16_t));
+      copy(level.prior[px8 == &prior.left_px8 ? 0 : 1].data, staged,
+           px8->size() * sizeof(std::int16_t));
+      staged += px8->size();
+    }
+  }
+
   /// `launch(graph, enqueue)`: enqueues, or launches the graph of it.
   template <class Passes, class Launch>
   void run(Passes& passes, const Launch& launch) {
@@ -219,11 +253,22 @@ class Stereo::Device {
                   "copying from the device");
     };
     const auto finish = [&] { launch(finish_, [&] { passes.finish(rig_); }); };
-    launch(levels_[0], [&] {
-      copy(layout_.inputs, &exchange().inputs, sizeof(FrameInputs));
-      passes.matchLevel(full());
-      fetchShare(0);
-    });
+    const auto matchLevel = [&](int k, const auto& begin) {
+      const bool by_rows = full().options.elas.prior == "rows";
+      const auto end = [&] {
+        passes.finishLevel(level(k));
+        fetchShare(k);
+      };
+      launch(levels_[static_cast<std::size_t>(k)], [&] {
+        begin();
+        passes.startLevel(level(k));
+        if (by_rows) end();
+      });
+      if (by_rows) return;
+      priorFromHost(level(k));
+      launch(level_ends_[static_cast<std::size_t>(k)], end);
+    };
+    matchLevel(0, [&] { copy(layout_.inputs, &exchange().inputs, sizeof(FrameInputs)); });
     cuda::check(cudaEventRecord(share_read_, stream_), "recording an event");
     // In most frames the full size is enough: the rest follows while the host looks.
     finish();
@@ -234,11 +279,7 @@ class Stereo::Device {
           return exchange().shares[k];
         },
         [&](int k) {
-          launch(levels_[static_cast<std::size_t>(k)], [&] {
-            passes.halve(level(k - 1), level(k));
-            passes.matchLevel(level(k));
-            fetchShare(k);
-          });
+          matchLevel(k, [&] { passes.halve(level(k - 1), level(k)); });
           cuda::check(cudaEventRecord(share_read_, stream_), "recording an event");
         },
         [&](int k) {
@@ -249,19 +290,20 @@ class Stereo::Device {
   }
 
   using Executor = DeviceExecutor<EventClock>;
+  HostPriorFunction host_prior_;
   DeviceMemory memory_;
   Arena arena_;
   StereoLayout layout_;
   RectifiedRig rig_;
   std::size_t pixels_;
-  PinnedMemory staging_, exchange_memory_;
+  PinnedMemory staging_, exchange_memory_, points_memory_;
   Stream stream_;
   EventClock clock_;
   Executor executor_;
   StereoPasses<Executor> passes_;
   Executor timed_executor_;
   StereoPasses<Executor> timed_passes_;
-  std::vector<Graph> levels_, ascents_;
+  std::vector<Graph> levels_, level_ends_, ascents_;
   Graph finish_;
   cudaEvent_t share_read_ = nullptr;
   bool is_enqueued_ = false, is_timed_ = false;
@@ -269,8 +311,9 @@ class Stereo::Device {
   std::vector<std::pair<std::string, double>> stage_times_;
 };
 
-Stereo::Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px)
-    : device_(std::make_unique<Device>(options, rig, width_px, height_px)) {}
+Stereo::Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
+               HostPriorFunction host_prior)
+    : device_(std::make_unique<Device>(options, rig, width_px, height_px, std::move(host_prior))) {}
 Stereo::~Stereo() = default;
 
 void Stereo::upload(const GrayImage& left, const GrayImage& right) { device_->upload(left, right); }

@@ -10,6 +10,7 @@
 #include "core/depth_map.h"
 #include "core/image.h"
 #include "core/rectified_rig.h"
+#include "stereo/host_prior.h"
 #include "stereo/stereo_options.h"
 
 namespace softscope::cuda {
@@ -28,8 +29,11 @@ struct StereoDepth {
 class Stereo {
  public:
   /// Throws BackendError without a device that runs this build, or with too little memory;
-  /// OptionError where an option has no GPU version.
-  Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px);
+  /// OptionError where an option has no GPU version. `host_prior` (planePrior()) computes the prior
+  /// by planes, which has none: two waits and some milliseconds a level; the prior by rows needs it
+  /// not.
+  Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
+         HostPriorFunction host_prior);
   ~Stereo();
   Stereo(const Stereo&) = delete;
   Stereo& operator=(const Stereo&) = delete;
@@ -40,7 +44,7 @@ class Stereo {
   /// Empty: none. Holds for the frames that follow.
   void setMask(const Mask& mask);
 
-  /// Returns when everything is enqueued.
+  /// Returns when everything is enqueued; with the prior by rows that is mostly before it is done.
   void compute(double roll_rad = 0);
   void wait();
   StereoDepth download();

@@ -340,7 +340,7 @@ struct LonelyBody {
 };
 
 /// Column of the right view at which a support point of the left one is seen.
-SOFTSCOPE_HD inline int seenFromRight(int u, float disparity_px) {
+SOFTSCOPE_HD inline int columnFromRight(int u, float disparity_px) {
   return u - static_cast<int>(disparity_px + 0.5f);
 }
 
@@ -362,7 +362,7 @@ struct TileBitsBody {
   SOFTSCOPE_HD void operator()(int c, int r, int view) const {
     const float d = disparity_px[r * grid.columns + c];
     if (d == kNoSupport) return;
-    const int u = view == 0 ? c * grid.step : seenFromRight(c * grid.step, d);
+    const int u = view == 0 ? c * grid.step : columnFromRight(c * grid.step, d);
     if (u < 0) return;
     const int bit = static_cast<int>(std::floor(d + 0.5f));
     atomicUnite(bits.tile(view, u / kTileWidth, r * grid.step / kTileHeight) + bit / 32,

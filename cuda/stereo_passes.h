@@ -70,9 +70,19 @@ class StereoPasses {
 
   /// One level from its gray images to refined disparities and its share of open pixels.
   void matchLevel(const StereoLevel& level) {
+    startLevel(level);
+    finishLevel(level);
+  }
+  /// The first part, up to confirmed support points; by rows, the prior too.
+  void startLevel(const StereoLevel& level) {
     prepare(level);
     findSupport(level);
-    interpolatePrior(level);
+    if (level.options.elas.prior == "rows") interpolatePrior(level);
+  }
+  /// The rest. By planes, support points and prior have come from the host.
+  void finishLevel(const StereoLevel& level) {
+    perElement("tile bits", TileBitsBody{level.grid, level.kept, level.bits}, level.grid.columns,
+               level.grid.rows, 2);
     matchDense(level);
     filter(level);
     refine(level);
@@ -177,8 +187,6 @@ class StereoPasses {
   }
 
   void interpolatePrior(const StereoLevel& level) {
-    perElement("tile bits", TileBitsBody{level.grid, level.kept, level.bits}, level.grid.columns,
-               level.grid.rows, 2);
     const PriorRowKernel rows{level.grid, level.kept, level.rows};
     executor_.launch("prior rows", rows, rows.blocks());
     const PriorSweepKernel sweep{level.rows};

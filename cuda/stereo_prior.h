@@ -46,7 +46,7 @@ struct PriorRowKernel {
       for (int c = at.thread; c < grid.columns; c += kThreads) {
         const float d = disparity_px[r * grid.columns + c];
         if (d == kNoSupport) continue;
-        const int u = view == 0 ? c * grid.step : seenFromRight(c * grid.step, d);
+        const int u = view == 0 ? c * grid.step : columnFromRight(c * grid.step, d);
         if (u < 0) continue;
         // Of several on one pixel the larger: as integers, positive numbers keep their order.
         atomicGreatest(reinterpret_cast<int*>(&row[u].disparity_px),

@@ -1,7 +1,8 @@
 // tests/bench/bench_cuda_stereo.cpp: stereo on the GPU: equal to the CPU, and how long.
 //
-// bench_cuda_stereo LEFT.pgm RIGHT.pgm [LEFT.pgm RIGHT.pgm …] [--repeats N] [--check]
-// Binary 8-bit PGM, rectified, rows aligned. --check compares alone, for compute-sanitizer.
+// bench_cuda_stereo LEFT.pgm RIGHT.pgm [LEFT.pgm RIGHT.pgm …] [--repeats N] [--rows] [--check]
+// Binary 8-bit PGM, rectified, rows aligned. --rows: stereo.elas.prior=rows. --check compares
+// alone, for compute-sanitizer.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -86,8 +87,8 @@ RectifiedRig rigOf(const GrayImage& image) {
 
 /// Prints how many values differ; returns whether none does.
 bool compare(const cuda::StereoDepth& found, const GrayImage& left, const GrayImage& right,
-             const RectifiedRig& rig) {
-  ElasMatcher matcher{StereoOptions()};
+             const RectifiedRig& rig, const StereoOptions& options) {
+  ElasMatcher matcher{options};
   const double start = nowMs();
   const DisparityMap disparity = matcher.match(left, right);
   const DepthMap depth = depthFromDisparity(disparity, rig);
@@ -151,20 +152,21 @@ void time(cuda::Stereo& stereo, const GrayImage& left, const GrayImage& right, i
   std::printf("\n");
 }
 
-int run(const std::vector<std::string>& files, int repeats, bool check_only) {
+int run(const std::vector<std::string>& files, const StereoOptions& options, int repeats,
+        bool check_only) {
   bool all_equal = true;
   for (std::size_t i = 0; i + 1 < files.size(); i += 2) {
     const GrayImage left = readPgm(files[i]), right = readPgm(files[i + 1]);
     const RectifiedRig rig = rigOf(left);
-    cuda::Stereo stereo(StereoOptions(), rig, left.width_px, left.height_px);
+    cuda::Stereo stereo(options, rig, left.width_px, left.height_px, planePrior);
     std::printf("%s: %d x %d, %.1f MB on the device\n", files[i].c_str(), left.width_px,
                 left.height_px, static_cast<double>(stereo.deviceBytes()) / 1e6);
     stereo.upload(left, right);
     stereo.compute();
-    all_equal = compare(stereo.download(), left, right, rig) && all_equal;
+    all_equal = compare(stereo.download(), left, right, rig, options) && all_equal;
     if (!check_only) {
       time(stereo, left, right, repeats);
-      all_equal = compare(stereo.download(), left, right, rig) && all_equal;
+      all_equal = compare(stereo.download(), left, right, rig, options) && all_equal;
     }
     std::fflush(stdout);
   }
@@ -175,11 +177,14 @@ int run(const std::vector<std::string>& files, int repeats, bool check_only) {
 
 int main(int argc, char** argv) {
   std::vector<std::string> files;
+  StereoOptions options;
   int repeats = 500;
   bool check_only = false;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
-    if (argument == "--check")
+    if (argument == "--rows")
+      options.elas.prior = "rows";
+    else if (argument == "--check")
       check_only = true;
     else if (argument == "--repeats" && i + 1 < argc)
       repeats = std::max(1, std::atoi(argv[++i]));
@@ -191,7 +196,7 @@ int main(int argc, char** argv) {
     if (!info.devices.empty())
       std::printf("%s, driver CUDA %s, runtime %s\n", info.devices.front().name.c_str(),
                   info.driver_version.c_str(), info.runtime_version.c_str());
-    return run(files, repeats, check_only);
+    return run(files, options, repeats, check_only);
   } catch (const BackendError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 4;
