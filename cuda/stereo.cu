@@ -99,17 +99,25 @@ class Stereo::Device {
         points_memory_(pointBytes(full()), "pinned memory for support points"),
         executor_(stream_, nullptr),
         passes_(executor_, layout_),
+        side_executor_(side_stream_, nullptr),
+        side_passes_(side_executor_, layout_),
         timed_executor_(stream_, &clock_),
         timed_passes_(timed_executor_, layout_),
         levels_(layout_.levels.size()),
         level_ends_(layout_.levels.size()),
+        shares_(layout_.levels.size()),
         ascents_(layout_.levels.size()) {
     std::memset(exchange_memory_.data(), 0, sizeof(Exchange));
     passes_.initialise();
-    cuda::check(cudaEventCreateWithFlags(&share_read_, cudaEventDisableTiming), "an event");
+    for (cudaEvent_t* event : {&share_read_, &level_done_})
+      cuda::check(cudaEventCreateWithFlags(event, cudaEventDisableTiming), "an event");
     wait();
   }
-  ~Device() { cudaEventDestroy(share_read_); }
+  ~Device() {
+    cudaStreamSynchronize(side_stream_);
+    cudaEventDestroy(share_read_);
+    cudaEventDestroy(level_done_);
+  }
 
   void upload(const GrayImage& left, const GrayImage& right) {
     requireShape(left);
@@ -148,10 +156,12 @@ class Stereo::Device {
     is_enqueued_ = true;
     if (is_timed_) {
       clock_.restart(stream_);
-      run(timed_passes_, [](Graph&, const auto& enqueue) { enqueue(); });
+      run(timed_passes_, [](Graph&, cudaStream_t, const auto& enqueue) { enqueue(); });
       stage_times_ = clock_.laps();
     } else {
-      run(passes_, [&](Graph& graph, const auto& enqueue) { graph.launch(stream_, enqueue); });
+      run(passes_, [](Graph& graph, cudaStream_t stream, const auto& enqueue) {
+        graph.launch(stream, enqueue);
+      });
     }
   }
   void wait() {
@@ -244,33 +254,40 @@ class Stereo::Device {
     }
   }
 
-  /// `launch(graph, enqueue)`: enqueues, or launches the graph of it.
+  /// Beside the main stream, whose next kernels don't change what is measured.
+  template <class Launch>
+  void measureShare(int k, const Launch& launch) {
+    if (layout_.levels.size() == 1) return;
+    cuda::check(cudaEventRecord(level_done_, stream_), "recording an event");
+    cuda::check(cudaStreamWaitEvent(side_stream_, level_done_, 0), "waiting for a level");
+    launch(shares_[static_cast<std::size_t>(k)], side_stream_, [this, k] {
+      side_passes_.measureShare(level(k));
+      cuda::check(cudaMemcpyAsync(&exchange().shares[k], &level(k).counters->share,
+                                  sizeof(OpenShare), cudaMemcpyDeviceToHost, side_stream_),
+                  "copying from the device");
+    });
+    cuda::check(cudaEventRecord(share_read_, side_stream_), "recording an event");
+  }
+
+  /// `launch(graph, stream, enqueue)`: enqueues, or launches the graph of it.
   template <class Passes, class Launch>
   void run(Passes& passes, const Launch& launch) {
-    const auto fetchShare = [&](int k) {
-      cuda::check(cudaMemcpyAsync(&exchange().shares[k], &level(k).counters->share,
-                                  sizeof(OpenShare), cudaMemcpyDeviceToHost, stream_),
-                  "copying from the device");
-    };
-    const auto finish = [&] { launch(finish_, [&] { passes.finish(rig_); }); };
+    const auto finish = [&] { launch(finish_, stream_, [&] { passes.finish(rig_); }); };
     const auto matchLevel = [&](int k, const auto& begin) {
       const bool by_rows = full().options.elas.prior == "rows";
-      const auto end = [&] {
-        passes.finishLevel(level(k));
-        fetchShare(k);
-      };
-      launch(levels_[static_cast<std::size_t>(k)], [&] {
+      const auto end = [&] { passes.finishLevel(level(k)); };
+      launch(levels_[static_cast<std::size_t>(k)], stream_, [&] {
         begin();
         passes.startLevel(level(k));
         if (by_rows) end();
       });
       if (by_rows) return;
       priorFromHost(level(k));
-      launch(level_ends_[static_cast<std::size_t>(k)], end);
+      launch(level_ends_[static_cast<std::size_t>(k)], stream_, end);
     };
     matchLevel(0, [&] { copy(layout_.inputs, &exchange().inputs, sizeof(FrameInputs)); });
-    cuda::check(cudaEventRecord(share_read_, stream_), "recording an event");
     // In most frames the full size is enough: the rest follows while the host looks.
+    measureShare(0, launch);
     finish();
     levels_run_ = runCoarserLevels(
         layout_,
@@ -280,10 +297,10 @@ class Stereo::Device {
         },
         [&](int k) {
           matchLevel(k, [&] { passes.halve(level(k - 1), level(k)); });
-          cuda::check(cudaEventRecord(share_read_, stream_), "recording an event");
+          measureShare(k, launch);
         },
         [&](int k) {
-          launch(ascents_[static_cast<std::size_t>(k)],
+          launch(ascents_[static_cast<std::size_t>(k)], stream_,
                  [&] { passes.fillFromHalf(level(k + 1), level(k)); });
         });
     if (levels_run_ > 1) finish();
@@ -297,15 +314,17 @@ class Stereo::Device {
   RectifiedRig rig_;
   std::size_t pixels_;
   PinnedMemory staging_, exchange_memory_, points_memory_;
-  Stream stream_;
+  Stream stream_, side_stream_;
   EventClock clock_;
   Executor executor_;
   StereoPasses<Executor> passes_;
+  Executor side_executor_;
+  StereoPasses<Executor> side_passes_;
   Executor timed_executor_;
   StereoPasses<Executor> timed_passes_;
-  std::vector<Graph> levels_, level_ends_, ascents_;
+  std::vector<Graph> levels_, level_ends_, shares_, ascents_;
   Graph finish_;
-  cudaEvent_t share_read_ = nullptr;
+  cudaEvent_t share_read_ = nullptr, level_done_ = nullptr;
   bool is_enqueued_ = false, is_timed_ = false;
   int levels_run_ = 0;
   std::vector<std::pair<std::string, double>> stage_times_;

@@ -82,6 +82,7 @@ struct StereoLevel {
     islands_sizes = arena.array<int>(pixels);
     mixed_list = arena.array<int>(pixels);
     counters = arena.array<LevelCounters>(1);
+    selection = arena.array<Selection>(1);
   }
 
   std::size_t bitWords() const {
@@ -107,6 +108,7 @@ struct StereoLevel {
   View<float> sigma;
   int *islands_labels, *islands_sizes, *mixed_list;
   LevelCounters* counters;
+  Selection* selection;
 
  private:
   GradientPlane planGradient(Arena& arena) {

@@ -194,9 +194,9 @@ struct SupportCostKernel {
 
 /// Tests each pixel of the grid; kLanes threads a pixel look for the second best cost.
 struct SupportTestKernel {
-  static constexpr int kThreads = 256, kPhases = 2, kLanes = 8, kPoints = kThreads / kLanes;
+  static constexpr int kThreads = 256, kPhases = 2, kLanes = 32, kPoints = kThreads / kLanes;
   struct Shared {
-    int second[kPoints][kLanes];
+    int second[kPoints][kLanes], texture[kPoints][kLanes];
   };
   using Local = Nothing;
   SupportGrid grid;
@@ -228,23 +228,32 @@ struct SupportTestKernel {
         second = volume[d] < second ? volume[d] : second;
       }
       shared.second[point][lane] = second;
+      shared.texture[point][lane] = textureOf(u, r * grid.step, lane);
     } else if (lane == 0) {
-      int second = 0xFFFF;
-      for (int k = 0; k < kLanes; ++k)
+      int second = 0xFFFF, texture = 0;
+      for (int k = 0; k < kLanes; ++k) {
         second = shared.second[point][k] < second ? shared.second[point][k] : second;
+        texture += shared.texture[point][k];
+      }
       disparity_px[r * grid.columns + c] =
-          tested(u, r, key, disparity, second, range, count, volume);
+          tested(u, r, key, disparity, second, texture, range, count, volume);
     }
   }
 
  private:
-  SOFTSCOPE_HD float tested(int u, int r, std::uint32_t key, int disparity, int second,
+  static_assert(kLanes >= kSupportPixels, "a lane a pixel");
+  /// One pixel's share of the window's texture.
+  SOFTSCOPE_HD int textureOf(int u, int v, int lane) const {
+    if (lane >= kSupportPixels || u < kSupportMargin || u >= grid.width - kSupportMargin) return 0;
+    return supportTexture(
+        *left.at(u + supportOffset(lane % kSupportSide), v + supportOffset(lane / kSupportSide)));
+  }
+  SOFTSCOPE_HD float tested(int u, int r, std::uint32_t key, int disparity, int second, int texture,
                             const DisparityRange& range, int count,
                             const std::uint16_t* volume) const {
     const int cost = static_cast<int>(key >> 16);
     if (u < kSupportMargin || u >= grid.width - kSupportMargin || cost == 0xFFFF) return kNoSupport;
-    const int sum = supportTextureSum(left.at(u, r * grid.step), left.stride);
-    if (static_cast<double>(sum) / kCostDifferences < grid.texture) return kNoSupport;
+    if (static_cast<double>(texture) / kCostDifferences < grid.texture) return kNoSupport;
     const int returned = static_cast<int>(
         costs.best_right[static_cast<std::ptrdiff_t>(r) * grid.width + u - disparity] & 0xFFFFu);
     const int apart = returned - disparity;
@@ -260,7 +269,7 @@ struct SupportTestKernel {
 
 /// The range in which the first pass found points, and some more on either side: narrowedTo().
 struct NarrowRangeKernel {
-  static constexpr int kThreads = 256, kPhases = 4;
+  static constexpr int kThreads = 1024, kPhases = 4;
   static constexpr int kNear = 2, kFewestAlike = 3, kBeyondPx = 16, kFewest = 50;
   static constexpr int kBins = StereoOptions::kLargestDisparityPx + 1 + 2 * kNear;
   struct Shared {
@@ -315,27 +324,56 @@ struct NarrowRangeKernel {
   }
 };
 
-/// Drops points that too few neighbours confirm; counts the others.
-struct LonelyBody {
+/// Drops points that too few neighbours confirm; counts the others. kLanes threads a point.
+struct LonelyKernel {
+  static constexpr int kThreads = 256, kPhases = 3, kLanes = 8, kPoints = kThreads / kLanes;
+  struct Shared {
+    int neighbours[kPoints][kLanes], count;
+  };
+  using Local = Nothing;
   SupportGrid grid;
   const float* disparity_px;
   float* kept;
   int* point_count;
 
-  SOFTSCOPE_HD void operator()(int c, int r, int) const {
-    const float here = disparity_px[r * grid.columns + c];
-    int neighbours = -1;  // not itself
-    const int reach = grid.window_cells;
-    for (int y = r - reach; here != kNoSupport && y <= r + reach; ++y)
+  Grid blocks() const { return {blocksFor(grid.columns * grid.rows, kPoints), 1, 1}; }
+
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
+    const int point = at.thread / kLanes, lane = at.thread % kLanes;
+    const int place = at.x * kPoints + point;
+    const bool inside = place < grid.columns * grid.rows;
+    if constexpr (kPhase == 0) {
+      if (at.thread == 0) shared.count = 0;
+      shared.neighbours[point][lane] = inside ? countRows(place, lane) : 0;
+    } else if constexpr (kPhase == 1) {
+      if (lane != 0 || !inside) return;
+      int neighbours = -1;  // not itself
+      for (int k = 0; k < kLanes; ++k) neighbours += shared.neighbours[point][k];
+      const float here = disparity_px[place];
+      const bool keep = here != kNoSupport && neighbours >= grid.min_neighbours;
+      kept[place] = keep ? here : kNoSupport;
+      if (keep) atomicPlus(&shared.count, 1);
+    } else {
+      if (at.thread == 0 && shared.count > 0) atomicPlus(point_count, shared.count);
+    }
+  }
+
+ private:
+  /// Neighbours that agree, in every kLanes-th row of the window.
+  SOFTSCOPE_HD int countRows(int place, int lane) const {
+    const float here = disparity_px[place];
+    if (here == kNoSupport) return 0;
+    const int c = place % grid.columns, r = place / grid.columns, reach = grid.window_cells;
+    int count = 0;
+    for (int y = r - reach + lane; y <= r + reach; y += kLanes)
       for (int x = c - reach; x <= c + reach; ++x) {
         if (x < 0 || y < 0 || x >= grid.columns || y >= grid.rows) continue;
         const float there = disparity_px[y * grid.columns + x];
         const float apart = there < here ? here - there : there - here;
-        neighbours += there != kNoSupport && apart <= static_cast<float>(grid.agreement_px);
+        count += there != kNoSupport && apart <= static_cast<float>(grid.agreement_px);
       }
-    const bool keep = here != kNoSupport && neighbours >= grid.min_neighbours;
-    kept[r * grid.columns + c] = keep ? here : kNoSupport;
-    if (keep) atomicPlus(point_count, 1);
+    return count;
   }
 };
 

@@ -51,12 +51,16 @@ class StereoPasses {
 
   /// Once after the memory was taken: what no frame writes.
   void initialise() {
-    for (const StereoLevel& level : layout_.levels)
+    for (const StereoLevel& level : layout_.levels) {
+      executor_.launch("selection",
+                       StoreSelectionKernel{selectionOf(level.options.refinement), level.selection},
+                       Grid{});
       for (std::uint8_t* bytes : level.gradient_bytes) {
         const FillKernel<std::uint8_t> fill{bytes, level.gradient_byte_count,
                                             GradientPlane::kFlatByte};
         executor_.launch("flat margins", fill, fill.blocks());
       }
+    }
   }
 
   void toGray() {
@@ -86,7 +90,17 @@ class StereoPasses {
     matchDense(level);
     filter(level);
     refine(level);
-    measureShare(level);
+  }
+  /// What the level left open.
+  void measureShare(const StereoLevel& level) {
+    OpenShare* share = &level.counters->share;
+    const float* disparity = refined(level).data;
+    const NearestKernel nearest{disparity, level.width * level.height, share};
+    executor_.launch("nearest", nearest, nearest.blocks());
+    const OpenShareKernel open{disparity, readOnly(level.gray[0]), level.options.darkest_gray,
+                               share};
+    executor_.launch("open share", open, open.blocks());
+    executor_.mark("share");
   }
 
   void halve(const StereoLevel& whole, const StereoLevel& half) {
@@ -174,8 +188,8 @@ class StereoPasses {
     const NarrowRangeKernel narrow{level.grid, level.support, &counters->narrowed};
     executor_.launch("narrow range", narrow, Grid{});
     matchRows(level, SupportPass{&counters->narrowed});
-    perElement("lonely", LonelyBody{level.grid, level.support, level.kept, &counters->point_count},
-               level.grid.columns, level.grid.rows);
+    const LonelyKernel lonely{level.grid, level.support, level.kept, &counters->point_count};
+    executor_.launch("lonely", lonely, lonely.blocks());
     executor_.mark("support");
   }
   void matchRows(const StereoLevel& level, const SupportPass& pass) {
@@ -241,9 +255,6 @@ class StereoPasses {
     const RefinementOptions& options = level.options.refinement;
     const RefinementWindow window = refinementWindow(options);
     bandPass(level);
-    Selection selection{};
-    std::copy(window.selection.begin(), window.selection.end(), selection.weights);
-    std::copy(window.tolerance.begin(), window.tolerance.end(), selection.tolerance);
     const View<const float> initial = readOnly(level.disparity[0]);
     perPixel("depth steps",
              MarkStepsBody{initial, level.marks, 2 * options.radius_px + 1,
@@ -253,15 +264,22 @@ class StereoPasses {
              SpreadRowBody{readOnly(level.marks), level.near_marks, options.radius_px}, level);
     perPixel("mixed windows",
              MarkMixedBody{initial, readOnly(level.near_marks), level.mixed, level.mixed_list,
-                           &level.counters->mixed_count, options.radius_px, selection},
+                           &level.counters->mixed_count, options.radius_px, selectionOf(options)},
              level);
     for (int i = 0; i < options.iterations; ++i) {
       if (i + 1 < options.iterations)
-        step<false>(level, i, window, selection);
+        step<false>(level, i, window);
       else
-        step<true>(level, i, window, selection);
+        step<true>(level, i, window);
     }
     executor_.mark("refine");
+  }
+  static Selection selectionOf(const RefinementOptions& options) {
+    const RefinementWindow window = refinementWindow(options);
+    Selection selection{};
+    std::copy(window.selection.begin(), window.selection.end(), selection.weights);
+    std::copy(window.tolerance.begin(), window.tolerance.end(), selection.tolerance);
+    return selection;
   }
   void bandPass(const StereoLevel& level) {
     const std::vector<float> slow =
@@ -284,17 +302,15 @@ class StereoPasses {
     executor_.mark("band-pass");
   }
   template <bool kLast>
-  void step(const StereoLevel& level, int i, const RefinementWindow& window,
-            const Selection& selection) {
+  void step(const StereoLevel& level, int i, const RefinementWindow& window) {
     constexpr int kUsualRadius = 6;
     if (level.options.refinement.radius_px == kUsualRadius)
-      stepOfRadius<kUsualRadius, kLast>(level, i, window, selection);
+      stepOfRadius<kUsualRadius, kLast>(level, i, window);
     else
-      stepOfRadius<0, kLast>(level, i, window, selection);
+      stepOfRadius<0, kLast>(level, i, window);
   }
   template <int kRadius, bool kLast>
-  void stepOfRadius(const StereoLevel& level, int i, const RefinementWindow& window,
-                    const Selection& selection) {
+  void stepOfRadius(const StereoLevel& level, int i, const RefinementWindow& window) {
     const RefinementOptions& options = level.options.refinement;
     const View<const float> before = readOnly(level.disparity[i % 2]);
     const PlaneLimits limits = planeLimits(options);
@@ -317,19 +333,8 @@ class StereoPasses {
     if (hold) return;
     const MixedStepKernel<kLast> mixed{
         level.residuals, level.mixed_list, &level.counters->mixed_count,
-        solver,          selection,        options.radius_px};
+        solver,          level.selection,  options.radius_px};
     executor_.launch("mixed windows' step", mixed, mixed.blocks());
-  }
-
-  void measureShare(const StereoLevel& level) {
-    OpenShare* share = &level.counters->share;
-    const float* disparity = refined(level).data;
-    const NearestKernel nearest{disparity, level.width * level.height, share};
-    executor_.launch("nearest", nearest, nearest.blocks());
-    const OpenShareKernel open{disparity, readOnly(level.gray[0]), level.options.darkest_gray,
-                               share};
-    executor_.launch("open share", open, open.blocks());
-    executor_.mark("share");
   }
 
   void smooth(const StereoLevel& level) {

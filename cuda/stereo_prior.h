@@ -87,7 +87,7 @@ struct PriorRowKernel {
 /// A thread: one column of one view, from above or from below, each row taking over what the row
 /// before it says where its points are nearer.
 struct PriorSweepKernel {
-  static constexpr int kThreads = 32, kPhases = 1;
+  static constexpr int kThreads = 32, kPhases = 1, kAhead = 12;
   using Shared = Nothing;
   using Local = Nothing;
   PriorRows rows;
@@ -100,19 +100,29 @@ struct PriorSweepKernel {
     PriorEvidence* out = at.y == 0 ? rows.above : rows.below;
     PriorEvidence before{};
     int before_row = -1;
-    for (int k = 0; k < rows.rows; ++k) {
-      const int r = at.y == 0 ? k : rows.rows - 1 - k;
-      if (!rows.has(view, r)) continue;
-      const std::ptrdiff_t place = rows.place(view, r, u);
-      PriorEvidence here = rows.own[place];
-      if (before_row >= 0) {
-        const int apart = r > before_row ? r - before_row : before_row - r;
-        here = nearerEvidence(here, before, static_cast<float>(apart * rows.step));
+    for (int k = 0; k < rows.rows; k += kAhead) {
+      PriorEvidence own[kAhead];  // fetched together: their latency is paid once
+      for (int j = 0; j < kAhead; ++j)
+        if (k + j < rows.rows) own[j] = rows.own[rows.place(view, rowOf(at.y, k + j), u)];
+      for (int j = 0; j < kAhead; ++j) {
+        if (k + j >= rows.rows) break;
+        const int r = rowOf(at.y, k + j);
+        PriorEvidence here = own[j];
+        if (here.disparity_px == kNoSupport) continue;  // a row without points
+        if (before_row >= 0) {
+          const int apart = r > before_row ? r - before_row : before_row - r;
+          here = nearerEvidence(here, before, static_cast<float>(apart * rows.step));
+        }
+        out[rows.place(view, r, u)] = here;
+        before = here;
+        before_row = r;
       }
-      out[place] = here;
-      before = here;
-      before_row = r;
     }
+  }
+
+ private:
+  SOFTSCOPE_HD int rowOf(int direction, int k) const {
+    return direction == 0 ? k : rows.rows - 1 - k;
   }
 };
 

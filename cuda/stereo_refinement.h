@@ -93,6 +93,21 @@ struct MarkStepsBody {
 struct Selection {
   float weights[kWidestWindow * kSelectLanes], tolerance[kWidestWindow * kSelectLanes];
 };
+/// Stores it where lanes can read different places at once.
+struct StoreSelectionKernel {
+  static constexpr int kThreads = 256, kPhases = 1;
+  static_assert(kThreads >= kWidestWindow * kSelectLanes, "a thread a place");
+  using Shared = Nothing;
+  using Local = Nothing;
+  Selection selection;
+  Selection* out;
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
+    if (at.thread >= kWidestWindow * kSelectLanes) return;
+    out->weights[at.thread] = selection.weights[at.thread];
+    out->tolerance[at.thread] = selection.tolerance[at.thread];
+  }
+};
 struct MarkMixedBody {
   View<const float> disparity;
   View<const std::uint8_t> near_marks;  // spread along rows
@@ -323,7 +338,7 @@ struct MixedStepKernel {
   const int* list;
   const int* list_count;
   StepSolver solver;
-  Selection selection;
+  const Selection* selection;
   int radius;
 
   Grid blocks() const { return {kBlocks, 1, 1}; }
@@ -363,7 +378,7 @@ struct MixedStepKernel {
       if (row < 0 || row >= solver.before.height) continue;
       const int k = y * kSelectLanes + lane;
       const float apart = absoluteOf(solver.before.at(column, row) - centre);
-      const float w = apart <= selection.tolerance[k] ? selection.weights[k] : 0.0f;
+      const float w = apart <= selection->tolerance[k] ? selection->weights[k] : 0.0f;
       const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(row) * solver.before.width + column;
       const float fy = static_cast<float>(y - radius);
       const float g = w * in.planes[0][place], q = w * in.planes[1][place];

@@ -21,23 +21,57 @@ struct PatchWindow {
   float weights[(2 * kWidestReach + 1) * (2 * kWidestReach + 1)];
 };
 
-/// A thread a block of pixels.
+/// A block of threads a block of pixels, kPixels of them at a time; a lane a sum, in raster order.
 struct BlockMeanKernel {
-  static constexpr int kThreads = 64, kPhases = 1;
-  using Shared = Nothing;
-  using Local = Nothing;
+  static constexpr int kThreads = 64, kPhases = 4, kPixels = 256, kSums = 5;
+  struct Shared {
+    float terms[kSums][kPixels];  // 0 where a pixel is unmeasured
+    float sums[kSums];
+  };
+  struct Local {
+    float sum;
+  };
   View<const float> disparity, sigma;
   SmoothingRules rules;
   SmoothingBlock* blocks_out;
 
-  Grid blocks() const { return {blocksFor(rules.columns * rules.rows, kThreads), 1, 1}; }
+  Grid blocks() const { return {rules.columns, rules.rows, 1}; }
+  SOFTSCOPE_HD int repeats(const Place&) const {
+    return (rules.size * rules.size + kPixels - 1) / kPixels;
+  }
+
   template <int kPhase>
-  SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
-    const int i = at.x * kThreads + at.thread;
-    if (i >= rules.columns * rules.rows) return;
-    blocks_out[i] =
-        smoothingBlock(disparity.data, sigma.data, disparity.width, disparity.height,
-                       i % rules.columns * rules.size, i / rules.columns * rules.size, rules.size);
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
+    const int u0 = at.x * rules.size, v0 = at.y * rules.size, first = at.repeat * kPixels;
+    const int rest = rules.size * rules.size - first, count = rest < kPixels ? rest : kPixels;
+    if constexpr (kPhase == 0) {
+      for (int i = at.thread; i < count; i += kThreads)
+        loadTerms(u0, v0, (first + i) % rules.size, (first + i) / rules.size, i, shared);
+    } else if constexpr (kPhase == 1) {
+      if (at.thread >= kSums) return;
+      float sum = at.repeat == 0 ? 0.0f : local.sum;
+      for (int i = 0; i < count; ++i) sum += shared.terms[at.thread][i];
+      local.sum = sum;
+    } else if constexpr (kPhase == 2) {
+      if (at.thread < kSums) shared.sums[at.thread] = local.sum;
+    } else if (at.thread == 0 && at.repeat + 1 == repeats(at)) {
+      const float* s = shared.sums;
+      blocks_out[at.y * rules.columns + at.x] =
+          blockFromSums({s[0], s[1], s[2], s[3], s[4]}, u0, v0);
+    }
+  }
+
+ private:
+  SOFTSCOPE_HD void loadTerms(int u0, int v0, int x, int y, int i, Shared& shared) const {
+    const bool inside = disparity.contains(u0 + x, v0 + y);
+    const float d = inside ? disparity.at(u0 + x, v0 + y) : quietNan();
+    const float weight = inside ? smoothingWeight(d, sigma.at(u0 + x, v0 + y)) : 0.0f;
+    const bool counts = weight > 0;
+    shared.terms[0][i] = counts ? 1.0f : 0.0f;
+    shared.terms[1][i] = weight;
+    shared.terms[2][i] = weight * static_cast<float>(x);
+    shared.terms[3][i] = weight * static_cast<float>(y);
+    shared.terms[4][i] = counts ? weight * d : 0.0f;
   }
 };
 /// A thread a patch.

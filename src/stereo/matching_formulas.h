@@ -36,15 +36,22 @@ inline int gainQ8(double gradient_gain) {
   return static_cast<int>(std::lround(gradient_gain * 256));
 }
 
-/// Sum of |gradient| of the support window around `centre`, over every second pixel.
+/// The support window: every second pixel of nine by nine.
+constexpr int kSupportSide = kSupportMargin + 1;
+constexpr int kSupportPixels = kSupportSide * kSupportSide;
+SOFTSCOPE_FORMULA int supportOffset(int index) { return 2 * index - kSupportMargin; }
+
+/// |gradient| of one pixel.
+SOFTSCOPE_FORMULA int supportTexture(int packed) {
+  const int du = packed % 256 - 128, dv = packed / 256 - 128;
+  return (du < 0 ? -du : du) + (dv < 0 ? -dv : dv);
+}
+/// Sum over the support window around `centre`.
 SOFTSCOPE_FORMULA int supportTextureSum(const std::uint16_t* centre, int stride) {
   int sum = 0;
-  for (int dy = -kSupportMargin; dy <= kSupportMargin; dy += 2)
-    for (int dx = -kSupportMargin; dx <= kSupportMargin; dx += 2) {
-      const int packed = centre[dy * stride + dx];
-      const int du = packed % 256 - 128, dv = packed / 256 - 128;
-      sum += (du < 0 ? -du : du) + (dv < 0 ? -dv : dv);
-    }
+  for (int y = 0; y < kSupportSide; ++y)
+    for (int x = 0; x < kSupportSide; ++x)
+      sum += supportTexture(centre[supportOffset(y) * stride + supportOffset(x)]);
   return sum;
 }
 

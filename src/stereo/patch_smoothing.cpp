@@ -1,6 +1,7 @@
 #include "stereo/patch_smoothing.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "core/parallel.h"
@@ -8,6 +9,24 @@
 
 namespace softscope {
 namespace {
+
+SmoothingBlock meanOf(const DisparityMap& map, int u0, int v0, int size) {
+  SmoothingSums sums;
+  const int v1 = std::min(v0 + size, map.disparity_px.height_px),
+            u1 = std::min(u0 + size, map.disparity_px.width_px);
+  for (int v = v0; v < v1; ++v)
+    for (int u = u0; u < u1; ++u) {
+      const float d = map.disparity_px.at(u, v);
+      const float weight = smoothingWeight(d, map.sigma_px.at(u, v));
+      if (!(weight > 0)) continue;
+      sums.count += 1;
+      sums.w += weight;
+      sums.wu += weight * static_cast<float>(u - u0);
+      sums.wv += weight * static_cast<float>(v - v0);
+      sums.wd += weight * d;
+    }
+  return blockFromSums(sums, u0, v0);
+}
 
 class Patches {
  public:
@@ -19,9 +38,7 @@ class Patches {
         patches_(rules_.columns, rules_.rows) {
     parallelRows(rules_.rows, [&](int y) {
       for (int x = 0; x < rules_.columns; ++x)
-        blocks_.at(x, y) = smoothingBlock(map.disparity_px.row(0), map.sigma_px.row(0),
-                                          map.disparity_px.width_px, map.disparity_px.height_px,
-                                          x * rules_.size, y * rules_.size, rules_.size);
+        blocks_.at(x, y) = meanOf(map, x * rules_.size, y * rules_.size, rules_.size);
     });
     const std::vector<float> window = smoothingWindow(rules_.reach);
     parallelRanges(rules_.rows, 1, [&](int begin, int end) {  // a row is work enough

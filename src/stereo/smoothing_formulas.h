@@ -71,29 +71,23 @@ inline std::vector<float> smoothingWindow(int reach) {
   return window;
 }
 
-SOFTSCOPE_HD inline SmoothingBlock smoothingBlock(const float* disparity_px, const float* sigma_px,
-                                                  int width, int height, int u0, int v0, int size) {
+/// Weight of a pixel in the mean of its block; 0 where it is unmeasured.
+SOFTSCOPE_FORMULA float smoothingWeight(float disparity_px, float sigma_px) {
+  return isNumber(disparity_px) && sigma_px > 0 ? 1 / (sigma_px * sigma_px) : 0.0f;
+}
+/// Sums over a block's pixels in raster order: their count, weights, and weighted column, row and
+/// disparity, from the first pixel (u0, v0).
+struct SmoothingSums {
   float count = 0, w = 0, wu = 0, wv = 0, wd = 0;
-  const int v1 = v0 + size < height ? v0 + size : height,
-            u1 = u0 + size < width ? u0 + size : width;
-  for (int v = v0; v < v1; ++v)
-    for (int u = u0; u < u1; ++u) {
-      const float d = disparity_px[v * width + u], sigma = sigma_px[v * width + u];
-      if (!isNumber(d) || !(sigma > 0)) continue;
-      const float weight = 1 / (sigma * sigma);
-      count += 1;
-      w += weight;
-      wu += weight * static_cast<float>(u - u0);
-      wv += weight * static_cast<float>(v - v0);
-      wd += weight * d;
-    }
+};
+SOFTSCOPE_FORMULA SmoothingBlock blockFromSums(const SmoothingSums& sums, int u0, int v0) {
   SmoothingBlock block;
-  if (count < SmoothingRules::kFewestPixels) return block;
-  block.u = static_cast<float>(u0) + wu / w;
-  block.v = static_cast<float>(v0) + wv / w;
-  block.disparity_px = wd / w;
-  block.information = w;
-  block.variance = count / w;
+  if (sums.count < SmoothingRules::kFewestPixels) return block;
+  block.u = static_cast<float>(u0) + sums.wu / sums.w;
+  block.v = static_cast<float>(v0) + sums.wv / sums.w;
+  block.disparity_px = sums.wd / sums.w;
+  block.information = sums.w;
+  block.variance = sums.count / sums.w;
   return block;
 }
 

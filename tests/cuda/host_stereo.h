@@ -62,6 +62,7 @@ class HostStereo {
       level.counters->point_count = prior.point_count;
     }
     passes_.finishLevel(level);
+    passes_.measureShare(level);
   }
   static std::size_t bytesFor(const StereoOptions& options, int width, int height) {
     cuda::Arena counting;
