@@ -262,10 +262,14 @@ class StereoPasses {
              level);
     perPixel("near steps",
              SpreadRowBody{readOnly(level.marks), level.near_marks, options.radius_px}, level);
-    perPixel("mixed windows",
-             MarkMixedBody{initial, readOnly(level.near_marks), level.mixed, level.mixed_list,
-                           &level.counters->mixed_count, options.radius_px, selectionOf(options)},
-             level);
+    const MarkMixedKernel mark{initial,
+                               readOnly(level.near_marks),
+                               level.mixed,
+                               level.mixed_list,
+                               &level.counters->mixed_count,
+                               options.radius_px,
+                               selectionOf(options)};
+    executor_.launch("mixed windows", mark, mark.blocks());
     for (int i = 0; i < options.iterations; ++i) {
       if (i + 1 < options.iterations)
         step<false>(level, i, window);

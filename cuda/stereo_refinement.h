@@ -108,7 +108,16 @@ struct StoreSelectionKernel {
     out->tolerance[at.thread] = selection.tolerance[at.thread];
   }
 };
-struct MarkMixedBody {
+/// A block: 32 x 16 pixels.
+struct MarkMixedKernel {
+  static constexpr int kThreads = 256, kPhases = 2, kWidth = 32, kHeight = 16;
+  static constexpr int kReach = RefinementOptions::kLargestRadiusPx;
+  static constexpr int kColumns = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
+  struct Shared {
+    float disparity[kRows][kColumns];
+    std::uint8_t near_marks[kRows][kWidth];
+  };
+  using Local = Nothing;
   View<const float> disparity;
   View<const std::uint8_t> near_marks;  // spread along rows
   View<std::uint8_t> mixed;
@@ -117,21 +126,46 @@ struct MarkMixedBody {
   int radius;
   Selection selection;
 
-  SOFTSCOPE_HD void operator()(int u, int v, int) const {
-    const float centre = disparity.at(u, v);
-    bool found = false;
-    if (isNumber(centre)) {
-      std::uint8_t near = 0;
-      for (int y = v - radius; y <= v + radius; ++y)
-        if (y >= 0 && y < near_marks.height) near |= near_marks.at(u, y);
-      for (int y = -radius; near != 0 && y <= radius; ++y)
-        for (int x = -radius; x <= radius; ++x)
-          if (disparity.contains(u + x, v + y))
-            found |= absoluteOf(disparity.at(u + x, v + y) - centre) >
-                     selection.tolerance[(y + radius) * kSelectLanes + x + radius];
+  Grid blocks() const {
+    return {blocksFor(mixed.width, kWidth), blocksFor(mixed.height, kHeight), 1};
+  }
+
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
+    const int u0 = at.x * kWidth, v0 = at.y * kHeight;
+    if constexpr (kPhase == 0) {
+      for (int i = at.thread; i < kColumns * kRows; i += kThreads) {
+        const int x = i % kColumns, y = i / kColumns, u = u0 - kReach + x, v = v0 - kReach + y;
+        shared.disparity[y][x] = disparity.contains(u, v) ? disparity.at(u, v) : quietNan();
+      }
+      for (int i = at.thread; i < kWidth * kRows; i += kThreads) {
+        const int u = u0 + i % kWidth, v = v0 - kReach + i / kWidth;
+        shared.near_marks[i / kWidth][i % kWidth] =
+            near_marks.contains(u, v) ? near_marks.at(u, v) : std::uint8_t{0};
+      }
+    } else {
+      for (int i = at.thread; i < kWidth * kHeight; i += kThreads) {
+        const int x = i % kWidth, y = i / kWidth, u = u0 + x, v = v0 + y;
+        if (!mixed.contains(u, v)) continue;
+        const bool found = isMixed(x, y, shared);
+        mixed.at(u, v) = found;
+        if (found) list[atomicPlus(list_count, 1)] = v * mixed.width + u;
+      }
     }
-    mixed.at(u, v) = found;
-    if (found) list[atomicPlus(list_count, 1)] = v * disparity.width + u;
+  }
+
+ private:
+  SOFTSCOPE_HD bool isMixed(int x, int y, const Shared& shared) const {
+    const float centre = shared.disparity[y + kReach][x + kReach];
+    std::uint8_t near = 0;
+    for (int dy = -radius; dy <= radius; ++dy) near |= shared.near_marks[y + kReach + dy][x];
+    if (!isNumber(centre) || near == 0) return false;
+    bool found = false;
+    for (int dy = -radius; dy <= radius && !found; ++dy)
+      for (int dx = -radius; dx <= radius; ++dx)
+        found |= absoluteOf(shared.disparity[y + kReach + dy][x + kReach + dx] - centre) >
+                 selection.tolerance[(dy + radius) * kSelectLanes + dx + radius];
+    return found;
   }
 };
 
