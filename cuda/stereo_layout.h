@@ -6,10 +6,12 @@
 
 #include "core/image.h"
 #include "cuda/arena.h"
+#include "cuda/stereo_dense.h"
 #include "cuda/stereo_filter.h"
-#include "cuda/stereo_matching.h"
+#include "cuda/stereo_mixed.h"
 #include "cuda/stereo_prior.h"
 #include "cuda/stereo_refinement.h"
+#include "cuda/stereo_support.h"
 #include "cuda/stereo_surface.h"
 #include "stereo/pyramid.h"
 #include "stereo/stereo_matcher.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cuda/kernel.h"
-#include "cuda/stereo_matching.h"
+#include "cuda/stereo_dense.h"
 #include "stereo/prior_formulas.h"
 
 namespace softscope::cuda {
