@@ -196,8 +196,8 @@ class Stereo::Device {
   static void check(const StereoOptions& options, int width_px,
                     const HostPriorFunction& host_prior) {
     requireDeviceLimits(options, width_px);
-    require(options.elas.prior == "rows" || host_prior != nullptr, "stereo.elas.prior",
-            options.elas.prior, "the GPU has the prior by rows alone");
+    if (options.elas.prior == PriorMethod::kPlanes && host_prior == nullptr)
+      throw OptionError("the prior by planes comes from the host: give planePrior(), or take rows");
     requireDevice();
   }
   const StereoLevel& full() const { return layout_.levels.front(); }
@@ -274,7 +274,7 @@ class Stereo::Device {
   void run(Passes& passes, const Launch& launch) {
     const auto finish = [&] { launch(finish_, stream_, [&] { passes.finish(rig_); }); };
     const auto matchLevel = [&](int k, const auto& begin) {
-      const bool by_rows = full().options.elas.prior == "rows";
+      const bool by_rows = full().options.elas.prior == PriorMethod::kRows;
       const auto end = [&] { passes.finishLevel(level(k)); };
       launch(levels_[static_cast<std::size_t>(k)], stream_, [&] {
         begin();

@@ -81,7 +81,7 @@ class StereoPasses {
   void startLevel(const StereoLevel& level) {
     prepare(level);
     findSupport(level);
-    if (level.options.elas.prior == "rows") interpolatePrior(level);
+    if (level.options.elas.prior == PriorMethod::kRows) interpolatePrior(level);
   }
   /// The rest. By planes, support points and prior have come from the host.
   void finishLevel(const StereoLevel& level) {
@@ -307,14 +307,6 @@ class StereoPasses {
   }
   template <bool kLast>
   void step(const StereoLevel& level, int i, const RefinementWindow& window) {
-    constexpr int kUsualRadius = 6;
-    if (level.options.refinement.radius_px == kUsualRadius)
-      stepOfRadius<kUsualRadius, kLast>(level, i, window);
-    else
-      stepOfRadius<0, kLast>(level, i, window);
-  }
-  template <int kRadius, bool kLast>
-  void stepOfRadius(const StereoLevel& level, int i, const RefinementWindow& window) {
     const RefinementOptions& options = level.options.refinement;
     const View<const float> before = readOnly(level.disparity[i % 2]);
     const PlaneLimits limits = planeLimits(options);
@@ -326,12 +318,11 @@ class StereoPasses {
     const bool hold = i == 0 && !kLast;
     const StepSolver solver{limits, kLast ? 1.0f : static_cast<float>(options.relaxation), before,
                             level.disparity[(i + 1) % 2], level.sigma};
-    WindowStepKernel<kRadius, kLast> windows{level.residuals,
-                                             readOnly(level.mixed),
-                                             solver,
-                                             hold ? MixedWindows::kHold : MixedWindows::kLeave,
-                                             options.radius_px,
-                                             {}};
+    WindowStepKernel<kLast> windows{level.residuals,
+                                    readOnly(level.mixed),
+                                    solver,
+                                    hold ? MixedWindows::kHold : MixedWindows::kLeave,
+                                    {}};
     std::copy(window.weights.begin(), window.weights.end(), windows.window);
     executor_.launch("windows", windows, windows.blocks());
     if (hold) return;
@@ -389,8 +380,6 @@ inline void requireDeviceLimits(const StereoOptions& options, int width_px) {
   require(options.method == "elas", "stereo.method", options.method, "only elas runs on the GPU");
   require(width_px <= PriorRowKernel::kWidest, "image width", width_px,
           "the GPU takes at most 8192 pixels");
-  require(options.refinement.highpass_sigma_px <= 26, "stereo.refinement.highpass_sigma_px",
-          options.refinement.highpass_sigma_px, "the GPU takes at most 26");
   require(options.smoothing.reach_blocks <= PatchWindow::kWidestReach,
           "stereo.smoothing.reach_blocks", options.smoothing.reach_blocks,
           "the GPU takes at most 7");

@@ -128,12 +128,12 @@ struct StepSolver {
 /// What a step does with windows that mix surfaces.
 enum class MixedWindows { kHold, kLeave };
 
-/// A block: 32 x 16 pixels. kRadius 0: the radius is `radius`.
-template <int kRadius, bool kLast>
+/// A block: 32 x 16 pixels.
+template <bool kLast>
 struct WindowStepKernel {
   static constexpr int kThreads = 256, kWidth = 32, kHeight = 16;
   static constexpr int kPhases = kLast ? 7 : 3;
-  static constexpr int kReach = kRadius > 0 ? kRadius : RefinementOptions::kLargestRadiusPx;
+  static constexpr int kReach = RefinementOptions::radius_px;
   static constexpr int kColumns = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
   static constexpr int kPixelsOfThread = kWidth * kHeight / kThreads;
   struct Shared {
@@ -147,7 +147,6 @@ struct WindowStepKernel {
   View<const std::uint8_t> mixed;
   StepSolver solver;
   MixedWindows mixed_windows;
-  int radius;
   float window[kWidestWindow];
 
   Grid blocks() const {
@@ -163,7 +162,7 @@ struct WindowStepKernel {
     } else if constexpr (kPhase == 2) {
       for (int k = 0; k < kPixelsOfThread; ++k)
         windowMomentsOf([&](int moment, int x) { return columnOf(shared, moment, at, k)[x]; },
-                        window, reach(), local.moments[k]);
+                        window, kReach, local.moments[k]);
       if constexpr (kLast)
         load(at, 2, shared);
       else
@@ -176,7 +175,7 @@ struct WindowStepKernel {
         for (int plane = 0; plane < 2; ++plane) {
           const float* column = columnOf(shared, plane, at, k);
           float sum = 0;
-          for (int x = -reach(); x <= reach(); ++x) sum += window[x + reach()] * column[x];
+          for (int x = -kReach; x <= kReach; ++x) sum += window[x + kReach] * column[x];
           local.evidence[k][kFirst + plane] = sum;
         }
       if constexpr (kPhase == 4)
@@ -187,11 +186,9 @@ struct WindowStepKernel {
   }
 
  private:
-  SOFTSCOPE_HD int reach() const { return kRadius > 0 ? kRadius : radius; }
-
   SOFTSCOPE_HD void load(const Place& at, int first, Shared& shared) const {
-    const int columns = kWidth + 2 * reach(), rows = kHeight + 2 * reach();
-    const int u0 = at.x * kWidth - reach(), v0 = at.y * kHeight - reach();
+    const int columns = kWidth + 2 * kReach, rows = kHeight + 2 * kReach;
+    const int u0 = at.x * kWidth - kReach, v0 = at.y * kHeight - kReach;
     for (int i = at.thread; i < columns * rows; i += kThreads) {
       const int x = i % columns, y = i / columns, u = u0 + x, v = v0 + y;
       const bool inside = mixed.contains(u, v);
@@ -201,23 +198,23 @@ struct WindowStepKernel {
     }
   }
   SOFTSCOPE_HD void sumColumns(const Place& at, Shared& shared) const {
-    const int columns = kWidth + 2 * reach();
+    const int columns = kWidth + 2 * kReach;
     for (int i = at.thread; i < columns * kHeight; i += kThreads) {
       const int x = i % columns, row = i / columns;
       float sums[5];
-      columnMomentsOf([&](int y) { return shared.planes[0][row + reach() + y][x]; },
-                      [&](int y) { return shared.planes[1][row + reach() + y][x]; }, window,
-                      reach(), sums);
+      columnMomentsOf([&](int y) { return shared.planes[0][row + kReach + y][x]; },
+                      [&](int y) { return shared.planes[1][row + kReach + y][x]; }, window, kReach,
+                      sums);
       for (int k = 0; k < 5; ++k) shared.columns[k][row][x] = sums[k];
     }
   }
   SOFTSCOPE_HD void sumEvidenceColumns(const Place& at, Shared& shared) const {
-    const int columns = kWidth + 2 * reach();
+    const int columns = kWidth + 2 * kReach;
     for (int i = at.thread; i < columns * kHeight; i += kThreads) {
       const int x = i % columns, row = i / columns;
       for (int plane = 0; plane < 2; ++plane) {
         float sum = 0;
-        for (int y = 0; y <= 2 * reach(); ++y) sum += window[y] * shared.planes[plane][row + y][x];
+        for (int y = 0; y <= 2 * kReach; ++y) sum += window[y] * shared.planes[plane][row + y][x];
         shared.columns[plane][row][x] = sum;
       }
     }
@@ -229,7 +226,7 @@ struct WindowStepKernel {
   }
   SOFTSCOPE_HD const float* columnOf(const Shared& shared, int moment, const Place& at,
                                      int k) const {
-    return &shared.columns[moment][rowInBlock(at, k)][columnInBlock(at) + reach()];
+    return &shared.columns[moment][rowInBlock(at, k)][columnInBlock(at) + kReach];
   }
   SOFTSCOPE_HD void solve(const Place& at, const Local& local) const {
     for (int k = 0; k < kPixelsOfThread; ++k) {

@@ -132,7 +132,7 @@ Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& 
   const int width = left.width_px(), height = left.height_px();
   Raster<std::int16_t> disparity(width, height, -1);
   if (points.empty()) return disparity;
-  const Raster<std::int16_t> prior = options.elas.prior == "rows"
+  const Raster<std::int16_t> prior = options.elas.prior == PriorMethod::kRows
                                          ? interpolateRows(points, width, height)
                                          : interpolatePlanes(points, width, height);
   const int columns = (width + kTileWidth - 1) / kTileWidth;

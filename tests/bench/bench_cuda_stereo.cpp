@@ -1,7 +1,7 @@
 // tests/bench/bench_cuda_stereo.cpp: stereo on the GPU: equal to the CPU, and how long.
 //
 // bench_cuda_stereo LEFT.pgm RIGHT.pgm [LEFT.pgm RIGHT.pgm …] [--repeats N] [--rows] [--check]
-// Binary 8-bit PGM, rectified, rows aligned. --rows: stereo.elas.prior=rows. --check compares
+// Binary 8-bit PGM, rectified, rows aligned. --rows: the prior by rows. --check compares
 // alone, for compute-sanitizer.
 #include <algorithm>
 #include <chrono>
@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--rows")
-      options.elas.prior = "rows";
+      options.elas.prior = PriorMethod::kRows;
     else if (argument == "--check")
       check_only = true;
     else if (argument == "--repeats" && i + 1 < argc)

@@ -52,7 +52,7 @@ class HostStereo {
  private:
   void matchLevel(const cuda::StereoLevel& level) {
     passes_.startLevel(level);
-    if (level.options.elas.prior == "planes") {
+    if (level.options.elas.prior == PriorMethod::kPlanes) {
       Raster<float> confirmed(level.grid.columns, level.grid.rows);
       std::copy_n(level.kept, confirmed.size(), confirmed.values.data());
       const HostPrior prior = planePrior(confirmed, level.options, level.width, level.height);

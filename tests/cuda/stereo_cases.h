@@ -81,30 +81,23 @@ inline StereoOptions optionsTo(int disparity_max_px) {
 }
 
 inline std::vector<StereoCase> stereoCases() {
+  StereoOptions rows = optionsTo(255);
+  rows.elas.prior = PriorMethod::kRows;
   StereoOptions odd = optionsTo(61);
   odd.disparity_min_px = 3;
+  odd.elas.prior = PriorMethod::kRows;
   odd.elas.support_step_px = 4;
   odd.elas.speckle_size_px = 40;
-  odd.elas.gap_width_px = 3;
-  odd.elas.coarser_above = 0;
-  odd.refinement.radius_px = 4;
-  odd.refinement.iterations = 2;
-  odd.refinement.highpass_sigma_px = 2;
-  odd.smoothing.block_px = 6;
-  odd.erode_edges_px = 2;
-  odd.border_px = 3;
+  odd.smoothing.block_px = 20;
+  odd.smoothing.reach_blocks = 1;
   odd.dark_margin_px = 2;
-  odd.elas.prior = "rows";
-  StereoOptions rows = optionsTo(255);
-  rows.elas.prior = "rows";
-  StereoOptions once = optionsTo(40);
-  once.refinement.iterations = 1;
-  once.smoothing.reach_blocks = 0;
-  once.elas.coarser_levels = 0;
+  StereoOptions one_level = optionsTo(40);
+  one_level.smoothing.reach_blocks = 0;
+  one_level.elas.coarser_levels = 0;
   return {{"defaults", 240, 180, optionsTo(255), 0, false},
           {"rowPrior", 240, 180, rows, 0, false},
           {"otherOptions", 171, 131, odd, 0.01, true},
-          {"oneIteration", 96, 80, once, 0, false}};
+          {"oneLevel", 96, 80, one_level, 0, false}};
 }
 
 inline Mask maskOf(const StereoCase& of) {

@@ -43,7 +43,7 @@ TEST_P(StereoPasses, FindTheCpusSupportAndPrior) {
   EXPECT_EQ(differing(test::rasterOf(kept), expected), 0);
   EXPECT_EQ(full().counters->point_count, static_cast<int>(points.size()));
 
-  const bool by_rows = options.elas.prior == "rows";
+  const bool by_rows = options.elas.prior == PriorMethod::kRows;
   const auto priorOf = [&](const std::vector<SupportPoint>& from) {
     return by_rows ? interpolateRows(from, GetParam().width, GetParam().height)
                    : interpolatePlanes(from, GetParam().width, GetParam().height);
