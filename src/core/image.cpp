@@ -20,8 +20,7 @@ GrayImage halve(const GrayImage& image) {
     const std::uint8_t *a = image.row(2 * v), *b = image.row(2 * v + 1);
     std::uint8_t* out = half.row(v);
     for (int u = 0; u < half.width_px; ++u)
-      out[u] =
-          static_cast<std::uint8_t>((a[2 * u] + a[2 * u + 1] + b[2 * u] + b[2 * u + 1] + 2) / 4);
+      out[u] = meanOfFour(a[2 * u], a[2 * u + 1], b[2 * u], b[2 * u + 1]);
   });
   return half;
 }

@@ -29,6 +29,11 @@ SOFTSCOPE_HD inline std::uint8_t toGray(Rgb8 colour) {
 }
 GrayImage toGray(const ColourImage& colour);
 
+/// Rounded.
+SOFTSCOPE_HD inline std::uint8_t meanOfFour(std::uint8_t a, std::uint8_t b, std::uint8_t c,
+                                            std::uint8_t d) {
+  return static_cast<std::uint8_t>((a + b + c + d + 2) / 4);
+}
 /// Means of 2 x 2 pixels, rounded; an odd last row or column is left out. Pixel (u, v) of the half
 /// lies at (2 u + 0.5, 2 v + 0.5) of the whole.
 GrayImage halve(const GrayImage& image);

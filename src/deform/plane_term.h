@@ -7,8 +7,6 @@
 
 #include "core/hd.h"
 
-#define SOFTSCOPE_FORMULA SOFTSCOPE_HD inline __attribute__((always_inline))
-
 namespace softscope {
 
 template <class V>

@@ -6,12 +6,13 @@
 
 #include "core/parallel.h"
 #include "stereo/kernel_sets.h"
+#include "stereo/matching_formulas.h"
 #include "stereo/plane_prior.h"
+#include "stereo/row_prior.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kDifferences = 50;  // summed in one cost: kernels.cpp
 constexpr int kMaxDisparities = StereoOptions::kLargestDisparityPx + 1;
 using DisparitySet = std::bitset<kMaxDisparities>;
 
@@ -45,15 +46,12 @@ class TileMatcher {
   TileMatcher(const GradientView& reference, const GradientView& other, int direction,
               const Raster<std::int16_t>& prior, const StereoOptions& options)
       : reference_(reference), other_(other), prior_(prior), options_(options) {
-    const ElasOptions& elas = options.elas;
-    const double cap = elas.prior_weight * kDifferences;
-    // -log(γ + exp(-t²/2σ²)) is flat beyond about 1.5 σ: a parabola up to there, then its plateau.
-    const double slope = cap / std::pow(1.5 * elas.prior_sigma_px, 2);
+    const PriorCost cost = priorCostOf(options.elas);
     tile_.direction = direction;
     tile_.width_px = prior.width_px;
-    tile_.band_px8 = static_cast<int>(std::lround(8 * 3 * elas.prior_sigma_px));
-    tile_.prior_slope = std::clamp(static_cast<int>(std::lround(slope)), 0, kLargestPriorSlope);
-    tile_.prior_cap = std::min(static_cast<int>(std::lround(cap)), tile_.prior_slope * 14);
+    tile_.band_px8 = cost.band_px8;
+    tile_.prior_slope = cost.slope;
+    tile_.prior_cap = cost.cap;
   }
 
   void match(int u0, int v0, DisparitySet shared, Raster<std::int16_t>& disparity) {
@@ -91,13 +89,13 @@ class TileMatcher {
       low = std::min<int>(low, prior);
       high = std::max<int>(high, prior);
     }
-    const int first = std::max((low - tile_.band_px8) / 8, options_.disparity_min_px);
-    const int last = std::min((high + tile_.band_px8) / 8 + 1, options_.disparity_max_px);
+    const DisparityBand band =
+        bandAround(low, high, tile_.band_px8, options_.disparity_min_px, options_.disparity_max_px);
     candidates_.clear();
     everywhere_.clear();
     for (int d = options_.disparity_min_px; d <= options_.disparity_max_px; ++d) {
       const bool is_shared = shared[static_cast<std::size_t>(d)];
-      if (!is_shared && (d < first || d > last)) continue;
+      if (!is_shared && (d < band.first || d > band.last)) continue;
       candidates_.push_back(static_cast<std::uint16_t>(d));
       everywhere_.push_back(is_shared);
     }
@@ -134,7 +132,9 @@ Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& 
   const int width = left.width_px(), height = left.height_px();
   Raster<std::int16_t> disparity(width, height, -1);
   if (points.empty()) return disparity;
-  const Raster<std::int16_t> prior = interpolatePlanes(points, width, height);
+  const Raster<std::int16_t> prior = options.elas.prior == PriorMethod::kRows
+                                         ? interpolateRows(points, width, height)
+                                         : interpolatePlanes(points, width, height);
   const int columns = (width + kTileWidth - 1) / kTileWidth;
   const int rows = (height + kTileHeight - 1) / kTileHeight;
   const SharedDisparities shared(points, columns, rows);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "stereo/filter_formulas.h"
 
 namespace softscope {
 namespace {
@@ -22,9 +23,9 @@ DepthMap depthFromDisparity(const DisparityMap& disparity, const RectifiedRig& r
     for (int u = 0; u < width; ++u) {
       const double d = disparity.disparity_px.at(u, v) + rig.disparity_offset_px;
       if (!(d > 0)) continue;
-      const double z = scale / d;
-      depth.depth_mm.at(u, v) = static_cast<float>(z);
-      depth.sigma_mm.at(u, v) = static_cast<float>(z * z / scale * disparity.sigma_px.at(u, v));
+      const DepthPixel pixel = depthOfDisparity(d, disparity.sigma_px.at(u, v), scale);
+      depth.depth_mm.at(u, v) = pixel.depth_mm;
+      depth.sigma_mm.at(u, v) = pixel.sigma_mm;
     }
   });
   return depth;

@@ -1,9 +1,9 @@
 #include "stereo/depth_steps.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "stereo/filter_formulas.h"
 #include "stereo/spread.h"
 
 namespace softscope {
@@ -17,7 +17,7 @@ void markLine(const float* d, std::uint8_t* mark, int count, int stride, int wid
     if (std::isnan(d[i * stride])) continue;
     const int apart = i - last;
     if (last >= 0 && apart <= widest &&
-        std::abs(d[i * stride] - d[last * stride]) > step + slope * static_cast<float>(apart - 1))
+        isDepthStep(d[i * stride], d[last * stride], apart, step, slope))
       mark[i * stride] = mark[last * stride] = 1;
     last = i;
   }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
 #include "core/parallel.h"
+#include "stereo/filter_formulas.h"
 #include "stereo/spread.h"
 
 namespace softscope {
@@ -86,9 +86,7 @@ void fillLine(float* line, int count, std::size_t stride, int width, float step)
     if (last >= 0 && gap > 0 && gap <= width) {
       const float before = line[last * stride];
       if (std::abs(here - before) <= step)
-        for (int k = 1; k <= gap; ++k)
-          line[(last + k) * stride] =
-              before + (here - before) * static_cast<float>(k) / static_cast<float>(gap + 1);
+        for (int k = 1; k <= gap; ++k) line[(last + k) * stride] = gapValue(before, here, k, gap);
     }
     last = i;
   }
@@ -125,8 +123,8 @@ Raster<float> checkLeftRight(const Raster<std::int16_t>& left, const Raster<std:
     for (int u = 0; u < left.width_px; ++u) {
       const int d = left.at(u, v);
       if (d < 0 || u - d < 0) continue;
-      const int back = right.at(u - d, v);
-      if (back >= 0 && std::abs(back - d) <= tolerance_px) checked.at(u, v) = static_cast<float>(d);
+      if (confirmsDisparity(d, right.at(u - d, v), tolerance_px))
+        checked.at(u, v) = static_cast<float>(d);
     }
   });
   return checked;

@@ -16,16 +16,7 @@
 namespace softscope {
 namespace {
 
-// Halving again is worth it if the last time closed a quarter of what was open; weak texture does,
-// what only one camera sees doesn't.
-constexpr double kWorthHalving = 0.75;
 constexpr double kEverything = 2;  // more than any share
-
-/// The same points as the right picture sees them.
-std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
-  for (SupportPoint& p : points) p.u_px -= static_cast<int>(p.disparity_px + 0.5f);
-  return points;
-}
 
 /// One level of the pyramid, times into `clock`.
 DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const StereoOptions& options,
@@ -61,15 +52,6 @@ DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const Ste
   return map;
 }
 
-/// The same search at half the size.
-StereoOptions halved(StereoOptions options) {
-  options.disparity_min_px /= 2;
-  options.disparity_max_px = (options.disparity_max_px + 1) / 2;
-  options.dark_margin_px = (options.dark_margin_px + 1) / 2;
-  options.elas.speckle_size_px /= 4;
-  return options;
-}
-
 /// Share of the pixels that are bright enough, and right of the strip that the right camera can't
 /// see, for which nothing was found.
 double unmatchedShare(const DisparityMap& map, const GrayImage& left, int darkest_gray) {
@@ -93,8 +75,7 @@ DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right,
   if (coarser_levels == 0 || std::min(left.width_px, left.height_px) < 2 * kSmallestPicturePx)
     return map;
   const double unmatched = unmatchedShare(map, left, options.darkest_gray);
-  if (unmatched <= options.elas.coarser_above || unmatched >= kWorthHalving * finer_unmatched)
-    return map;
+  if (!isHalvingWorth(options.elas, unmatched, finer_unmatched)) return map;
   fillFromHalf(matchPyramid(halve(left), halve(right), halved(options), coarser_levels - 1,
                             unmatched, clock),
                map);

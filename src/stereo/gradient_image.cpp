@@ -1,11 +1,11 @@
 #include "stereo/gradient_image.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "core/parallel.h"
 #include "stereo/kernel_sets.h"
+#include "stereo/matching_formulas.h"
 
 namespace softscope {
 namespace {
@@ -28,7 +28,7 @@ GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
   constexpr std::uint16_t kFlat = 128 + 256 * 128;
   packed_.assign(static_cast<std::size_t>(height_px_ + 2 * kRowMargin) * stride_, kFlat);
   const MatchingKernels& kernels = matchingKernels();
-  const int gain_q8 = static_cast<int>(std::lround(gain * 256));
+  const int gain_q8 = gainQ8(gain);
   parallelRanges(height_px_, 32, [&](int begin, int end) {
     std::vector<std::uint8_t> rows[3];
     for (int v = begin; v < end; ++v) {

@@ -1,24 +1,16 @@
 // src/stereo/matching_kernels.cpp: SOFTSCOPE_SIMD_SET names the instruction set.
 #include "stereo/matching_kernels.h"
 
+#include "stereo/matching_formulas.h"
 #include "stereo/simd.h"
 
 namespace softscope {
 namespace {
 
-inline int clampByte(int x) { return x < 0 ? 0 : (x > 255 ? 255 : x); }
-
 void sobelRow(const std::uint8_t* above, const std::uint8_t* middle, const std::uint8_t* below,
               int width, int gain_q8, std::uint16_t* packed) {
-  for (int u = 0; u < width; ++u) {
-    const int right = above[u + 1] + 2 * middle[u + 1] + below[u + 1];
-    const int left = above[u - 1] + 2 * middle[u - 1] + below[u - 1];
-    const int bottom = below[u - 1] + 2 * below[u] + below[u + 1];
-    const int top = above[u - 1] + 2 * above[u] + above[u + 1];
-    const int du = clampByte(128 + ((right - left) * gain_q8 + 128) / 256);
-    const int dv = clampByte(128 + ((bottom - top) * gain_q8 + 128) / 256);
-    packed[u] = static_cast<std::uint16_t>(du + 256 * dv);
-  }
+  for (int u = 0; u < width; ++u)
+    packed[u] = packedGradient(above, middle, below, u - 1, u, u + 1, gain_q8);
 }
 
 /// |a - b| of both gradients, added; kWordLanes pixels.

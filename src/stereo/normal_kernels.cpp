@@ -1,6 +1,7 @@
 // src/stereo/normal_kernels.cpp: SOFTSCOPE_SIMD_SET names the instruction set.
 #include "stereo/normal_kernels.h"
 
+#include "stereo/refinement_formulas.h"
 #include "stereo/simd.h"
 
 namespace softscope {
@@ -46,21 +47,14 @@ void findMixed(const float* const* rows, int radius, int width, float share, flo
 }
 
 void solveNormals(const NormalRow& row) {
-  const auto& m = row.moments.sums;
   for (int u = 0; u < row.width; u += kFloatLanes) {
-    const Floats a = loadFloats(m[0] + u), b = loadFloats(m[1] + u), c = loadFloats(m[2] + u),
-                 d = loadFloats(m[3] + u), e = loadFloats(m[4] + u), f = loadFloats(m[5] + u);
-    const Floats w = loadFloats(m[6] + u), xw = loadFloats(m[7] + u), yw = loadFloats(m[8] + u);
-    // The adjugate times the right side: the plane up to a positive factor.
-    const Floats c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d, c11 = a * f - c * c,
-                 c12 = b * c - a * e, c22 = a * d - b * b;
-    const Floats determinant = a * c00 + b * c01 + c * c02;
-    const Floats p0 = c00 * w + c01 * xw + c02 * yw, pu = c01 * w + c11 * xw + c12 * yw,
-                 pv = c02 * w + c12 * xw + c22 * yw;
-    const Floats du = laneNumbers() + (static_cast<float>(u) - row.cx_px);
-    const Floats x = pu * row.fx_px, y = pv * row.fy_px, z = p0 - pu * du - pv * row.dv_px;
+    Floats m[kFirstEvidence];
+    for (int k = 0; k < kFirstEvidence; ++k) m[k] = loadFloats(row.moments.sums[k] + u);
+    // Rounded once: the same on every instruction set.
+    const Floats du = (laneNumbers() + static_cast<float>(u)) - row.cx_px;
+    const auto [x, y, z, determinant] = planeNormal(m, du, row.dv_px, row.fx_px, row.fy_px);
     const Floats inverse = loadFloats(row.inverse + u);
-    const Ints holds = (inverse == inverse) & (a >= row.fewest_pixels) & (determinant > 1e-3f);
+    const Ints holds = (inverse == inverse) & (m[0] >= row.fewest_pixels) & (determinant > 1e-3f);
     // Inverse depth is positive in front: -n faces the camera.
     const Floats scale = holds ? -1.0f / squareRoot(x * x + y * y + z * z) : broadcast(kNaN);
     store(row.normal[0] + u, x * scale);

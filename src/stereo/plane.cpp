@@ -1,25 +1,13 @@
 #include "stereo/plane.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/parallel.h"
 #include "stereo/kernel_sets.h"
+#include "stereo/refinement_window.h"
 
 namespace softscope {
 namespace {
-
-/// Two box means one after the other are close to a Gaussian: variance 2 (w² - 1) / 12 with a width
-/// of w = 2 r + 1. Returns their 4 r + 1 weights.
-std::vector<float> slowWindow(double sigma_px) {
-  const int radius =
-      std::max(1, static_cast<int>(std::lround((std::sqrt(6 * sigma_px * sigma_px + 1) - 1) / 2)));
-  const int width = 2 * radius + 1;
-  std::vector<float> weights;
-  for (int x = -2 * radius; x <= 2 * radius; ++x)
-    weights.push_back(static_cast<float>(width - std::abs(x)) / static_cast<float>(width * width));
-  return weights;
-}
 
 /// Filters a band of rows from top to bottom; only the rows that the window needs are held.
 class BandPass {
@@ -56,14 +44,14 @@ class BandPass {
     for (int t = 0; t < taps_; ++t) shifted.push_back(padded + t);
     const RefinementKernels& kernels = refinementKernels();
     kernels.sumRows(shifted.data(), slow_.data(), taps_, image_.width_px, slow_rows_.row(slot(v)));
-    kernels.sumRows(&shifted[static_cast<std::size_t>(reach_ - 1)], kBinomial, 3, image_.width_px,
-                    smooth_rows_.row(slot(v)));
+    kernels.sumRows(&shifted[static_cast<std::size_t>(reach_ - 1)], kBinomialWeights, 3,
+                    image_.width_px, smooth_rows_.row(slot(v)));
   }
 
   /// The smooth rows around v minus the slow ones.
   void combineRows(int v, float* out) {
     std::vector<const float*> rows;
-    std::vector<float> weights(kBinomial, kBinomial + 3);
+    std::vector<float> weights(kBinomialWeights, kBinomialWeights + 3);
     for (int y = -1; y <= 1; ++y) rows.push_back(smooth_rows_.row(slot(v + y)));
     for (int y = -reach_; y <= reach_; ++y) {
       rows.push_back(slow_rows_.row(slot(v + y)));
@@ -76,7 +64,6 @@ class BandPass {
     out[width] = out[width + 1] = out[width + 2] = out[width - 1];
   }
 
-  static constexpr float kBinomial[3] = {0.25f, 0.5f, 0.25f};
   const GrayImage& image_;
   const std::vector<float>& slow_;
   int taps_, reach_;
@@ -88,7 +75,7 @@ class BandPass {
 
 Plane bandPass(const GrayImage& image, double highpass_sigma_px) {
   constexpr int kBandRows = 60;
-  const std::vector<float> slow = slowWindow(highpass_sigma_px);
+  const std::vector<float> slow = slowBrightnessWeights(highpass_sigma_px);
   Plane out(image.width_px, image.height_px);
   parallelRanges(image.height_px, kBandRows,
                  [&](int begin, int end) { BandPass(image, slow).filter(begin, end, out); });

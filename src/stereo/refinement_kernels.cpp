@@ -1,6 +1,7 @@
 // src/stereo/refinement_kernels.cpp: SOFTSCOPE_SIMD_SET names the instruction set.
 #include "stereo/refinement_kernels.h"
 
+#include "stereo/refinement_formulas.h"
 #include "stereo/simd.h"
 
 namespace softscope {
@@ -43,43 +44,26 @@ void residualRow(const ResidualRow& row) {
     Float4 pixels[kFloatLanes];
     for (int k = 0; k < kFloatLanes; ++k) pixels[k] = load<Float4>(row.right + i[k] - 1);
     const auto [p0, p1, p2, p3] = transpose(pixels).p;
-    const Floats c1 = 0.5f * (p2 - p0), c2 = p0 - 2.5f * p1 + 2.0f * p2 - 0.5f * p3,
-                 c3 = 1.5f * (p1 - p2) + 0.5f * (p3 - p0);
-    const Floats value = p1 + t * (c1 + t * (c2 + t * c3));
-    const Floats g = c1 + t * (2.0f * c2 + t * (3.0f * c3));
-    const Floats left = loadFloats(row.left + u), r = value - left;
-    const Floats w = inside / (1.0f + r * r * row.inverse_noise_sq);
-    store(row.information + u, w * (g * g + row.prior_weight));
-    store(row.target + u, w * (g * (g * d + r) + row.prior_weight * d));
+    const PixelResidual<Floats> pixel =
+        pixelResidual(loadFloats(row.left + u), catmullRom<Floats>(p0, p1, p2, p3, t), inside, d,
+                      row.inverse_noise_sq, row.prior_weight);
+    store(row.information + u, pixel.information);
+    store(row.target + u, pixel.target);
     if (row.weight == nullptr) continue;
-    store(row.residual_sq + u, w * r * r);
-    store(row.weight + u, w);
-    store(row.difference_sq + u, inside * r * r);
-    store(row.energy + u, inside * (value * value + left * left));
+    store(row.residual_sq + u, pixel.residual_sq);
+    store(row.weight + u, pixel.weight);
+    store(row.difference_sq + u, pixel.difference_sq);
+    store(row.energy + u, pixel.energy);
   }
 }
 
-// A window is symmetric: sums and differences of the pixels on either side of the centre serve the
-// even and the odd moments.
 void columnMoments(const float* const* information, const float* const* target, const float* window,
                    int radius, int width, float* const* out) {
   for (int u = 0; u < width; u += kFloatLanes) {
-    Floats g0 = window[radius] * loadFloats(information[radius] + u), g1{}, g2{};
-    Floats q0 = window[radius] * loadFloats(target[radius] + u), q1{};
-    for (int y = 1; y <= radius; ++y) {
-      const float w = window[radius + y], fy = static_cast<float>(y), wy = w * fy, wyy = wy * fy;
-      const Floats g_above = loadFloats(information[radius - y] + u),
-                   g_below = loadFloats(information[radius + y] + u),
-                   q_above = loadFloats(target[radius - y] + u),
-                   q_below = loadFloats(target[radius + y] + u);
-      const Floats g = g_below + g_above, q = q_below + q_above;
-      g0 += w * g;
-      g1 += wy * (g_below - g_above);
-      g2 += wyy * g;
-      q0 += w * q;
-      q1 += wy * (q_below - q_above);
-    }
-    const Floats sums[kColumnMomentCount] = {g0, g1, g2, q0, q1};
+    Floats sums[kColumnMomentCount];
+    columnMomentsOf([&](int y) { return loadFloats(information[radius + y] + u); },
+                    [&](int y) { return loadFloats(target[radius + y] + u); }, window, radius,
+                    sums);
     for (int k = 0; k < kColumnMomentCount; ++k) store(out[k] + u, sums[k]);
   }
 }
@@ -87,23 +71,8 @@ void columnMoments(const float* const* information, const float* const* target, 
 void rowMoments(const float* const* in, const float* window, int radius, int width,
                 const MomentRow& out) {
   for (int u = 0; u < width; u += kFloatLanes) {
-    Floats even[kColumnMomentCount], g_x{}, g_xx{}, g_xy{}, q_x{};
-    for (int k = 0; k < kColumnMomentCount; ++k) even[k] = window[radius] * loadFloats(in[k] + u);
-    for (int x = 1; x <= radius; ++x) {
-      const float w = window[radius + x], fx = static_cast<float>(x), wx = w * fx, wxx = wx * fx;
-      Floats before[kColumnMomentCount], after[kColumnMomentCount];
-      for (int k = 0; k < kColumnMomentCount; ++k) {
-        before[k] = loadFloats(in[k] + u - x);
-        after[k] = loadFloats(in[k] + u + x);
-        even[k] += w * (after[k] + before[k]);
-      }
-      g_x += wx * (after[0] - before[0]);
-      g_xx += wxx * (after[0] + before[0]);
-      g_xy += wx * (after[1] - before[1]);
-      q_x += wx * (after[3] - before[3]);
-    }
-    const Floats sums[kFirstEvidence] = {even[0], g_x,     even[1], g_xx,   g_xy,
-                                         even[2], even[3], q_x,     even[4]};
+    Floats sums[kFirstEvidence];
+    windowMomentsOf([&](int k, int x) { return loadFloats(in[k] + u + x); }, window, radius, sums);
     for (int k = 0; k < kFirstEvidence; ++k) store(out.sums[k] + u, sums[k]);
   }
 }
@@ -120,12 +89,11 @@ bool mixesSurfaces(const SelectedRows& rows, int u, Floats centre, Floats scale)
   return any != 0;
 }
 
-/// Always in the same order, so that every instruction set gives the same bytes.
-inline float sumLanes(const float* x) {
-  float eight[8], four[4];
-  for (int i = 0; i < 8; ++i) eight[i] = x[i] + x[i + 8];
-  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
-  return (four[0] + four[2]) + (four[1] + four[3]);
+inline float sumLanes(const float* x) { return sumLanesOf(x, 1); }
+
+/// Nine moments of a row, kFloatLanes columns.
+inline void loadMoments(const MomentRow& moments, int u, Floats (&m)[kFirstEvidence]) {
+  for (int k = 0; k < kFirstEvidence; ++k) m[k] = loadFloats(moments.sums[k] + u);
 }
 
 /// The nine moments of the plane.
@@ -197,41 +165,27 @@ void selectedMoments(const SelectedRows& rows, const int* columns, int count,
 
 /// D of the 3 x 3 system by Cramer's rule; NaN where the window makes no plane.
 void solvePlanes(const PlaneRow& row) {
-  const auto& m = row.moments.sums;
   for (int u = 0; u < row.width; u += kFloatLanes) {
-    const Floats a = loadFloats(m[0] + u), b = loadFloats(m[1] + u), c = loadFloats(m[2] + u),
-                 d = loadFloats(m[3] + u), e = loadFloats(m[4] + u), f = loadFloats(m[5] + u);
-    const Floats c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
-    const Floats determinant = a * c00 + b * c01 + c * c02;
-    const Floats found =
-        (c00 * loadFloats(m[6] + u) + c01 * loadFloats(m[7] + u) + c02 * loadFloats(m[8] + u)) /
-        determinant;
-    const Floats before = loadFloats(row.before + u), step = found - before;
-    // Comparisons with NaN are false, so an unmatched pixel stays unmatched.
-    const Ints holds = (determinant > 1e-3f * a * d * f) & (absolute(step) < row.farthest_step_px);
-    store(row.disparity + u, holds ? before + row.relaxation * step : broadcast(kNaN));
+    Floats m[kFirstEvidence];
+    loadMoments(row.moments, u, m);
+    store(row.disparity + u, planeDisparity(m, loadFloats(row.before + u), row.farthest_step_px,
+                                            row.relaxation, broadcast(kNaN)));
   }
 }
 
 /// Standard errors of what solvePlanes() found; NaN, and the disparity too, where it can't be
 /// trusted.
 void judgePlanes(const PlaneRow& row) {
-  const auto& m = row.moments.sums;
   for (int u = 0; u < row.width; u += kFloatLanes) {
-    const Floats a = loadFloats(m[0] + u), b = loadFloats(m[1] + u), c = loadFloats(m[2] + u),
-                 d = loadFloats(m[3] + u), e = loadFloats(m[4] + u), f = loadFloats(m[5] + u);
-    const Floats c00 = d * f - e * e;
-    const Floats determinant = a * c00 + b * (c * e - b * f) + c * (b * e - c * d);
-    // The matched disparity steadies the fit but is no evidence: it doesn't lower the error.
-    const Floats weight = loadFloats(m[10] + u), raw = 1.0f - row.prior_weight * weight / a;
-    const Floats evidence = raw > 1e-3f ? raw : broadcast(1e-3f);
-    const Floats noise_sq = loadFloats(m[9] + u) / weight + row.noise_floor_sq;
-    const Floats variance =
-        noise_sq * (c00 / determinant) / (evidence * evidence * row.independent_pixels) +
-        row.model_variance_px2;
+    Floats m[kFirstEvidence], evidence[kMomentCount - kFirstEvidence];
+    loadMoments(row.moments, u, m);
+    for (int k = kFirstEvidence; k < kMomentCount; ++k)
+      evidence[k - kFirstEvidence] = loadFloats(row.moments.sums[k] + u);
     const Floats disparity = loadFloats(row.disparity + u);
-    const Ints holds = (disparity == disparity) & (variance <= row.max_variance_px2) &
-                       (loadFloats(m[11] + u) <= row.max_difference * loadFloats(m[12] + u));
+    Ints holds;
+    const Floats variance = planeVariance(
+        m, evidence, disparity, row.prior_weight, row.noise_floor_sq, row.independent_pixels,
+        row.model_variance_px2, row.max_variance_px2, row.max_difference, &holds);
     store(row.disparity + u, holds ? disparity : broadcast(kNaN));
     store(row.sigma + u, holds ? squareRoot(variance) : broadcast(kNaN));
   }

@@ -10,6 +10,10 @@ namespace softscope {
 /// Fields are settings (stereo_settings.h) or vary between the uses of a matcher; everything else
 /// is a constant of the method.
 
+/// Disparity prior between support points: the planes of their triangles, or interpolated along and
+/// between the rows of their grid, which the GPU computes by itself (docs/stereo.md, 3.2).
+enum class PriorMethod { kPlanes, kRows };
+
 /// ELAS (Geiger, Roser, Urtasun, ACCV 2010), stage by stage. Costs are mean absolute differences
 /// of the gradient descriptors, so that thresholds don't depend on the window's size.
 struct ElasOptions {
@@ -27,7 +31,7 @@ struct ElasOptions {
   static constexpr int support_min_neighbours = 5;  // … and at least so many of them
   int support_redundant_cells = 4;  // a point between two equal ones this near is left out
 
-  // Prior: the planes of the triangles between support points.
+  PriorMethod prior = PriorMethod::kPlanes;
   static constexpr double prior_sigma_px = 1.0;  // how far the surface leaves its triangle
   // cost of leaving it altogether, in mean gradient steps
   static constexpr double prior_weight = 1.0;

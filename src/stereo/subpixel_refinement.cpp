@@ -10,26 +10,13 @@
 #include "stereo/depth_steps.h"
 #include "stereo/kernel_sets.h"
 #include "stereo/plane.h"
+#include "stereo/refinement_window.h"
 
 namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kFarthestStepPx = 1.5f;  // a fit that wanders farther has lost its pixel
-constexpr float kStepPx = 1.0f;          // neighbours of one surface differ by at most this …
-constexpr float kSlope = 0.4f;           // … and this much more for every pixel between them
-constexpr float kClearStepPx = 2.0f;     // a step that is no noise of the matching
-constexpr int kBandRows = 80;            // solved by one thread at a time
-
-std::vector<float> gaussian(double sigma, int radius) {
-  std::vector<float> weights;
-  double sum = 0;
-  for (int x = -radius; x <= radius; ++x) sum += std::exp(-0.5 * x * x / (sigma * sigma));
-  for (int x = -radius; x <= radius; ++x)
-    weights.push_back(static_cast<float>(std::exp(-0.5 * x * x / (sigma * sigma)) / sum));
-  return weights;
-}
+constexpr int kBandRows = 80;  // solved by one thread at a time
 
 /// What all bands share: the pictures, the window, and how to weigh.
 struct RefinementContext {
@@ -39,25 +26,14 @@ struct RefinementContext {
         width(left_image.width_px),
         left(bandPass(left_image, refinement.highpass_sigma_px)),
         right(bandPass(right_image, refinement.highpass_sigma_px)),
-        window(gaussian(refinement.windowSigmaPx(), refinement.radius_px)) {
-    const int radius = options.radius_px;
-    for (int y = -radius; y <= radius; ++y)
-      for (int i = 0; i < kSelectLanes; ++i) {
-        const int x = i - radius;
-        const float apart = std::sqrt(static_cast<float>(x * x + y * y));
-        selection_window.push_back(x <= radius ? window[y + radius] * window[i] : 0.0f);
-        selection_tolerance.push_back(x <= radius ? kStepPx + kSlope * apart : kInfinity);
-      }
-  }
-
-  float priorWeight() const {
-    return static_cast<float>(std::pow(options.noise_gray / options.prior_sigma_px, 2));
-  }
+        window(refinementWindow(refinement)),
+        limits(planeLimits(refinement)) {}
 
   RefinementOptions options;
   int width;
   Plane left, right;
-  std::vector<float> window, selection_window, selection_tolerance;
+  RefinementWindow window;
+  PlaneLimits limits;
 };
 
 /// A band of rows, solved from top to bottom. Only the rows that a window needs are held, so that
@@ -105,11 +81,10 @@ class Band {
     const auto pixel = [&](int plane) {
       return sigma_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
     };
-    const float noise = static_cast<float>(context_.options.noise_gray);
-    refinementKernels().residualRow({context_.left.row(v), context_.right.row(v), disparity_.row(v),
-                                     width_, 1 / (noise * noise), context_.priorWeight(),
-                                     pixel(kInformation), pixel(kTarget), pixel(kResidualSq),
-                                     pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
+    refinementKernels().residualRow(
+        {context_.left.row(v), context_.right.row(v), disparity_.row(v), width_,
+         inverseNoiseSq(context_.options), context_.limits.prior_weight, pixel(kInformation),
+         pixel(kTarget), pixel(kResidualSq), pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
   }
 
   /// Sums over the windows of a row, then the plane of each pixel.
@@ -118,19 +93,18 @@ class Band {
     for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = moments_.row(k);
     sumWindows(v, moments);
     selectWindows(v, moments);
-    const RefinementOptions& options = context_.options;
-    const auto squared = [](double x) { return static_cast<float>(x * x); };
+    const PlaneLimits& limits = context_.limits;
     const PlaneRow row{moments,
                        disparity_.row(v),
                        width_,
-                       kFarthestStepPx,
-                       context_.priorWeight(),
-                       squared(options.noise_floor_gray),
-                       static_cast<float>(options.independentPx2()),
-                       squared(options.model_sigma_px),
-                       squared(options.max_sigma_px),
-                       static_cast<float>(options.max_difference),
-                       sigma_ != nullptr ? 1.0f : static_cast<float>(options.relaxation),
+                       limits.farthest_step_px,
+                       limits.prior_weight,
+                       limits.noise_floor_sq,
+                       limits.independent_pixels,
+                       limits.model_variance_px2,
+                       limits.max_variance_px2,
+                       limits.max_difference,
+                       sigma_ != nullptr ? 1.0f : static_cast<float>(context_.options.relaxation),
                        next_.row(v),
                        sigma_ != nullptr ? sigma_->row(v) : nullptr};
     refinementKernels().solvePlanes(row);
@@ -148,7 +122,7 @@ class Band {
   }
 
   void sumWindows(int v, const MomentRow& moments) {
-    const float* window = context_.window.data();
+    const float* window = context_.window.weights.data();
     const RefinementKernels& kernels = refinementKernels();
     float* columns[kColumnMomentCount];
     for (int k = 0; k < kColumnMomentCount; ++k) columns[k] = columns_.row(k);
@@ -181,8 +155,8 @@ class Band {
                           rows[kInformation].data(),
                           rows[kTarget].data(),
                           {},
-                          context_.selection_window.data(),
-                          context_.selection_tolerance.data(),
+                          context_.window.selection.data(),
+                          context_.window.tolerance.data(),
                           false,
                           radius_};
     for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
@@ -235,7 +209,8 @@ Raster<float> rasterOf(const Plane& plane, int width, int height) {
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
   const RefinementContext context(left, right, options);
-  Raster<std::uint8_t> mixed = nearDepthSteps(initial_px, options.radius_px, kClearStepPx, kSlope);
+  Raster<std::uint8_t> mixed = nearDepthSteps(
+      initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
   const int width = left.width_px, height = left.height_px;
   Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
   for (int i = 0; i < options.iterations; ++i) {

@@ -7,13 +7,13 @@
 #include "core/parallel.h"
 #include "core/raster.h"
 #include "stereo/kernel_sets.h"
+#include "stereo/matching_formulas.h"
 
 namespace softscope {
 namespace {
 
-constexpr float kNone = -1;
+constexpr float kNone = kNoSupport;
 constexpr int kReach = kSupportMargin;
-constexpr int kDifferences = 50;  // summed in one cost
 
 // The whole range of disparities is tried in every fourth row; in the others what was found there.
 constexpr int kRangeRows = 4;
@@ -24,13 +24,7 @@ constexpr int kBeyondRangePx = 16;           // on either side
 
 /// Mean |gradient| of the support window around (u, v).
 double texture(const GradientView& image, int u, int v) {
-  int sum = 0;
-  for (int dy = -kReach; dy <= kReach; dy += 2)
-    for (int dx = -kReach; dx <= kReach; dx += 2) {
-      const int packed = *image.at(u + dx, v + dy);
-      sum += std::abs(packed % 256 - 128) + std::abs(packed / 256 - 128);
-    }
-  return static_cast<double>(sum) / kDifferences;
+  return static_cast<double>(supportTextureSum(image.at(u, v), image.stride)) / kCostDifferences;
 }
 
 /// Least cost at u over disparities that are not next to `best`.
@@ -40,13 +34,6 @@ int secondBestCost(const SupportRow& row, int u, int best, int count) {
     if (std::abs(i - best) > 1)
       second = std::min<int>(second, row.volume[static_cast<long>(i) * row.stride + u]);
   return second;
-}
-
-/// Offset of the minimum of the parabola through three costs, within half a pixel.
-float parabolaOffset(int before, int at, int after) {
-  const int curvature = before - 2 * at + after;
-  if (curvature <= 0) return 0;
-  return 0.5f * static_cast<float>(before - after) / static_cast<float>(curvature);
 }
 
 /// The support candidates of one row, kNone where a test fails.
@@ -80,17 +67,12 @@ class RowMatcher {
     const int returned = row_.disparity_right[u - disparity];
     if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
     if (best == 0 || best == count_ - 1) return kNone;  // the true one may lie outside the range
-    const int count = countAt(u);
+    const int count = supportCountAt(u, width_, minimum_, count_);
     if (row_.cost_left[u] > elas_.support_uniqueness * secondBestCost(row_, u, best, count))
       return kNone;
     if (best + 1 == count) return static_cast<float>(disparity);
     return static_cast<float>(disparity) +
            parabolaOffset(cost(best - 1, u), cost(best, u), cost(best + 1, u));
-  }
-  /// How many disparities have a cost at column u: the window lies inside both pictures.
-  int countAt(int u) const {
-    const int largest = std::min(u, width_ - kSupportNarrowest) - kReach;
-    return std::clamp(largest - minimum_ + 1, 0, count_);
   }
   int cost(int i, int u) const { return row_.volume[static_cast<long>(i) * row_.stride + u]; }
 
@@ -193,12 +175,25 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
   matchRows(left, right, options, row_offset_px, first_rows, grid);
   matchRows(left, right, narrowedTo(foundIn(grid), options), row_offset_px, other_rows, grid);
   grid = removeLonely(grid, options.elas);
-  removeRedundant(grid, 0, 1, options.elas.support_redundant_cells);
-  removeRedundant(grid, 1, 0, options.elas.support_redundant_cells);
+  return pointsOf(grid, options.elas);
+}
+
+std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options) {
+  if (options.prior ==
+      PriorMethod::kPlanes) {  // triangles don't need what their neighbours say already
+    removeRedundant(grid, 0, 1, options.support_redundant_cells);
+    removeRedundant(grid, 1, 0, options.support_redundant_cells);
+  }
+  const int step = options.support_step_px;
   std::vector<SupportPoint> points;
   for (int r = 0; r < grid.height_px; ++r)
     for (int c = 0; c < grid.width_px; ++c)
       if (grid.at(c, r) != kNone) points.push_back({c * step, r * step, grid.at(c, r)});
+  return points;
+}
+
+std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
+  for (SupportPoint& p : points) p.u_px -= static_cast<int>(p.disparity_px + 0.5f);
   return points;
 }
 

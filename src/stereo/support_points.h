@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/raster.h"
 #include "stereo/gradient_image.h"
 #include "stereo/stereo_options.h"
 
@@ -20,6 +21,13 @@ struct SupportPoint {
 /// In raster order. Rows of the right picture are sought `row_offset_px` below those of the left.
 std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
                                             const StereoOptions& options, int row_offset_px = 0);
+
+/// The points of a grid of disparities, kNoSupport where there is none; for the prior by planes
+/// without those that their neighbours say already. In raster order.
+std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options);
+
+/// The same points as the right image sees them.
+std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points);
 
 /// The same options with the range of disparities in which these lie, and some more on either side;
 /// strays don't count. As given where there are few.

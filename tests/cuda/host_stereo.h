@@ -1,0 +1,89 @@
+// tests/cuda/host_stereo.h: the kernels of stereo, run by the host executor.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "core/depth_map.h"
+#include "core/image.h"
+#include "cuda/host_executor.h"
+#include "cuda/stereo_passes.h"
+#include "stereo/host_prior.h"
+
+namespace softscope::test {
+
+/// Memory for a layout, filled with garbage at first.
+class HostStereo {
+ public:
+  HostStereo(const StereoOptions& options, int width, int height, unsigned seed)
+      : executor_(seed),
+        memory_(bytesFor(options, width, height) + cuda::Arena::kAlignment, '\xA5'),
+        arena_(memory_.data()),
+        layout_(arena_, options, width, height),
+        passes_(executor_, layout_) {
+    passes_.initialise();
+  }
+
+  /// All levels, then depth and normals.
+  void compute(const GrayImage& left, const GrayImage& right, const RectifiedRig& rig,
+               double roll_rad = 0, const Mask& mask = {}) {
+    const cuda::StereoLevel& full = layout_.levels.front();
+    std::copy(left.values.begin(), left.values.end(), full.gray[0].data);
+    std::copy(right.values.begin(), right.values.end(), full.gray[1].data);
+    std::copy(mask.values.begin(), mask.values.end(), layout_.mask.data);
+    const auto level = [&](int k) -> const cuda::StereoLevel& {
+      return layout_.levels[static_cast<std::size_t>(k)];
+    };
+    *layout_.inputs = {roll_rad, mask.empty() ? 0 : 1};
+    matchLevel(full);
+    levels_run_ = cuda::runCoarserLevels(
+        layout_, [&](int k) { return level(k).counters->share; },
+        [&](int k) {
+          passes_.halve(level(k - 1), level(k));
+          matchLevel(level(k));
+        },
+        [&](int k) { passes_.fillFromHalf(level(k + 1), level(k)); });
+    passes_.finish(rig);
+  }
+
+  const cuda::StereoLayout& layout() const { return layout_; }
+  int levelsRun() const { return levels_run_; }
+
+ private:
+  void matchLevel(const cuda::StereoLevel& level) {
+    passes_.startLevel(level);
+    if (level.options.elas.prior == PriorMethod::kPlanes) {
+      Raster<float> confirmed(level.grid.columns, level.grid.rows);
+      std::copy_n(level.kept, confirmed.size(), confirmed.values.data());
+      const HostPrior prior = planePrior(confirmed, level.options, level.width, level.height);
+      std::copy_n(prior.support.values.data(), confirmed.size(), level.kept);
+      std::copy_n(prior.left_px8.values.data(), prior.left_px8.size(), level.prior[0].data);
+      std::copy_n(prior.right_px8.values.data(), prior.right_px8.size(), level.prior[1].data);
+      level.counters->point_count = prior.point_count;
+    }
+    passes_.finishLevel(level);
+    passes_.measureShare(level);
+  }
+  static std::size_t bytesFor(const StereoOptions& options, int width, int height) {
+    cuda::Arena counting;
+    cuda::StereoLayout(counting, options, width, height);
+    return counting.bytes();
+  }
+
+  cuda::HostExecutor executor_;
+  std::vector<char> memory_;
+  cuda::Arena arena_;
+  cuda::StereoLayout layout_;
+  cuda::StereoPasses<cuda::HostExecutor> passes_;
+  int levels_run_ = 0;
+};
+
+template <class T>
+Raster<T> rasterOf(const cuda::View<T>& view) {
+  Raster<T> raster(view.width, view.height);
+  for (int v = 0; v < view.height; ++v)
+    std::copy(view.row(v), view.row(v) + view.width, raster.row(v));
+  return raster;
+}
+
+}  // namespace softscope::test

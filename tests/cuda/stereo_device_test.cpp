@@ -1,0 +1,106 @@
+// tests/cuda/stereo_device_test.cpp: stereo on the GPU gives the CPU's bytes, frame after frame.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "core/error.h"
+#include "cuda/device_info.h"
+#include "cuda/stereo.h"
+#include "stereo_cases.h"
+
+namespace softscope {
+namespace {
+
+using test::differing;
+
+struct Normal {
+  float x, y, z;
+};
+Raster<Normal> listed(const NormalMap& normals) {
+  Raster<Normal> list(normals.width_px, normals.height_px);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    list.values[i] = {normals.values[i].x(), normals.values[i].y(), normals.values[i].z()};
+  return list;
+}
+
+void expectEqual(const cuda::StereoDepth& found, const test::CpuDepth& cpu) {
+  EXPECT_EQ(differing(found.disparity.disparity_px, cpu.disparity.disparity_px), 0);
+  EXPECT_EQ(differing(found.disparity.sigma_px, cpu.disparity.sigma_px), 0);
+  EXPECT_EQ(differing(found.depth.depth_mm, cpu.depth.depth_mm), 0);
+  EXPECT_EQ(differing(found.depth.sigma_mm, cpu.depth.sigma_mm), 0);
+  EXPECT_EQ(test::differingNormals(listed(found.normals), cpu.normals), 0);
+}
+
+class StereoOnDevice : public testing::TestWithParam<test::StereoCase> {
+ protected:
+  void SetUp() override {
+    const cuda::DeviceInfo info = cuda::queryDevices();
+    if (info.devices.empty()) GTEST_SKIP() << info.why_none;
+  }
+};
+
+TEST_P(StereoOnDevice, GivesTheCpusDepthFrameAfterFrame) {
+  const test::StereoCase& of = GetParam();
+  test::Scene scene = test::steppedScene(of.width, of.height);
+  cuda::Stereo stereo(of.options, scene.rig, of.width, of.height, planePrior);
+  const Mask mask = test::maskOf(of);
+  stereo.setMask(mask);
+  for (int frame = 0; frame < 3; ++frame) {
+    const test::CpuDepth cpu(scene, of, mask);
+    stereo.timeStages(frame == 2);  // launched one by one, not as graphs
+    stereo.upload(scene.left, scene.right);
+    stereo.compute(of.roll_rad);
+    expectEqual(stereo.download(), cpu);
+    std::swap(scene.left, scene.right);  // another frame: little can be matched
+  }
+  EXPECT_FALSE(stereo.stageTimes().empty());
+}
+
+TEST_P(StereoOnDevice, TakesColour) {
+  const test::StereoCase& of = GetParam();
+  test::Scene scene = test::steppedScene(of.width, of.height);
+  ColourImage left(of.width, of.height), right(of.width, of.height);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    left.values[i] = {scene.left.values[i], static_cast<std::uint8_t>(i), 90};
+    right.values[i] = {scene.right.values[i], static_cast<std::uint8_t>(i), 90};
+  }
+  cuda::Stereo stereo(of.options, scene.rig, of.width, of.height, planePrior);
+  stereo.upload(left, right);
+  stereo.compute();
+  const cuda::StereoDepth found = stereo.download();
+  scene.left = toGray(left);
+  scene.right = toGray(right);
+  test::StereoCase plain = of;
+  plain.roll_rad = 0;
+  expectEqual(found, test::CpuDepth(scene, plain, Mask()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cuda, StereoOnDevice, testing::ValuesIn(test::stereoCases()),
+                         [](const auto& each) { return each.param.name; });
+
+TEST(StereoOnDeviceErrors, AnotherShapeIsRefused) {
+  const cuda::DeviceInfo info = cuda::queryDevices();
+  if (info.devices.empty()) GTEST_SKIP() << info.why_none;
+  cuda::Stereo stereo(StereoOptions(), test::endoscope(), 96, 80, planePrior);
+  EXPECT_THROW(stereo.upload(GrayImage(95, 80), GrayImage(95, 80)), InputError);
+}
+
+TEST(StereoOnDeviceErrors, WithoutADeviceTheReasonIsGiven) {
+  const cuda::DeviceInfo info = cuda::queryDevices();
+  if (!info.devices.empty()) GTEST_SKIP() << "this machine has a GPU";
+  try {
+    cuda::Stereo stereo(StereoOptions(), test::endoscope(), 96, 80, planePrior);
+    FAIL() << "no device, and no error";
+  } catch (const BackendError& error) {
+    EXPECT_NE(std::string(error.what()).find(info.why_none), std::string::npos) << error.what();
+  }
+}
+
+TEST(StereoOnDeviceErrors, AMethodWithoutKernelsIsRefused) {
+  StereoOptions options;
+  options.method = "sgbm";
+  EXPECT_THROW(cuda::Stereo(options, test::endoscope(), 96, 80, planePrior), OptionError);
+}
+
+}  // namespace
+}  // namespace softscope
