@@ -1,10 +1,11 @@
-// apps/settings.cpp: `softscope settings`: every setting of a reconstruction.
+// apps/settings.cpp: `softscope settings`: every setting of a command.
 #include <iostream>
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/result_output.h"
 #include "apps/setting_json.h"
+#include "apps/simulate_options.h"
 #include "core/error.h"
 #include "io/settings_text.h"
 #include "pipeline/run_options.h"
@@ -17,6 +18,19 @@ using Json = FactSheet::Json;
 std::vector<SettingInfo> listOf(const std::string& preset) {
   RunOptions options = RunOptions::ofPreset(preset);
   return settingsOf(options).list();
+}
+
+std::vector<SettingInfo> listOf(const std::string& command, const std::string& preset) {
+  if (command == "simulate") {
+    SimulateOptions options;
+    return settingsOf(options).list();
+  }
+  if (command == "depth") {
+    DepthOptions options;
+    return settingsOf(options).list();
+  }
+  require(command == "reconstruct", "COMMAND", command, "must be reconstruct, depth or simulate");
+  return listOf(preset);
 }
 
 Json jsonOf(const std::vector<SettingInfo>& settings) {
@@ -38,13 +52,15 @@ class SettingsCommand : public Command {
     return "every setting with its range, default, unit and meaning; or a settings file";
   }
   std::string details() const override {
-    return "These are the keys of --set and of the TOML files of --config. --toml writes a file "
-           "of\n"
-           "the defaults, a comment with each, which --config reads back.";
+    return "These are the keys of --set and of the TOML files of --config, for simulate of "
+           "--scenario.\n"
+           "--toml writes a file of the defaults with comments, which reads back.";
   }
   std::string example() const override { return "softscope settings --toml > settings.toml"; }
   void declare(ArgumentList& arguments) override {
-    arguments.option("--preset", "NAME", preset_, "whose defaults: default, or paper");
+    arguments.positional("COMMAND", command_, "reconstruct (the default), depth or simulate",
+                         false);
+    arguments.option("--preset", "NAME", preset_, "of reconstruct: default, or paper");
     arguments.flag("--toml", toml_, "as a commented settings file");
     arguments.flag("--markdown", markdown_, "as docs/settings.md, with both presets");
   }
@@ -52,7 +68,7 @@ class SettingsCommand : public Command {
   int run() override {
     if (toml_ + markdown_ + common.json > 1)
       throw OptionError("--toml, --markdown and --json exclude each other; give one");
-    const std::vector<SettingInfo> settings = listOf(preset_);
+    const std::vector<SettingInfo> settings = listOf(command_, preset_);
     if (common.json)
       printJson(jsonOf(settings));
     else
@@ -64,7 +80,7 @@ class SettingsCommand : public Command {
   }
 
  private:
-  std::string preset_ = "default";
+  std::string command_ = "reconstruct", preset_ = "default";
   bool toml_ = false, markdown_ = false;
 };
 

@@ -82,7 +82,7 @@ void SimulateCommand::readOptions(SettingsBinder& binder, SimulateOptions& optio
   for (const std::string& assignment : assignments_) addAssignment(settings, assignment);
   if (!frames_.empty()) addAssignment(settings, "frames=" + frames_);
   if (!seed_.empty()) addAssignment(settings, "seed=" + seed_);
-  bindSimulateOptions(binder, options);
+  binder = settingsOf(options);
   binder.apply(settings);
   if (!organ_.empty()) options.organ = organ_;
   if (!texture_.empty()) options.texture = texture_;

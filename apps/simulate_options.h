@@ -25,8 +25,8 @@ struct SimulateOptions {
   bool builtinOrgan() const { return organ == "builtin"; }
 };
 
-/// Binds every key of a scenario.
-void bindSimulateOptions(SettingsBinder& binder, SimulateOptions& options);
+/// Every key of a scenario. The options must outlive the binder.
+SettingsBinder settingsOf(SimulateOptions& options);
 
 /// "640x480" to width and height. Throws OptionError.
 void setPictureSize(const std::string& text, ScopeOptions& scope);

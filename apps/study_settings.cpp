@@ -140,8 +140,7 @@ std::string simulationText(const StudyCase& study_case) {
   values.erase("scenario");
   for (auto& [key, setting] : settingsOf(study_case, values, {})) settings[key] = setting;
   SimulateOptions options;
-  SettingsBinder binder;
-  bindSimulateOptions(binder, options);
+  SettingsBinder binder = settingsOf(options);
   binder.apply(settings);
   options.validate();
   return lines(binder);

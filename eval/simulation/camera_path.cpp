@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "eval/simulation/random.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -37,18 +38,9 @@ Eigen::Isometry3d turned(double pitch_rad, double yaw_rad) {
 }  // namespace
 
 void CameraPathOptions::validate() const {
-  require(path == "still" || path == "sweep" || path == "orbit" || path == "jerk", "camera.path",
-          path, "must be still, sweep, orbit or jerk");
-  require(amplitude_mm >= 0 && amplitude_mm <= distance_mm, "camera.amplitude_mm", amplitude_mm,
-          "must be 0 to camera.distance_mm");
-  require(period_s > 0 && period_s <= 1000, "camera.period_s", period_s,
-          "must be above 0, at most 1000");
-  require(tremor_mm >= 0 && tremor_mm <= 5, "camera.tremor_mm", tremor_mm, "must be 0 (off) to 5");
-  require(distance_mm >= 5 && distance_mm <= 500, "camera.distance_mm", distance_mm,
-          "must be 5 to 500");
-  require(std::abs(azimuth_deg) <= 360, "camera.azimuth_deg", azimuth_deg, "must be -360 to 360");
-  require(std::abs(elevation_deg) <= 90, "camera.elevation_deg", elevation_deg,
-          "must be -90 to 90");
+  requireAllowed(*this);
+  require(amplitude_mm <= distance_mm, "camera.amplitude_mm", amplitude_mm,
+          "must be at most camera.distance_mm");
 }
 
 Eigen::Vector3d scopeDirection(const CameraPathOptions& options) {

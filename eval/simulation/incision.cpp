@@ -8,6 +8,7 @@
 #include "eval/simulation/cut_path.h"
 #include "eval/simulation/noise.h"
 #include "eval/simulation/ray_tree.h"
+#include "eval/simulation/simulation_settings.h"
 #include "eval/simulation/surface_normals.h"
 #include "eval/simulation/wound_walls.h"
 
@@ -93,17 +94,11 @@ void requireTissueBelow(const RayTree& tree, const SplittingMesh& mesh, const Cu
 }  // namespace
 
 void CutOptions::validate() const {
-  require(length_mm == 0 || (length_mm >= 3 && length_mm <= 200), "cut.length_mm", length_mm,
+  requireAllowed(*this);
+  require(length_mm == 0 || length_mm >= 3, "cut.length_mm", length_mm,
           "must be 0 (no cut) or 3 to 200");
-  require(depth_mm >= 0.5 && depth_mm <= 100, "cut.depth_mm", depth_mm, "must be 0.5 to 100");
-  require(opening_mm >= 0 && (length_mm == 0 || opening_mm <= length_mm / 2), "cut.opening_mm",
-          opening_mm, "must be 0 to half of cut.length_mm");
-  for (const double place_mm : {x_mm, y_mm})
-    require(std::abs(place_mm) <= 500, "cut.x_mm, cut.y_mm", place_mm, "must be -500 to 500");
-  require(std::abs(angle_deg) <= 360, "cut.angle_deg", angle_deg, "must be -360 to 360");
-  require(start_s >= 0 && start_s <= 1e5, "cut.start_s", start_s, "must be 0 to 100000");
-  require(duration_s > 0 && duration_s <= 1e5, "cut.duration_s", duration_s,
-          "must be above 0, at most 100000");
+  require(length_mm == 0 || opening_mm <= length_mm / 2, "cut.opening_mm", opening_mm,
+          "must be at most half of cut.length_mm");
 }
 
 float CutOptions::openAt(double time_s) const {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "eval/simulation/noise.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -69,13 +70,11 @@ double reliefMm(const Eigen::Vector3f& d, const OrganOptions& options, std::uint
 }  // namespace
 
 void OrganOptions::validate() const {
-  require(length_mm >= 10 && length_mm <= 500, "organ.length_mm", length_mm, "must be 10 to 500");
-  require(cells_per_side >= 4 && cells_per_side <= 400, "organ.cells_per_side", cells_per_side,
-          "must be 4 to 400");
-  require(lobe_mm >= 0 && lobe_mm <= 0.1 * length_mm, "organ.lobe_mm", lobe_mm,
-          "must be 0 to a tenth of organ.length_mm");
-  require(fold_mm >= 0 && fold_mm <= 0.05 * length_mm, "organ.fold_mm", fold_mm,
-          "must be 0 to a twentieth of organ.length_mm");
+  requireAllowed(*this);
+  require(lobe_mm <= 0.1 * length_mm, "organ.lobe_mm", lobe_mm,
+          "must be at most a tenth of organ.length_mm");
+  require(fold_mm <= 0.05 * length_mm, "organ.fold_mm", fold_mm,
+          "must be at most a twentieth of organ.length_mm");
 }
 
 TriangleMesh makeOrganMesh(const OrganOptions& options, std::uint64_t seed) {

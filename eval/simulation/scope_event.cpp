@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "eval/simulation/noise.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -39,17 +39,7 @@ void mixIn(const Eigen::Vector3f& colour, float share, double time_s, int camera
 
 }  // namespace
 
-void ScopeEventOptions::validate() const {
-  require(
-      kind == "none" || kind == "withdraw" || kind == "cover" || kind == "wipe" || kind == "smoke",
-      "event.kind", kind, "must be none, withdraw, cover, wipe or smoke");
-  require(start_s > 0 && start_s <= 1e4, "event.start_s", start_s,
-          "must be above 0, at most 10000");
-  require(length_s > 0 && length_s <= 1e4, "event.length_s", length_s,
-          "must be above 0, at most 10000");
-  require(std::abs(return_mm) <= 100, "event.return_mm", return_mm, "must be -100 to 100");
-  require(std::abs(return_deg) <= 90, "event.return_deg", return_deg, "must be -90 to 90");
-}
+void ScopeEventOptions::validate() const { requireAllowed(*this); }
 
 double ScopeEventOptions::shareAt(double time_s) const {
   if (!there()) return 0;

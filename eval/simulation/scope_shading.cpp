@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -28,12 +28,7 @@ float lobe(float cosine, int doublings) {
 
 }  // namespace
 
-void LightOptions::validate() const {
-  for (const double offset_mm : {x_mm, y_mm, z_mm})
-    require(std::abs(offset_mm) <= 50, "light.x_mm, y_mm, z_mm", offset_mm, "must be -50 to 50");
-  require(beam >= 0 && beam <= 20, "light.beam", beam, "must be 0 to 20");
-  require(relief >= 0 && relief <= 3, "light.relief", relief, "must be 0 to 3");
-}
+void LightOptions::validate() const { requireAllowed(*this); }
 
 ScopeLight::ScopeLight(const LightOptions& options, double baseline_mm, double reference_mm)
     : position_mm_(float(options.x_mm + 0.5 * baseline_mm), float(options.y_mm),

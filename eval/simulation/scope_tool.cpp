@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -47,16 +48,9 @@ Eigen::Vector3f normalAt(const Capsule& capsule, const Eigen::Vector3f& position
 }  // namespace
 
 void ScopeToolOptions::validate() const {
-  require(radius_mm == 0 || (radius_mm >= 0.5 && radius_mm <= 20), "instrument.radius_mm",
-          radius_mm, "must be 0 (none) or 0.5 to 20");
-  require(std::abs(side_deg) <= 360, "instrument.side_deg", side_deg, "must be -360 to 360");
-  require(reach >= -1 && reach <= 1, "instrument.reach", reach, "must be -1 to 1");
-  require(height_mm >= 0 && height_mm <= 200, "instrument.height_mm", height_mm,
-          "must be 0 to 200");
-  require(amplitude_mm >= 0 && amplitude_mm <= 50, "instrument.amplitude_mm", amplitude_mm,
-          "must be 0 to 50");
-  require(period_s > 0 && period_s <= 1000, "instrument.period_s", period_s,
-          "must be above 0, at most 1000");
+  requireAllowed(*this);
+  require(radius_mm == 0 || radius_mm >= 0.5, "instrument.radius_mm", radius_mm,
+          "must be 0 (none) or 0.5 to 20");
 }
 
 ScopeTool::ScopeTool(const ScopeToolOptions& options, const PinholeCamera& left, double distance_mm,

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "eval/simulation/random.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -79,20 +79,7 @@ float noiseOf(std::uint64_t bits) {
 
 }  // namespace
 
-void SensorOptions::validate() const {
-  require(exposure > 0 && exposure <= 20, "sensor.exposure", exposure,
-          "must be above 0, at most 20");
-  require(exposure_change >= 0 && exposure_change < 1, "sensor.exposure_change", exposure_change,
-          "must be 0 to below 1");
-  require(exposure_period_s > 0 && exposure_period_s <= 1000, "sensor.exposure_period_s",
-          exposure_period_s, "must be above 0, at most 1000");
-  require(vignetting >= 0 && vignetting <= 1, "sensor.vignetting", vignetting, "must be 0 to 1");
-  require(blur_px >= 0 && blur_px <= 20, "sensor.blur_px", blur_px, "must be 0 to 20");
-  require(shutter >= 0 && shutter <= 1, "sensor.shutter", shutter, "must be 0 to 1");
-  require(noise >= 0 && noise <= 0.5, "sensor.noise", noise, "must be 0 to 0.5");
-  require(shot_noise >= 0 && shot_noise <= 0.5, "sensor.shot_noise", shot_noise,
-          "must be 0 to 0.5");
-}
+void SensorOptions::validate() const { requireAllowed(*this); }
 
 double SensorOptions::exposureAt(double time_s) const {
   return exposure * (1 + exposure_change * std::sin(2 * M_PI * time_s / exposure_period_s));

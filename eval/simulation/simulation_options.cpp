@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -13,19 +14,14 @@ constexpr double kUsualFocalPerWidth = 0.875;  // 59 degrees across
 }  // namespace
 
 void ScopeOptions::validate() const {
-  require(width_px >= 32 && width_px <= 8192, "scope.width_px", width_px, "must be 32 to 8192");
-  require(height_px >= 32 && height_px <= 8192, "scope.height_px", height_px, "must be 32 to 8192");
+  requireAllowed(*this);
   require(focal_px == 0 || (focal_px >= 0.1 * width_px && focal_px <= 20.0 * width_px),
           "scope.focal_px", focal_px, "must be 0 (choose) or 0.1 to 20 times the width");
   require(cx_px < width_px, "scope.cx_px", cx_px, "must be below the width, or negative (middle)");
   require(cy_px < height_px, "scope.cy_px", cy_px,
           "must be below the height, or negative (middle)");
-  require(baseline_mm >= 0.5 && baseline_mm <= 50, "scope.baseline_mm", baseline_mm,
-          "must be 0.5 to 50");
   require(lens().invertible(), "scope.k1", k1,
           "so the lenses fold the picture over itself; bend it less");
-  require(std::abs(row_error_px) <= 20, "scope.row_error_px", row_error_px, "must be -20 to 20");
-  require(std::abs(roll_error_deg) <= 5, "scope.roll_error_deg", roll_error_deg, "must be -5 to 5");
 }
 
 RectifiedRig ScopeOptions::rig() const {
@@ -58,24 +54,16 @@ StereoCalibration ScopeOptions::calibration() const {
 }
 
 void SimulationOptions::validate() const {
-  require(seed >= 0, "seed", seed, "must be 0 or above");
-  require(frames_per_second > 0 && frames_per_second <= 1000, "frames_per_second",
-          frames_per_second, "must be above 0, at most 1000");
-  require(texel_mm == 0 || (texel_mm >= 0.005 && texel_mm <= 10), "texture.texel_mm", texel_mm,
+  requireAllowed(*this);
+  require(texel_mm == 0 || texel_mm >= 0.005, "texture.texel_mm", texel_mm,
           "must be 0 (choose) or 0.005 to 10");
-  require(track_spacing_px >= 2 && track_spacing_px <= 10000, "track_spacing_px", track_spacing_px,
-          "must be 2 to 10000");
   organ.validate();
   texture.validate();
   deformation.validate();
   cut.validate();
   scope.validate();
   camera.validate();
-  light.validate();
   instrument.validate();
-  require(smoke >= 0 && smoke <= 3, "smoke", smoke, "must be 0 to 3");
-  event.validate();
-  sensor.validate();
 }
 
 }  // namespace softscope

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "eval/simulation/noise.h"
 #include "eval/simulation/random.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -17,13 +18,6 @@ constexpr float kHeartReach_mm = 14;
 constexpr double kPushReach = 2.2;      // pushes land within this many spreads of the focus
 constexpr std::size_t kStatesKept = 5;  // so that going back a little costs nothing
 constexpr int kPushPeriods = 3;         // one to push, two to let go
-
-void requireMotion(const PeriodicMotion& motion, const std::string& name) {
-  require(motion.amplitude_mm >= 0 && motion.amplitude_mm <= 20, name + ".amplitude_mm",
-          motion.amplitude_mm, "must be 0 (off) to 20");
-  require(motion.period_s > 0 && motion.period_s <= 1000, name + ".period_s", motion.period_s,
-          "must be above 0, at most 1000");
-}
 
 float gaussian(float distance2, float spread) {
   return static_cast<float>(std::exp(-0.5 * distance2 / (spread * spread)));
@@ -49,14 +43,9 @@ double pushAt(double age_periods) {
 }  // namespace
 
 void DeformationOptions::validate() const {
-  require(push_kind == "gaussian" || push_kind == "arap", "push.kind", push_kind,
-          "must be gaussian or arap");
-  requireMotion(breathing, "breathing");
-  requireMotion(heartbeat, "heartbeat");
-  requireMotion(push, "push");
-  require(push_spread_mm >= 2 * push.amplitude_mm && push_spread_mm > 0 && push_spread_mm <= 200,
-          "push.spread_mm", push_spread_mm,
-          "must be twice push.amplitude_mm or more (else the surface folds over), at most 200");
+  requireAllowed(*this);
+  require(push_spread_mm >= 2 * push.amplitude_mm, "push.spread_mm", push_spread_mm,
+          "must be twice push.amplitude_mm or more, else the surface folds over");
 }
 
 TissueDeformation::TissueDeformation(const TriangleMesh& rest_mesh, const Eigen::Vector3f& focus_mm,

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "eval/simulation/noise.h"
+#include "eval/simulation/simulation_settings.h"
 
 namespace softscope {
 namespace {
@@ -41,13 +42,7 @@ VesselOptions noVessels() {
 }  // namespace
 
 void TextureOptions::validate() const {
-  require(contrast >= 0 && contrast <= 2, "texture.contrast", contrast, "must be 0 to 2");
-  require(fat >= 0 && fat <= 1, "texture.fat", fat, "must be 0 to 1");
-  require(blood >= 0 && blood <= 1, "texture.blood", blood, "must be 0 to 1");
-  require(wetness >= 0 && wetness <= 5, "texture.wetness", wetness, "must be 0 to 5");
-  vessels.validate();
-  require(picture_mm >= 2 && picture_mm <= 2000, "texture.picture_mm", picture_mm,
-          "must be 2 to 2000");
+  requireAllowed(*this);
   require(picture.empty() || picture_mm <= picture.width_px, "texture.picture_mm", picture_mm,
           "must be no more than the picture has pixels across: coarser ones than 1 mm are a blur");
 }

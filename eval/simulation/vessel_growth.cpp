@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "eval/simulation/random.h"
 #include "eval/simulation/ray_tree.h"
+#include "eval/simulation/simulation_settings.h"
 #include "eval/simulation/surface_normals.h"
 
 namespace softscope {
@@ -163,12 +163,7 @@ class Grower {
 
 }  // namespace
 
-void VesselOptions::validate() const {
-  require(trunk_spacing_mm >= 2 && trunk_spacing_mm <= 200, "texture.trunk_spacing_mm",
-          trunk_spacing_mm, "must be 2 to 200");
-  require(trunk_radius_mm >= 0 && trunk_radius_mm <= 3, "texture.trunk_radius_mm", trunk_radius_mm,
-          "must be 0 (no vessels) to 3");
-}
+void VesselOptions::validate() const { requireAllowed(*this); }
 
 std::vector<VesselSegment> growVessels(const TriangleMesh& rest_mesh, const VesselOptions& options,
                                        std::uint64_t seed) {

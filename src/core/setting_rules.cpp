@@ -38,6 +38,8 @@ std::string NumberRule::text() const {
   return from + (most_allowed ? ", at most " : ", below ") + textOf(most);
 }
 
+NumberRule anyNumber() { return {}; }
+
 NumberRule above(double bound) {
   NumberRule rule;
   rule.least = bound;

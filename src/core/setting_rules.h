@@ -27,6 +27,7 @@ struct NumberRule {
   std::string text() const;  // "above 0, at most 1"
 };
 
+NumberRule anyNumber();
 NumberRule above(double bound);
 NumberRule atLeast(double bound);
 NumberRule between(double least, double most);       // both allowed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "fusion/cell_table.h"
 
@@ -101,6 +102,8 @@ IndexMap indexMap(std::vector<std::int32_t> heir, std::vector<std::int32_t>* old
 }  // namespace
 
 IndexMap keepDensity(const DensityOptions& options, PointModel* model) {
+  require(options.cell_mm >= 0.01, "fusion.point_spacing_mm", options.cell_mm,
+          "must be 0.01 or more");
   const std::vector<CellKey> keys = cellsOf(*model, static_cast<float>(options.cell_mm));
   const float cosine = static_cast<float>(std::cos(options.kMaxAngleDeg * M_PI / 180));
   std::vector<std::int32_t> old_of_new;

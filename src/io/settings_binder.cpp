@@ -166,19 +166,6 @@ void SettingsBinder::addChoice(const std::string& key, const TextRule& names,
   add({{key, "text", "", names.text(), "", "", help}, std::move(current), prepare});
 }
 
-void SettingsBinder::bind(const std::string& key, bool& field, const std::string& help) {
-  (*this)(key, field, help);
-}
-void SettingsBinder::bind(const std::string& key, int& field, const std::string& help) {
-  (*this)(key, field, NumberRule{}, help);
-}
-void SettingsBinder::bind(const std::string& key, double& field, const std::string& help) {
-  (*this)(key, field, NumberRule{}, help);
-}
-void SettingsBinder::bind(const std::string& key, std::string& field, const std::string& help) {
-  (*this)(key, field, FreeText{"a text"}, help);
-}
-
 const SettingsBinder::Entry& SettingsBinder::entryOf(const std::string& key,
                                                      const Setting& setting) const {
   std::vector<std::string> known;
@@ -187,9 +174,9 @@ const SettingsBinder::Entry& SettingsBinder::entryOf(const std::string& key,
     known.push_back(entry.info.key);
   }
   const std::string nearest = nearestName(key, known);
-  throw OptionError(say(
-      setting.origin, ": there is no setting ", excerpt(key), ". ",
-      nearest.empty() ? "`softscope settings` lists them all." : "Did you mean " + nearest + "?"));
+  throw OptionError(say(setting.origin, ": there is no setting ", excerpt(key), ". ",
+                        nearest.empty() ? "`softscope settings COMMAND` lists them all."
+                                        : "Did you mean " + nearest + "?"));
 }
 
 void SettingsBinder::apply(const Settings& settings) {

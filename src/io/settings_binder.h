@@ -48,12 +48,6 @@ class SettingsBinder {
         [&field, rule](std::size_t index) { field = rule.names[index].second; });
   }
 
-  // Without a range: the options' own validate() has it.
-  void bind(const std::string& key, bool& field, const std::string& help);
-  void bind(const std::string& key, int& field, const std::string& help);
-  void bind(const std::string& key, double& field, const std::string& help);
-  void bind(const std::string& key, std::string& field, const std::string& help);
-
   /// Sets the fields that `settings` names, all of them or none. Throws OptionError naming an
   /// unknown key, the nearest known one and where it came from, or a value of another type or out
   /// of its range.

@@ -6,7 +6,6 @@
 
 #include "features/highlight_mask.h"
 #include "features/instrument_detector.h"
-#include "features/lift_matches.h"
 #include "features/mask_morphology.h"
 
 namespace softscope {

@@ -100,6 +100,9 @@ TEST(CommandLine, SettingsAreListedWithRangeUnitAndMeaning) {
   EXPECT_EQ(json.exit_code, 0) << json.err;
   EXPECT_THAT(json.out, HasSubstr("\"key\": \"deform.node_model\""));
   EXPECT_THAT(json.out, HasSubstr("\"default\": \"affine\""));
+  const Outcome scenario = run({"settings", "simulate", "--toml"});
+  EXPECT_EQ(scenario.exit_code, 0) << scenario.err;
+  EXPECT_THAT(scenario.out, HasSubstr("to the tissue: 5 to 500 mm\ncamera.distance_mm = "));
   const Outcome both = run({"settings", "--toml", "--json"});
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_THAT(both.err, HasSubstr("--toml"));

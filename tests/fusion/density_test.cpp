@@ -135,7 +135,7 @@ TEST(KeepDensity, ChangesNothingTheSecondTime) {
 TEST(KeepDensity, AcceptsTheEmptyModelAndRefusesBadOptions) {
   PointModel model;
   EXPECT_TRUE(keepDensity({}, &model).identity());
-  EXPECT_THROW(keepDensity({0.0, 60}, &model), OptionError);
+  EXPECT_THROW(keepDensity({0.0}, &model), OptionError);
 }
 
 TEST(KeepDensity, IsTheSameForAnyNumberOfThreads) {

@@ -92,7 +92,7 @@ TEST(Settings, AnUnknownKeyGetsTheNearestName) {
   expectError<OptionError>(apply("\nstereo.stepp_px = 3"),
                            {"s.toml:2", "`stereo.stepp_px`", "Did you mean stereo.step_px?"});
   expectError<OptionError>(apply("weight = 3"), {"Did you mean deform.weight?"});
-  expectError<OptionError>(apply("camera.brightness = 3"), {"`softscope settings`"});
+  expectError<OptionError>(apply("camera.brightness = 3"), {"`softscope settings COMMAND`"});
 }
 
 TEST(Settings, TypesAreCheckedAndNothingIsSetByHalves) {
@@ -138,7 +138,7 @@ TEST(Settings, ListShowsDefaultsAndWhatIsSet) {
   EXPECT_EQ(list[1].range, "1 to 9");
   EXPECT_EQ(list[1].unit, "px");
   EXPECT_EQ(list[4].range, "none or huber");
-  expectError<Error>([&] { binder.bind("stereo.fill", options.fill, ""); }, {"twice"});
+  expectError<Error>([&] { binder("stereo.fill", options.fill, ""); }, {"twice"});
 }
 
 TEST(Settings, RangesAreCheckedAndNamed) {

@@ -252,7 +252,7 @@ TEST(RefinePose, RefusesBadOptions) {
   EXPECT_THROW(refined({}, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity(), options),
                OptionError);
   options.scope = "auto";
-  options.significance = 0.5;
+  options.iterations = -1;
   EXPECT_THROW(refined({}, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity(), options),
                OptionError);
 }
