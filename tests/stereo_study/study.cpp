@@ -51,7 +51,8 @@ Measured measure(const StereoPair& raw, const Rectifier& rectifier, bool align_r
   StereoPair pair = rectifier.rectify(raw);
   AlignedPair aligned = alignRows(pair, StereoOptions{}.disparity_max_px);
   if (align_rows) pair = std::move(aligned.pair);
-  const DisparityMap disparity = matchWith("elas", toGray(pair.left), toGray(pair.right));
+  DisparityMap disparity = matchWith("elas", toGray(pair.left), toGray(pair.right));
+  if (align_rows) removeRoll(aligned.roll_rad, &disparity.disparity_px);
   return {depthFromDisparity(disparity, rectifier.rig()), aligned.before};
 }
 
