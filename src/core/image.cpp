@@ -25,4 +25,15 @@ GrayImage halve(const GrayImage& image) {
   return half;
 }
 
+Mask halvedMask(const Mask& mask) {
+  Mask half(mask.width_px / 2, mask.height_px / 2);
+  parallelRows(half.height_px, [&](int v) {
+    const std::uint8_t *a = mask.row(2 * v), *b = mask.row(2 * v + 1);
+    std::uint8_t* out = half.row(v);
+    for (int u = 0; u < half.width_px; ++u)
+      out[u] = (a[2 * u] | a[2 * u + 1] | b[2 * u] | b[2 * u + 1]) != 0 ? 1 : 0;
+  });
+  return half;
+}
+
 }  // namespace softscope

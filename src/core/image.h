@@ -37,6 +37,8 @@ SOFTSCOPE_HD inline std::uint8_t meanOfFour(std::uint8_t a, std::uint8_t b, std:
 /// Means of 2 x 2 pixels, rounded; an odd last row or column is left out. Pixel (u, v) of the half
 /// lies at (2 u + 0.5, 2 v + 0.5) of the whole.
 GrayImage halve(const GrayImage& image);
+/// The same shape: 1 where one of the four is not zero; empty stays empty.
+Mask halvedMask(const Mask& mask);
 
 /// The two pictures of one moment.
 struct StereoPair {

@@ -2,27 +2,9 @@
 
 #include <algorithm>
 
-#include "core/parallel.h"
-
 namespace softscope {
-namespace {
-
-/// A pixel is ignored if one of its four is.
-Mask halveMask(const Mask& fine) {
-  Mask coarse(fine.width_px / 2, fine.height_px / 2);
-  parallelRows(coarse.height_px, [&](int v) {
-    const std::uint8_t *above = fine.row(2 * v), *below = fine.row(2 * v + 1);
-    for (int u = 0; u < coarse.width_px; ++u)
-      coarse.at(u, v) =
-          (above[2 * u] | above[2 * u + 1] | below[2 * u] | below[2 * u + 1]) != 0 ? 1 : 0;
-  });
-  return coarse;
-}
-
-}  // namespace
-
 MatchPicture halved(const MatchPicture& fine) {
-  return {halve(fine.gray), halveMask(fine.ignore), halve(fine.anchor)};
+  return {halve(fine.gray), halvedMask(fine.ignore), halve(fine.anchor)};
 }
 
 std::vector<MatchLevel> matchPyramid(const MatchPicture& model, const MatchPicture& live,

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "pipeline/reconstruction_settings.h"
 #include "stereo/depth_from_disparity.h"
+#include "stereo/image_border.h"
 #include "stereo/stage_clock.h"
 
 namespace softscope {
@@ -85,17 +86,22 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   StageClock clock;
   const StereoPair rectified = rectifier_.rectify(frame.pair);
   measured.mask = frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
+  // Instruments are dropped afterwards: their mask is one view's, and weak texture beside them
+  // needs the wide windows of the coarser sizes.
+  const ViewMasks ignored = pixelsToIgnore(rectified, rectifier_, {}, options_.find_border);
+  measured.mask = united(measured.mask, ignored.left);
   clock.lap("rectify");
-  AlignedPair aligned{rectified, {}};
+  AlignedPair aligned{rectified, ignored, {}};
   if (options_.align_rows)
-    aligned = alignRows(rectified, options_.stereo.disparity_max_px);
+    aligned = alignRows(rectified, options_.stereo.disparity_max_px, ignored);
   else
     aligned.before = measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
-                                         options_.stereo.disparity_max_px);
+                                         options_.stereo.disparity_max_px, ignored);
   measured.rows = aligned.before;
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");
-  measured.disparity = matcher_->match(toGray(aligned.pair.left), toGray(aligned.pair.right));
+  measured.disparity =
+      matcher_->match(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
   removeRoll(aligned.roll_rad, &measured.disparity.disparity_px);
   clock.lap("disparity");
   measured.depth = depthFromDisparity(measured.disparity, rig());

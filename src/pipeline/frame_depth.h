@@ -16,8 +16,9 @@ namespace softscope {
 /// Where depth comes from.
 struct FrameDepthOptions {
   std::string source =
-      "auto";              // the sequence's own depth/ where there is one; or "stereo", "files"
-  bool align_rows = true;  // remove a residual row error where it is large enough
+      "auto";               // the sequence's own depth/ where there is one; or "stereo", "files"
+  bool align_rows = true;   // remove a residual row error where it is large enough
+  bool find_border = true;  // mask the black border of the views
   StereoOptions stereo;
 
   /// Throws OptionError.
@@ -26,9 +27,9 @@ struct FrameDepthOptions {
 
 /// All rasters have the shape of the rectified left picture.
 struct MeasuredFrame {
-  std::string method;      // elas, sgbm or files
-  ColourImage left;        // rectified
-  Mask mask;               // instruments, and what the raw left picture didn't show; may be empty
+  std::string method;  // elas, sgbm or files
+  ColourImage left;    // rectified
+  Mask mask;  // instruments, black border, what the raw left picture didn't show; may be empty
   DisparityMap disparity;  // empty where depth came from a file
   DepthMap depth;          // NaN under the mask
   NormalMap normals;

@@ -13,8 +13,16 @@
 namespace softscope {
 namespace {
 
+constexpr int kWindowReach = 2;
 constexpr int kMaxDisparities = StereoOptions::kLargestDisparityPx + 1;
 using DisparitySet = std::bitset<kMaxDisparities>;
+
+/// No disparity where the window reaches a masked pixel.
+void dropBlocked(const GradientImage& reference, Raster<std::int16_t>& disparity) {
+  const Mask blocked = reference.blocked(kWindowReach);
+  for (std::size_t i = 0; i < blocked.size(); ++i)
+    if (blocked.values[i] != 0) disparity.values[i] = -1;
+}
 
 /// The disparities of the support points in and around each tile.
 class SharedDisparities {
@@ -146,6 +154,7 @@ Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& 
       for (int c = 0; c < columns; ++c)
         matcher.match(c * kTileWidth, r * kTileHeight, shared.around(c, r), disparity);
   });
+  dropBlocked(from_left ? left : right, disparity);
   return disparity;
 }
 

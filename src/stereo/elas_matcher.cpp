@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.h"
 #include "stereo/dense_matching.h"
@@ -18,12 +19,20 @@ namespace {
 
 constexpr double kEverything = 2;  // more than any share
 
-/// One level of the pyramid, times into `clock`.
-DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const StereoOptions& options,
-                        StageClock& clock) {
+/// No disparity under the mask.
+void dropMasked(const Mask& mask, Raster<float>& disparity_px) {
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask.values[i] != 0) disparity_px.values[i] = std::numeric_limits<float>::quiet_NaN();
+}
+
+/// One level of the pyramid, times into `clock`. Ignored pixels are filled.
+DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const ViewMasks& ignored,
+                        const StereoOptions& options, StageClock& clock) {
   const ElasOptions& elas = options.elas;
-  const GradientImage left_gradient(left, elas.gradient_gain, options.disparity_max_px);
-  const GradientImage right_gradient(right, elas.gradient_gain, options.disparity_max_px);
+  const GradientImage left_gradient(left, elas.gradient_gain, options.disparity_max_px,
+                                    ignored.left);
+  const GradientImage right_gradient(right, elas.gradient_gain, options.disparity_max_px,
+                                     ignored.right);
   clock.lap("gradients");
 
   const std::vector<SupportPoint> points =
@@ -45,6 +54,7 @@ DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const Ste
   removeDark(disparity_px, left, options.darkest_gray, options.dark_margin_px);
   removeSpeckles(disparity_px, elas.speckle_size_px, elas.speckle_step_px);
   fillGaps(disparity_px, elas.gap_width_px, elas.gap_step_px);
+  dropMasked(ignored.left, disparity_px);
   clock.lap("filter");
 
   DisparityMap map = refineDisparity(left, right, disparity_px, options.refinement);
@@ -54,13 +64,14 @@ DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const Ste
 
 /// Share of the pixels that are bright enough, and right of the strip that the right camera can't
 /// see, for which nothing was found.
-double unmatchedShare(const DisparityMap& map, const GrayImage& left, int darkest_gray) {
+double unmatchedShare(const DisparityMap& map, const GrayImage& left, const Mask& ignored,
+                      int darkest_gray) {
   float nearest_px = 0;
   for (const float d : map.disparity_px.values) nearest_px = d > nearest_px ? d : nearest_px;
   std::size_t matchable = 0, unmatched = 0;
   for (int v = 0; v < left.height_px; ++v)
     for (int u = static_cast<int>(nearest_px); u < left.width_px; ++u) {
-      if (left.at(u, v) < darkest_gray) continue;
+      if (left.at(u, v) < darkest_gray || (!ignored.empty() && ignored.at(u, v) != 0)) continue;
       ++matchable;
       unmatched += std::isnan(map.disparity_px.at(u, v));
     }
@@ -68,28 +79,33 @@ double unmatchedShare(const DisparityMap& map, const GrayImage& left, int darkes
 }
 
 /// `finer_unmatched`: the share that twice the size left open; above 1 at full size.
-DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right,
+DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right, const ViewMasks& ignored,
                           const StereoOptions& options, int coarser_levels, double finer_unmatched,
                           StageClock& clock) {
-  DisparityMap map = matchLevel(left, right, options, clock);
+  DisparityMap map = matchLevel(left, right, ignored, options, clock);
   if (coarser_levels == 0 || std::min(left.width_px, left.height_px) < 2 * kSmallestPicturePx)
     return map;
-  const double unmatched = unmatchedShare(map, left, options.darkest_gray);
+  const double unmatched = unmatchedShare(map, left, ignored.left, options.darkest_gray);
   if (!isHalvingWorth(options.elas, unmatched, finer_unmatched)) return map;
-  fillFromHalf(matchPyramid(halve(left), halve(right), halved(options), coarser_levels - 1,
-                            unmatched, clock),
-               map);
+  fillFromHalf(
+      matchPyramid(halve(left), halve(right), {halvedMask(ignored.left), halvedMask(ignored.right)},
+                   halved(options), coarser_levels - 1, unmatched, clock),
+      map);
   clock.lap("fill");
   return map;
 }
 
 }  // namespace
 
-DisparityMap ElasMatcher::match(const GrayImage& left, const GrayImage& right) {
-  requireRectifiedPair(left, right);
+DisparityMap ElasMatcher::match(const GrayImage& left_image, const GrayImage& right_image,
+                                const ViewMasks& ignored) {
+  requireRectifiedPair(left_image, right_image);
   StageClock clock;
-  DisparityMap map =
-      matchPyramid(left, right, options_, options_.elas.coarser_levels, kEverything, clock);
+  const GrayImage left = fillMasked(left_image, ignored.left);
+  const GrayImage right = fillMasked(right_image, ignored.right);
+  DisparityMap map = matchPyramid(left, right, ignored, options_, options_.elas.coarser_levels,
+                                  kEverything, clock);
+  dropMasked(ignored.left, map.disparity_px);
   removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
   clock.lap("dark");
   smoothByPatches(options_.smoothing, options_.refinement, map);

@@ -9,7 +9,9 @@ class ElasMatcher final : public StereoMatcher {
  public:
   explicit ElasMatcher(const StereoOptions& options) : options_(options) {}
   std::string name() const override { return "elas"; }
-  DisparityMap match(const GrayImage& left, const GrayImage& right) override;
+  using StereoMatcher::match;
+  DisparityMap match(const GrayImage& left, const GrayImage& right,
+                     const ViewMasks& ignored) override;
   const StageTimes& times() const override { return times_; }
 
  private:

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "stereo/kernel_sets.h"
 #include "stereo/matching_formulas.h"
+#include "stereo/view_masks.h"
 
 namespace softscope {
 namespace {
@@ -20,8 +21,8 @@ void padRow(const std::uint8_t* row, int width, std::vector<std::uint8_t>& padde
 
 }  // namespace
 
-GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
-    : width_px_(image.width_px), height_px_(image.height_px) {
+GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px, const Mask& mask)
+    : width_px_(image.width_px), height_px_(image.height_px), mask_(mask) {
   const int side = (margin_px + 2 * kTileWidth + 63) / 64 * 64;
   stride_ = (width_px_ + 2 * side + 63) / 64 * 64;
   origin_ = static_cast<std::size_t>(kRowMargin) * stride_ + side;
@@ -39,6 +40,11 @@ GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px)
                        gain_q8, packed_.data() + at);
     }
   });
+}
+
+Mask GradientImage::blocked(int reach_px) const {
+  constexpr int kSobelReach = 1;
+  return dilated(mask_, reach_px + kSobelReach);
 }
 
 GradientView GradientImage::view(int first_row) const {

@@ -52,6 +52,15 @@ void requireSize(const ColourImage& image, const PinholeCamera& camera, const ch
   throw InputError(text.str());
 }
 
+/// Non-zero where the mask is, and outside the raw image.
+Mask resample(const Mask& raw, const cv::Mat& map_u, const cv::Mat& map_v) {
+  Mask out(map_u.cols, map_u.rows);
+  cv::Mat view = opencvView(out);
+  cv::remap(opencvView(raw), view, map_u, map_v, cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+            cv::Scalar(255));
+  return out;
+}
+
 }  // namespace
 
 struct Rectifier::Maps {
@@ -91,7 +100,9 @@ Rectifier::Rectifier(const StereoCalibration& calibration) {
   rig_.baseline_mm = -right_projection.at<double>(0, 3) / right_projection.at<double>(0, 0);
   rig_.disparity_offset_px = right_projection.at<double>(0, 2) - p(0, 2);
   cv::cv2eigen(left_rotation, rig_.rectified_from_raw_left);
-  outside_ = rectifyMask(Mask(size.width, size.height, 0));
+  const Mask open(size.width, size.height, 0);
+  outside_ = rectifyMask(open);
+  outside_right_ = resample(open, maps_->right_u, maps_->right_v);
 }
 
 StereoPair Rectifier::rectify(const StereoPair& raw) const {
@@ -119,11 +130,7 @@ Eigen::Vector2d Rectifier::rectifiedPixel(const Eigen::Vector2d& raw_left_px) co
 
 Mask Rectifier::rectifyMask(const Mask& raw) const {
   if (!maps_) return raw;
-  Mask out(rig_.left.width_px, rig_.left.height_px);
-  cv::Mat view = opencvView(out);
-  cv::remap(opencvView(raw), view, maps_->left_u, maps_->left_v, cv::INTER_NEAREST,
-            cv::BORDER_CONSTANT, cv::Scalar(255));
-  return out;
+  return resample(raw, maps_->left_u, maps_->left_v);
 }
 
 }  // namespace softscope

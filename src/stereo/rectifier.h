@@ -32,12 +32,14 @@ class Rectifier {
 
   /// Non-zero where the rectified left pixel lies outside the raw left picture; empty if none.
   const Mask& outside() const { return outside_; }
+  /// The same of the right view.
+  const Mask& outsideRight() const { return outside_right_; }
 
  private:
   struct Maps;
   RectifiedRig rig_;
   std::unique_ptr<Maps> maps_;  // null where the pictures are rectified already
-  Mask outside_;
+  Mask outside_, outside_right_;
 };
 
 }  // namespace softscope

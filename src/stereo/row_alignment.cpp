@@ -13,27 +13,36 @@ bool canStay(const RowAlignment& found) {
          found.mean_row_difference_px < RowAlignment::kRemoveAbovePx;
 }
 
+/// Masked wherever the moved image has a share of a masked pixel.
+Mask moveMask(const Mask& mask, const RowAlignment& alignment) {
+  if (mask.empty()) return {};
+  Mask marks = dilated(mask, 1);  // the cubic's weights of farther rows are small and negative
+  for (std::uint8_t& value : marks.values) value = value == 0 ? 0 : 255;
+  return moveRows(marks, alignment);
+}
+
 }  // namespace
 
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
-                                 int disparity_max_px) {
-  return RowMeter(left, disparity_max_px).measure(right);
+                                 int disparity_max_px, const ViewMasks& ignored) {
+  return RowMeter(left, disparity_max_px, ignored.left).measure(right, ignored.right);
 }
 
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment) {
   return moveRows(right, alignment);
 }
 
-AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px) {
-  RowMeter meter(toGray(rectified.left), disparity_max_px);
+AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px, const ViewMasks& ignored) {
+  RowMeter meter(toGray(rectified.left), disparity_max_px, ignored.left);
   const GrayImage right = toGray(rectified.right);
-  AlignedPair aligned{rectified, meter.measure(right)};
+  AlignedPair aligned{rectified, ignored, meter.measure(right, ignored.right)};
   if (canStay(aligned.before)) return aligned;
   RowAlignment whole = aligned.before;
-  const RowAlignment rest = meter.measure(moveRows(right, whole));
+  const RowAlignment rest = meter.measure(moveRows(right, whole), moveMask(ignored.right, whole));
   if (!canStay(rest))
     for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
   aligned.pair.right = removeRowError(rectified.right, whole);
+  aligned.ignored.right = moveMask(ignored.right, whole);
   aligned.removed = true;
   aligned.roll_rad = whole.tilt_px_per_px();
   return aligned;

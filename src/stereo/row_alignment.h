@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/image.h"
+#include "stereo/view_masks.h"
 
 namespace softscope {
 
@@ -35,7 +36,7 @@ struct RowAlignment {
 /// Matches a coarse grid of pixels over all disparities up to `disparity_max_px` and rows up to
 /// ten off. Never fails: few matches mean !known().
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
-                                 int disparity_max_px);
+                                 int disparity_max_px, const ViewMasks& ignored = {});
 
 /// The right picture moved so that the model's row difference vanishes.
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment);
@@ -43,6 +44,7 @@ ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignme
 /// A rectified pair whose rows correspond.
 struct AlignedPair {
   StereoPair pair;
+  ViewMasks ignored;     // the right one moved with its view
   RowAlignment before;   // as found
   bool removed = false;  // whether the right picture was moved
   /// Of the right camera about its optical axis, as the rows' tilt shows: see removeRoll().
@@ -51,7 +53,9 @@ struct AlignedPair {
 
 /// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right picture;
 /// measures once more, since matches are better then, and moves the right picture by both at once.
-AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px);
+/// What is ignored says nothing about the rows.
+AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px,
+                      const ViewMasks& ignored = {});
 
 /// Moving rows removes half of a roll; the other half makes disparities too large by
 /// roll_rad * (v - centre_v), px, which this subtracts.

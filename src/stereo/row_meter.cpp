@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "stereo/support_points.h"
+#include "stereo/view_masks.h"
 
 namespace softscope {
 namespace {
@@ -62,8 +63,9 @@ bool isWellAligned(const std::vector<RowMatch>& matches) {
 
 }  // namespace
 
-RowMeter::RowMeter(const GrayImage& left, int disparity_max_px)
-    : margin_px_(disparity_max_px), left_(left, ElasOptions{}.gradient_gain, disparity_max_px) {
+RowMeter::RowMeter(const GrayImage& left, int disparity_max_px, const Mask& ignored)
+    : margin_px_(disparity_max_px),
+      left_(fillMasked(left, ignored), ElasOptions{}.gradient_gain, disparity_max_px, ignored) {
   options_.disparity_max_px = disparity_max_px;
   options_.elas.support_step_px = kGridPx;
   options_.elas.support_redundant_cells = 0;
@@ -77,8 +79,9 @@ RowAlignment RowMeter::scale() const {
   return scale;
 }
 
-std::vector<RowMatch> RowMeter::match(const GrayImage& right_image) {
-  const GradientImage right(right_image, ElasOptions{}.gradient_gain, margin_px_);
+std::vector<RowMatch> RowMeter::match(const GrayImage& right_image, const Mask& ignored) {
+  const GradientImage right(fillMasked(right_image, ignored), ElasOptions{}.gradient_gain,
+                            margin_px_, ignored);
   const auto matches = matchRows(right, 0);
   if (isWellAligned(matches)) return matches;
   // True rows give the most matches, but for those that a roll moves further.

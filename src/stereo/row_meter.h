@@ -12,16 +12,18 @@
 namespace softscope {
 
 /// Measures right pictures against one left picture, on a coarse grid, over all disparities up to
-/// `disparity_max_px` and rows up to ten off.
+/// `disparity_max_px` and rows up to ten off. No window reaches a pixel that is ignored.
 class RowMeter {
  public:
-  RowMeter(const GrayImage& left, int disparity_max_px);
+  RowMeter(const GrayImage& left, int disparity_max_px, const Mask& ignored = {});
 
   /// What was found; most of it right.
-  std::vector<RowMatch> match(const GrayImage& right);
+  std::vector<RowMatch> match(const GrayImage& right, const Mask& ignored = {});
 
   /// The smooth row difference through it.
-  RowAlignment measure(const GrayImage& right) { return fitRowModel(match(right), scale()); }
+  RowAlignment measure(const GrayImage& right, const Mask& ignored = {}) {
+    return fitRowModel(match(right, ignored), scale());
+  }
 
   /// Nothing known yet: the frame of reference of fitRowModel().
   RowAlignment scale() const;

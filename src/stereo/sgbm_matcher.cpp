@@ -11,12 +11,16 @@ namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr int kSobelReach = 1;            // its costs use gradients
 constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §7
 
 }  // namespace
 
-DisparityMap SgbmMatcher::match(const GrayImage& left, const GrayImage& right) {
-  requireRectifiedPair(left, right);
+DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& right_image,
+                                const ViewMasks& ignored) {
+  requireRectifiedPair(left_image, right_image);
+  const GrayImage left = fillMasked(left_image, ignored.left);
+  const GrayImage right = fillMasked(right_image, ignored.right);
   StageClock clock;
   const int count = (options_.disparity_max_px - options_.disparity_min_px + 16) / 16 * 16;
   const int block = options_.sgbm_block_px, area = block * block;
@@ -27,11 +31,18 @@ DisparityMap SgbmMatcher::match(const GrayImage& left, const GrayImage& right) {
   clock.lap("match");
   DisparityMap map{Raster<float>(left.width_px, left.height_px, kNaN),
                    Raster<float>(left.width_px, left.height_px, kNaN)};
+  const Mask left_blocked = dilated(ignored.left, options_.sgbm_block_px / 2 + kSobelReach);
+  const Mask right_blocked = dilated(ignored.right, options_.sgbm_block_px / 2 + kSobelReach);
+  const auto is_blocked = [](const Mask& blocked, int u, int v) {
+    return blocked.contains(u, v) && blocked.at(u, v) != 0;
+  };
   const short unmatched = static_cast<short>((options_.disparity_min_px - 1) * 16);
   for (int v = 0; v < left.height_px; ++v)
     for (int u = 0; u < left.width_px; ++u) {
       const short d = found.at<short>(v, u);
       if (d <= unmatched) continue;
+      if (is_blocked(left_blocked, u, v) || is_blocked(right_blocked, u - (d + 8) / 16, v))
+        continue;
       map.disparity_px.at(u, v) = static_cast<float>(d) / 16;
       map.sigma_px.at(u, v) = kStandardErrorPx;
     }

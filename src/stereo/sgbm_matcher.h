@@ -11,7 +11,9 @@ class SgbmMatcher final : public StereoMatcher {
  public:
   explicit SgbmMatcher(const StereoOptions& options) : options_(options) {}
   std::string name() const override { return "sgbm"; }
-  DisparityMap match(const GrayImage& left, const GrayImage& right) override;
+  using StereoMatcher::match;
+  DisparityMap match(const GrayImage& left, const GrayImage& right,
+                     const ViewMasks& ignored) override;
   const StageTimes& times() const override { return times_; }
 
  private:

@@ -9,6 +9,7 @@
 #include "core/depth_map.h"
 #include "core/image.h"
 #include "stereo/stereo_options.h"
+#include "stereo/view_masks.h"
 
 namespace softscope {
 
@@ -24,8 +25,13 @@ class StereoMatcher {
   virtual std::string name() const = 0;
 
   /// Both pictures rectified and of one shape, else Error. Result: the left picture's shape, NaN
-  /// where there is no match. Same input, same bytes, whatever the number of threads.
-  virtual DisparityMap match(const GrayImage& left, const GrayImage& right) = 0;
+  /// where there is no match. Same input, same bytes, whatever the number of threads. No window
+  /// reaches `ignored` pixels of either view, and none of them has a disparity.
+  virtual DisparityMap match(const GrayImage& left, const GrayImage& right,
+                             const ViewMasks& ignored) = 0;
+  DisparityMap match(const GrayImage& left, const GrayImage& right) {
+    return match(left, right, {});
+  }
 
   /// Of the last match().
   virtual const StageTimes& times() const = 0;

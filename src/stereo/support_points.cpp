@@ -43,6 +43,9 @@ class RowMatcher {
              int row_offset_px)
       : left_(left.view()),
         right_(right.view(row_offset_px)),
+        left_blocked_(left.blocked(kReach)),
+        right_blocked_(right.blocked(kReach)),
+        row_offset_(row_offset_px),
         width_(left.width_px()),
         minimum_(options.disparity_min_px),
         count_(options.disparity_max_px - options.disparity_min_px + 1),
@@ -64,6 +67,8 @@ class RowMatcher {
     if (u < kReach || u >= width_ - kReach || row_.cost_left[u] == 0xFFFF) return kNone;
     const int disparity = row_.disparity_left[u], best = disparity - minimum_;
     if (texture(left_, u, v) < elas_.support_texture) return kNone;
+    if (isBlocked(left_blocked_, u, v)) return kNone;
+    if (isBlocked(right_blocked_, u - disparity, v + row_offset_)) return kNone;
     const int returned = row_.disparity_right[u - disparity];
     if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
     if (best == 0 || best == count_ - 1) return kNone;  // the true one may lie outside the range
@@ -74,9 +79,14 @@ class RowMatcher {
     return static_cast<float>(disparity) +
            parabolaOffset(cost(best - 1, u), cost(best, u), cost(best + 1, u));
   }
+  static bool isBlocked(const Mask& blocked, int u, int v) {
+    return blocked.contains(u, v) && blocked.at(u, v) != 0;
+  }
   int cost(int i, int u) const { return row_.volume[static_cast<long>(i) * row_.stride + u]; }
 
   GradientView left_, right_;
+  Mask left_blocked_, right_blocked_;
+  int row_offset_;
   int width_, minimum_, count_;
   const ElasOptions& elas_;
   std::vector<std::uint16_t> buffer_;

@@ -130,7 +130,7 @@ int ownSettingCount() {
 // A struct's fields are its settings, the structs in it, and what the second number says: fields
 // that code sets, or that several stages share.
 TEST(SettingsList, EveryFieldOfEveryStructIsDescribed) {
-  EXPECT_EQ(fieldCount<ElasOptions>() - 3, settingCount<ElasOptions>());  // row meter, half size
+  EXPECT_EQ(fieldCount<ElasOptions>() - 4, settingCount<ElasOptions>());  // row meter, half, prior
   EXPECT_EQ(fieldCount<RefinementOptions>(), 0);
   EXPECT_EQ(fieldCount<SmoothingOptions>() - 1, settingCount<SmoothingOptions>());  // by width
   EXPECT_EQ(fieldCount<StereoOptions>() - 3 - 1,                                    // half size

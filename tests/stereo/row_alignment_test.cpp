@@ -12,13 +12,6 @@
 namespace softscope {
 namespace {
 
-ColourImage colourOf(const GrayImage& gray) {
-  ColourImage colour(gray.width_px, gray.height_px);
-  for (std::size_t i = 0; i < gray.size(); ++i)
-    colour.values[i] = {gray.values[i], gray.values[i], gray.values[i]};
-  return colour;
-}
-
 /// The right picture as a scope with a row error of shift + tilt (u - w/2) would deliver it.
 test::Scene misaligned(double shift_px, double tilt_px_per_px) {
   const RectifiedRig rig = test::endoscope();
@@ -28,7 +21,7 @@ test::Scene misaligned(double shift_px, double tilt_px_per_px) {
   inverse.centre_u_px = rig.left.cx_px;
   inverse.model[0] = -shift_px;
   inverse.model[1] = -tilt_px_per_px * inverse.half_width_px;
-  scene.right = toGray(removeRowError(colourOf(scene.right), inverse));
+  scene.right = toGray(removeRowError(test::colourOf(scene.right), inverse));
   return scene;
 }
 
@@ -51,7 +44,8 @@ TEST(RowAlignment, MeasuresShiftAndTilt) {
 
 TEST(RowAlignment, RemovesWhatItFound) {
   const auto scene = misaligned(2.3, 0.003);
-  const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
+  const AlignedPair aligned =
+      alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100);
   EXPECT_TRUE(aligned.removed);
   EXPECT_NEAR(aligned.before.mean_row_difference_px, 2.3, 0.2);
   const RowAlignment after = measureRowAlignment(scene.left, toGray(aligned.pair.right), 100);
@@ -61,7 +55,8 @@ TEST(RowAlignment, RemovesWhatItFound) {
 TEST(RowAlignment, FindsRowsEightPixelsOff) {
   for (const double shift_px : {-8.0, 8.0}) {
     const auto scene = misaligned(shift_px, 0);
-    const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
+    const AlignedPair aligned =
+        alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100);
     ASSERT_TRUE(aligned.removed);
     EXPECT_NEAR(aligned.before.shift_px(), shift_px, 0.2);
     const RowAlignment after = measureRowAlignment(scene.left, toGray(aligned.pair.right), 100);
@@ -71,16 +66,18 @@ TEST(RowAlignment, FindsRowsEightPixelsOff) {
 
 TEST(RowAlignment, TellsARollByTheTiltOfTheRows) {
   const auto scene = misaligned(5, 0.0087);  // half a degree: 2.8 px at either side
-  const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
+  const AlignedPair aligned =
+      alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100);
   EXPECT_NEAR(aligned.roll_rad, 0.0087, 0.0008);
-  EXPECT_EQ(alignRows({colourOf(scene.left), colourOf(scene.left)}, 100).roll_rad, 0);
+  EXPECT_EQ(alignRows({test::colourOf(scene.left), test::colourOf(scene.left)}, 100).roll_rad, 0);
 }
 
 TEST(RowAlignment, LeavesAlignedPicturesAsTheyAre) {
   const auto scene = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
-  const AlignedPair aligned = alignRows({colourOf(scene.left), colourOf(scene.right)}, 100);
+  const AlignedPair aligned =
+      alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100);
   EXPECT_FALSE(aligned.removed);
-  EXPECT_EQ(aligned.pair.right.values, colourOf(scene.right).values);
+  EXPECT_EQ(aligned.pair.right.values, test::colourOf(scene.right).values);
 }
 
 TEST(RowModel, DoesNotFollowItsSlopeWhereNothingWasMatched) {

@@ -11,6 +11,7 @@
 #include "io/sequence_reader.h"
 #include "mesh/mesh_reader.h"
 #include "stereo/depth_from_disparity.h"
+#include "stereo/image_border.h"
 #include "stereo/rectifier.h"
 #include "stereo/stereo_matcher.h"
 
@@ -23,10 +24,11 @@ std::string numbered(int frame) {
   return name;
 }
 
-DisparityMap matchWith(const std::string& method, const GrayImage& left, const GrayImage& right) {
+DisparityMap matchWith(const std::string& method, const GrayImage& left, const GrayImage& right,
+                       const ViewMasks& ignored = {}) {
   StereoOptions options;
   options.method = method;
-  return makeStereoMatcher(options)->match(left, right);
+  return makeStereoMatcher(options)->match(left, right, ignored);
 }
 
 PairScore scorePair(const std::string& name, const GrayImage& left, const GrayImage& right,
@@ -49,9 +51,13 @@ struct Measured {
 
 Measured measure(const StereoPair& raw, const Rectifier& rectifier, bool align_rows) {
   StereoPair pair = rectifier.rectify(raw);
-  AlignedPair aligned = alignRows(pair, StereoOptions{}.disparity_max_px);
-  if (align_rows) pair = std::move(aligned.pair);
-  DisparityMap disparity = matchWith("elas", toGray(pair.left), toGray(pair.right));
+  ViewMasks ignored = pixelsToIgnore(pair, rectifier, {}, /*find_border=*/true);
+  AlignedPair aligned = alignRows(pair, StereoOptions{}.disparity_max_px, ignored);
+  if (align_rows) {
+    pair = std::move(aligned.pair);
+    ignored = std::move(aligned.ignored);
+  }
+  DisparityMap disparity = matchWith("elas", toGray(pair.left), toGray(pair.right), ignored);
   if (align_rows) removeRoll(aligned.roll_rad, &disparity.disparity_px);
   return {depthFromDisparity(disparity, rectifier.rig()), aligned.before};
 }

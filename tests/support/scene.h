@@ -109,6 +109,14 @@ inline GrayImage renderView(const RectifiedRig& rig, const Surface& surface, dou
   return image;
 }
 
+/// The same in all three channels.
+inline ColourImage colourOf(const GrayImage& gray) {
+  ColourImage colour(gray.width_px, gray.height_px);
+  for (std::size_t i = 0; i < gray.size(); ++i)
+    colour.values[i] = {gray.values[i], gray.values[i], gray.values[i]};
+  return colour;
+}
+
 inline Scene makeScene(const RectifiedRig& rig, const Surface& surface, double noise_gray = 0) {
   Scene scene;
   const float nan = std::numeric_limits<float>::quiet_NaN();
