@@ -115,8 +115,7 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
 std::string ReconstructCommand::digestOf(const Json& inputs, const SettingsBinder& binder) const {
   std::string all;
   for (const SettingInfo& setting : binder.list())
-    if (setting.key != "sequence.read_ahead")
-      all += setting.key + "=" + setting.current_text + "\n";
+    all += setting.key + "=" + setting.current_text + "\n";
   for (const auto& [part, input] : inputs.items())
     all += part + "=" + input["sha256"].get<std::string>() + "\n";
   if (!track_.empty()) all += sha256Of(track_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace softscope {
+
 MatchPicture halved(const MatchPicture& fine) {
   return {halve(fine.gray), halvedMask(fine.ignore), halve(fine.anchor)};
 }

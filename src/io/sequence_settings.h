@@ -26,7 +26,6 @@ void describe(Visitor& v, SequenceOptions& o) {
   v("sequence.right_first", o.right_first, "in such an image the right view comes first");
   v("sequence.right_offset", o.right_offset, FreeText{"auto or a whole number of -1000 to 1000"},
     "right image f + offset belongs to left image f");
-  v("sequence.read_ahead", o.read_ahead, between(1, 1000), "frames kept ready in memory");
   describe(v, o.calibration);
 }
 

@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& settings : {file, assignment}) {
     if (!settings) continue;
     const auto options = answerOf([&] { return optionsOf(*settings); });
-    if (options) mustHold(options->read_ahead >= 1 && options->calibration.baseline_mm >= 0);
+    if (options) mustHold(options->calibration.baseline_mm >= 0);
   }
   const auto range = answerOf([&] { return parseFrameRange(std::string(text)); });
   if (range) mustHold(range->begin >= 0 && (range->end < 0 || range->end > range->begin));

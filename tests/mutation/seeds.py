@@ -207,7 +207,7 @@ def write_calibrations(root, clip):
 def write_texts(root, clip):
     (root / "toml").mkdir()
     (root / "toml/s.toml").write_text("# settings\n[stereo]\ndisparity_max_px = 63\nmethod = \"elas\"\n"
-                                      "[sequence]\nread_ahead = 2\n")
+                                      "[sequence]\nright_first = true\n")
     (root / "study").mkdir()
     (root / "study/study.toml").write_text(
         'title = "a study"\n[simulate]\nframes = 2\nscope.width_px = 96\nscope.height_px = 80\n'

@@ -150,7 +150,7 @@ TEST(SettingsList, EveryFieldOfEveryStructIsDescribed) {
   EXPECT_EQ(fieldCount<ColourOptions>(), settingCount<ColourOptions>());
   EXPECT_EQ(fieldCount<InsertionOptions>() - 2, settingCount<InsertionOptions>());  // scaled
   EXPECT_EQ(fieldCount<CalibrationHints>(), settingCount<CalibrationHints>());
-  EXPECT_EQ(fieldCount<SequenceOptions>() - 2,  // --frames is an argument
+  EXPECT_EQ(fieldCount<SequenceOptions>() - 3,  // --frames is an argument; frames read ahead
             (ownSettingCount<SequenceOptions, CalibrationHints>()));
   EXPECT_EQ(fieldCount<TissueMaskOptions>(), settingCount<TissueMaskOptions>());
   EXPECT_EQ(fieldCount<GateOptions>(), settingCount<GateOptions>());
