@@ -262,8 +262,8 @@ TEST(SequenceReader, OptionsAreBoundAndChecked) {
   EXPECT_EQ(options.layout, "top-bottom");
   EXPECT_EQ(options.calibration.baseline_mm, 4.3);
   EXPECT_NO_THROW(options.validate());
-  options.read_ahead = 0;
-  expectError<OptionError>([&] { options.validate(); }, {"sequence.read_ahead is 0"});
+  options.layout = "diagonal";
+  expectError<OptionError>([&] { options.validate(); }, {"sequence.layout is diagonal"});
 }
 
 }  // namespace

@@ -162,6 +162,18 @@ TEST(RefinePose, MeasuresARigidSceneInItsReferenceShape) {
   expectNear(found.world_from_left, truth, 0.02, 4e-4);
 }
 
+// Pulled aside by 6 mm and bent over many frames, before a scope at rest.
+TEST(RefinePose, TissuePulledAsAWholeIsNoSlowMotionOfTheScope) {
+  std::vector<PosePair> pairs = seenFrom(Eigen::Isometry3d::Identity(), nothing, 0.02);
+  for (PosePair& pair : pairs)
+    pair.reference_world_mm += Eigen::Vector3d(6 + 0.8 * std::sin(0.3 * pair.model_world_mm.y()), 0,
+                                               std::cos(0.3 * pair.model_world_mm.x()));
+  const RefinedPose found =
+      refined(pairs, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity());
+  EXPECT_TRUE(found.scope_static);
+  EXPECT_EQ(found.world_from_left.matrix(), Eigen::Matrix4d::Identity());
+}
+
 TEST(RefinePose, TakesThePresentShapeOfTissueThatHasBent) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
   std::vector<PosePair> pairs = seenFrom(truth, nothing, 0.02);
