@@ -37,8 +37,13 @@ RunOptions optionsOf(const fs::path& run) {
     setting.origin = shown(file);
   }
   RunOptions options;
-  settingsOf(options).apply(settings);
-  options.validate();
+  try {
+    settingsOf(options).apply(settings);
+    options.validate();
+  } catch (const OptionError& error) {
+    throw InputError(shown(file) + ": was written by another version (" + error.what() +
+                     "); reconstruct again");
+  }
   options.method = withSharedQuantities(options.method);
   return options;
 }

@@ -192,7 +192,10 @@ int ReconstructCommand::run() {
   const Json inputs = inputsJson(where);
   Checkpoint checkpoint{digestOf(inputs, binder), options.sequence.frames.begin, {}};
   const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);
-  if (earlier) skipDone(*earlier, where, options.sequence);
+  if (earlier) {
+    checkpoint.next_frame = earlier->next_frame;
+    skipDone(*earlier, where, options.sequence);
+  }
 
   SequenceReader reader(where, options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);

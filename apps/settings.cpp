@@ -68,6 +68,8 @@ class SettingsCommand : public Command {
   int run() override {
     if (toml_ + markdown_ + common.json > 1)
       throw OptionError("--toml, --markdown and --json exclude each other; give one");
+    if (command_ != "reconstruct" && (markdown_ || preset_ != "default"))
+      throw OptionError("--markdown and --preset are for the settings of reconstruct alone");
     const std::vector<SettingInfo> settings = listOf(command_, preset_);
     if (common.json)
       printJson(jsonOf(settings));

@@ -115,6 +115,7 @@ class Stereo::Device {
   }
   ~Device() {
     cudaStreamSynchronize(side_stream_);
+    cudaStreamSynchronize(stream_);
     cudaEventDestroy(share_read_);
     cudaEventDestroy(level_done_);
   }
@@ -143,9 +144,9 @@ class Stereo::Device {
   }
   void setMask(const Mask& mask) {
     wait();
+    if (!mask.empty()) requireShape(mask);
     exchange().inputs.masked = mask.empty() ? 0 : 1;
     if (mask.empty()) return;
-    requireShape(mask);
     copy(layout_.mask.data, mask.values.data(), pixels_);
     wait();
   }

@@ -1,4 +1,4 @@
-// eval/simulation/scope_event.h: what takes the tissue out of the scope's sight for a while.
+// eval/simulation/scope_event.h: simulated events that hide the tissue from the scope.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,6 +8,7 @@
 
 namespace softscope {
 
+/// Ground truth stays geometric: depth, tracks and their visibility are those of the tissue behind.
 struct ScopeEventOptions {
   std::string kind = "none";  // none, withdraw (into the dark trocar and back), cover (tissue on
                               // the lens), wipe (gauze over the lens), smoke (a dense burst)

@@ -3,7 +3,7 @@
 // Beside every option struct stands one list of its settings:
 //   template <class Visitor>
 //   void describe(Visitor& v, SmoothingOptions& o) {
-//     v("stereo.smoothing.relief_px", o.relief_px, atLeast(0), "relief that no patch follows");
+//     v("stereo.smoothing.reach_blocks", o.reach_blocks, between(0, 7), "of a window");
 //   }
 // A visitor takes key, field, rule (none for true/false) and meaning. RangeCheck checks the values;
 // SettingsBinder (io) makes keys, records, help texts and documents of them.

@@ -8,7 +8,7 @@ namespace softscope {
 
 template <class Visitor>
 void describe(Visitor& v, GraphOptions& o) {
-  v("graph.node_spacing_mm", o.node_spacing_mm, above(0), "of the nodes, along the surface");
+  v("graph.node_spacing_mm", o.node_spacing_mm, atLeast(0.5), "of the nodes, along the surface");
 }
 
 template <class Visitor>

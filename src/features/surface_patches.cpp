@@ -49,11 +49,14 @@ std::optional<TangentFrame> tangentFrame(const DepthImage& image, int u, int v, 
 /// NaN outside, and where the pixel is ignored.
 float grayAt(const DepthImage& image, const Eigen::Vector3f& point_mm) {
   const Eigen::Vector2f at = projectPoint(image.camera, point_mm);
-  const int u = static_cast<int>(std::floor(at.x())), v = static_cast<int>(std::floor(at.y()));
-  if (!image.gray.contains(u, v) || !image.gray.contains(u + 1, v + 1))
-    return std::numeric_limits<float>::quiet_NaN();
-  if (!image.ignore.empty() && image.ignore.at(u, v) != 0)
-    return std::numeric_limits<float>::quiet_NaN();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < static_cast<float>(image.gray.width_px - 1) &&
+        at.y() < static_cast<float>(image.gray.height_px - 1)))
+    return nan;
+  const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
+  if (!image.ignore.empty() && (image.ignore.at(u, v) | image.ignore.at(u + 1, v) |
+                                image.ignore.at(u, v + 1) | image.ignore.at(u + 1, v + 1)) != 0)
+    return nan;
   const auto x = at.x() - static_cast<float>(u), y = at.y() - static_cast<float>(v);
   const std::uint8_t *above = image.gray.row(v) + u, *below = image.gray.row(v + 1) + u;
   return (1 - y) * ((1 - x) * above[0] + x * above[1]) + y * ((1 - x) * below[0] + x * below[1]);

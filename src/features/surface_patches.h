@@ -1,4 +1,4 @@
-// src/features/surface_patches.h: descriptors that stay the same from another viewpoint.
+// src/features/surface_patches.h: viewpoint-invariant descriptors of tissue patches.
 #pragma once
 
 #include <Eigen/Core>

@@ -16,7 +16,7 @@ struct Setting {
   std::string origin;  // "settings.toml:3" or "--set", for messages
 };
 
-/// Dotted key ("stereo.support_step_px") to value; later ones win.
+/// Dotted key ("stereo.disparity_max_px") to value; later ones win.
 using Settings = std::map<std::string, Setting>;
 
 /// TOML: [tables] and dotted keys, whose values are true/false, whole numbers, numbers or texts.

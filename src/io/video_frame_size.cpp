@@ -56,9 +56,9 @@ void skipScalingLists(BitReader& bits, int count) {
     for (int i = 0; i < (list < 6 ? 16 : 64); ++i) {
       if (next != 0) {
         const std::uint32_t code = bits.golomb();
-        const int delta =
-            code % 2 == 1 ? static_cast<int>(code / 2 + 1) : -static_cast<int>(code / 2);
-        next = (last + delta + 256) % 256;
+        const std::int64_t delta =
+            code % 2 == 1 ? std::int64_t{code / 2} + 1 : -std::int64_t{code / 2};
+        next = static_cast<int>((last + delta + 256) % 256);
       }
       last = next == 0 ? last : next;
     }

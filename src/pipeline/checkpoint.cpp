@@ -149,6 +149,7 @@ void visit(Archive& archive, Whole& checkpoint) {
   archive.array(checkpoint.state.key_views);
   archive.value(checkpoint.state.lost);
   archive.value(checkpoint.state.unfused_frames);
+  archive.value(checkpoint.state.searches);
 }
 
 }  // namespace

@@ -88,8 +88,9 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   measured.mask = frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
   // Instruments are dropped afterwards: their mask is one view's, and weak texture beside them
   // needs the wide windows of the coarser sizes.
-  const ViewMasks ignored = pixelsToIgnore(rectified, rectifier_, {}, options_.find_border);
+  const ViewMasks ignored = pixelsToIgnore(rectified, rectifier_, options_.find_border);
   measured.mask = united(measured.mask, ignored.left);
+  measured.border = ignored.left;
   clock.lap("rectify");
   AlignedPair aligned{rectified, ignored, {}};
   if (options_.align_rows)

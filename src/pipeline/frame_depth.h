@@ -29,7 +29,8 @@ struct FrameDepthOptions {
 struct MeasuredFrame {
   std::string method;  // elas, sgbm or files
   ColourImage left;    // rectified
-  Mask mask;  // instruments, black border, what the raw left picture didn't show; may be empty
+  Mask mask;    // instruments, black border, what the raw left image does not show; may be empty
+  Mask border;  // of these, what was known before matching; may be empty
   DisparityMap disparity;  // empty where depth came from a file
   DepthMap depth;          // NaN under the mask
   NormalMap normals;

@@ -12,7 +12,7 @@ namespace softscope {
 namespace {
 
 void addTo(Mask& mask, const Mask& more) {
-  for (std::size_t i = 0; i < mask.size(); ++i)
+  for (std::size_t i = 0; i < more.size(); ++i)
     if (more.values[i] != 0) mask.values[i] = 1;
 }
 
@@ -27,8 +27,12 @@ Mask unseen(const ModelView& view) {
 Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options) {
   Mask mask(frame.left.width_px, frame.left.height_px, 0);
   if (!frame.mask.empty()) addTo(mask, frame.mask);
+  for (std::size_t i = 0; i < frame.border.size(); ++i)
+    if (frame.border.values[i] != 0) mask.values[i] = 0;
   if (options.detect_instruments) addTo(mask, detectInstruments(frame.left));
-  return options.margin_px > 0 ? grown(mask, options.margin_px) : mask;
+  if (options.margin_px > 0) mask = grown(mask, options.margin_px);
+  addTo(mask, frame.border);  // without a margin: no matching window reached it
+  return mask;
 }
 
 MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue) {

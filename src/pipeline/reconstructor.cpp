@@ -66,6 +66,7 @@ void Reconstructor::finish(FrameRecord& record) {
   record.world_from_left = world_from_left_;
   record.tracked = backend_->tracked(world_from_left_);
   unfused_frames_ = record.fused() ? 0 : unfused_frames_ + 1;
+  if (record.fused()) searches_ = 0;
   if (record.fused()) return;
   for (TrackedPosition& point : record.tracked) point.visible = false;
 }
@@ -102,7 +103,7 @@ bool Reconstructor::locate(FrameRecord& record) {
 }
 
 bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record) {
-  // While the tissue was out of sight, nothing tells that the scope stood still.
+  // After a frame that was not fused, nothing tells that the scope stood still.
   const bool maybe_static = unfused_frames_ == 0;
   const LocateSummary found =
       backend_->locate(viewpoint, world_from_left_, reference_pose_, maybe_static);
@@ -121,6 +122,7 @@ bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& 
 bool Reconstructor::findAgain(FrameRecord& record) {
   lost_ = true;
   const RigidPose rough = backend_->relocalise(viewpointsToTry());
+  ++searches_;
   if (!rough.found)
     return reject(record, FrameStatus::kLost,
                   text("no view of the model matches the image: ", rough.failure));
@@ -137,7 +139,7 @@ std::vector<Eigen::Isometry3d> Reconstructor::viewpointsToTry() const {
   std::vector<Eigen::Isometry3d> all{world_from_left_};
   all.insert(all.end(), key_views_.rbegin(), key_views_.rend());
   const std::size_t count = std::min(kViewpointsAFrame, all.size());
-  const std::size_t first = static_cast<std::size_t>(unfused_frames_) * count % all.size();
+  const std::size_t first = static_cast<std::size_t>(searches_) * count % all.size();
   std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first), all.end());
   all.resize(count);
   return all;
@@ -189,7 +191,8 @@ void Reconstructor::rememberView() {
 }
 
 ReconstructionState Reconstructor::state() const {
-  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_, unfused_frames_};
+  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_,
+          unfused_frames_,   searches_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
@@ -199,6 +202,7 @@ void Reconstructor::restore(ReconstructionState state) {
   key_views_ = std::move(state.key_views);
   lost_ = state.lost;
   unfused_frames_ = state.unfused_frames;
+  searches_ = state.searches;
 }
 
 }  // namespace softscope

@@ -18,6 +18,7 @@ struct ReconstructionState {
   std::vector<Eigen::Isometry3d> key_views;
   bool lost = false;
   int unfused_frames = 0;  // since the last one that was fused
+  int searches = 0;        // of them, in which the model was sought over the whole image
 };
 
 /// Owns the order of the stages; the back end owns what they work on.
@@ -61,6 +62,7 @@ class Reconstructor {
   std::vector<Eigen::Isometry3d> key_views_;
   bool lost_ = false;
   int unfused_frames_ = 0;  // since the last one that was fused
+  int searches_ = 0;        // of them, in which the model was sought over the whole image
 };
 
 }  // namespace softscope

@@ -1,6 +1,7 @@
 #include "pipeline/relocaliser.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/median.h"
 #include "features/match_pyramid.h"
@@ -26,13 +27,18 @@ PinholeCamera halved(PinholeCamera camera) {
   return camera;
 }
 
-/// The nearest of the four pixels; NaN where one has no depth.
+/// Means of 2 x 2 pixels; NaN where one has no depth or they lie on two surfaces.
 Raster<float> halved(const Raster<float>& depth_mm) {
+  constexpr float kLargestStep = 0.05F;  // of the depth
   Raster<float> coarse(depth_mm.width_px / 2, depth_mm.height_px / 2);
   for (int v = 0; v < coarse.height_px; ++v)
     for (int u = 0; u < coarse.width_px; ++u) {
       const float *above = depth_mm.row(2 * v) + 2 * u, *below = depth_mm.row(2 * v + 1) + 2 * u;
-      coarse.at(u, v) = 0.25F * (above[0] + above[1] + below[0] + below[1]);
+      const float mean = 0.25F * (above[0] + above[1] + below[0] + below[1]);
+      const float step = std::max({above[0], above[1], below[0], below[1]}) -
+                         std::min({above[0], above[1], below[0], below[1]});
+      coarse.at(u, v) =
+          step <= kLargestStep * mean ? mean : std::numeric_limits<float>::quiet_NaN();
     }
   return coarse;
 }
@@ -79,6 +85,10 @@ RigidPose relocalise(const PointModel& model, const std::vector<Eigen::Isometry3
   const double radius_mm = kRadiusPx * typicalDepthMm(image.depth_mm) / image.camera.fx_px;
   const std::vector<SurfacePatch> patches = surfacePatches(image, radius_mm, kSpacingPx);
   RigidPose best;
+  if (patches.empty()) {
+    best.failure = "no part of the image has texture and depth";
+    return best;
+  }
   for (const Eigen::Isometry3d& viewpoint : viewpoints) {
     const ModelView view = renderModelView(model, image.camera, viewpoint, view_options);
     const MatchPicture picture = modelPicture(view);

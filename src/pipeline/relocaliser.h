@@ -1,4 +1,4 @@
-// src/pipeline/relocaliser.h: finds a model that was out of sight again.
+// src/pipeline/relocaliser.h: relocalisation: scope pose from surface patches.
 #pragma once
 
 #include <vector>

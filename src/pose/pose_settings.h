@@ -15,7 +15,7 @@ void describe(Visitor& v, RansacOptions& o) {
 
 template <class Visitor>
 void describe(Visitor& v, RefinePoseOptions& o) {
-  v("pose.refine.iterations", o.iterations, atLeast(0), "0: the pose is RANSAC's fit");
+  v("pose.refine.iterations", o.iterations, between(0, 1000), "0: the pose is RANSAC's fit");
   v("pose.scope", o.scope, oneOf({"auto", "static", "moving"}), "motion of the scope, where known");
 }
 

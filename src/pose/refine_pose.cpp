@@ -285,7 +285,8 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   const Eigen::Isometry3d best = now.search(fitted.inverse(), old);
   const Eigen::Isometry3d best_since = since.search(best, before);
   const bool moved_now = now.differs(best, old), moved_since = since.differs(best_since, before);
-  const double kept_share = since.explainedBy(best_since) / now.explainedBy(best);
+  const double share_now = now.explainedBy(best);
+  const double kept_share = share_now > 0 ? since.explainedBy(best_since) / share_now : 0;
   const bool slow = !moved_now && moved_since && kept_share >= kSlowShare;
   const bool rigid = slow || kept_share >= kRigidShare;
   const Eigen::Isometry3d& measured = rigid ? best_since : best;

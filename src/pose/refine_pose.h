@@ -25,7 +25,7 @@ struct RefinePoseOptions {
 
 /// One piece of tissue on the model and in the live image.
 struct PosePair {
-  Eigen::Vector3d model_world_mm;      // in the previous frame
+  Eigen::Vector3d model_world_mm;      // in the last frame that was fused
   Eigen::Vector3d reference_world_mm;  // in the reference shape
   Eigen::Vector2d live_px;
   double sigma_px = 0;
@@ -49,10 +49,10 @@ struct RefinedPose {
 ///
 /// The scope moved if a new pose explains the pairs significantly better than the old one, judged
 /// by the mean gain of image regions, because tissue that moves pulls whole regions alike: (29).
-/// Two motions are tested: since the previous frame, and, because a slow motion is never
+/// Two motions are tested: since the last fused frame, and, because a slow motion is never
 /// significant in one frame, since `reference` and the tissue's places then. Without a significant
 /// motion the pose is `reference`. Pairs that are not finite or behind the camera have no weight;
-/// fewer than three leave `fitted`. Throws OptionError on bad options.
+/// fewer than three are not refined. Throws OptionError on bad options.
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
                        const Eigen::Isometry3d& reference, const RefinePoseOptions& options);

@@ -72,7 +72,7 @@ std::size_t countOf(const Mask& mask) {
 }  // namespace
 
 Mask findBlackBorder(const ColourImage& image) {
-  // 1 where the whole square is black; beyond the image nothing speaks against it.
+  // 1 where the whole square is black; pixels beyond the image count as black.
   Raster<std::uint8_t> core = spread(signal(image), kReachPx);
   for (std::uint8_t& value : core.values) value = value == 0;
   core = connectedToEdge(core);
@@ -84,10 +84,10 @@ Mask findBlackBorder(const ColourImage& image) {
   return connectedToEdge(dark);
 }
 
-ViewMasks pixelsToIgnore(const StereoPair& rectified, const Rectifier& rectifier, const Mask& mask,
+ViewMasks pixelsToIgnore(const StereoPair& rectified, const Rectifier& rectifier,
                          bool find_border) {
   constexpr int kCubicReach = 2;  // of the resampling: these hold a share of the outside
-  ViewMasks ignored{united(mask, dilated(rectifier.outside(), kCubicReach)),
+  ViewMasks ignored{dilated(rectifier.outside(), kCubicReach),
                     dilated(rectifier.outsideRight(), kCubicReach)};
   if (!find_border) return ignored;
   ignored.left = united(ignored.left, findBlackBorder(rectified.left));

@@ -12,7 +12,8 @@
 namespace softscope {
 
 /// Measures right pictures against one left picture, on a coarse grid, over all disparities up to
-/// `disparity_max_px` and rows up to ten off. No window reaches a pixel that is ignored.
+/// `disparity_max_px` and rows up to ten off. No support point lies within a window of an ignored
+/// pixel.
 class RowMeter {
  public:
   RowMeter(const GrayImage& left, int disparity_max_px, const Mask& ignored = {});

@@ -25,8 +25,8 @@ class StereoMatcher {
   virtual std::string name() const = 0;
 
   /// Both pictures rectified and of one shape, else Error. Result: the left picture's shape, NaN
-  /// where there is no match. Same input, same bytes, whatever the number of threads. No window
-  /// reaches `ignored` pixels of either view, and none of them has a disparity.
+  /// where there is no match. Same input, same bytes, whatever the number of threads. No matching
+  /// window reaches `ignored` pixels of its own view, and those of the left have no disparity.
   virtual DisparityMap match(const GrayImage& left, const GrayImage& right,
                              const ViewMasks& ignored) = 0;
   DisparityMap match(const GrayImage& left, const GrayImage& right) {

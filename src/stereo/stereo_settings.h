@@ -14,7 +14,7 @@ void describe(Visitor& v, ElasOptions& o) {
 
 template <class Visitor>
 void describe(Visitor& v, SmoothingOptions& o) {
-  v("stereo.smoothing.reach_blocks", o.reach_blocks, atLeast(0),
+  v("stereo.smoothing.reach_blocks", o.reach_blocks, between(0, 7),
     "of a window, to each side; 0: no smoothing");
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/error.h"
 #include "stereo/spread.h"
 
 namespace softscope {
@@ -53,6 +54,8 @@ void fillFrom(const Raster<float>& coarse, FillLevel& fine) {
 
 Mask united(const Mask& one, const Mask& other) {
   if (one.empty()) return other;
+  if (!other.empty() && !other.sameShape(one))
+    throw Error("masks of one view have different sizes");
   Mask both = one;
   for (std::size_t i = 0; i < other.size(); ++i) both.values[i] |= other.values[i];
   return both;

@@ -53,7 +53,6 @@ double nowMs() {
       .count();
 }
 
-/// Sorted in place.
 struct Percentiles {
   explicit Percentiles(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -175,6 +174,17 @@ int run(const std::vector<std::string>& files, const StereoOptions& options, int
 
 }  // namespace
 
+namespace {
+
+int usage() {
+  std::fprintf(stderr,
+               "usage: bench_cuda_stereo LEFT.pgm RIGHT.pgm [LEFT.pgm RIGHT.pgm ...] [--repeats N] "
+               "[--rows] [--check]\n");
+  return 2;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   std::vector<std::string> files;
   StereoOptions options;
@@ -188,9 +198,12 @@ int main(int argc, char** argv) {
       check_only = true;
     else if (argument == "--repeats" && i + 1 < argc)
       repeats = std::max(1, std::atoi(argv[++i]));
+    else if (argument.rfind("--", 0) == 0)
+      return usage();
     else
       files.push_back(argument);
   }
+  if (files.empty() || files.size() % 2 != 0) return usage();
   try {
     const cuda::DeviceInfo info = cuda::queryDevices();
     if (!info.devices.empty())

@@ -213,7 +213,7 @@ def write_texts(root, clip):
         'title = "a study"\n[simulate]\nframes = 2\nscope.width_px = 96\nscope.height_px = 80\n'
         '[reconstruct]\nstereo.disparity_max_px = 63\n[[case]]\nname = "a"\nnotes = "one"\n'
         '[[case]]\nname = "b"\nsimulate.seed = 3\n[[sweep]]\nname = "noise"\n'
-        'key = "simulate.sensor.noise_gray"\nvalues = [0, 2, 4]\n')
+        'label = "noise"\nlevels = [1, 2]\nsimulate.sensor.noise = [0.01, 0.02]\n')
     (root / "marks").mkdir()
     (root / "marks/p.csv").write_text("name,x1,y1,z1,x2,y2,z2\na,20,0,60,20,0,60\nb,0,20,60,0,20,60\n"
                                       "c,0,0,80,0,0,80\nd,-20,0,60,-20,0,60\n")

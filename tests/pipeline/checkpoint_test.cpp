@@ -26,6 +26,7 @@ Checkpoint someCheckpoint() {
   checkpoint.state.key_views.resize(2, checkpoint.state.world_from_left);
   checkpoint.state.lost = true;
   checkpoint.state.unfused_frames = 3;
+  checkpoint.state.searches = 2;
   return checkpoint;
 }
 
@@ -43,6 +44,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.last.left.at(1, 0), (Rgb8{7, 8, 9}));
   EXPECT_TRUE(after.state.lost);
   EXPECT_EQ(after.state.unfused_frames, 3);
+  EXPECT_EQ(after.state.searches, 2);
   EXPECT_EQ(checkpointBytes(after), bytes);
 }
 

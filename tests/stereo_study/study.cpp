@@ -51,7 +51,7 @@ struct Measured {
 
 Measured measure(const StereoPair& raw, const Rectifier& rectifier, bool align_rows) {
   StereoPair pair = rectifier.rectify(raw);
-  ViewMasks ignored = pixelsToIgnore(pair, rectifier, {}, /*find_border=*/true);
+  ViewMasks ignored = pixelsToIgnore(pair, rectifier, /*find_border=*/true);
   AlignedPair aligned = alignRows(pair, StereoOptions{}.disparity_max_px, ignored);
   if (align_rows) {
     pair = std::move(aligned.pair);
