@@ -79,14 +79,6 @@ SOFTSCOPE_HD inline bool isMarkedInColumn(const View<const std::uint8_t>& marks,
     if (y >= 0 && y < marks.height) found |= marks.at(u, y);
   return found != 0;
 }
-struct SpreadColumnBody {
-  View<const std::uint8_t> marks;
-  View<std::uint8_t> out;
-  int reach;
-  SOFTSCOPE_HD void operator()(int u, int v, int) const {
-    out.at(u, v) = isMarkedInColumn(marks, u, v, reach);
-  }
-};
 
 /// Left disparities that the right view confirms, where the image isn't dark.
 struct LeftRightBody {

@@ -72,12 +72,7 @@ class StereoPasses {
     executor_.mark("gray");
   }
 
-  /// One level from its gray images to refined disparities and its share of open pixels.
-  void matchLevel(const StereoLevel& level) {
-    startLevel(level);
-    finishLevel(level);
-  }
-  /// The first part, up to confirmed support points; by rows, the prior too.
+  /// The first part of a level, up to confirmed support points; by rows, the prior too.
   void startLevel(const StereoLevel& level) {
     prepare(level);
     findSupport(level);

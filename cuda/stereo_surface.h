@@ -240,8 +240,6 @@ struct NormalKernel {
   }
 
  private:
-  SOFTSCOPE_HD static float box(int) { return 1.0f; }
-
   SOFTSCOPE_HD void sumColumn(int x, int row, Shared& shared) const {
     const float window[kSide] = {1, 1, 1, 1, 1, 1, 1};
     const auto inverse = [&](int y) { return shared.inverse[row + kReach + y][x]; };

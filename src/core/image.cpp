@@ -3,6 +3,22 @@
 #include "core/parallel.h"
 
 namespace softscope {
+namespace {
+
+/// Each pixel from the four that it covers.
+template <class Merge>
+Raster<std::uint8_t> halvedBy(const Raster<std::uint8_t>& fine, const Merge& merge) {
+  Raster<std::uint8_t> half(fine.width_px / 2, fine.height_px / 2);
+  parallelRows(half.height_px, [&](int v) {
+    const std::uint8_t *a = fine.row(2 * v), *b = fine.row(2 * v + 1);
+    std::uint8_t* out = half.row(v);
+    for (int u = 0; u < half.width_px; ++u)
+      out[u] = static_cast<std::uint8_t>(merge(a[2 * u], a[2 * u + 1], b[2 * u], b[2 * u + 1]));
+  });
+  return half;
+}
+
+}  // namespace
 
 GrayImage toGray(const ColourImage& colour) {
   GrayImage gray(colour.width_px, colour.height_px);
@@ -14,26 +30,10 @@ GrayImage toGray(const ColourImage& colour) {
   return gray;
 }
 
-GrayImage halve(const GrayImage& image) {
-  GrayImage half(image.width_px / 2, image.height_px / 2);
-  parallelRows(half.height_px, [&](int v) {
-    const std::uint8_t *a = image.row(2 * v), *b = image.row(2 * v + 1);
-    std::uint8_t* out = half.row(v);
-    for (int u = 0; u < half.width_px; ++u)
-      out[u] = meanOfFour(a[2 * u], a[2 * u + 1], b[2 * u], b[2 * u + 1]);
-  });
-  return half;
-}
+GrayImage halve(const GrayImage& image) { return halvedBy(image, meanOfFour); }
 
 Mask halvedMask(const Mask& mask) {
-  Mask half(mask.width_px / 2, mask.height_px / 2);
-  parallelRows(half.height_px, [&](int v) {
-    const std::uint8_t *a = mask.row(2 * v), *b = mask.row(2 * v + 1);
-    std::uint8_t* out = half.row(v);
-    for (int u = 0; u < half.width_px; ++u)
-      out[u] = (a[2 * u] | a[2 * u + 1] | b[2 * u] | b[2 * u + 1]) != 0 ? 1 : 0;
-  });
-  return half;
+  return halvedBy(mask, [](int a, int b, int c, int d) { return (a | b | c | d) != 0 ? 1 : 0; });
 }
 
 }  // namespace softscope

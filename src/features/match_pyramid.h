@@ -7,6 +7,9 @@
 
 namespace softscope {
 
+/// Shortest side of the coarsest images: below it too few descriptors are left.
+constexpr int kLeastMatchSidePx = 96;
+
 /// One resolution of both images.
 struct MatchLevel {
   MatchPicture model, live;

@@ -33,8 +33,6 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
                   shape(picture->gray));
 }
 
-/// The pyramid ends where one more level would leave less than four descriptors a side.
-constexpr int kLeastSidePx = 96;
 constexpr int kPredictionSquarePx = 16;  // of the shifts that a coarser level predicts
 
 /// `fine`, and those of `coarse` that lie in squares of `square_px` without a fine match; by rows.
@@ -78,7 +76,7 @@ class DenseSurfMatcher : public FeatureMatcher {
   std::string name() const override { return "dense-surf"; }
 
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
-    const std::vector<MatchLevel> levels = matchPyramid(model, live, kLeastSidePx);
+    const std::vector<MatchLevel> levels = matchPyramid(model, live, kLeastMatchSidePx);
     std::vector<PixelMatch> matches;
     ShiftField predicted;
     for (std::size_t k = levels.size(); k-- > 0;) {

@@ -14,11 +14,11 @@ enum class NodeTrust {
 struct PixelOptions {
   static constexpr double kMaxDepthMm =
       500;                    // no endoscope sees further: such depths are no depths
-  double max_sigma_mm = 1.0;  // depths less sure than this are not heard
+  double max_sigma_mm = 1.0;  // depths with a larger sigma are ignored
   // share of the depth: neighbours further apart are a depth edge …
   static constexpr double kEdgeStep = 0.02;
-  static constexpr int kEdgeRadiusPx = 2;  // … and pixels this near to it are not heard
-  // between normal and ray: more grazing surfaces are not heard
+  static constexpr int kEdgeRadiusPx = 2;  // … and pixels this near to it are ignored
+  // between normal and ray: more grazing surfaces are ignored
   static constexpr double kMinCosine = 0.2;
 
   /// Throws OptionError: the field, its value, the rule it breaks.

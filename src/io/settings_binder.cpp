@@ -79,10 +79,7 @@ std::string allowed(std::string value, const TextRule& rule, const std::string& 
 /// The unit is the key's last word.
 std::string unitOf(const std::string& key) {
   static const std::map<std::string, std::string> kUnits{
-      {"mm", "mm"},           {"px", "px"},
-      {"deg", "deg"},         {"s", "s"},
-      {"gray", "gray level"}, {"cells", "grid steps"},
-      {"blocks", "blocks"},   {"spacings", "spacings"}};
+      {"mm", "mm"}, {"px", "px"}, {"deg", "deg"}, {"s", "s"}, {"blocks", "blocks"}};
   const auto found = kUnits.find(key.substr(key.find_last_of("_.") + 1));
   return found == kUnits.end() ? "" : found->second;
 }

@@ -10,11 +10,9 @@
 namespace softscope {
 namespace {
 
-constexpr int kLeastSidePx = 96;   // of the small images
 constexpr double kRadiusPx = 8;    // of a patch, in pixels of the small image at typical depth
 constexpr int kSpacingPx = 3;      // of patches
 constexpr double kMaxRatio = 0.9;  // best distance over the best one elsewhere
-constexpr double kElsewhere = 1;   // radii of a patch
 
 /// The camera of an image of half the size; pixel centres have whole coordinates.
 PinholeCamera halved(PinholeCamera camera) {
@@ -47,7 +45,7 @@ DepthImage smallLive(const MatchPicture& live, const MeasuredFrame& frame,
                      const PinholeCamera& camera) {
   MatchPicture picture{live.gray, live.ignore};
   DepthImage image{camera, {}, {}, frame.depth.depth_mm};
-  while (std::min(image.camera.width_px, image.camera.height_px) / 2 >= kLeastSidePx) {
+  while (std::min(image.camera.width_px, image.camera.height_px) / 2 >= kLeastMatchSidePx) {
     picture = halved(picture);
     image.depth_mm = halved(image.depth_mm);
     image.camera = halved(image.camera);
@@ -94,8 +92,8 @@ RigidPose relocalise(const PointModel& model, const std::vector<Eigen::Isometry3
     const MatchPicture picture = modelPicture(view);
     const std::vector<SurfacePatch> seen = surfacePatches(
         {view.camera, picture.gray, picture.ignore, view.depth_mm}, radius_mm, kSpacingPx);
-    const RigidPose pose = estimateRigidPose(
-        pairsOf(patches, seen, viewpoint.cast<float>(), kElsewhere * radius_mm), ransac);
+    const RigidPose pose =
+        estimateRigidPose(pairsOf(patches, seen, viewpoint.cast<float>(), radius_mm), ransac);
     if (pose.found && pose.inliers > best.inliers) best = pose;
     if (best.failure.empty() && !best.found) best.failure = pose.failure;
   }

@@ -50,11 +50,12 @@ struct Residual {
 
 /// docs/energy.md (26).
 Residual residualOf(const PosePair& pair, Place place, const RectifiedRig& rig,
-                    const Eigen::Isometry3d& left_from_world, const RefinePoseOptions& options) {
+                    const Eigen::Isometry3d& left_from_world) {
   Residual out;
   const Eigen::Vector3d p = left_from_world * pair.*place;
-  const double across = 1 / std::hypot(options.kNoisePx, pair.sigma_px);
-  const double along = 1 / std::hypot(options.kDisparityNoisePx, pair.sigma_disparity_px);
+  const double across = 1 / std::hypot(RefinePoseOptions::kNoisePx, pair.sigma_px);
+  const double along =
+      1 / std::hypot(RefinePoseOptions::kDisparityNoisePx, pair.sigma_disparity_px);
   if (!(p.z() > 1e-3) || !std::isfinite(across) || !std::isfinite(along)) return out;
   const double fx = rig.left.fx_px, fy = rig.left.fy_px, z = p.z();
   Eigen::Matrix3d by_point;
@@ -215,7 +216,7 @@ class Pairs {
   }
 
   Residual residualAt(const PosePair& pair, const Eigen::Isometry3d& left_from_world) const {
-    return residualOf(pair, place_, rig_, left_from_world, options_);
+    return residualOf(pair, place_, rig_, left_from_world);
   }
 
   std::vector<Residual> residualsAt(const Eigen::Isometry3d& left_from_world) const {
@@ -252,7 +253,7 @@ class Pairs {
     std::vector<double> squares;
     for (const Residual& residual : residuals) squares.push_back(residual.value.squaredNorm());
     const double scale_sq =
-        std::max(1.0, options_.kRobustScale * options_.kRobustScale * medianOf(squares));
+        std::max(1.0, std::pow(RefinePoseOptions::kRobustScale, 2) * medianOf(squares));
     Matrix6d normal = Matrix6d::Zero();
     Vector6d right = Vector6d::Zero();
     for (const Residual& residual : residuals) {
