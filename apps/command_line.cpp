@@ -5,9 +5,9 @@
 #include <cstdlib>
 
 #include "apps/help_text.h"
-#include "apps/version.h"
 #include "core/error.h"
 #include "io/nearest_name.h"
+#include "toolkit/record/version.h"
 
 namespace softscope {
 namespace {

@@ -5,18 +5,20 @@
 #include <filesystem>
 
 #include "apps/command.h"
-#include "apps/compare_inputs.h"
-#include "apps/compare_outputs.h"
-#include "apps/compare_record.h"
-#include "apps/evaluate_plots.h"
-#include "apps/evaluate_thresholds.h"
 #include "apps/exit_codes.h"
-#include "apps/record_paths.h"
 #include "apps/result_output.h"
+#include "apps/shared_arguments.h"
+#include "apps/threshold_exit.h"
 #include "core/error.h"
 #include "io/file_hash.h"
 #include "io/text_lines.h"
 #include "mesh/mesh_check.h"
+#include "toolkit/comparison/compare_inputs.h"
+#include "toolkit/comparison/compare_outputs.h"
+#include "toolkit/comparison/compare_record.h"
+#include "toolkit/evaluation/evaluate_plots.h"
+#include "toolkit/evaluation/thresholds.h"
+#include "toolkit/record/record_paths.h"
 
 namespace softscope {
 namespace {
@@ -103,7 +105,7 @@ void CompareCommand::declare(ArgumentList& arguments) {
   arguments.option("--reference-unit-mm", "N", reference_unit_mm_,
                    "what one unit of the file measures: 1000 for metres");
   arguments.option("--test-unit-mm", "N", test_unit_mm_, "the same of the test");
-  paths_.declare(arguments);
+  softscope::declare(paths_, arguments);
   arguments.flag("--force", force_, "overwrite what is there");
 }
 

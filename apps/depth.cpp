@@ -7,21 +7,23 @@
 #include <optional>
 
 #include "apps/command.h"
-#include "apps/depth_estimator.h"
-#include "apps/depth_outputs.h"
-#include "apps/depth_record.h"
 #include "apps/depth_text.h"
 #include "apps/exit_codes.h"
-#include "apps/frame_statistics.h"
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
-#include "apps/record_paths.h"
 #include "apps/result_output.h"
 #include "apps/sequence_arguments.h"
+#include "apps/shared_arguments.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
 #include "io/sequence_reader.h"
+#include "toolkit/depth/depth_estimator.h"
+#include "toolkit/depth/depth_outputs.h"
+#include "toolkit/depth/depth_record.h"
+#include "toolkit/depth/frame_statistics.h"
+#include "toolkit/record/json_text.h"
+#include "toolkit/record/record_paths.h"
 
 namespace softscope {
 namespace {
@@ -77,7 +79,7 @@ void DepthCommand::declare(ArgumentList& arguments) {
   arguments.option("--write", "LIST", write_,
                    "some of disparity,depth,confidence,cloud,picture (default: all)");
   arguments.flag("--force", force_, "overwrite what is there");
-  paths_.declare(arguments);
+  softscope::declare(paths_, arguments);
   settings_.declare(arguments);
 }
 

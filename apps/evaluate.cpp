@@ -7,23 +7,25 @@
 #include <optional>
 
 #include "apps/command.h"
-#include "apps/evaluate_origin.h"
-#include "apps/evaluate_outputs.h"
-#include "apps/evaluate_plots.h"
-#include "apps/evaluate_record.h"
-#include "apps/evaluate_thresholds.h"
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
-#include "apps/record_paths.h"
 #include "apps/result_output.h"
-#include "apps/truthless_result.h"
+#include "apps/shared_arguments.h"
+#include "apps/threshold_exit.h"
 #include "core/error.h"
 #include "io/file_hash.h"
 #include "io/folder.h"
 #include "io/message.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
+#include "toolkit/evaluation/evaluate_outputs.h"
+#include "toolkit/evaluation/evaluate_plots.h"
+#include "toolkit/evaluation/evaluate_record.h"
+#include "toolkit/evaluation/thresholds.h"
+#include "toolkit/evaluation/truthless_result.h"
+#include "toolkit/record/record_paths.h"
+#include "toolkit/run/provenance.h"
 
 namespace softscope {
 namespace {
@@ -92,7 +94,7 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
                    "to a mesh: none (the default), rigid (one for all models), icp (each model)");
   arguments.option("--reference-unit-mm", "N", unit_mm_,
                    "what one unit of a mesh measures: 1000 for metres");
-  paths_.declare(arguments);
+  softscope::declare(paths_, arguments);
   arguments.flag("--each", each_, "against a mesh: every model, not the last alone");
   arguments.flag("--no-views", no_views_,
                  "don't draw the model for depth, PSNR and SSIM: saves a fifth of the time");

@@ -5,16 +5,17 @@
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
-#include "apps/export_dicom.h"
-#include "apps/export_files.h"
-#include "apps/export_input.h"
-#include "apps/export_surface.h"
+#include "apps/interrupt.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/message.h"
 #include "io/new_files.h"
+#include "toolkit/export/export_dicom.h"
+#include "toolkit/export/export_files.h"
+#include "toolkit/export/export_input.h"
+#include "toolkit/export/export_surface.h"
 
 namespace softscope {
 namespace {
@@ -188,7 +189,8 @@ void ExportCommand::exportSeries() {
 }
 
 void ExportCommand::exportDicom() {
-  writeDicom(input_, out_, dicom_, force_);
+  const InterruptGuard interrupt;
+  writeDicom(input_, out_, dicom_, force_, [&] { return interrupt.requested(); });
   FactSheet facts(shown(input_));
   facts.add("patient",
             dicom_.patient_name.empty() && dicom_.patient_id.empty() ? "not named" : "as given",

@@ -7,19 +7,20 @@
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
-#include "apps/figure_kinds.h"
-#include "apps/figure_matches.h"
-#include "apps/figure_options.h"
-#include "apps/figure_outputs.h"
-#include "apps/figure_run.h"
 #include "apps/result_output.h"
-#include "apps/scene_inputs.h"
-#include "apps/surface_error_map.h"
-#include "apps/surface_fit.h"
+#include "apps/shared_arguments.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "io/message.h"
 #include "io/text_lines.h"
+#include "toolkit/comparison/surface_fit.h"
+#include "toolkit/evaluation/surface_error_map.h"
+#include "toolkit/figures/figure_kinds.h"
+#include "toolkit/figures/figure_matches.h"
+#include "toolkit/figures/figure_options.h"
+#include "toolkit/figures/figure_outputs.h"
+#include "toolkit/figures/figure_run.h"
+#include "toolkit/figures/scene_inputs.h"
 #include "vtk_views/four_panels.h"
 
 namespace softscope {
@@ -104,7 +105,7 @@ void FigureCommand::declare(ArgumentList& arguments) {
                    "end of the colour bar (default: a round number, not below the P95)");
   arguments.option("--eye", "X,Y,Z", eye_, "side that the 3-D panel is seen from");
   arguments.option("--columns", "N", columns_, "1, 2 or 4 panels in a row");
-  options_.declare(arguments);
+  softscope::declare(options_, arguments);
 }
 
 /// "0,10,20", rising whatever the order. Throws OptionError.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "apps/version.h"
+#include "toolkit/record/version.h"
 
 namespace softscope {
 namespace {

@@ -5,11 +5,12 @@
 #include "apps/exit_codes.h"
 #include "apps/info_parts.h"
 #include "apps/result_output.h"
-#include "apps/volume_arguments.h"
+#include "apps/shared_arguments.h"
 #include "core/error.h"
 #include "io/folder.h"
 #include "io/sequence_paths.h"
 #include "io/text_lines.h"
+#include "toolkit/figures/volume_arguments.h"
 #include "vtk_views/volume_summary.h"
 
 namespace softscope {
@@ -46,7 +47,7 @@ class InfoCommand : public Command {
   std::string example() const override { return "softscope info my_sequence"; }
 
   void declare(ArgumentList& arguments) override {
-    volume_.declare(arguments);
+    softscope::declare(volume_, arguments);
     arguments.positional("PATH", path_, "the file or folder", true);
     arguments.flag("--check", check_, "read every frame of a sequence, not the first alone");
     arguments.flag("--patient", patient_,

@@ -2,10 +2,10 @@
 #include <algorithm>
 
 #include "apps/info_parts.h"
-#include "apps/ply_points.h"
 #include "io/file_bytes.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
+#include "toolkit/run/ply_points.h"
 
 namespace softscope {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "apps/fact_sheet.h"
 #include "core/stereo_rig.h"
+#include "toolkit/record/fact_sheet.h"
 #include "vtk_views/volume_summary.h"
 
 namespace softscope {

@@ -8,12 +8,9 @@
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
-#include "apps/record_paths.h"
 #include "apps/result_output.h"
-#include "apps/right_offset.h"
-#include "apps/run_folder.h"
-#include "apps/run_record.h"
 #include "apps/sequence_arguments.h"
+#include "apps/shared_arguments.h"
 #include "core/error.h"
 #include "io/file_hash.h"
 #include "io/folder.h"
@@ -23,7 +20,12 @@
 #include "pipeline/cpu_backend.h"
 #include "pipeline/reconstructor.h"
 #include "pipeline/run_options.h"
-#include "pipeline/run_tables.h"
+#include "toolkit/record/json_text.h"
+#include "toolkit/record/record_paths.h"
+#include "toolkit/run/run_folder.h"
+#include "toolkit/run/run_record.h"
+#include "toolkit/run/run_tables.h"
+#include "toolkit/run/stereo_sync.h"
 
 namespace softscope {
 namespace {
@@ -107,7 +109,7 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
                    "bring all files up to date every N frames (default 100)");
   arguments.flag("--resume", resume_, "go on with an interrupted run");
   arguments.flag("--force", force_, "replace an earlier run");
-  paths_.declare(arguments);
+  softscope::declare(paths_, arguments);
   settings_.declare(arguments);
 }
 
@@ -188,7 +190,10 @@ int ReconstructCommand::run() {
   RunFolder folder({out_, save_every_, !tracked.empty(), force_}, resume_);
   const FrameDepthOptions& depth = options.method.depth;
   if (depth.source == "stereo" || where.depth.empty())
-    settleRightOffset(where, options.sequence, depth.stereo.disparity_max_px);
+    if (const std::string warning =
+            settleRightOffset(where, options.sequence, depth.stereo.disparity_max_px);
+        !warning.empty())
+      spdlog::warn("{}", warning);
   const Json inputs = inputsJson(where);
   Checkpoint checkpoint{digestOf(inputs, binder), options.sequence.frames.begin, {}};
   const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);

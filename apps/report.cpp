@@ -1,15 +1,18 @@
 // apps/report.cpp: `softscope report`: evaluations as one page for people.
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 #include <filesystem>
 
 #include "apps/command.h"
-#include "apps/evaluate_thresholds.h"
-#include "apps/report_document.h"
 #include "apps/result_output.h"
+#include "apps/threshold_exit.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/message.h"
 #include "io/new_files.h"
+#include "toolkit/evaluation/thresholds.h"
+#include "toolkit/report/report_document.h"
 #include "vtk_views/report_html.h"
 #include "vtk_views/report_pdf.h"
 
@@ -110,6 +113,7 @@ int ReportCommand::run() {
   for (const ReportCase& c : request.cases)
     request.outcomes.push_back(checkThresholds(thresholds, c.record, c.mainPart()));
   const ReportDocument document = makeReport(std::move(request));
+  for (const std::string& warning : document.warnings) spdlog::warn("{}", warning);
   const std::string html = reportHtml(document.page);
   const std::string pdf = pdf_.empty() ? "" : reportPdf(document.page);
   NewFiles files;

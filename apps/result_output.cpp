@@ -1,39 +1,11 @@
 // apps/result_output.cpp: JSON or lines.
 #include "apps/result_output.h"
 
-#include <array>
-#include <cstdio>
 #include <iostream>
 
+#include "toolkit/record/json_text.h"
+
 namespace softscope {
-
-namespace {
-
-/// JSON escapes controls below U+0020 alone; DEL and U+0080 to U+009F stand only in its texts.
-std::string escapedControls(const std::string& json) {
-  std::string out;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(json[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < json.size() ? json[i + 1] : 0);
-    const bool long_control = byte == 0xc2 && next >= 0x80 && next < 0xa0;
-    if (byte != 127 && !long_control) {
-      out += json[i];
-      continue;
-    }
-    std::array<char, 8> escape{};
-    std::snprintf(escape.data(), escape.size(), "\\u%04x", long_control ? next : byte);
-    out += escape.data();
-    i += long_control ? 1 : 0;
-  }
-  return out;
-}
-
-}  // namespace
-
-std::string jsonText(const FactSheet::Json& json) {
-  const std::string text = json.dump(2, ' ', false, FactSheet::Json::error_handler_t::replace);
-  return escapedControls(text) + "\n";
-}
 
 void printJson(const FactSheet::Json& json) { std::cout << jsonText(json) << std::flush; }
 

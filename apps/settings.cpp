@@ -4,11 +4,11 @@
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/result_output.h"
-#include "apps/setting_json.h"
-#include "apps/simulate_options.h"
 #include "core/error.h"
 #include "io/settings_text.h"
 #include "pipeline/run_options.h"
+#include "toolkit/record/setting_json.h"
+#include "toolkit/simulation/simulate_options.h"
 
 namespace softscope {
 namespace {

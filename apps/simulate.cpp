@@ -10,13 +10,14 @@
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
-#include "apps/setting_json.h"
-#include "apps/simulate_inputs.h"
-#include "apps/simulate_options.h"
-#include "apps/simulate_outputs.h"
-#include "apps/version.h"
 #include "core/error.h"
 #include "eval/simulation/simulator.h"
+#include "toolkit/record/json_text.h"
+#include "toolkit/record/setting_json.h"
+#include "toolkit/record/version.h"
+#include "toolkit/simulation/simulate_inputs.h"
+#include "toolkit/simulation/simulate_options.h"
+#include "toolkit/simulation/simulate_outputs.h"
 
 namespace softscope {
 namespace {
@@ -104,7 +105,9 @@ int SimulateCommand::run() {
   SettingsBinder binder;
   readOptions(binder, options);
   const TruthKinds truth = TruthKinds::parse(truth_);
-  Simulator simulator(readOrgan(options), options.simulation);
+  OrganFile organ = readOrgan(options);
+  for (const std::string& warning : organ.warnings) spdlog::warn("{}", warning);
+  Simulator simulator(std::move(organ.mesh), options.simulation);
   SimulateOutputs outputs({out_, truth, options.pictures, options.simulation.frames_per_second,
                            options.jpeg_quality, options.masks, options.input_depth, force_},
                           jsonText(record(binder)));

@@ -6,14 +6,15 @@
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
-#include "apps/figure_options.h"
-#include "apps/figure_outputs.h"
 #include "apps/result_output.h"
-#include "apps/scene_inputs.h"
+#include "apps/shared_arguments.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "io/message.h"
 #include "io/text_lines.h"
+#include "toolkit/figures/figure_options.h"
+#include "toolkit/figures/figure_outputs.h"
+#include "toolkit/figures/scene_inputs.h"
 #include "vtk_views/four_panels.h"
 
 namespace softscope {
@@ -67,7 +68,7 @@ void SliceCommand::declare(ArgumentList& arguments) {
   arguments.option("--positions", "LIST", positions_,
                    "places of one plane along its axis, mm: 10,20,30, or FIRST:LAST:STEP");
   arguments.option("--columns", "N", columns_, "panels in a row");
-  options_.declare(arguments);
+  softscope::declare(options_, arguments);
 }
 
 /// "10,20,30" or "10:30:10". Throws OptionError.

@@ -5,18 +5,18 @@
 #include <iostream>
 #include <list>
 
-#include "apps/child_process.h"
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
-#include "apps/machine.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
 #include "apps/shell_word.h"
-#include "apps/study_case.h"
-#include "apps/study_outputs.h"
 #include "core/error.h"
 #include "io/message.h"
+#include "toolkit/record/child_process.h"
+#include "toolkit/record/machine.h"
+#include "toolkit/study/study_case.h"
+#include "toolkit/study/study_outputs.h"
 
 namespace softscope {
 namespace {
@@ -109,7 +109,15 @@ int StudyCommand::runOne(const StudyCase& study_case, const StudyFolder& folder)
   if (!force_ && finishedRecord(study_case, folder).is_object()) return kDone;
   const InterruptGuard interrupt;
   const int threads = common.threads > 0 ? common.threads : describeMachine().cores;
-  const Json record = runCase(study_case, folder, threads, [&] { return interrupt.requested(); });
+  const auto interrupted = [&] { return interrupt.requested(); };
+  const Json record = runCase(
+      study_case, folder, threads, interrupted,
+      [&](std::vector<std::string> words, const std::filesystem::path& log) -> std::optional<int> {
+        words.insert(words.begin(), ownExecutable().string());
+        const int code = runToEnd(ChildProcess(words, log), interrupted);
+        if (code == kInterrupted) return std::nullopt;
+        return code;
+      });
   if (!record.is_object()) return kInterrupted;
   const std::string status = record["status"], reason = record.value("reason", "");
   if (status == "skipped") spdlog::warn("{} is skipped: {}", study_case.name, reason);

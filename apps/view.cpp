@@ -10,14 +10,16 @@
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
 #include "apps/result_output.h"
-#include "apps/view_movie.h"
-#include "apps/view_run.h"
+#include "apps/shared_arguments.h"
+#include "apps/work_progress.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
 #include "io/image_writer.h"
 #include "io/message.h"
 #include "io/text_lines.h"
+#include "toolkit/viewer/view_movie.h"
+#include "toolkit/viewer/view_run.h"
 #include "vtk_views/view_picture.h"
 #include "vtk_views/view_window.h"
 #include "vtk_views/x_display.h"
@@ -72,6 +74,7 @@ class ViewCommand : public Command {
   int firstMoment(const ViewSource& source, bool last_by_default) const;
   void writeScreenshot(RunSource& source, Json& record) const;
   int openWindow(RunSource& source) const;
+  int makeMovie(ViewSource& source) const;
   void saveFromWindow(const ColourImage& picture, int frame) const;
 
   ViewRunOptions run_;
@@ -98,7 +101,7 @@ void ViewCommand::declare(ArgumentList& arguments) {
   arguments.option("--range-mm", "N", run_.errors.range_mm,
                    "end of the colour bar (default: a round number, not below the P95)");
   arguments.option("--ct", "VOLUME", run_.ct, "slices of a DICOM folder, NIfTI, NRRD, MetaImage");
-  run_.volume.declare(arguments);
+  softscope::declare(run_.volume, arguments);
   arguments.option("--ct-from-run", "FILE", run_.ct_from_run,
                    "motion into the CT: 4 x 4 numbers, or evaluation.json of --align rigid");
   arguments.option("--window", "NAME", run_.window,
@@ -254,6 +257,12 @@ int ViewCommand::openWindow(RunSource& source) const {
   return kDone;
 }
 
+int ViewCommand::makeMovie(ViewSource& source) const {
+  const InterruptGuard interrupt;
+  WorkProgress progress("movie", progressStyle(common.quiet), interrupt);
+  return writeMovie(source, movie_, progress.callback());
+}
+
 int ViewCommand::run() {
   validate();
   const bool with_window = screenshot_.empty() && movie_file_.empty();
@@ -271,7 +280,7 @@ int ViewCommand::run() {
     movie_.height_px = height_px_;
     movie_.state = state_;
     movie_.overwrite = force_;
-    const int frames = writeMovie(source, movie_, common.quiet);
+    const int frames = makeMovie(source);
     if (frames == 0) return kInterrupted;
     record["movie"] = {{"file", movie_file_}, {"frames", frames}};
     spdlog::info("written: {}", movie_file_);

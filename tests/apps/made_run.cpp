@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <string>
 
-#include "apps/simulate_outputs.h"
 #include "io/atomic_file.h"
 #include "io/calibration_writer.h"
 #include "io/depth_files.h"
 #include "io/ply_writer.h"
 #include "io/trajectory_file.h"
 #include "tests/apps/run_softscope.h"
+#include "toolkit/simulation/simulate_outputs.h"
 
 namespace softscope::test {
 namespace {

@@ -1,10 +1,10 @@
 // tests/apps/test_evaluate.cpp: `softscope evaluate` on a run whose errors are known.
 #include <cmath>
 
-#include "apps/evaluate_tables.h"
 #include "io/image_writer.h"
 #include "io/ply_writer.h"
 #include "tests/apps/evaluate_fixture.h"
+#include "toolkit/run/table_reader.h"
 
 namespace softscope::test {
 namespace {

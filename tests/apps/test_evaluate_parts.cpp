@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "apps/evaluate_points.h"
-#include "apps/evaluate_thresholds.h"
 #include "core/error.h"
 #include "io/ply_writer.h"
 #include "tests/apps/made_run.h"
+#include "toolkit/evaluation/thresholds.h"
+#include "toolkit/run/model_file.h"
 
 namespace softscope::test {
 namespace {

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/evaluate_points.h"
 #include "io/image_writer.h"
 #include "io/ply_writer.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "tests/apps/made_run.h"
 #include "tests/apps/run_softscope.h"
+#include "toolkit/run/model_file.h"
 
 namespace softscope::test {
 namespace {

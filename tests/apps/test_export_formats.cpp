@@ -19,11 +19,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "apps/export_files.h"
-#include "apps/export_gltf.h"
 #include "core/error.h"
 #include "mesh/mesh_writer.h"
 #include "tests/apps/run_softscope.h"
+#include "toolkit/export/export_files.h"
+#include "toolkit/export/export_gltf.h"
 
 namespace softscope::test {
 namespace {

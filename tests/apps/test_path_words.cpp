@@ -1,9 +1,9 @@
 // tests/apps/test_path_words.cpp: no part of a hostile name is left in a sentence.
 #include <gtest/gtest.h>
 
-#include "apps/path_words.h"
-#include "apps/report_privacy.h"
 #include "apps/shell_word.h"
+#include "toolkit/record/path_words.h"
+#include "toolkit/report/report_privacy.h"
 
 namespace softscope::test {
 namespace {

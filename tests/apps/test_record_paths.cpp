@@ -1,6 +1,6 @@
 // tests/apps/test_record_paths.cpp: records hold names and hashes, and paths only where asked.
-#include "apps/record_paths.h"
 #include "tests/apps/evaluate_fixture.h"
+#include "toolkit/record/record_paths.h"
 
 namespace softscope::test {
 namespace {

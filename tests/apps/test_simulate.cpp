@@ -5,13 +5,13 @@
 #include <fstream>
 #include <map>
 
-#include "apps/export_files.h"
 #include "eval/simulation/organ_mesh.h"
 #include "io/image_reader.h"
 #include "io/image_writer.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "tests/apps/run_softscope.h"
+#include "toolkit/export/export_files.h"
 
 namespace softscope::test {
 namespace {

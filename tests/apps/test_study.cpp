@@ -7,8 +7,8 @@
 #include <csignal>
 #include <thread>
 
-#include "apps/study_case.h"
 #include "tests/apps/run_softscope.h"
+#include "toolkit/study/study_case.h"
 
 namespace softscope::test {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cstdlib>
 
-#include "apps/study_outputs.h"
-#include "apps/study_settings.h"
 #include "core/error.h"
 #include "tests/apps/run_softscope.h"
+#include "toolkit/study/study_outputs.h"
+#include "toolkit/study/study_settings.h"
 
 namespace softscope::test {
 namespace {

@@ -1,0 +1,33 @@
+// apps/work_progress.h: a progress bar and Ctrl-C for work of the toolkit.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/interrupt.h"
+#include "apps/progress_bar.h"
+#include "toolkit/progress.h"
+
+namespace softscope {
+
+/// Ends the bar's line when it is destroyed.
+class WorkProgress {
+ public:
+  WorkProgress(std::string what, ProgressBar::Style style, const InterruptGuard& interrupt);
+
+  /// Shows how far the work is. Returns false once the user asked for the end. The object must
+  /// outlive the callback.
+  Progress callback();
+  bool interrupted() const { return interrupt_.requested(); }
+
+ private:
+  bool tell(int done, int total);
+
+  std::string what_;
+  ProgressBar::Style style_;
+  const InterruptGuard& interrupt_;
+  std::optional<ProgressBar> bar_;
+  int told_ = 0;
+};
+
+}  // namespace softscope

@@ -1,0 +1,45 @@
+// tests/toolkit/run_tables_test.cpp: lines fit their headings, whatever a frame has to say.
+#include "toolkit/run/run_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace softscope {
+namespace {
+
+/// Commas outside of quotes.
+int cells(const std::string& line) {
+  int count = 1;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted) ++count;
+  }
+  return count;
+}
+
+TEST(RunTables, EveryLineHasTheHeadingsCells) {
+  for (const FrameStatus status :
+       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
+        FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
+        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable}) {
+    FrameRecord record;
+    record.status = status;
+    record.reason = "a \"quoted\", torn\nreason";
+    const std::string line = framesCsvLine(record);
+    EXPECT_EQ(cells(line), cells(framesCsvHeading())) << toString(status);
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << "one line a frame";
+  }
+}
+
+TEST(RunTables, WhatIsUnknownIsEmptyOrNan) {
+  FrameRecord record;
+  record.frame = 4;
+  EXPECT_EQ(framesCsvLine(record).rfind("4,,unreadable,0,0,0,0,,", 0), 0u);
+  record.tracked.push_back({7, Eigen::Vector3d::Constant(kUnknown), false});
+  EXPECT_EQ(tracksCsvLines(record), "4,7,nan,nan,nan,0\n");
+}
+
+}  // namespace
+}  // namespace softscope

@@ -1,0 +1,82 @@
+// toolkit/comparison/compare_inputs.cpp: by content, as everywhere; VTK's own files by their name.
+#include "toolkit/comparison/compare_inputs.h"
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/message.h"
+#include "mesh/mesh_reader.h"
+#include "toolkit/run/model_file.h"
+#include "toolkit/run/ply_points.h"
+#include "toolkit/run/table_reader.h"
+#include "vtk_views/vtp_surface.h"
+
+namespace softscope {
+namespace {
+
+/// LPS or RAS where the header's comments say so.
+std::string spaceOf(std::string_view header) {
+  for (const char* space : {"LPS", "RAS"})
+    if (header.find(std::string("SPACE=") + space) != std::string_view::npos) return space;
+  return {};
+}
+
+TriangleMesh pointsFrom(const std::string& bytes, const std::string& name, double unit_mm) {
+  TriangleMesh points;
+  ModelFile file = parseModel(bytes, name);
+  points.vertices_mm = std::move(file.model.positions_mm);
+  for (Eigen::Vector3f& p : points.vertices_mm) p = (p.cast<double>() * unit_mm).cast<float>();
+  points.space = spaceOf(std::string_view(bytes).substr(0, bytes.find("end_header")));
+  return points;
+}
+
+TriangleMesh vtkSurface(const std::filesystem::path& file, double unit_mm) {
+  requireFile(file);
+  TriangleMesh mesh = readVtkSurface(file.string());
+  for (Eigen::Vector3f& p : mesh.vertices_mm) p = (p.cast<double>() * unit_mm).cast<float>();
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh readSurfaceOrPoints(const std::filesystem::path& file, double unit_mm) {
+  const MeshReadOptions options{unit_mm};
+  options.validate();
+  if (looksLikeVtkSurface(file.string())) return vtkSurface(file, unit_mm);
+  const std::string bytes = readBytes(file, std::uintmax_t{2} << 30), name = shown(file);
+  return isPlyOfPoints(bytes, name) ? pointsFrom(bytes, name, unit_mm)
+                                    : parseMesh(bytes, name, options);
+}
+
+Landmarks readLandmarks(const std::filesystem::path& file) {
+  const NumberTable table(
+      readBytes(file, kTextLimitBytes), shown(file),
+      {"test_x_mm", "test_y_mm", "test_z_mm", "reference_x_mm", "reference_y_mm", "reference_z_mm"},
+      {});
+  Landmarks landmarks;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    landmarks.test_mm.emplace_back(table.at(i, 0), table.at(i, 1), table.at(i, 2));
+    landmarks.reference_mm.emplace_back(table.at(i, 3), table.at(i, 4), table.at(i, 5));
+    if (!landmarks.test_mm.back().allFinite() || !landmarks.reference_mm.back().allFinite())
+      throw InputError(say(shown(file), ": landmark ", i + 1,
+                           " lacks a coordinate; complete it or delete its line"));
+  }
+  if (table.rows() < 3)
+    throw InputError(say(shown(file), ": has ", table.rows(),
+                         " landmarks, but a rigid alignment takes three or more"));
+  return landmarks;
+}
+
+std::string matchSpaces(const TriangleMesh& reference, TriangleMesh& test) {
+  if (reference.space.empty() || test.space.empty())
+    return "not said by both files; taken to be the same";
+  if (reference.space == test.space) return reference.space + ", as both files say";
+  for (Eigen::Vector3f& p : test.vertices_mm) {
+    p.x() = -p.x();
+    p.y() = -p.y();
+  }
+  const std::string found = test.space;
+  test.space = reference.space;
+  return reference.space + "; the test was " + found + ", so its x and y were negated";
+}
+
+}  // namespace softscope

@@ -1,0 +1,45 @@
+// toolkit/comparison/compare_map.cpp: fewer vertices, from the side that most of the test faces.
+#include "toolkit/comparison/compare_map.h"
+
+#include <cmath>
+
+#include "mesh/coarse_mesh.h"
+#include "toolkit/comparison/compare_picture.h"
+
+namespace softscope {
+namespace {
+
+constexpr std::size_t kMostOfTest = 60000, kMostOfReference = 8000;
+
+/// Of points every so-manyth, of a surface what keeps its shape.
+CoarseMesh fewer(const TriangleMesh& test) {
+  const std::size_t count = test.vertices_mm.size();
+  if (!test.empty() || count <= kMostOfTest) return coarsen(test, kMostOfTest);
+  CoarseMesh points;
+  for (std::size_t k = 0; k < kMostOfTest; ++k)
+    points.vertices.push_back(static_cast<std::int32_t>(k * count / kMostOfTest));
+  return points;
+}
+
+}  // namespace
+
+ErrorMap comparisonMap(const ComparisonResult& result, const TriangleMesh& reference,
+                       const TriangleMesh& test) {
+  ErrorMap map;
+  const CoarseMesh shown = fewer(test);
+  map.surface = shown.at(test.vertices_mm);
+  map.surface.space = reference.space;
+  for (const std::int32_t vertex : shown.vertices) {
+    const ClosestPoint& closest = result.comparison.closest[static_cast<std::size_t>(vertex)];
+    map.absolute_mm.push_back(static_cast<float>(closest.distance_mm));
+    map.signed_mm.push_back(static_cast<float>(closest.signed_distance_mm));
+  }
+  map.reference = coarsen(reference, kMostOfReference).at(reference.vertices_mm);
+  const Eigen::Vector3d eye = comparisonEye(reference, result.comparison.closest);
+  map.look = -eye.normalized().cast<float>();
+  // Head up; where that is the line of sight, what a camera has above.
+  if (std::abs(map.look.z()) > 0.9f) map.up = {0, -1, 0};
+  return map;
+}
+
+}  // namespace softscope

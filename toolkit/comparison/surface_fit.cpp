@@ -1,0 +1,73 @@
+// toolkit/comparison/surface_fit.cpp: landmarks first, the closest points after them.
+#include "toolkit/comparison/surface_fit.h"
+
+#include "core/error.h"
+#include "eval/surface_errors.h"
+#include "toolkit/comparison/compare_inputs.h"
+#include "toolkit/record/statistics_json.h"
+
+namespace softscope {
+
+SurfaceFitOptions parseFit(const std::string& align, const std::string& landmarks,
+                           const std::string& landmarks_option) {
+  require(align.empty() || align == "none" || align == "landmarks" || align == "icp", "--align",
+          align, "must be none, landmarks or icp");
+  if (align == "landmarks" && landmarks.empty())
+    throw OptionError("--align landmarks needs " + landmarks_option + " FILE");
+  if (align == "none" && !landmarks.empty())
+    throw OptionError("--align none and " + landmarks_option + " exclude each other; give one");
+  return {landmarks, align == "icp"};
+}
+
+SurfaceFit fitSurface(const TriangleMesh& reference, const std::vector<Eigen::Vector3f>& test_mm,
+                      const SurfaceFitOptions& options) {
+  SurfaceFit fit;
+  if (!options.moves()) return fit;
+  const TriangleTree surface(reference);
+  fit.before_mm = surfaceErrors(surface.closestPoints(test_mm)).distance_mm;
+  if (!options.landmarks.empty()) {
+    const Landmarks landmarks = readLandmarks(options.landmarks);
+    fit.landmarks = landmarkErrors(landmarks.test_mm, landmarks.reference_mm);
+    fit.reference_from_test = fit.landmarks->fit.target_from_source;
+    fit.method = "landmarks";
+  }
+  if (!options.closest_points) return fit;
+  fit.icp = alignToSurface(test_mm, surface, {}, fit.reference_from_test);
+  fit.reference_from_test = fit.icp->surface_from_points;
+  fit.method = fit.landmarks ? "landmarks, then icp" : "icp";
+  if (!fit.icp->converged())
+    fit.warnings.emplace_back(
+        "the alignment did not converge; a better start may help: --landmarks");
+  return fit;
+}
+
+FactSheet::Json surfaceFitJson(const SurfaceFit& fit) {
+  FactSheet::Json json{{"method", fit.method},
+                       {"reference_from_test", matrixJson(fit.reference_from_test)}};
+  if (fit.before_mm) json["before"] = statisticsJson(*fit.before_mm, "_mm");
+  if (fit.landmarks) {
+    json["fre"] = statisticsJson(fit.landmarks->fre_mm, "_mm");
+    json["tre_leave_one_out"] = statisticsJson(fit.landmarks->tre_mm, "_mm");
+  }
+  if (fit.icp)
+    json["icp"] = {{"stop", stopText(fit.icp->stop)},
+                   {"iterations", fit.icp->iterations},
+                   {"free_directions", fit.icp->free_directions}};
+  return json;
+}
+
+void addFitFacts(const SurfaceFit& fit, FactSheet& facts) {
+  facts.addLine("alignment", fit.method);
+  if (fit.before_mm) facts.addLine("  before", spreadText(*fit.before_mm));
+  if (fit.landmarks)
+    facts.addLine("  landmarks", "FRE rmse " + fixed(fit.landmarks->fre_mm.rmse, 3) + " mm" +
+                                     (fit.landmarks->tre_mm.count == 0
+                                          ? std::string("; TRE takes four landmarks")
+                                          : "; TRE, leaving one out, mean " +
+                                                fixed(fit.landmarks->tre_mm.mean, 3) + " mm"));
+  if (fit.icp)
+    facts.addLine("  icp", std::string(stopText(fit.icp->stop)) + " after " +
+                               std::to_string(fit.icp->iterations) + " iterations");
+}
+
+}  // namespace softscope

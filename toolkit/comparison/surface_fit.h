@@ -1,0 +1,45 @@
+// toolkit/comparison/surface_fit.h: the test brought to its reference, the same wherever it is
+// offered.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+#include "eval/landmark_errors.h"
+#include "eval/surface_alignment.h"
+#include "toolkit/record/fact_sheet.h"
+
+namespace softscope {
+
+struct SurfaceFitOptions {
+  std::string landmarks;  // file of pairs; empty: none
+  bool closest_points = false;
+
+  bool moves() const { return closest_points || !landmarks.empty(); }
+};
+
+/// From --align, which may be empty, and the option of that name with a file of landmarks: these
+/// alone mean landmarks, with icp that it begins at them. Throws OptionError: an unknown way,
+/// landmarks without a file, none with one.
+SurfaceFitOptions parseFit(const std::string& align, const std::string& landmarks,
+                           const std::string& landmarks_option);
+
+struct SurfaceFit {
+  std::string method = "none";  // none, landmarks, icp, "landmarks, then icp"
+  Eigen::Isometry3d reference_from_test = Eigen::Isometry3d::Identity();
+  std::optional<Statistics> before_mm;  // the test's distances before it
+  std::optional<LandmarkErrors> landmarks;
+  std::optional<SurfaceAlignment> icp;
+  std::vector<std::string> warnings;
+};
+
+/// Doesn't move anything. Throws InputError where the landmarks can't be read.
+SurfaceFit fitSurface(const TriangleMesh& reference, const std::vector<Eigen::Vector3f>& test_mm,
+                      const SurfaceFitOptions& options);
+
+FactSheet::Json surfaceFitJson(const SurfaceFit& fit);
+void addFitFacts(const SurfaceFit& fit, FactSheet& facts);
+
+}  // namespace softscope

@@ -1,0 +1,64 @@
+// toolkit/depth/depth_outputs.h: the files that `softscope depth` leaves, frame by frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/stereo_rig.h"
+#include "io/new_files.h"
+#include "toolkit/depth/depth_estimator.h"
+#include "vtk_views/depth_picture.h"
+
+namespace softscope {
+
+/// Which kinds are written.
+struct DepthOutputKinds {
+  bool disparity = true, depth = true, confidence = true, cloud = true, picture = true;
+
+  /// "depth,picture"; empty = all. Throws OptionError with the nearest name.
+  static DepthOutputKinds parse(const std::string& list);
+};
+
+struct DepthOutputOptions {
+  std::filesystem::path folder;
+  DepthOutputKinds kinds;
+  bool overwrite = false;
+  bool raw_left = false;  // the frame that the cloud's header names
+};
+
+/// Without keep() its destructor takes back what it wrote.
+class DepthOutputs {
+ public:
+  explicit DepthOutputs(DepthOutputOptions options) : options_(std::move(options)) {}
+
+  /// Throws OptionError naming the first file that exists already, unless overwriting is allowed.
+  void requireFree(const std::vector<std::string>& prefixes) const;
+
+  /// Files named <prefix>depth.png and so on, each whole or not at all.
+  void write(const std::string& prefix, const DepthResult& measured, const DepthRange& range,
+             const std::string& title) const;
+
+  void writeSummary(const std::string& json) const;
+  void keep() const { new_files_.keep(); }
+
+ private:
+  std::vector<std::string> names() const;
+  std::filesystem::path summaryFile() const { return options_.folder / "summary.json"; }
+  template <class Write>
+  void make(const std::string& prefix, const char* name, const Write& write) const {
+    const std::filesystem::path path = file(prefix, name);
+    new_files_.make(path, [&] { write(path); });
+  }
+  std::filesystem::path file(const std::string& prefix, const char* name) const {
+    return options_.folder / (prefix + name);
+  }
+  DepthOutputOptions options_;
+  mutable NewFiles new_files_;
+};
+
+/// 255 times the probability that a pixel's error is below half a pixel, were it normally
+/// distributed with the predicted standard error; 0 where nothing was measured.
+GrayImage confidenceImage(const DisparityMap& disparity);
+
+}  // namespace softscope

@@ -1,0 +1,232 @@
+// toolkit/evaluation/evaluate_frames.cpp: gathers by frame what was judged by model, pose and
+// track.
+#include "toolkit/evaluation/evaluate_frames.h"
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+namespace softscope {
+namespace {
+
+constexpr double kNone = Statistics::kNone;
+
+/// What is known of one frame; null or NaN where it isn't.
+struct FrameFacts {
+  int frame = 0;
+  double time_s = kNone;
+  const ModelErrors* model = nullptr;
+  const ViewErrors* view = nullptr;
+  double second_difference_mm = kNone;
+  double pose_mm = kNone, pose_deg = kNone, ate_mm = kNone, ate_deg = kNone;
+  double rpe_mm = kNone, rpe_deg = kNone, backprojection_mm = kNone;
+  Statistics track_mm, control_mm;
+};
+
+struct Column {
+  const char* heading;
+  std::function<double(const FrameFacts&)> value;
+};
+
+Column ofModel(const char* heading, std::function<double(const ModelErrors&)> value) {
+  return {heading, [value = std::move(value)](const FrameFacts& facts) {
+            return facts.model == nullptr ? kNone : value(*facts.model);
+          }};
+}
+
+std::vector<Column> surfaceColumns() {
+  using E = const ModelErrors&;
+  return {ofModel("points", [](E e) { return static_cast<double>(e.distance_mm.count); }),
+          ofModel("mean_mm", [](E e) { return e.distance_mm.mean; }),
+          ofModel("sd_mm", [](E e) { return e.distance_mm.sd; }),
+          ofModel("rmse_mm", [](E e) { return e.distance_mm.rmse; }),
+          ofModel("median_mm", [](E e) { return e.distance_mm.median; }),
+          ofModel("p95_mm", [](E e) { return e.distance_mm.p95; }),
+          ofModel("max_mm", [](E e) { return e.distance_mm.max; }),
+          ofModel("signed_mean_mm", [](E e) { return e.signed_mm.mean; }),
+          ofModel("signed_median_mm", [](E e) { return e.signed_mm.median; }),
+          ofModel("border_points", [](E e) { return static_cast<double>(e.border_count); }),
+          ofModel("beyond_border_points", [](E e) { return static_cast<double>(e.beyond_count); })};
+}
+
+std::vector<Column> viewColumns() {
+  using E = const ModelErrors&;
+  return {ofModel("observed_share", [](E e) { return e.observed_share; }),
+          ofModel("observed_mean_mm", [](E e) { return e.observed_mm.mean; }),
+          ofModel("observed_median_mm", [](E e) { return e.observed_mm.median; }),
+          ofModel("observed_p95_mm", [](E e) { return e.observed_mm.p95; }),
+          ofModel("predicted_mean_mm", [](E e) { return e.predicted_mm.mean; }),
+          ofModel("predicted_median_mm", [](E e) { return e.predicted_mm.median; }),
+          ofModel("predicted_p95_mm", [](E e) { return e.predicted_mm.p95; }),
+          ofModel("completeness_1mm", [](E e) { return e.both.share; }),
+          ofModel("left_completeness_1mm", [](E e) { return e.left.share; }),
+          ofModel("not_reconstructed_share", [](E e) { return 1 - e.both.share; }),
+          ofModel("tissue_to_model_mean_mm", [](E e) { return e.both.distance_mm.mean; }),
+          ofModel("tissue_to_model_p95_mm", [](E e) { return e.both.distance_mm.p95; })};
+}
+
+Column ofView(const char* heading, std::function<double(const ViewErrors&)> value) {
+  return {heading, [value = std::move(value)](const FrameFacts& facts) {
+            return facts.view == nullptr ? kNone : value(*facts.view);
+          }};
+}
+
+std::vector<Column> drawnColumns() {
+  using V = const ViewErrors&;
+  return {
+      ofView("depth_mean_mm", [](V v) { return v.depth.absolute_mm.mean; }),
+      ofView("depth_median_mm", [](V v) { return v.depth.absolute_mm.median; }),
+      ofView("depth_rmse_mm", [](V v) { return v.depth.absolute_mm.rmse; }),
+      ofView("depth_bad_3mm_percent", [](V v) { return v.depth.bad_percent[0]; }),
+      ofView("depth_coverage_percent", [](V v) { return v.depth.coverage_percent; }),
+      ofView("view_psnr_db", [](V v) { return v.picture.psnr_db; }),
+      ofView("view_psnr_over_all_pixels_db", [](V v) { return v.picture.psnr_over_all_pixels_db; }),
+      ofView("view_ssim", [](V v) { return v.picture.ssim; }),
+      ofView("view_judged_share", [](V v) { return v.picture.judged_share; }),
+      {"backprojection_mean_mm", [](const FrameFacts& f) { return f.backprojection_mm; }}};
+}
+
+std::vector<Column> hausdorffColumns() {
+  using E = const ModelErrors&;
+  return {
+      ofModel("hd95_max_of_directed_mm", [](E e) { return e.hausdorff.hd95_max_of_directed_mm; }),
+      ofModel("hd95_pooled_mm", [](E e) { return e.hausdorff.hd95_pooled_mm; }),
+      ofModel("hd95_mean_of_directed_mm", [](E e) { return e.hausdorff.hd95_mean_of_directed_mm; }),
+      ofModel("hd_mm", [](E e) { return e.hausdorff.hd_mm; }),
+      ofModel("assd_mm", [](E e) { return e.hausdorff.assd_mm; }),
+      ofModel("masd_mm", [](E e) { return e.hausdorff.masd_mm; }),
+      {"second_difference_mm", [](const FrameFacts& f) { return f.second_difference_mm; }}};
+}
+
+std::vector<Column> cameraAndTrackColumns() {
+  using F = const FrameFacts&;
+  return {{"pose_error_mm", [](F f) { return f.pose_mm; }},
+          {"pose_error_deg", [](F f) { return f.pose_deg; }},
+          {"ate_mm", [](F f) { return f.ate_mm; }},
+          {"ate_deg", [](F f) { return f.ate_deg; }},
+          {"rpe_mm", [](F f) { return f.rpe_mm; }},
+          {"rpe_deg", [](F f) { return f.rpe_deg; }},
+          {"track_count", [](F f) { return static_cast<double>(f.track_mm.count); }},
+          {"track_mean_mm", [](F f) { return f.track_mm.mean; }},
+          {"track_median_mm", [](F f) { return f.track_mm.median; }},
+          {"track_p95_mm", [](F f) { return f.track_mm.p95; }},
+          {"no_motion_mean_mm", [](F f) { return f.control_mm.mean; }}};
+}
+
+std::vector<Column> columnsFor(const EvaluationResult& result) {
+  std::vector<Column> columns{
+      {"frame", [](const FrameFacts& f) { return static_cast<double>(f.frame); }},
+      {"time_s", [](const FrameFacts& f) { return f.time_s; }}};
+  const auto append = [&](const std::vector<Column>& more) {
+    columns.insert(columns.end(), more.begin(), more.end());
+  };
+  append(surfaceColumns());
+  if (!result.against_mesh) append(viewColumns());
+  append(hausdorffColumns());
+  if (result.against_mesh) return columns;
+  append(drawnColumns());
+  append(cameraAndTrackColumns());
+  return columns;
+}
+
+using FactsByFrame = std::map<int, FrameFacts>;
+
+void addCamera(const CameraResult& camera, FactsByFrame& facts) {
+  for (std::size_t k = 0; k < camera.frames.size(); ++k) {
+    FrameFacts& frame = facts[camera.frames[k]];
+    frame.time_s = camera.times_s[k];
+    frame.pose_mm = camera.errors.unaligned.each_mm[k];
+    frame.pose_deg = camera.errors.unaligned.each_deg[k];
+    frame.ate_mm = camera.errors.absolute.each_mm[k];
+    frame.ate_deg = camera.errors.absolute.each_deg[k];
+    if (k == 0) continue;  // a step leads to its frame
+    frame.rpe_mm = camera.errors.relative.each_mm[k - 1];
+    frame.rpe_deg = camera.errors.relative.each_deg[k - 1];
+  }
+}
+
+void addTracks(const TrackErrors& tracks, FactsByFrame& facts) {
+  std::map<int, std::pair<std::vector<double>, std::vector<double>>> by_frame;
+  for (const TrackError& e : tracks.each) {
+    by_frame[e.frame].first.push_back(e.error_mm);
+    by_frame[e.frame].second.push_back(e.control_mm);
+  }
+  for (const auto& [frame, values] : by_frame) {
+    facts[frame].track_mm = statistics(values.first);
+    facts[frame].control_mm = statistics(values.second);
+  }
+}
+
+FactsByFrame gather(const EvaluationResult& result) {
+  FactsByFrame facts;
+  const SurfaceSeries& surface = result.surface;
+  for (std::size_t i = 0; i < surface.models.size(); ++i) {
+    FrameFacts& frame = facts[surface.models[i].frame];
+    frame.time_s = surface.models[i].time_s;
+    frame.model = &surface.models[i].errors;
+    if (surface.models[i].view) frame.view = &*surface.models[i].view;
+    if (i < surface.second_differences_mm.size())
+      frame.second_difference_mm = surface.second_differences_mm[i];
+  }
+  if (result.camera) addCamera(*result.camera, facts);
+  if (result.tracks) addTracks(*result.tracks, facts);
+  for (const auto& [frame, mean_mm] : result.backprojection_mm)
+    facts[frame].backprojection_mm = mean_mm;
+  for (auto& [number, frame] : facts) frame.frame = number;
+  return facts;
+}
+
+std::string cellOf(double value) {
+  char text[32] = "";
+  if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+}  // namespace
+
+FrameTable frameTable(const EvaluationResult& result) {
+  const std::vector<Column> columns = columnsFor(result);
+  FrameTable table;
+  for (const Column& column : columns) table.headings.emplace_back(column.heading);
+  for (const auto& [number, facts] : gather(result)) {
+    table.rows.emplace_back();
+    for (const Column& column : columns) table.rows.back().push_back(column.value(facts));
+  }
+  return table;
+}
+
+std::string FrameTable::csv() const {
+  std::string text;
+  for (std::size_t i = 0; i < headings.size(); ++i) text += (i > 0 ? "," : "") + headings[i];
+  text += "\n";
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + cellOf(row[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+FactSheet::Json FrameTable::json() const {
+  FactSheet::Json frames = FactSheet::Json::array();
+  for (const auto& row : rows) {
+    FactSheet::Json frame = FactSheet::Json::object();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (row[i] == std::floor(row[i]) && std::abs(row[i]) < 1e15)
+        frame[headings[i]] = static_cast<long long>(row[i]);
+      else
+        frame[headings[i]] = row[i];
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+std::string tracksCsv(const TrackErrors& tracks) {
+  std::string text = "frame,id,error_mm,no_motion_mm,visible\n";
+  for (const TrackError& e : tracks.each)
+    text += std::to_string(e.frame) + "," + std::to_string(e.id) + "," + cellOf(e.error_mm) + "," +
+            cellOf(e.control_mm) + "," + (e.visible ? "1\n" : "0\n");
+  return text;
+}
+
+}  // namespace softscope

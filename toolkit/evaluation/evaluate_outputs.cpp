@@ -1,0 +1,103 @@
+// toolkit/evaluation/evaluate_outputs.cpp: numbers first, figures after them.
+#include "toolkit/evaluation/evaluate_outputs.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/folder.h"
+#include "io/image_writer.h"
+#include "io/message.h"
+#include "io/text_lines.h"
+#include "toolkit/evaluation/evaluate_plots.h"
+#include "toolkit/record/json_text.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDotsPerInch = 300;
+
+const char* const kFiles[] = {
+    "evaluation.json",     "frames.csv",         "tracks.csv",          "error_series.svg",
+    "error_series.pdf",    "error_series.png",   "error_histogram.svg", "error_histogram.pdf",
+    "error_histogram.png", "worst_frames.svg",   "worst_frames.pdf",    "worst_frames.png",
+    "errors.pvd",          "quality_series.svg", "quality_series.pdf",  "quality_series.png"};
+
+std::string mapName(const ErrorMap& map) { return "errors/" + numberedName(map.frame, ".vtp"); }
+
+/// ParaView's list of the maps over time, or over frames where no time is known.
+std::string mapsPvd(const std::vector<ErrorMap>& maps) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const ErrorMap& map : maps)
+    text += "<DataSet timestep=\"" +
+            exactText(std::isfinite(map.time_s) ? map.time_s : double(map.frame)) + "\" file=\"" +
+            mapName(map) + "\"/>\n";
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+EvaluateOutputs::EvaluateOutputs(fs::path folder, bool overwrite)
+    : folder_(std::move(folder)), overwrite_(overwrite) {
+  if (fs::exists(folder_) && !fs::is_directory(folder_))
+    throw OptionError("--out " + shown(folder_) +
+                      ": is a file, but must be a folder, there or not yet");
+  for (const fs::path& written : {folder_, folder_ / "errors"}) removeAbandoned(written);
+  for (const char* name : kFiles) requireWritable(folder_ / name, overwrite_);
+}
+
+void EvaluateOutputs::put(const std::string& name, const std::string& bytes) const {
+  new_files_.make(folder_ / name, [&] { writeFile(folder_ / name, bytes, overwrite_); });
+}
+
+void EvaluateOutputs::putFigure(const std::string& name, const VectorDrawing& figure) const {
+  put(name + ".svg", svgBytes(figure));
+  put(name + ".pdf", pdfBytes(figure));
+  const fs::path png = folder_ / (name + ".png");
+  new_files_.make(
+      png, [&] { writePng(png, rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_); });
+}
+
+/// What an earlier evaluation left is removed, for it may have judged other frames.
+void EvaluateOutputs::putMaps(const std::vector<ErrorMap>& maps) const {
+  if (overwrite_ && fs::is_directory(folder_ / "errors"))
+    for (const fs::path& file : filesIn(folder_ / "errors", {".vtp"}))
+      if (file.stem().string().find_first_not_of("0123456789") == std::string::npos)
+        fs::remove(file);
+  if (maps.empty()) return;
+  new_files_.makeFolder(folder_ / "errors");
+  for (const ErrorMap& map : maps) put(mapName(map), errorMapVtp(map));
+  put("errors.pvd", mapsPvd(maps));
+}
+
+void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& frames,
+                            const FactSheet::Json& record) const {
+  new_files_.makeFolder(folder_);
+  put("frames.csv", frames.csv());
+  if (result.tracks) put("tracks.csv", tracksCsv(*result.tracks));
+  if (!result.surface.models.empty()) {
+    const std::string title = comparisonTitle(result.run, result.reference);
+    putFigure("error_series", drawErrorSeries(seriesData(result)));
+    putFigure("error_histogram",
+              drawErrorHistogram(histogramOf(result.surface.pool.all_mm(), title)));
+    putFigure("worst_frames", drawWorstFrames(worstFramesData(result)));
+  }
+  putMaps(result.surface.maps);
+  put("evaluation.json", jsonText(record));  // last: where it is, the others are
+  new_files_.keep();
+}
+
+void EvaluateOutputs::write(const TruthlessResult& result, const FactSheet::Json& record) const {
+  new_files_.makeFolder(folder_);
+  put("frames.csv", truthlessCsv(result));
+  const VectorDrawing plots = truthlessPlots(result);
+  if (plots.height_pt > 0) putFigure("quality_series", plots);
+  put("evaluation.json", jsonText(record));
+  new_files_.keep();
+}
+
+}  // namespace softscope

@@ -1,0 +1,106 @@
+// toolkit/evaluation/evaluate_result.cpp: from folders to eval's functions.
+#include "toolkit/evaluation/evaluate_result.h"
+
+#include "core/error.h"
+#include "io/message.h"
+#include "toolkit/run/table_reader.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kForeignMm = 20;  // a model this far off shows no tissue of this sequence
+
+}  // namespace
+
+CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
+  const auto trueWorldFromLeft = [&](int frame) -> const Eigen::Isometry3d& {
+    return truth.trajectory[static_cast<std::size_t>(frame)].world_from_left;
+  };
+  const Eigen::Isometry3d start_from_world = run.frames[0] == 0
+                                                 ? Eigen::Isometry3d::Identity()
+                                                 : trueWorldFromLeft(run.frames[0]).inverse();
+  CameraResult result;
+  std::vector<Eigen::Isometry3d> true_poses, poses;
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    result.frames.push_back(run.frames[k]);
+    result.times_s.push_back(truth.trajectory[static_cast<std::size_t>(run.frames[k])].time_s);
+    true_poses.push_back(start_from_world * trueWorldFromLeft(run.frames[k]));
+    poses.push_back(run.trajectory[k].world_from_left);
+  }
+  result.errors = trajectoryErrors(true_poses, poses);
+  return result;
+}
+
+std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth) {
+  if (run.tracks.empty() || truth.tracks.empty()) return std::nullopt;
+  TrueTracks true_tracks;
+  UnseenTracks unseen;
+  for (const TrackSample& sample : readTracks(truth.tracks)) {
+    if (!sample.position_mm.allFinite()) continue;
+    true_tracks[{sample.frame, sample.id}] = sample.position_mm;
+    if (!sample.visible) unseen.insert({sample.frame, sample.id});
+  }
+  const std::vector<TrackSample> tracks = readTracks(run.tracks);
+  TrackErrors errors = trackErrors(true_tracks, tracks, truthFromRun(run, truth), unseen);
+  if (!tracks.empty() && errors.without_truth == tracks.size())
+    throw InputError(say(shown(run.tracks), ": has no frame and id in common with ",
+                         shown(truth.tracks),
+                         "; tracks of other points? Give --track the "
+                         "sequence's track_points.csv"));
+  return errors;
+}
+
+RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
+                            const EvaluationResult& result) {
+  std::vector<Eigen::Isometry3d> poses;
+  std::map<int, std::vector<double>> tracks_mm;
+  if (result.tracks)
+    for (const TrackError& e : result.tracks->each) tracks_mm[e.frame].push_back(e.error_mm);
+  std::map<int, double> surface_mm;
+  for (const JudgedModel& model : result.surface.models)
+    surface_mm[model.frame] = model.errors.observed_mm.mean;
+  std::vector<double> of_tracks, of_surface;
+  for (const int frame : run.frames) {
+    poses.push_back(truth.trajectory[static_cast<std::size_t>(frame)].world_from_left);
+    of_tracks.push_back(statistics(tracks_mm[frame]).mean);
+    const auto model = surface_mm.find(frame);
+    of_surface.push_back(model == surface_mm.end() ? Statistics::kNone : model->second);
+  }
+  return {revisits(poses, of_surface, {}), revisits(poses, of_tracks, {})};
+}
+
+std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTruth& truth,
+                                          const EvaluationResult& result) {
+  std::vector<std::string> warnings;
+  const auto& models = result.surface.models;
+  if (models.empty())
+    warnings.push_back(
+        "no model was judged: no frame has both models/NNNNNN.ply and a true mesh. Reconstruct "
+        "with --save-every, or simulate with --truth mesh");
+  else if (models.front().errors.distance_mm.median > kForeignMm)
+    warnings.push_back(say("the first model lies ", models.front().errors.distance_mm.median,
+                           " mm from the truth in the median; a run of another sequence, or in "
+                           "another unit?"));
+  if (run.frames.size() < truth.trajectory.size())
+    warnings.push_back(say("the run has ", run.frames.size(), " of the sequence's ",
+                           truth.trajectory.size(), " frames; only these are judged"));
+  if (run.tracks.empty() && !truth.tracks.empty())
+    warnings.push_back("the run has no tracks.csv; reconstruct with --track to judge tracks");
+  if (result.tracks && result.tracks->without_truth > 0)
+    warnings.push_back(say(result.tracks->without_truth, " tracked positions have no truth"));
+  return warnings;
+}
+
+const char* toString(MeshAlignment alignment) {
+  switch (alignment) {
+    case MeshAlignment::kNone:
+      return "none";
+    case MeshAlignment::kRigid:
+      return "rigid";
+    case MeshAlignment::kIcp:
+      return "icp";
+  }
+  return "none";
+}
+
+}  // namespace softscope

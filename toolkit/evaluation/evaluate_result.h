@@ -1,0 +1,60 @@
+// toolkit/evaluation/evaluate_result.h: everything that one evaluation found.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/revisit.h"
+#include "eval/track_errors.h"
+#include "eval/trajectory_errors.h"
+#include "toolkit/evaluation/evaluate_series.h"
+
+namespace softscope {
+
+/// The scope's path against the true one; values are in the order of `frames`.
+struct CameraResult {
+  std::vector<int> frames;
+  std::vector<double> times_s;  // of the true path
+  TrajectoryErrors errors;
+};
+
+/// Errors when the scope is back where it was: of what it sees, and of tracks.
+struct RevisitResult {
+  Revisits surface, tracks;
+};
+
+struct EvaluationResult {
+  std::string run, reference;  // as the user named them
+  bool against_mesh = false;   // else against a sequence's ground truth
+  MeshAlignment alignment = MeshAlignment::kNone;
+  std::vector<SurfaceAlignment> alignments;
+  SurfaceSeries surface;
+  std::optional<CameraResult> camera;
+  std::optional<TrackErrors> tracks;
+  RevisitResult revisits;
+  std::map<int, double> backprojection_mm;  // by frame, as the run itself measured it
+  std::vector<std::string> warnings;
+};
+
+/// Poses of a run that doesn't begin at frame 0 are taken from its first frame on, as its own world
+/// begins there.
+CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth);
+
+/// Throws InputError where the run's tracks have nothing in common with the true ones. None where
+/// either lacks tracks.csv.
+std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth);
+
+/// Of a result that holds surface and tracks already.
+RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
+                            const EvaluationResult& result);
+
+/// What a reader of the result should know: frames without a model, parts that lack, a model that
+/// is suspiciously far away. Nothing of it keeps the rest from being right.
+std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTruth& truth,
+                                          const EvaluationResult& result);
+
+const char* toString(MeshAlignment alignment);
+
+}  // namespace softscope

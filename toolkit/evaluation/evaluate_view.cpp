@@ -1,0 +1,83 @@
+// toolkit/evaluation/evaluate_view.cpp: one splat, one photograph.
+#include "toolkit/evaluation/evaluate_view.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "eval/pixel_masks.h"
+#include "features/model_view.h"
+#include "io/calibration_reader.h"
+#include "io/folder.h"
+#include "io/image_reader.h"
+#include "io/message.h"
+#include "io/sequence_paths.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Empty for a video, a single picture, or nothing at all.
+std::vector<fs::path> picturesIn(const fs::path& folder) {
+  std::error_code ignored;
+  if (folder.empty() || !fs::is_directory(folder, ignored)) return {};
+  return filesIn(folder, {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm"});
+}
+
+SequencePaths pathsOrNone(const fs::path& sequence) {
+  try {
+    return findSequence(sequence);
+  } catch (const InputError&) {  // truth without pictures
+    return {};
+  }
+}
+
+void requireSize(int width_px, int height_px, const PinholeCamera& left, const fs::path& file) {
+  if (width_px != left.width_px || height_px != left.height_px)
+    throw InputError(say(shown(file), ": has ", width_px, " x ", height_px,
+                         " pixels, but the calibration says ", left.width_px, " x ", left.height_px,
+                         "; give pictures of this camera"));
+}
+
+}  // namespace
+
+ViewJudge::ViewJudge(const SequenceTruth& truth)
+    : rig_(truth.rig), rectifier_(readCalibration(truth.folder)) {
+  const SequencePaths paths = pathsOrNone(truth.folder);
+  pictures_ = picturesIn(paths.left);
+  masks_ = picturesIn(paths.mask);
+  if (!paths.stereo.empty() || isVideo(paths.left))
+    video_ = std::make_unique<FrameLoader>(paths, SequenceOptions());
+}
+
+std::optional<ColourImage> ViewJudge::photograph(int frame) {
+  const auto i = static_cast<std::size_t>(frame);
+  if (video_ && frame < video_->count()) return rectifier_.rectify(video_->load(frame).pair).left;
+  if (i >= pictures_.size()) return std::nullopt;
+  ColourImage raw = readColourImage(pictures_[i]);
+  requireSize(raw.width_px, raw.height_px, rig_.left, pictures_[i]);
+  return rectifier_.rectify({raw, raw}).left;
+}
+
+Mask ViewJudge::instruments(int frame) const {
+  const auto i = static_cast<std::size_t>(frame);
+  if (i >= masks_.size()) return rectifier_.outside();
+  const Mask raw = readMask(masks_[i]);
+  requireSize(raw.width_px, raw.height_px, rig_.left, masks_[i]);
+  return rectifier_.rectifyMask(raw);
+}
+
+ViewErrors ViewJudge::judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left,
+                            int frame, const Raster<float>& true_depth_mm) {
+  const ModelView view = renderModelView(file.model, rig_.left, run_from_left, {});
+  const Mask ignore = instruments(frame);
+  ViewErrors errors;
+  errors.depth = depthErrors(view.depth_mm, true_depth_mm, {{3}}, ignore);
+  if (!file.coloured) return errors;
+  if (const auto picture = photograph(frame))
+    errors.picture =
+        pictureErrors(view.colour, *picture, ignoreEither(ignore, ignoreUnmeasured(view.depth_mm)));
+  return errors;
+}
+
+}  // namespace softscope

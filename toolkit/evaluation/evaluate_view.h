@@ -1,0 +1,45 @@
+// toolkit/evaluation/evaluate_view.h: the model as the camera would see it, against what it saw.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "eval/depth_errors.h"
+#include "eval/picture_errors.h"
+#include "io/frame_loader.h"
+#include "stereo/rectifier.h"
+#include "toolkit/run/model_file.h"
+#include "toolkit/run/run_reader.h"
+
+namespace softscope {
+
+/// Of one moment, drawn from the run's own pose.
+struct ViewErrors {
+  DepthErrors depth;  // of the drawn model, against the true depth
+  /// Against the left picture; NaN where the sequence has none, or the model no colours.
+  PictureErrors picture;
+};
+
+/// Draws models and compares them with the sequence's left pictures. Pixels where the model shows
+/// nothing, and masked ones, aren't judged. Frames must be asked for in rising order.
+class ViewJudge {
+ public:
+  explicit ViewJudge(const SequenceTruth& truth);
+
+  /// Throws InputError where a picture can't be read or has another size.
+  ViewErrors judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left, int frame,
+                   const Raster<float>& true_depth_mm);
+
+ private:
+  std::optional<ColourImage> photograph(int frame);
+  Mask instruments(int frame) const;
+
+  RectifiedRig rig_;
+  Rectifier rectifier_;
+  std::vector<std::filesystem::path> pictures_, masks_;  // in the order of frames
+  std::unique_ptr<FrameLoader> video_;                   // in place of pictures_
+};
+
+}  // namespace softscope

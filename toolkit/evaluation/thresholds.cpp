@@ -1,0 +1,115 @@
+// toolkit/evaluation/thresholds.cpp: splits the text, looks the metric up, compares.
+#include "toolkit/evaluation/thresholds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "io/nearest_name.h"
+#include "io/text_lines.h"
+
+namespace softscope {
+namespace {
+
+using Metrics = std::vector<std::pair<std::string, double>>;
+
+void collect(const FactSheet::Json& json, const std::string& path, Metrics& metrics) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string here = path.empty() ? key : path + "." + key;
+    if (value.is_object())
+      collect(value, here, metrics);
+    else if (value.is_number())
+      metrics.emplace_back(here, value.get<double>());
+    else if (value.is_null())
+      metrics.emplace_back(here, std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+bool endsWithPart(const std::string& path, const std::string& part) {
+  return path.size() > part.size() &&
+         path.compare(path.size() - part.size(), part.size(), part) == 0 &&
+         path[path.size() - part.size() - 1] == '.';
+}
+
+[[noreturn]] void failUnknown(const std::string& name, const Metrics& metrics) {
+  std::vector<std::string> names;
+  for (const auto& [path, value] : metrics) names.push_back(path);
+  const std::string nearest = nearestName(name, names);
+  throw OptionError(
+      "--fail-if: `" + name + "` is no metric of this evaluation" +
+      (nearest.empty() ? "; --json shows what there is" : " (did you mean `" + nearest + "`?)"));
+}
+
+const std::pair<std::string, double>& find(const std::string& name, const Metrics& metrics,
+                                           const std::string& preferred) {
+  for (const std::string& path : {name, preferred + "." + name})
+    for (const auto& metric : metrics)
+      if (metric.first == path) return metric;
+  const auto matches = [&](const auto& metric) { return endsWithPart(metric.first, name); };
+  const auto first = std::find_if(metrics.begin(), metrics.end(), matches);
+  if (first == metrics.end()) failUnknown(name, metrics);
+  const auto second = std::find_if(first + 1, metrics.end(), matches);
+  if (second != metrics.end())
+    throw OptionError("--fail-if: `" + name + "` may be " + first->first + " or " + second->first +
+                      "; write it in full");
+  return *first;
+}
+
+}  // namespace
+
+std::string Threshold::text() const { return metric + relation + exactText(limit); }
+
+bool Threshold::fails(double value) const {
+  if (std::isnan(value)) return true;
+  if (relation == ">") return value > limit;
+  if (relation == ">=") return value >= limit;
+  if (relation == "<") return value < limit;
+  return value <= limit;
+}
+
+Threshold parseThreshold(const std::string& text) {
+  const std::size_t begin = text.find_first_of("<>");
+  const std::size_t end = begin == std::string::npos ? begin : text.find_first_not_of("<>=", begin);
+  if (end != std::string::npos) {
+    const Threshold threshold{
+        std::string(trimmed(text.substr(0, begin))), text.substr(begin, end - begin),
+        numberOf(trimmed(text.substr(end))).value_or(std::numeric_limits<double>::quiet_NaN())};
+    const auto& relation = threshold.relation;
+    const bool named = threshold.metric.find('=') == std::string::npos && !threshold.metric.empty();
+    const bool known = relation == ">" || relation == ">=" || relation == "<" || relation == "<=";
+    if (known && named && std::isfinite(threshold.limit)) return threshold;
+  }
+  throw OptionError("--fail-if is `" + text +
+                    "`, but must be a metric, one of > >= < <=, and a number, e.g. p95_mm>2");
+}
+
+Metrics metricsOf(const FactSheet::Json& result) {
+  Metrics metrics;
+  collect(result, "", metrics);
+  return metrics;
+}
+
+std::vector<ThresholdOutcome> checkThresholds(const std::vector<Threshold>& thresholds,
+                                              const FactSheet::Json& result,
+                                              const std::string& preferred) {
+  const Metrics metrics = metricsOf(result);
+  std::vector<ThresholdOutcome> outcomes;
+  for (const Threshold& threshold : thresholds) {
+    const auto& [path, value] = find(threshold.metric, metrics, preferred);
+    outcomes.push_back({threshold, path, value, threshold.fails(value)});
+  }
+  return outcomes;
+}
+
+FactSheet::Json thresholdsJson(const std::vector<ThresholdOutcome>& outcomes) {
+  FactSheet::Json list = FactSheet::Json::array();
+  for (const ThresholdOutcome& outcome : outcomes)
+    list.push_back({{"fail_if", outcome.threshold.text()},
+                    {"metric", outcome.path},
+                    {"value", outcome.value},
+                    {"failed", outcome.failed}});
+  return list;
+}
+
+}  // namespace softscope

@@ -1,0 +1,254 @@
+// toolkit/evaluation/truthless_result.cpp: the run's own words, and the model beside the picture.
+#include "toolkit/evaluation/truthless_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/error.h"
+#include "io/calibration_reader.h"
+#include "io/sequence_paths.h"
+#include "stereo/rectifier.h"
+#include "toolkit/evaluation/evaluate_view.h"
+#include "toolkit/record/statistics_json.h"
+#include "toolkit/record/version.h"
+#include "vtk_views/value_series_plot.h"
+
+namespace softscope {
+namespace {
+
+using Json = FactSheet::Json;
+using Value = std::function<double(const TruthlessFrame&)>;
+
+constexpr double kDegPerRad = 57.29577951308232;
+
+/// What no measurement without truth can say.
+const std::vector<std::string> kMissing{
+    "surface errors: they take true meshes, groundtruth/mesh/NNNNNN.ply, or a mesh as --reference",
+    "errors of material points: they take groundtruth/tracks.csv",
+    "errors of the scope's path: they take groundtruth/trajectory.txt",
+    "errors of the drawn depth: they take groundtruth/depth/NNNNNN.png"};
+
+double angleDeg(const Eigen::Isometry3d& motion) {
+  return kDegPerRad * Eigen::AngleAxisd(motion.linear()).angle();
+}
+
+void addPath(const JudgedRun& run, TruthlessResult& result) {
+  std::vector<double> squares;
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    TruthlessFrame& frame = result.frames[run.frames[k]];
+    frame.time_s = run.trajectory[k].time_s;
+    const Eigen::Isometry3d& here = run.trajectory[k].world_from_left;
+    if (k > 0) {
+      const Eigen::Isometry3d step = run.trajectory[k - 1].world_from_left.inverse() * here;
+      frame.step_mm = step.translation().norm();
+      frame.step_deg = angleDeg(step);
+    }
+    if (k == 0 || k + 1 == run.frames.size()) continue;
+    const Eigen::Vector3d before = run.trajectory[k - 1].world_from_left.translation(),
+                          after = run.trajectory[k + 1].world_from_left.translation();
+    frame.second_difference_mm = (before - 2 * here.translation() + after).norm();
+    squares.push_back(frame.second_difference_mm * frame.second_difference_mm);
+  }
+  result.jitter_rms_mm = std::sqrt(statistics(squares).mean);
+  if (run.trajectory.size() < 2) return;
+  const Eigen::Isometry3d motion =
+      run.trajectory.front().world_from_left.inverse() * run.trajectory.back().world_from_left;
+  result.moved_mm = motion.translation().norm();
+  result.turned_deg = angleDeg(motion);
+}
+
+void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
+                   const std::function<bool()>& after_model, TruthlessResult& result) {
+  SequenceTruth pictures;
+  pictures.folder = sequence;
+  pictures.rig = Rectifier(readCalibration(sequence)).rig();
+  ViewJudge judge(pictures);
+  const PinholeCamera& left = pictures.rig.left;
+  const Raster<float> no_depth(left.width_px, left.height_px, std::nanf(""));
+  for (const auto& [frame, file] : run.models) {
+    const auto at = std::lower_bound(run.frames.begin(), run.frames.end(), frame);
+    if (at == run.frames.end() || *at != frame) continue;
+    const auto& pose = run.trajectory[static_cast<std::size_t>(at - run.frames.begin())];
+    const ViewErrors errors = judge.judge(readModel(file), pose.world_from_left, frame, no_depth);
+    result.frames[frame].picture = errors.picture;
+    if (std::isfinite(errors.picture.judged_share)) result.drawn.push_back(frame);
+    result.interrupted = !after_model();
+    if (result.interrupted) return;
+  }
+  if (run.models.empty())
+    result.warnings.push_back(
+        "the run has no models of single frames, so no drawn view; reconstruct with --save-every "
+        "1");
+}
+
+Statistics overFrames(const TruthlessResult& result, const Value& value) {
+  std::vector<double> values;
+  for (const auto& [number, frame] : result.frames) values.push_back(value(frame));
+  return statistics(values);
+}
+
+const Value kPsnr = [](const TruthlessFrame& f) { return f.picture.psnr_db; };
+const Value kPsnrOverAll = [](const TruthlessFrame& f) {
+  return f.picture.psnr_over_all_pixels_db;
+};
+const Value kSsim = [](const TruthlessFrame& f) { return f.picture.ssim; };
+const Value kJudged = [](const TruthlessFrame& f) { return f.picture.judged_share; };
+const Value kBackProjection = [](const TruthlessFrame& f) { return f.backprojection_mm; };
+const Value kCoverage = [](const TruthlessFrame& f) { return f.coverage; };
+const Value kStep = [](const TruthlessFrame& f) { return f.step_mm; };
+const Value kStepDeg = [](const TruthlessFrame& f) { return f.step_deg; };
+const Value kSecondDifference = [](const TruthlessFrame& f) { return f.second_difference_mm; };
+
+struct Column {
+  const char* heading;
+  const Value& value;
+};
+
+const Column kColumns[] = {{"view_psnr_db", kPsnr},
+                           {"view_psnr_over_all_pixels_db", kPsnrOverAll},
+                           {"view_ssim", kSsim},
+                           {"view_judged_share", kJudged},
+                           {"backprojection_mean_mm", kBackProjection},
+                           {"coverage", kCoverage},
+                           {"step_mm", kStep},
+                           {"step_deg", kStepDeg},
+                           {"second_difference_mm", kSecondDifference}};
+
+std::string cellOf(double value) {
+  char text[32] = "";
+  if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+/// A sequence without timestamps counts frames as seconds: then a time says nothing.
+bool hasClock(const TruthlessResult& result) {
+  double last_s = -1;
+  bool counts_frames = true;
+  for (const auto& [number, frame] : result.frames) {
+    if (!(frame.time_s > last_s)) return false;
+    last_s = frame.time_s;
+    counts_frames = counts_frames && frame.time_s == number;
+  }
+  return !counts_frames;
+}
+
+void addPlot(const TruthlessResult& result, const char* label, const Value& value,
+             const PlotStyle& style, VectorDrawing& drawing) {
+  const bool over_time = hasClock(result);
+  ValueSeriesData data{over_time ? "time [s]" : "frame", label, {}, {}};
+  for (const auto& [number, frame] : result.frames) {
+    if (!std::isfinite(value(frame))) continue;
+    data.x.push_back(over_time ? frame.time_s : number);
+    data.y.push_back(value(frame));
+  }
+  if (data.x.empty()) return;
+  appendBelow(drawValueSeries(data, style), 0, drawing);
+}
+
+Json viewJson(const TruthlessResult& result) {
+  const auto mean = [&](const Value& value) { return overFrames(result, value).mean; };
+  return {{"psnr_db", mean(kPsnr)},
+          {"psnr_over_all_pixels_db", mean(kPsnrOverAll)},
+          {"ssim", mean(kSsim)},
+          {"judged_share", mean(kJudged)},
+          {"models_judged", result.drawn.size()}};
+}
+
+Json framesJson(const TruthlessResult& result) {
+  Json frames = Json::array();
+  for (const auto& [number, frame] : result.frames) {
+    Json row{{"frame", number}, {"time_s", frame.time_s}};
+    for (const Column& column : kColumns) row[column.heading] = column.value(frame);
+    frames.push_back(std::move(row));
+  }
+  return frames;
+}
+
+}  // namespace
+
+TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::path& sequence,
+                                  bool views, const std::function<bool()>& after_model) {
+  findSequence(sequence);  // throws where it is none
+  TruthlessResult result;
+  addPath(run, result);
+  for (const auto& [frame, mean_mm] : run.backprojection_mm)
+    result.frames[frame].backprojection_mm = mean_mm;
+  for (const auto& [frame, share] : run.coverage) result.frames[frame].coverage = share;
+  if (views) addDrawnViews(run, sequence, after_model, result);
+  return result;
+}
+
+Json truthlessJson(const TruthlessResult& result) {
+  Json camera{{"poses", result.frames.size()},
+              {"moved_mm", result.moved_mm},
+              {"turned_deg", result.turned_deg},
+              {"jitter_rms_mm", result.jitter_rms_mm}};
+  camera["step"] = statisticsJson(overFrames(result, kStep), "_mm");
+  camera["step"].update(statisticsJson(overFrames(result, kStepDeg), "_deg"));
+  Json json{{"schema_version", 1},
+            {"softscope", versionText()},
+            {"command", "evaluate"},
+            {"inputs", {{"run", result.run}, {"reference", result.sequence}}},
+            {"comparison", {{"reference_kind", "pictures"}, {"alignment", "none"}}},
+            {"missing", kMissing},
+            {"view", viewJson(result)},
+            {"backprojection", statisticsJson(overFrames(result, kBackProjection), "_mm")},
+            {"coverage", {{"mean_share", overFrames(result, kCoverage).mean}}},
+            {"camera", camera},
+            {"warnings", result.warnings}};
+  json["frames"] = framesJson(result);
+  return json;
+}
+
+FactSheet truthlessFacts(const TruthlessResult& result) {
+  FactSheet facts(result.run + " beside the pictures of " + result.sequence +
+                  ", which has no ground truth");
+  const auto mean = [&](const Value& value, int decimals) {
+    return fixed(overFrames(result, value).mean, decimals);
+  };
+  if (!result.drawn.empty())
+    facts.addLine("drawn view", "PSNR " + mean(kPsnr, 1) + " dB, SSIM " + mean(kSsim, 3) +
+                                    " over the pixels that the model covers, " +
+                                    fixed(100 * overFrames(result, kJudged).mean, 1) + " %, of " +
+                                    std::to_string(result.drawn.size()) + " models");
+  const Statistics backprojection = overFrames(result, kBackProjection);
+  if (backprojection.count > 0)
+    facts.addLine("back-projection", spreadText(backprojection) + ", as the run measured it");
+  if (overFrames(result, kCoverage).count > 0)
+    facts.addLine("coverage", fixed(100 * overFrames(result, kCoverage).mean, 1) +
+                                  " % of the tissue has depth");
+  facts.addLine("scope", "moved " + fixed(result.moved_mm, 2) + " mm and turned " +
+                             fixed(result.turned_deg, 2) +
+                             " deg from first to last; of a scope that stands still that is drift");
+  facts.addLine("  jitter", fixed(result.jitter_rms_mm, 4) + " mm rms of second differences");
+  for (const std::string& missing : kMissing) facts.addLine("missing", missing);
+  for (const std::string& warning : result.warnings) facts.warn(warning);
+  return facts;
+}
+
+std::string truthlessCsv(const TruthlessResult& result) {
+  std::string text = "frame,time_s";
+  for (const Column& column : kColumns) text += std::string(",") + column.heading;
+  text += "\n";
+  for (const auto& [number, frame] : result.frames) {
+    text += std::to_string(number) + "," + cellOf(frame.time_s);
+    for (const Column& column : kColumns) text += "," + cellOf(column.value(frame));
+    text += "\n";
+  }
+  return text;
+}
+
+VectorDrawing truthlessPlots(const TruthlessResult& result) {
+  PlotStyle style;
+  style.height_mm = 42;
+  VectorDrawing drawing;
+  drawing.width_pt = style.width_mm * kPtPerMm;
+  addPlot(result, "PSNR [dB]", kPsnr, style, drawing);
+  addPlot(result, "SSIM", kSsim, style, drawing);
+  addPlot(result, "back-projection [mm]", kBackProjection, style, drawing);
+  addPlot(result, "scope's step [mm]", kStep, style, drawing);
+  return drawing;
+}
+
+}  // namespace softscope

@@ -1,0 +1,25 @@
+// toolkit/export/export_surface.h: from points to a surface, with a record of what became of them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/model_surface.h"
+#include "mesh/surface_from_points.h"
+#include "toolkit/record/fact_sheet.h"
+
+namespace softscope {
+
+/// The points joined by triangles; adds what was closed and dropped to the facts. Throws InputError
+/// that begins with `name`.
+ModelSurface makeSurface(const ModelSurface& points, const SurfaceOptions& options,
+                         const std::string& name, FactSheet& facts);
+
+/// Counts, area, space.
+void addModelFacts(const ModelSurface& model, FactSheet& facts);
+
+/// One line of a ParaView collection, and the collection of such lines.
+std::string pvdLine(double time_s, const std::filesystem::path& file);
+std::string pvdFile(const std::string& lines);
+
+}  // namespace softscope

@@ -1,0 +1,302 @@
+// toolkit/figures/figure_kinds.cpp: a scene a panel, one scale, one range.
+#include "toolkit/figures/figure_kinds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <list>
+
+#include "core/error.h"
+#include "io/message.h"
+#include "toolkit/evaluation/run_moment.h"
+#include "toolkit/record/statistics_json.h"
+#include "toolkit/run/model_file.h"
+#include "vtk_views/nice_ticks.h"
+#include "vtk_views/series_plot.h"
+
+namespace softscope {
+namespace {
+
+using Json = FactSheet::Json;
+
+constexpr std::size_t kPanels = 4;  // where the user names no frames
+const Eigen::Vector3d kFromTheScope(0.25, -0.3, -0.9);
+
+/// Up to kPanels of them, the first and the last among them.
+std::vector<int> spread(const std::vector<int>& frames) {
+  if (frames.size() <= kPanels) return frames;
+  std::vector<int> some;
+  for (std::size_t i = 0; i < kPanels; ++i)
+    some.push_back(frames[i * (frames.size() - 1) / (kPanels - 1)]);
+  return some;
+}
+
+Scene sceneOf(TriangleMesh model) {
+  Scene scene;
+  scene.frame = SceneFrame::kCamera;
+  scene.surfaces.push_back({"", std::move(model), surfaceColour(1), {}});
+  scene.surfaces.back().in_focus = true;
+  return scene;
+}
+
+TriangleMesh modelMesh(const std::filesystem::path& file) {
+  ModelFile read = readModel(file);
+  TriangleMesh mesh;
+  mesh.vertices_mm = std::move(read.model.positions_mm);
+  if (read.coloured) mesh.colours = std::move(read.model.colours);
+  return mesh;
+}
+
+Eigen::Vector3d eyeOf(const RunFigureOptions& options) {
+  return options.eye.norm() > 0 ? options.eye : kFromTheScope;
+}
+
+/// A sequence without a clock counts frames: then a time says nothing.
+std::string captionOf(int frame, double time_s, bool with_clock) {
+  if (!with_clock || !std::isfinite(time_s)) return "frame " + std::to_string(frame);
+  char text[64];
+  std::snprintf(text, sizeof text, "frame %d, %.2f s", frame, time_s);
+  return text;
+}
+
+bool hasClock(const JudgedRun& run) {
+  for (std::size_t i = 0; i < run.frames.size(); ++i)
+    if (run.trajectory[i].time_s != run.frames[i]) return true;
+  return false;
+}
+
+PanelOptions panelsFor(const RunFigureOptions& options, const std::list<Scene>& scenes) {
+  PanelOptions panels = options.panels;
+  if (panels.width_mm > 0) return panels;
+  for (const Scene& scene : scenes)
+    panels.width_mm = std::max(panels.width_mm, sceneWidthMm(scene));
+  return panels;
+}
+
+/// The frames to show, each of which `there` must hold.
+std::vector<int> framesFor(const RunFigureOptions& options, const std::vector<int>& there) {
+  for (const int frame : options.frames)
+    if (!std::binary_search(there.begin(), there.end(), frame))
+      throw OptionError(say("--frames names ", frame, ", but ", options.run,
+                            " has no model to show there; its last one is of frame ",
+                            there.back()));
+  return options.frames.empty() ? spread(there) : options.frames;
+}
+
+std::vector<int> keysOf(const FrameFiles& files) {
+  std::vector<int> keys;
+  for (const auto& [frame, file] : files) keys.push_back(frame);
+  return keys;
+}
+
+RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
+  const JudgedRun run = openJudgedRun(options.run);
+  const std::vector<int> there = keysOf(run.models);
+  if (there.empty())
+    throw InputError(options.run +
+                     ": has no models of single frames; reconstruct with --save-every N");
+  std::list<Scene> scenes;
+  std::vector<ScenePanel> panels;
+  const std::vector<int> frames = framesFor(options, there);
+  for (const int frame : frames) {
+    inputs.note("model", run.models.at(frame).string());
+    scenes.push_back(sceneOf(modelMesh(run.models.at(frame))));
+  }
+  const Eigen::Vector3d centre_mm = sceneCentre(scenes.back());  // one place for all
+  auto scene = scenes.begin();
+  for (const int frame : frames)
+    panels.push_back({&*scene++, cameraView(centre_mm, eyeOf(options), SceneFrame::kCamera),
+                      captionOf(frame, run.timeOf(frame), hasClock(run))});
+  return {drawScenes(panels, panelsFor(options, scenes)),
+          {{"run", options.run}, {"frames", frames}}};
+}
+
+/// The truth in grey, the model coloured by its errors.
+Scene errorScene(const RunMoment& moment, const SurfaceErrorMap& map) {
+  Scene scene = sceneOf(moment.model);
+  scene.surfaces[0].errors_mm = map.each_mm;
+  scene.surfaces.insert(scene.surfaces.begin(), {"", moment.truth, {175, 175, 175}, {}});
+  return scene;
+}
+
+ScenePanel panelOf(const Scene& scene, const Eigen::Vector3d& eye, std::string caption) {
+  return {&scene, cameraView(sceneCentre(scene), eye, scene.frame), std::move(caption)};
+}
+
+/// One range for all of them.
+ErrorColourOptions sharedRange(const RunFigureOptions& options,
+                               const std::vector<const RunMoment*>& moments) {
+  ErrorColourOptions errors = options.errors;
+  std::vector<double> all_mm;
+  for (const RunMoment* moment : moments) {
+    const std::vector<double> each_mm = moment->distances(options.observed_only);
+    all_mm.insert(all_mm.end(), each_mm.begin(), each_mm.end());
+  }
+  if (errors.range_mm == 0) errors.range_mm = roundUp(statistics(all_mm).p95);
+  return errors;
+}
+
+/// Adds the map's bar to a foot that already has others' of the same range.
+void explainToo(const SurfaceErrorMap& map, FigureFoot& foot) {
+  ColourBarText bar = map.bar;
+  bar.any_above |= foot.bar.any_above;
+  bar.any_below |= foot.bar.any_below;
+  bar.any_missing |= foot.bar.any_missing;
+  map.explainIn(foot);
+  foot.bar = bar;
+}
+
+SurfaceErrorMap mapOf(const RunMoment& moment, bool observed_only,
+                      const ErrorColourOptions& errors) {
+  return colourErrors(moment.distances(observed_only), moment.signedDistances(observed_only),
+                      errors);
+}
+
+void noteMoment(const RunMoment& moment, SceneInputs& inputs) {
+  inputs.note("model", moment.model_file.string());
+  inputs.note("reference", moment.truth_file.string());
+}
+
+RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
+  const JudgedPair pair(options.run, options.sequence);
+  for (const std::string& warning : pair.warnings) inputs.warn(warning);
+  const std::vector<int> shown_frames = framesFor(options, pair.frames());
+  ErrorSeriesData series;
+  std::list<RunMoment> moments;
+  for (const int frame : pair.frames()) {
+    RunMoment moment = pair.moment(frame);
+    noteMoment(moment, inputs);
+    const Statistics errors = statistics(moment.distances(options.observed_only));
+    series.times.push_back(moment.time_s);
+    series.mean.push_back(errors.mean);
+    series.median.push_back(errors.median);
+    series.p95.push_back(errors.p95);
+    if (std::find(shown_frames.begin(), shown_frames.end(), frame) != shown_frames.end())
+      moments.push_back(std::move(moment));
+  }
+  std::vector<const RunMoment*> each;
+  for (const RunMoment& moment : moments) each.push_back(&moment);
+  const ErrorColourOptions errors = sharedRange(options, each);
+  RunFigure figure;
+  figure.record = {{"run", options.run}, {"sequence", options.sequence}, {"frames", shown_frames}};
+  std::list<Scene> scenes;
+  std::vector<ScenePanel> panels;
+  FigureFoot foot;
+  for (const RunMoment& moment : moments) {
+    const SurfaceErrorMap map = mapOf(moment, options.observed_only, errors);
+    explainToo(map, foot);
+    scenes.push_back(errorScene(moment, map));
+    panels.push_back(
+        panelOf(scenes.back(), eyeOf(options), captionOf(moment.frame, moment.time_s, true)));
+    figure.record["errors"].push_back(map.json);
+  }
+  PanelOptions sheet = panelsFor(options, scenes);
+  sheet.foot = foot;
+  figure.drawing = drawScenes(panels, sheet);
+  const PlotStyle plot{sheet.style.width_mm, 0.35 * std::max(sheet.style.width_mm, 120.0),
+                       sheet.style.font_pt};
+  if (series.times.size() > 1)
+    appendBelow(drawErrorSeries(series, plot), sheet.style.font_pt, figure.drawing);
+  return figure;
+}
+
+/// "results/paper/run" and "results/default/run": "paper" and "default".
+std::pair<std::string, std::string> namesOf(const RunFigureOptions& options) {
+  namespace fs = std::filesystem;
+  if (options.names.size() == 2) return {options.names[0], options.names[1]};
+  const auto whole = [](const std::string& folder) {
+    const fs::path path = fs::absolute(folder).lexically_normal();
+    return path.has_filename() ? path : path.parent_path();
+  };
+  const fs::path first = whole(options.run), second = whole(options.other);
+  fs::path a = first, b = second;
+  while (a.filename() == b.filename() && a.has_relative_path() && b.has_relative_path()) {
+    a = a.parent_path();
+    b = b.parent_path();
+  }
+  const bool same = a.filename().empty() || b.filename().empty();
+  return same ? std::pair{shown(first.filename()), shown(second.filename())}
+              : std::pair{shown(a.filename()), shown(b.filename())};
+}
+
+/// Without a wish the last frame of both.
+int frameOfBoth(const RunFigureOptions& options, const std::vector<int>& first,
+                const std::vector<int>& second) {
+  std::vector<int> both;
+  std::set_intersection(first.begin(), first.end(), second.begin(), second.end(),
+                        std::back_inserter(both));
+  if (both.empty())
+    throw InputError(options.run + " and " + options.other +
+                     ": have no frame in common; reconstruct with --save-every 1");
+  if (options.frames.empty()) return both.back();
+  const int frame = options.frames[0];
+  if (!std::binary_search(both.begin(), both.end(), frame))
+    throw OptionError(say("--frame is ", frame, ", but the last one that both runs have is ",
+                          both.back(), "; reconstruct with --save-every 1 for all"));
+  return frame;
+}
+
+/// By frame; the last model stands where none was saved.
+FrameFiles allModels(const JudgedRun& run) {
+  FrameFiles models = run.models;
+  if (!run.last_model.empty() && !run.frames.empty())
+    models.emplace(run.frames.back(), run.last_model);
+  return models;
+}
+
+RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs) {
+  const JudgedPair first(options.run, options.sequence), second(options.other, options.sequence);
+  const int frame = frameOfBoth(options, first.frames(), second.frames());
+  const RunMoment a = first.moment(frame), b = second.moment(frame);
+  const ErrorColourOptions errors = sharedRange(options, {&a, &b});
+  RunFigure figure;
+  figure.record = {
+      {"runs", {options.run, options.other}}, {"sequence", options.sequence}, {"frame", frame}};
+  std::list<Scene> scenes;
+  std::vector<ScenePanel> coloured, mapped;
+  FigureFoot foot;
+  const auto names = namesOf(options);
+  for (const auto& [moment, name] : {std::pair{&a, names.first}, {&b, names.second}}) {
+    noteMoment(*moment, inputs);
+    const SurfaceErrorMap map = mapOf(*moment, options.observed_only, errors);
+    explainToo(map, foot);
+    figure.record["errors"].push_back(map.json);
+    scenes.push_back(sceneOf(moment->model));
+    coloured.push_back(panelOf(scenes.back(), eyeOf(options), name));
+    scenes.push_back(errorScene(*moment, map));
+    mapped.push_back(panelOf(scenes.back(), eyeOf(options), name + ", errors"));
+  }
+  coloured.insert(coloured.end(), mapped.begin(), mapped.end());
+  PanelOptions sheet = panelsFor(options, scenes);
+  sheet.foot = foot;
+  figure.drawing = drawScenes(coloured, sheet);
+  return figure;
+}
+
+RunFigure compareColoured(const RunFigureOptions& options, SceneInputs& inputs) {
+  const auto names = namesOf(options);
+  const FrameFiles first = allModels(openJudgedRun(options.run));
+  const FrameFiles second = allModels(openJudgedRun(options.other));
+  const int frame = frameOfBoth(options, keysOf(first), keysOf(second));
+  std::list<Scene> scenes;
+  std::vector<ScenePanel> panels;
+  for (const auto& [models, name] : {std::pair{&first, names.first}, {&second, names.second}}) {
+    const std::filesystem::path file = models->at(frame);
+    inputs.note("model", file.string());
+    scenes.push_back(sceneOf(modelMesh(file)));
+    panels.push_back(panelOf(scenes.back(), eyeOf(options), name));
+  }
+  return {drawScenes(panels, panelsFor(options, scenes)),
+          {{"runs", {options.run, options.other}}, {"frame", frame}}};
+}
+
+}  // namespace
+
+RunFigure drawRunFigure(const RunFigureOptions& options, SceneInputs& inputs) {
+  if (options.kind == "frames") return drawFrames(options, inputs);
+  if (options.kind == "series") return drawSeries(options, inputs);
+  return options.sequence.empty() ? compareColoured(options, inputs)
+                                  : compareWithTruth(options, inputs);
+}
+
+}  // namespace softscope

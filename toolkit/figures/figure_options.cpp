@@ -1,0 +1,100 @@
+// toolkit/figures/figure_options.cpp: names, ranges, endings.
+#include "toolkit/figures/figure_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/message.h"
+#include "io/nearest_name.h"
+#include "io/text_lines.h"
+#include "toolkit/comparison/landmark_places.h"
+#include "vtk_views/four_panels.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kModel = "model";
+
+void requireEnding(const std::string& file) {
+  const std::string ending = fs::path(file).extension().string();
+  if (ending != ".png" && ending != ".pdf" && ending != ".svg")
+    throw OptionError("--out is `" + file + "`, but must end in .png, .pdf or .svg");
+}
+
+}  // namespace
+
+Eigen::Vector3d parseVector(const std::string& text, const std::string& option) {
+  const auto words = wordsOf(text);
+  Eigen::Vector3d vector;
+  bool good = words.size() == 3;
+  for (std::size_t i = 0; good && i < 3; ++i) {
+    const auto value = numberOf(words[i]);
+    good = value && std::isfinite(*value);
+    if (good) vector[Eigen::Index(i)] = *value;
+  }
+  if (!good)
+    throw OptionError(option + " is `" + text + "`, but must be three numbers, e.g. 1,2,3");
+  return vector;
+}
+
+void FigureOptions::validate() const {
+  std::set<std::filesystem::path> files;
+  for (const std::string& file : out) {
+    requireEnding(file);
+    requireWritable(file, force);
+    if (!files.insert(std::filesystem::path(file).lexically_normal()).second)
+      throw OptionError("--out names " + file + " twice; name each file once");
+  }
+  requireWritable(recordFile(), force);
+  const auto positive = [](const char* name, double value) {
+    require(value == 0 || (value > 0 && std::isfinite(value)), name, value, "must be above 0");
+  };
+  positive("--field-mm", field_mm);
+  require(dot_reach_mm > 0, "--dots-within-mm", dot_reach_mm, "must be above 0");
+  require(width_mm == 0 || (width_mm >= 40 && width_mm <= 1000), "--width-mm", width_mm,
+          "must be 40 to 1000");
+  require(dots_per_inch == 0 || (dots_per_inch >= 30 && dots_per_inch <= 2400), "--dpi",
+          dots_per_inch, "must be 30 to 2400");
+  figureStyle();
+  namedPlace();
+  volume.options();
+}
+
+FigureStyle FigureOptions::figureStyle() const {
+  FigureStyle chosen = softscope::figureStyle(style);
+  if (width_mm > 0) chosen.width_mm = width_mm;
+  if (dots_per_inch > 0) chosen.dots_per_inch = dots_per_inch;
+  return chosen;
+}
+
+std::optional<Eigen::Vector3d> FigureOptions::namedPlace() const {
+  require(landmarks.empty() || !at.empty(), "--landmarks", landmarks,
+          "needs --at NAME, one of them");
+  if (at.empty() || at == kModel) return std::nullopt;
+  if (landmarks.empty()) return parseVector(at, "--at");
+  const LandmarkPlaces places = readLandmarkPlaces(landmarks);
+  if (const auto found = places.find(at); found != places.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, place_mm] : places) names.push_back(name);
+  const std::string nearest = nearestName(at, names);
+  throw OptionError("--at `" + at + "`: " + shown(landmarks) + " has no such landmark" +
+                    (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)"));
+}
+
+Eigen::Vector3d FigureOptions::centreIn(const Scene& scene, const SceneSurface* model) const {
+  if (at != kModel) return namedPlace().value_or(sceneCentre(scene));
+  if (model == nullptr) throw OptionError("--at model: there is no model; give one, or X,Y,Z");
+  return middleOf({*model}).median_mm;
+}
+
+fs::path FigureOptions::recordFile() const {
+  return out.empty() ? fs::path() : fs::path(out.front()).replace_extension(".json");
+}
+
+}  // namespace softscope

@@ -1,0 +1,20 @@
+// toolkit/figures/volume_arguments.h: what a user states about a volume, on every command that
+// reads one.
+#pragma once
+
+#include <string>
+
+#include "vtk_views/volume_summary.h"
+
+namespace softscope {
+
+/// As the user wrote it.
+struct VolumeArguments {
+  std::string spacing;
+  bool allow_missing_slices = false;
+
+  /// Throws OptionError where the spacing is not three lengths above 0.
+  VolumeOptions options() const;
+};
+
+}  // namespace softscope

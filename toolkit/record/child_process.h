@@ -1,0 +1,55 @@
+// toolkit/record/child_process.h: softscope, started by softscope.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace softscope {
+
+/// A program that runs beside this one, in a process group of its own: Ctrl-C reaches it by
+/// interrupt() alone. It is asked to end when this process dies.
+class ChildProcess {
+ public:
+  /// `words[0]` is the program. Its output and errors are appended to `log`. Throws Error where it
+  /// can't be started.
+  ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log);
+  ~ChildProcess();  // waits for its end
+  ChildProcess(ChildProcess&& other) noexcept;
+  ChildProcess& operator=(ChildProcess&&) = delete;
+
+  /// Its exit code once it has ended (128 + signal where one ended it); never waits.
+  std::optional<int> ended();
+  /// Asks it to end cleanly.
+  void interrupt();
+
+ private:
+  int id_ = -1;  // -1: ended
+  std::optional<int> exit_code_;
+};
+
+/// Runs it to its end; passes on an interrupt that `interrupted` reports.
+template <class Interrupted>
+int runToEnd(ChildProcess child, const Interrupted& interrupted);
+
+/// The file of the running program.
+std::filesystem::path ownExecutable();
+
+/// A moment between two looks at what children do.
+void waitAMoment();
+
+template <class Interrupted>
+int runToEnd(ChildProcess child, const Interrupted& interrupted) {
+  bool told = false;
+  for (;;) {
+    if (const auto code = child.ended()) return *code;
+    if (!told && interrupted()) {
+      child.interrupt();
+      told = true;
+    }
+    waitAMoment();
+  }
+}
+
+}  // namespace softscope

@@ -1,0 +1,51 @@
+// toolkit/record/fact_sheet.h: facts that people read as lines and programs as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace softscope {
+
+class FactSheet {
+ public:
+  using Json = nlohmann::ordered_json;
+
+  explicit FactSheet(std::string title) : title_(std::move(title)) {}
+
+  /// `key` is the JSON name, with its unit; dots make it nested ("left.focal_x_px").
+  void add(const std::string& label, const std::string& text, const std::string& key, Json value);
+  /// A fact whose text is its value.
+  void add(const std::string& label, const std::string& key, const std::string& text) {
+    add(label, text, key, text);
+  }
+  void add(const std::string& label, const std::string& key, int value) {
+    add(label, std::to_string(value), key, value);
+  }
+  /// For people alone.
+  void addLine(const std::string& label, const std::string& text) {
+    lines_.emplace_back(label, text);
+  }
+  /// For programs alone.
+  void addQuietly(const std::string& key, Json value);
+  void warn(const std::string& text) { warnings_.push_back(text); }
+  void missing(const std::string& text) { missing_.push_back(text); }
+  /// What keeps the thing from being used; `softscope info` then ends with exit code 3.
+  void fail(const std::string& text) { problems_.push_back(text); }
+  bool hasProblems() const { return !problems_.empty(); }
+
+  std::string text() const;
+  /// schema_version first; "problems", "warnings" and "missing" always there.
+  Json json() const;
+
+ private:
+  std::string title_;
+  std::vector<std::pair<std::string, std::string>> lines_;
+  Json json_ = Json::object();
+  std::vector<std::string> warnings_, missing_, problems_;
+};
+
+/// Number with `decimals` digits after the point.
+std::string fixed(double value, int decimals);
+
+}  // namespace softscope

@@ -1,0 +1,41 @@
+// toolkit/record/statistics_json.cpp: one wording for all records.
+#include "toolkit/record/statistics_json.h"
+
+namespace softscope {
+
+FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit) {
+  return {{"mean" + unit, s.mean}, {"sd" + unit, s.sd},
+          {"rmse" + unit, s.rmse}, {"median" + unit, s.median},
+          {"p95" + unit, s.p95},   {"max" + unit, s.max},
+          {"n", s.count}};
+}
+
+FactSheet::Json matrixJson(const Eigen::Isometry3d& pose) {
+  FactSheet::Json rows = FactSheet::Json::array();
+  for (int i = 0; i < 4; ++i) {
+    FactSheet::Json row = FactSheet::Json::array();
+    for (int j = 0; j < 4; ++j) row.push_back(pose.matrix()(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+const char* stopText(AlignmentStop stop) {
+  switch (stop) {
+    case AlignmentStop::kConverged:
+      return "converged";
+    case AlignmentStop::kIterationLimit:
+      return "iteration limit";
+    case AlignmentStop::kTooFewPairs:
+      return "too few pairs";
+  }
+  return "unknown";
+}
+
+std::string spreadText(const Statistics& s) {
+  if (s.count == 0) return "not measured";
+  return "mean " + fixed(s.mean, 3) + ", median " + fixed(s.median, 3) + ", P95 " +
+         fixed(s.p95, 3) + ", max " + fixed(s.max, 2) + " mm";
+}
+
+}  // namespace softscope

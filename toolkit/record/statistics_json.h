@@ -1,0 +1,23 @@
+// toolkit/record/statistics_json.h: what records of evaluate and compare share.
+#pragma once
+
+#include <string>
+
+#include "eval/statistics.h"
+#include "eval/surface_alignment.h"
+#include "toolkit/record/fact_sheet.h"
+
+namespace softscope {
+
+/// mean, sd, rmse, median, p95, max with the unit behind each name, and n; null for NaN.
+FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit);
+
+/// Four rows of four.
+FactSheet::Json matrixJson(const Eigen::Isometry3d& pose);
+
+const char* stopText(AlignmentStop stop);
+
+/// "mean 0.171, median 0.133, P95 0.419, max 4.50 mm", or "not measured".
+std::string spreadText(const Statistics& s);
+
+}  // namespace softscope

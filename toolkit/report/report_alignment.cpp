@@ -1,0 +1,103 @@
+// toolkit/report/report_alignment.cpp: the motion in words, errors before and after it.
+#include "toolkit/report/report_alignment.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "eval/cohort.h"
+#include "toolkit/report/report_words.h"
+
+namespace softscope {
+namespace {
+
+using Kind = ReportCase::Kind;
+
+/// The matrix that moved the model, where the record has one.
+std::string motionText(const ReportCase& c) {
+  const auto pointer = FactSheet::Json::json_pointer(
+      c.kind == Kind::kPair ? "/alignment/reference_from_test"
+                            : "/comparison/alignments/0/mesh_from_run");
+  if (!c.record.contains(pointer)) return {};
+  const FactSheet::Json& rows = c.record.at(pointer);
+  Eigen::Matrix4d matrix;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (!rows.is_array() || rows.size() != 4 || !rows[i].is_array() || rows[i].size() != 4 ||
+          !rows[i][j].is_number())
+        return {};
+      matrix(int(i), int(j)) = rows[i][j].get<double>();
+    }
+  const double angle_rad = Eigen::AngleAxisd(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).angle();
+  const std::string turn = "turned by " + fixed(angle_rad * 180 / M_PI, 2) + " degrees";
+  if (c.maps.empty()) return turn;
+  // About the origin a turn would look like a shift: of the model's middle it doesn't.
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : c.maps.front().surface.vertices_mm) middle += p.cast<double>();
+  middle /= double(c.maps.front().surface.vertices_mm.size());
+  const Eigen::Vector3d before = matrix.inverse().topRows<3>() * middle.homogeneous();
+  return turn + ", and its middle shifted by " + millimetresText((middle - before).norm());
+}
+
+/// How well the error at places without a landmark is known; empty where it isn't.
+std::string targetErrorText(const ReportCase& c) {
+  const auto value = [&](const char* key) {
+    return numberAt(c.record, std::string("alignment.tre_leave_one_out.") + key);
+  };
+  const double n = value("n"), mean_mm = value("mean_mm"), sd_mm = value("sd_mm");
+  if (!(n >= 2 && n < 1e9) || !std::isfinite(mean_mm) || !std::isfinite(sd_mm)) return {};
+  const double half_mm = studentQuantile(0.975, n - 1) * sd_mm / std::sqrt(n - 1);  // sd is over n
+  return "At a place that was not fitted the error is " + millimetresText(mean_mm) +
+         " on average (TRE over " + std::to_string(std::llround(n)) +
+         " landmarks, 95 % confidence " + intervalText({mean_mm - half_mm, mean_mm + half_mm}) +
+         " mm, by Student's t).";
+}
+
+}  // namespace
+
+bool wasAligned(const ReportCase& c) {
+  const std::string how =
+      textAt(c.record, c.kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
+  return !how.empty() && how != "none";
+}
+
+std::string alignmentText(const ReportCase& c) {
+  if (!c.hasTruth()) return "none: there is nothing to align with";
+  if (!wasAligned(c)) return "none: no error is hidden by fitting the model to the reference";
+  const std::string how =
+      textAt(c.record, c.kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
+  if (how == "rigid")
+    return "rigid: one fit to the reference, found with the first model, holds for all";
+  if (how == "icp")
+    return "ICP: the model was fitted to the reference by the closest points; whatever a rigid "
+           "motion explains is not in the errors below";
+  if (how == "landmarks") return "landmarks: fitted by named pairs of points";
+  if (how == "landmarks, then icp")
+    return "landmarks, then ICP: fitted by named pairs of points, then by the closest points; "
+           "whatever a rigid motion explains is not in the errors below";
+  return how;
+}
+
+std::vector<ReportPart> alignmentParts(const ReportCase& c) {
+  std::vector<ReportPart> parts;
+  if (!wasAligned(c)) return parts;
+  if (const std::string motion = motionText(c); !motion.empty())
+    parts.emplace_back(ReportParagraph{"The model was " + motion + "."});
+  std::vector<NamedPart> rows;
+  if (c.kind == Kind::kPair) {
+    rows = {{"before the alignment", "alignment.before"},
+            {"after it", "accuracy"},
+            {"landmarks: FRE, what the fit leaves at them", "alignment.fre"},
+            {"landmarks: TRE, each left out in turn", "alignment.tre_leave_one_out"}};
+    addTable(statisticsTable("Distances [mm]", c.record, rows), parts);
+    if (const std::string tre = targetErrorText(c); !tre.empty())
+      parts.emplace_back(ReportParagraph{tre});
+  } else if (c.record.contains(FactSheet::Json::json_pointer("/comparison/alignments/0"))) {
+    const auto& first = c.record["comparison"]["alignments"][0];
+    addTable(statisticsTable("Distances of the first model [mm]", first,
+                             {{"before the alignment", "before"}, {"after it", "after"}}),
+             parts);
+  }
+  return parts;
+}
+
+}  // namespace softscope

@@ -1,0 +1,188 @@
+// toolkit/report/report_case.cpp: a record, its maps, its pictures.
+#include "toolkit/report/report_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/file_hash.h"
+#include "io/folder.h"
+#include "io/message.h"
+#include "mesh/coarse_mesh.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = FactSheet::Json;
+
+constexpr std::size_t kMostVertices = 300000;
+
+fs::path recordIn(const fs::path& path) {
+  std::error_code ignored;
+  if (!isThere(path))
+    throw InputError(shown(path) +
+                     ": is not there, but must be a folder that softscope evaluate or compare "
+                     "wrote");
+  if (!fs::is_directory(path, ignored)) return path;
+  for (const char* name : {"evaluation.json", "comparison.json"})
+    if (isThere(path / name)) return path / name;
+  if (isThere(path / "trajectory.txt"))
+    throw InputError(shown(path) +
+                     ": is a run that has not been judged yet; run `softscope evaluate " +
+                     shown(path) + " --reference … --out DIR` and report DIR");
+  throw InputError(shown(path) +
+                   ": holds no evaluation.json and no comparison.json; give a folder that "
+                   "softscope evaluate --out or compare --out wrote");
+}
+
+ReportCase::Kind kindOf(const Json& record) {
+  if (textAt(record, "command") == "compare") return ReportCase::Kind::kPair;
+  const std::string reference = textAt(record, "comparison.reference_kind");
+  return reference == "mesh"       ? ReportCase::Kind::kMesh
+         : reference == "pictures" ? ReportCase::Kind::kPictures
+                                   : ReportCase::Kind::kSequence;
+}
+
+void requirePart(const std::string& part, const Json& record, const fs::path& file) {
+  if (!record.contains(part) || !record[part].is_object())
+    throw InputError(shown(file) + ": has no part `" + part + "`; is it damaged? Evaluate again");
+}
+
+Json readRecord(const fs::path& file, const std::string& bytes) {
+  const Json record = Json::parse(bytes, nullptr, false);
+  if (!record.is_object())
+    throw InputError(shown(file) + ": is no JSON object; is it damaged? Evaluate again");
+  const std::string command = textAt(record, "command");
+  if (command != "evaluate" && command != "compare")
+    throw InputError(shown(file) + ": was written by " +
+                     (command.empty() ? "another program" : excerpt(command)) +
+                     ", but softscope evaluate or compare is expected");
+  const double version = numberAt(record, "schema_version");
+  if (version != 1)
+    throw InputError(say(shown(file), ": has schema_version ", version,
+                         ", but this softscope reads 1; evaluate again with it"));
+  return record;
+}
+
+std::vector<fs::path> mapFiles(const fs::path& folder, ReportCase::Kind kind) {
+  if (kind == ReportCase::Kind::kPictures) return {};  // what lies there is of something else
+  if (kind == ReportCase::Kind::kPair) {
+    for (const char* name : {"error_map.vtp", "errors.vtp"})  // with the reference, or without
+      if (isThere(folder / name)) return {folder / name};
+    return {};
+  }
+  return isThere(folder / "errors") ? filesIn(folder / "errors", {".vtp"})
+                                    : std::vector<fs::path>();
+}
+
+constexpr std::uintmax_t kPictureLimitBytes = std::uintmax_t{64} << 20;
+
+void readPictures(const fs::path& folder, ReportCase& result) {
+  for (const auto& [name, caption] :
+       {std::pair{"four_panels.png", "Axial, coronal, sagittal and 3-D view"},
+        std::pair{"figure.png", "Figure"}}) {
+    if (!isThere(folder / name)) continue;
+    std::string png = readBytes(folder / name, kPictureLimitBytes);
+    if (png.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0)
+      throw InputError(shown(folder / name) +
+                       ": is no PNG picture, but would be shown; make it again or move it away");
+    result.pictures.emplace_back(caption, std::move(png));
+  }
+}
+
+template <class Value>
+void keepOnly(const std::vector<std::int32_t>& indices, std::vector<Value>& values) {
+  if (values.empty()) return;
+  std::vector<Value> kept;
+  for (const std::int32_t i : indices) kept.push_back(values[static_cast<std::size_t>(i)]);
+  values = std::move(kept);
+}
+
+/// A surface keeps its shape, points are thinned evenly over their order.
+void shrink(ErrorMap& map, std::size_t most) {
+  const std::size_t count = map.surface.vertices_mm.size();
+  if (count <= most) return;
+  CoarseMesh coarse;
+  if (map.surface.empty())
+    for (std::size_t k = 0; k < most; ++k)
+      coarse.vertices.push_back(static_cast<std::int32_t>(k * count / most));
+  else
+    coarse = coarsen(map.surface, most);
+  const std::string space = map.surface.space;
+  map.surface = coarse.at(map.surface.vertices_mm);
+  map.surface.space = space;
+  keepOnly(coarse.vertices, map.absolute_mm);
+  keepOnly(coarse.vertices, map.signed_mm);
+  keepOnly(coarse.vertices, map.observed);
+}
+
+/// What lies at "a.b.c"; null where there is nothing.
+const Json* valueAt(const Json& record, const std::string& path) {
+  const Json* at = &record;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    if (!at->is_object()) return nullptr;
+    const auto found = at->find(path.substr(begin, end - begin));
+    if (found == at->end()) return nullptr;
+    at = &*found;
+    begin = end + 1;
+  }
+  return at;
+}
+
+}  // namespace
+
+double numberAt(const Json& record, const std::string& path) {
+  const Json* found = valueAt(record, path);
+  return found != nullptr && found->is_number() ? found->get<double>() : Statistics::kNone;
+}
+
+std::string textAt(const Json& record, const std::string& path) {
+  const Json* found = valueAt(record, path);
+  return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::vector<double> ReportCase::overFrames(const std::string& key) const {
+  std::vector<double> values;
+  if (!record.contains("frames") || !record["frames"].is_array()) return values;
+  for (const Json& frame : record["frames"])
+    if (std::isfinite(numberAt(frame, "mean_mm"))) values.push_back(numberAt(frame, key));
+  return values;
+}
+
+ReportCase readReportCase(const fs::path& path) {
+  const fs::path file = recordIn(path), folder = file.parent_path();
+  const std::string bytes = readBytes(file, kTextLimitBytes);
+  ReportCase result;
+  result.record = readRecord(file, bytes);
+  result.hashes.emplace_back("metrics", sha256OfBytes(bytes));  // names of files may name people
+  result.kind = kindOf(result.record);
+  requirePart(result.mainPart(), result.record, file);
+  for (const fs::path& map : mapFiles(folder, result.kind)) {
+    const std::string map_bytes = readBytes(map, std::uintmax_t{2} << 30);
+    result.maps.push_back(parseErrorMap(map_bytes, shown(map)));
+    result.hashes.emplace_back("error map " + std::to_string(result.maps.size()),
+                               sha256OfBytes(map_bytes));
+  }
+  readPictures(folder, result);
+  return result;
+}
+
+void fitIntoPage(std::vector<ReportCase>& cases) {
+  const std::size_t share =
+      std::max<std::size_t>(kMostVertices / std::max<std::size_t>(cases.size(), 1), 2000);
+  for (ReportCase& c : cases) {
+    if (c.maps.empty()) continue;
+    const std::size_t most_moments = std::clamp<std::size_t>(share / 4000, 1, 24);
+    std::vector<ErrorMap> kept;
+    const std::size_t count = c.maps.size(), wanted = std::min(count, most_moments);
+    for (std::size_t k = 1; k <= wanted; ++k)
+      kept.push_back(std::move(c.maps[k * count / wanted - 1]));
+    c.maps = std::move(kept);
+    for (ErrorMap& map : c.maps) shrink(map, share / c.maps.size());
+  }
+}
+
+}  // namespace softscope

@@ -1,0 +1,49 @@
+// toolkit/report/report_case.h: what `evaluate` and `compare` left, ready to be reported.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "eval/statistics.h"
+#include "toolkit/record/fact_sheet.h"
+#include "vtk_views/error_map.h"
+
+namespace softscope {
+
+/// A number by its path with dots; NaN where it isn't there, or is none.
+double numberAt(const FactSheet::Json& record, const std::string& path);
+/// A text by its path; empty where it isn't there, or is none.
+std::string textAt(const FactSheet::Json& record, const std::string& path);
+
+struct ReportCase {
+  /// evaluate against truth, a mesh, pictures alone (no truth); compare
+  enum class Kind { kSequence, kMesh, kPictures, kPair };
+
+  std::string name;  // as the report calls it
+  Kind kind = Kind::kPair;
+  FactSheet::Json record;      // evaluation.json or comparison.json, as it was written
+  std::vector<ErrorMap> maps;  // of a series one a moment; may be empty
+  std::vector<std::pair<std::string, std::string>> pictures;  // caption, PNG
+  std::vector<std::pair<std::string, std::string>> hashes;    // what, SHA-256
+
+  bool hasTruth() const { return kind != Kind::kPictures; }
+  /// Where distances of the model stand in the record, or else what there is.
+  std::string mainPart() const {
+    return kind == Kind::kPair ? "accuracy" : hasTruth() ? "surface" : "view";
+  }
+  double main(const std::string& key) const { return numberAt(record, mainPart() + "." + key); }
+  /// One value a judged moment; empty for a pair.
+  std::vector<double> overFrames(const std::string& key) const;
+};
+
+/// `path`: the folder, or the JSON file in it. Throws InputError: neither, broken, of another
+/// version; for a run that wasn't evaluated it says what to do.
+ReportCase readReportCase(const std::filesystem::path& path);
+
+/// Thins points, coarsens surfaces and leaves moments out until all maps together are small enough
+/// for a page (300 000 vertices).
+void fitIntoPage(std::vector<ReportCase>& cases);
+
+}  // namespace softscope

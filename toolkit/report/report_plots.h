@@ -1,0 +1,25 @@
+// toolkit/report/report_plots.h: the plots of one case, from its record.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "toolkit/report/report_case.h"
+#include "vtk_views/vector_drawing.h"
+
+namespace softscope {
+
+using CaptionedFigure = std::pair<VectorDrawing, std::string>;
+
+/// Whether a curve may be drawn over these values: finite, each above the one before.
+bool rises(const std::vector<double>& values);
+
+/// Error over the judged moments; none for a pair, a single moment, or a record without frames.
+std::optional<CaptionedFigure> seriesFigure(const ReportCase& c);
+
+/// How the distances are spread; none where the record has no histogram.
+std::optional<CaptionedFigure> histogramFigure(const ReportCase& c);
+
+}  // namespace softscope

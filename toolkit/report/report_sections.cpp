@@ -1,0 +1,319 @@
+// toolkit/report/report_sections.cpp: wording by kind of comparison.
+#include "toolkit/report/report_sections.h"
+
+#include <cmath>
+#include <optional>
+
+#include "toolkit/record/version.h"
+#include "toolkit/report/report_alignment.h"
+#include "toolkit/report/report_plots.h"
+#include "toolkit/report/report_privacy.h"
+#include "toolkit/report/report_truthless.h"
+#include "toolkit/report/report_words.h"
+
+namespace softscope {
+namespace {
+
+using Kind = ReportCase::Kind;
+
+std::string whole(double count) {
+  return std::isfinite(count) ? std::to_string(std::llround(count)) : "an unknown number of";
+}
+
+std::string testedText(const ReportCase& c) {
+  if (c.kind == Kind::kPair)
+    return "a 3-D model of " + whole(numberAt(c.record, "accuracy.n")) + " vertices";
+  const double models = numberAt(c.record, c.mainPart() + ".models_judged");
+  return "a 3-D model reconstructed from stereo-endoscopic video, judged at " + whole(models) +
+         (models == 1 ? " moment" : " moments");
+}
+
+std::string referenceText(const ReportCase& c) {
+  switch (c.kind) {
+    case Kind::kSequence:
+      return "ground truth of the video: the true surface, depth and scope pose of each moment";
+    case Kind::kMesh:
+      return "a surface that does not move, from CT for example";
+    case Kind::kPictures:
+      return "none: there is no ground truth; the video's own left pictures stand beside the model";
+    case Kind::kPair:
+      return "a surface of " + whole(numberAt(c.record, "completeness.n")) + " vertices";
+  }
+  return {};
+}
+
+std::string frameText(const ReportCase& c) {
+  if (c.kind == Kind::kSequence)
+    return "each moment in the frame of its own left camera, so that a motion of the scope is not "
+           "counted as an error of the surface";
+  if (c.kind == Kind::kMesh) return "the reference's";
+  if (c.kind == Kind::kPictures)
+    return "the left picture of each moment, from the pose that the run estimated";
+  const std::string space = textAt(c.record, "space");
+  return "the reference's; space: " + (space.empty() ? "not said" : space);
+}
+
+std::vector<NamedPart> distanceParts(const ReportCase& c) {
+  if (c.kind == Kind::kPair)
+    return {{"model to reference, each vertex", "accuracy"},
+            {"model to reference, by area", "accuracy.by_area"},
+            {"reference to model, each vertex", "completeness"},
+            {"reference to model, by area", "completeness.by_area"},
+            {"signed, + = outside", "signed"}};
+  return {{"all points", "surface"},
+          {"seen now (observed)", "surface.observed"},
+          {"not seen now (predicted)", "surface.predicted"},
+          {"signed, + = outside", "surface.signed"},
+          {"visible tissue to model", "surface.tissue_to_model"}};
+}
+
+ReportTable bothWaysTable(const ReportCase& c) {
+  const std::string at = c.kind == Kind::kPair ? "hausdorff." : "surface.hausdorff.";
+  return valueTable("Both ways", "mm", c.record,
+                    {{"HD95, larger of both directions", at + "hd95_max_of_directed_mm"},
+                     {"HD95, both directions pooled", at + "hd95_pooled_mm"},
+                     {"HD95, mean of both directions", at + "hd95_mean_of_directed_mm"},
+                     {"Hausdorff distance (largest of all)", at + "hd_mm"},
+                     {"ASSD", at + "assd_mm"},
+                     {"MASD", at + "masd_mm"}});
+}
+
+ReportTable motionTable(const ReportCase& c) {
+  return statisticsTable("Motion [mm]", c.record,
+                         {{"material points (tracks)", "tracks"},
+                          {"the same, had nothing been tracked", "tracks.no_motion"},
+                          {"scope's position, not aligned", "camera.pose"},
+                          {"scope's position, path aligned (ATE)", "camera.ate"},
+                          {"scope's step from frame to frame (RPE)", "camera.rpe"},
+                          {"back-projection, by the run itself", "backprojection"}});
+}
+
+std::string shareText(double value) {
+  return std::isfinite(value) ? fixed(value, 3) : numberText(value);
+}
+
+ReportTable scoresTable(const ReportCase& c) {
+  ReportTable table{
+      "Within a distance", {"", "precision", "recall", "F", "surface Dice"}, {}, false};
+  if (!c.record.contains("scores") || !c.record["scores"].is_array()) return table;
+  for (const auto& score : c.record["scores"])
+    table.rows.push_back(
+        {"within " + millimetresText(numberAt(score, "tau_mm")),
+         shareText(numberAt(score, "precision")), shareText(numberAt(score, "recall")),
+         shareText(numberAt(score, "f_score")), shareText(numberAt(score, "surface_dice"))});
+  return table;
+}
+
+ReportParagraph headline(const ReportCase& c) {
+  if (!c.hasTruth()) return truthlessHeadline(c);
+  std::string text = "The model lies " + millimetresText(c.main("mean_mm")) +
+                     " from the reference on average; 95 % of its points lie within " +
+                     millimetresText(c.main("p95_mm")) + ".";
+  const double completeness = numberAt(c.record, "surface.completeness_1mm");
+  if (std::isfinite(completeness))
+    text +=
+        " Of the tissue that both cameras see, " + percentText(completeness) + " is reconstructed.";
+  return {text, /*important=*/true};
+}
+
+/// The share of the model within the distance asked for that is nearest to 1 mm.
+std::optional<ReportTile> withinTile(const ReportCase& c) {
+  if (!c.record.contains("scores") || !c.record["scores"].is_array()) return std::nullopt;
+  double best_mm = Statistics::kNone, precision = Statistics::kNone;
+  for (const auto& score : c.record["scores"]) {
+    const double tau_mm = numberAt(score, "tau_mm");
+    if (!(std::abs(tau_mm - 1) >= std::abs(best_mm - 1))) {
+      best_mm = tau_mm;
+      precision = numberAt(score, "precision");
+    }
+  }
+  if (!std::isfinite(best_mm) || !std::isfinite(precision)) return std::nullopt;
+  return ReportTile{"Within " + millimetresText(best_mm), percentText(precision),
+                    "of the model's points"};
+}
+
+ReportTiles tiles(const ReportCase& c) {
+  if (!c.hasTruth()) return truthlessTiles(c);
+  ReportTiles tiles;
+  tiles.tiles.push_back({"Mean distance", millimetresText(c.main("mean_mm")),
+                         "median " + millimetresText(c.main("median_mm"))});
+  tiles.tiles.push_back({"95th percentile", millimetresText(c.main("p95_mm")),
+                         "largest " + millimetresText(c.main("max_mm"))});
+  const std::string signed_mean =
+      c.kind == Kind::kPair ? "signed.mean_mm" : "surface.signed.mean_mm";
+  tiles.tiles.push_back({"Bias (signed mean)", millimetresText(numberAt(c.record, signed_mean)),
+                         "+ = outside the reference"});
+  const double completeness = numberAt(c.record, "surface.completeness_1mm");
+  if (std::isfinite(completeness))
+    tiles.tiles.push_back({"Reconstructed", percentText(completeness),
+                           "of the tissue that both cameras see, within 1 mm"});
+  else if (auto within = withinTile(c))
+    tiles.tiles.push_back(std::move(*within));
+  return tiles;
+}
+
+ReportParagraph confidence(const ReportCase& c, const ReportChoices& choices) {
+  const std::vector<double> means = c.hasTruth() ? c.overFrames("mean_mm") : drawnPsnrs(c);
+  const Interval ci = bootstrapMean(means, choices.seed);
+  if (c.kind == Kind::kPair)
+    return {
+        "How sure: this is one comparison, so it has no confidence interval; the spread over "
+        "the surface is in the table."};
+  if (!std::isfinite(ci.low))
+    return {"How sure: fewer than three moments were judged, too few for a confidence interval."};
+  return {"How sure: over the " + std::to_string(means.size()) + " judged moments the mean " +
+          (c.hasTruth() ? "distance" : "PSNR") + " has a 95 % confidence interval of " +
+          intervalText(ci) + (c.hasTruth() ? " mm" : " dB") +
+          " (bootstrap). Moments of one video resemble each other, so that another video may "
+          "differ by more."};
+}
+
+ReportTable thresholdsTable(const ReportCase& c) {
+  ReportTable table{"Limits set at the comparison", {"fails if", "value", "outcome"}, {}, true};
+  if (!c.record.contains("thresholds") || !c.record["thresholds"].is_array()) return table;
+  for (const auto& t : c.record["thresholds"])
+    table.rows.push_back(
+        {textAt(t, "fail_if"), numberText(numberAt(t, "value")),
+         t.is_object() && t.value("failed", FactSheet::Json()) == true ? "FAILED" : "kept"});
+  return table;
+}
+
+}  // namespace
+
+ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices) {
+  ReportTable table{"", {}, {}, /*words=*/true};
+  table.rows = {{"Tested", testedText(c)},
+                {"Reference", referenceText(c)},
+                {"Compared in", frameText(c)},
+                {"Alignment", alignmentText(c)}};
+  if (!choices.with_paths) return table;
+  for (const auto& [key, name] :
+       {std::pair{"run", "Run"}, {"test", "Model"}, {"reference", "Reference from"}})
+    if (const std::string path = textAt(c.record, std::string("inputs.") + key); !path.empty())
+      table.rows.push_back({name, path});
+  return table;
+}
+
+std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices) {
+  std::vector<ReportPart> parts{headline(c), tiles(c), confidence(c, choices)};
+  addTable(thresholdsTable(c), parts);
+  if (!c.hasTruth()) {
+    for (ReportTable& table : truthlessTables(c)) addTable(std::move(table), parts);
+    return parts;
+  }
+  addTable(distancesTable(c, "Distances [mm]"), parts);
+  addTable(bothWaysTable(c), parts);
+  addTable(scoresTable(c), parts);
+  addTable(motionTable(c), parts);
+  addTable(valueTable("Over time", "", c.record,
+                      {{"drift [mm/s]", "surface.drift_mm_per_s"},
+                       {"drift [mm a frame]", "surface.drift_mm_per_frame"},
+                       {"jitter, rms of second differences [mm]", "surface.jitter_rms_mm"}}),
+           parts);
+  return parts;
+}
+
+ReportTable distancesTable(const ReportCase& c, const std::string& caption) {
+  return statisticsTable(caption, c.record, distanceParts(c));
+}
+
+std::vector<ReportPart> plotParts(const ReportCase& c) {
+  ReportFigures figures;
+  if (!c.hasTruth()) figures.figures = truthlessFigures(c);
+  if (auto series = seriesFigure(c)) figures.figures.push_back(std::move(*series));
+  if (auto spread = histogramFigure(c)) figures.figures.push_back(std::move(*spread));
+  if (figures.figures.empty()) return {};
+  return {figures};
+}
+
+ReportList limitsList(const ReportCase& c, const ReportChoices& choices) {
+  ReportList list;
+  if (!c.hasTruth()) list.items = truthlessLimits(c);
+  if (c.kind == Kind::kMesh || c.kind == Kind::kPair)
+    list.items.push_back(
+        "A scope sees part of an organ. Where the model covers a part of the reference only, "
+        "distances from the reference to the model, and what is built on them (HD95, Hausdorff, "
+        "ASSD, recall, F, Dice), say little.");
+  if (wasAligned(c))
+    list.items.push_back(
+        "The model was aligned to the reference: every error that a rigid motion explains, of "
+        "calibration for one, is not in these numbers.");
+  if (c.kind == Kind::kSequence)
+    list.items.push_back(
+        "Points that the camera does not see now were carried along by the estimated deformation; "
+        "their errors are larger and are listed apart.");
+  if (c.kind == Kind::kMesh)
+    list.items.push_back(
+        "The reference does not move. Where tissue moved between its scan and the video, that "
+        "motion counts as an error.");
+  if (!c.maps.empty())
+    list.items.push_back(
+        "The map shows fewer points than were measured (at most 20 000 a moment of a series, 60 "
+        "000 "
+        "of a single surface) and a coarser reference; the numbers are of the full data.");
+  if (c.record.contains("warnings") && c.record["warnings"].is_array())
+    for (const auto& warning : c.record["warnings"])
+      if (warning.is_string()) {
+        const std::string text = warning.get<std::string>();
+        list.items.push_back("Warning: " +
+                             (choices.with_paths ? text : withoutPaths(text, c.record)));
+      }
+  return list;
+}
+
+ReportList methodsList(const ReportCase& c) {
+  const std::string all = "Every definition: docs/evaluation.md of softscope.";
+  ReportList list;
+  if (!c.hasTruth()) {
+    list.items = truthlessMethods();
+    list.items.push_back(all);
+    return list;
+  }
+  list.items = {
+      "Distance: from a point of the model to the closest point on the triangles of the reference, "
+      "not to its nearest vertex. Signed: positive outside the reference, by the angle-weighted "
+      "pseudo-normal of what is closest; none where that lies on the border of an open surface.",
+      "SD over n; RMSE about zero; P95: 95 % of the values are smaller.",
+      "HD95 has three definitions in use that differ by a factor of two on some data; all three "
+      "are given. ASSD: mean of both directions' distances together; MASD: mean of the two means."};
+  if (c.kind != Kind::kPair)
+    list.items.push_back(
+        "Series: points pooled from all judged moments, at most 20 000 of each, so that every "
+        "moment counts the same. Drift: Theil-Sen slope of the moments' means. The confidence "
+        "interval is a percentile bootstrap of these means, 2000 resamples, seeded.");
+  if (c.kind == Kind::kSequence)
+    list.items.push_back(
+        "Observed: the closest true tissue is in the left camera's view at that moment. "
+        "Reconstructed: a sample of tissue that both cameras see has a model point nearer than "
+        "1 mm. Tracks are set beside the control that nothing had moved.");
+  if (c.kind == Kind::kPair)
+    list.items.push_back(
+        "By area: each vertex weighted by a third of the area of its triangles. Precision, recall: "
+        "share of the model's, of the reference's vertices nearer than the distance; F: their "
+        "harmonic mean; surface Dice: area within the distance, both ways, over both areas. FRE is "
+        "what the fit leaves at the landmarks it was made of, TRE the error at one it has not "
+        "seen.");
+  list.items.push_back(all);
+  return list;
+}
+
+ReportTable provenanceTable(const ReportCase& c, const ReportChoices& choices) {
+  ReportTable table{"", {}, {}, /*words=*/true};
+  table.rows = {{"Report", "softscope report " + versionText()},
+                {"Measured by",
+                 "softscope " + textAt(c.record, "command") + " " + textAt(c.record, "softscope")}};
+  if (choices.with_paths)
+    for (const auto& [key, name] :
+         {std::pair{"run", "Run"}, {"test", "Model"}, {"reference", "Reference"}})
+      if (const std::string path = textAt(c.record, std::string("inputs.") + key); !path.empty())
+        table.rows.push_back({name, path});
+  std::size_t told = 0;
+  for (const auto& [what, hash] : c.hashes)
+    if (++told <= 3) table.rows.push_back({"SHA-256 of " + what, hash});
+  if (c.hashes.size() > 3)
+    table.rows.push_back({"Further maps", std::to_string(c.hashes.size() - 3) +
+                                              ", their SHA-256 in the embedded metrics"});
+  return table;
+}
+
+}  // namespace softscope

@@ -1,0 +1,162 @@
+// toolkit/report/report_truthless.cpp: resemblance and steadiness, which are not accuracy.
+#include "toolkit/report/report_truthless.h"
+
+#include <cmath>
+
+#include "toolkit/report/report_plots.h"
+#include "toolkit/report/report_words.h"
+#include "vtk_views/value_series_plot.h"
+
+namespace softscope {
+namespace {
+
+std::string decibels(double value) {
+  return std::isfinite(value) ? fixed(value, 1) + " dB" : "not measured";
+}
+
+/// Of the frames that have both a place in time and the value.
+ValueSeriesData valuesOver(const ReportCase& c, const std::string& x, const std::string& y) {
+  ValueSeriesData data{x == "frame" ? "frame" : "time [s]", "", {}, {}};
+  if (!c.record.contains("frames") || !c.record["frames"].is_array()) return data;
+  for (const auto& frame : c.record["frames"]) {
+    const double at = numberAt(frame, x), value = numberAt(frame, y);
+    if (!std::isfinite(at) || !std::isfinite(value)) continue;
+    data.x.push_back(at);
+    data.y.push_back(value);
+  }
+  return data;
+}
+
+/// A clip without timestamps counts frames as seconds: then a time says nothing.
+ValueSeriesData series(const ReportCase& c, const std::string& key) {
+  ValueSeriesData by_frame = valuesOver(c, "frame", key);
+  ValueSeriesData by_time = valuesOver(c, "time_s", key);
+  const bool has_clock =
+      by_time.x.size() == by_frame.x.size() && by_time.x != by_frame.x && rises(by_time.x);
+  return has_clock ? by_time : by_frame;
+}
+
+void addFigure(const ReportCase& c, const std::string& key, const std::string& label,
+               const std::string& caption, std::vector<CaptionedFigure>& figures) {
+  ValueSeriesData data = series(c, key);
+  if (data.x.size() < 2 || !rises(data.x)) return;
+  data.y_label = label;
+  PlotStyle style;
+  style.height_mm = 42;
+  figures.emplace_back(drawValueSeries(data, style), caption);
+}
+
+ReportTable viewTable(const ReportCase& c) {
+  ReportTable table =
+      valueTable("Model drawn from the run's own pose, beside the picture", "mean", c.record,
+                 {{"PSNR over the pixels that the model covers [dB]", "view.psnr_db"},
+                  {"PSNR over all pixels [dB]", "view.psnr_over_all_pixels_db"},
+                  {"SSIM", "view.ssim"}});
+  if (const double share = numberAt(c.record, "view.judged_share"); std::isfinite(share))
+    table.rows.push_back({"pixels that the model covers", percentText(share)});
+  if (const double share = numberAt(c.record, "coverage.mean_share"); std::isfinite(share))
+    table.rows.push_back({"tissue that has depth, by the run itself", percentText(share)});
+  return table;
+}
+
+ReportTable pathTable(const ReportCase& c) {
+  return valueTable("The scope's path, as estimated", "", c.record,
+                    {{"moved from first to last frame [mm]", "camera.moved_mm"},
+                     {"turned from first to last frame [degrees]", "camera.turned_deg"},
+                     {"jitter, rms of second differences [mm]", "camera.jitter_rms_mm"}});
+}
+
+/// "surface errors; errors of material points": what stands before each colon of `missing`.
+std::string missingText(const ReportCase& c) {
+  std::string text;
+  if (!c.record.contains("missing") || !c.record["missing"].is_array()) return text;
+  for (const auto& lack : c.record["missing"]) {
+    if (!lack.is_string()) continue;
+    const std::string whole = lack.get<std::string>();
+    text += (text.empty() ? "" : "; ") + whole.substr(0, whole.find(':'));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<double> drawnPsnrs(const ReportCase& c) {
+  return valuesOver(c, "frame", "view_psnr_db").y;
+}
+
+ReportParagraph truthlessHeadline(const ReportCase& c) {
+  std::string text =
+      "There is no ground truth: how far the model lies from the tissue is not known.";
+  if (const double psnr_db = numberAt(c.record, "view.psnr_db"); std::isfinite(psnr_db))
+    text +=
+        " Drawn from the pose that the run estimated, it resembles the video's pictures with "
+        "a PSNR of " +
+        decibels(psnr_db) + ".";
+  if (const double mean_mm = numberAt(c.record, "backprojection.mean_mm"); std::isfinite(mean_mm))
+    text += " In sight, it lies " + millimetresText(mean_mm) +
+            " on average from the depth that it was made of (back-projection).";
+  return {text, /*important=*/true};
+}
+
+std::string truthlessSummary(const ReportCase& c) {
+  return "no ground truth; PSNR " + decibels(numberAt(c.record, "view.psnr_db")) +
+         ", back-projection " + millimetresText(numberAt(c.record, "backprojection.mean_mm"));
+}
+
+ReportTiles truthlessTiles(const ReportCase& c) {
+  const auto value = [&](const char* path) { return numberAt(c.record, path); };
+  return {{{"PSNR of the drawn view", decibels(value("view.psnr_db")),
+            "over " + percentText(value("view.judged_share")) + " of the pixels"},
+           {"Back-projection", millimetresText(value("backprojection.mean_mm")),
+            "by the run itself; no accuracy"},
+           {"Tissue with depth", percentText(value("coverage.mean_share")), "by the run itself"},
+           {"Scope moved", millimetresText(value("camera.moved_mm")),
+            "first to last; drift if it stood still"}}};
+}
+
+std::vector<ReportTable> truthlessTables(const ReportCase& c) {
+  return {viewTable(c),
+          statisticsTable("Over the frames [mm]", c.record,
+                          {{"back-projection, by the run itself", "backprojection"},
+                           {"the scope's step from frame to frame", "camera.step"}}),
+          pathTable(c)};
+}
+
+std::vector<CaptionedFigure> truthlessFigures(const ReportCase& c) {
+  std::vector<CaptionedFigure> figures;
+  addFigure(c, "view_psnr_db", "PSNR [dB]", "The drawn model beside the picture.", figures);
+  addFigure(c, "view_ssim", "SSIM", "The same, by structure: 1 is the picture itself.", figures);
+  addFigure(c, "backprojection_mean_mm", "back-projection [mm]",
+            "Distance of the model in sight from the depth of that frame.", figures);
+  addFigure(c, "step_mm", "scope's step [mm]", "How far the scope moved since the frame before.",
+            figures);
+  return figures;
+}
+
+std::vector<std::string> truthlessLimits(const ReportCase& c) {
+  std::vector<std::string> limits{
+      "These values tell a bad run from a good one, never how far it is from the tissue: a model "
+      "that slides along the surface can look right.",
+      "Back-projection is the distance from the run's own depth: an error that depth and model "
+      "share, of calibration or of stereo, is not in it.",
+      "A motion of all tissue together is taken for one of the scope. Only where the scope is "
+      "known to have stood still is its estimated motion an error."};
+  if (const std::string missing = missingText(c); !missing.empty())
+    limits.push_back("Not measured, because it takes ground truth: " + missing + ".");
+  return limits;
+}
+
+std::vector<std::string> truthlessMethods() {
+  return {
+      "PSNR and SSIM: each saved model drawn from the pose that the run estimated, against the "
+      "left picture of that moment, over the pixels that the model covers. Over all pixels: the "
+      "same "
+      "differences shared out over the whole picture, the higher the less is covered. SSIM: "
+      "windows of 11 x 11, sigma 1.5.",
+      "Back-projection: points in sight that the depth explains, to its planes, after the warp and "
+      "before fusion; mean of absolutes of each frame, then over the frames.",
+      "Jitter: root mean square of the second differences of the scope's positions. The confidence "
+      "interval is a percentile bootstrap of the drawn models' PSNR, 2000 resamples, seeded."};
+}
+
+}  // namespace softscope

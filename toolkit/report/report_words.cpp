@@ -1,0 +1,66 @@
+// toolkit/report/report_words.cpp: the same digits everywhere.
+#include "toolkit/report/report_words.h"
+
+#include <cmath>
+
+namespace softscope {
+namespace {
+
+const char* const kDash = "\xE2\x80\x93";
+
+std::string countText(double count) {
+  return std::isfinite(count) ? std::to_string(std::llround(count)) : kDash;
+}
+
+}  // namespace
+
+std::string numberText(double value) {
+  if (!std::isfinite(value)) return kDash;
+  const double size = std::abs(value);
+  return fixed(value + 0.0, size < 1 ? 3 : size < 100 ? 2 : 1);
+}
+
+std::string millimetresText(double value) {
+  return std::isfinite(value) ? numberText(value) + " mm" : "not measured";
+}
+
+std::string percentText(double share) {
+  return std::isfinite(share) ? fixed(100 * share, 1) + " %" : kDash;
+}
+
+std::string intervalText(const Interval& interval) {
+  return std::isfinite(interval.low) && std::isfinite(interval.high)
+             ? numberText(interval.low) + " to " + numberText(interval.high)
+             : kDash;
+}
+
+ReportTable statisticsTable(const std::string& caption, const FactSheet::Json& record,
+                            const std::vector<NamedPart>& parts) {
+  ReportTable table{
+      caption, {"", "mean", "SD", "RMSE", "median", "P95", "max", "n"}, {}, /*words=*/false};
+  for (const NamedPart& part : parts) {
+    const auto value = [&](const char* key) { return numberAt(record, part.path + "." + key); };
+    if (!std::isfinite(value("mean_mm"))) continue;
+    std::vector<std::string> row{part.name};
+    for (const char* key : {"mean_mm", "sd_mm", "rmse_mm", "median_mm", "p95_mm", "max_mm"})
+      row.push_back(numberText(value(key)));
+    row.push_back(countText(value("n")));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable valueTable(const std::string& caption, const std::string& heading,
+                       const FactSheet::Json& record, const std::vector<NamedPart>& values) {
+  ReportTable table{caption, {"", heading}, {}, /*words=*/false};
+  for (const NamedPart& part : values)
+    if (const double value = numberAt(record, part.path); std::isfinite(value))
+      table.rows.push_back({part.name, numberText(value)});
+  return table;
+}
+
+void addTable(ReportTable table, std::vector<ReportPart>& parts) {
+  if (!table.rows.empty()) parts.emplace_back(std::move(table));
+}
+
+}  // namespace softscope

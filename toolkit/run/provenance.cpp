@@ -1,0 +1,85 @@
+// toolkit/run/provenance.cpp: sizes, lengths, hashes.
+#include "toolkit/run/provenance.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/file_hash.h"
+#include "io/message.h"
+#include "io/sequence_paths.h"
+#include "io/text_lines.h"
+#include "toolkit/record/fact_sheet.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = FactSheet::Json;
+
+constexpr double kSameLength = 0.01;  // rectification moves a focal length by less
+
+Json readRecord(const fs::path& file) {
+  const Json record = Json::parse(readBytes(file, kTextLimitBytes), nullptr, false);
+  if (!record.is_object())
+    throw InputError(shown(file) + ": is no JSON object; is it damaged? Reconstruct again");
+  return record;
+}
+
+/// A number that may lack, or be something else in a record of another version.
+double numberAt(const Json& record, const char* path) {
+  const Json::json_pointer place(path);
+  if (!record.contains(place) || !record.at(place).is_number()) return std::nan("");
+  return record.at(place).get<double>();
+}
+
+bool differs(double recorded, double expected) {
+  return std::isfinite(recorded) && std::abs(recorded - expected) > kSameLength * expected;
+}
+
+void requireSameSize(const Json& record, const PinholeCamera& left, const fs::path& file) {
+  const double width = numberAt(record, "/rectified_rig/width_px");
+  const double height = numberAt(record, "/rectified_rig/height_px");
+  if (std::isnan(width) || std::isnan(height)) return;
+  if (width == left.width_px && height == left.height_px) return;
+  throw InputError(say(shown(file), ": the run's pictures have ", width, " x ", height,
+                       " pixels, but the sequence's ", left.width_px, " x ", left.height_px,
+                       "; a run of another sequence?"));
+}
+
+/// Empty where the pictures are the recorded ones, or either isn't known.
+std::string pictureWarning(const Json& record, const SequenceTruth& truth) {
+  const Json::json_pointer place("/inputs/left/sha256");
+  if (!record.contains(place) || !record.at(place).is_string()) return {};
+  SequencePaths paths;
+  try {
+    paths = findSequence(truth.folder);
+  } catch (const InputError&) {  // truth without pictures is enough to judge by
+    return {};
+  }
+  if (paths.left.empty() || sha256Of(paths.left) == record.at(place).get<std::string>()) return {};
+  return "the run was made from other pictures than " + shown(paths.left) +
+         " holds now; a run of another sequence?";
+}
+
+}  // namespace
+
+std::vector<std::string> checkOrigin(const JudgedRun& run, const SequenceTruth& truth) {
+  const fs::path file = run.folder / "run.json";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  const Json record = readRecord(file);
+  requireSameSize(record, truth.rig.left, file);
+  std::vector<std::string> warnings;
+  const double focal_px = numberAt(record, "/rectified_rig/focal_px");
+  const double baseline_mm = numberAt(record, "/rectified_rig/baseline_mm");
+  if (differs(focal_px, truth.rig.left.fx_px) || differs(baseline_mm, truth.rig.baseline_mm))
+    warnings.push_back(say("the run was made with a focal length of ", focal_px,
+                           " px and a baseline of ", baseline_mm, " mm, but the sequence has ",
+                           truth.rig.left.fx_px, " px and ", truth.rig.baseline_mm, " mm"));
+  if (const std::string warning = pictureWarning(record, truth); !warning.empty())
+    warnings.push_back(warning);
+  return warnings;
+}
+
+}  // namespace softscope

@@ -1,0 +1,251 @@
+#include "toolkit/run/run_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "fusion/colour_levels.h"
+#include "io/atomic_file.h"
+#include "io/file_bytes.h"
+#include "io/folder.h"
+#include "io/message.h"
+#include "io/ply_writer.h"
+#include "io/text_lines.h"
+#include "io/trajectory_file.h"
+#include "toolkit/run/run_tables.h"
+#include "vtk_views/point_cloud_vtp.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCheckpoint = "checkpoint.bin";
+constexpr const char* kRecord = "run.json";
+constexpr const char* kModels = "models";
+constexpr const char* kNodes = "nodes";
+constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
+
+const char* const kFiles[] = {"model.ply",  "frames.csv", "trajectory.txt", "tracks.csv",
+                              "models.pvd", kRecord,      kCheckpoint};
+
+/// Of a model, or of its nodes.
+bool isSavedModel(const fs::path& file) {
+  const std::string stem = file.stem().string(), end = file.extension().string();
+  return stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos &&
+         (end == ".ply" || end == ".vtp" || end == ".csv");
+}
+
+bool holdsRun(const fs::path& folder) {
+  for (const char* name : kFiles)
+    if (fs::exists(folder / name)) return true;
+  return fs::exists(folder / kModels);
+}
+
+[[noreturn]] void refuseBusy(const fs::path& folder) {
+  throw OptionError("--out " + shown(folder) +
+                    ": another softscope reconstruct is writing to it; wait until it has ended, "
+                    "or choose another folder");
+}
+
+void requireUsable(const RunFolderOptions& options, bool resume) {
+  const fs::path& folder = options.folder;
+  if (!fs::exists(folder)) {
+    if (resume)
+      throw OptionError("--resume: there is no " + shown(folder) +
+                        "; start the run without --resume");
+    return;
+  }
+  if (!fs::is_directory(folder))
+    throw OptionError("--out " + shown(folder) + ": is a file, but must be a folder");
+  if (isHeld(folder / kRunLock)) refuseBusy(folder);
+  if (!resume && !options.overwrite && holdsRun(folder))
+    throw OptionError("--out " + shown(folder) + ": holds a run already; choose another folder, " +
+                      (fs::exists(folder / kCheckpoint) ? "go on with --resume, " : "") +
+                      "or replace it with --force");
+}
+
+/// Lines of a CSV whose first cell is a frame before `next_frame`.
+std::string linesBefore(const fs::path& file, int next_frame) {
+  if (!fs::exists(file)) return {};
+  std::string kept;
+  const std::string bytes = readBytes(file, std::uintmax_t{4} << 30);
+  for (const std::string_view line : linesOf(bytes)) {
+    if (line.empty() || line.front() < '0' || line.front() > '9') continue;
+    if (std::atoi(std::string(line.substr(0, line.find(','))).c_str()) >= next_frame) continue;
+    kept.append(line).append("\n");
+  }
+  return kept;
+}
+
+std::string numbers(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += " " + exactText(value);
+  return text;
+}
+
+/// What a viewer needs that reads this model alone, also while the run goes on.
+std::vector<std::string> momentComments(double time_s, const Eigen::Isometry3d& world_from_left,
+                                        const PinholeCamera& left) {
+  const Eigen::Vector3d t = world_from_left.translation();
+  const Eigen::Quaterniond q(world_from_left.linear());
+  return {"time_s" + numbers({time_s}),
+          "world_from_left" + numbers({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}),
+          "left_camera" + numbers({double(left.width_px), double(left.height_px), left.fx_px,
+                                   left.fy_px, left.cx_px, left.cy_px})};
+}
+
+std::string nodesCsv(const WarpGraph& graph) {
+  std::string text = "node,x_mm,y_mm,z_mm\n";
+  char line[120];
+  for (std::size_t i = 0; i < graph.size(); ++i) {
+    const Eigen::Vector3d& p = graph.positions_mm[i];
+    std::snprintf(line, sizeof line, "%zu,%.4f,%.4f,%.4f\n", i, p.x(), p.y(), p.z());
+    text += line;
+  }
+  return text;
+}
+
+int countLines(const std::string& text) {
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+PointCloud cloudOf(const ModelState& state) {
+  const PointModel& model = state.model;
+  PointCloud cloud{model.positions_mm, model.normals, model.colours, model.weights};
+  const ColourGain& exposure = state.exposure;
+  for (Rgb8& colour : cloud.colours)
+    colour = scaled(colour, exposure.red, exposure.green, exposure.blue);
+  return cloud;
+}
+
+RunFolder::RunFolder(RunFolderOptions options, bool resume) : options_(std::move(options)) {
+  require(options_.save_every >= 0, "--save-every", options_.save_every, "can't be negative");
+  requireUsable(options_, resume);
+}
+
+std::optional<Checkpoint> RunFolder::readCheckpoint() const {
+  const fs::path path = file(kCheckpoint);
+  if (!fs::exists(path)) return std::nullopt;
+  return parseCheckpoint(readBytes(path, kCheckpointLimitBytes), shown(path));
+}
+
+bool RunFolder::wasKilled() const { return fs::exists(file(kRunLock)) && !isHeld(file(kRunLock)); }
+
+/// Until the run or its process has ended: a lock file that no process holds marks a killed run.
+void RunFolder::hold() {
+  lock_.emplace(file(kRunLock));
+  if (!lock_->tryToHold()) refuseBusy(options_.folder);
+  for (const fs::path& folder : {options_.folder, file(kModels), file(kNodes)})
+    removeTemporaries(folder);  // of a killed process; the lock excludes any other writer
+}
+
+std::vector<FrameRecord> RunFolder::earlierFrames() const {
+  std::vector<FrameRecord> records;
+  for (const std::string_view line : linesOf(frames_csv_))
+    if (!line.empty()) records.push_back(readFramesCsvLine(line, shown(file("frames.csv"))));
+  return records;
+}
+
+void RunFolder::takeOver(int next_frame) {
+  begun_ = true;
+  hold();
+  frames_csv_ = linesBefore(file("frames.csv"), next_frame);
+  tracks_csv_ = linesBefore(file("tracks.csv"), next_frame);
+  trajectory_ = readTrajectory(file("trajectory.txt"));
+  const auto frames = static_cast<std::size_t>(countLines(frames_csv_));
+  if (trajectory_.size() < frames)
+    throw InputError(shown(options_.folder) + ": frames.csv has " + std::to_string(frames) +
+                     " frames, trajectory.txt " + std::to_string(trajectory_.size()) +
+                     "; they don't belong together. Start again without --resume");
+  trajectory_.resize(frames);
+  std::size_t line = 0;
+  for (const std::string_view text : linesOf(frames_csv_)) {
+    if (line >= frames) break;
+    const int frame = std::atoi(std::string(text.substr(0, text.find(','))).c_str());
+    last_frame_ = frame;
+    if (fs::exists(file(kModels) / numberedName(frame, ".ply")))
+      saved_.push_back({frame, trajectory_[line].time_s});
+    ++line;
+  }
+}
+
+void RunFolder::begin() {
+  if (begun_) return;
+  begun_ = true;
+  std::error_code failure;
+  fs::create_directories(options_.folder, failure);
+  if (failure)
+    throw InputError("--out " + shown(options_.folder) + ": can't be made: " + failure.message() +
+                     ". Choose a folder that you may write to");
+  hold();
+  for (const char* name : kFiles) fs::remove(file(name));
+  for (const char* saved : {kModels, kNodes}) {
+    if (!fs::is_directory(file(saved))) continue;
+    std::vector<fs::path> earlier;
+    for (const auto& entry : fs::directory_iterator(file(saved)))
+      if (isSavedModel(entry.path())) earlier.push_back(entry.path());
+    for (const fs::path& path : earlier) fs::remove(path);
+  }
+}
+
+void RunFolder::add(const FrameRecord& record) {
+  last_frame_ = record.frame;
+  frames_csv_ += framesCsvLine(record);
+  tracks_csv_ += tracksCsvLines(record);
+  const double time_s = std::isfinite(record.time_s) ? record.time_s : record.frame;
+  trajectory_.push_back({time_s, record.world_from_left});
+}
+
+void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
+  begin();
+  fs::create_directories(file(kModels));
+  fs::create_directories(file(kNodes));
+  if (!std::isfinite(time_s)) time_s = frame;
+  const PointCloud cloud = cloudOf(state);
+  writeFile(file(kNodes) / numberedName(frame, ".csv"), nodesCsv(state.graph), true);
+  writeFile(file(kModels) / numberedName(frame, ".vtp"), pointCloudVtp(cloud), true);
+  // Last: who sees the model of a run that still goes on finds the rest.
+  writePly(file(kModels) / numberedName(frame, ".ply"), cloud,
+           {"world", "", momentComments(time_s, trajectory_.back().world_from_left, left_)}, true);
+  if (saved_.empty() || saved_.back().frame != frame) saved_.push_back({frame, time_s});
+}
+
+void RunFolder::writeTables(const ModelState& state) {
+  begin();
+  writeFile(file("frames.csv"), framesCsvHeading() + "\n" + frames_csv_, true);
+  if (options_.tracks) writeFile(file("tracks.csv"), tracksCsvHeading() + "\n" + tracks_csv_, true);
+  if (!trajectory_.empty()) writeTrajectory(file("trajectory.txt"), trajectory_, true);
+  writePly(file("model.ply"), cloudOf(state), {"world", ""}, true);
+  if (options_.save_every == 0) return;
+  std::string pvd =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const SavedModel& saved : saved_)
+    pvd += say("<DataSet timestep=\"", saved.time_s, "\" file=\"models/",
+               numberedName(saved.frame, ".vtp"), "\"/>\n");
+  writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
+}
+
+void RunFolder::flush(const Checkpoint& checkpoint) {
+  writeTables(checkpoint.state.model);
+  writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
+}
+
+void RunFolder::saveLastModel(const ModelState& state) {
+  if (options_.save_every > 0 && last_frame_ >= 0 && !savesModel(last_frame_))
+    saveModel(last_frame_, trajectory_.back().time_s, state);
+}
+
+void RunFolder::writeRecord(const std::string& json, bool complete) {
+  begin();
+  writeFile(file(kRecord), json, true);
+  if (complete) fs::remove(file(kCheckpoint));
+  fs::remove(file(kRunLock));
+}
+
+}  // namespace softscope

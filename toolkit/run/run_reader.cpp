@@ -1,0 +1,133 @@
+// toolkit/run/run_reader.cpp: looks for files, checks that they belong together.
+#include "toolkit/run/run_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "io/calibration_reader.h"
+#include "io/folder.h"
+#include "io/message.h"
+#include "io/trajectory_file.h"
+#include "stereo/rectifier.h"
+#include "toolkit/run/table_reader.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path fileOrNone(const fs::path& file) { return isThere(file) ? file : fs::path(); }
+
+/// NNNNNN.ext by number; names of other forms are left out. Empty where the folder is missing.
+FrameFiles numberedFiles(const fs::path& folder, std::string_view extension) {
+  FrameFiles files;
+  if (!isThere(folder)) return files;
+  for (const fs::path& file : filesIn(folder, {extension})) {
+    const std::string stem = file.stem().string();
+    if (stem.size() >= 6 && stem.size() <= 9 &&
+        stem.find_first_not_of("0123456789") == std::string::npos)
+      files[std::stoi(stem)] = file;
+  }
+  return files;
+}
+
+Trajectory readRunTrajectory(const fs::path& folder) {
+  requireFolder(folder);
+  const fs::path file = folder / "trajectory.txt";
+  if (!isThere(file))
+    throw InputError(shown(file) +
+                     ": is missing, but every run has one; give the folder that softscope "
+                     "reconstruct wrote");
+  return readTrajectory(file);
+}
+
+FrameRows frameRows(const fs::path& file, std::size_t poses) {
+  FrameRows rows;
+  rows.frames.resize(poses);
+  std::iota(rows.frames.begin(), rows.frames.end(), 0);
+  if (!isThere(file)) return rows;
+  rows = readFrameRows(file);
+  if (rows.frames.size() != poses)
+    throw InputError(say(shown(file), ": has ", rows.frames.size(),
+                         " frames, but trajectory.txt has ", poses,
+                         " poses; a run that was cut short? Reconstruct again"));
+  return rows;
+}
+
+}  // namespace
+
+double JudgedRun::timeOf(int frame) const {
+  const auto found = std::lower_bound(frames.begin(), frames.end(), frame);
+  if (found == frames.end() || *found != frame) return std::nan("");
+  return trajectory[static_cast<std::size_t>(found - frames.begin())].time_s;
+}
+
+JudgedRun openJudgedRun(const fs::path& folder) {
+  JudgedRun run;
+  run.folder = folder;
+  run.trajectory = readRunTrajectory(folder);
+  const FrameRows rows = frameRows(folder / "frames.csv", run.trajectory.size());
+  run.frames = rows.frames;
+  for (std::size_t k = 0; k < rows.backprojection_mm.size(); ++k)
+    if (std::isfinite(rows.backprojection_mm[k]))
+      run.backprojection_mm[rows.frames[k]] = rows.backprojection_mm[k];
+  for (std::size_t k = 0; k < rows.coverage.size(); ++k)
+    if (std::isfinite(rows.coverage[k])) run.coverage[rows.frames[k]] = rows.coverage[k];
+  run.models = numberedFiles(folder / "models", ".ply");
+  run.last_model = fileOrNone(folder / "model.ply");
+  run.tracks = fileOrNone(folder / "tracks.csv");
+  return run;
+}
+
+bool hasTruth(const fs::path& sequence) { return isThere(sequence / "groundtruth"); }
+
+SequenceTruth openSequenceTruth(const fs::path& sequence) {
+  requireFolder(sequence);
+  const fs::path truth_folder = sequence / "groundtruth";
+  if (!isThere(truth_folder / "trajectory.txt"))
+    throw InputError(shown(truth_folder / "trajectory.txt") +
+                     ": is missing, but the true poses of the scope are needed to judge by; give a "
+                     "sequence with ground truth, or a mesh");
+  SequenceTruth truth;
+  truth.folder = sequence;
+  truth.trajectory = readTrajectory(truth_folder / "trajectory.txt");
+  truth.meshes = numberedFiles(truth_folder / "mesh", ".ply");
+  truth.depths = numberedFiles(truth_folder / "depth", ".png");
+  truth.tracks = fileOrNone(truth_folder / "tracks.csv");
+  const StereoCalibration calibration = readCalibration(sequence);
+  truth.rig = Rectifier(calibration).rig();
+  truth.rectified = calibration.rectified;
+  truth.depth_unit_mm = calibration.depth_unit_mm;
+  return truth;
+}
+
+void requireSameSequence(const JudgedRun& run, const SequenceTruth& truth) {
+  const int count = static_cast<int>(truth.trajectory.size());
+  const auto fail = [&](const fs::path& file, int frame) {
+    throw InputError(say(shown(file), ": is of frame ", frame, ", but ", shown(truth.folder),
+                         " has true poses of frames 0 to ", count - 1,
+                         "; a run of another sequence?"));
+  };
+  if (run.frames.back() >= count) fail(run.folder / "trajectory.txt", run.frames.back());
+  for (const auto& [frame, file] : run.models)
+    if (!std::binary_search(run.frames.begin(), run.frames.end(), frame)) {
+      if (frame >= count) fail(file, frame);
+      throw InputError(say(shown(file), ": is of frame ", frame,
+                           ", but trajectory.txt has no pose of it; reconstruct again"));
+    }
+}
+
+std::map<int, Eigen::Isometry3d> truthFromRun(const JudgedRun& run, const SequenceTruth& truth) {
+  std::map<int, Eigen::Isometry3d> moves;
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    const auto frame = static_cast<std::size_t>(run.frames[k]);
+    if (frame < truth.trajectory.size())
+      moves[run.frames[k]] =
+          truth.trajectory[frame].world_from_left * run.trajectory[k].world_from_left.inverse();
+  }
+  return moves;
+}
+
+}  // namespace softscope

@@ -1,0 +1,61 @@
+// toolkit/run/run_reader.h: the parts of a run, and of the truth it is judged by.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/stereo_rig.h"
+#include "core/trajectory.h"
+
+namespace softscope {
+
+using FrameFiles = std::map<int, std::filesystem::path>;
+
+/// A folder that `reconstruct` wrote (docs/formats.md).
+struct JudgedRun {
+  std::filesystem::path folder;
+  Trajectory trajectory;                    // world_from_left
+  std::vector<int> frames;                  // the frame of each pose, rising
+  std::map<int, double> backprojection_mm;  // of frames.csv, by frame, where it has a value
+  std::map<int, double> coverage;           // the same: share of the tissue that has depth
+  FrameFiles models;                        // models/NNNNNN.ply
+  std::filesystem::path last_model;         // model.ply; empty where it is missing
+  std::filesystem::path tracks;             // tracks.csv; empty where it is missing
+
+  /// NaN where the frame has no pose.
+  double timeOf(int frame) const;
+};
+
+/// Throws InputError: no such folder, no trajectory, or a table of frames that doesn't fit it.
+JudgedRun openJudgedRun(const std::filesystem::path& folder);
+
+/// Whether there is a folder groundtruth in it, whatever that holds.
+bool hasTruth(const std::filesystem::path& sequence);
+
+/// The ground truth of a sequence folder.
+struct SequenceTruth {
+  std::filesystem::path folder;  // of the sequence
+  Trajectory trajectory;         // world_from_left; pose i is that of frame i
+  FrameFiles meshes, depths;     // groundtruth/mesh, groundtruth/depth
+  std::filesystem::path tracks;  // groundtruth/tracks.csv; empty where it is missing
+  RectifiedRig rig;
+  double depth_unit_mm = 0.01;
+  bool rectified = true;  // so are the pictures, and what is given for their pixels
+};
+
+/// Throws InputError: no such folder, no groundtruth in it, no true trajectory, no calibration.
+SequenceTruth openSequenceTruth(const std::filesystem::path& sequence);
+
+/// Throws InputError where the run can't be one of this sequence: more frames, or models of frames
+/// that the sequence lacks.
+void requireSameSequence(const JudgedRun& run, const SequenceTruth& truth);
+
+/// For every pose of the run that has a true one, what brings a point of the run's world into the
+/// true world by way of that moment's camera: a motion of the whole scene can be tissue or scope,
+/// so both are compared as the camera sees them.
+std::map<int, Eigen::Isometry3d> truthFromRun(const JudgedRun& run, const SequenceTruth& truth);
+
+}  // namespace softscope

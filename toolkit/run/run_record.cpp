@@ -1,0 +1,170 @@
+// toolkit/run/run_record.cpp: inputs with their hashes, settings, frames, times.
+#include "toolkit/run/run_record.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "io/file_hash.h"
+#include "toolkit/record/machine.h"
+#include "toolkit/record/setting_json.h"
+#include "toolkit/record/version.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = FactSheet::Json;
+
+Json machineJson(const ReconstructionBackend& backend) {
+  const Machine machine = describeMachine();
+  return {{"backend", backend.name()},
+          {"device", backend.name() == "cpu" ? machine.processor : backend.device()},
+          {"processor", machine.processor},
+          {"cores", machine.cores},
+          {"threads", threadCount()}};
+}
+
+Json rigJson(const RectifiedRig& rig) {
+  return {{"width_px", rig.left.width_px},
+          {"height_px", rig.left.height_px},
+          {"focal_px", rig.left.fx_px},
+          {"centre_px", {rig.left.cx_px, rig.left.cy_px}},
+          {"baseline_mm", rig.baseline_mm}};
+}
+
+constexpr double kDoubtful = 0.5;   // confidence of a frame
+constexpr double kToldShare = 0.1;  // of the frames; fewer are not worth a warning
+
+Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+}  // namespace
+
+Json inputsJson(const SequencePaths& paths) {
+  Json inputs = Json::object();
+  const std::pair<const char*, const fs::path&> parts[] = {{"left", paths.left},
+                                                           {"right", paths.right},
+                                                           {"stereo", paths.stereo},
+                                                           {"calibration", paths.calibration},
+                                                           {"mask", paths.mask},
+                                                           {"depth", paths.depth},
+                                                           {"timestamps", paths.timestamps}};
+  for (const auto& [name, path] : parts)
+    if (!path.empty()) inputs[name] = {{"path", path.string()}, {"sha256", sha256Of(path)}};
+  return inputs;
+}
+
+RunRecord::RunRecord(const Json& inputs, const StereoCalibration& calibration,
+                     const ReconstructionBackend& backend,
+                     const std::vector<SettingInfo>& settings) {
+  json_["schema_version"] = 1;
+  json_["softscope"] = versionText();
+  json_["command"] = "reconstruct";
+  json_["machine"] = machineJson(backend);
+  json_["inputs"] = inputs;
+  json_["rectified_rig"] = rigJson(backend.rig());
+  for (const SettingInfo& setting : settings)
+    json_["configuration"][setting.key] = valueOf(setting);
+  for (const std::string& warning : calibration.warnings) addWarning(warning);
+}
+
+void RunRecord::add(const FrameRecord& record) {
+  ++frames_;
+  ++frames_of_status_[toString(record.status)];
+  for (const auto& [stage, stage_ms] : record.times) elapsed_ms_[stage] += stage_ms;
+  frame_ms_.push_back(record.elapsed_ms());
+  located_ += record.pose.found;
+  scope_static_ += record.pose.found && record.pose.scope_static;
+  if (!record.fused()) return;
+  points_ = record.points;
+  if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
+  if (record.status == FrameStatus::kStarted) return;
+  matches_.push_back(record.pose.inliers);
+  doubtful_ += record.evidence.view.confidence() < kDoubtful;
+  if (std::isfinite(record.fusion.corrected.mean_mm))
+    backprojection_mm_.push_back(record.fusion.corrected.mean_mm);
+  if (std::isfinite(record.evidence.predicted.mean_mm))
+    prediction_mm_.push_back(record.evidence.predicted.mean_mm);
+}
+
+int RunRecord::fusedFrames() const {
+  int fused = 0;
+  for (const FrameStatus status :
+       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered})
+    if (const auto found = frames_of_status_.find(toString(status));
+        found != frames_of_status_.end())
+      fused += found->second;
+  return fused;
+}
+
+std::vector<std::string> RunRecord::conclusions() const {
+  std::vector<std::string> all;
+  const int left_out = frames_ - fusedFrames();
+  if (left_out > kToldShare * frames_)
+    all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
+                  " frames were not fused (" + statusText() +
+                  "): the model does not know them; the column reason of frames.csv says why");
+  if (doubtful_ > kToldShare * frames_)
+    all.push_back(std::to_string(doubtful_) + " of " + std::to_string(frames_) +
+                  " frames were fused with a confidence below " + fixed(kDoubtful, 1) +
+                  ": the image shows the tissue elsewhere in many places; blur, weak texture or "
+                  "changing light are likely");
+  if (located_ > 0 && scope_static_ == located_)
+    all.push_back("the scope was never seen to move; if it did, state --scope moving");
+  return all;
+}
+
+std::string RunRecord::statusText() const {
+  std::string statuses;
+  for (const auto& [status, count] : frames_of_status_)
+    statuses += (statuses.empty() ? "" : ", ") + std::to_string(count) + " " + status;
+  return statuses;
+}
+
+double RunRecord::meanOf(const std::vector<double>& values) const {
+  if (values.empty()) return kUnknown;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Json RunRecord::json() const {
+  Json all = json_;
+  all["frames"] = frames_;
+  all["frames_fused"] = fusedFrames();
+  all["frames_by_status"] = frames_of_status_;
+  all["points"] = points_;
+  all["nodes"] = nodes_;
+  all["mean_inliers"] = numberOrNull(meanOf(matches_));
+  all["mean_backprojection_mm"] = numberOrNull(meanOf(backprojection_mm_));
+  all["mean_prediction_mm"] = numberOrNull(meanOf(prediction_mm_));
+  all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
+  Json& stages = all["mean_stage_ms"] = Json::object();
+  for (const auto& [stage, sum_ms] : elapsed_ms_) stages[stage] = sum_ms / std::max(1, frames_);
+  all["frames_scope_static"] = scope_static_;
+  all["frames_doubtful"] = doubtful_;
+  all["warnings"] = warnings_;
+  for (const std::string& conclusion : conclusions()) all["warnings"].push_back(conclusion);
+  return all;
+}
+
+FactSheet RunRecord::text(const std::string& folder) const {
+  FactSheet facts("reconstruction of " + std::to_string(frames_) + " frames");
+  facts.addLine("frames", statusText());
+  if (located_ > 0)
+    facts.addLine("scope", "static in " + std::to_string(scope_static_) + " of " +
+                               std::to_string(located_) + " frames");
+  facts.addLine("model",
+                std::to_string(points_) + " points on " + std::to_string(nodes_) + " nodes");
+  if (!matches_.empty())
+    facts.addLine("matches", fixed(meanOf(matches_), 0) + " that agree with the pose, a frame");
+  if (!backprojection_mm_.empty())
+    facts.addLine("back-projection",
+                  fixed(meanOf(backprojection_mm_), 3) +
+                      " mm mean distance of the model from each frame's depth, " +
+                      fixed(meanOf(prediction_mm_), 3) + " mm before it learns from the frame");
+  if (!frame_ms_.empty()) facts.addLine("time", fixed(meanOf(frame_ms_), 0) + " ms a frame");
+  facts.addLine("written to", folder);
+  facts.addLine("look at", folder + "/model.ply (MeshLab), " + folder + "/models.pvd (ParaView)");
+  return facts;
+}
+
+}  // namespace softscope

@@ -1,0 +1,51 @@
+// toolkit/run/run_record.h: what run.json says of a reconstruction.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/stereo_rig.h"
+#include "io/sequence_paths.h"
+#include "io/settings_binder.h"
+#include "pipeline/frame_record.h"
+#include "pipeline/reconstruction_backend.h"
+#include "toolkit/record/fact_sheet.h"
+
+namespace softscope {
+
+/// Path and SHA-256 of every part that there is. Throws InputError.
+FactSheet::Json inputsJson(const SequencePaths& paths);
+
+class RunRecord {
+ public:
+  /// `inputs`: of inputsJson().
+  RunRecord(const FactSheet::Json& inputs, const StereoCalibration& calibration,
+            const ReconstructionBackend& backend, const std::vector<SettingInfo>& settings);
+
+  void add(const FrameRecord& record);
+  void addWarning(const std::string& text) { warnings_.push_back(text); }
+  void set(const std::string& key, const FactSheet::Json& value) { json_[key] = value; }
+
+  int fusedFrames() const;
+  /// What a user should know of the whole run: frames that were not fused, or fused with little
+  /// evidence, a static scope. In json() among the warnings.
+  std::vector<std::string> conclusions() const;
+  FactSheet::Json json() const;
+  /// A few lines for people.
+  FactSheet text(const std::string& folder) const;
+
+ private:
+  std::string statusText() const;
+  double meanOf(const std::vector<double>& values) const;
+
+  FactSheet::Json json_;
+  FactSheet::Json warnings_ = FactSheet::Json::array();
+  std::map<std::string, int> frames_of_status_;
+  std::map<std::string, double> elapsed_ms_;  // of every stage, over all frames
+  std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
+  int frames_ = 0, points_ = 0, nodes_ = 0;
+  int located_ = 0, scope_static_ = 0, doubtful_ = 0;
+};
+
+}  // namespace softscope

@@ -1,0 +1,205 @@
+#include "toolkit/run/run_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+constexpr const char* kColumns =
+    "frame,time_s,status,points,nodes,matches,inliers,backprojection_mean_mm,"
+    "backprojection_p95_mm,prediction_mean_mm,prediction_p95_mm,confidence,depth_agreement,image_"
+    "agreement,coverage,depth_sigma_mm,"
+    "row_difference_px,lifted,pose_rms_mm,scope_static,scope_moved_mm,pose_sigma_mm,pose_sigma_deg,"
+    "solver_stop,solver_iterations,"
+    "residual_before_mm,"
+    "residual_mm,in_sight,seen,fused,inserted,contradicted";
+
+/// Cells of one line, separated by commas.
+class Line {
+ public:
+  void add(int value) { addText(std::to_string(value)); }
+  void add(double value, int decimals) {
+    char text[64] = "";
+    if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    addText(text);
+  }
+  void addText(const std::string& text) {
+    if (!text_.empty() || begun_) text_ += ',';
+    begun_ = true;
+    text_ += text;
+  }
+  void skip(int cells) {
+    for (int i = 0; i < cells; ++i) addText("");
+  }
+  std::string ended() const { return text_ + '\n'; }
+
+ private:
+  std::string text_;
+  bool begun_ = false;
+};
+
+/// Quoted, as RFC 4180 has it; one line.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return out + '"';
+}
+
+std::vector<std::string> cellsOf(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool in_quotes = false;
+  for (const char c : line) {
+    if (c == '"') in_quotes = !in_quotes;
+    if (c == ',' && !in_quotes)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+double numberIn(const std::string& cell) {
+  return cell.empty() ? kUnknown : std::strtod(cell.c_str(), nullptr);
+}
+
+FrameStatus statusNamed(const std::string& name, const std::string& file) {
+  for (const FrameStatus status :
+       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
+        FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
+        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable})
+    if (name == toString(status)) return status;
+  throw InputError(file + ": a frame has an unknown status; start again without --resume");
+}
+
+double timeOf(const FrameRecord& record, const std::string& stage) {
+  for (const auto& [name, elapsed_ms] : record.times)
+    if (name == stage) return elapsed_ms;
+  return 0;
+}
+
+void addSolver(const FrameRecord& record, Line& line) {
+  const DeformSummary& solver = record.warp.solver;
+  const bool ran =
+      record.status == FrameStatus::kFused || record.status == FrameStatus::kRecovered ||
+      record.status == FrameStatus::kSkippedResidual || record.status == FrameStatus::kUnconfirmed;
+  if (!ran) return line.skip(5);
+  line.addText(toString(solver.reason));
+  line.add(solver.iterations);
+  line.add(solver.data_mean_mm_before, 4);
+  line.add(solver.data_mean_mm_after, 4);
+  line.add(record.warp.in_sight);
+}
+
+}  // namespace
+
+const std::vector<std::string>& timedStages() {
+  static const std::vector<std::string> stages{"depth",   "mask",  "view", "match", "pose", "graph",
+                                               "visible", "solve", "warp", "fuse",  "check"};
+  return stages;
+}
+
+std::string framesCsvHeading() {
+  std::string heading = kColumns;
+  for (const std::string& stage : timedStages()) heading += "," + stage + "_ms";
+  return heading + ",total_ms,reason";
+}
+
+std::string tracksCsvHeading() { return "frame,id,x_mm,y_mm,z_mm,visible"; }
+
+std::string framesCsvLine(const FrameRecord& record) {
+  Line line;
+  line.add(record.frame);
+  line.add(record.time_s, 6);
+  line.addText(toString(record.status));
+  line.add(record.points);
+  line.add(record.warp.nodes);
+  line.add(record.matches.matches);
+  line.add(record.pose.inliers);
+  line.add(record.fusion.corrected.mean_mm, 4);
+  line.add(record.fusion.corrected.p95_mm, 4);
+  line.add(record.evidence.predicted.mean_mm, 4);
+  line.add(record.evidence.predicted.p95_mm, 4);
+  if (std::isfinite(record.evidence.view.depth_share))
+    line.add(record.evidence.view.confidence(), 3);
+  else
+    line.skip(1);
+  line.add(record.evidence.view.depth_share, 3);
+  line.add(record.evidence.view.image_share, 3);
+  line.add(record.depth.coverage(), 4);
+  line.add(record.depth.median_sigma_mm, 4);
+  line.add(record.depth.row_difference_px, 3);
+  line.add(record.matches.lifted);
+  line.add(record.pose.rms_mm, 4);
+  if (record.pose.found)
+    line.add(record.pose.scope_static ? 1 : 0);
+  else
+    line.skip(1);
+  line.add(record.pose.moved_mm, 4);
+  line.add(record.pose.sigma_mm, 4);
+  line.add(record.pose.sigma_deg, 4);
+  addSolver(record, line);
+  line.add(record.fusion.seen);
+  line.add(record.fusion.fused);
+  line.add(record.fusion.inserted);
+  line.add(record.fusion.contradicted);
+  for (const std::string& stage : timedStages()) line.add(timeOf(record, stage), 2);
+  line.add(record.elapsed_ms(), 2);
+  line.addText(quoted(record.reason));
+  return line.ended();
+}
+
+FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
+  static const std::vector<std::string> heading = cellsOf(framesCsvHeading());
+  const std::vector<std::string> cells = cellsOf(line);
+  if (cells.size() != heading.size())
+    throw InputError(name + ": a line has " + std::to_string(cells.size()) + " cells, but " +
+                     std::to_string(heading.size()) +
+                     " are expected; start again without --resume");
+  const auto cell = [&](const std::string& column) -> const std::string& {
+    return cells[std::size_t(std::find(heading.begin(), heading.end(), column) - heading.begin())];
+  };
+  FrameRecord record;
+  record.frame = std::atoi(cell("frame").c_str());
+  record.status = statusNamed(cell("status"), name);
+  record.points = std::atoi(cell("points").c_str());
+  record.warp.nodes = std::atoi(cell("nodes").c_str());
+  record.pose.inliers = std::atoi(cell("inliers").c_str());
+  record.pose.found = !cell("scope_static").empty();
+  record.pose.scope_static = cell("scope_static") == "1";
+  record.evidence.view.depth_share = numberIn(cell("depth_agreement"));
+  record.evidence.view.image_share = numberIn(cell("image_agreement"));
+  record.fusion.corrected.mean_mm = numberIn(cell("backprojection_mean_mm"));
+  record.evidence.predicted.mean_mm = numberIn(cell("prediction_mean_mm"));
+  for (const std::string& stage : timedStages())
+    if (const double elapsed_ms = numberIn(cell(stage + "_ms")); elapsed_ms > 0)
+      record.times.emplace_back(stage, elapsed_ms);
+  return record;
+}
+
+FrameRecord asTabled(const FrameRecord& record) {
+  std::string line = framesCsvLine(record);
+  line.pop_back();  // its end
+  return readFramesCsvLine(line, "frames.csv");
+}
+
+std::string tracksCsvLines(const FrameRecord& record) {
+  std::string lines;
+  for (const TrackedPosition& point : record.tracked) {
+    char line[160];
+    std::snprintf(line, sizeof line, "%d,%d,%.4f,%.4f,%.4f,%d\n", record.frame, point.id,
+                  point.position_mm.x(), point.position_mm.y(), point.position_mm.z(),
+                  point.visible ? 1 : 0);
+    lines += line;
+  }
+  return lines;
+}
+
+}  // namespace softscope

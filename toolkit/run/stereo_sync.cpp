@@ -1,0 +1,70 @@
+#include "toolkit/run/stereo_sync.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <deque>
+
+#include "io/message.h"
+#include "io/sequence_reader.h"
+#include "stereo/rectifier.h"
+#include "stereo/view_synchrony.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kFrames = 120;  // looked at: some seconds, breathing moves tissue in them
+constexpr int kMoments = 12;  // compared among these
+constexpr std::size_t kReach = SynchronyMeter::kReach;
+
+/// Successive pairs; the one in the middle is compared with all right pictures.
+using Window = std::deque<StereoPair>;
+
+void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter& meter) {
+  std::array<GrayImage, SynchronyMeter::kOffsets> rights;
+  GrayImage left;
+  for (std::size_t k = 0; k < rights.size(); ++k) {
+    const StereoPair pair = rectifier.rectify(window[k]);
+    rights[k] = toGray(pair.right);
+    if (k == kReach) left = toGray(pair.left);
+  }
+  meter.add(left, rights);
+}
+
+ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options,
+                      int disparity_max_px) {
+  SequenceReader reader(paths, options);
+  const int step = std::max(1, std::min(reader.frameCount(), kFrames) / kMoments);
+  const Rectifier rectifier(reader.calibration());
+  SynchronyMeter meter(disparity_max_px);
+  Window window;
+  for (int i = 0; i < kFrames; ++i) {
+    auto result = reader.next();
+    if (!result) break;
+    window.push_back(std::move(result->frame.pair));
+    if (!result->ok()) window.clear();
+    if (window.size() > SynchronyMeter::kOffsets) window.pop_front();
+    if (window.size() == SynchronyMeter::kOffsets && i % step == 0)
+      addMoment(window, rectifier, meter);
+  }
+  return meter.result();
+}
+
+}  // namespace
+
+std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& options,
+                              int disparity_max_px) {
+  if (options.right_offset != "auto" || paths.right.empty()) return "";
+  const ViewSynchrony found = measure(paths, options, disparity_max_px);
+  options.right_offset = std::to_string(found.right_offset);
+  if (found.right_offset == 0) return "";
+  std::array<char, 16> offset{};
+  std::snprintf(offset.data(), offset.size(), "%+d", found.right_offset);
+  return say("the views are not of one moment: right picture f ", offset.data(),
+             " belongs to left picture f (", found.agreeing, " matches agree about the rows then, ",
+             found.agreeing_as_is,
+             " as the pictures are numbered) and is paired with it; sequence.right_offset=0 takes "
+             "them as they are");
+}
+
+}  // namespace softscope

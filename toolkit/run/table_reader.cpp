@@ -1,0 +1,118 @@
+// toolkit/run/table_reader.cpp: CSV as RFC 4180 has it, one line a row.
+#include "toolkit/run/table_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/message.h"
+#include "io/text_lines.h"
+
+namespace softscope {
+namespace {
+
+/// Commas between quotes part nothing.
+std::vector<std::string_view> cellsOf(std::string_view line) {
+  std::vector<std::string_view> cells;
+  bool quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') quoted = !quoted;
+    if (i < line.size() && (quoted || line[i] != ',')) continue;
+    cells.push_back(trimmed(line.substr(begin, i - begin)));
+    begin = i + 1;
+  }
+  return cells;
+}
+
+}  // namespace
+
+NumberTable::NumberTable(std::string_view text, const std::string& name,
+                         const std::vector<std::string>& needed,
+                         const std::vector<std::string>& optional)
+    : name_(name) {
+  int line_number = 0;
+  for (const std::string_view line : linesOf(text)) {
+    ++line_number;
+    if (trimmed(line).empty()) continue;
+    if (cells_ == 0)
+      readHeading(line, needed, optional);
+    else
+      readRow(line, line_number);
+  }
+  if (cells_ == 0) throw InputError(name + ": is empty, but a line of headings is expected");
+}
+
+void NumberTable::readHeading(std::string_view line, const std::vector<std::string>& needed,
+                              const std::vector<std::string>& optional) {
+  const auto cells = cellsOf(line);
+  cells_ = cells.size();
+  const auto placeOf = [&](const std::string& column) {
+    const auto found = std::find(cells.begin(), cells.end(), column);
+    return found == cells.end() ? -1 : static_cast<int>(found - cells.begin());
+  };
+  for (const std::string& column : needed) {
+    places_.push_back(placeOf(column));
+    if (places_.back() < 0)
+      throw InputError(say(name_, ": has no column `", column, "`; its headings are ",
+                           excerpt(line), ". Is it the right file?"));
+  }
+  for (const std::string& column : optional) places_.push_back(placeOf(column));
+}
+
+void NumberTable::readRow(std::string_view line, int line_number) {
+  const auto cells = cellsOf(line);
+  if (cells.size() != cells_)
+    throw InputError(say(name_, ": line ", line_number, " has ", cells.size(), " cells, but ",
+                         cells_, " are expected; is the file cut short?"));
+  std::vector<double> values;
+  for (const int place : places_) {
+    const std::string_view cell = place < 0 ? "" : cells[static_cast<std::size_t>(place)];
+    const auto value = numberOf(cell);
+    if (!value && !cell.empty())
+      throw InputError(say(name_, ": line ", line_number, " holds ", excerpt(cell),
+                           ", but a number is expected"));
+    values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  rows_.push_back(std::move(values));
+  lines_.push_back(line_number);
+}
+
+int NumberTable::indexAt(std::size_t row, std::size_t column) const {
+  const double value = at(row, column);
+  if (value >= 0 && value <= 1e9 && value == std::floor(value)) return static_cast<int>(value);
+  throw InputError(say(name_, ": line ", lines_[row], " holds ", value,
+                       ", but a whole number from 0 on is expected"));
+}
+
+std::vector<TrackSample> readTracks(const std::filesystem::path& file) {
+  const NumberTable table(readBytes(file), shown(file), {"frame", "id", "x_mm", "y_mm", "z_mm"},
+                          {"visible"});
+  std::vector<TrackSample> tracks;
+  tracks.reserve(table.rows());
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    tracks.push_back({table.indexAt(i, 0),
+                      table.indexAt(i, 1),
+                      {table.at(i, 2), table.at(i, 3), table.at(i, 4)},
+                      !table.has(5) || table.at(i, 5) != 0});
+  return tracks;
+}
+
+FrameRows readFrameRows(const std::filesystem::path& file) {
+  const NumberTable table(readBytes(file), shown(file), {"frame"},
+                          {"backprojection_mean_mm", "coverage"});
+  FrameRows rows;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    rows.frames.push_back(table.indexAt(i, 0));
+    rows.backprojection_mm.push_back(table.at(i, 1));
+    rows.coverage.push_back(table.at(i, 2));
+    if (i > 0 && rows.frames[i] <= rows.frames[i - 1])
+      throw InputError(say(shown(file), ": frame ", rows.frames[i], " stands below frame ",
+                           rows.frames[i - 1], "; they must rise"));
+  }
+  return rows;
+}
+
+}  // namespace softscope

@@ -1,0 +1,51 @@
+// toolkit/run/table_reader.h: the tables of a run and of its truth.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "eval/track_errors.h"
+
+namespace softscope {
+
+/// Columns of numbers by their heading, from a CSV file. Cells of other columns may hold anything.
+class NumberTable {
+ public:
+  /// `needed`: columns that must be there, `optional` ones may lack. Empty cells are NaN. Throws
+  /// InputError with the line: a missing column, a row of another length, a cell that is no number.
+  NumberTable(std::string_view text, const std::string& name,
+              const std::vector<std::string>& needed, const std::vector<std::string>& optional);
+
+  std::size_t rows() const { return rows_.size(); }
+  bool has(std::size_t column) const { return places_[column] >= 0; }
+  /// `column`: into needed, then optional.
+  double at(std::size_t row, std::size_t column) const { return rows_[row][column]; }
+  /// The same, which must be a whole number from 0 on; else InputError.
+  int indexAt(std::size_t row, std::size_t column) const;
+
+ private:
+  void readHeading(std::string_view line, const std::vector<std::string>& needed,
+                   const std::vector<std::string>& optional);
+  void readRow(std::string_view line, int line_number);
+
+  std::string name_;
+  std::vector<int> places_;  // of each column in the file; -1 = not there
+  std::size_t cells_ = 0;    // of every line
+  std::vector<std::vector<double>> rows_;
+  std::vector<int> lines_;
+};
+
+/// frame,id,x_mm,y_mm,z_mm[,visible]; positions that were lost are NaN.
+std::vector<TrackSample> readTracks(const std::filesystem::path& file);
+
+/// Of frames.csv: `frame`, rising; backprojection_mean_mm and coverage, NaN where they lack.
+struct FrameRows {
+  std::vector<int> frames;
+  std::vector<double> backprojection_mm, coverage;
+};
+
+FrameRows readFrameRows(const std::filesystem::path& file);
+
+}  // namespace softscope

@@ -1,0 +1,76 @@
+// toolkit/viewer/view_run.h: a run, finished or not, as the viewer shows it.
+#pragma once
+
+#include <filesystem>
+#include <list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "toolkit/figures/volume_arguments.h"
+#include "toolkit/run/models_on_disk.h"
+#include "toolkit/viewer/view_errors.h"
+#include "vtk_views/view_source.h"
+
+namespace softscope {
+
+/// As the user wrote them; empty: not given.
+struct ViewRunOptions {
+  std::string run;
+  std::string reference;   // mesh, or sequence with truth
+  std::string evaluation;  // folder of `evaluate`
+  std::string ct, window = "auto";
+  VolumeArguments volume;
+  std::string ct_from_run;  // file
+  ErrorColourOptions errors;
+};
+
+/// Reads models when they are shown and keeps the last few: memory stays flat in long runs.
+class RunSource : public ViewSource {
+ public:
+  /// Throws InputError: no run, no model in it, or what else is asked for can't be read.
+  explicit RunSource(const ViewRunOptions& options);
+
+  const ViewWorld& world() const override { return world_; }
+  int count() const override { return static_cast<int>(models_.size()); }
+  int frameOf(int index) const override { return models_[std::size_t(index)].frame; }
+  double secondsOf(int index) const override;
+  std::shared_ptr<const ViewMoment> moment(int index, bool with_errors) override;
+  bool live() const override { return live_; }
+  bool stopped() const override { return stopped_; }
+  void look() override;
+
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  struct Kept {
+    int frame;
+    bool with_errors;
+    std::shared_ptr<const ViewMoment> moment;
+  };
+  ViewMoment read(int index, bool with_errors);
+  void addNodes(int index, ViewMoment& moment) const;
+  void describeModels();
+  void addErrors();
+  void addVolume();
+  void moveToPatient(ViewMoment& moment) const;
+
+  ViewRunOptions options_;
+  std::filesystem::path run_;
+  std::vector<ModelOnDisk> models_;
+  bool live_ = true, stopped_ = false, clock_ = false;
+  ViewWorld world_;
+  Eigen::Isometry3d scene_from_run_ = Eigen::Isometry3d::Identity();
+  std::unique_ptr<MomentErrors> errors_, reference_;  // where both are there, reference_ is shown
+  /// The reference that moveToPatient() moved last, before and after.
+  mutable std::pair<std::shared_ptr<const TriangleMesh>, std::shared_ptr<const TriangleMesh>>
+      moved_reference_;
+  std::list<Kept> kept_;  // the last one used first
+  std::vector<std::string> warnings_;
+};
+
+/// A rigid motion from a file: four rows of four numbers, or the evaluation.json of an alignment
+/// (its mesh_from_run). Throws InputError.
+Eigen::Isometry3d readMotion(const std::filesystem::path& file);
+
+}  // namespace softscope
