@@ -2,6 +2,9 @@
 // compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
 #include "features/kernels.h"
 
+#include "features/subpixel_formulas.h"
+#include "features/surf_formulas.h"
+
 #define SOFTSCOPE_NAME_(set) featureKernels_##set
 #define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
 #define SOFTSCOPE_TEXT_(set) #set
@@ -132,8 +135,8 @@ inline void haarAt(const HaarRows& rows, int u, const Load& load, Value* du, Val
   const Value all = bottom_right - bottom_left - top_right + top_left;
   *invalid = load(rows.invalid_bottom + u + h) - load(rows.invalid_bottom + u - h) -
              load(rows.invalid_top + u + h) + load(rows.invalid_top + u - h);
-  *du = all - 2 * left;
-  *dv = all - 2 * upper;
+  *du = haarResponse(all, left);
+  *dv = haarResponse(all, upper);
 }
 
 void haarRow(const std::int32_t* top, const std::int32_t* middle, const std::int32_t* bottom,
@@ -167,15 +170,9 @@ float describe(const float* const* rows, int step, std::uint8_t* __restrict byte
   float lanes[8] = {};
   for (int k = 0; k < kDescriptorSize; k += 8)
     for (int l = 0; l < 8; ++l) lanes[l] += values[k + l] * values[k + l];
-  const float sum = ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
-                    ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
-  const float length = __builtin_sqrtf(sum);
-  const float scale = length > 0 ? kDescriptorUnit / length : 0.0f;
-  for (int k = 0; k < kDescriptorSize; ++k) {
-    const float value = values[k] * scale;
-    const float clamped = value < -128 ? -128.0f : (value > 127 ? 127.0f : value);
-    bytes[k] = static_cast<std::uint8_t>(static_cast<int>(clamped + 128.5f));
-  }
+  const float length = __builtin_sqrtf(sumOfLanes(lanes));
+  const float scale = descriptorScale(length);
+  for (int k = 0; k < kDescriptorSize; ++k) bytes[k] = descriptorByte(values[k], scale);
   return length;
 }
 
@@ -209,9 +206,8 @@ WindowSums windowSums(const WindowTemplate& fixed, const float* corner, int stri
     const float* lower = upper + stride;
     const long at = static_cast<long>(y) * kWindowLanes;
     for (int k = 0; k < kWindowLanes; ++k) {
-      const float above = upper[k] + fraction_u * (upper[k + 1] - upper[k]);
-      const float below = lower[k] + fraction_u * (lower[k + 1] - lower[k]);
-      const float value = above + fraction_v * (below - above);
+      const float value =
+          bilinear(upper[k], upper[k + 1], lower[k], lower[k + 1], fraction_u, fraction_v);
       along_u[k] += fixed.steepest_u[at + k] * value;
       along_v[k] += fixed.steepest_v[at + k] * value;
       contrast[k] += fixed.contrast[at + k] * value;
