@@ -48,6 +48,11 @@ struct View {
   }
 };
 
+template <class T>
+View<const T> readOnly(const View<T>& view) {
+  return {view.data, view.width, view.height, view.stride};
+}
+
 // Atomic on the device; on the host one thread runs at a time.
 #ifdef __CUDA_ARCH__
 #define SOFTSCOPE_ATOMIC(device, host) device

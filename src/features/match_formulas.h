@@ -43,6 +43,8 @@ SOFTSCOPE_HD inline float parabolaShift(int before, int best, int after) {
 
 // --- predicted shift -------------------------------------------------------------------------
 
+constexpr int kPredictionSquarePx = 16;  // of the shifts that a coarser level predicts
+
 /// Squares on either side of a place, and its share of the second one.
 struct BetweenSquares {
   int first, second;

@@ -34,8 +34,6 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
                   shape(picture->gray));
 }
 
-constexpr int kPredictionSquarePx = 16;  // of the shifts that a coarser level predicts
-
 /// `fine`, and those of `coarse` that lie in squares of `square_px` without a fine match; by rows.
 std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
                                     const std::vector<PixelMatch>& coarse, int width_px,
