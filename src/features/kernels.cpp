@@ -4,6 +4,7 @@
 
 #include "features/subpixel_formulas.h"
 #include "features/surf_formulas.h"
+#include "features/view_formulas.h"
 
 #define SOFTSCOPE_NAME_(set) featureKernels_##set
 #define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
@@ -13,7 +14,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kLanes = 8;
+constexpr int kLanes = kSplatLanes;
 typedef float Float8 __attribute__((vector_size(32)));
 typedef std::int32_t Int8 __attribute__((vector_size(32)));
 
@@ -35,26 +36,13 @@ constexpr Float8 kCounting = {0, 1, 2, 3, 4, 5, 6, 7};
 
 // --- model view -------------------------------------------------------------------------------
 
-inline int floorOf(float x) {
-  const int i = static_cast<int>(x);
-  return i - (static_cast<float>(i) > x ? 1 : 0);
-}
-inline int ceilOf(float x) { return -floorOf(-x); }
 inline int larger(int a, int b) { return a > b ? a : b; }
 inline int smaller(int a, int b) { return a < b ? a : b; }
 
-/// Pixels of a disc: rows [v0, v1], columns from u0 in groups of kLanes.
-struct DiscBox {
-  int u0, groups, v0, v1;
-};
-
 inline DiscBox boxOf(const SplatDisc& disc, const SplatBand& band) {
-  const float radius = disc.radius_px;
-  DiscBox box;
-  box.u0 = ceilOf(disc.u_px - radius);
-  box.groups = (floorOf(disc.u_px + radius) - box.u0 + kLanes) / kLanes;
-  box.v0 = larger(ceilOf(disc.v_px - radius), band.first_row);
-  box.v1 = smaller(floorOf(disc.v_px + radius), band.first_row + band.rows - 1);
+  DiscBox box = discBox(disc);
+  box.v0 = larger(box.v0, band.first_row);
+  box.v1 = smaller(box.v1, band.first_row + band.rows - 1);
   return box;
 }
 
@@ -68,7 +56,7 @@ void splatFront(const SplatDisc* discs, int count, const SplatBand& band) {
       float* row = band.front + static_cast<long>(v - band.first_row) * band.stride + box.u0;
       for (int g = 0; g < box.groups; ++g) {
         const Float8 x = kCounting + (static_cast<float>(box.u0 + g * kLanes) - disc.u_px);
-        const Float8 depth = disc.inverse_depth + disc.slope_v * y + disc.slope_u * x;
+        const Float8 depth = discInverseDepth(disc, x, y);
         const Float8 front = load8<Float8>(row + g * kLanes);
         const Int8 nearer = (x * x + y * y < radius_sq) & (depth > front);
         store8(row + g * kLanes, nearer ? depth : front);
@@ -81,10 +69,10 @@ void splatFront(const SplatDisc* discs, int count, const SplatBand& band) {
 inline void blendLanes(const SplatDisc& disc, const SplatBand& band, long at, const Float8& x,
                        float y, float inverse_radius_sq) {
   const Float8 none{};
-  const Float8 depth = disc.inverse_depth + disc.slope_v * y + disc.slope_u * x;
-  const Float8 falloff = 1 - (x * x + y * y) * inverse_radius_sq;
+  const Float8 depth = discInverseDepth(disc, x, y);
+  const Float8 falloff = discFalloff(x, y, inverse_radius_sq);
   const Float8 front = load8<Float8>(band.front + at);
-  const Float8 limit = front * (1 - band.tolerance_mm * front);
+  const Float8 limit = frontLimit(front, band.tolerance_mm);
   const Float8 w = ((falloff > 0) & (depth >= limit)) ? falloff * falloff : none;
   add8(band.weight + at, w);
   add8(band.red + at, w * disc.red);
