@@ -43,6 +43,8 @@ struct IgnoreBody {
   }
 };
 
+constexpr int kMostMatchLevels = 10;
+
 /// The images that matching needs at a level; the third is the model's anchor.
 constexpr int kMatchImages = 3;
 

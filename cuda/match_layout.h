@@ -38,8 +38,8 @@ struct MatchScale {
       nodes[image].valid = arena.array<std::uint8_t>(count(nodes[image]));
     }
     reach = searchReach(options, surf.kGridPx, radius_px);
-    slot_columns = SearchKernel::slotsAlong(nodes[0].columns);
-    slot_rows = SearchKernel::slotsAlong(nodes[0].rows);
+    slot_columns = SearchKernel<32>::slotsAlong(nodes[0].columns);
+    slot_rows = SearchKernel<32>::slotsAlong(nodes[0].rows);
     rough = arena.array<SlotMatch>(slotCount());
     refined = arena.array<SlotMatch>(slotCount());
     consistent = arena.array<SlotMatch>(slotCount());
@@ -55,7 +55,7 @@ struct MatchScale {
     return static_cast<std::size_t>(slot_columns) * static_cast<std::size_t>(slot_rows);
   }
   std::size_t placesPerNode() const {
-    return SearchKernel::placesPerNode(reach.search, nodes[0].columns, nodes[0].rows);
+    return SearchKernel<32>::placesPerNode(reach.search, nodes[0].columns, nodes[0].rows);
   }
   std::size_t takenWords() const {
     return (static_cast<std::size_t>(taken_columns) * static_cast<std::size_t>(taken_rows) + 3) / 4;
@@ -122,7 +122,7 @@ struct MatchLayout {
       dark_in_row[image] = arena.image<std::uint8_t>(width, height);
     }
     inputs = arena.array<MatchInputs>(1);
-    sigma_limit = arena.array<float>(1);
+    sigma_limits = arena.array<float>(kMostMatchLevels);
     match_count = arena.array<int>(1);
     list = arena.array<SlotMatch>(slot_count);
   }
@@ -138,7 +138,7 @@ struct MatchLayout {
   PlaceBits places{};
   View<std::uint8_t> mask[2], dark_in_row[2];
   MatchInputs* inputs;
-  float* sigma_limit;
+  float* sigma_limits;  // per level
   int* match_count;
   SlotMatch* list;
 
@@ -187,6 +187,8 @@ inline void requireMatchLimits(const MatcherOptions& options, int width_px, int 
           "dense_surf.cell_px", options.dense_surf.cell_px, "the GPU takes 6");
   Arena counting;
   const MatchLayout layout(counting, options, width_px, height_px);
+  require(layout.levels.size() <= kMostMatchLevels, "image size", std::min(width_px, height_px),
+          "the GPU matches at most ten levels");
   require(layout.levels.back().placesPerNode() <= 65536, "matcher.reach", options.reach,
           "the GPU searches at most 65536 places; take a smaller one");
 }

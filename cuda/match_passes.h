@@ -20,11 +20,15 @@ class MatchPasses {
     prepareImages();
     describe();
     for (std::size_t k = layout_.levels.size(); k-- > 0;) {
-      search(layout_.levels[k]);
-      refine(layout_.levels[k]);
-      if (k + 1 < layout_.levels.size()) takeCoarser(k);
+      // The coarsest level has few squares, with many places each.
+      if (k + 1 < layout_.levels.size())
+        search<32>(layout_.levels[k]);
+      else
+        search<256>(layout_.levels[k]);
       if (k > 0) predict(layout_.levels[k], layout_.levels[k - 1]);
     }
+    refine();
+    for (std::size_t k = layout_.levels.size() - 1; k-- > 0;) takeCoarser(k);
     list();
   }
 
@@ -44,6 +48,8 @@ class MatchPasses {
     const MatchScale& full = layout_.levels.front();
     ResetKernel reset{};
     reset.add(layout_.zeroed, layout_.zeroedWords(), 0);
+    // The list is copied as a whole.
+    reset.add(layout_.list, layout_.slot_count * sizeof(SlotMatch) / 4, 0);
     executor_.launch("reset", reset, reset.blocks());
     perElement("dark in row",
                DarkInRowBody{{readOnly(full.gray[0]), readOnly(full.gray[1])},
@@ -101,53 +107,50 @@ class MatchPasses {
 
   bool isRefined() const { return options().subpixel.method == "gauss-newton"; }
 
+  template <int kLanes>
   void search(const MatchScale& level) {
-    const SearchKernel kernel{level.nodes[0],
-                              level.nodes[1],
-                              level.predicted(),
-                              level.reach,
-                              layout_.surf.first_px,
-                              static_cast<float>(options().kMaxRatio),
-                              0.5f * static_cast<float>(options().dense_surf.kGridPx),
-                              !isRefined(),
-                              layout_.distances,
-                              level.rough};
+    const SearchKernel<kLanes> kernel{level.nodes[0],
+                                      level.nodes[1],
+                                      level.predicted(),
+                                      level.reach,
+                                      layout_.surf.first_px,
+                                      static_cast<float>(options().kMaxRatio),
+                                      0.5f * static_cast<float>(options().dense_surf.kGridPx),
+                                      !isRefined(),
+                                      layout_.distances,
+                                      level.rough};
     executor_.launch("search", kernel, kernel.blocks());
     executor_.mark("search");
   }
 
-  void keepConsistent(const MatchScale& level, const SlotMatch* from, const float* sigma_limit,
-                      SlotMatch* to) {
-    perElement("consistent",
-               ConsistentBody{from, to, level.slot_columns, level.slot_rows,
-                              ConsistentBody::reachOf(options().consistency), sigma_limit,
-                              consistencyRules(options().consistency)},
-               level.slot_columns, level.slot_rows);
-  }
-
-  void refine(const MatchScale& level) {
+  void refine() {
     if (!isRefined()) {
-      perSlot("copy", CopyMatchesBody{level.rough, level.kept}, level.slotCount());
+      for (const MatchScale& level : layout_.levels)
+        perSlot("copy", CopyMatchesBody{level.rough, level.kept}, level.slotCount());
       return;
     }
-    const int count = static_cast<int>(level.slotCount());
-    const RefineKernel kernel{readOnly(level.smooth[0]),
-                              readOnly(level.smooth[1]),
-                              readOnly(level.smooth[2]),
-                              readOnly(level.ignore[0]),
-                              readOnly(level.ignore[1]),
-                              layout_.inputs,
-                              level.rough,
-                              level.refined,
-                              count,
-                              windowWeights(options().subpixel.kRadiusPx)};
+    RefineKernel kernel{{}, 0, layout_.inputs, windowWeights(options().subpixel.kRadiusPx)};
+    SigmaLimitKernel limit{
+        {}, {}, static_cast<float>(options().subpixel.kMaxSigmaPx), layout_.sigma_limits};
+    ConsistentKernel consistent{{}, layout_.sigma_limits, consistencyRules(options().consistency)};
+    for (const MatchScale& level : layout_.levels) {
+      const int k = kernel.level_count++, count = static_cast<int>(level.slotCount());
+      kernel.levels[k] = {readOnly(level.smooth[0]),
+                          readOnly(level.smooth[1]),
+                          readOnly(level.smooth[2]),
+                          readOnly(level.ignore[0]),
+                          readOnly(level.ignore[1]),
+                          level.rough,
+                          level.refined,
+                          count};
+      limit.matches[k] = level.refined;
+      limit.counts[k] = count;
+      consistent.levels[k] = {level.refined, level.kept, level.slot_columns, level.slot_rows};
+    }
     executor_.launch("sub-pixel", kernel, kernel.blocks());
     executor_.mark("sub-pixel");
-    const SigmaLimitKernel limit{level.refined, count,
-                                 static_cast<float>(options().subpixel.kMaxSigmaPx),
-                                 layout_.sigma_limit};
-    executor_.launch("sigma limit", limit, Grid{});
-    keepConsistent(level, level.refined, layout_.sigma_limit, level.kept);
+    executor_.launch("sigma limits", limit, Grid{kernel.level_count, 1, 1});
+    executor_.launch("consistent", consistent, consistent.blocks(kernel.level_count));
     executor_.mark("consistent");
   }
 
@@ -162,7 +165,11 @@ class MatchPasses {
   }
 
   void predict(const MatchScale& level, const MatchScale& finer) {
-    keepConsistent(level, level.rough, nullptr, level.consistent);
+    const ConsistentKernel consistent{
+        {{level.rough, level.consistent, level.slot_columns, level.slot_rows}},
+        nullptr,
+        consistencyRules(options().consistency)};
+    executor_.launch("consistent", consistent, consistent.blocks(1));
     perElement("shift sums",
                SumShiftsBody{level.consistent, level.slot_columns, level.slot_rows,
                              layout_.surf.first_px, finer.shifts, finer.shift_square_px},

@@ -52,13 +52,14 @@ struct NodeWindow {
   }
 };
 
-/// A warp per square of nodes: distances of its nodes to the live nodes around their predicted
-/// places, the ratio test, and the way back for the most distinct node first.
+/// kSquareLanes threads per square of nodes: distances of its nodes to the live nodes around their
+/// predicted places, the ratio test, and the way back for the most distinct node first.
+template <int kSquareLanes>
 struct SearchKernel {
   static constexpr int kGrid = DenseSurfOptions::kGridPx;
   static constexpr int kSide = MatcherOptions::kSpacingPx / kGrid;  // nodes of a square
   static constexpr int kNodes = kSide * kSide;
-  static constexpr int kLanes = 32, kSquares = 8, kThreads = kLanes * kSquares;
+  static constexpr int kThreads = 256, kLanes = kSquareLanes, kSquares = kThreads / kLanes;
   static constexpr int kSearchPhases = 4, kPhases = kSearchPhases + 2 * kNodes;
   static constexpr std::uint32_t kNoKey = 0xFFFFFFFFu;
   struct Square {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cuda/kernel.h"
+#include "cuda/match_images.h"
 #include "cuda/match_search.h"
 #include "features/match_formulas.h"
 
@@ -33,7 +34,8 @@ struct CopyMatchesBody {
   SOFTSCOPE_HD void operator()(int slot) const { to[slot] = from[slot]; }
 };
 
-/// The larger one of `least` and the median error; one block. Radix selection, 8 bits a round.
+/// The larger one of `least` and the median error of a level; a block per level. Radix selection,
+/// 8 bits a round.
 struct SigmaLimitKernel {
   static constexpr int kThreads = 1024, kPhases = 4, kBins = 256, kGroup = 16;
   struct Shared {
@@ -42,10 +44,10 @@ struct SigmaLimitKernel {
     int rank;
   };
   using Local = Nothing;
-  const SlotMatch* matches;
-  int count;
+  const SlotMatch* matches[kMostMatchLevels];
+  int counts[kMostMatchLevels];
   float least;
-  float* limit;
+  float* limits;
 
   SOFTSCOPE_HD int repeats(const Place&) const { return 4; }
   template <int kPhase>
@@ -55,9 +57,10 @@ struct SigmaLimitKernel {
       for (int i = at.thread; i < kBins; i += kThreads) shared.bins[i] = 0;
       if (at.thread == 0 && at.repeat == 0) shared.prefix = 0;
     } else if constexpr (kPhase == 1) {
-      for (int i = at.thread; i < count; i += kThreads) {
-        if (matches[i].found == 0) continue;
-        const std::uint32_t bits = floatAsBits(matches[i].sigma_px);
+      const SlotMatch* level = matches[at.x];
+      for (int i = at.thread; i < counts[at.x]; i += kThreads) {
+        if (level[i].found == 0) continue;
+        const std::uint32_t bits = floatAsBits(level[i].sigma_px);
         // 64 bits: the first round shifts by 32.
         if (static_cast<std::uint64_t>(bits ^ shared.prefix) >> (shift + 8) != 0) continue;
         atomicPlus(&shared.bins[bits >> shift & 255u], 1);
@@ -68,13 +71,13 @@ struct SigmaLimitKernel {
       for (int k = 0; k < kGroup; ++k) sum += shared.bins[at.thread * kGroup + k];
       shared.groups[at.thread] = sum;
     } else if (at.thread == 0) {
-      choose(at.repeat, shift, shared);
+      choose(at, shift, shared);
     }
   }
 
  private:
-  SOFTSCOPE_HD void choose(int repeat, int shift, Shared& shared) const {
-    if (repeat == 0) {
+  SOFTSCOPE_HD void choose(const Place& at, int shift, Shared& shared) const {
+    if (at.repeat == 0) {
       int total = 0;
       for (const int sum : shared.groups) total += sum;
       shared.rank = total / 2;
@@ -88,49 +91,90 @@ struct SigmaLimitKernel {
     shared.prefix |= static_cast<std::uint32_t>(bin) << shift;
     if (shift > 0) return;
     const float median = bitsAsFloat(shared.prefix);
-    *limit = least < median ? median : least;
+    limits[at.x] = least < median ? median : least;
   }
 };
 
-/// Keeps matches that move with their neighbours and whose error is no larger than the limit.
-struct ConsistentBody {
-  static constexpr int kSlotPx = MatcherOptions::kSpacingPx;
+/// One level's slots.
+struct MatchSlots {
   const SlotMatch* matches;
   SlotMatch* kept;
-  int columns, rows;         // slots
-  int reach;                 // slots that may hold neighbours
-  const float* sigma_limit;  // null: none
+  int columns, rows;
+};
+
+/// Keeps matches that move with their neighbours and whose error is no larger than the limit; z:
+/// level.
+struct ConsistentKernel {
+  static constexpr int kWidth = 16, kHeight = 8, kThreads = kWidth * kHeight, kPhases = 2;
+  static constexpr int kSlotPx = MatcherOptions::kSpacingPx;
+  /// Nodes of two squares are up to kSlotPx - kGridPx nearer than the squares.
+  static constexpr int kReach =
+      static_cast<int>(ConsistencyOptions::kReachPx + kSlotPx - DenseSurfOptions::kGridPx) /
+      kSlotPx;
+  static constexpr int kColumns = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
+  struct Shared {
+    float model_u[kRows][kColumns], model_v[kRows][kColumns];
+    float live_u[kRows][kColumns], live_v[kRows][kColumns];
+    int counts[kRows][kColumns];
+  };
+  using Local = Nothing;
+  MatchSlots levels[kMostMatchLevels];
+  const float* sigma_limits;  // per level; null: none
   ConsistencyRules rules;
 
-  /// Nodes of neighbouring squares are a node nearer than the squares.
-  static int reachOf(const ConsistencyOptions& options) {
-    return static_cast<int>(options.kReachPx + kSlotPx) / kSlotPx;
+  Grid blocks(int level_count) const {
+    return {blocksFor(levels[0].columns, kWidth), blocksFor(levels[0].rows, kHeight), level_count};
   }
-  SOFTSCOPE_HD bool counts(const SlotMatch& match) const {
-    return match.found != 0 && (sigma_limit == nullptr || !(match.sigma_px > *sigma_limit));
-  }
-  SOFTSCOPE_HD void operator()(int column, int row, int) const {
-    const int slot = row * columns + column;
-    SlotMatch match = matches[slot];
-    if (!counts(match)) {
-      match.found = 0;
-      kept[slot] = match;
-      return;
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
+    const MatchSlots& slots = levels[at.z];
+    const int c0 = at.x * kWidth, r0 = at.y * kHeight;
+    if (c0 >= slots.columns || r0 >= slots.rows) return;
+    if constexpr (kPhase == 0) {
+      for (int i = at.thread; i < kColumns * kRows; i += kThreads)
+        load(slots, at.z, c0, r0, i % kColumns, i / kColumns, shared);
+    } else {
+      const int x = at.thread % kWidth, y = at.thread / kWidth;
+      if (c0 + x >= slots.columns || r0 + y >= slots.rows) return;
+      const int slot = (r0 + y) * slots.columns + c0 + x;
+      SlotMatch match = slots.matches[slot];
+      match.found = isKept(x + kReach, y + kReach, shared) ? 1 : 0;
+      slots.kept[slot] = match;
     }
+  }
+
+ private:
+  SOFTSCOPE_HD void load(const MatchSlots& slots, int level, int c0, int r0, int x, int y,
+                         Shared& shared) const {
+    const int c = c0 + x - kReach, r = r0 + y - kReach;
+    const bool inside = c >= 0 && r >= 0 && c < slots.columns && r < slots.rows;
+    shared.counts[y][x] = 0;
+    if (!inside) return;
+    const SlotMatch& match = slots.matches[r * slots.columns + c];
+    if (match.found == 0) return;
+    shared.model_u[y][x] = match.model_u;
+    shared.model_v[y][x] = match.model_v;
+    shared.live_u[y][x] = match.live_u;
+    shared.live_v[y][x] = match.live_v;
+    shared.counts[y][x] =
+        sigma_limits == nullptr || !(match.sigma_px > sigma_limits[level]) ? 1 : 0;
+  }
+  SOFTSCOPE_HD bool isKept(int x, int y, const Shared& shared) const {
+    if (shared.counts[y][x] == 0) return false;
     int others = 0, agreeing = 0;
-    for (int r = row - reach < 0 ? 0 : row - reach; r <= row + reach && r < rows; ++r)
-      for (int c = column - reach < 0 ? 0 : column - reach; c <= column + reach && c < columns;
-           ++c) {
-        const SlotMatch& other = matches[r * columns + c];
-        const float u = other.model_u - match.model_u, v = other.model_v - match.model_v;
-        if ((r == row && c == column) || !counts(other) || !areNeighbours(u, v, rules)) continue;
+    for (int r = y - kReach; r <= y + kReach; ++r)
+      for (int c = x - kReach; c <= x + kReach; ++c) {
+        if (shared.counts[r][c] == 0 || (r == y && c == x)) continue;
+        const float u = shared.model_u[r][c] - shared.model_u[y][x],
+                    v = shared.model_v[r][c] - shared.model_v[y][x];
+        if (!areNeighbours(u, v, rules)) continue;
         ++others;
-        agreeing += moveAlike(u, v, other.live_u - match.live_u, other.live_v - match.live_v, rules)
+        agreeing += moveAlike(u, v, shared.live_u[r][c] - shared.live_u[y][x],
+                              shared.live_v[r][c] - shared.live_v[y][x], rules)
                         ? 1
                         : 0;
       }
-    match.found = isConsistent(agreeing, others, rules) ? 1 : 0;
-    kept[slot] = match;
+    return isConsistent(agreeing, others, rules);
   }
 };
 
@@ -211,11 +255,11 @@ struct SumShiftsBody {
   static constexpr int kSlotPx = MatcherOptions::kSpacingPx;
   /// Slots whose matches may lie in a square, with room for rounding.
   SOFTSCOPE_HD int firstSlot(int square) const {
-    const int slot = (square * square_px / 2 - first_px) / kSlotPx - 2;
+    const int slot = (square * square_px / 2 - first_px) / kSlotPx - 1;
     return slot < 0 ? 0 : slot;
   }
   SOFTSCOPE_HD int lastSlot(int square, int squares, int slots) const {
-    const int slot = ((square + 1) * square_px / 2 - first_px) / kSlotPx + 2;
+    const int slot = ((square + 1) * square_px / 2 - first_px) / kSlotPx + 1;
     return square + 1 < squares && slot < slots ? slot : slots - 1;
   }
 };
@@ -297,8 +341,10 @@ struct MarkPlacesBody {
 /// Running sum of the rows' counts; one block.
 struct RowStartsKernel {
   static constexpr int kThreads = 1024, kPhases = 5, kParts = 32;
+  static constexpr int kEach = kThreads / kParts;
   struct Shared {
-    int sums[kThreads], parts[kParts];
+    int sums[kThreads + kParts];  // a gap after each part, against bank conflicts
+    int parts[kParts];
   };
   using Local = Nothing;
   PlaceBits places;
@@ -312,21 +358,19 @@ struct RowStartsKernel {
     if constexpr (kPhase == 0) {
       int sum = 0;
       for (int i = first; i < last; ++i) sum += places.counts[i];
-      shared.sums[at.thread] = sum;
+      shared.sums[padded(at.thread)] = sum;
     } else if constexpr (kPhase == 1) {
       if (at.thread >= kParts) return;
       int sum = 0;
-      for (int k = 0; k < kThreads / kParts; ++k)
-        sum += shared.sums[at.thread * (kThreads / kParts) + k];
+      for (int k = 0; k < kEach; ++k) sum += shared.sums[padded(at.thread * kEach) + k];
       shared.parts[at.thread] = sum;
     } else if constexpr (kPhase == 2) {
       if (at.thread == 0) *match_count = startsOf(shared.parts, kParts, 0);
     } else if constexpr (kPhase == 3) {
       if (at.thread < kParts)
-        startsOf(shared.sums + at.thread * (kThreads / kParts), kThreads / kParts,
-                 shared.parts[at.thread]);
+        startsOf(shared.sums + padded(at.thread * kEach), kEach, shared.parts[at.thread]);
     } else {
-      int start = shared.sums[at.thread];
+      int start = shared.sums[padded(at.thread)];
       for (int i = first; i < last; ++i) {
         places.starts[i] = start;
         start += places.counts[i];
@@ -335,6 +379,7 @@ struct RowStartsKernel {
   }
 
  private:
+  SOFTSCOPE_HD static int padded(int k) { return k + k / kEach; }
   /// Counts become starts; returns the end.
   SOFTSCOPE_HD static int startsOf(int* counts, int count, int start) {
     for (int k = 0; k < count; ++k) {

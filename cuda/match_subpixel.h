@@ -10,9 +10,18 @@
 
 namespace softscope::cuda {
 
-/// kWindowLanes threads per match, a thread per column of its window: first with the anchor's
-/// template, then, where that does not decide, with the present image's. Sums that the CPU takes
-/// pixel by pixel are taken so by one thread, several sums side by side.
+/// What a level's windows are made of; images are smoothed.
+struct RefineLevel {
+  View<const float> model, live, anchor;
+  View<const std::uint8_t> model_ignore, live_ignore;
+  const SlotMatch* rough;
+  SlotMatch* refined;
+  int slot_count;
+};
+
+/// All levels' matches; kWindowLanes threads per match, a thread per column of its window: first
+/// with the anchor's template, then, where that does not decide, with the present image's. Sums
+/// that the CPU takes pixel by pixel are taken so by one thread, several sums side by side.
 struct RefineKernel {
   static constexpr int kMatches = 8, kThreads = kMatches * kWindowLanes;
   static constexpr int kRadius = SubpixelOptions::kRadiusPx, kSide = 2 * kRadius + 1;
@@ -42,38 +51,51 @@ struct RefineKernel {
   };
   using Local = Nothing;
 
-  View<const float> model, live, anchor;  // smoothed
-  View<const std::uint8_t> model_ignore, live_ignore;
+  RefineLevel levels[kMostMatchLevels];
+  int level_count;
   const MatchInputs* inputs;
-  const SlotMatch* rough;
-  SlotMatch* refined;
-  int slot_count;
   WindowWeights window;
 
-  Grid blocks() const { return {blocksFor(slot_count, kMatches), 1, 1}; }
+  /// Each level has its own blocks.
+  Grid blocks() const {
+    int count = 0;
+    for (int k = 0; k < level_count; ++k) count += blocksFor(levels[k].slot_count, kMatches);
+    return {count, 1, 1};
+  }
   SOFTSCOPE_HD int repeats(const Place&) const { return inputs->has_anchor != 0 ? 2 : 1; }
 
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
-    const int slot = at.x * kMatches + at.thread / kWindowLanes, lane = at.thread % kWindowLanes;
-    if (slot >= slot_count) return;
+    int block = at.x, k = 0;
+    for (; k + 1 < level_count; ++k) {
+      const int count = (levels[k].slot_count + kMatches - 1) / kMatches;
+      if (block < count) break;
+      block -= count;
+    }
+    const RefineLevel& level = levels[k];
+    const int slot = block * kMatches + at.thread / kWindowLanes, lane = at.thread % kWindowLanes;
+    if (slot >= level.slot_count) return;
     Match& match = shared.matches[at.thread / kWindowLanes];
     const bool by_anchor = at.repeat + 1 < repeats(at);
+    // The state is read where no other thread changes it.
+    constexpr bool kAlone = kPhase == 0 || kPhase == 2 || kPhase == kPhases - 1 ||
+                            (kPhase > kSetUp && (kPhase - kSetUp) % 2 == 1);
+    if (kAlone && lane != 0) return;
     if constexpr (kPhase == 0) {
-      if (lane == 0) begin(slot, at.repeat, match);
+      begin(level, slot, at.repeat, match);
       return;
     }
     if constexpr (kPhase == kPhases - 1) {
-      if (lane == 0) finish(slot, by_anchor, at.repeat, match);
+      finish(level, slot, by_anchor, at.repeat, match);
       return;
     }
     if (match.state == kLost) return;
     if constexpr (kPhase == 1) {
-      weigh(lane, match);
+      weigh(level, lane, match);
     } else if constexpr (kPhase == 2) {
-      if (lane == 0) sumWeights(match);
+      sumWeights(match);
     } else if constexpr (kPhase == 3) {
-      differentiate(by_anchor ? anchor : model, lane, match);
+      differentiate(by_anchor ? level.anchor : level.model, lane, match);
     } else if constexpr (kPhase == 4) {
       sumMeans(lane, match);
     } else if constexpr (kPhase == 5) {
@@ -86,22 +108,23 @@ struct RefineKernel {
       makeTemplate(lane, match);
     } else if constexpr ((kPhase - kSetUp) % 2 == 0) {
       constexpr bool kLast = kPhase == kPhases - 2;
-      if (kLast || match.state == kRunning) sample(lane, match);
-    } else if (lane == 0 && match.state == kRunning) {
-      step(match);
+      if (kLast || match.state == kRunning) sample(level.live, lane, match);
+    } else if (match.state == kRunning) {
+      step(level.live, match);
     }
   }
 
  private:
   SOFTSCOPE_HD static float sumOf(const float* values, int count) {
     float sum = 0;
+    SOFTSCOPE_UNROLL(16)
     for (int k = 0; k < count; ++k) sum += values[k];
     return sum;
   }
 
-  SOFTSCOPE_HD void begin(int slot, int repeat, Match& match) const {
+  SOFTSCOPE_HD static void begin(const RefineLevel& level, int slot, int repeat, Match& match) {
     if (repeat == 0) {
-      match.rough = rough[slot];
+      match.rough = level.rough[slot];
       match.decided = 0;
       match.anchored = {0, 0, 0, 0, 0};
     }
@@ -109,25 +132,26 @@ struct RefineKernel {
     if (match.rough.found == 0 || match.decided != 0) return;
     match.u = static_cast<int>(std::lround(match.rough.model_u));
     match.v = static_cast<int>(std::lround(match.rough.model_v));
-    if (!isInsideModel(match.u, match.v, kRadius, model.width, model.height)) return;
+    if (!isInsideModel(match.u, match.v, kRadius, level.model.width, level.model.height)) return;
     match.rest_u = match.rough.model_u - static_cast<float>(match.u);
     match.rest_v = match.rough.model_v - static_cast<float>(match.v);
     match.search = {};
     match.search.u = match.search.start_u = match.rough.live_u - match.rest_u;
     match.search.v = match.search.start_v = match.rough.live_v - match.rest_v;
-    if (isInsideLive(match.search.u, match.search.v, kRadius, live.width, live.height))
+    if (isInsideLive(match.search.u, match.search.v, kRadius, level.live.width, level.live.height))
       match.state = kRunning;
   }
 
   /// Weights of a column without what either image ignores.
-  SOFTSCOPE_HD void weigh(int lane, Match& match) const {
+  SOFTSCOPE_HD void weigh(const RefineLevel& level, int lane, Match& match) const {
     const int lu = static_cast<int>(std::lround(match.search.u)) - kRadius + lane,
               lv = static_cast<int>(std::lround(match.search.v)) - kRadius;
     for (int y = 0; y < kSide; ++y) {
       const int k = y * kWindowLanes + lane;
-      const bool ignored = lane >= kSide ||
-                           model_ignore.at(match.u - kRadius + lane, match.v - kRadius + y) != 0 ||
-                           (live_ignore.contains(lu, lv + y) && live_ignore.at(lu, lv + y) != 0);
+      const bool ignored =
+          lane >= kSide ||
+          level.model_ignore.at(match.u - kRadius + lane, match.v - kRadius + y) != 0 ||
+          (level.live_ignore.contains(lu, lv + y) && level.live_ignore.at(lu, lv + y) != 0);
       match.weight[k] = ignored ? 0.0f : window.values[k];
     }
   }
@@ -137,7 +161,7 @@ struct RefineKernel {
     match.moments = {};
     match.moments.square = kept;  // until the weights are divided by it
   }
-  SOFTSCOPE_HD void differentiate(const View<const float>& image, int lane, Match& match) const {
+  SOFTSCOPE_HD static void differentiate(const View<const float>& image, int lane, Match& match) {
     for (int y = 0; y < kSide; ++y) {
       const int k = y * kWindowLanes + lane;
       match.weight[k] /= match.moments.square;
@@ -159,6 +183,7 @@ struct RefineKernel {
                           : lane == 2 ? match.steepest_u
                                       : match.steepest_v;
     float sum = 0;
+    SOFTSCOPE_UNROLL(16)
     for (int k = 0; k < kSide * kWindowLanes; ++k) sum += match.weight[k] * values[k];
     float* const to[] = {&match.search.weight_sq, &match.moments.mean, &match.moments.gradient_u,
                          &match.moments.gradient_v};
@@ -172,6 +197,7 @@ struct RefineKernel {
                                       : match.steepest_v;
     const float means[] = {match.moments.mean, match.moments.gradient_u, match.moments.gradient_v};
     float sum = 0;
+    SOFTSCOPE_UNROLL(16)
     for (int k = 0; k < kSide * kWindowLanes; ++k)
       sum += match.weight[k] * (match.contrast[k] - match.moments.mean) * (values[k] - means[lane]);
     float* const to[] = {&match.moments.square, &match.moments.along_u, &match.moments.along_v};
@@ -194,6 +220,7 @@ struct RefineKernel {
     const float* a = lane < 2 ? match.steepest_u : match.steepest_v;
     const float* b = lane % 2 == 0 ? match.steepest_u : match.steepest_v;
     float sum = 0;
+    SOFTSCOPE_UNROLL(16)
     for (int k = 0; k < kSide * kWindowLanes; ++k) sum += match.weight[k] * a[k] * b[k];
     float* const to[] = {&match.information.uu, &match.information.uv, &match.information.vu,
                          &match.information.vv};
@@ -212,7 +239,7 @@ struct RefineKernel {
   }
 
   /// One column of the live window at the place reached so far.
-  SOFTSCOPE_HD void sample(int lane, Match& match) const {
+  SOFTSCOPE_HD static void sample(const View<const float>& live, int lane, Match& match) {
     const float u = match.search.u - static_cast<float>(kRadius),
                 v = match.search.v - static_cast<float>(kRadius);
     const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
@@ -220,6 +247,7 @@ struct RefineKernel {
     const float* corner = live.row(v0) + u0 + lane;
     float along_u = 0, along_v = 0, contrast = 0, mean = 0, square = 0;
     float upper[2] = {corner[0], corner[1]};
+    SOFTSCOPE_UNROLL(5)
     for (int y = 0; y < kSide; ++y) {
       const float* below = corner + static_cast<std::ptrdiff_t>(y + 1) * live.stride;
       const float lower[2] = {below[0], below[1]};
@@ -244,7 +272,7 @@ struct RefineKernel {
             sumOf(match.sums[2], kWindowLanes), sumOf(match.sums[3], kWindowLanes),
             sumOf(match.sums[4], kWindowLanes)};
   }
-  SOFTSCOPE_HD void step(Match& match) const {
+  SOFTSCOPE_HD static void step(const View<const float>& live, Match& match) {
     // The template's own tests come here, where one thread decides.
     if (!(match.moments.square > kLeastContrastSq) ||
         !(determinantOf(match.information) > kLeastDeterminant)) {
@@ -258,7 +286,8 @@ struct RefineKernel {
     if (taken == SearchStep::kConverged) match.state = kThere;
   }
 
-  SOFTSCOPE_HD void finish(int slot, bool by_anchor, int repeat, Match& match) const {
+  SOFTSCOPE_HD static void finish(const RefineLevel& level, int slot, bool by_anchor, int repeat,
+                                  Match& match) {
     if (match.decided != 0) return;
     Outcome found{0, 0, 0, 0, 0};
     if (match.state != kLost) {
@@ -272,7 +301,7 @@ struct RefineKernel {
       match.anchored = found;
       if (anchorDecides(found.held != 0, found.sigma_px,
                         static_cast<float>(SubpixelOptions::kMaxSigmaPx)))
-        store(slot, found, match);
+        store(level.refined[slot], found, match);
       return;
     }
     if (repeat > 0) {
@@ -281,12 +310,12 @@ struct RefineKernel {
                          found.sigma_px))
         found = match.anchored;
     }
-    store(slot, found, match);
+    store(level.refined[slot], found, match);
   }
-  SOFTSCOPE_HD void store(int slot, const Outcome& found, Match& match) const {
+  SOFTSCOPE_HD static void store(SlotMatch& refined, const Outcome& found, Match& match) {
     match.decided = 1;
-    refined[slot] = {match.rough.model_u, match.rough.model_v, found.live_u,           found.live_v,
-                     found.sigma_px,      found.similarity,    found.held != 0 ? 1 : 0};
+    refined = {match.rough.model_u, match.rough.model_v, found.live_u,           found.live_v,
+               found.sigma_px,      found.similarity,    found.held != 0 ? 1 : 0};
   }
 };
 

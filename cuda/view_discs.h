@@ -83,7 +83,8 @@ struct PlaceDiscsKernel {
 struct TileStartsKernel {
   static constexpr int kThreads = 1024, kPhases = 4, kParts = 32;
   struct Shared {
-    int counts[kThreads], parts[kParts], total;
+    int counts[kThreads + kParts];  // a gap after each part, against bank conflicts
+    int parts[kParts], total;
   };
   using Local = Nothing;
   DiscTiles tiles;
@@ -94,14 +95,14 @@ struct TileStartsKernel {
     const int tile = at.repeat * kThreads + at.thread;
     constexpr int kEach = kThreads / kParts;
     if constexpr (kPhase == 0) {
-      shared.counts[at.thread] = tile < tiles.count() ? tiles.counts[tile] : 0;
+      shared.counts[padded(at.thread)] = tile < tiles.count() ? tiles.counts[tile] : 0;
       if (at.thread == 0 && at.repeat == 0) shared.total = 0;
     } else if constexpr (kPhase == 1) {
       if (at.thread >= kParts) return;
       int sum = 0;
       for (int k = at.thread * kEach; k < (at.thread + 1) * kEach; ++k) {
-        const int own = shared.counts[k];
-        shared.counts[k] = sum;
+        const int own = shared.counts[padded(k)];
+        shared.counts[padded(k)] = sum;
         sum += own;
       }
       shared.parts[at.thread] = sum;
@@ -114,10 +115,13 @@ struct TileStartsKernel {
       }
     } else {
       if (tile < tiles.count())
-        tiles.starts[tile] = shared.parts[at.thread / kEach] + shared.counts[at.thread];
+        tiles.starts[tile] = shared.parts[at.thread / kEach] + shared.counts[padded(at.thread)];
       if (tile == tiles.count() - 1) tiles.starts[tile + 1] = shared.total;
     }
   }
+
+ private:
+  SOFTSCOPE_HD static int padded(int k) { return k + k / (kThreads / kParts); }
 };
 
 /// A thread per point; the order within a list is that of the threads.

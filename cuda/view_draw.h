@@ -20,8 +20,13 @@ struct ViewImages {
 /// in the order of the points.
 struct DrawTilesKernel {
   static constexpr int kSide = DiscTiles::kSide, kThreads = kSide * kSide, kPhases = 2;
+  struct Drawn {
+    SplatDisc disc;
+    int u0, u1, v0, v1;
+    float radius_sq, inverse_radius_sq;
+  };
   struct Shared {
-    SplatDisc discs[kThreads];
+    Drawn discs[kThreads];
   };
   struct Local {
     float front;
@@ -50,19 +55,18 @@ struct DrawTilesKernel {
     const int first = tiles.starts[start(at)] + chunk * kThreads;
     const int rest = tiles.starts[start(at) + 1] - first, count = rest < kThreads ? rest : kThreads;
     if constexpr (kPhase == 0) {
-      if (at.thread < count) shared.discs[at.thread] = discs[tiles.sorted[first + at.thread]];
+      if (at.thread < count)
+        shared.discs[at.thread] = drawn(discs[tiles.sorted[first + at.thread]]);
       if (at.repeat == 0) local = {0, 0, {0, 0, 0, 0}, 0, 0, 0, 0, -1};
     } else {
       const int u = at.x * kSide + at.thread % kSide, v = at.y * kSide + at.thread / kSide;
       for (int k = 0; k < count; ++k) {
-        const SplatDisc& disc = shared.discs[k];
-        const DiscBox box = discBox(disc);
-        if (u < box.u0 || u >= box.u0 + box.groups * kSplatLanes || v < box.v0 || v > box.v1)
-          continue;
-        const int group = (u - box.u0) / kSplatLanes * kSplatLanes;
-        const float x = static_cast<float>(u - box.u0 - group) +
-                        (static_cast<float>(box.u0 + group) - disc.u_px);
-        const float y = static_cast<float>(v) - disc.v_px;
+        const Drawn& disc = shared.discs[k];
+        if (u < disc.u0 || u > disc.u1 || v < disc.v0 || v > disc.v1) continue;
+        const int group = (u - disc.u0) / kSplatLanes * kSplatLanes;
+        const float x = static_cast<float>(u - disc.u0 - group) +
+                        (static_cast<float>(disc.u0 + group) - disc.disc.u_px);
+        const float y = static_cast<float>(v) - disc.disc.v_px;
         if (at.repeat < chunks(at))
           bringForward(disc, x, y, local);
         else
@@ -73,14 +77,20 @@ struct DrawTilesKernel {
   }
 
  private:
-  SOFTSCOPE_HD static void bringForward(const SplatDisc& disc, float x, float y, Local& local) {
-    const float near = discInverseDepth(disc, x, y);
-    if (x * x + y * y < disc.radius_px * disc.radius_px && near > local.front) local.front = near;
+  SOFTSCOPE_HD static Drawn drawn(const SplatDisc& disc) {
+    const DiscBox box = discBox(disc);
+    const float radius_sq = disc.radius_px * disc.radius_px;
+    return {disc,      box.u0,       box.u0 + box.groups * kSplatLanes - 1, box.v0, box.v1,
+            radius_sq, 1 / radius_sq};
   }
-  SOFTSCOPE_HD void blend(const SplatDisc& disc, float x, float y, Local& local) const {
-    const float inverse_radius_sq = 1 / (disc.radius_px * disc.radius_px);
+  SOFTSCOPE_HD static void bringForward(const Drawn& drawn, float x, float y, Local& local) {
+    const float near = discInverseDepth(drawn.disc, x, y);
+    if (x * x + y * y < drawn.radius_sq && near > local.front) local.front = near;
+  }
+  SOFTSCOPE_HD void blend(const Drawn& drawn, float x, float y, Local& local) const {
+    const SplatDisc& disc = drawn.disc;
     const float near = discInverseDepth(disc, x, y);
-    const float falloff = discFalloff(x, y, inverse_radius_sq);
+    const float falloff = discFalloff(x, y, drawn.inverse_radius_sq);
     if (!(falloff > 0 && near >= frontLimit(local.front, tolerance_mm))) return;
     const float w = falloff * falloff;
     local.weight += w;
@@ -165,33 +175,6 @@ struct FindGapsBody {
     lengths.at(u, v) = length;
   }
 };
-/// A thread per line: drops gaps that begin inside another one.
-struct JoinGapsKernel {
-  static constexpr int kThreads = 32, kPhases = 1;
-  using Shared = Nothing;
-  using Local = Nothing;
-  View<std::uint8_t> lengths;
-  bool along_rows;
-
-  Grid blocks() const {
-    return {blocksFor(along_rows ? lengths.height : lengths.width, kThreads), 1, 1};
-  }
-  template <int kPhase>
-  SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
-    const int line = at.x * kThreads + at.thread;
-    if (line >= (along_rows ? lengths.height : lengths.width)) return;
-    const int count = along_rows ? lengths.width : lengths.height;
-    for (int i = 0, end = 0; i < count; ++i) {
-      std::uint8_t& length = along_rows ? lengths.at(i, line) : lengths.at(line, i);
-      const int own = length;
-      if (own == 0) continue;
-      if (i < end)
-        length = 0;
-      else
-        end = i + own;
-    }
-  }
-};
 /// Draws the pixels of a gap as the straight surface between both ends, which no gap contains.
 struct BridgeGapsBody {
   View<const std::uint8_t> lengths;
@@ -204,7 +187,7 @@ struct BridgeGapsBody {
     for (int k = 1; k <= gap_px && k <= place; ++k) {
       const int bu = along_rows ? u - k : u, bv = along_rows ? v : v - k;
       const int length = lengths.at(bu, bv);
-      if (length <= k) continue;
+      if (length <= k || !isBridged(u, v, place - k)) continue;
       bridge(u, v, bu, bv, along_rows ? bu + length : u, along_rows ? v : bv + length,
              shareOfGap(0, k, length));
       return;
@@ -212,6 +195,24 @@ struct BridgeGapsBody {
   }
 
  private:
+  /// Length of the gap at a place of the pixel's line.
+  SOFTSCOPE_HD int lengthAt(int u, int v, int place) const {
+    return along_rows ? lengths.at(place, v) : lengths.at(u, place);
+  }
+  /// Whether a gap counts: one that begins inside another one that counts does not. Gaps overlap
+  /// in short chains; the first one of a chain counts.
+  SOFTSCOPE_HD bool isBridged(int u, int v, int place) const {
+    int first = place;
+    for (int k = 1; k <= gap_px && k <= first; ++k)
+      if (lengthAt(u, v, first - k) > k) {
+        first -= k;
+        k = 0;
+      }
+    int end = 0;
+    for (int i = first; i < place; ++i)
+      if (i >= end && lengthAt(u, v, i) > 0) end = i + lengthAt(u, v, i);
+    return place >= end;
+  }
   SOFTSCOPE_HD void bridge(int u, int v, int bu, int bv, int eu, int ev, float share) const {
     const Rgb8 a = view.colour.at(bu, bv), b = view.colour.at(eu, ev);
     view.depth.at(u, v) = depthInGap(view.depth.at(bu, bv), view.depth.at(eu, ev), share);

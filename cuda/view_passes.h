@@ -52,8 +52,6 @@ class ViewPasses {
     for (const bool along_rows : {true, false}) {
       perPixel("find gaps", FindGapsBody{readOnly(layout_.images.depth), layout_.gap_lengths,
                                          gap_px, step_mm, along_rows});
-      const JoinGapsKernel join{layout_.gap_lengths, along_rows};
-      executor_.launch("join gaps", join, join.blocks());
       perPixel("bridge gaps",
                BridgeGapsBody{readOnly(layout_.gap_lengths), layout_.images, gap_px, along_rows});
     }
