@@ -16,6 +16,12 @@ std::size_t viewBytes(const PinholeCamera& camera, const ModelViewOptions& optio
   return counting.bytes();
 }
 
+/// What crosses to the device with each view; pinned.
+struct ViewExchange {
+  ViewProjector camera;
+  int point_count;
+};
+
 }  // namespace
 
 class ModelRenderer::Device {
@@ -26,7 +32,7 @@ class ModelRenderer::Device {
         memory_(viewBytes(camera, options, point_capacity), "memory for the model view"),
         arena_(memory_.data()),
         layout_(arena_, camera.width_px, camera.height_px, point_capacity),
-        projector_memory_(sizeof(ViewProjector), "pinned memory"),
+        exchange_memory_(sizeof(ViewExchange), "pinned memory"),
         executor_(stream_, nullptr),
         passes_(executor_, layout_),
         timed_executor_(stream_, &clock_),
@@ -49,15 +55,16 @@ class ModelRenderer::Device {
   void draw(const Eigen::Isometry3d& world_from_left) {
     wait();  // the pinned memory is free again
     world_from_left_ = world_from_left;
-    auto* projector = static_cast<ViewProjector*>(projector_memory_.data());
-    *projector = viewProjector(camera_, world_from_left, options_);
-    copy(layout_.camera, projector, sizeof(ViewProjector));
+    auto* exchange = static_cast<ViewExchange*>(exchange_memory_.data());
+    *exchange = {viewProjector(camera_, world_from_left, options_), point_count_};
+    copy(layout_.camera, &exchange->camera, sizeof(ViewProjector));
+    copy(layout_.point_count, &exchange->point_count, sizeof(int));
     if (is_timed_) {
       clock_.restart(stream_);
-      timed_passes_.draw(point_count_, options_);
+      timed_passes_.draw(options_);
       stage_times_ = clock_.laps();
     } else {
-      passes_.draw(point_count_, options_);
+      graph_.launch(stream_, [&] { passes_.draw(options_); });
     }
   }
   void wait() { check(cudaStreamSynchronize(stream_), "waiting for the device"); }
@@ -101,13 +108,14 @@ class ModelRenderer::Device {
   DeviceMemory memory_;
   Arena arena_;
   ViewLayout layout_;
-  PinnedMemory projector_memory_;
+  PinnedMemory exchange_memory_;
   Stream stream_;
   EventClock clock_;
   Executor executor_;
   ViewPasses<Executor> passes_;
   Executor timed_executor_;
   ViewPasses<Executor> timed_passes_;
+  Graph graph_;
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
   int point_count_ = 0;
   bool is_timed_ = false;

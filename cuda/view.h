@@ -32,7 +32,7 @@ class ModelRenderer {
   void wait();
   ModelView download();
 
-  /// With stage times, draw() waits.
+  /// With stage times, kernels are launched one by one and draw() waits; without, as a graph.
   void timeStages(bool on);
   /// Of the last draw() with stage times: stage, ms.
   const std::vector<std::pair<std::string, double>>& stageTimes() const;

@@ -53,16 +53,17 @@ struct PlaceDiscsKernel {
   using Shared = Nothing;
   using Local = Nothing;
   ModelPoints points;
-  int count;
+  int capacity;
+  const int* count;
   const ViewProjector* camera;
   SplatDisc* discs;  // radius 0: not drawn
   DiscTiles tiles;
 
-  Grid blocks() const { return {blocksFor(count, kThreads), 1, 1}; }
+  Grid blocks() const { return {blocksFor(capacity, kThreads), 1, 1}; }
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
     const int i = at.x * kThreads + at.thread;
-    if (i >= count) return;
+    if (i >= *count) return;
     SplatDisc disc{};
     if (placeDisc(*camera, points.positions_mm[i], points.normals[i], &disc)) {
       const Rgb8 colour = points.colours[i];
@@ -130,14 +131,15 @@ struct ListDiscsKernel {
   using Shared = Nothing;
   using Local = Nothing;
   const SplatDisc* discs;
-  int count;
+  int capacity;
+  const int* count;
   DiscTiles tiles;
 
-  Grid blocks() const { return {blocksFor(count, kThreads), 1, 1}; }
+  Grid blocks() const { return {blocksFor(capacity, kThreads), 1, 1}; }
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
     const int i = at.x * kThreads + at.thread;
-    if (i >= count || !(discs[i].radius_px > 0)) return;
+    if (i >= *count || !(discs[i].radius_px > 0)) return;
     tiles.forEachTile(discs[i], [&](int tile) {
       tiles.entries[tiles.starts[tile] + atomicPlus(&tiles.cursors[tile], 1)] = i;
     });

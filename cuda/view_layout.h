@@ -20,6 +20,7 @@ struct ViewLayout {
     anchors = arena.array<std::uint8_t>(points);
     discs = arena.array<SplatDisc>(points);
     camera = arena.array<ViewProjector>(1);
+    point_count = arena.array<int>(1);
     tiles.width = width;
     tiles.height = height;
     tiles.columns = blocksFor(width, DiscTiles::kSide);
@@ -42,6 +43,7 @@ struct ViewLayout {
   std::uint8_t* anchors;
   SplatDisc* discs;
   ViewProjector* camera;
+  int* point_count;
   DiscTiles tiles;
   View<BlendedPixel> blended;
   View<std::uint8_t> gap_lengths;

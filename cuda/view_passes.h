@@ -6,26 +6,27 @@
 
 namespace softscope::cuda {
 
-/// From the points and the camera in a layout to the view's images.
+/// From the points, their count and the camera in a layout to the view's images.
 template <class Executor>
 class ViewPasses {
  public:
   ViewPasses(Executor& executor, const ViewLayout& layout) : executor_(executor), layout_(layout) {}
 
-  void draw(int point_count, const ModelViewOptions& options) {
+  void draw(const ModelViewOptions& options) {
     const DiscTiles& tiles = layout_.tiles;
     ResetKernel reset{};
     reset.add(tiles.counts, 2 * static_cast<std::size_t>(tiles.count()), 0);
     executor_.launch("reset", reset, reset.blocks());
     const PlaceDiscsKernel place{
         {layout_.positions_mm, layout_.normals, layout_.colours, layout_.anchors},
-        point_count,
+        layout_.capacity,
+        layout_.point_count,
         layout_.camera,
         layout_.discs,
         tiles};
     executor_.launch("discs", place, place.blocks());
     executor_.launch("tile starts", TileStartsKernel{tiles}, Grid{});
-    const ListDiscsKernel lists{layout_.discs, point_count, tiles};
+    const ListDiscsKernel lists{layout_.discs, layout_.capacity, layout_.point_count, tiles};
     executor_.launch("list discs", lists, lists.blocks());
     const SortDiscsKernel sort{tiles};
     executor_.launch("sort discs", sort, sort.blocks());

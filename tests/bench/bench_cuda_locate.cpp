@@ -18,6 +18,7 @@
 
 #include "core/error.h"
 #include "cuda/device_info.h"
+#include "cuda/locate.h"
 #include "cuda/match.h"
 #include "cuda/view.h"
 #include "stereo/depth_from_disparity.h"
@@ -76,6 +77,7 @@ struct Scene {
   ModelViewOptions view_options;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   MatchPicture live;
+  DepthMap live_depth;  // that of the earlier pair
 };
 
 /// Points of every `stride`-th pixel in u and v.
@@ -87,6 +89,7 @@ Scene sceneOf(const std::string* files, int stride) {
   scene.live = {readPgm(files[2]), Mask(left.width_px, left.height_px, 0)};
   const DepthMap depth = depthFromDisparity(ElasMatcher(StereoOptions()).match(left, right), rig);
   const NormalMap normals = normalsFromDepth(depth.depth_mm, rig.left);
+  scene.live_depth = depth;
   std::vector<float> depths_mm;
   for (int v = 0; v < left.height_px; v += stride)
     for (int u = 0; u < left.width_px; u += stride) {
@@ -136,6 +139,23 @@ bool compare(const Scene& scene, const ModelView& view, const std::vector<PixelM
   return pixels == 0 && differ == 0 && matches.size() == expected.size();
 }
 
+/// Prints how many lifted matches differ; returns whether none does.
+bool compareLifted(const Scene& scene, const cuda::LocatedMatches& found, const ModelView& view) {
+  const std::vector<LiftedMatch> expected =
+      liftMatches(found.pixels, view, scene.live_depth, scene.camera);
+  long differ = 0;
+  for (std::size_t i = 0; i < std::min(found.lifted.size(), expected.size()); ++i) {
+    const LiftedMatch &a = found.lifted[i], &b = expected[i];
+    differ += a.model_point != b.model_point || a.match != b.match ||
+              a.source_world_mm != b.source_world_mm || a.target_left_mm != b.target_left_mm ||
+              a.across_mm != b.across_mm ||
+              (a.along_mm != b.along_mm && !(std::isnan(a.along_mm) && std::isnan(b.along_mm)));
+  }
+  std::printf("  differ from the CPU's: %ld of %zu lifted (CPU: %zu)\n", differ,
+              found.lifted.size(), expected.size());
+  return differ == 0 && found.lifted.size() == expected.size();
+}
+
 /// Times of `work` that waits, after some that warm up.
 template <class Work>
 std::vector<double> timesOf(int repeats, const Work& work) {
@@ -167,8 +187,8 @@ void printStages(Stage& stage, const Work& work) {
   std::printf("\n");
 }
 
-void time(cuda::ModelRenderer& renderer, cuda::Matcher& matcher, const Scene& scene,
-          const MatchPicture& picture, int repeats) {
+void time(cuda::ModelRenderer& renderer, cuda::Matcher& matcher, cuda::Locator& locator,
+          const Scene& scene, const MatchPicture& picture, int repeats) {
   print("view: draw, wait", timesOf(repeats, [&] {
           renderer.draw(scene.pose);
           renderer.wait();
@@ -183,6 +203,14 @@ void time(cuda::ModelRenderer& renderer, cuda::Matcher& matcher, const Scene& sc
   print("match: upload, compute, download",
         timesOf(repeats / 4, [&] { matcher.match(picture, scene.live); }));
   printStages(matcher, [&] { matcher.compute(); });
+  print("locate: view, match, lift, wait", timesOf(repeats, [&] {
+          locator.locate(scene.pose);
+          locator.wait();
+        }));
+  print("locate and download", timesOf(repeats / 4, [&] {
+          locator.locate(scene.pose);
+          locator.download();
+        }));
 }
 
 int run(const std::vector<std::string>& files, int stride, int repeats, bool check_only) {
@@ -198,14 +226,20 @@ int run(const std::vector<std::string>& files, int stride, int repeats, bool che
                 static_cast<double>(matcher.deviceBytes()) / 1e6);
     renderer.upload(scene.model);
     renderer.draw(scene.pose);
-    ModelView view = renderer.download();
+    const ModelView view = renderer.download();
     MatchPicture picture{toGray(view.colour), Mask(view.colour.width_px, view.colour.height_px, 0),
                          view.anchor};
     for (std::size_t k = 0; k < picture.ignore.size(); ++k)
       picture.ignore.values[k] = view.point_index.values[k] < 0;
     all_equal = compare(scene, view, matcher.match(picture, scene.live), picture) && all_equal;
+    cuda::Locator locator(scene.camera, scene.view_options, MatcherOptions(),
+                          static_cast<int>(scene.model.size()));
+    locator.setModel(scene.model);
+    locator.setLive(scene.live, scene.live_depth);
+    locator.locate(scene.pose);
+    all_equal = compareLifted(scene, locator.download(), view) && all_equal;
     if (!check_only) {
-      time(renderer, matcher, scene, picture, repeats);
+      time(renderer, matcher, locator, scene, picture, repeats);
       all_equal =
           compare(scene, renderer.download(), matcher.match(picture, scene.live), picture) &&
           all_equal;

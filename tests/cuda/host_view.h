@@ -30,7 +30,8 @@ class HostView {
     copy(layout_.colours, model.colours.data(), count * sizeof(Rgb8));
     copy(layout_.anchors, model.anchors.data(), count);
     *layout_.camera = viewProjector(camera_, world_from_left, options);
-    passes_.draw(static_cast<int>(count), options);
+    *layout_.point_count = static_cast<int>(count);
+    passes_.draw(options);
     ModelView view;
     view.colour = rasterOf<Rgb8>(layout_.images.colour);
     view.anchor = rasterOf<std::uint8_t>(layout_.images.anchor);
