@@ -32,6 +32,14 @@ struct Place {
   Grid grid;
 };
 
+/// Before a loop: loads of several rounds run ahead of a chain of sums.
+#ifdef __CUDA_ARCH__
+#define SOFTSCOPE_PRAGMA(text) _Pragma(#text)
+#define SOFTSCOPE_UNROLL(count) SOFTSCOPE_PRAGMA(unroll count)
+#else
+#define SOFTSCOPE_UNROLL(count)
+#endif
+
 /// For kernels without shared memory, or without values that outlive a phase.
 struct Nothing {};
 
@@ -47,6 +55,11 @@ struct View {
     return u >= 0 && v >= 0 && u < width && v < height;
   }
 };
+
+template <class T>
+View<const T> readOnly(const View<T>& view) {
+  return {view.data, view.width, view.height, view.stride};
+}
 
 // Atomic on the device; on the host one thread runs at a time.
 #ifdef __CUDA_ARCH__

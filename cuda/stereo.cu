@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "cuda/device_executor.cuh"
-#include "cuda/device_info.h"
+#include "cuda/device_stream.h"
 #include "cuda/event_clock.h"
 #include "cuda/stereo.h"
 #include "cuda/stereo_passes.h"
@@ -10,69 +10,11 @@
 namespace softscope::cuda {
 namespace {
 
-/// Throws the reason why no kernel of this build can run.
-void requireDevice() {
-  const DeviceInfo info = queryDevices();
-  if (info.devices.empty()) throw BackendError("CUDA: " + info.why_none);
-  if (!info.devices.front().problem.empty())
-    throw BackendError("CUDA: " + info.devices.front().name + ": " + info.devices.front().problem +
-                       ". This build has machine code for compute capability 7.5 and newer");
-  check(cudaSetDevice(0), "choosing the first device");
-}
-
 std::size_t bytesFor(const StereoOptions& options, int width_px, int height_px) {
   Arena counting;
   StereoLayout(counting, options, width_px, height_px);
   return counting.bytes();
 }
-
-class Stream {
- public:
-  Stream() { check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a stream"); }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
-  ~Stream() { cudaStreamDestroy(stream_); }
-  operator cudaStream_t() const { return stream_; }
-
- private:
-  cudaStream_t stream_ = nullptr;
-};
-
-/// A sequence of launches that starts with one call.
-class Graph {
- public:
-  Graph() = default;
-  Graph(const Graph&) = delete;
-  Graph& operator=(const Graph&) = delete;
-  ~Graph() {
-    if (graph_ != nullptr) cudaGraphExecDestroy(graph_);
-  }
-  /// Captures what `enqueue()` does on the stream the first time, and launches it.
-  template <class Enqueue>
-  void launch(cudaStream_t stream, const Enqueue& enqueue) {
-    if (graph_ == nullptr) capture(stream, enqueue);
-    check(cudaGraphLaunch(graph_, stream), "starting a graph");
-  }
-
- private:
-  template <class Enqueue>
-  void capture(cudaStream_t stream, const Enqueue& enqueue) {
-    check(cudaStreamBeginCapture(stream, cudaStreamCaptureModeThreadLocal), "capturing a graph");
-    cudaGraph_t captured = nullptr;
-    try {
-      enqueue();
-    } catch (...) {
-      cudaStreamEndCapture(stream, &captured);
-      if (captured != nullptr) cudaGraphDestroy(captured);
-      throw;
-    }
-    check(cudaStreamEndCapture(stream, &captured), "capturing a graph");
-    const cudaError_t status = cudaGraphInstantiate(&graph_, captured, 0);
-    cudaGraphDestroy(captured);
-    check(status, "building a graph");
-  }
-  cudaGraphExec_t graph_ = nullptr;
-};
 
 /// What crosses between host and device; pinned.
 struct Exchange {

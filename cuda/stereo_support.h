@@ -60,6 +60,7 @@ struct SupportGrid {
 struct SupportPass {
   const DisparityRange* narrowed = nullptr;  // null: the first pass
 
+  static_assert(kRangeRows == 4, "rowOf() and its inverse");
   SOFTSCOPE_HD int rowOf(int y) const {
     if (narrowed == nullptr) return 4 * y + 1;
     return y / 3 * 4 + (y % 3 == 0 ? 0 : y % 3 + 1);
@@ -272,7 +273,7 @@ struct SupportTestKernel {
 /// The range in which the first pass found points, and some more on either side: narrowedTo().
 struct NarrowRangeKernel {
   static constexpr int kThreads = 1024, kPhases = 4;
-  static constexpr int kNear = 2, kFewestAlike = 3, kBeyondPx = 16, kFewest = 50;
+  static constexpr int kNear = kNearDisparityPx;
   static constexpr int kBins = StereoOptions::kLargestDisparityPx + 1 + 2 * kNear;
   struct Shared {
     int alike[kBins];
@@ -299,15 +300,15 @@ struct NarrowRangeKernel {
         count(disparity_px[(4 * (i / grid.columns) + 1) * grid.columns + i % grid.columns], shared);
     } else if constexpr (kPhase == 2) {
       for (int i = at.thread; i < bins; i += kThreads)
-        if (shared.alike[i] >= kFewestAlike) {
+        if (shared.alike[i] >= kFewestNear) {
           atomicLeast(&shared.low, i);
           atomicGreatest(&shared.high, i);
         }
     } else if (at.thread == 0) {
       *narrowed = grid.range;
-      if (shared.found < kFewest || shared.high < 0) return;
-      const int lowest = grid.range.first - kNear + shared.low - kBeyondPx;
-      const int highest = grid.range.first - kNear + shared.high + kBeyondPx;
+      if (shared.found < kFewestForRange || shared.high < 0) return;
+      const int lowest = grid.range.first - kNear + shared.low - kBeyondRangePx;
+      const int highest = grid.range.first - kNear + shared.high + kBeyondRangePx;
       narrowed->first = lowest > grid.range.first ? lowest : grid.range.first;
       narrowed->last = highest < grid.range.last ? highest : grid.range.last;
     }

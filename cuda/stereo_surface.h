@@ -199,10 +199,8 @@ struct NormalPixel {
 /// A plane fitted to the inverse depth around each pixel; a block: 32 x 16 pixels.
 struct NormalKernel {
   static constexpr int kThreads = 256, kPhases = 3, kWidth = 32, kHeight = 16;
-  static constexpr int kReach = 3, kSide = 2 * kReach + 1;
+  static constexpr int kReach = kNormalReach, kSide = 2 * kReach + 1;
   static constexpr int kColumns = kWidth + 2 * kReach, kRows = kHeight + 2 * kReach;
-  static constexpr float kDepthStep = 0.05f;  // share of the depth: beyond it another surface
-  static constexpr float kFewestPixels = 12;  // of 49, for a plane
   struct Shared {
     float inverse[kRows][kColumns];
     float columns[5][kHeight][kColumns];
@@ -265,7 +263,8 @@ struct NormalKernel {
     if (mixesSurfaces(inverse, x, row, shared)) selectMoments(inverse, x, row, shared, m);
     const auto plane =
         planeNormal(m, static_cast<float>(u) - cx_px, static_cast<float>(v - cy_px), fx_px, fy_px);
-    const bool holds = isNumber(inverse) && m[0] >= kFewestPixels && plane.determinant > 1e-3f;
+    const bool holds =
+        isNumber(inverse) && m[0] >= kFewestNormalPixels && plane.determinant > 1e-3f;
     // Inverse depth is positive in front: -n faces the camera.
     const float scale =
         holds ? -1.0f / std::sqrt(plane.x * plane.x + plane.y * plane.y + plane.z * plane.z)
@@ -278,7 +277,7 @@ struct NormalKernel {
       low = shared.low[row][x + dx] < low ? shared.low[row][x + dx] : low;
       high = shared.high[row][x + dx] > high ? shared.high[row][x + dx] : high;
     }
-    return high - centre > kDepthStep * centre || centre - low > kDepthStep * centre;
+    return high - centre > kNormalDepthStep * centre || centre - low > kNormalDepthStep * centre;
   }
   /// The moments of the pixels on the centre's surface, in the order of sumLanesOf().
   SOFTSCOPE_HD static void selectMoments(float centre, int x, int row, const Shared& shared,
@@ -288,7 +287,7 @@ struct NormalKernel {
       float g0 = 0, g1 = 0, g2 = 0, q0 = 0, q1 = 0;
       for (int y = 0; y < kSide; ++y) {
         const float value = shared.inverse[row + y][x - kReach + lane];
-        const float w = absoluteOf(value - centre) <= centre * kDepthStep ? 1.0f : 0.0f;
+        const float w = absoluteOf(value - centre) <= centre * kNormalDepthStep ? 1.0f : 0.0f;
         const float g = w, q = w > 0 ? value : 0.0f, fy = static_cast<float>(y - kReach);
         g0 += g;
         g1 += fy * g;

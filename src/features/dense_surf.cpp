@@ -7,12 +7,12 @@
 #include "core/parallel.h"
 #include "features/integral_image.h"
 #include "features/kernels.h"
+#include "features/surf_formulas.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kCells = 4;  // a side
-constexpr int kSums = 4;   // dx, |dx|, dy, |dy|
+constexpr int kCells = kSurfCells, kSums = kSurfSums;
 
 struct Integrals {
   Raster<std::int32_t> gray, invalid;
@@ -103,41 +103,23 @@ Raster<To> boxSums(const Raster<From>& in, int reach, int channels) {
   return out;
 }
 
-/// What all descriptors of a picture share.
-struct Layout {
-  int reach;           // grid squares a cell's side
-  int least_valid;     // wavelets
-  float gray_per_sum;  // mean difference of the halves' grey levels, from the sum of |dx| + |dy|
-};
-
-Layout layoutOf(const DenseSurfOptions& options) {
-  const int side = kCells * options.cell_px;
-  const double half_wavelet = 0.5 * options.kWaveletPx * options.kWaveletPx;
-  return {options.cell_px / options.kGridPx,
-          static_cast<int>((1 - options.kMaxInvalidShare) * side * side),
-          static_cast<float>(1 / (half_wavelet * 2 * side * side))};
-}
-
-void describeRow(const Cells& cells, const Layout& layout, const DenseSurfOptions& options, int r,
-                 DenseDescriptors* out) {
-  const int step = kSums * layout.reach;
+void describeRow(const Cells& cells, const SurfRules& rules, int r, DenseDescriptors* out) {
+  const int step = kSums * rules.reach;
   for (int c = 0; c < out->columns(); ++c) {
     const float* rows[kCells];
     int valid = 0;
     float absolute = 0;
     for (int i = 0; i < kCells; ++i) {
-      rows[i] = cells.sums.row(r + i * layout.reach) + kSums * c;
+      rows[i] = cells.sums.row(r + i * rules.reach) + kSums * c;
       for (int j = 0; j < kCells; ++j) {
-        valid += cells.valid.at(c + j * layout.reach, r + i * layout.reach);
+        valid += cells.valid.at(c + j * rules.reach, r + i * rules.reach);
         absolute += rows[i][j * step + 1] + rows[i][j * step + 3];
       }
     }
     const std::size_t node = static_cast<std::size_t>(r) * out->columns() + c;
     featureKernels().describe(rows, step, out->bytes.data() + kDescriptorSize * node);
-    out->contrast_gray.values[node] = absolute * layout.gray_per_sum;
-    out->valid.values[node] =
-        valid >= layout.least_valid &&
-        out->contrast_gray.values[node] >= static_cast<float>(options.kMinContrastGray);
+    out->contrast_gray.values[node] = absolute * rules.gray_per_sum;
+    out->valid.values[node] = isDistinct(valid, out->contrast_gray.values[node], rules);
   }
 }
 
@@ -147,23 +129,22 @@ DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
                            const DenseSurfOptions& options) {
   if (!ignore.empty() && !ignore.sameShape(image))
     throw Error("dense SURF: the mask has another shape than the picture");
-  const Layout layout = layoutOf(options);
+  const SurfRules rules = surfRules(options);
   DenseDescriptors out;
   out.grid_px = options.kGridPx;
-  // Wavelet u lies between the pixels u - 1 and u, so that the middle of the cells is a pixel.
-  out.first_px = kCells / 2 * options.cell_px - 1;
-  const int least_side = std::max(kCells * options.cell_px, options.kWaveletPx);
-  if (image.width_px < least_side || image.height_px < least_side) return out;
+  out.first_px = rules.first_px;
+  const int columns = surfNodes(image.width_px, options),
+            rows = surfNodes(image.height_px, options);
+  if (columns == 0 || rows == 0) return out;
 
   const Squares squares =
       squaresOf(integralsOf(image, ignore), image.width_px, image.height_px, options);
-  const Cells cells{boxSums<float>(squares.sums, layout.reach, kSums),
-                    boxSums<std::int32_t>(squares.valid, layout.reach, 1)};
-  const int lost = (kCells - 1) * layout.reach;
-  out.valid = Raster<std::uint8_t>(cells.valid.width_px - lost, cells.valid.height_px - lost, 0);
+  const Cells cells{boxSums<float>(squares.sums, rules.reach, kSums),
+                    boxSums<std::int32_t>(squares.valid, rules.reach, 1)};
+  out.valid = Raster<std::uint8_t>(columns, rows, 0);
   out.contrast_gray = Raster<float>(out.columns(), out.rows());
   out.bytes.resize(kDescriptorSize * out.valid.size());
-  parallelRows(out.rows(), [&](int r) { describeRow(cells, layout, options, r, &out); });
+  parallelRows(out.rows(), [&](int r) { describeRow(cells, rules, r, &out); });
   return out;
 }
 

@@ -6,11 +6,12 @@
 
 #include "core/parallel.h"
 #include "features/kernels.h"
+#include "features/match_formulas.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kInvalid = 0xFFFF;
+constexpr int kInvalid = kNoDistance;
 
 /// Distances from one descriptor to all in a window of another picture's nodes.
 class Window {
@@ -56,8 +57,10 @@ class Window {
 
   /// Where parabolas through the best node and its neighbours are lowest, in nodes; 0 at the rim.
   Eigen::Vector2f parabolaShift() const {
-    return {lowest(at(best_column_ - 1, best_row_), at(best_column_ + 1, best_row_)),
-            lowest(at(best_column_, best_row_ - 1), at(best_column_, best_row_ + 1))};
+    return {softscope::parabolaShift(at(best_column_ - 1, best_row_), best_,
+                                     at(best_column_ + 1, best_row_)),
+            softscope::parabolaShift(at(best_column_, best_row_ - 1), best_,
+                                     at(best_column_, best_row_ + 1))};
   }
 
  private:
@@ -74,27 +77,10 @@ class Window {
     return distances_[static_cast<std::size_t>(r) * columns_ + static_cast<std::size_t>(c)];
   }
 
-  float lowest(int before, int after) const {
-    if (before == kInvalid || after == kInvalid) return 0;
-    const int curvature = before + after - 2 * best_;
-    return curvature > 0 ? 0.5f * static_cast<float>(before - after) / static_cast<float>(curvature)
-                         : 0;
-  }
-
   int c0_ = 0, r0_ = 0, columns_ = 0, rows_ = 0;
   int best_ = kInvalid, best_column_ = 0, best_row_ = 0;
   std::vector<std::uint16_t> distances_;
 };
-
-/// The options in nodes.
-struct Reach {
-  int search, elsewhere, mutual;
-};
-
-Reach reachOf(const MatcherOptions& options, int grid_px, double radius_px) {
-  const auto nodes = [&](double px) { return static_cast<int>(std::lround(px / grid_px)); };
-  return {std::max(1, nodes(radius_px)), nodes(options.kElsewherePx), nodes(options.kMutualPx)};
-}
 
 Eigen::Vector2f pixelOf(const DenseDescriptors& grid, int column, int row) {
   return {static_cast<float>(grid.first_px + column * grid.grid_px),
@@ -112,7 +98,7 @@ struct Candidate {
 class PairOfGrids {
  public:
   PairOfGrids(const DenseDescriptors& model, const DenseDescriptors& live,
-              const ShiftField& predicted, const Reach& reach, float max_ratio)
+              const ShiftField& predicted, const SearchReach& reach, float max_ratio)
       : model_(model), live_(live), predicted_(predicted), reach_(reach), max_ratio_(max_ratio) {}
 
   Candidate candidate(int column, int row, Window* window) const {
@@ -125,8 +111,7 @@ class PairOfGrids {
     window->compare(model_.descriptor(column, row), live_, column + nodes.x(), row + nodes.y(),
                     reach_.search);
     if (!window->found()) return none;
-    const float elsewhere = static_cast<float>(window->bestElsewhere(reach_.elsewhere));
-    const float ratio = static_cast<float>(window->best()) / std::max(elsewhere, 1.0f);
+    const float ratio = distanceRatio(window->best(), window->bestElsewhere(reach_.elsewhere));
     if (!(ratio < max_ratio_)) return none;
     return {window->bestColumn(), window->bestRow(), nodes, ratio, window->parabolaShift()};
   }
@@ -143,7 +128,7 @@ class PairOfGrids {
   const DenseDescriptors& model_;
   const DenseDescriptors& live_;
   const ShiftField& predicted_;
-  Reach reach_;
+  SearchReach reach_;
   float max_ratio_;
 };
 
@@ -176,7 +161,7 @@ std::vector<NodeMatch> matchDescriptors(const DenseDescriptors& model, const Den
                                         const ShiftField& predicted, double radius_px,
                                         const MatcherOptions& options) {
   if (model.valid.empty() || live.valid.empty()) return {};
-  const PairOfGrids grids(model, live, predicted, reachOf(options, model.grid_px, radius_px),
+  const PairOfGrids grids(model, live, predicted, searchReach(options, model.grid_px, radius_px),
                           static_cast<float>(options.kMaxRatio));
   const int side = std::max(1, options.kSpacingPx / model.grid_px);
   const int square_rows = (model.rows() + side - 1) / side;

@@ -1,9 +1,9 @@
 #include "features/gap_filling.h"
 
-#include <cmath>
 #include <cstdint>
 
 #include "core/parallel.h"
+#include "features/view_formulas.h"
 
 namespace softscope {
 namespace {
@@ -18,23 +18,19 @@ struct Line {
   float depth(int i) const { return view->depth_mm.values[at(i)]; }
 };
 
-std::uint8_t mix(std::uint8_t a, std::uint8_t b, float share_of_b) {
-  return static_cast<std::uint8_t>(std::lround((1 - share_of_b) * a + share_of_b * b));
-}
-
 /// Draws the pixels between `begin` and `end` as the straight surface between both.
 void bridge(const Line& line, int begin, int end) {
   ModelView& view = *line.view;
   const Rgb8 a = view.colour.values[line.at(begin)], b = view.colour.values[line.at(end)];
-  const float inverse_a = 1 / line.depth(begin), inverse_b = 1 / line.depth(end);
+  const float begin_mm = line.depth(begin), end_mm = line.depth(end);
   for (int i = begin + 1; i < end; ++i) {
-    const float share = static_cast<float>(i - begin) / static_cast<float>(end - begin);
+    const float share = shareOfGap(begin, i, end);
     const std::size_t at = line.at(i);
-    view.depth_mm.values[at] = 1 / ((1 - share) * inverse_a + share * inverse_b);
-    view.colour.values[at] = {mix(a.red, b.red, share), mix(a.green, b.green, share),
-                              mix(a.blue, b.blue, share)};
+    view.depth_mm.values[at] = depthInGap(begin_mm, end_mm, share);
+    view.colour.values[at] = {mixBytes(a.red, b.red, share), mixBytes(a.green, b.green, share),
+                              mixBytes(a.blue, b.blue, share)};
     view.anchor.values[at] =
-        mix(view.anchor.values[line.at(begin)], view.anchor.values[line.at(end)], share);
+        mixBytes(view.anchor.values[line.at(begin)], view.anchor.values[line.at(end)], share);
     view.point_index.values[at] = view.point_index.values[line.at(share < 0.5f ? begin : end)];
   }
 }
@@ -42,11 +38,9 @@ void bridge(const Line& line, int begin, int end) {
 void fillLine(const Line& line, int gap_px, float step_mm) {
   for (int begin = 0; begin + 2 < line.count; ++begin) {
     const float front = line.depth(begin);
-    // Only where the surface ends: the next pixel is empty or far behind.
-    if (!(front > 0) || line.depth(begin + 1) <= front + step_mm) continue;
+    if (!endsSurface(front, line.depth(begin + 1), step_mm)) continue;
     for (int end = begin + 2; end <= begin + gap_px + 1 && end < line.count; ++end) {
-      const float depth = line.depth(end);
-      if (!(std::abs(depth - front) <= step_mm)) continue;
+      if (!continuesSurface(front, line.depth(end), step_mm)) continue;
       bridge(line, begin, end);
       begin = end - 1;
       break;

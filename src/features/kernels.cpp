@@ -2,6 +2,10 @@
 // compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
 #include "features/kernels.h"
 
+#include "features/subpixel_formulas.h"
+#include "features/surf_formulas.h"
+#include "features/view_formulas.h"
+
 #define SOFTSCOPE_NAME_(set) featureKernels_##set
 #define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
 #define SOFTSCOPE_TEXT_(set) #set
@@ -10,7 +14,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kLanes = 8;
+constexpr int kLanes = kSplatLanes;
 typedef float Float8 __attribute__((vector_size(32)));
 typedef std::int32_t Int8 __attribute__((vector_size(32)));
 
@@ -32,26 +36,13 @@ constexpr Float8 kCounting = {0, 1, 2, 3, 4, 5, 6, 7};
 
 // --- model view -------------------------------------------------------------------------------
 
-inline int floorOf(float x) {
-  const int i = static_cast<int>(x);
-  return i - (static_cast<float>(i) > x ? 1 : 0);
-}
-inline int ceilOf(float x) { return -floorOf(-x); }
 inline int larger(int a, int b) { return a > b ? a : b; }
 inline int smaller(int a, int b) { return a < b ? a : b; }
 
-/// Pixels of a disc: rows [v0, v1], columns from u0 in groups of kLanes.
-struct DiscBox {
-  int u0, groups, v0, v1;
-};
-
 inline DiscBox boxOf(const SplatDisc& disc, const SplatBand& band) {
-  const float radius = disc.radius_px;
-  DiscBox box;
-  box.u0 = ceilOf(disc.u_px - radius);
-  box.groups = (floorOf(disc.u_px + radius) - box.u0 + kLanes) / kLanes;
-  box.v0 = larger(ceilOf(disc.v_px - radius), band.first_row);
-  box.v1 = smaller(floorOf(disc.v_px + radius), band.first_row + band.rows - 1);
+  DiscBox box = discBox(disc);
+  box.v0 = larger(box.v0, band.first_row);
+  box.v1 = smaller(box.v1, band.first_row + band.rows - 1);
   return box;
 }
 
@@ -65,7 +56,7 @@ void splatFront(const SplatDisc* discs, int count, const SplatBand& band) {
       float* row = band.front + static_cast<long>(v - band.first_row) * band.stride + box.u0;
       for (int g = 0; g < box.groups; ++g) {
         const Float8 x = kCounting + (static_cast<float>(box.u0 + g * kLanes) - disc.u_px);
-        const Float8 depth = disc.inverse_depth + disc.slope_v * y + disc.slope_u * x;
+        const Float8 depth = discInverseDepth(disc, x, y);
         const Float8 front = load8<Float8>(row + g * kLanes);
         const Int8 nearer = (x * x + y * y < radius_sq) & (depth > front);
         store8(row + g * kLanes, nearer ? depth : front);
@@ -78,10 +69,10 @@ void splatFront(const SplatDisc* discs, int count, const SplatBand& band) {
 inline void blendLanes(const SplatDisc& disc, const SplatBand& band, long at, const Float8& x,
                        float y, float inverse_radius_sq) {
   const Float8 none{};
-  const Float8 depth = disc.inverse_depth + disc.slope_v * y + disc.slope_u * x;
-  const Float8 falloff = 1 - (x * x + y * y) * inverse_radius_sq;
+  const Float8 depth = discInverseDepth(disc, x, y);
+  const Float8 falloff = discFalloff(x, y, inverse_radius_sq);
   const Float8 front = load8<Float8>(band.front + at);
-  const Float8 limit = front * (1 - band.tolerance_mm * front);
+  const Float8 limit = frontLimit(front, band.tolerance_mm);
   const Float8 w = ((falloff > 0) & (depth >= limit)) ? falloff * falloff : none;
   add8(band.weight + at, w);
   add8(band.red + at, w * disc.red);
@@ -132,8 +123,8 @@ inline void haarAt(const HaarRows& rows, int u, const Load& load, Value* du, Val
   const Value all = bottom_right - bottom_left - top_right + top_left;
   *invalid = load(rows.invalid_bottom + u + h) - load(rows.invalid_bottom + u - h) -
              load(rows.invalid_top + u + h) + load(rows.invalid_top + u - h);
-  *du = all - 2 * left;
-  *dv = all - 2 * upper;
+  *du = haarResponse(all, left);
+  *dv = haarResponse(all, upper);
 }
 
 void haarRow(const std::int32_t* top, const std::int32_t* middle, const std::int32_t* bottom,
@@ -167,15 +158,9 @@ float describe(const float* const* rows, int step, std::uint8_t* __restrict byte
   float lanes[8] = {};
   for (int k = 0; k < kDescriptorSize; k += 8)
     for (int l = 0; l < 8; ++l) lanes[l] += values[k + l] * values[k + l];
-  const float sum = ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
-                    ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
-  const float length = __builtin_sqrtf(sum);
-  const float scale = length > 0 ? kDescriptorUnit / length : 0.0f;
-  for (int k = 0; k < kDescriptorSize; ++k) {
-    const float value = values[k] * scale;
-    const float clamped = value < -128 ? -128.0f : (value > 127 ? 127.0f : value);
-    bytes[k] = static_cast<std::uint8_t>(static_cast<int>(clamped + 128.5f));
-  }
+  const float length = __builtin_sqrtf(sumOfLanes(lanes));
+  const float scale = descriptorScale(length);
+  for (int k = 0; k < kDescriptorSize; ++k) bytes[k] = descriptorByte(values[k], scale);
   return length;
 }
 
@@ -209,9 +194,8 @@ WindowSums windowSums(const WindowTemplate& fixed, const float* corner, int stri
     const float* lower = upper + stride;
     const long at = static_cast<long>(y) * kWindowLanes;
     for (int k = 0; k < kWindowLanes; ++k) {
-      const float above = upper[k] + fraction_u * (upper[k + 1] - upper[k]);
-      const float below = lower[k] + fraction_u * (lower[k + 1] - lower[k]);
-      const float value = above + fraction_v * (below - above);
+      const float value =
+          bilinear(upper[k], upper[k + 1], lower[k], lower[k + 1], fraction_u, fraction_v);
       along_u[k] += fixed.steepest_u[at + k] * value;
       along_v[k] += fixed.steepest_v[at + k] * value;
       contrast[k] += fixed.contrast[at + k] * value;

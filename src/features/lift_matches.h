@@ -27,6 +27,10 @@ struct LiftedMatch {
 /// the four pixels is unmeasured or they differ by more than `max_step_mm`.
 float depthAt(const Raster<float>& depth_mm, const Eigen::Vector2f& place_px, float max_step_mm);
 
+/// In floats, for liftMatches() on either side.
+struct RigidRows;
+RigidRows rigidRows(const Eigen::Isometry3d& motion);
+
 /// Lifts the model side by the view's depth and the live side by the depth map (sigma_mm may be
 /// empty); leaves out what has no depth. Keeps the order.
 std::vector<LiftedMatch> liftMatches(const std::vector<PixelMatch>& matches, const ModelView& view,

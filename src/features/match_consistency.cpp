@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "features/match_formulas.h"
 
 namespace softscope {
 namespace {
@@ -47,9 +48,7 @@ class Squares {
 std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
                                        const ConsistencyOptions& options) {
   if (options.kMinShare <= 0) return matches;
-  const float reach_sq = static_cast<float>(options.kReachPx * options.kReachPx);
-  const auto least_px = static_cast<float>(options.kAgreePx);
-  const auto max_strain = static_cast<float>(options.max_strain);
+  const ConsistencyRules rules = consistencyRules(options);
   const Squares squares(matches, static_cast<float>(options.kReachPx));
   std::vector<std::uint8_t> kept(matches.size(), 0);
   parallelRanges(static_cast<int>(matches.size()), 256, [&](int begin, int end) {
@@ -57,13 +56,12 @@ std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
       int others = 0, agreeing = 0;
       squares.around(matches[i], [&](std::size_t k) {
         const Eigen::Vector2f apart = matches[k].model_px - matches[i].model_px;
-        if (k == i || apart.squaredNorm() > reach_sq) return;
+        if (k == i || !areNeighbours(apart.x(), apart.y(), rules)) return;
         ++others;
-        const float agree_px = least_px + max_strain * apart.norm();
-        agreeing +=
-            (matches[k].live_px - matches[i].live_px - apart).squaredNorm() <= agree_px * agree_px;
+        const Eigen::Vector2f live_apart = matches[k].live_px - matches[i].live_px;
+        agreeing += moveAlike(apart.x(), apart.y(), live_apart.x(), live_apart.y(), rules);
       });
-      kept[i] = agreeing >= 1 && agreeing >= options.kMinShare * others;
+      kept[i] = isConsistent(agreeing, others, rules);
     }
   });
   std::vector<PixelMatch> consistent;

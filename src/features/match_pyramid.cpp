@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "features/match_formulas.h"
+
 namespace softscope {
 
 MatchPicture halved(const MatchPicture& fine) {
@@ -18,10 +20,9 @@ std::vector<MatchLevel> matchPyramid(const MatchPicture& model, const MatchPictu
 }
 
 std::vector<PixelMatch> toFinerLevel(std::vector<PixelMatch> matches) {
-  const Eigen::Vector2f centre = Eigen::Vector2f::Constant(0.5f);
   for (PixelMatch& match : matches) {
-    match.model_px = 2 * match.model_px + centre;
-    match.live_px = 2 * match.live_px + centre;
+    match.model_px = match.model_px.unaryExpr(&toFinerPx);
+    match.live_px = match.live_px.unaryExpr(&toFinerPx);
     match.sigma_px *= 2;
   }
   return matches;

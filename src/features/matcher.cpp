@@ -9,6 +9,7 @@
 #include "features/kernels.h"
 #include "features/mask_morphology.h"
 #include "features/match_consistency.h"
+#include "features/match_formulas.h"
 #include "features/match_pyramid.h"
 #include "features/opencv_matchers.h"
 #include "features/shift_field.h"
@@ -32,8 +33,6 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
       throw Error("matching: a mask is " + shape(picture->ignore) + ", but its picture " +
                   shape(picture->gray));
 }
-
-constexpr int kPredictionSquarePx = 16;  // of the shifts that a coarser level predicts
 
 /// `fine`, and those of `coarse` that lie in squares of `square_px` without a fine match; by rows.
 std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
@@ -131,7 +130,7 @@ class NoMatcher : public FeatureMatcher {
 MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& options) {
   Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
   for (std::size_t i = 0; i < dark.size(); ++i)
-    dark.values[i] = picture.gray.values[i] < options.kDarkestGray;
+    dark.values[i] = isDark(picture.gray.values[i], options.kDarkestGray);
   MatchPicture out{picture.gray, grown(dark, options.kDarkMarginPx), picture.anchor};
   for (std::size_t i = 0; i < picture.ignore.size(); ++i)
     if (picture.ignore.values[i] != 0) out.ignore.values[i] = 1;

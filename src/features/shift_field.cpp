@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/match_formulas.h"
+
 namespace softscope {
 namespace {
 
@@ -46,10 +48,8 @@ ShiftField::ShiftField(const std::vector<PixelMatch>& matches, int width_px, int
   if (matches.empty()) return;
   Raster<Sum> sums((width_px + square_px - 1) / square_px, (height_px + square_px - 1) / square_px);
   for (const PixelMatch& match : matches) {
-    const int u = std::clamp(static_cast<int>(match.model_px.x()) / square_px, 0,
-                             sums.width_px - 1),
-              v = std::clamp(static_cast<int>(match.model_px.y()) / square_px, 0,
-                             sums.height_px - 1);
+    const int u = squareOf(match.model_px.x(), square_px, sums.width_px),
+              v = squareOf(match.model_px.y(), square_px, sums.height_px);
     sums.at(u, v).shift_px += match.live_px - match.model_px;
     sums.at(u, v).count += 1;
   }
@@ -58,18 +58,15 @@ ShiftField::ShiftField(const std::vector<PixelMatch>& matches, int width_px, int
 
 Eigen::Vector2f ShiftField::at(const Eigen::Vector2f& model_px) const {
   if (shift_px_.empty()) return Eigen::Vector2f::Zero();
-  const auto place = [&](float px, int count) {
-    return std::clamp((px + 0.5f) / static_cast<float>(square_px_) - 0.5f, 0.0f,
-                      static_cast<float>(count - 1));
-  };
-  const float x = place(model_px.x(), shift_px_.width_px),
-              y = place(model_px.y(), shift_px_.height_px);
-  const int u = static_cast<int>(x), v = static_cast<int>(y);
-  const int right = std::min(u + 1, shift_px_.width_px - 1),
-            below = std::min(v + 1, shift_px_.height_px - 1);
-  const float a = x - static_cast<float>(u), b = y - static_cast<float>(v);
-  return (1 - b) * ((1 - a) * shift_px_.at(u, v) + a * shift_px_.at(right, v)) +
-         b * ((1 - a) * shift_px_.at(u, below) + a * shift_px_.at(right, below));
+  const BetweenSquares across = betweenSquares(model_px.x(), square_px_, shift_px_.width_px),
+                       down = betweenSquares(model_px.y(), square_px_, shift_px_.height_px);
+  Eigen::Vector2f shift;
+  for (int axis = 0; axis < 2; ++axis)
+    shift[axis] = mixSquares(
+        shift_px_.at(across.first, down.first)[axis], shift_px_.at(across.second, down.first)[axis],
+        shift_px_.at(across.first, down.second)[axis],
+        shift_px_.at(across.second, down.second)[axis], across.share, down.share);
+  return shift;
 }
 
 }  // namespace softscope

@@ -1,25 +1,15 @@
 #include "features/subpixel_match.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/parallel.h"
-#include "features/kernels.h"
+#include "features/subpixel_formulas.h"
 
 namespace softscope {
 namespace {
 
-/// Neighbouring pixels' residuals are alike after smoothing, so a window holds less information
-/// than its number of pixels; measured against true errors.
-constexpr float kCorrelatedPixels = 4.0f;
-constexpr float kLeastWindowShare = 0.6f;  // of the window's weight that isn't ignored
-constexpr float kLeastContrastSq = 0.5f;   // variance of the window, grey levels²
-constexpr float kConvergedPx = 0.003f;
-constexpr float kLargestSigmaPx = 1.5f;  // of any match; more is no place
-
-/// A 3 x 3 binomial filter: less noise, and bilinear samples that hardly depend on the fraction.
 Raster<float> smoothed(const GrayImage& image) {
   const int width = image.width_px, height = image.height_px;
   Raster<float> out(width, height);
@@ -36,7 +26,7 @@ Raster<float> smoothed(const GrayImage& image) {
       float* to = out.row(v);
       for (int u = 0; u < width; ++u) {
         const int* at = upright.data() + u;
-        to[u] = 0.0625f * static_cast<float>(at[0] + 2 * at[1] + at[2]);
+        to[u] = binomial(at[0], at[1], at[2]);
       }
     }
   });
@@ -48,9 +38,9 @@ using WindowPlane = std::array<float, kLargestWindow * kWindowLanes>;
 /// Everything about one window of the model picture.
 struct Patch {
   WindowPlane steepest_u, steepest_v, contrast, weight;
-  Eigen::Matrix2f information;  // per unit of weight
+  WindowMatrix information;  // per unit of weight
   float contrast_sq = 0;
-  float weight_sq = 0;  // sum of squared weights: 1 / independent pixels
+  float weight_sq = 0;
   int rows = 0;
 
   WindowTemplate view() const {
@@ -66,22 +56,21 @@ class Refiner {
         anchor_(model.anchor.empty() ? Raster<float>() : smoothed(model.anchor)),
         live_(smoothed(live.gray)),
         model_ignore_(model.ignore),
-        live_ignore_(live.ignore) {
-    fillWindow();
-  }
+        live_ignore_(live.ignore),
+        window_(windowWeights(options.kRadiusPx)) {}
 
   /// False where the match is refused.
   bool refine(PixelMatch* match) const {
     if (anchor_.empty()) return refineBy(model_, match);
     PixelMatch anchored = *match, present = *match;
     const bool held = refineBy(anchor_, &anchored);
-    if (held && anchored.sigma_px <= static_cast<float>(options_.kMaxSigmaPx)) {
+    if (anchorDecides(held, anchored.sigma_px, static_cast<float>(options_.kMaxSigmaPx))) {
       *match = anchored;
       return true;
     }
     const bool seen = refineBy(model_, &present);
-    present.sigma_px = std::hypot(present.sigma_px, static_cast<float>(options_.kDriftPx));
-    *match = held && (!seen || anchored.sigma_px < present.sigma_px) ? anchored : present;
+    present.sigma_px = quadratureSum(present.sigma_px, static_cast<float>(options_.kDriftPx));
+    *match = anchorIsBetter(held, anchored.sigma_px, seen, present.sigma_px) ? anchored : present;
     return held || seen;
   }
 
@@ -90,39 +79,23 @@ class Refiner {
     const int r = options_.kRadiusPx;
     const int mu = static_cast<int>(std::lround(match->model_px.x()));
     const int mv = static_cast<int>(std::lround(match->model_px.y()));
-    if (!insideModel(mu, mv, r)) return false;
+    if (!isInsideModel(mu, mv, r, model.width_px, model.height_px)) return false;
     const Eigen::Vector2f rest = match->model_px - Eigen::Vector2f(mu, mv);
     const Eigen::Vector2f start = match->live_px - rest;  // of the window's middle
-    if (!start.allFinite() || !insideLive(start, r)) return false;
+    if (!start.allFinite() ||
+        !isInsideLive(start.x(), start.y(), r, live_.width_px, live_.height_px))
+      return false;
     Patch patch;
     if (!weigh(mu, mv, static_cast<int>(std::lround(start.x())),
                static_cast<int>(std::lround(start.y())), &patch) ||
         !prepare(model, mu, mv, &patch))
       return false;
-    Eigen::Vector2f centre = start;
-    if (!iterate(patch, &centre, match)) return false;
-    match->live_px = centre + rest;
+    WindowSearch search{
+        start.x(),         start.y(),      start.x(), start.y(), inverseOf(patch.information),
+        patch.contrast_sq, patch.weight_sq};
+    if (!iterate(patch, &search, match)) return false;
+    match->live_px = Eigen::Vector2f(search.u, search.v) + rest;
     return true;
-  }
-
-  void fillWindow() {
-    const int r = options_.kRadiusPx;
-    const float sigma = 0.8f * static_cast<float>(r) + 0.5f;
-    for (int y = -r; y <= r; ++y)
-      for (int x = -r; x <= r; ++x)
-        window_[static_cast<std::size_t>((y + r) * kWindowLanes + x + r)] =
-            std::exp(-0.5f * static_cast<float>(x * x + y * y) / (sigma * sigma));
-  }
-
-  bool insideModel(int u, int v, int r) const {
-    return u - r - 1 >= 0 && v - r - 1 >= 0 && u + r + 1 < model_.width_px &&
-           v + r + 1 < model_.height_px;
-  }
-  /// The kernel reads kWindowLanes + 1 columns and one row more than the window.
-  bool insideLive(const Eigen::Vector2f& centre, int r) const {
-    const float u = centre.x() - static_cast<float>(r), v = centre.y() - static_cast<float>(r);
-    return u >= 0 && v >= 0 && u + kWindowLanes + 1 < static_cast<float>(live_.width_px) &&
-           v + static_cast<float>(2 * r + 2) < static_cast<float>(live_.height_px);
   }
 
   /// Weights of the window without what either picture ignores, sum 1.
@@ -130,19 +103,18 @@ class Refiner {
     const int r = options_.kRadiusPx;
     patch->rows = 2 * r + 1;
     patch->weight.fill(0);
-    float all = 0, kept = 0;
+    float kept = 0;
     for (int y = -r; y <= r; ++y)
       for (int x = -r; x <= r; ++x) {
         const std::size_t k = static_cast<std::size_t>((y + r) * kWindowLanes + x + r);
-        all += window_[k];
         const bool ignored = (!model_ignore_.empty() && model_ignore_.at(mu + x, mv + y) != 0) ||
                              (!live_ignore_.empty() && live_ignore_.contains(lu + x, lv + y) &&
                               live_ignore_.at(lu + x, lv + y) != 0);
         if (ignored) continue;
-        patch->weight[k] = window_[k];
-        kept += window_[k];
+        patch->weight[k] = window_.values[k];
+        kept += window_.values[k];
       }
-    if (!(kept >= kLeastWindowShare * all)) return false;
+    if (!(kept >= kLeastWindowShare * window_.all)) return false;
     patch->weight_sq = 0;
     for (float& w : patch->weight) {
       w /= kept;
@@ -157,7 +129,7 @@ class Refiner {
     patch->steepest_u.fill(0);
     patch->steepest_v.fill(0);
     patch->contrast.fill(0);
-    float mean = 0, mean_gu = 0, mean_gv = 0;
+    WindowMoments moments{};
     for (int y = 0; y < patch->rows; ++y) {
       const float* row = model.row(mv - r + y) + mu - r;
       const float *above = row - model.width_px, *below = row + model.width_px;
@@ -166,85 +138,68 @@ class Refiner {
         patch->contrast[k] = row[x];
         patch->steepest_u[k] = 0.5f * (row[x + 1] - row[x - 1]);
         patch->steepest_v[k] = 0.5f * (below[x] - above[x]);
-        mean += patch->weight[k] * patch->contrast[k];
-        mean_gu += patch->weight[k] * patch->steepest_u[k];
-        mean_gv += patch->weight[k] * patch->steepest_v[k];
+        moments.mean += patch->weight[k] * patch->contrast[k];
+        moments.gradient_u += patch->weight[k] * patch->steepest_u[k];
+        moments.gradient_v += patch->weight[k] * patch->steepest_v[k];
       }
     }
-    return project(mean, mean_gu, mean_gv, patch);
+    return project(moments, patch);
   }
 
-  bool project(float mean, float mean_gu, float mean_gv, Patch* patch) const {
-    float square = 0, along_u = 0, along_v = 0;
+  static bool project(WindowMoments m, Patch* patch) {
     for (std::size_t k = 0; k < patch->contrast.size(); ++k) {
-      const float t = patch->contrast[k] - mean, w = patch->weight[k];
-      square += w * t * t;
-      along_u += w * t * (patch->steepest_u[k] - mean_gu);
-      along_v += w * t * (patch->steepest_v[k] - mean_gv);
+      const float t = patch->contrast[k] - m.mean, w = patch->weight[k];
+      m.square += w * t * t;
+      m.along_u += w * t * (patch->steepest_u[k] - m.gradient_u);
+      m.along_v += w * t * (patch->steepest_v[k] - m.gradient_v);
     }
-    if (!(square > kLeastContrastSq)) return false;
-    patch->contrast_sq = square;
-    patch->information.setZero();
+    if (!(m.square > kLeastContrastSq)) return false;
+    patch->contrast_sq = m.square;
+    WindowMatrix& information = patch->information = {0, 0, 0, 0};
     for (std::size_t k = 0; k < patch->contrast.size(); ++k) {
-      const float t = patch->contrast[k] - mean, w = patch->weight[k];
-      const Eigen::Vector2f g(patch->steepest_u[k] - mean_gu - t * along_u / square,
-                              patch->steepest_v[k] - mean_gv - t * along_v / square);
-      patch->information += w * g * g.transpose();
-      patch->steepest_u[k] = w * g.x();
-      patch->steepest_v[k] = w * g.y();
+      const float t = patch->contrast[k] - m.mean, w = patch->weight[k];
+      const float u = projectedGradient(patch->steepest_u[k], m.gradient_u, t, m.along_u, m.square),
+                  v = projectedGradient(patch->steepest_v[k], m.gradient_v, t, m.along_v, m.square);
+      information.uu += w * u * u;
+      information.uv += w * u * v;
+      information.vu += w * v * u;
+      information.vv += w * v * v;
+      patch->steepest_u[k] = w * u;
+      patch->steepest_v[k] = w * v;
       patch->contrast[k] = w * t;
     }
-    return patch->information.determinant() > 1e-6f;
+    return determinantOf(information) > kLeastDeterminant;
   }
 
-  bool iterate(const Patch& patch, Eigen::Vector2f* centre, PixelMatch* match) const {
-    const Eigen::Matrix2f inverse = patch.information.inverse();
-    const Eigen::Vector2f start = *centre;
-    const float farthest = static_cast<float>(options_.kMaxShiftPx);
+  bool iterate(const Patch& patch, WindowSearch* search, PixelMatch* match) const {
     for (int i = 0; i < options_.kIterations; ++i) {
-      const WindowSums sums = sample(patch, *centre);
-      const float gain = sums.along_contrast / patch.contrast_sq;
-      if (!(gain > 0.1f && gain < 10.0f)) return false;
-      const Eigen::Vector2f step = inverse * Eigen::Vector2f(sums.along_u, sums.along_v) / gain;
-      *centre -= step;
-      if (!((*centre - start).norm() <= farthest) || !insideLive(*centre, options_.kRadiusPx))
-        return false;
-      if (step.norm() < kConvergedPx) break;
+      const SearchStep step =
+          takeStep(sample(patch, *search), static_cast<float>(options_.kMaxShiftPx),
+                   options_.kRadiusPx, live_.width_px, live_.height_px, search);
+      if (step == SearchStep::kRefused) return false;
+      if (step == SearchStep::kConverged) break;
     }
-    return judge(patch, inverse, sample(patch, *centre), match);
+    const WindowVerdict verdict =
+        judgeWindow(sample(patch, *search), *search, static_cast<float>(options_.kFloorSigmaPx),
+                    static_cast<float>(options_.kMinSimilarity));
+    match->similarity = verdict.similarity;
+    match->sigma_px = verdict.sigma_px;
+    return verdict.accepted;
   }
 
-  WindowSums sample(const Patch& patch, const Eigen::Vector2f& centre) const {
-    const float u = centre.x() - static_cast<float>(options_.kRadiusPx);
-    const float v = centre.y() - static_cast<float>(options_.kRadiusPx);
+  WindowSums sample(const Patch& patch, const WindowSearch& search) const {
+    const float u = search.u - static_cast<float>(options_.kRadiusPx);
+    const float v = search.v - static_cast<float>(options_.kRadiusPx);
     const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
     return featureKernels().windowSums(patch.view(), live_.row(v0) + u0, live_.width_px,
                                        u - static_cast<float>(u0), v - static_cast<float>(v0));
-  }
-
-  /// Standard error from what the window leaves unexplained.
-  bool judge(const Patch& patch, const Eigen::Matrix2f& inverse, const WindowSums& sums,
-             PixelMatch* match) const {
-    const float variance = sums.square - sums.mean * sums.mean;
-    if (!(variance > 0)) return false;
-    const float gain = sums.along_contrast / patch.contrast_sq;
-    match->similarity = sums.along_contrast / std::sqrt(patch.contrast_sq * variance);
-    const float unexplained = variance * std::max(0.0f, 1 - match->similarity * match->similarity);
-    const float half_trace = 0.5f * inverse.trace();
-    const float worst =
-        half_trace + std::sqrt(std::max(0.0f, half_trace * half_trace - inverse.determinant()));
-    const float floor = static_cast<float>(options_.kFloorSigmaPx);
-    match->sigma_px = std::sqrt(
-        kCorrelatedPixels * patch.weight_sq * unexplained * worst / (gain * gain) + floor * floor);
-    return match->similarity >= static_cast<float>(options_.kMinSimilarity) &&
-           match->sigma_px <= kLargestSigmaPx;
   }
 
   const SubpixelOptions& options_;
   Raster<float> model_, anchor_, live_;
   const Mask& model_ignore_;
   const Mask& live_ignore_;
-  WindowPlane window_{};
+  WindowWeights window_;
 };
 
 }  // namespace

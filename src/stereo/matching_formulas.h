@@ -37,6 +37,13 @@ inline int gainQ8(double gradient_gain) {
 }
 
 /// The support window: every second pixel of nine by nine.
+// The range of disparities that is tried in all rows of the grid, from the points of some rows.
+constexpr int kRangeRows = 4;        // every so many rows are tried over the whole range
+constexpr int kFewestForRange = 50;  // points, to know the range
+constexpr int kNearDisparityPx = 2;  // points with disparities as near as that …
+constexpr int kFewestNear = 3;       // … and as many make a surface
+constexpr int kBeyondRangePx = 16;   // on either side
+
 constexpr int kSupportSide = kSupportMargin + 1;
 constexpr int kSupportPixels = kSupportSide * kSupportSide;
 SOFTSCOPE_FORMULA int supportOffset(int index) { return 2 * index - kSupportMargin; }

@@ -8,16 +8,15 @@
 #include "stereo/depth_from_disparity.h"
 #include "stereo/kernel_sets.h"
 #include "stereo/plane.h"
+#include "stereo/refinement_formulas.h"
 
 namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr int kReach = 3;  // pixels
+constexpr int kReach = kNormalReach;
 constexpr int kHeight = 2 * kReach + 1;
-constexpr float kDepthStep = 0.05f;  // share of the depth: beyond it another surface
-constexpr float kFewestPixels = 12;  // of 49, for a plane
-constexpr int kBandRows = 60;        // solved by one thread at a time
+constexpr int kBandRows = 60;  // solved by one thread at a time
 constexpr float kBox[kHeight] = {1, 1, 1, 1, 1, 1, 1};
 
 /// Which pixels of a window count, as selectedMoments() wants it.
@@ -27,7 +26,7 @@ struct Selection {
       for (int x = 0; x < kSelectLanes; ++x) {
         const std::size_t i = static_cast<std::size_t>(y * kSelectLanes + x);
         window[i] = x < kHeight ? 1.0f : 0.0f;
-        tolerance[i] = x < kHeight ? kDepthStep : std::numeric_limits<float>::infinity();
+        tolerance[i] = x < kHeight ? kNormalDepthStep : std::numeric_limits<float>::infinity();
       }
   }
   std::array<float, kHeight * kSelectLanes> window, tolerance;
@@ -89,7 +88,7 @@ class NormalBand {
     normalKernels().solveNormals({moments,
                                   inverse_.row(slot(v)),
                                   width_,
-                                  kFewestPixels,
+                                  kFewestNormalPixels,
                                   static_cast<float>(camera_.fx_px),
                                   static_cast<float>(camera_.fy_px),
                                   static_cast<float>(camera_.cx_px),
@@ -103,7 +102,7 @@ class NormalBand {
   void selectWindows(int v, const MomentRow& moments, const RowsOfWindow& measured,
                      const RowsOfWindow& weighted) {
     const RowsOfWindow inverse = rowsAround(inverse_, v);
-    normalKernels().findMixed(inverse.data(), kReach, width_, kDepthStep, range_.row(0),
+    normalKernels().findMixed(inverse.data(), kReach, width_, kNormalDepthStep, range_.row(0),
                               range_.row(1), mixed_.data());
     columns_mixed_.clear();
     for (int u = 0; u < width_; ++u)

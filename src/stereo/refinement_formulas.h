@@ -141,6 +141,11 @@ SOFTSCOPE_FORMULA float sumLanesOf(const float* x, int stride) {
   return (four[0] + four[2]) + (four[1] + four[3]);
 }
 
+// Planes fitted to the inverse depth.
+constexpr int kNormalReach = 3;            // pixels
+constexpr float kNormalDepthStep = 0.05f;  // share of the depth: beyond it another surface
+constexpr float kFewestNormalPixels = 12;  // of 49, for a plane
+
 /// Normal of the plane through inverse depths, not yet of unit length, towards the camera after
 /// scaling by a negative factor. `u_cx`, `v_cy`: pixel minus principal point.
 template <class V>

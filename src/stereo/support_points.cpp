@@ -15,13 +15,6 @@ namespace {
 constexpr float kNone = kNoSupport;
 constexpr int kReach = kSupportMargin;
 
-// The whole range of disparities is tried in every fourth row; in the others what was found there.
-constexpr int kRangeRows = 4;
-constexpr std::size_t kFewestForRange = 50;  // points, to know the range
-constexpr int kNear = 2;                     // px: points as near as that …
-constexpr int kFewestAlike = 3;              // … and as many make a surface
-constexpr int kBeyondRangePx = 16;           // on either side
-
 /// Mean |gradient| of the support window around (u, v).
 double texture(const GradientView& image, int u, int v) {
   return static_cast<double>(supportTextureSum(image.at(u, v), image.stride)) / kCostDifferences;
@@ -154,20 +147,22 @@ std::vector<float> foundIn(const Raster<float>& grid) {
 }  // namespace
 
 StereoOptions narrowedTo(const std::vector<float>& disparities_px, StereoOptions options) {
-  if (disparities_px.size() < kFewestForRange) return options;
+  if (disparities_px.size() < std::size_t{kFewestForRange}) return options;
   const int first = options.disparity_min_px, last = options.disparity_max_px;
-  // How many lie within kNear of each disparity, those of first - kNear first.
-  std::vector<int> alike(static_cast<std::size_t>(last - first + 1 + 2 * kNear));
+  // How many lie within kNearDisparityPx of each disparity, those of first - kNearDisparityPx
+  // first.
+  std::vector<int> alike(static_cast<std::size_t>(last - first + 1 + 2 * kNearDisparityPx));
   for (const float d : disparities_px) {
     const long shifted = std::clamp<long>(std::lround(d), first, last) - first;
-    for (long i = shifted; i <= shifted + 2 * kNear; ++i) ++alike[static_cast<std::size_t>(i)];
+    for (long i = shifted; i <= shifted + 2 * kNearDisparityPx; ++i)
+      ++alike[static_cast<std::size_t>(i)];
   }
-  const auto isSurface = [](int count) { return count >= kFewestAlike; };
+  const auto isSurface = [](int count) { return count >= kFewestNear; };
   const auto low = std::find_if(alike.begin(), alike.end(), isSurface);
   const auto high = std::find_if(alike.rbegin(), alike.rend(), isSurface);
   if (low == alike.end()) return options;
-  const int lowest = first - kNear + static_cast<int>(low - alike.begin());
-  const int highest = first - kNear + static_cast<int>(alike.rend() - high) - 1;
+  const int lowest = first - kNearDisparityPx + static_cast<int>(low - alike.begin());
+  const int highest = first - kNearDisparityPx + static_cast<int>(alike.rend() - high) - 1;
   options.disparity_min_px = std::max(first, lowest - kBeyondRangePx);
   options.disparity_max_px = std::min(last, highest + kBeyondRangePx);
   return options;

@@ -1,0 +1,102 @@
+// src/features/match_formulas.h: formulas of the descriptor search, of the predicted shift and of
+// the consistency of matches, for the CPU and the GPU.
+#pragma once
+
+#include <cmath>
+
+#include "core/hd.h"
+#include "features/matcher_options.h"
+
+namespace softscope {
+
+// --- masks -----------------------------------------------------------------------------------
+
+SOFTSCOPE_HD inline bool isDark(int gray, int darkest_gray) { return gray < darkest_gray; }
+
+// --- descriptor search -----------------------------------------------------------------------
+
+constexpr int kNoDistance = 0xFFFF;
+
+/// The search's options in nodes of the grid.
+struct SearchReach {
+  int search, elsewhere, mutual;
+};
+inline SearchReach searchReach(const MatcherOptions& options, int grid_px, double radius_px) {
+  const auto nodes = [&](double px) { return static_cast<int>(std::lround(px / grid_px)); };
+  const int search = nodes(radius_px);
+  return {search < 1 ? 1 : search, nodes(options.kElsewherePx), nodes(options.kMutualPx)};
+}
+
+/// Best distance over the best one elsewhere; below 1 = distinct.
+SOFTSCOPE_HD inline float distanceRatio(int best, int elsewhere) {
+  const float other = static_cast<float>(elsewhere);
+  return static_cast<float>(best) / (other < 1.0f ? 1.0f : other);
+}
+
+/// Where the parabola through three neighbouring distances is lowest, in nodes; 0 at the rim.
+SOFTSCOPE_HD inline float parabolaShift(int before, int best, int after) {
+  if (before == kNoDistance || after == kNoDistance) return 0;
+  const int curvature = before + after - 2 * best;
+  return curvature > 0 ? 0.5f * static_cast<float>(before - after) / static_cast<float>(curvature)
+                       : 0;
+}
+
+// --- predicted shift -------------------------------------------------------------------------
+
+constexpr int kPredictionSquarePx = 16;  // of the shifts that a coarser level predicts
+
+/// Squares on either side of a place, and its share of the second one.
+struct BetweenSquares {
+  int first, second;
+  float share;
+};
+SOFTSCOPE_HD inline BetweenSquares betweenSquares(float px, int square_px, int count) {
+  const float last = static_cast<float>(count - 1);
+  float place = (px + 0.5f) / static_cast<float>(square_px) - 0.5f;
+  place = place < 0.0f ? 0.0f : (last < place ? last : place);
+  const int first = static_cast<int>(place);
+  return {first, first + 1 < count ? first + 1 : count - 1, place - static_cast<float>(first)};
+}
+/// Bilinear between four squares, one coordinate of the shift.
+SOFTSCOPE_HD inline float mixSquares(float upper_left, float upper_right, float lower_left,
+                                     float lower_right, float across, float down) {
+  return (1 - down) * ((1 - across) * upper_left + across * upper_right) +
+         down * ((1 - across) * lower_left + across * lower_right);
+}
+/// The square of a pixel; what lies outside counts to the border.
+SOFTSCOPE_HD inline int squareOf(float px, int square_px, int count) {
+  const int square = static_cast<int>(px) / square_px;
+  return square < 0 ? 0 : (square < count ? square : count - 1);
+}
+
+/// Pixels of the next finer level: p -> 2 p + 1/2.
+SOFTSCOPE_HD inline float toFinerPx(float px) { return 2 * px + 0.5f; }
+
+// --- consistency -----------------------------------------------------------------------------
+
+struct ConsistencyRules {
+  float reach_sq, least_px, max_strain;
+  double min_share;
+};
+inline ConsistencyRules consistencyRules(const ConsistencyOptions& options) {
+  return {static_cast<float>(options.kReachPx * options.kReachPx),
+          static_cast<float>(options.kAgreePx), static_cast<float>(options.max_strain),
+          options.kMinShare};
+}
+/// Whether two matches, this far apart on the model, are neighbours.
+SOFTSCOPE_HD inline bool areNeighbours(float apart_u, float apart_v, const ConsistencyRules& r) {
+  return apart_u * apart_u + apart_v * apart_v <= r.reach_sq;
+}
+/// Whether they moved alike: `live_apart` is their distance in the live image.
+SOFTSCOPE_HD inline bool moveAlike(float apart_u, float apart_v, float live_apart_u,
+                                   float live_apart_v, const ConsistencyRules& r) {
+  const float apart_px = std::sqrt(apart_u * apart_u + apart_v * apart_v);
+  const float agree_px = r.least_px + r.max_strain * apart_px;
+  const float u = live_apart_u - apart_u, v = live_apart_v - apart_v;
+  return u * u + v * v <= agree_px * agree_px;
+}
+SOFTSCOPE_HD inline bool isConsistent(int agreeing, int others, const ConsistencyRules& r) {
+  return agreeing >= 1 && agreeing >= r.min_share * others;
+}
+
+}  // namespace softscope
