@@ -35,8 +35,8 @@ struct Chosen {
 };
 
 /// `auto` takes the GPU where one runs this build, has the memory, and the depth comes from a
-/// method that has kernels; there stereo takes less time than on the processor and runs beside its
-/// stages (docs/benchmarks.md). `cuda` throws BackendError, or OptionError for such a method,
+/// method that has kernels; a frame then takes less time on two cores, and the same on four or more
+/// (docs/benchmarks.md). `cuda` throws BackendError, or OptionError for such a method,
 /// instead of taking the processor.
 Chosen<std::unique_ptr<ReconstructionBackend>> makeBackend(const std::string& name,
                                                            const StereoCalibration& calibration,

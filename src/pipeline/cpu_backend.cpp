@@ -36,7 +36,7 @@ class CpuBackend : public ReconstructionBackend {
       : options_(options),
         name_(parts.name),
         device_(parts.device),
-        depth_ahead_(parts.depth_ahead),
+        depth_ahead_from_threads_(parts.depth_ahead_from_threads),
         depth_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo)),
         matcher_(makeFeatureMatcher(options.matcher)),
         solver_(makeDeformSolver(options.deform)) {
@@ -51,7 +51,7 @@ class CpuBackend : public ReconstructionBackend {
   void restore(ModelState state) override { state_ = std::move(state); }
 
   void prepare(const Frame& next) override {
-    if (depth_ahead_ && threadCount() > 1) depth_.prepare(next);
+    if (threadCount() >= depth_ahead_from_threads_) depth_.prepare(next);
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
@@ -83,7 +83,7 @@ class CpuBackend : public ReconstructionBackend {
 
   ReconstructionOptions options_;
   std::string name_, device_;
-  bool depth_ahead_;
+  int depth_ahead_from_threads_;
   DepthAhead depth_;
   std::unique_ptr<FeatureMatcher> matcher_;
   std::unique_ptr<DeformSolver> solver_;

@@ -15,7 +15,9 @@ namespace softscope {
 struct BackendParts {
   std::string name = "cpu", device = "processor";
   StereoStageFactory makeStereo = makeCpuStereoStage;
-  bool depth_ahead = false;  // of the next frame, on a thread of its own
+  /// From so many threads on, the next frame's depth is measured beside the stages of this one. On
+  /// two, the processor's own stereo and those stages only take turns (docs/benchmarks.md).
+  int depth_ahead_from_threads = 3;
 };
 
 /// Same input, same bytes, whatever the number of threads.

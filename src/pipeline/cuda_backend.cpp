@@ -52,7 +52,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   BackendParts parts;
   parts.name = "cuda";
   parts.makeStereo = makeCudaStereoStage;
-  parts.depth_ahead = true;
+  parts.depth_ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;
   return makeCpuBackend(calibration, options, parts);

@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Built, EveryBackend, testing::ValuesIn(builtBackends())
 
 TEST(DepthAhead, GivesTheSameModelInWhateverOrderFramesCome) {
   BackendParts parts;
-  parts.depth_ahead = true;
+  parts.depth_ahead_from_threads = 1;
   Reconstructor ahead = reconstructorOf(parts);
   run(ahead, 0, 4);
   EXPECT_TRUE(modelOf(ahead) == modelOfTheCpu());
@@ -96,7 +96,7 @@ TEST(DepthAhead, GivesTheSameModelInWhateverOrderFramesCome) {
 
 TEST(DepthAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
   BackendParts parts;
-  parts.depth_ahead = true;
+  parts.depth_ahead_from_threads = 1;
   Reconstructor reconstructor = reconstructorOf(parts);
   const std::vector<Frame>& frames = shortClip().frames;
   Frame one_eyed = frames[1];
@@ -126,7 +126,7 @@ class FailingStage : public StereoStage {
 TEST(LostDevice, LeavesAModelWithWhichTheCpuGoesOn) {
   BackendParts parts;
   parts.name = "cuda";
-  parts.depth_ahead = true;
+  parts.depth_ahead_from_threads = 1;
   parts.makeStereo = [](const StereoOptions& options, const RectifiedRig& rig) {
     return std::make_unique<FailingStage>(makeCpuStereoStage(options, rig));
   };
