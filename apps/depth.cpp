@@ -18,6 +18,8 @@
 #include "io/atomic_file.h"
 #include "io/folder.h"
 #include "io/sequence_reader.h"
+#include "pipeline/backends.h"
+#include "pipeline/run_options.h"
 #include "toolkit/depth/depth_estimator.h"
 #include "toolkit/depth/depth_outputs.h"
 #include "toolkit/depth/depth_record.h"
@@ -54,7 +56,7 @@ class DepthCommand : public Command {
 
   SequenceArguments source_;
   std::string out_, range_text_, write_;
-  std::string frame_ = "left";
+  std::string frame_ = "left", backend_ = "auto";
   bool force_ = false;
   RecordPaths paths_;
   SettingsArguments settings_;
@@ -76,6 +78,7 @@ void DepthCommand::declare(ArgumentList& arguments) {
   arguments.option("--frame", "NAME", frame_,
                    "frame of the point cloud: left (rectified, the default) or raw-left");
   arguments.option("--range", "A:B", range_text_, "mm that the picture's colour bar spans");
+  arguments.option("--backend", "NAME", backend_, "auto (the default), cpu or cuda");
   arguments.option("--write", "LIST", write_,
                    "some of disparity,depth,confidence,cloud,picture (default: all)");
   arguments.flag("--force", force_, "overwrite what is there");
@@ -106,8 +109,13 @@ int DepthCommand::run() {
   const SequencePaths sequence = source_.paths("depth");
   SequenceReader reader(sequence, options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
-  DepthEstimator estimator(reader.calibration(), options, frame_ == "raw-left");
   is_sequence_ = reader.totalCount() > 1 || (source_.right.empty() && isFolder(source_.left));
+  // To wake a GPU takes longer than one pair does on the processor.
+  const bool one_pair = backend_ == "auto" && reader.frameCount() == 1;
+  auto chosen =
+      makeFrameDepth(one_pair ? "cpu" : backend_, reader.calibration(), options.measurement);
+  if (!chosen.why.empty()) spdlog::info("back end: {} ({})", chosen.name, chosen.why);
+  DepthEstimator estimator(std::move(chosen.part), chosen.name, frame_ == "raw-left");
   const DepthOutputs outputs({out_, kinds, force_, frame_ == "raw-left"});
   requireApart(out_, sequence);
   requireFreeOutputs(outputs, reader);

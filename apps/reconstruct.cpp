@@ -14,10 +14,10 @@
 #include "core/error.h"
 #include "io/file_hash.h"
 #include "io/folder.h"
+#include "io/frame_window.h"
 #include "io/sequence_reader.h"
 #include "io/track_points_file.h"
 #include "pipeline/backends.h"
-#include "pipeline/cpu_backend.h"
 #include "pipeline/reconstructor.h"
 #include "pipeline/run_options.h"
 #include "toolkit/record/json_text.h"
@@ -66,16 +66,16 @@ class ReconstructCommand : public Command {
  private:
   std::string digestOf(const Json& inputs, const SettingsBinder& binder) const;
   std::vector<TrackSeed> seeds() const;
-  std::unique_ptr<ReconstructionBackend> makeBackend(const StereoCalibration& calibration,
-                                                     const ReconstructionOptions& options) const;
+  std::unique_ptr<ReconstructionBackend> backendOf(const StereoCalibration& calibration,
+                                                   const ReconstructionOptions& options) const;
   void readOptions(SettingsBinder& binder, RunOptions& options) const;
   /// The state to go on from; nothing for a run that starts. Throws OptionError.
   std::optional<Checkpoint> earlierState(const RunFolder& folder,
                                          const std::string& settings) const;
   void skipDone(const Checkpoint& earlier, const SequencePaths& where, SequenceOptions& sequence);
   void reconstructAll(const SequencePaths& sequence, const InterruptGuard& interrupt,
-                      SequenceReader& reader, Reconstructor& reconstructor, RunFolder& folder,
-                      RunRecord& record, Checkpoint& checkpoint);
+                      FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
+                      RunFolder& folder, RunRecord& record, Checkpoint& checkpoint);
   int finish(bool nothing, RunFolder& folder, RunRecord& record) const;
 
   SequenceArguments source_;
@@ -86,6 +86,7 @@ class ReconstructCommand : public Command {
   RecordPaths paths_;
   SettingsArguments settings_;
   bool interrupted_ = false, all_done_ = false, input_gone_ = false;
+  std::string failure_;  // of the back end in the middle of the run
 };
 
 void ReconstructCommand::declare(ArgumentList& arguments) {
@@ -132,16 +133,11 @@ std::vector<TrackSeed> ReconstructCommand::seeds() const {
   return seeds;
 }
 
-std::unique_ptr<ReconstructionBackend> ReconstructCommand::makeBackend(
+std::unique_ptr<ReconstructionBackend> ReconstructCommand::backendOf(
     const StereoCalibration& calibration, const ReconstructionOptions& options) const {
-  if (backend_ != "auto" && backend_ != "cpu" && backend_ != "cuda")
-    throw OptionError("--backend is `" + backend_ + "`, but must be auto, cpu or cuda");
-  if (backend_ == "cuda")
-    throw BackendError(
-        "--backend cuda: reconstruction on a GPU is not part of this version; "
-        "give cpu or auto");
-  if (backend_ == "auto") spdlog::info("back end: cpu");
-  return makeCpuBackend(calibration, options);
+  auto chosen = makeBackend(backend_, calibration, options);
+  if (!chosen.why.empty()) spdlog::info("back end: {} ({})", chosen.name, chosen.why);
+  return std::move(chosen.part);
 }
 
 void ReconstructCommand::readOptions(SettingsBinder& binder, RunOptions& options) const {
@@ -203,8 +199,9 @@ int ReconstructCommand::run() {
   }
 
   SequenceReader reader(where, options.sequence);
+  FrameWindow frames(reader);  // outlives the back end, which looks ahead in it
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
-  Reconstructor reconstructor(makeBackend(reader.calibration(), options.method), options.method);
+  Reconstructor reconstructor(backendOf(reader.calibration(), options.method), options.method);
   reconstructor.track(tracked);
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
@@ -214,7 +211,8 @@ int ReconstructCommand::run() {
     record.set("resumed_at_frame", earlier->next_frame);
     for (const FrameRecord& frame : folder.earlierFrames()) record.add(frame);
   }
-  reconstructAll(where, interrupt, reader, reconstructor, folder, record, checkpoint);
+  reconstructAll(where, interrupt, frames, reader.frameCount(), reconstructor, folder, record,
+                 checkpoint);
   return finish(reconstructor.backend().empty(), folder, record);
 }
 
@@ -225,6 +223,10 @@ int ReconstructCommand::finish(bool nothing, RunFolder& folder, RunRecord& recor
   for (const std::string& conclusion : record.conclusions()) spdlog::warn("{}", conclusion);
   const Json written = paths_.applyTo(record.json());
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
+  if (!failure_.empty())
+    throw BackendError(failure_ + (nothing ? ""
+                                           : ". What is finished stays; go on with --resume, "
+                                             "without the GPU with --resume --backend cpu"));
   if (input_gone_)
     throw InputError(source_.left +
                      ": was removed while it was read, or its disk; what is finished "
@@ -237,19 +239,26 @@ int ReconstructCommand::finish(bool nothing, RunFolder& folder, RunRecord& recor
 }
 
 void ReconstructCommand::reconstructAll(const SequencePaths& sequence,
-                                        const InterruptGuard& interrupt, SequenceReader& reader,
-                                        Reconstructor& reconstructor, RunFolder& folder,
-                                        RunRecord& record, Checkpoint& checkpoint) {
-  ProgressBar progress("reconstruct", reader.frameCount(), progressStyle(common.quiet), std::cerr);
+                                        const InterruptGuard& interrupt, FrameWindow& frames,
+                                        int frame_count, Reconstructor& reconstructor,
+                                        RunFolder& folder, RunRecord& record,
+                                        Checkpoint& checkpoint) {
+  ProgressBar progress("reconstruct", frame_count, progressStyle(common.quiet), std::cerr);
   int since_flush = 0, processed = 0;
   bool at_end = all_done_;
   while (!interrupt.requested() && !at_end) {
-    const auto result = reader.next();
-    if (!result) break;
+    const FrameResult* result = frames.advance();
+    if (result == nullptr) break;
     input_gone_ = !result->ok() && isGone(sequence);
     if (input_gone_) break;
-    const FrameRecord frame = result->ok() ? reconstructor.process(result->frame)
-                                           : reconstructor.skip(result->index, result->error);
+    FrameRecord frame;
+    try {
+      frame = result->ok() ? reconstructor.process(result->frame, frames.following())
+                           : reconstructor.skip(result->index, result->error);
+    } catch (const BackendError& error) {
+      failure_ = error.what();
+      break;
+    }
     if (!frame.reason.empty())
       spdlog::warn("frame {}: {}: {}", frame.frame, toString(frame.status), frame.reason);
     folder.add(frame);
@@ -257,7 +266,7 @@ void ReconstructCommand::reconstructAll(const SequencePaths& sequence,
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
       folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
     checkpoint.next_frame = frame.frame + 1;
-    at_end = ++processed == reader.frameCount();
+    at_end = ++processed == frame_count;
     if (++since_flush >= checkpoint_every_ && !reconstructor.backend().empty()) {
       checkpoint.state = reconstructor.state();
       folder.flush(checkpoint);
@@ -265,8 +274,8 @@ void ReconstructCommand::reconstructAll(const SequencePaths& sequence,
     }
     progress.advance();
   }
-  interrupted_ = (interrupt.requested() || input_gone_) && !at_end;
-  if (interrupted_ && !input_gone_)
+  interrupted_ = (interrupt.requested() || input_gone_ || !failure_.empty()) && !at_end;
+  if (interrupted_ && !input_gone_ && failure_.empty())
     spdlog::warn("interrupted: what is finished stays; --resume goes on");
   if (reconstructor.backend().empty()) return;
   checkpoint.state = reconstructor.state();

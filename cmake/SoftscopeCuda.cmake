@@ -1,8 +1,12 @@
-# Looks for a CUDA compiler, also off PATH, and sets SOFTSCOPE_HAS_CUDA. A missing or broken one
-# gives a CPU-only build, or an error where SOFTSCOPE_REQUIRE_CUDA is on.
-option(SOFTSCOPE_REQUIRE_CUDA "Stop if no CUDA compiler works, instead of building for CPU only" OFF)
+# Looks for a CUDA compiler, also off PATH, and sets SOFTSCOPE_HAS_CUDA. Where none works, AUTO
+# builds for the CPU alone, and ON is an error.
+set(SOFTSCOPE_CUDA AUTO CACHE STRING "Build the CUDA back end: ON, OFF, or AUTO, where nvcc is found")
+set_property(CACHE SOFTSCOPE_CUDA PROPERTY STRINGS AUTO ON OFF)
 
 set(SOFTSCOPE_HAS_CUDA OFF)
+if(NOT SOFTSCOPE_CUDA)
+  return()
+endif()
 if(NOT CMAKE_CUDA_COMPILER)
   unset(CMAKE_CUDA_COMPILER CACHE)  # a toolkit may have come since the last configure
   if(NOT DEFINED ENV{CUDACXX})
@@ -46,9 +50,9 @@ else()
 endif()
 
 if(NOT SOFTSCOPE_HAS_CUDA)
-  if(SOFTSCOPE_REQUIRE_CUDA)
+  if(NOT SOFTSCOPE_CUDA STREQUAL "AUTO")
     message(FATAL_ERROR "softscope: ${softscope_no_cuda}. Install a CUDA 12 or 13 toolkit, name its "
-      "compiler in the environment variable CUDACXX, or build without -DSOFTSCOPE_REQUIRE_CUDA=ON.")
+      "compiler in the environment variable CUDACXX, or build with -DSOFTSCOPE_CUDA=AUTO.")
   endif()
   message(STATUS "softscope: CPU only, ${softscope_no_cuda}")
 endif()

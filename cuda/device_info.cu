@@ -19,6 +19,8 @@ std::string problemOf(int index) {
   cudaFuncAttributes attributes{};
   cudaError_t error = cudaSetDevice(index);
   if (error == cudaSuccess) error = cudaFuncGetAttributes(&attributes, probeKernel);
+  if (error == cudaErrorMemoryAllocation)
+    return "other programs have taken its memory; end them (nvidia-smi lists them)";
   return error == cudaSuccess ? std::string() : reason(error);
 }
 
@@ -42,7 +44,7 @@ std::string whyNone(const DeviceInfo& info, cudaError_t error) {
   if (info.driver_version.empty())
     return "no NVIDIA driver answers: install one that speaks CUDA " + info.runtime_version +
            " or newer, and see whether nvidia-smi lists a GPU";
-  if (error != cudaSuccess)
+  if (error != cudaSuccess && error != cudaErrorNoDevice)
     return "the driver speaks CUDA " + info.driver_version + ", this build needs " +
            info.runtime_version + ": " + reason(error);
   return "the driver lists no GPU: see nvidia-smi and the variable CUDA_VISIBLE_DEVICES";

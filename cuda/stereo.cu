@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "cuda/device_executor.cuh"
@@ -39,6 +41,8 @@ class Stereo::Device {
         staging_(2 * pixels_ * sizeof(Rgb8), "pinned memory for images"),
         exchange_memory_(sizeof(Exchange), "pinned memory"),
         points_memory_(pointBytes(full()), "pinned memory for support points"),
+        results_memory_(pixels_ * (kRasters * sizeof(float) + sizeof(NormalPixel)),
+                        "pinned memory for depth"),
         executor_(stream_, nullptr),
         passes_(executor_, layout_),
         side_executor_(side_stream_, nullptr),
@@ -119,13 +123,22 @@ class Stereo::Device {
     found.disparity = {Raster<float>(width, height), Raster<float>(width, height)};
     found.depth = {Raster<float>(width, height), Raster<float>(width, height)};
     found.normals = NormalMap(width, height, Eigen::Vector3f::Zero());
-    fetch(layout_.disparity, found.disparity.disparity_px.values.data());
-    fetch(layout_.sigma, found.disparity.sigma_px.values.data());
-    fetch(layout_.depth, found.depth.depth_mm.values.data());
-    fetch(layout_.depth_sigma, found.depth.sigma_mm.values.data());
-    static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
-    fetch(layout_.normals, reinterpret_cast<NormalPixel*>(found.normals.values.data()));
+    auto* arrived = static_cast<float*>(results_memory_.data());
+    const View<float> rasters[] = {layout_.disparity, layout_.sigma, layout_.depth,
+                                   layout_.depth_sigma};
+    for (int i = 0; i < kRasters; ++i) fetch(rasters[i], arrived + i * pixels_);
+    auto* normals = reinterpret_cast<NormalPixel*>(arrived + kRasters * pixels_);
+    fetch(layout_.normals, normals);
     wait();
+    Raster<float>* places[] = {&found.disparity.disparity_px, &found.disparity.sigma_px,
+                               &found.depth.depth_mm, &found.depth.sigma_mm};
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();  // one of many, as on the CPU
+    for (int i = 0; i < kRasters; ++i)
+      std::transform(arrived + i * pixels_, arrived + (i + 1) * pixels_, places[i]->values.data(),
+                     [](float value) { return value == value ? value : kNan; });
+    static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
+    std::memcpy(static_cast<void*>(found.normals.values.data()), normals,
+                pixels_ * sizeof(NormalPixel));
     found.levels = levels_run_;
     return found;
   }
@@ -135,6 +148,8 @@ class Stereo::Device {
   std::size_t deviceBytes() const { return memory_.bytes(); }
 
  private:
+  static constexpr int kRasters = 4;  // of floats, that download() fetches beside the normals
+
   /// Checks come before any memory is taken.
   static void check(const StereoOptions& options, int width_px,
                     const HostPriorFunction& host_prior) {
@@ -256,7 +271,7 @@ class Stereo::Device {
   StereoLayout layout_;
   RectifiedRig rig_;
   std::size_t pixels_;
-  PinnedMemory staging_, exchange_memory_, points_memory_;
+  PinnedMemory staging_, exchange_memory_, points_memory_, results_memory_;
   Stream stream_, side_stream_;
   EventClock clock_;
   Executor executor_;

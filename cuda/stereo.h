@@ -16,7 +16,7 @@
 namespace softscope::cuda {
 
 /// Of the rectified left image; the same bytes as ElasMatcher, removeRoll(), depthFromDisparity(),
-/// the mask and normalsFromDepth() give on the CPU, but for the payload of NaN.
+/// the mask and normalsFromDepth() give on the CPU; NaN in normals may have another payload.
 struct StereoDepth {
   DisparityMap disparity;
   DepthMap depth;

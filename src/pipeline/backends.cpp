@@ -1,18 +1,99 @@
 #include "pipeline/backends.h"
 
+#include "core/error.h"
+#include "pipeline/cpu_backend.h"
+#ifdef SOFTSCOPE_HAS_CUDA
+#include "pipeline/cuda_backend.h"
+#endif
+
 namespace softscope {
 
 // The only file that asks whether CUDA was built.
-cuda::DeviceInfo cudaDevices() {
 #ifdef SOFTSCOPE_HAS_CUDA
-  return cuda::queryDevices();
+cuda::DeviceInfo cudaDevices() { return cuda::queryDevices(); }
+std::vector<std::string> builtBackends() { return {"cpu", "cuda"}; }
 #else
+namespace {
+
+constexpr const char* kNotBuilt =
+    "this build has no CUDA: with a CUDA 12 or 13 toolkit installed, configure by "
+    "`cmake --preset cuda`";
+
+std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions&, const RectifiedRig&) {
+  throw BackendError(kNotBuilt);
+}
+std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration&,
+                                                       const ReconstructionOptions&) {
+  throw BackendError(kNotBuilt);
+}
+
+}  // namespace
+
+cuda::DeviceInfo cudaDevices() {
   cuda::DeviceInfo info;
-  info.why_none =
-      "this build has no CUDA: with a CUDA 12 or 13 toolkit installed, configure by "
-      "`cmake --preset cuda`";
+  info.why_none = kNotBuilt;
   return info;
+}
+std::vector<std::string> builtBackends() { return {"cpu"}; }
 #endif
+
+namespace {
+
+/// Why auto stays on the processor, as far as options and machine tell.
+std::string whyNotOnGpu(const FrameDepthOptions& depth) {
+  if (depth.source == "files") return "depth.source is files, and stereo is what the GPU computes";
+  if (depth.stereo.method != "elas") return depth.stereo.method + " has no GPU version";
+  return whyNoCuda();
+}
+
+/// `makeOnCpu()` or `makeOnGpu()`.
+template <class MakeOnCpu, class MakeOnGpu>
+auto choose(const std::string& name, const FrameDepthOptions& depth, const MakeOnCpu& makeOnCpu,
+            const MakeOnGpu& makeOnGpu) -> Chosen<decltype(makeOnCpu())> {
+  requireBackendName(name);
+  if (name == "cpu") return {makeOnCpu(), "cpu", ""};
+  if (name == "cuda") {
+    if (const std::string why = whyNoCuda(); !why.empty())
+      throw BackendError("--backend cuda: " + why + ". --backend cpu or auto needs no GPU");
+    return {makeOnGpu(), "cuda", ""};
+  }
+  std::string why = whyNotOnGpu(depth);
+  if (why.empty()) try {
+      return {makeOnGpu(), "cuda", "stereo on the GPU, the next frame's beside this one's stages"};
+    } catch (const Error& error) {
+      why = error.what();  // too little memory, or an option without kernels
+    }
+  return {makeOnCpu(), "cpu", why};
+}
+
+}  // namespace
+
+std::string whyNoCuda() {
+  const cuda::DeviceInfo info = cudaDevices();
+  if (info.devices.empty()) return info.why_none;
+  const cuda::Device& first = info.devices.front();
+  return first.problem.empty() ? "" : first.name + ": " + first.problem;
+}
+
+void requireBackendName(const std::string& name) {
+  if (name != "auto" && name != "cpu" && name != "cuda")
+    throw OptionError("--backend is `" + name + "`, but must be auto, cpu or cuda");
+}
+
+Chosen<std::unique_ptr<ReconstructionBackend>> makeBackend(const std::string& name,
+                                                           const StereoCalibration& calibration,
+                                                           const ReconstructionOptions& options) {
+  return choose(
+      name, options.depth, [&] { return makeCpuBackend(calibration, options); },
+      [&] { return makeCudaBackend(calibration, options); });
+}
+
+Chosen<std::unique_ptr<FrameDepth>> makeFrameDepth(const std::string& name,
+                                                   const StereoCalibration& calibration,
+                                                   const FrameDepthOptions& options) {
+  return choose(
+      name, options, [&] { return std::make_unique<FrameDepth>(calibration, options); },
+      [&] { return std::make_unique<FrameDepth>(calibration, options, makeCudaStereoStage); });
 }
 
 }  // namespace softscope

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "core/median.h"
+#include "core/parallel.h"
 #include "deform/graph_builder.h"
 #include "deform/surface_target.h"
 #include "deform/warp.h"
 #include "features/matcher.h"
 #include "fusion/model_update.h"
 #include "fusion/visibility.h"
-#include "pipeline/frame_depth.h"
+#include "pipeline/depth_ahead.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/relocaliser.h"
 #include "pose/ransac_pose.h"
@@ -29,22 +31,28 @@ constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the
 
 class CpuBackend : public ReconstructionBackend {
  public:
-  CpuBackend(const StereoCalibration& calibration, const ReconstructionOptions& options)
+  CpuBackend(const StereoCalibration& calibration, const ReconstructionOptions& options,
+             const BackendParts& parts)
       : options_(options),
-        depth_(calibration, options.depth),
+        name_(parts.name),
+        device_(parts.device),
+        depth_ahead_from_threads_(parts.depth_ahead_from_threads),
+        depth_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo)),
         matcher_(makeFeatureMatcher(options.matcher)),
         solver_(makeDeformSolver(options.deform)) {
     options.validate();
   }
 
-  std::string name() const override { return "cpu"; }
-  std::string device() const override { return "processor"; }
-  const RectifiedRig& rig() const override { return depth_.rig(); }
+  std::string name() const override { return name_; }
+  std::string device() const override { return device_; }
+  const RectifiedRig& rig() const override { return depth_.depth().rig(); }
   bool empty() const override { return state_.model.empty(); }
   ModelState state() const override { return state_; }
   void restore(ModelState state) override { state_ = std::move(state); }
-  const StageTimes& times() const override { return clock_.laps(); }
 
+  void prepare(const Frame& next) override {
+    if (threadCount() >= depth_ahead_from_threads_) depth_.prepare(next);
+  }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
                        const Eigen::Isometry3d& reference, bool maybe_static) override;
@@ -53,12 +61,12 @@ class CpuBackend : public ReconstructionBackend {
   void acceptWarp(bool is_reference) override;
   EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) override;
   void rejectWarp() override;
-  FusionSummary fuse(const Eigen::Isometry3d& world_from_left) override;
+  void fuse(const Eigen::Isometry3d& world_from_left) override;
+  FrameOutcome finish(const Eigen::Isometry3d& world_from_left) override;
   void track(const std::vector<TrackSeed>& seeds) override { seeds_ = seeds; }
-  std::vector<TrackedPosition> tracked(const Eigen::Isometry3d& world_from_left) const override;
 
  private:
-  const PinholeCamera& left() const { return depth_.rig().left; }
+  const PinholeCamera& left() const { return rig().left; }
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
@@ -71,9 +79,12 @@ class CpuBackend : public ReconstructionBackend {
               PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
+  std::vector<TrackedPosition> tracked(const Eigen::Isometry3d& world_from_left) const;
 
   ReconstructionOptions options_;
-  FrameDepth depth_;
+  std::string name_, device_;
+  int depth_ahead_from_threads_;
+  DepthAhead depth_;
   std::unique_ptr<FeatureMatcher> matcher_;
   std::unique_ptr<DeformSolver> solver_;
 
@@ -97,6 +108,7 @@ class CpuBackend : public ReconstructionBackend {
   MatchPicture live_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
+  FusionSummary fused_;
   StageClock clock_;
 };
 
@@ -120,7 +132,7 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   }
   summary.median_sigma_mm = medianOf(std::move(sigmas));
   const double depth_mm = medianOf(std::move(depths_mm));
-  const double mm_per_px = depth_mm * depth_mm / (left().fx_px * depth_.rig().baseline_mm);
+  const double mm_per_px = depth_mm * depth_mm / (left().fx_px * rig().baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   scaleTo(summary);
   // How sure a pixel is does not depend on where the camera stands.
@@ -197,7 +209,7 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
   summary->inliers = pose_.inliers;
   summary->rms_mm = pose_.rms_mm;
   if (options_.refine_pose.iterations == 0) return;
-  const RectifiedRig& rig = depth_.rig();
+  const RectifiedRig& rig = this->rig();
   std::vector<PosePair> pairs;
   // Neighbouring matches err alike; an even choice of them says as much.
   const std::size_t step = 1 + matches_.size() / kPosePairs;
@@ -306,11 +318,10 @@ void CpuBackend::rejectWarp() {
   for (NodeTransform& transform : state_.graph.transforms) transform = NodeTransform();
 }
 
-FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
+void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
   if (empty()) seedTracks(world_from_left);
   before_ = {};
-  FusionSummary summary;
   const ModelUpdateSummary update =
       updateModel(observation, states_, state_.graph, fusion_, &state_.memory, &state_.model);
   state_.exposure = update.points.gain;
@@ -318,20 +329,25 @@ FusionSummary CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   state_.tracked.renumber(update.index_map, state_.model);
   state_.tracked.settle(state_.model);
   clock_.lap("fuse");
-  summary.corrected = backProjectionError(state_.model, observation, states_);
-  summary.points = static_cast<int>(state_.model.size());
-  summary.seen = update.seen;
-  summary.fused = update.points.fused;
-  summary.contradicted = update.points.contradicted;
-  summary.inserted = update.insertion.inserted;
+  fused_.corrected = backProjectionError(state_.model, observation, states_);
+  fused_.points = static_cast<int>(state_.model.size());
+  fused_.seen = update.seen;
+  fused_.fused = update.points.fused;
+  fused_.contradicted = update.points.contradicted;
+  fused_.inserted = update.insertion.inserted;
   clock_.lap("check");
-  return summary;
+}
+
+FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
+  FrameOutcome outcome{std::exchange(fused_, {}), tracked(world_from_left), clock_.laps()};
+  clock_ = StageClock();
+  return outcome;
 }
 
 void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
   for (const TrackSeed& seed : seeds_)
-    state_.tracked.add(seed.id, depth_.rectifier().rectifiedPixel({seed.u_px, seed.v_px}), left(),
-                       measured_.depth.depth_mm, world_from_left);
+    state_.tracked.add(seed.id, depth_.depth().rectifier().rectifiedPixel({seed.u_px, seed.v_px}),
+                       left(), measured_.depth.depth_mm, world_from_left);
 }
 
 bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
@@ -356,9 +372,10 @@ std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_
 }  // namespace
 
 std::unique_ptr<ReconstructionBackend> makeCpuBackend(const StereoCalibration& calibration,
-                                                      const ReconstructionOptions& options) {
+                                                      const ReconstructionOptions& options,
+                                                      const BackendParts& parts) {
   options.validate();
-  return std::make_unique<CpuBackend>(calibration, withSharedQuantities(options));
+  return std::make_unique<CpuBackend>(calibration, withSharedQuantities(options), parts);
 }
 
 }  // namespace softscope

@@ -2,16 +2,29 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "core/stereo_rig.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
+#include "pipeline/stereo_stage.h"
 
 namespace softscope {
 
+/// What takes the place of the processor's own stages, and how the whole is named.
+struct BackendParts {
+  std::string name = "cpu", device = "processor";
+  StereoStageFactory makeStereo = makeCpuStereoStage;
+  /// From so many threads on, the next frame's depth is measured beside the stages of this one. On
+  /// two, the processor's own stereo and those stages only take turns (docs/benchmarks.md).
+  int depth_ahead_from_threads = 3;
+};
+
 /// Same input, same bytes, whatever the number of threads.
-/// Throws OptionError for bad options, InputError where the calibration can't be used.
+/// Throws OptionError for bad options, InputError where the calibration can't be used, and what the
+/// parts throw.
 std::unique_ptr<ReconstructionBackend> makeCpuBackend(const StereoCalibration& calibration,
-                                                      const ReconstructionOptions& options);
+                                                      const ReconstructionOptions& options,
+                                                      const BackendParts& parts = {});
 
 }  // namespace softscope

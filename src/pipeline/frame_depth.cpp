@@ -1,45 +1,28 @@
 #include "pipeline/frame_depth.h"
 
-#include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "pipeline/reconstruction_settings.h"
 #include "stereo/depth_from_disparity.h"
 #include "stereo/image_border.h"
 #include "stereo/stage_clock.h"
+#include "stereo/view_masks.h"
 
 namespace softscope {
-namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-/// NaN where the mask says to ignore.
-void drop(Raster<float>& raster, const Mask& mask) {
-  if (!raster.sameShape(mask)) return;
-  for (std::size_t i = 0; i < raster.size(); ++i)
-    if (mask.values[i] != 0) raster.values[i] = kNan;
-}
-
-void dropMasked(MeasuredFrame& measured) {
-  drop(measured.disparity.disparity_px, measured.mask);
-  drop(measured.disparity.sigma_px, measured.mask);
-  drop(measured.depth.depth_mm, measured.mask);
-  drop(measured.depth.sigma_mm, measured.mask);
-}
-
-}  // namespace
 
 void FrameDepthOptions::validate() const {
   requireAllowed(*this);
   stereo.validate();
 }
 
-FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options)
+FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options,
+                       const StereoStageFactory& makeStage)
     : options_(options),
       calibration_source_(calibration.source),
       rectified_(calibration.rectified),
       rectifier_(calibration),
-      matcher_(makeStereoMatcher(options.stereo)) {
+      stage_(makeStage(options.stereo, rectifier_.rig())) {
   options.validate();
   if (options.source == "files") requireRectified();
 }
@@ -62,11 +45,6 @@ MeasuredFrame FrameDepth::measure(const Frame& frame) {
     takeFile(frame, measured);
   else
     match(frame, measured);
-  StageClock clock;
-  dropMasked(measured);
-  measured.normals = normalsFromDepth(measured.depth.depth_mm, rig().left);
-  clock.lap("normals");
-  measured.times.insert(measured.times.end(), clock.laps().begin(), clock.laps().end());
   return measured;
 }
 
@@ -78,6 +56,11 @@ void FrameDepth::takeFile(const Frame& frame, MeasuredFrame& measured) const {
   measured.left = frame.pair.left;
   measured.mask = frame.mask;
   measured.depth.depth_mm = frame.depth_mm;
+  StageClock clock;
+  dropMasked(measured.mask, &measured.depth.depth_mm);
+  measured.normals = normalsFromDepth(measured.depth.depth_mm, rig().left);
+  clock.lap("normals");
+  measured.times = clock.laps();
 }
 
 void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
@@ -101,17 +84,14 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   measured.rows = aligned.before;
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");
-  measured.disparity =
-      matcher_->match(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
-  removeRoll(aligned.roll_rad, &measured.disparity.disparity_px);
-  clock.lap("disparity");
-  measured.depth = depthFromDisparity(measured.disparity, rig());
+  StereoSurface found = stage_->measure(aligned, measured.mask);
+  measured.disparity = std::move(found.disparity);
+  measured.depth = std::move(found.depth);
+  measured.normals = std::move(found.normals);
   measured.left = std::move(aligned.pair.left);
-  measured.method = matcher_->name();
-  clock.lap("depth");
+  measured.method = stage_->name();
   measured.times = clock.laps();
-  for (const auto& [stage, elapsed_ms] : matcher_->times())
-    measured.times.emplace_back("disparity/" + stage, elapsed_ms);
+  measured.times.insert(measured.times.end(), found.times.begin(), found.times.end());
 }
 
 }  // namespace softscope

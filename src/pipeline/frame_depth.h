@@ -7,9 +7,9 @@
 #include "core/depth_map.h"
 #include "core/frame.h"
 #include "core/stereo_rig.h"
+#include "pipeline/stereo_stage.h"
 #include "stereo/rectifier.h"
 #include "stereo/row_alignment.h"
-#include "stereo/stereo_matcher.h"
 
 namespace softscope {
 
@@ -42,8 +42,10 @@ struct MeasuredFrame {
 /// Rectify, align rows, match, lift; or take the depth that the sequence brings.
 class FrameDepth {
  public:
-  /// Throws OptionError for bad options, InputError where the calibration doesn't fit them.
-  FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options);
+  /// Throws OptionError for bad options, InputError where the calibration doesn't fit them, and
+  /// what `makeStage` throws.
+  FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options,
+             const StereoStageFactory& makeStage = makeCpuStereoStage);
 
   const RectifiedRig& rig() const { return rectifier_.rig(); }
   const Rectifier& rectifier() const { return rectifier_; }
@@ -61,7 +63,7 @@ class FrameDepth {
   std::string calibration_source_;
   bool rectified_;
   Rectifier rectifier_;
-  std::unique_ptr<StereoMatcher> matcher_;
+  std::unique_ptr<StereoStage> stage_;
 };
 
 }  // namespace softscope

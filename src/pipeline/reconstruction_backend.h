@@ -75,6 +75,13 @@ struct FusionSummary {
   BackProjectionError corrected;  // of the model as it is now: the paper's number
 };
 
+/// What is known once all stages of a frame are done.
+struct FrameOutcome {
+  FusionSummary fusion;                  // zeros where nothing was fused
+  std::vector<TrackedPosition> tracked;  // position, and whether the pose given sees it
+  StageTimes times;                      // in the order of work; verbs called twice add up
+};
+
 /// What the scope saw when the model last learned.
 struct LastPicture {
   ColourImage left;  // rectified
@@ -100,6 +107,9 @@ class ReconstructionBackend {
   virtual std::string device() const = 0;  // which processor or GPU
   virtual const RectifiedRig& rig() const = 0;
 
+  /// May begin what needs no model of the frame that comes next. Results don't depend on it.
+  /// `next` must live and stay as it is until measure() has been called again.
+  virtual void prepare(const Frame& /*next*/) {}
   /// Stage 1: rectifies, masks and measures. Throws InputError where the frame doesn't fit.
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 to 4: draws the model from that pose, finds its pixels in the live image, and the
@@ -119,18 +129,17 @@ class ReconstructionBackend {
   virtual EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) = 0;
   /// The model is again as it was before findWarp(), also after acceptWarp().
   virtual void rejectWarp() = 0;
-  /// Stage 7: brings the model up to the frame; an empty model begins with it.
-  virtual FusionSummary fuse(const Eigen::Isometry3d& world_from_left) = 0;
+  /// Stage 7: brings the model up to the frame; an empty model begins with it. May return before
+  /// that is done; finish() waits.
+  virtual void fuse(const Eigen::Isometry3d& world_from_left) = 0;
+  /// Ends every frame, fused or not. The tracked points are where they are now.
+  virtual FrameOutcome finish(const Eigen::Isometry3d& world_from_left) = 0;
 
   virtual bool empty() const = 0;
   /// Follows these tissue points; they lie in the first frame that is fused.
   virtual void track(const std::vector<TrackSeed>& seeds) = 0;
-  /// Where they are now, and whether the scope sees them from that pose.
-  virtual std::vector<TrackedPosition> tracked(const Eigen::Isometry3d& world_from_left) const = 0;
   virtual ModelState state() const = 0;
   virtual void restore(ModelState state) = 0;
-  /// Of the last frame, in the order of work; verbs that were called twice add up.
-  virtual const StageTimes& times() const = 0;
 };
 
 }  // namespace softscope

@@ -39,17 +39,16 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
   options.validate();
 }
 
-FrameRecord Reconstructor::process(const Frame& frame) {
+FrameRecord Reconstructor::process(const Frame& frame, const Frame* next) {
   FrameRecord record;
   record.frame = frame.index;
   record.time_s = frame.time_s;
   try {
-    reconstruct(frame, record);
+    reconstruct(frame, next, record);
   } catch (const InputError& error) {
     reject(record, FrameStatus::kUnreadable, error.what());
   }
   finish(record);
-  record.times = backend_->times();
   return record;
 }
 
@@ -64,7 +63,11 @@ FrameRecord Reconstructor::skip(int index, const std::string& reason) {
 /// Where nothing was fused, the scope and the tracked points stay where they were last seen.
 void Reconstructor::finish(FrameRecord& record) {
   record.world_from_left = world_from_left_;
-  record.tracked = backend_->tracked(world_from_left_);
+  FrameOutcome outcome = backend_->finish(world_from_left_);
+  record.fusion = outcome.fusion;
+  record.points = outcome.fusion.points;
+  record.tracked = std::move(outcome.tracked);
+  record.times = std::move(outcome.times);
   unfused_frames_ = record.fused() ? 0 : unfused_frames_ + 1;
   if (record.fused()) searches_ = 0;
   if (record.fused()) return;
@@ -73,8 +76,10 @@ void Reconstructor::finish(FrameRecord& record) {
 
 // Song et al. 2018, section III, in its order: depth, visible model, matches, rigid pose, warp
 // field, fusion.
-void Reconstructor::reconstruct(const Frame& frame, FrameRecord& record) {
-  if (!measure(frame, record)) return;
+void Reconstructor::reconstruct(const Frame& frame, const Frame* next, FrameRecord& record) {
+  const bool measured = measure(frame, record);
+  if (next != nullptr) backend_->prepare(*next);
+  if (!measured) return;
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
   const bool was_lost = lost_;
   const Eigen::Isometry3d before = world_from_left_;
@@ -174,8 +179,7 @@ bool Reconstructor::confirm(FrameRecord& record) {
 }
 
 void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {
-  record.fusion = backend_->fuse(world_from_left_);
-  record.points = record.fusion.points;
+  backend_->fuse(world_from_left_);
   record.status = status;
   rememberView();
 }

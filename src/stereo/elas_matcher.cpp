@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/parallel.h"
 #include "stereo/dense_matching.h"
@@ -13,17 +12,12 @@
 #include "stereo/stage_clock.h"
 #include "stereo/subpixel_refinement.h"
 #include "stereo/support_points.h"
+#include "stereo/view_masks.h"
 
 namespace softscope {
 namespace {
 
 constexpr double kEverything = 2;  // more than any share
-
-/// No disparity under the mask.
-void dropMasked(const Mask& mask, Raster<float>& disparity_px) {
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    if (mask.values[i] != 0) disparity_px.values[i] = std::numeric_limits<float>::quiet_NaN();
-}
 
 /// One level of the pyramid, times into `clock`. Ignored pixels are filled.
 DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const ViewMasks& ignored,
@@ -54,7 +48,7 @@ DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const Vie
   removeDark(disparity_px, left, options.darkest_gray, options.dark_margin_px);
   removeSpeckles(disparity_px, elas.speckle_size_px, elas.speckle_step_px);
   fillGaps(disparity_px, elas.gap_width_px, elas.gap_step_px);
-  dropMasked(ignored.left, disparity_px);
+  dropMasked(ignored.left, &disparity_px);
   clock.lap("filter");
 
   DisparityMap map = refineDisparity(left, right, disparity_px, options.refinement);
@@ -105,7 +99,7 @@ DisparityMap ElasMatcher::match(const GrayImage& left_image, const GrayImage& ri
   const GrayImage right = fillMasked(right_image, ignored.right);
   DisparityMap map = matchPyramid(left, right, ignored, options_, options_.elas.coarser_levels,
                                   kEverything, clock);
-  dropMasked(ignored.left, map.disparity_px);
+  dropMasked(ignored.left, &map.disparity_px);
   removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
   clock.lap("dark");
   smoothByPatches(options_.smoothing, options_.refinement, map);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/error.h"
@@ -66,6 +67,12 @@ Mask dilated(const Mask& mask, int radius_px) {
   Mask marks = mask;
   for (std::uint8_t& value : marks.values) value = value != 0;
   return spread(marks, radius_px);
+}
+
+void dropMasked(const Mask& mask, Raster<float>* raster) {
+  if (!raster->sameShape(mask)) return;
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask.values[i] != 0) raster->values[i] = std::numeric_limits<float>::quiet_NaN();
 }
 
 GrayImage fillMasked(const GrayImage& image, const Mask& mask) {

@@ -17,6 +17,9 @@ Mask united(const Mask& one, const Mask& other);
 /// Masked pixels widened by `radius_px` rows and columns, as 0 or 1; empty stays empty.
 Mask dilated(const Mask& mask, int radius_px);
 
+/// NaN under the mask; unchanged where that is empty or has another shape.
+void dropMasked(const Mask& mask, Raster<float>* raster);
+
 /// The image with masked pixels replaced by a smooth continuation of the others (means over
 /// squares of doubling size), so that no gradient arises at the mask's edge. Unchanged where `mask`
 /// is empty or covers everything.

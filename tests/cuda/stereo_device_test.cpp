@@ -1,6 +1,7 @@
 // tests/cuda/stereo_device_test.cpp: stereo on the GPU gives the CPU's bytes, frame after frame.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <memory>
 
 #include "core/error.h"
@@ -23,11 +24,21 @@ Raster<Normal> listed(const NormalMap& normals) {
   return list;
 }
 
+/// Down to the payload of NaN: these are written to files.
+bool sameBytes(const Raster<float>& a, const Raster<float>& b) {
+  return a.sameShape(b) &&
+         std::memcmp(a.values.data(), b.values.data(), a.size() * sizeof(float)) == 0;
+}
+
 void expectEqual(const cuda::StereoDepth& found, const test::CpuDepth& cpu) {
   EXPECT_EQ(differing(found.disparity.disparity_px, cpu.disparity.disparity_px), 0);
   EXPECT_EQ(differing(found.disparity.sigma_px, cpu.disparity.sigma_px), 0);
   EXPECT_EQ(differing(found.depth.depth_mm, cpu.depth.depth_mm), 0);
   EXPECT_EQ(differing(found.depth.sigma_mm, cpu.depth.sigma_mm), 0);
+  EXPECT_TRUE(sameBytes(found.disparity.disparity_px, cpu.disparity.disparity_px));
+  EXPECT_TRUE(sameBytes(found.disparity.sigma_px, cpu.disparity.sigma_px));
+  EXPECT_TRUE(sameBytes(found.depth.depth_mm, cpu.depth.depth_mm));
+  EXPECT_TRUE(sameBytes(found.depth.sigma_mm, cpu.depth.sigma_mm));
   EXPECT_EQ(test::differingNormals(listed(found.normals), cpu.normals), 0);
 }
 

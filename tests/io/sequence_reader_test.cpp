@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/depth_files.h"
+#include "io/frame_window.h"
 #include "io/sequence_folder.h"
 #include "io/sequence_settings.h"
 #include "io/settings_binder.h"
@@ -48,6 +49,30 @@ void makeTwoVideos(const TemporaryFolder& folder, int count) {
   }
   makeVideo(folder / "left.avi", left);
   makeVideo(folder / "right.avi", right);
+}
+
+// A back end may still read the frame after the current one when the window moves on to it.
+TEST(FrameWindow, HoldsAFrameAndTheOneAfterItInPlace) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 4);
+  put(folder / "right" / "000002.png", "broken");
+  SequenceReader reader(folder.path());
+  FrameWindow window(reader);
+  EXPECT_EQ(window.following(), nullptr);
+  const Frame* expected = nullptr;
+  for (int i = 0; i < 4; ++i) {
+    const FrameResult* result = window.advance();
+    ASSERT_NE(result, nullptr);
+    EXPECT_EQ(result->index, i);
+    EXPECT_EQ(result->ok(), i != 2);
+    if (expected != nullptr) {
+      EXPECT_EQ(expected, &result->frame);
+    }
+    expected = window.following();
+    EXPECT_EQ(expected != nullptr, i == 0 || i == 2) << i;
+  }
+  EXPECT_EQ(window.advance(), nullptr);
+  EXPECT_EQ(window.following(), nullptr);
 }
 
 TEST(SequenceReader, ReadsAFolderOfPictures) {

@@ -15,7 +15,7 @@ void turn(PointCloud& cloud, const Eigen::Matrix3f& rotation) {
 }  // namespace
 
 DepthResult DepthEstimator::measure(const Frame& frame) {
-  DepthResult result{depth_.measure(frame), {}};
+  DepthResult result{depth_->measure(frame), {}};
   StageClock clock;
   result.cloud =
       pointCloud(result.depth.depth_mm, result.normals, result.left, rig().left, result.mask);

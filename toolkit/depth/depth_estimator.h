@@ -1,11 +1,14 @@
 // toolkit/depth/depth_estimator.h: one stereo frame to everything that `softscope depth` writes.
 #pragma once
 
+#include <memory>
+#include <string>
+#include <utility>
+
 #include "core/frame.h"
 #include "core/point_cloud.h"
 #include "core/stereo_rig.h"
 #include "pipeline/frame_depth.h"
-#include "pipeline/run_options.h"
 
 namespace softscope {
 
@@ -17,16 +20,19 @@ struct DepthResult : MeasuredFrame {
 class DepthEstimator {
  public:
   /// `raw_left`: the cloud is turned from the rectified into the raw left camera's frame.
-  DepthEstimator(const StereoCalibration& calibration, const DepthOptions& options, bool raw_left)
-      : depth_(calibration, options.measurement), raw_left_(raw_left) {}
+  DepthEstimator(std::unique_ptr<FrameDepth> depth, std::string backend, bool raw_left)
+      : depth_(std::move(depth)), backend_(std::move(backend)), raw_left_(raw_left) {}
 
-  const RectifiedRig& rig() const { return depth_.rig(); }
+  const RectifiedRig& rig() const { return depth_->rig(); }
+  /// "cpu" or "cuda".
+  const std::string& backend() const { return backend_; }
 
   /// Throws InputError where the frame doesn't fit.
   DepthResult measure(const Frame& frame);
 
  private:
-  FrameDepth depth_;
+  std::unique_ptr<FrameDepth> depth_;
+  std::string backend_;
   bool raw_left_;
 };
 

@@ -33,6 +33,7 @@ DepthRecord::DepthRecord(const std::map<std::string, std::string>& inputs,
   json_["command"] = "depth";
   json_["inputs"] = inputs;
   json_["calibration"] = calibrationJson(calibration, estimator.rig());
+  json_["backend"] = estimator.backend();
   json_["cloud_frame"] = raw_left ? "raw left" : "left";
   json_["interrupted"] = false;
   for (const std::string& warning : calibration.warnings) addWarning(warning);

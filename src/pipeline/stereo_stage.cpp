@@ -1,0 +1,51 @@
+#include "pipeline/stereo_stage.h"
+
+#include <utility>
+
+#include "stereo/depth_from_disparity.h"
+#include "stereo/stage_clock.h"
+#include "stereo/view_masks.h"
+
+namespace softscope {
+namespace {
+
+class CpuStereoStage final : public StereoStage {
+ public:
+  CpuStereoStage(const StereoOptions& options, const RectifiedRig& rig)
+      : matcher_(makeStereoMatcher(options)), rig_(rig) {}
+  std::string name() const override { return matcher_->name(); }
+  StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override;
+
+ private:
+  std::unique_ptr<StereoMatcher> matcher_;
+  RectifiedRig rig_;
+};
+
+StereoSurface CpuStereoStage::measure(const AlignedPair& aligned, const Mask& mask) {
+  StageClock clock;
+  StereoSurface found;
+  found.disparity =
+      matcher_->match(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
+  removeRoll(aligned.roll_rad, &found.disparity.disparity_px);
+  clock.lap("disparity");
+  found.depth = depthFromDisparity(found.disparity, rig_);
+  for (Raster<float>* raster : {&found.disparity.disparity_px, &found.disparity.sigma_px,
+                                &found.depth.depth_mm, &found.depth.sigma_mm})
+    dropMasked(mask, raster);
+  clock.lap("depth");
+  found.normals = normalsFromDepth(found.depth.depth_mm, rig_.left);
+  clock.lap("normals");
+  found.times = clock.laps();
+  for (const auto& [stage, elapsed_ms] : matcher_->times())
+    found.times.emplace_back("disparity/" + stage, elapsed_ms);
+  return found;
+}
+
+}  // namespace
+
+std::unique_ptr<StereoStage> makeCpuStereoStage(const StereoOptions& options,
+                                                const RectifiedRig& rig) {
+  return std::make_unique<CpuStereoStage>(options, rig);
+}
+
+}  // namespace softscope

@@ -1,0 +1,61 @@
+// tests/cuda/host_backend_test.cpp: a reconstruction whose stereo is done by the GPU's kernels, run
+// on the host, gives the CPU's model.
+#include <gtest/gtest.h>
+
+#include "host_stereo.h"
+#include "pipeline/cpu_backend.h"
+#include "tests/pipeline/short_clip.h"
+
+namespace softscope::test {
+namespace {
+
+class KernelsOnTheHost : public StereoStage {
+ public:
+  KernelsOnTheHost(const StereoOptions& options, const RectifiedRig& rig)
+      : stereo_(options, rig.left.width_px, rig.left.height_px, 5), rig_(rig) {}
+  std::string name() const override { return "elas"; }
+  StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override {
+    stereo_.compute(toGray(aligned.pair.left), toGray(aligned.pair.right), rig_, aligned.roll_rad,
+                    mask);
+    const cuda::StereoLayout& found = stereo_.layout();
+    StereoSurface surface;
+    surface.disparity = {rasterOf(found.disparity), rasterOf(found.sigma)};
+    surface.depth = {rasterOf(found.depth), rasterOf(found.depth_sigma)};
+    surface.normals = NormalMap(found.normals.width, found.normals.height, Eigen::Vector3f::Zero());
+    const Raster<cuda::NormalPixel> normals = rasterOf(found.normals);
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      surface.normals.values[i] = {normals.values[i].x, normals.values[i].y, normals.values[i].z};
+    return surface;
+  }
+
+ private:
+  HostStereo stereo_;
+  RectifiedRig rig_;
+};
+
+std::string modelAfterThreeFrames(const BackendParts& parts) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor(makeCpuBackend(clip.calibration, smallOptions(), parts),
+                              smallOptions());
+  for (std::size_t i = 0; i < 3; ++i) {
+    Frame frame = clip.frames[i];
+    if (i == 2) {  // one with an instrument
+      frame.mask = Mask(240, 180, 0);
+      for (int v = 40; v < 100; ++v) std::fill_n(frame.mask.row(v) + 90, 60, std::uint8_t{255});
+    }
+    EXPECT_TRUE(reconstructor.process(frame).fused());
+  }
+  return bytesOf(reconstructor.state().model.model);
+}
+
+TEST(HostBackend, KernelsGiveTheModelOfTheCpu) {
+  BackendParts parts;
+  parts.name = "cuda";
+  parts.makeStereo = [](const StereoOptions& options, const RectifiedRig& rig) {
+    return std::make_unique<KernelsOnTheHost>(options, rig);
+  };
+  EXPECT_TRUE(modelAfterThreeFrames(parts) == modelAfterThreeFrames({}));
+}
+
+}  // namespace
+}  // namespace softscope::test
