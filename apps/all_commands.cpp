@@ -11,6 +11,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeSimulateCommand());
   commands.push_back(makeEvaluateCommand());
   commands.push_back(makeCompareCommand());
+  commands.push_back(makeBenchmarkCommand());
   commands.push_back(makeStudyCommand());
   commands.push_back(makeSliceCommand());
   commands.push_back(makeFigureCommand());

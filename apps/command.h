@@ -25,6 +25,7 @@ class Command {
   CommonOptions common;
 };
 
+std::unique_ptr<Command> makeBenchmarkCommand();
 std::unique_ptr<Command> makeCalibrateCommand();
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeDepthCommand();

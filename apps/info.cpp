@@ -7,6 +7,7 @@
 #include "apps/result_output.h"
 #include "apps/shared_arguments.h"
 #include "core/error.h"
+#include "io/dataset_form.h"
 #include "io/folder.h"
 #include "io/sequence_paths.h"
 #include "io/text_lines.h"
@@ -71,7 +72,7 @@ class InfoCommand : public Command {
   }
 
   FactSheet describeFolder() const {
-    if (looksLikeSequence(path_)) return describeSequence(path_, check_);
+    if (looksLikeSequence(path_) || recogniseDataset(path_)) return describeSequence(path_, check_);
     if (looksLikeVolume(path_)) return describeVolume(path_, volumeOptions());
     try {
       return describeCalibration(path_);

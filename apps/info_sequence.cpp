@@ -5,6 +5,7 @@
 
 #include "apps/info_parts.h"
 #include "core/error.h"
+#include "io/dataset_form.h"
 #include "io/folder.h"
 #include "io/picture_source.h"
 #include "io/sequence_reader.h"
@@ -22,6 +23,7 @@ constexpr double kSlowestRate = 0.2;  // frames a second, before the unit of tim
 std::string layoutOf(const SequencePaths& paths) {
   if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
   const std::string left = paths.left.filename().string();
+  if (!paths.form.empty()) return left + " and " + paths.right.filename().string();
   if (paths.right.empty()) return "left view alone, in " + left;
   return fs::is_directory(paths.left)
              ? "pictures in left/ and right/"
@@ -47,6 +49,22 @@ void addCount(const fs::path& folder, const std::string& label, const std::strin
               const std::vector<std::string_view>& kinds, FactSheet& facts) {
   if (!fs::is_directory(folder)) return;
   facts.add(label, key, int(filesIn(folder, kinds).size()));
+}
+
+/// Of a clip of a known data set: which, and its ground truth.
+void addDataset(const DatasetClip& clip, FactSheet& facts) {
+  facts.add("data set", "dataset", clip.form);
+  std::string names;
+  FactSheet::Json list = FactSheet::Json::array();
+  for (const fs::path& file : clip.truth) {
+    names += (names.empty() ? "" : ", ") + file.filename().string();
+    list.push_back(file.filename().string());
+  }
+  facts.addQuietly("dataset_truth", list);
+  if (names.empty())
+    facts.missing("ground truth: the clip can be reconstructed, but not judged");
+  else
+    facts.addLine("ground truth", names);
 }
 
 /// Optional parts: masks, depth, truth.
@@ -128,6 +146,7 @@ FactSheet describeSequence(const std::string& folder, bool check_all) {
   const SequencePaths paths = findSequence(folder);
   FactSheet facts(folder + ": a sequence");
   facts.addQuietly("kind", "sequence");
+  if (!paths.form.empty()) addDataset(*recogniseDataset(folder), facts);
   facts.add("layout", "layout", layoutOf(paths));
   try {
     addFirstFrame(folder, paths, check_all, facts);

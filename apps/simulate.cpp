@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/setting_json.h"
 #include "toolkit/record/version.h"
+#include "toolkit/simulation/dataset_layout.h"
 #include "toolkit/simulation/simulate_inputs.h"
 #include "toolkit/simulation/simulate_options.h"
 #include "toolkit/simulation/simulate_outputs.h"
@@ -32,6 +34,7 @@ const char* const kDetails =
     "heartbeat.*, push.*, cut.*, scope.*, camera.*, instrument.*, smoke, event.*,\n"
     "light.*, sensor.*;\n"
     "data/scenario.toml has them all.\n"
+    "--layout writes one clip with its truth as a data set ships it (docs/datasets.md).\n"
     "--frames, --size, --seed, --organ and --texture are stronger than --set, --set than "
     "--scenario.";
 
@@ -51,10 +54,13 @@ class SimulateCommand : public Command {
  private:
   void readOptions(SettingsBinder& binder, SimulateOptions& options);
   FactSheet::Json record(const SettingsBinder& binder) const;
-  int simulateAll(Simulator& simulator, SimulateOutputs& outputs, const SimulateOptions& options);
+  using AddFrame = std::function<void(int index)>;
+  int simulateAll(int frames, const AddFrame& add);
+  int writeSequence(Simulator& simulator, SimulateOptions& options, const SettingsBinder& binder);
+  int writeLayout(Simulator& simulator, SimulateOptions& options);
   void report(const Simulator& simulator, int frames, double elapsed_s) const;
 
-  std::string out_, scenario_, organ_, texture_, size_, frames_, seed_, truth_;
+  std::string out_, scenario_, organ_, texture_, size_, frames_, seed_, truth_, layout_;
   std::vector<std::string> assignments_;
   bool force_ = false;
   std::optional<InterruptGuard> interrupt_;
@@ -73,6 +79,8 @@ void SimulateCommand::declare(ArgumentList& arguments) {
   arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
   arguments.option("--truth", "LIST", truth_,
                    "some of mesh,depth,trajectory,tracks (the default), normals,flow; or none");
+  arguments.option("--layout", "NAME", layout_,
+                   "one clip as a data set ships it: stir2026, surgt or scared");
   arguments.flag("--force", force_, "overwrite an earlier simulation");
 }
 
@@ -104,36 +112,56 @@ int SimulateCommand::run() {
   SimulateOptions options;
   SettingsBinder binder;
   readOptions(binder, options);
-  const TruthKinds truth = TruthKinds::parse(truth_);
+  TruthKinds::parse(truth_);  // before work begins
   OrganFile organ = readOrgan(options);
   for (const std::string& warning : organ.warnings) spdlog::warn("{}", warning);
   Simulator simulator(std::move(organ.mesh), options.simulation);
-  SimulateOutputs outputs({out_, truth, options.pictures, options.simulation.frames_per_second,
-                           options.jpeg_quality, options.masks, options.input_depth, force_},
-                          jsonText(record(binder)));
   const auto start = std::chrono::steady_clock::now();
-  const int done = simulateAll(simulator, outputs, options);
+  const int done =
+      layout_.empty() ? writeSequence(simulator, options, binder) : writeLayout(simulator, options);
   if (done == 0) return kInterrupted;
-  outputs.finish(simulator);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   report(simulator, done, elapsed.count());
   return done < options.frames ? kInterrupted : kDone;
 }
 
-int SimulateCommand::simulateAll(Simulator& simulator, SimulateOutputs& outputs,
-                                 const SimulateOptions& options) {
-  ProgressBar progress("simulate", options.frames, progressStyle(common.quiet), std::cerr);
-  for (int i = 0; i < options.frames; ++i) {
+int SimulateCommand::writeSequence(Simulator& simulator, SimulateOptions& options,
+                                   const SettingsBinder& binder) {
+  SimulateOutputs outputs(
+      {out_, TruthKinds::parse(truth_), options.pictures, options.simulation.frames_per_second,
+       options.jpeg_quality, options.masks, options.input_depth, force_},
+      jsonText(record(binder)));
+  const int done = simulateAll(options.frames, [&](int i) {
+    const bool with_truth = i % options.truth_every == 0 || i + 1 == options.frames;
+    outputs.addFrame(i, simulator.frame(i, outputs.wantsFlow() && with_truth),
+                     simulator.triangles(), with_truth);
+  });
+  if (done > 0) outputs.finish(simulator);
+  return done;
+}
+
+int SimulateCommand::writeLayout(Simulator& simulator, SimulateOptions& options) {
+  require(truth_.empty(), "--truth", truth_, "is not chosen with --layout: the form has its own");
+  require(!force_, "--force", "given", "nothing is overwritten with --layout; choose a new folder");
+  const auto layout = makeDatasetLayout(layout_, out_, options);
+  options.frames = layout->frameCount(options.frames);
+  const int done = simulateAll(options.frames,
+                               [&](int i) { layout->addFrame(i, simulator.frame(i), simulator); });
+  if (done > 0) layout->finish(simulator);
+  return done;
+}
+
+int SimulateCommand::simulateAll(int frames, const AddFrame& add) {
+  ProgressBar progress("simulate", frames, progressStyle(common.quiet), std::cerr);
+  for (int i = 0; i < frames; ++i) {
     if (interrupt_->requested()) {
       spdlog::warn("interrupted: a sequence of {} frames stays", i);
       return i;
     }
-    const bool with_truth = i % options.truth_every == 0 || i + 1 == options.frames;
-    outputs.addFrame(i, simulator.frame(i, outputs.wantsFlow() && with_truth),
-                     simulator.triangles(), with_truth);
+    add(i);
     progress.advance();
   }
-  return options.frames;
+  return frames;
 }
 
 void SimulateCommand::report(const Simulator& simulator, int frames, double elapsed_s) const {

@@ -20,22 +20,38 @@ const Aliases kLeftMatrix = {"M1",
                              "camera_matrix_1",
                              "KL",
                              "left_camera_matrix",
-                             "camera_matrix_left"};
+                             "camera_matrix_left",
+                             "K_left",
+                             "leftcameramat"};
 const Aliases kRightMatrix = {"M2",
                               "K2",
                               "cameraMatrix2",
                               "camera_matrix_2",
                               "KR",
                               "right_camera_matrix",
-                              "camera_matrix_right"};
-const Aliases kLeftDistortion = {
-    "D1", "distCoeffs1",     "dist_coeffs_1",   "distortion_coefficients_1",
-    "DL", "left_distortion", "dist_coeffs_left"};
-const Aliases kRightDistortion = {
-    "D2", "distCoeffs2",      "dist_coeffs_2",    "distortion_coefficients_2",
-    "DR", "right_distortion", "dist_coeffs_right"};
-const Aliases kRotation = {"R", "rotation_matrix", "rotation"};
-const Aliases kTranslation = {"T", "translation_vector", "translation"};
+                              "camera_matrix_right",
+                              "K_right",
+                              "rightcameramat"};
+const Aliases kLeftDistortion = {"D1",
+                                 "distCoeffs1",
+                                 "dist_coeffs_1",
+                                 "distortion_coefficients_1",
+                                 "DL",
+                                 "left_distortion",
+                                 "dist_coeffs_left",
+                                 "D_left",
+                                 "leftdistortioncoeffs"};
+const Aliases kRightDistortion = {"D2",
+                                  "distCoeffs2",
+                                  "dist_coeffs_2",
+                                  "distortion_coefficients_2",
+                                  "DR",
+                                  "right_distortion",
+                                  "dist_coeffs_right",
+                                  "D_right",
+                                  "rightdistortioncoeffs"};
+const Aliases kRotation = {"R", "rotation_matrix", "rotation", "R_left_to_right"};
+const Aliases kTranslation = {"T", "translation_vector", "translation", "t_left_to_right"};
 const Aliases kWidth = {"image_width", "imageWidth", "width"};
 const Aliases kHeight = {"image_height", "imageHeight", "height"};
 const Aliases kSize = {"image_size", "imageSize", "img_size"};
@@ -123,6 +139,10 @@ CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const s
       distortionFrom(members.numbersIfAny(kRightDistortion), members.label(kRightDistortion));
   out.right_from_left = poseFrom(members.numbers(kRotation), members.numbers(kTranslation),
                                  members.label(kRotation), members.label(kTranslation));
+  if (members.find({"K_left", "leftcameramat"})) {  // STIR's forms are in metres
+    out.form = members.find({"K_left"}) ? "STIR 2026" : "STIR";
+    draft.unit = "m";
+  }
   setFlags(members, draft);
   if (!out.rectified && (!members.find(kLeftDistortion) || !members.find(kRightDistortion)))
     out.warnings.push_back(name +
