@@ -123,6 +123,16 @@ void setFlags(const Members& members, CalibrationDraft& draft) {
     draft.calibration.depth_unit_mm = singleNumber(members, {"depth_unit_mm"});
 }
 
+/// Pinholes of one focal length and row, side by side: resampling would only blur.
+bool isRectified(const StereoCalibration& pair) {
+  const PinholeCamera &left = pair.left.pinhole, &right = pair.right.pinhole;
+  const Eigen::Vector3d t = pair.right_from_left.translation();
+  return pair.left.distortion.isZero() && pair.right.distortion.isZero() &&
+         pair.right_from_left.linear().isIdentity(1e-9) && left.fx_px == left.fy_px &&
+         left.fx_px == right.fx_px && left.fy_px == right.fy_px && left.cy_px == right.cy_px &&
+         std::hypot(t.y(), t.z()) <= 1e-9 * std::abs(t.x());
+}
+
 }  // namespace
 
 CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const std::string& name) {
@@ -142,6 +152,7 @@ CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const s
   if (members.find({"K_left", "leftcameramat"})) {  // STIR's forms are in metres
     out.form = members.find({"K_left"}) ? "STIR 2026" : "STIR";
     draft.unit = "m";
+    out.rectified = isRectified(out);
   }
   setFlags(members, draft);
   if (!out.rectified && (!members.find(kLeftDistortion) || !members.find(kRightDistortion)))
