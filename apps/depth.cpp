@@ -26,6 +26,7 @@
 #include "toolkit/depth/frame_statistics.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/record_paths.h"
+#include "toolkit/run/out_folder.h"
 
 namespace softscope {
 namespace {
