@@ -75,13 +75,6 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
   arguments.flag("--force", force_, "overwrite what is there");
 }
 
-MeshAlignment alignmentNamed(const std::string& name) {
-  for (const MeshAlignment kind :
-       {MeshAlignment::kNone, MeshAlignment::kRigid, MeshAlignment::kIcp})
-    if (name == toString(kind)) return kind;
-  throw OptionError("--align is `" + name + "`, but must be none, rigid or icp");
-}
-
 /// A single model needs no bar.
 RunEvaluation EvaluateCommand::evaluate(const InterruptGuard& interrupt) const {
   const bool many = options_.each_model || isFolder(options_.reference);
@@ -92,7 +85,7 @@ RunEvaluation EvaluateCommand::evaluate(const InterruptGuard& interrupt) const {
 int EvaluateCommand::run() {
   const InterruptGuard interrupt;
   for (const std::string& text : fail_if_) options_.thresholds.push_back(parseThreshold(text));
-  options_.alignment = alignmentNamed(align_);
+  options_.alignment = meshAlignmentNamed(align_, "--align");
   options_.views = !no_views_;
   options_.validate();  // before the work
   std::optional<EvaluateOutputs> outputs;

@@ -130,6 +130,13 @@ RunEvaluation withTruth(const EvaluateOptions& options, EvaluationResult result)
 
 }  // namespace
 
+MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& option) {
+  for (const MeshAlignment kind :
+       {MeshAlignment::kNone, MeshAlignment::kRigid, MeshAlignment::kIcp})
+    if (name == toString(kind)) return kind;
+  throw OptionError(option + " is `" + name + "`, but must be none, rigid or icp");
+}
+
 void EvaluateOptions::validate() const {
   const ReferenceKind kind = kindOf(*this);
   if (kind != ReferenceKind::kMesh && (alignment != MeshAlignment::kNone || each_model))

@@ -28,6 +28,9 @@ struct EvaluateOptions {
   void validate() const;
 };
 
+/// none, rigid or icp. Throws OptionError naming the option.
+MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& option);
+
 /// Where it was interrupted, `interrupted` alone is right.
 struct RunEvaluation {
   std::variant<EvaluationResult, TruthlessResult> result;  // the latter: no truth beside the run
