@@ -296,6 +296,40 @@ void bindJudges(py::module_& module) {
       "A surface or points against a reference surface; files.");
 }
 
+void bindPages(py::module_& module) {
+  module.def(
+      "report",
+      [](const std::vector<std::string>& cases, const std::string& html,
+         const std::vector<std::string>& names, const std::string& title, const std::string& pdf,
+         double limit_mm, int seed, bool with_paths, bool overwrite) {
+        const py::gil_scoped_release released;
+        return api::report(cases, html, {names, title, pdf, limit_mm, seed, with_paths, overwrite});
+      },
+      "cases"_a, "html"_a, "names"_a = std::vector<std::string>(), "title"_a = "", "pdf"_a = "",
+      "limit_mm"_a = 0.0, "seed"_a = 1, "with_paths"_a = false, "overwrite"_a = false,
+      "Folders of evaluate(out=...) to a page that opens in any browser. Returns warnings.");
+  module.def(
+      "figure",
+      [](const std::vector<std::string>& files, const std::string& kind, const std::string& run,
+         const std::string& ct, const std::string& reference, const std::string& test,
+         const std::vector<std::string>& surfaces, const std::vector<std::string>& scans,
+         const std::string& align, const std::string& landmarks, const std::string& errors,
+         double range_mm, int frame, const std::string& style, double width_mm,
+         double dots_per_inch, bool overwrite) {
+        const py::gil_scoped_release released;
+        return api::figure({kind, run, ct, reference, test, surfaces, scans, align, landmarks,
+                            errors, range_mm, frame},
+                           files, {style, width_mm, dots_per_inch}, overwrite);
+      },
+      "files"_a, "kind"_a = "four", "run"_a = "", "ct"_a = "", "reference"_a = "", "test"_a = "",
+      "surfaces"_a = std::vector<std::string>(), "scans"_a = std::vector<std::string>(),
+      "align"_a = "none", "landmarks"_a = "", "errors"_a = "absolute", "range_mm"_a = 0.0,
+      "frame"_a = -1, "style"_a = "ieee", "width_mm"_a = 0.0, "dots_per_inch"_a = 0.0,
+      "overwrite"_a = false,
+      "A figure of a run beside its sequence, or of CT, reference and model, to .png, .pdf or "
+      ".svg files. Returns warnings.");
+}
+
 void bindSimulation(py::module_& module) {
   py::class_<api::Simulation>(module, "Simulation")
       .def_readonly("folder", &api::Simulation::folder)
@@ -327,5 +361,6 @@ PYBIND11_MODULE(softscope, module) {
   bindRuns(module);
   bindReconstructor(module);
   bindJudges(module);
+  bindPages(module);
   bindSimulation(module);
 }

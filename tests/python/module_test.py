@@ -78,6 +78,22 @@ class Reconstructs(Clip):
         self.assertLess(found.accuracy.p95_mm, 2)
         self.assertGreater(found.completeness.p95_mm, found.accuracy.p95_mm)
 
+    def test_a_page_and_a_figure_have_the_commands_bytes(self):
+        softscope.evaluate(self.made, self.clip, out=str(self.root / "evaluation"))
+        for made_by in ("module", "command"):
+            (self.root / made_by).mkdir(exist_ok=True)
+        cases, page, figure = [str(self.root / "evaluation")], "page.html", "figure.svg"
+        self.assertEqual(softscope.report(cases, str(self.root / "module" / page)), [])
+        softscope.figure([str(self.root / "module" / figure)], run=self.made.folder,
+                         reference=self.clip)
+        for words in (["report", *cases, "--out", str(self.root / "command" / page)],
+                      ["figure", self.made.folder, "--reference", self.clip, "--out",
+                       str(self.root / "command" / figure)]):
+            subprocess.run([PROGRAM, *words, "--quiet"], check=True, stdout=subprocess.DEVNULL)
+        for name in (page, figure, "figure.json"):
+            self.assertTrue(filecmp.cmp(self.root / "module" / name, self.root / "command" / name,
+                                        False), name)
+
     def test_settings_change_the_result(self):
         self.assertIn("stereo.method", softscope.settings())
         reconstructor = softscope.Reconstructor(self.calibration, {"stereo.method": "sgbm"})
