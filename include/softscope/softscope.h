@@ -3,6 +3,7 @@
 
 #include "softscope/calibration.h"
 #include "softscope/compare.h"
+#include "softscope/depth.h"
 #include "softscope/evaluate.h"
 #include "softscope/figure.h"
 #include "softscope/frame.h"

@@ -78,6 +78,21 @@ class Reconstructs(Clip):
         self.assertLess(found.accuracy.p95_mm, 2)
         self.assertGreater(found.completeness.p95_mm, found.accuracy.p95_mm)
 
+    def test_depth_has_the_commands_values(self):
+        pair = self.frames[2].left, self.frames[2].right
+        depth = softscope.DepthEstimator(self.calibration).measure(*pair)
+        out = self.root / "depth"
+        subprocess.run([PROGRAM, "depth", self.clip, "--frames", "2:3", "--write", "depth", "--out",
+                        str(out), "--quiet"], check=True, stdout=subprocess.DEVNULL)
+        bytes_of_file = next(out.glob("*depth.pfm")).read_bytes()
+        values = np.frombuffer(bytes_of_file[-4 * 180 * 240:], "<f4").reshape(180, 240)[::-1]
+        measured = np.isfinite(depth.depth_mm)
+        self.assertGreater(measured.mean(), 0.5)
+        np.testing.assert_array_equal(depth.depth_mm[measured], values[measured])
+        self.assertEqual(depth.normals.shape, (180, 240, 3))
+        self.assertEqual(depth.left.shape, (180, 240, 3))
+        self.assertTrue((depth.sigma_mm[measured] > 0).all())
+
     def test_a_page_and_a_figure_have_the_commands_bytes(self):
         softscope.evaluate(self.made, self.clip, out=str(self.root / "evaluation"))
         for made_by in ("module", "command"):

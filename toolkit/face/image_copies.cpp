@@ -7,6 +7,16 @@
 
 namespace softscope::api {
 
+namespace {
+
+void requireSize(int width_px, int height_px, const PinholeCamera& camera, const char* what) {
+  if (width_px == camera.width_px && height_px == camera.height_px) return;
+  throw InputError(say(what, ": is ", width_px, " x ", height_px, " px, but the calibration is of ",
+                       camera.width_px, " x ", camera.height_px, " px"));
+}
+
+}  // namespace
+
 static_assert(sizeof(Rgb8) == 3, "rows of Rgb8 are rows of bytes");
 
 ColourImage colourImageOf(const ImageView& view, const char* what) {
@@ -40,5 +50,24 @@ Image imageOf(const ColourImage& image) {
 }
 
 Image imageOf(const Mask& mask) { return {mask.width_px, mask.height_px, 1, mask.values}; }
+
+const StereoCalibration& sized(const StereoCalibration& calibration) {
+  if (calibration.left.pinhole.width_px > 0) return calibration;
+  throw InputError(calibration.source +
+                   ": does not say how large the images are; give width_px and height_px");
+}
+
+softscope::Frame frameOf(const FrameView& view, const StereoCalibration& calibration, int index) {
+  softscope::Frame frame;
+  frame.index = index;
+  frame.time_s = view.time_s;
+  frame.pair = {colourImageOf(view.left, "left"), colourImageOf(view.right, "right")};
+  frame.mask = maskOf(view.mask);
+  const PinholeCamera& left = calibration.left.pinhole;
+  requireSize(view.left.width_px, view.left.height_px, left, "left");
+  requireSize(view.right.width_px, view.right.height_px, calibration.right.pinhole, "right");
+  if (!frame.mask.empty()) requireSize(frame.mask.width_px, frame.mask.height_px, left, "mask");
+  return frame;
+}
 
 }  // namespace softscope::api

@@ -13,6 +13,9 @@ Model modelOf(const std::vector<Eigen::Vector3f>& points_mm,
               const std::vector<Eigen::Vector3f>& normals, const std::vector<Rgb8>& colours,
               const std::vector<float>& weights);
 
+/// x, y, z of each.
+std::vector<float> floatsOf(const std::vector<Eigen::Vector3f>& vectors);
+
 Pose poseOf(const Eigen::Isometry3d& pose);
 
 }  // namespace softscope::api

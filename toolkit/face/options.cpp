@@ -6,14 +6,23 @@
 
 namespace softscope::api {
 
-RunOptions runOptionsOf(const Options& options) {
-  RunOptions made;
+namespace {
+
+template <class Made>
+Made filled(const Options& options) {
+  Made made;
   Settings settings;
   for (const auto& [key, value] : options.values()) addAssignment(settings, key + "=" + value);
   settingsOf(made).apply(settings);
   made.validate();
   return made;
 }
+
+}  // namespace
+
+RunOptions runOptionsOf(const Options& options) { return filled<RunOptions>(options); }
+
+DepthOptions depthOptionsOf(const Options& options) { return filled<DepthOptions>(options); }
 
 Options& Options::set(const std::string& key, const std::string& value) {
   RunOptions checked;

@@ -13,14 +13,15 @@ namespace softscope::api {
 
 namespace fs = std::filesystem;
 
+std::vector<float> floatsOf(const std::vector<Eigen::Vector3f>& vectors) {
+  const float* begin = vectors.empty() ? nullptr : vectors.front().data();
+  return std::vector<float>(begin, begin + 3 * vectors.size());
+}
+
 Model modelOf(const std::vector<Eigen::Vector3f>& points_mm,
               const std::vector<Eigen::Vector3f>& normals, const std::vector<Rgb8>& colours,
               const std::vector<float>& weights) {
-  const auto floats = [](const std::vector<Eigen::Vector3f>& vectors) {
-    const float* begin = vectors.empty() ? nullptr : vectors.front().data();
-    return std::vector<float>(begin, begin + 3 * vectors.size());
-  };
-  Model model{floats(points_mm), floats(normals), {}, weights};
+  Model model{floatsOf(points_mm), floatsOf(normals), {}, weights};
   for (const Rgb8& colour : colours)
     model.colours.insert(model.colours.end(), {colour.red, colour.green, colour.blue});
   return model;

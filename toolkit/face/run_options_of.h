@@ -8,5 +8,6 @@ namespace softscope::api {
 
 /// Throws OptionError.
 RunOptions runOptionsOf(const Options& options);
+DepthOptions depthOptionsOf(const Options& options);
 
 }  // namespace softscope::api
