@@ -196,7 +196,7 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   const Json written = options_.paths.applyTo(record.json());
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
   if (!failure_.empty())
-    throw BackendError(failure_ + (nothing ? ""
+    throw BackendError(failure_ + (nothing ? ". --backend cpu needs no GPU"
                                            : ". What is finished stays; go on with --resume, "
                                              "without the GPU with --resume --backend cpu"));
   if (input_gone_)
