@@ -3,7 +3,6 @@
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
-#include "apps/info_parts.h"
 #include "apps/result_output.h"
 #include "apps/shared_arguments.h"
 #include "core/error.h"
@@ -12,6 +11,7 @@
 #include "io/sequence_paths.h"
 #include "io/text_lines.h"
 #include "toolkit/figures/volume_arguments.h"
+#include "toolkit/inspection/describe_file.h"
 #include "vtk_views/volume_summary.h"
 
 namespace softscope {

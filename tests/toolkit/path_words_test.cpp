@@ -1,8 +1,9 @@
-// tests/apps/test_path_words.cpp: no part of a hostile name is left in a sentence.
+// tests/toolkit/path_words_test.cpp: no part of a hostile name is left in a sentence.
+#include "toolkit/record/path_words.h"
+
 #include <gtest/gtest.h>
 
-#include "apps/shell_word.h"
-#include "toolkit/record/path_words.h"
+#include "toolkit/record/shell_word.h"
 #include "toolkit/report/report_privacy.h"
 
 namespace softscope::test {

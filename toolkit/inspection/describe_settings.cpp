@@ -1,7 +1,7 @@
-// apps/info_settings.cpp: a settings file, key by key.
-#include "apps/info_parts.h"
+// toolkit/inspection/describe_settings.cpp: a settings file, key by key.
 #include "core/error.h"
 #include "pipeline/run_options.h"
+#include "toolkit/inspection/describe_file.h"
 
 namespace softscope {
 namespace {

@@ -1,4 +1,4 @@
-// apps/info_parts.h: `softscope info`, one function a kind of file. All throw InputError.
+// toolkit/inspection/describe_file.h: what a file holds and lacks, a function per kind of file.
 #pragma once
 
 #include <string>
@@ -8,6 +8,8 @@
 #include "vtk_views/volume_summary.h"
 
 namespace softscope {
+
+// All throw InputError.
 
 /// `check_all`: reads every frame instead of the first.
 FactSheet describeSequence(const std::string& folder, bool check_all);

@@ -1,4 +1,4 @@
-// apps/shell_word.h: an argument as it must be typed.
+// toolkit/record/shell_word.h: an argument as it must be typed.
 #pragma once
 
 #include <string>

@@ -1,10 +1,10 @@
-// apps/info_mesh.cpp: a surface, or points without one.
+// toolkit/inspection/describe_mesh.cpp: a surface, or points without one.
 #include <algorithm>
 
-#include "apps/info_parts.h"
 #include "io/file_bytes.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
+#include "toolkit/inspection/describe_file.h"
 #include "toolkit/run/ply_points.h"
 
 namespace softscope {

@@ -1,15 +1,15 @@
-// apps/info_image.cpp: a picture, a depth file, a video.
+// toolkit/inspection/describe_image.cpp: a picture, a depth file, a video.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "apps/info_parts.h"
 #include "core/error.h"
 #include "io/depth_files.h"
 #include "io/file_bytes.h"
 #include "io/image_header.h"
 #include "io/image_reader.h"
 #include "io/picture_source.h"
+#include "toolkit/inspection/describe_file.h"
 
 namespace softscope {
 namespace {

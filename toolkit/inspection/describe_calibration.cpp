@@ -1,8 +1,8 @@
-// apps/info_calibration.cpp: how the two cameras see.
+// toolkit/inspection/describe_calibration.cpp: how the two cameras see.
 #include <cmath>
 
-#include "apps/info_parts.h"
 #include "io/calibration_reader.h"
+#include "toolkit/inspection/describe_file.h"
 
 namespace softscope {
 namespace {

@@ -1,5 +1,5 @@
-// apps/info_volume.cpp: a CT or MR volume.
-#include "apps/info_parts.h"
+// toolkit/inspection/describe_volume.cpp: a CT or MR volume.
+#include "toolkit/inspection/describe_file.h"
 #include "vtk_views/volume_summary.h"
 
 namespace softscope {

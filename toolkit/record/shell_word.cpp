@@ -1,5 +1,5 @@
-// apps/shell_word.cpp: single quotes, and what to do about single quotes.
-#include "apps/shell_word.h"
+// toolkit/record/shell_word.cpp: single quotes, and what to do about single quotes.
+#include "toolkit/record/shell_word.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,9 +1,9 @@
-// apps/info_sequence.cpp: a sequence folder: what is there, what isn't, is it plausible?
+// toolkit/inspection/describe_sequence.cpp: a sequence folder: what is there, what isn't, is it
+// plausible?
 #include <cmath>
 #include <filesystem>
 #include <set>
 
-#include "apps/info_parts.h"
 #include "core/error.h"
 #include "io/dataset_form.h"
 #include "io/folder.h"
@@ -13,6 +13,7 @@
 #include "stereo/rectifier.h"
 #include "stereo/row_alignment.h"
 #include "stereo/stereo_options.h"
+#include "toolkit/inspection/describe_file.h"
 
 namespace softscope {
 namespace {

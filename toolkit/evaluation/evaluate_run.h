@@ -1,0 +1,46 @@
+// toolkit/evaluation/evaluate_run.h: a run folder against what it is judged by.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "toolkit/evaluation/evaluate_result.h"
+#include "toolkit/evaluation/thresholds.h"
+#include "toolkit/evaluation/truthless_result.h"
+#include "toolkit/progress.h"
+#include "toolkit/record/fact_sheet.h"
+#include "toolkit/record/record_paths.h"
+
+namespace softscope {
+
+struct EvaluateOptions {
+  std::string run;        // folder that reconstructSequence() wrote
+  std::string reference;  // sequence folder, best with groundtruth/, or a mesh file
+  MeshAlignment alignment = MeshAlignment::kNone;  // of a mesh
+  bool each_model = false;                         // of a mesh: all models, not the last alone
+  double reference_unit_mm = 1;                    // of a mesh file: 1000 for metres
+  bool views = true;                               // draw each model for depth, PSNR and SSIM
+  std::vector<Threshold> thresholds;
+  RecordPaths paths;
+
+  /// Throws OptionError: an option that the reference excludes, a threshold of an unknown metric.
+  void validate() const;
+};
+
+/// none, rigid or icp. Throws OptionError naming the option.
+MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& option);
+
+/// Where it was interrupted, `interrupted` alone is right.
+struct RunEvaluation {
+  std::variant<EvaluationResult, TruthlessResult> result;  // the latter: no truth beside the run
+  std::vector<ThresholdOutcome> outcomes;
+  FactSheet::Json record;  // of evaluation.json
+  FactSheet facts{""};     // for people
+  bool interrupted = false;
+};
+
+/// Progress counts models. Throws InputError, and OptionError as validate() does.
+RunEvaluation evaluateRun(const EvaluateOptions& options, const Progress& progress = {});
+
+}  // namespace softscope
