@@ -23,6 +23,7 @@ namespace softscope::cuda {
 struct LevelCounters {
   DisparityRange narrowed;
   int point_count, mixed_count;
+  LightDifference light;
   OpenShare share;
 };
 
@@ -56,7 +57,8 @@ struct StereoLevel {
       whole[view] = arena.image<std::int16_t>(width, height);
       slow[view] = arena.image<float>(width, height);
       smooth[view] = arena.image<float>(width, height);
-      band[view] = arena.image<float>(width, height);
+      fast_part[view] = arena.image<float>(width, height);
+      slow_part[view] = arena.image<float>(width, height);
       disparity[view] = arena.image<float>(width, height);
     }
     costs.best_left = arena.array<std::uint32_t>(2 * row_pixels);
@@ -84,6 +86,8 @@ struct StereoLevel {
     islands_sizes = arena.array<int>(pixels);
     mixed_list = arena.array<int>(pixels);
     counters = arena.array<LevelCounters>(1);
+    light_parts = arena.array<LightSums>(static_cast<std::size_t>(LightFit::samplesAlong(height)) *
+                                         LightFit::kParts);
     selection = arena.array<Selection>(1);
   }
 
@@ -103,7 +107,9 @@ struct StereoLevel {
   PriorRows rows;
   View<std::int16_t> prior[2], whole[2];
   TileBits bits;
-  View<float> slow[2], smooth[2], band[2];
+  View<float> slow[2], smooth[2];          // of the first pass, along rows
+  View<float> fast_part[2], slow_part[2];  // of the brightness
+  LightSums* light_parts;
   View<std::uint8_t> dark_rows, marks, near_marks, mixed;
   ResidualPlanes residuals;
   View<float> disparity[2];  // steps write from one to the other

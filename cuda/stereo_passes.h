@@ -220,7 +220,7 @@ class StereoPasses {
   void refine(const StereoLevel& level) {
     const RefinementOptions& options = level.options.refinement;
     const RefinementWindow window = refinementWindow(options);
-    bandPass(level);
+    splitBrightness(level);
     const View<const float> initial = readOnly(level.disparity[0]);
     perPixel("depth steps",
              MarkStepsBody{initial, level.marks, 2 * options.radius_px + 1,
@@ -251,34 +251,43 @@ class StereoPasses {
     std::copy(window.tolerance.begin(), window.tolerance.end(), selection.tolerance);
     return selection;
   }
-  void bandPass(const StereoLevel& level) {
+  void splitBrightness(const StereoLevel& level) {
     const std::vector<float> slow =
         slowBrightnessWeights(level.options.refinement.highpass_sigma_px);
     SlowWeights weights{};
     weights.reach = static_cast<int>(slow.size()) / 2;
     std::copy(slow.begin(), slow.end(), weights.values);
-    perPixel("band-pass rows",
-             BandPassRowBody{{readOnly(level.gray[0]), readOnly(level.gray[1])},
+    perPixel("brightness rows",
+             BrightnessRowBody{{readOnly(level.gray[0]), readOnly(level.gray[1])},
                              {level.slow[0], level.slow[1]},
                              {level.smooth[0], level.smooth[1]},
                              weights},
              level, 2);
-    perPixel("band-pass columns",
-             BandPassColumnBody{{readOnly(level.slow[0]), readOnly(level.slow[1])},
+    perPixel("brightness columns",
+             BrightnessColumnBody{{readOnly(level.slow[0]), readOnly(level.slow[1])},
                                 {readOnly(level.smooth[0]), readOnly(level.smooth[1])},
-                                {level.band[0], level.band[1]},
+                                {level.fast_part[0], level.fast_part[1]},
+                                {level.slow_part[0], level.slow_part[1]},
                                 weights},
              level, 2);
-    executor_.mark("band-pass");
+    executor_.mark("brightness");
   }
   template <bool kLast>
   void step(const StereoLevel& level, int i, const RefinementWindow& window) {
     const RefinementOptions& options = level.options.refinement;
     const View<const float> before = readOnly(level.disparity[i % 2]);
     const PlaneLimits limits = planeLimits(options);
+    const LightFitKernel light{readOnly(level.slow_part[0]),
+                               readOnly(level.slow_part[1]),
+                               before,
+                               level.light_parts,
+                               &level.counters->light,
+                               i};
+    executor_.launch("light", light, light.blocks());
     perPixel("residuals",
-             ResidualBody<kLast>{readOnly(level.band[0]), readOnly(level.band[1]), before,
-                                 level.residuals, inverseNoiseSq(options), limits.prior_weight},
+             ResidualBody<kLast>{readOnly(level.fast_part[0]), readOnly(level.fast_part[1]),
+                                 readOnly(level.slow_part[0]), readOnly(level.slow_part[1]), before,
+                                 &level.counters->light, level.residuals, residualLimits(options)},
              level);
     // Mixed windows, slow to solve, wait for the second step.
     const bool hold = i == 0 && !kLast;

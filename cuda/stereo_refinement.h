@@ -19,10 +19,10 @@ struct SlowWeights {
   int reach;
 };
 
-// --- brightness without its slow part
+// --- brightness in two parts, and light
 // --------------------------------------------------------------
 
-struct BandPassRowBody {
+struct BrightnessRowBody {
   View<const std::uint8_t> gray[2];
   View<float> slow[2], smooth[2];
   SlowWeights weights;
@@ -42,20 +42,69 @@ struct BandPassRowBody {
     smooth[view].at(u, v) = smooth_sum;
   }
 };
-struct BandPassColumnBody {
+struct BrightnessColumnBody {
   View<const float> slow[2], smooth[2];
-  View<float> out[2];
+  View<float> fast_part[2], slow_part[2];
   SlowWeights weights;
 
   SOFTSCOPE_HD void operator()(int u, int v, int view) const {
-    const int last = out[view].height - 1;
+    const int last = fast_part[view].height - 1;
     const auto row = [&](int y) { return y < 0 ? 0 : (y > last ? last : y); };
     const float binomial[3] = {0.25f, 0.5f, 0.25f};
-    float sum = 0;
-    for (int y = -1; y <= 1; ++y) sum += binomial[y + 1] * smooth[view].at(u, row(v + y));
+    float slow_sum = 0, fast_sum = 0;
     for (int y = -weights.reach; y <= weights.reach; ++y)
-      sum += -weights.values[y + weights.reach] * slow[view].at(u, row(v + y));
-    out[view].at(u, v) = sum;
+      slow_sum += weights.values[y + weights.reach] * slow[view].at(u, row(v + y));
+    for (int y = -1; y <= 1; ++y) fast_sum += binomial[y + 1] * smooth[view].at(u, row(v + y));
+    slow_part[view].at(u, v) = slow_sum;
+    fast_part[view].at(u, v) = fast_sum - slow_sum;
+  }
+};
+
+/// A block fits how light differs between the cameras, in rounds.
+struct LightFitKernel {
+  static constexpr int kThreads = 512, kPhases = 4;
+  struct Shared {
+    LightSums total;
+  };
+  using Local = Nothing;
+  View<const float> slow_left, slow_right, disparity;
+  LightSums* parts;  // kParts a row of samples; the first then holds the row
+  LightDifference* light;
+  int step;
+
+  Grid blocks() const { return {1, 1, 1}; }
+  SOFTSCOPE_HD int repeats(const Place&) const { return LightFit::rounds(step); }
+
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
+    constexpr int kParts = LightFit::kParts, kNormal = triangleSize(LightDifference::kTerms);
+    const int rows = LightFit::samplesAlong(disparity.height);
+    if constexpr (kPhase == 0) {
+      for (int i = at.thread; i < rows * kParts; i += kThreads) {
+        const int v = LightFit::place(i / kParts);
+        parts[i] = lightSumsOfPart(slow_left.row(v), slow_right.row(v), disparity.row(v), v,
+                                   i % kParts, disparity.width, disparity.height, *light,
+                                   LightFit::tolerance(step, at.repeat));
+      }
+    } else if constexpr (kPhase == 1) {
+      for (int row = at.thread; row < rows; row += kThreads) {
+        LightSums sums;
+        for (int part = 0; part < kParts; ++part) sums.add(parts[row * kParts + part]);
+        parts[row * kParts] = sums;
+      }
+    } else if constexpr (kPhase == 2) {
+      if (at.thread >= kNormal + LightDifference::kTerms) return;
+      const bool normal = at.thread < kNormal;
+      const int term = normal ? at.thread : at.thread - kNormal;
+      double sum = 0;
+      for (int row = 0; row < rows; ++row) {
+        const LightSums& sums = parts[row * kParts];
+        sum += normal ? sums.normal[term] : sums.right[term];
+      }
+      (normal ? shared.total.normal[term] : shared.total.right[term]) = sum;
+    } else {
+      if (at.thread == 0) *light = solveLight(shared.total);
+    }
   }
 };
 
@@ -70,9 +119,10 @@ struct ResidualPlanes {
 
 template <bool kLast>
 struct ResidualBody {
-  View<const float> left, right, disparity;
+  View<const float> left, right, slow_left, slow_right, disparity;
+  const LightDifference* light;
   ResidualPlanes out;
-  float inverse_noise_sq, prior_weight;
+  ResidualLimits limits;
 
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     const float given = disparity.at(u, v), d = isNumber(given) ? given : 0.0f;
@@ -83,11 +133,17 @@ struct ResidualBody {
     x = x <= static_cast<float>(last) ? x : static_cast<float>(last);
     const int i = static_cast<int>(x);
     const float t = x - static_cast<float>(i);
-    const float* row = right.row(v);
-    const auto value = catmullRom(row[i > 0 ? i - 1 : 0], row[i], row[i < last ? i + 1 : last],
-                                  row[i + 2 < last ? i + 2 : last], t);
-    const PixelResidual<float> pixel =
-        pixelResidual(left.at(u, v), value, inside, d, inverse_noise_sq, prior_weight);
+    const auto valueAt = [&](const float* row) {
+      return catmullRom(row[i > 0 ? i - 1 : 0], row[i], row[i < last ? i + 1 : last],
+                        row[i + 2 < last ? i + 2 : last], t);
+    };
+    const float slow = slow_left.at(u, v);
+    const float light_here =
+        lightAt(lightOfRow(*light, v, right.width, right.height), static_cast<float>(u), slow);
+    const PixelResidual<float> pixel = pixelResidual(
+        left.at(u, v), valueAt(right.row(v)),
+        agreedSlowPart(valueAt(slow_right.row(v)), slow, light_here, limits.light_gray_sq), inside,
+        d, limits);
     const std::ptrdiff_t place = static_cast<std::ptrdiff_t>(v) * right.width + u;
     out.planes[0][place] = pixel.information;
     out.planes[1][place] = pixel.target;

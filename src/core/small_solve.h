@@ -1,4 +1,4 @@
-// src/core/small_solve.h: a symmetric 6 x 6 system, in one order of operations for the CPU and the
+// src/core/small_solve.h: small symmetric systems, in one order of operations for the CPU and the
 // GPU.
 #pragma once
 
@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-/// Lower triangle of a symmetric matrix, row by row: (i, j), j <= i, is at i (i + 1) / 2 + j.
-constexpr int kSixTriangle = 21;
+/// Lower triangle of a symmetric N x N matrix, row by row: (i, j), j <= i, is at i (i + 1) / 2 + j.
+constexpr int triangleSize(int n) { return n * (n + 1) / 2; }
 
 /// Cholesky factor in place, its diagonal inverted. False where the matrix is not positive
 /// definite.
-template <class Scalar>
-SOFTSCOPE_HD inline bool factorSix(Scalar (&a)[kSixTriangle]) {
-  for (int i = 0; i < 6; ++i)
+template <int N, class Scalar>
+SOFTSCOPE_HD inline bool factorSymmetric(Scalar (&a)[triangleSize(N)]) {
+  for (int i = 0; i < N; ++i)
     for (int j = 0; j <= i; ++j) {
       Scalar sum = a[i * (i + 1) / 2 + j];
       for (int k = 0; k < j; ++k) sum -= a[i * (i + 1) / 2 + k] * a[j * (j + 1) / 2 + k];
@@ -29,15 +29,15 @@ SOFTSCOPE_HD inline bool factorSix(Scalar (&a)[kSixTriangle]) {
   return true;
 }
 
-/// Solves in place with what factorSix() gave.
-template <class Scalar>
-SOFTSCOPE_HD inline void solveSix(const Scalar (&a)[kSixTriangle], Scalar (&x)[6]) {
-  for (int i = 0; i < 6; ++i) {
+/// Solves in place with what factorSymmetric() gave.
+template <int N, class Scalar>
+SOFTSCOPE_HD inline void solveSymmetric(const Scalar (&a)[triangleSize(N)], Scalar (&x)[N]) {
+  for (int i = 0; i < N; ++i) {
     for (int k = 0; k < i; ++k) x[i] -= a[i * (i + 1) / 2 + k] * x[k];
     x[i] *= a[i * (i + 1) / 2 + i];
   }
-  for (int i = 5; i >= 0; --i) {
-    for (int k = i + 1; k < 6; ++k) x[i] -= a[k * (k + 1) / 2 + i] * x[k];
+  for (int i = N - 1; i >= 0; --i) {
+    for (int k = i + 1; k < N; ++k) x[i] -= a[k * (k + 1) / 2 + i] * x[k];
     x[i] *= a[i * (i + 1) / 2 + i];
   }
 }

@@ -10,9 +10,9 @@ namespace softscope {
 namespace {
 
 /// Filters a band of rows from top to bottom; only the rows that the window needs are held.
-class BandPass {
+class BrightnessSplitter {
  public:
-  BandPass(const GrayImage& image, const std::vector<float>& slow)
+  BrightnessSplitter(const GrayImage& image, const std::vector<float>& slow)
       : image_(image),
         slow_(slow),
         taps_(static_cast<int>(slow.size())),
@@ -21,10 +21,11 @@ class BandPass {
         slow_rows_(image.width_px, taps_, 0, 0),
         smooth_rows_(image.width_px, taps_, 0, 0) {}
 
-  void filter(int begin, int end, Plane& out) {
+  void split(int begin, int end, BrightnessParts& out) {
     for (int v = begin - reach_; v < end + reach_; ++v) {
       filterRow(v);
-      if (v - reach_ >= begin) combineRows(v - reach_, out.row(v - reach_));
+      if (v - reach_ >= begin)
+        combineRows(v - reach_, out.fast.row(v - reach_), out.slow.row(v - reach_));
     }
   }
 
@@ -48,20 +49,24 @@ class BandPass {
                     image_.width_px, smooth_rows_.row(slot(v)));
   }
 
-  /// The smooth rows around v minus the slow ones.
-  void combineRows(int v, float* out) {
-    std::vector<const float*> rows;
-    std::vector<float> weights(kBinomialWeights, kBinomialWeights + 3);
-    for (int y = -1; y <= 1; ++y) rows.push_back(smooth_rows_.row(slot(v + y)));
-    for (int y = -reach_; y <= reach_; ++y) {
-      rows.push_back(slow_rows_.row(slot(v + y)));
-      weights.push_back(-slow_[static_cast<std::size_t>(y + reach_)]);
-    }
+  /// The slow rows around v, and the smooth ones minus their sum.
+  void combineRows(int v, float* fast, float* slow) {
+    const RefinementKernels& kernels = refinementKernels();
     const int width = image_.width_px;
-    refinementKernels().sumRows(rows.data(), weights.data(), static_cast<int>(rows.size()), width,
-                                out);
-    out[-1] = out[-2] = out[0];
-    out[width] = out[width + 1] = out[width + 2] = out[width - 1];
+    std::vector<const float*> rows;
+    for (int y = -reach_; y <= reach_; ++y) rows.push_back(slow_rows_.row(slot(v + y)));
+    kernels.sumRows(rows.data(), slow_.data(), taps_, width, slow);
+    const float weights[] = {kBinomialWeights[0], kBinomialWeights[1], kBinomialWeights[2], -1};
+    const float* const parts[] = {smooth_rows_.row(slot(v - 1)), smooth_rows_.row(slot(v)),
+                                  smooth_rows_.row(slot(v + 1)), slow};
+    kernels.sumRows(parts, weights, 4, width, fast);
+    repeatBorder(fast);
+    repeatBorder(slow);
+  }
+  void repeatBorder(float* row) const {
+    const int width = image_.width_px;
+    row[-1] = row[-2] = row[0];
+    row[width] = row[width + 1] = row[width + 2] = row[width - 1];
   }
 
   const GrayImage& image_;
@@ -73,12 +78,14 @@ class BandPass {
 
 }  // namespace
 
-Plane bandPass(const GrayImage& image, double highpass_sigma_px) {
+BrightnessParts splitBrightness(const GrayImage& image, double sigma_px) {
   constexpr int kBandRows = 60;
-  const std::vector<float> slow = slowBrightnessWeights(highpass_sigma_px);
-  Plane out(image.width_px, image.height_px);
-  parallelRanges(image.height_px, kBandRows,
-                 [&](int begin, int end) { BandPass(image, slow).filter(begin, end, out); });
+  const std::vector<float> slow = slowBrightnessWeights(sigma_px);
+  BrightnessParts out{Plane(image.width_px, image.height_px),
+                      Plane(image.width_px, image.height_px)};
+  parallelRanges(image.height_px, kBandRows, [&](int begin, int end) {
+    BrightnessSplitter(image, slow).split(begin, end, out);
+  });
   return out;
 }
 

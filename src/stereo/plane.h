@@ -31,9 +31,11 @@ class Plane {
   std::vector<float> values_;
 };
 
-/// Brightness without its slow part (light, exposure) and with a little less noise: a 3 x 3
-/// binomial filter minus a Gaussian of `highpass_sigma_px`. The first three values of the side
-/// margins repeat the border.
-Plane bandPass(const GrayImage& image, double highpass_sigma_px);
+/// Brightness in two parts. The first three values of the side margins repeat the border.
+struct BrightnessParts {
+  Plane fast;  // with a little less noise: a 3 x 3 binomial filter minus the slow part
+  Plane slow;  // a Gaussian of `sigma_px`
+};
+BrightnessParts splitBrightness(const GrayImage& image, double sigma_px);
 
 }  // namespace softscope

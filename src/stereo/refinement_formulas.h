@@ -22,23 +22,40 @@ SOFTSCOPE_FORMULA ValueAndSlope<V> catmullRom(V p0, V p1, V p2, V p3, V t) {
   return {p1 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2.0f * c2 + t * (3.0f * c3))};
 }
 
-/// What ResidualRow names, of one pixel. `inside`: 1 where the pixel is matched, else 0; `d`: its
+/// The right camera's slow brightness, as far as both cameras agree about it: less where they
+/// differ by more than light_gray and what a pixel of disparity explains, as at highlights.
+template <class V>
+SOFTSCOPE_FORMULA ValueAndSlope<V> agreedSlowPart(const ValueAndSlope<V>& right, V left, V light,
+                                                  float light_gray_sq) {
+  const V apart = right.value - left - light;
+  const V q = 1.0f + apart * apart / (light_gray_sq + right.slope * right.slope);
+  const V agreed = 1.0f / (q * q);
+  return {agreed * apart, agreed * right.slope};
+}
+
+/// What ResidualRow names, of one pixel. `slow`: what
+/// agreedSlowPart() gave. `inside`: 1 where the pixel is matched, else 0; `d`: its
 /// disparity, 0 where unmatched.
 template <class V>
 struct PixelResidual {
   V information, target, residual_sq, weight, difference_sq, energy;
 };
 template <class V>
-SOFTSCOPE_FORMULA PixelResidual<V> pixelResidual(V left, const ValueAndSlope<V>& right, V inside,
-                                                 V d, float inverse_noise_sq, float prior_weight) {
-  const V g = right.slope, r = right.value - left;
-  const V w = inside / (1.0f + r * r * inverse_noise_sq);
+SOFTSCOPE_FORMULA PixelResidual<V> pixelResidual(V left, const ValueAndSlope<V>& right,
+                                                 const ValueAndSlope<V>& slow, V inside, V d,
+                                                 const ResidualLimits& limits) {
+  const float prior_weight = limits.prior_weight;
+  const V value = right.value + slow.value, g = right.slope + slow.slope, r = value - left;
+  const V w = inside / (1.0f + r * r * limits.inverse_noise_sq);
+  // The error doesn't count all that the slow part told, as it doesn't count the prior.
+  const V told = g * g - right.slope * right.slope;
+  const V judged = w * (1.0f + (told > 0.0f ? told : V{}) * limits.steadying);
   return {w * (g * g + prior_weight),
           w * (g * (g * d + r) + prior_weight * d),
-          w * r * r,
-          w,
+          judged * r * r,
+          judged,
           inside * r * r,
-          inside * (right.value * right.value + left * left)};
+          inside * (value * value + left * left)};
 }
 
 /// Sums along one column of a window: kColumnMomentCount values. information(y) and target(y) give

@@ -29,6 +29,14 @@ inline Transposed transpose(const Float4 (&row)[kFloatLanes]) {
   return out;
 }
 
+/// Catmull-Rom through four pixels of a row, at fractions t after the columns i.
+inline ValueAndSlope<Floats> valuesAt(const float* row, const Ints& i, const Floats& t) {
+  Float4 pixels[kFloatLanes];
+  for (int k = 0; k < kFloatLanes; ++k) pixels[k] = load<Float4>(row + i[k] - 1);
+  const auto [p0, p1, p2, p3] = transpose(pixels).p;
+  return catmullRom<Floats>(p0, p1, p2, p3, t);
+}
+
 void residualRow(const ResidualRow& row) {
   const Floats last = broadcast(static_cast<float>(row.width - 1)), zero{};
   for (int u = 0; u < row.width; u += kFloatLanes) {
@@ -40,13 +48,13 @@ void residualRow(const ResidualRow& row) {
     x = x <= last ? x : last;
     const Ints i = __builtin_convertvector(x, Ints);
     const Floats t = x - __builtin_convertvector(i, Floats);
-    // Catmull-Rom through four pixels: value and slope.
-    Float4 pixels[kFloatLanes];
-    for (int k = 0; k < kFloatLanes; ++k) pixels[k] = load<Float4>(row.right + i[k] - 1);
-    const auto [p0, p1, p2, p3] = transpose(pixels).p;
-    const PixelResidual<Floats> pixel =
-        pixelResidual(loadFloats(row.left + u), catmullRom<Floats>(p0, p1, p2, p3, t), inside, d,
-                      row.inverse_noise_sq, row.prior_weight);
+    const Floats slow_left = loadFloats(row.slow_left + u);
+    const Floats light =
+        lightAt<Floats>(row.light, broadcast(static_cast<float>(u)) + laneNumbers(), slow_left);
+    const ValueAndSlope<Floats> slow = agreedSlowPart<Floats>(
+        valuesAt(row.slow_right, i, t), slow_left, light, row.limits.light_gray_sq);
+    const PixelResidual<Floats> pixel = pixelResidual<Floats>(
+        loadFloats(row.left + u), valuesAt(row.right, i, t), slow, inside, d, row.limits);
     store(row.information + u, pixel.information);
     store(row.target + u, pixel.target);
     if (row.weight == nullptr) continue;

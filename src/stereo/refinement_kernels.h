@@ -7,21 +7,33 @@
 // values at a time: all must be readable and writable up to the next multiple of eight.
 #pragma once
 
+#include "stereo/light_formulas.h"
+
 namespace softscope {
+
+/// How residuals are weighed.
+struct ResidualLimits {
+  float inverse_noise_sq;  // 1 / noise²
+  float prior_weight;      // (noise / prior sigma)²
+  float light_gray_sq;     // see agreedSlowPart()
+  float steadying;         // of the slow part, that is no evidence, in prior weights
+};
 
 /// Inputs and outputs of one row of brightness residuals, see subpixel_refinement.cpp.
 struct ResidualRow {
   const float* left;       // filtered brightness of the left row
   const float* right;      // of the right row; readable from -1 to width + 2
+  const float* slow_left;  // the slow parts; the right one readable as `right`
+  const float* slow_right;
+  LightRow light;
   const float* disparity;  // NaN where unmatched
   int width;
-  float inverse_noise_sq;  // 1 / noise²
-  float prior_weight;      // (noise / prior sigma)²
-  float* information;      // w (g² + prior_weight)
-  float* target;           // w (g (g d + R - L) + prior_weight d)
+  ResidualLimits limits;
+  float* information;  // w (g² + prior_weight)
+  float* target;       // w (g (g d + R - L) + prior_weight d)
   // What judges the fit, all null but in the last step.
-  float* residual_sq;    // w (R - L)²
-  float* weight;         // w
+  float* residual_sq;    // w' (R - L)²
+  float* weight;         // w' = w (1 + steadying * what the slow part told)
   float* difference_sq;  // (R - L)² where matched, whatever its weight
   float* energy;         // R² + L² where matched
 };

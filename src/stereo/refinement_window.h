@@ -55,9 +55,12 @@ inline RefinementWindow refinementWindow(const RefinementOptions& options) {
 inline float disparityPriorWeight(const RefinementOptions& options) {
   return static_cast<float>(std::pow(options.noise_gray / options.prior_sigma_px, 2));
 }
-inline float inverseNoiseSq(const RefinementOptions& options) {
-  const float noise = static_cast<float>(options.noise_gray);
-  return 1 / (noise * noise);
+inline ResidualLimits residualLimits(const RefinementOptions& options) {
+  const float noise = static_cast<float>(options.noise_gray),
+              light = static_cast<float>(options.light_gray);
+  const float prior_weight = disparityPriorWeight(options);
+  return {1 / (noise * noise), prior_weight, light * light,
+          static_cast<float>(1 - options.slow_evidence) / prior_weight};
 }
 
 /// Limits of judgePlanes(), squared where PlaneRow has them squared.

@@ -96,7 +96,7 @@ SOFTSCOPE_HD inline bool refitPatch(const SmoothingRules& rules, const Smoothing
                                     const float* window, int x, int y, bool first,
                                     SmoothingPatch& patch) {
   constexpr float kAgreeSq = SmoothingRules::kAgree * SmoothingRules::kAgree;
-  float normal[kSixTriangle] = {}, right[6] = {};
+  float normal[triangleSize(6)] = {}, right[6] = {};
   float weights = 0, squares = 0, noise = 0;
   for (int dy = -rules.reach; dy <= rules.reach; ++dy) {
     if (y + dy < 0 || y + dy >= rules.rows) continue;
@@ -132,10 +132,10 @@ SOFTSCOPE_HD inline bool refitPatch(const SmoothingRules& rules, const Smoothing
   }
   if (!(weights > 0)) return false;
   for (int i = 1; i < 6; ++i) normal[i * (i + 1) / 2 + i] += SmoothingRules::kRidge * weights;
-  if (!factorSix(normal)) return false;
+  if (!factorSymmetric<6>(normal)) return false;
   float step[6], unit[6] = {1, 0, 0, 0, 0, 0}, explained = 0;
   for (int k = 0; k < 6; ++k) step[k] = right[k];
-  solveSix(normal, step);
+  solveSymmetric<6>(normal, step);
   bool finite = true;
   for (int k = 0; k < 6; ++k) {
     explained += step[k] * right[k];
@@ -147,7 +147,7 @@ SOFTSCOPE_HD inline bool refitPatch(const SmoothingRules& rules, const Smoothing
   const float left = (unexplained > 0 ? unexplained : 0.0f) / weights;
   const float beyond = left - noise / weights, relief = beyond > 0 ? beyond : 0.0f;
   // Of the centre: how much the fit leaves undetermined, for independent measurements.
-  solveSix(normal, unit);
+  solveSymmetric<6>(normal, unit);
   patch.variance = rules.floor_px2 + relief + rules.independent_px2 * unit[0];
   return finite;
 }

@@ -53,8 +53,13 @@ struct ElasOptions {
 struct RefinementOptions {
   static constexpr int iterations = 3;
   static constexpr int radius_px = 6;  // window is (2 r + 1)²
-  // brightness slower than this is left out (light, exposure)
-  static constexpr double highpass_sigma_px = 3;
+  // Brightness is split at this scale. The fast part always counts; the slow part, which light and
+  // exposure change, where both cameras agree about it (docs/stereo.md, 4).
+  static constexpr double highpass_sigma_px = 2;
+  // difference of the slow parts, in grey levels, that quarters their weight
+  static constexpr double light_gray = 2.0;
+  // share of what the slow part tells that counts as evidence in the standard error
+  static constexpr double slow_evidence = 0.5;
   // residual, in grey levels, that halves a pixel's weight
   static constexpr double noise_gray = 2.0;
   static constexpr double noise_floor_gray = 0.4;  // noise that even a perfect match leaves

@@ -24,15 +24,18 @@ struct RefinementContext {
                     const RefinementOptions& refinement)
       : options(refinement),
         width(left_image.width_px),
-        left(bandPass(left_image, refinement.highpass_sigma_px)),
-        right(bandPass(right_image, refinement.highpass_sigma_px)),
+        height(left_image.height_px),
+        left(splitBrightness(left_image, refinement.highpass_sigma_px)),
+        right(splitBrightness(right_image, refinement.highpass_sigma_px)),
         window(refinementWindow(refinement)),
+        residual_limits(residualLimits(refinement)),
         limits(planeLimits(refinement)) {}
 
   RefinementOptions options;
-  int width;
-  Plane left, right;
+  int width, height;
+  BrightnessParts left, right;
   RefinementWindow window;
+  ResidualLimits residual_limits;
   PlaneLimits limits;
 };
 
@@ -42,6 +45,7 @@ class Band {
  public:
   /// What a step starts from and gives.
   struct Step {
+    const LightDifference& light;
     const Plane& disparity;
     Plane& next;
     Plane* sigma;                 // null but in the last step, which is a whole one and is judged
@@ -53,6 +57,7 @@ class Band {
       : context_(context),
         radius_(context.options.radius_px),
         width_(context.width),
+        light_(step.light),
         disparity_(step.disparity),
         next_(step.next),
         sigma_(step.sigma),
@@ -82,9 +87,10 @@ class Band {
       return sigma_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
     };
     refinementKernels().residualRow(
-        {context_.left.row(v), context_.right.row(v), disparity_.row(v), width_,
-         inverseNoiseSq(context_.options), context_.limits.prior_weight, pixel(kInformation),
-         pixel(kTarget), pixel(kResidualSq), pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
+        {context_.left.fast.row(v), context_.right.fast.row(v), context_.left.slow.row(v),
+         context_.right.slow.row(v), lightOfRow(light_, v, width_, context_.height),
+         disparity_.row(v), width_, context_.residual_limits, pixel(kInformation), pixel(kTarget),
+         pixel(kResidualSq), pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
   }
 
   /// Sums over the windows of a row, then the plane of each pixel.
@@ -180,6 +186,7 @@ class Band {
 
   const RefinementContext& context_;
   int radius_, width_;
+  LightDifference light_;
   const Plane& disparity_;
   Plane& next_;
   Plane* sigma_;
@@ -206,6 +213,27 @@ Raster<float> rasterOf(const Plane& plane, int width, int height) {
 
 }  // namespace
 
+namespace {
+
+/// One round of reweighting.
+LightDifference fitLight(const RefinementContext& context, const Plane& disparity,
+                         const LightDifference& light, double tolerance_gray) {
+  const int count = LightFit::samplesAlong(context.height);
+  std::vector<LightSums> rows(static_cast<std::size_t>(count));
+  parallelRows(count, [&](int i) {
+    const int v = LightFit::place(i);
+    for (int part = 0; part < LightFit::kParts; ++part)
+      rows[static_cast<std::size_t>(i)].add(
+          lightSumsOfPart(context.left.slow.row(v), context.right.slow.row(v), disparity.row(v), v,
+                          part, context.width, context.height, light, tolerance_gray));
+  });
+  LightSums sums;
+  for (const LightSums& row : rows) sums.add(row);
+  return solveLight(sums);
+}
+
+}  // namespace
+
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
   const RefinementContext context(left, right, options);
@@ -213,10 +241,14 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
       initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
   const int width = left.width_px, height = left.height_px;
   Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
+  LightDifference light;
   for (int i = 0; i < options.iterations; ++i) {
     const bool last = i + 1 == options.iterations;
+    for (int round = 0; round < LightFit::rounds(i); ++round)
+      light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
     parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(context, {disparity, next, last ? &sigma : nullptr, mixed, i == 0}).solve(begin, end);
+      Band(context, {light, disparity, next, last ? &sigma : nullptr, mixed, i == 0})
+          .solve(begin, end);
     });
     std::swap(disparity, next);
   }

@@ -171,13 +171,25 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
 TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
   const int width = 304;
   const Floats left = randomFloats(width, -40, 40, 1), right = randomFloats(width + 8, -40, 40, 2);
+  const Floats slow_left = randomFloats(width, 90, 110, 7),
+               slow_right = randomFloats(width + 8, 90, 110, 8);
   Floats disparity = randomFloats(width, -3, 40, 3);
   disparity[50] = std::numeric_limits<float>::quiet_NaN();
   expectEqual([&](const KernelSet& set) {
     Floats out(static_cast<std::size_t>(width) * 6);
-    set.refinement->residualRow({left.data(), right.data() + 3, disparity.data(), width, 0.2f, 4.0f,
-                                 out.data(), out.data() + width, out.data() + 2 * width,
-                                 out.data() + 3 * width, out.data() + 4 * width,
+    set.refinement->residualRow({left.data(),
+                                 right.data() + 3,
+                                 slow_left.data(),
+                                 slow_right.data() + 3,
+                                 {0.5f, -1.5f, 0.01f, 304},
+                                 disparity.data(),
+                                 width,
+                                 {0.2f, 4.0f, 4.0f, 0.1f},
+                                 out.data(),
+                                 out.data() + width,
+                                 out.data() + 2 * width,
+                                 out.data() + 3 * width,
+                                 out.data() + 4 * width,
                                  out.data() + 5 * width});
     for (int k = 0; k < 6; ++k) EXPECT_EQ(out[k * width + 50], 0);  // no weight where unmatched
     return out;

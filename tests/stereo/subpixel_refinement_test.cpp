@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
+#include "stereo/light_formulas.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -94,6 +96,106 @@ TEST(SubpixelRefinement, KeepsTwoSurfacesApart) {
   // The step is 13 px high and its rim about 700 px long, in part occluded: a window that mixed
   // both sides would spoil some 8000 pixels.
   EXPECT_LT(between, 800);
+}
+
+/// Weak tissue: a tenth of the contrast, under light that falls off to the side, with noise.
+test::Scene weakTissue(double gain_right = 1, double offset_right = 0) {
+  auto scene = test::makeScene(test::endoscope(), test::plane(55, 0.3, 0.1), 0);
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 2);
+  const auto relight = [&](GrayImage& image, const auto& disparityAt, double gain, double offset) {
+    for (int v = 0; v < image.height_px; ++v)
+      for (int u = 0; u < image.width_px; ++u) {
+        // Light belongs to the tissue: to the column where the left camera sees it.
+        const double at = u + disparityAt(u, v);
+        const double light = 60 + 0.25 * at + 20 * std::sin(at / 25);
+        const double gray = gain * (light + 0.1 * (image.at(u, v) - 90)) + offset + noise(random);
+        image.at(u, v) = static_cast<std::uint8_t>(std::clamp(std::lround(gray), 0L, 255L));
+      }
+  };
+  relight(
+      scene.left, [](int, int) { return 0.0; }, 1, 0);
+  // The disparity changes by a hundredth of the column: one step inverts it well enough.
+  const auto& disparity = scene.disparity_px;
+  const auto fromRight = [&](int u, int v) {
+    const int first = std::min(u + static_cast<int>(disparity.at(160, v)), 319);
+    const int second = std::min(u + static_cast<int>(std::lround(disparity.at(first, v))), 319);
+    return static_cast<double>(disparity.at(second, v));
+  };
+  relight(scene.right, fromRight, gain_right, offset_right);
+  return scene;
+}
+
+TEST(SubpixelRefinement, ReadsTheLightOfWeakTissue) {
+  const auto scene = weakTissue();
+  const auto e = errorsOf(refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), {}),
+                          scene.disparity_px);
+  EXPECT_LT(e.median_px, 0.1);  // 0.111 by the fast part of the brightness alone
+}
+
+TEST(SubpixelRefinement, ForgivesCamerasThatDifferInGainAndOffset) {
+  const auto scene = weakTissue(1.1, -6);
+  const auto e = errorsOf(refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), {}),
+                          scene.disparity_px);
+  EXPECT_LT(e.median_px, 0.1);
+}
+
+TEST(SubpixelRefinement, TakesNoHighlightForTissue) {
+  auto scene = test::makeScene(test::endoscope(), test::plane(55), 1.0);
+  Raster<float> truth = scene.disparity_px;
+  // A broad highlight of the same place in both images: it lies at infinity.
+  for (GrayImage* image : {&scene.left, &scene.right})
+    for (int v = 0; v < 240; ++v)
+      for (int u = 0; u < 320; ++u) {
+        const double apart = std::hypot(u - 170.0, v - 120.0);
+        const double light = 70 * std::exp(-apart * apart / (2 * 15.0 * 15.0));
+        image->at(u, v) = static_cast<std::uint8_t>(std::min(255.0, image->at(u, v) + light));
+      }
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u)
+      if (std::abs(u - 170) > 40 || std::abs(v - 120) > 40)
+        truth.at(u, v) = std::numeric_limits<float>::quiet_NaN();
+  const auto e =
+      errorsOf(refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), {}), truth);
+  EXPECT_LT(e.median_px, 0.13);  // 0.23 if all of the slow part counted
+}
+
+TEST(LightFit, FindsOffsetSlopesAndGain) {
+  const int width = 160, height = 120;
+  const LightDifference truth{3, -2, 1.5, 4};
+  Raster<float> left(width, height), right(width, height), disparity(width, height, 5.0f);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      left.at(u, v) = 100 + 30 * std::sin(0.1f * static_cast<float>(u + 2 * v));
+  for (int v = 0; v < height; ++v) {
+    const LightRow row = lightOfRow(truth, v, width, height);
+    for (int u = 0; u < width - 5; ++u)
+      right.at(u, v) =
+          left.at(u + 5, v) + lightAt(row, static_cast<float>(u + 5), left.at(u + 5, v));
+  }
+  for (int u = 40; u < 80; ++u)  // a highlight in one of the images
+    for (int v = 30; v < 60; ++v) right.at(u, v) += 60;
+  LightDifference found;
+  for (int round = 0; round < 8; ++round) {
+    LightSums sums;
+    for (int i = 0; i < LightFit::samplesAlong(height); ++i)
+      for (int part = 0; part < LightFit::kParts; ++part) {
+        const int v = LightFit::place(i);
+        sums.add(lightSumsOfPart(left.row(v), right.row(v), disparity.row(v), v, part, width,
+                                 height, found, LightFit::tolerance(0, round)));
+      }
+    found = solveLight(sums);
+  }
+  EXPECT_NEAR(found.at_centre, truth.at_centre, 0.1);
+  EXPECT_NEAR(found.across, truth.across, 0.1);
+  EXPECT_NEAR(found.down, truth.down, 0.1);
+  EXPECT_NEAR(found.gain, truth.gain, 0.1);
+}
+
+TEST(LightFit, SaysNothingOfNothing) {
+  const LightDifference light = solveLight(LightSums());
+  EXPECT_EQ(light.at_centre, 0);
+  EXPECT_EQ(light.gain, 0);
 }
 
 TEST(SubpixelRefinement, LeavesUnmatchedPixelsUnmatched) {
