@@ -259,16 +259,16 @@ class StereoPasses {
     std::copy(slow.begin(), slow.end(), weights.values);
     perPixel("brightness rows",
              BrightnessRowBody{{readOnly(level.gray[0]), readOnly(level.gray[1])},
-                             {level.slow[0], level.slow[1]},
-                             {level.smooth[0], level.smooth[1]},
-                             weights},
+                               {level.slow[0], level.slow[1]},
+                               {level.smooth[0], level.smooth[1]},
+                               weights},
              level, 2);
     perPixel("brightness columns",
              BrightnessColumnBody{{readOnly(level.slow[0]), readOnly(level.slow[1])},
-                                {readOnly(level.smooth[0]), readOnly(level.smooth[1])},
-                                {level.fast_part[0], level.fast_part[1]},
-                                {level.slow_part[0], level.slow_part[1]},
-                                weights},
+                                  {readOnly(level.smooth[0]), readOnly(level.smooth[1])},
+                                  {level.fast_part[0], level.fast_part[1]},
+                                  {level.slow_part[0], level.slow_part[1]},
+                                  weights},
              level, 2);
     executor_.mark("brightness");
   }
