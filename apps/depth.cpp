@@ -112,15 +112,15 @@ int DepthCommand::run() {
   SequenceReader reader(sequence, options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
   is_sequence_ = reader.totalCount() > 1 || (source_.right.empty() && isFolder(source_.left));
+  const DepthOutputs outputs({out_, kinds, force_, frame_ == "raw-left"});
+  requireApart(out_, sequence);
+  requireFreeOutputs(outputs, reader);
   // To wake a GPU takes longer than one pair does on the processor.
   const bool one_pair = backend_ == "auto" && reader.frameCount() == 1;
   auto chosen =
       makeFrameDepth(one_pair ? "cpu" : backend_, reader.calibration(), options.measurement);
   if (!chosen.why.empty()) spdlog::info("back end: {} ({})", chosen.name, chosen.why);
   DepthEstimator estimator(std::move(chosen.part), chosen.name, frame_ == "raw-left");
-  const DepthOutputs outputs({out_, kinds, force_, frame_ == "raw-left"});
-  requireApart(out_, sequence);
-  requireFreeOutputs(outputs, reader);
 
   DepthRecord record(inputs(), reader.calibration(), estimator, frame_ == "raw-left");
   record.addSettings(binder.list());
