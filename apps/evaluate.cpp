@@ -139,6 +139,8 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
   requireSameSequence(folder, truth);
   const std::vector<std::string> origin = checkOrigin(folder, truth);
   EvaluationResult result;
+  result.outcomes = folder.outcomes;
+  for (const int frame : folder.frames) result.times_s[frame] = truth.timeOf(frame);
   result.camera = judgeCamera(folder, truth);
   result.tracks = judgeTracks(folder, truth);
   result.backprojection_mm = folder.backprojection_mm;
@@ -156,7 +158,7 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
 }
 
 int EvaluateCommand::besidePictures(const JudgedRun& folder, const EvaluateOutputs* outputs) {
-  ProgressBar progress("evaluate", static_cast<int>(folder.models.size()),
+  ProgressBar progress("evaluate", static_cast<int>(folder.countedModels().size()),
                        progressStyle(common.quiet), std::cerr);
   TruthlessResult result = judgeWithoutTruth(folder, reference_, !no_views_, [&] {
     progress.advance();
@@ -188,15 +190,15 @@ FactSheet::Json EvaluateCommand::hashes() const {
 }
 
 FrameFiles EvaluateCommand::modelsFor(const JudgedRun& folder) const {
-  if (each_ && folder.models.empty())
+  if (each_ && folder.countedModels().empty())
     throw InputError(shown(folder.folder / "models") +
-                     ": holds no model NNNNNN.ply, but --each asks for them; reconstruct with "
-                     "--save-every 1");
-  if (each_) return folder.models;
+                     ": holds no model NNNNNN.ply of a fused frame, but --each asks for them; "
+                     "reconstruct with --save-every 1");
+  if (each_) return folder.countedModels();
   if (folder.last_model.empty())
     throw InputError(shown(folder.folder / "model.ply") +
                      ": is missing, but it is what a mesh is compared with; reconstruct again");
-  return {{folder.frames.back(), folder.last_model}};
+  return {{folder.lastCounted(), folder.last_model}};
 }
 
 EvaluationResult EvaluateCommand::againstMesh(const JudgedRun& folder) {
@@ -205,6 +207,8 @@ EvaluationResult EvaluateCommand::againstMesh(const JudgedRun& folder) {
   const TriangleMesh mesh = readMesh(reference_, {unit_mm_});
   EvaluationResult result;
   result.against_mesh = true;
+  result.outcomes = folder.outcomes;
+  for (const int frame : folder.frames) result.times_s[frame] = folder.timeOf(frame);
   result.alignment = how;
   for (const std::string& warning : meshWarnings(checkMesh(mesh)))
     result.warnings.push_back(reference_ + ": " + warning);

@@ -11,6 +11,7 @@
 #include "apps/result_output.h"
 #include "apps/sequence_arguments.h"
 #include "apps/shared_arguments.h"
+#include "apps/threshold_exit.h"
 #include "core/error.h"
 #include "io/file_hash.h"
 #include "io/folder.h"
@@ -38,9 +39,13 @@ const char* const kDetails =
     "A sequence is a folder with left/ and right/ pictures or videos and calibration.yaml;\n"
     "two videos and a calibration do as well: see the second example.\n"
     "A frame that isn't good enough is skipped and reported, never fused. Ctrl-C ends the run\n"
-    "cleanly; --resume goes on from there, with the same result as if it had not been stopped.";
+    "cleanly; --resume goes on from there, with the same result as if it had not been stopped.\n"
+    "--fail-if METRIC>LIMIT ends with exit code 1 where that holds: a number of run.json, or per\n"
+    "cent of the frames: lost>10%, skipped>5%, fused<80%.";
 
 using Json = FactSheet::Json;
+
+constexpr const char* kPreferred = "outcomes";  // where --fail-if looks for a bare name
 
 /// Whether pictures that the run began with are there no longer.
 bool isGone(const SequencePaths& sequence) {
@@ -83,6 +88,8 @@ class ReconstructCommand : public Command {
   std::string backend_ = "auto", preset_ = "default", matcher_, scope_;
   int save_every_ = 10, checkpoint_every_ = 100;
   bool no_correspondence_ = false, resume_ = false, force_ = false;
+  std::vector<std::string> fail_if_;
+  std::vector<Threshold> thresholds_;
   RecordPaths paths_;
   SettingsArguments settings_;
   bool interrupted_ = false, all_done_ = false, input_gone_ = false;
@@ -110,6 +117,8 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
                    "bring all files up to date every N frames (default 100)");
   arguments.flag("--resume", resume_, "go on with an interrupted run");
   arguments.flag("--force", force_, "replace an earlier run");
+  arguments.option("--fail-if", "LIMIT", fail_if_,
+                   "e.g. lost>10%: then exit code 1, the run stays; repeatable");
   softscope::declare(paths_, arguments);
   settings_.declare(arguments);
 }
@@ -177,6 +186,7 @@ void ReconstructCommand::skipDone(const Checkpoint& earlier, const SequencePaths
 
 int ReconstructCommand::run() {
   const InterruptGuard interrupt;
+  for (const std::string& text : fail_if_) thresholds_.push_back(parseThreshold(text));
   RunOptions options = RunOptions::ofPreset(preset_);
   SettingsBinder binder = settingsOf(options);
   readOptions(binder, options);
@@ -205,6 +215,7 @@ int ReconstructCommand::run() {
   reconstructor.track(tracked);
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
+  checkThresholds(thresholds_, record.json(), kPreferred);  // a misspelt name, before the work
   if (earlier) {
     folder.takeOver(earlier->next_frame);
     reconstructor.restore(earlier->state);
@@ -221,7 +232,10 @@ int ReconstructCommand::finish(bool nothing, RunFolder& folder, RunRecord& recor
   if (nothing && !interrupted_)
     throw InputError(source_.left + ": not one frame could be used; the reasons stand above");
   for (const std::string& conclusion : record.conclusions()) spdlog::warn("{}", conclusion);
-  const Json written = paths_.applyTo(record.json());
+  Json all = record.json();
+  const auto outcomes = checkThresholds(thresholds_, all, kPreferred);
+  if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
+  const Json written = paths_.applyTo(all);
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
   if (!failure_.empty())
     throw BackendError(failure_ + (nothing ? ""
@@ -235,7 +249,7 @@ int ReconstructCommand::finish(bool nothing, RunFolder& folder, RunRecord& recor
     printJson(written);
   else
     printFacts(record.text(out_), false);
-  return interrupted_ ? kInterrupted : kDone;
+  return interrupted_ ? kInterrupted : exitCodeOf(outcomes);
 }
 
 void ReconstructCommand::reconstructAll(const SequencePaths& sequence,

@@ -44,9 +44,14 @@ PoseErrors poseErrors(const Poses& truth, const Poses& estimate,
   return errors;
 }
 
-PoseErrors stepErrors(const Poses& truth, const Poses& estimate) {
+PoseErrors stepErrors(const Poses& truth, const Poses& estimate, const std::vector<int>& moments) {
   PoseErrors errors;
   for (std::size_t i = 1; i < truth.size(); ++i) {
+    if (!moments.empty() && moments[i] != moments[i - 1] + 1) {
+      errors.each_mm.push_back(Statistics::kNone);
+      errors.each_deg.push_back(Statistics::kNone);
+      continue;
+    }
     const Eigen::Isometry3d true_step = truth[i - 1].inverse() * truth[i];
     add(true_step.inverse() * (estimate[i - 1].inverse() * estimate[i]), errors);
   }
@@ -69,13 +74,16 @@ RigidFit fitPositions(const Poses& truth, const Poses& estimate) {
 
 }  // namespace
 
-TrajectoryErrors trajectoryErrors(const Poses& truth, const Poses& estimate) {
+TrajectoryErrors trajectoryErrors(const Poses& truth, const Poses& estimate,
+                                  const std::vector<int>& moments) {
   check(truth, estimate);
+  if (!moments.empty() && moments.size() != truth.size())
+    throw InputError("a trajectory needs one moment per pose, or none");
   const RigidFit fit = fitPositions(truth, estimate);
   TrajectoryErrors errors;
   errors.unaligned = poseErrors(truth, estimate, Eigen::Isometry3d::Identity());
   errors.absolute = poseErrors(truth, estimate, fit.target_from_source);
-  errors.relative = stepErrors(truth, estimate);
+  errors.relative = stepErrors(truth, estimate, moments);
   errors.truth_from_estimate = fit.target_from_source;
   errors.alignment_unique = fit.unique;
   if (!fit.unique) {

@@ -20,7 +20,8 @@ struct PoseErrors {
 struct TrajectoryErrors {
   PoseErrors unaligned;  // both worlds taken as one
   PoseErrors absolute;   // ATE: after the rigid alignment of all positions
-  PoseErrors relative;   // RPE: of the steps from each pose to the next; one value fewer
+  PoseErrors relative;   // RPE: of the steps from each pose to the next; one value fewer, NaN
+                         // where these are not of neighbouring moments
   Eigen::Isometry3d truth_from_estimate = Eigen::Isometry3d::Identity();  // that alignment
   /// False where the positions leave a rotation free (a still scope, a straight path, fewer than
   /// three poses): then absolute.each_deg and absolute.rotation_deg are NaN.
@@ -28,8 +29,10 @@ struct TrajectoryErrors {
 };
 
 /// world_from_left, mm, moment by moment. Throws InputError for unequal counts, for none at all,
-/// and for poses that are not finite.
+/// and for poses that are not finite. `moments`: the number of each pose's moment, where some were
+/// left out; empty: none was.
 TrajectoryErrors trajectoryErrors(const std::vector<Eigen::Isometry3d>& truth,
-                                  const std::vector<Eigen::Isometry3d>& estimate);
+                                  const std::vector<Eigen::Isometry3d>& estimate,
+                                  const std::vector<int>& moments = {});
 
 }  // namespace softscope

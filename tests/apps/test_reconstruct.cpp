@@ -80,6 +80,14 @@ TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
   EXPECT_EQ(doubted.json()["frames_by_status"]["unconfirmed"], 3);
   EXPECT_THAT(std::string(doubted.json()["warnings"].back()),
               HasSubstr("3 of 4 frames were not fused (1 started, 3 unconfirmed)"));
+  EXPECT_EQ(doubted.json()["outcomes"]["skipped"], 3);
+  const Outcome limited = reconstruct({"--out", at("run"), "--set", "gate.min_confidence=1",
+                                       "--force", "--fail-if", "skipped>10%"});
+  EXPECT_EQ(limited.exit_code, 1) << limited.err;
+  EXPECT_THAT(limited.err, HasSubstr("outcomes.skipped_share is 0.7500"));
+  EXPECT_THAT(limited.out, HasSubstr("1 of 4 fused, 3 skipped, 0 lost"));
+  EXPECT_TRUE(fs::exists(at("run/run.json"))) << "the run stays";
+  EXPECT_EQ(reconstruct({"--out", at("run"), "--force", "--fail-if", "lsot>10%"}).exit_code, 2);
   EXPECT_EQ(reconstruct({"--out", at("run"), "--scope", "still", "--force"}).exit_code, 2);
 }
 

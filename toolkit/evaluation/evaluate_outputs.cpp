@@ -81,10 +81,12 @@ void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& fr
   if (result.tracks) put("tracks.csv", tracksCsv(*result.tracks));
   if (!result.surface.models.empty()) {
     const std::string title = comparisonTitle(result.run, result.reference);
-    putFigure("error_series", drawErrorSeries(seriesData(result)));
+    const OutcomeStripData strip = outcomeStrip(result);
+    putFigure("error_series", withOutcomeStrip(strip, drawErrorSeries(seriesData(result))));
     putFigure("error_histogram",
-              drawErrorHistogram(histogramOf(result.surface.pool.all_mm(), title)));
-    putFigure("worst_frames", drawWorstFrames(worstFramesData(result)));
+              withOutcomeStrip(
+                  strip, drawErrorHistogram(histogramOf(result.surface.pool.all_mm(), title))));
+    putFigure("worst_frames", withOutcomeStrip(strip, drawWorstFrames(worstFramesData(result))));
   }
   putMaps(result.surface.maps);
   put("evaluation.json", jsonText(record));  // last: where it is, the others are

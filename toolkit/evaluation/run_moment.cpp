@@ -50,7 +50,7 @@ JudgedPair::JudgedPair(const std::string& run_folder, const std::string& sequenc
   if (frames().empty())
     throw InputError(
         shown(run.folder) +
-        ": no frame has both a model and a true mesh; reconstruct with --save-every 1");
+        ": no fused frame has both a model and a true mesh; reconstruct with --save-every 1");
 }
 
 std::vector<int> JudgedPair::frames() const { return framesToJudge(run, truth); }
@@ -63,15 +63,15 @@ int JudgedPair::chooseFrame(int wanted) const {
   for (std::size_t i = 0; i < std::min<std::size_t>(there.size(), 8); ++i)
     some += std::to_string(there[i]) + ", ";
   throw OptionError(say("--frame is ", wanted,
-                        ", but a model and a true mesh are there for frames ", some, "up to ",
-                        there.back()));
+                        ", but fused, with a model and a true mesh, are the frames ", some,
+                        "up to ", there.back()));
 }
 
 RunMoment JudgedPair::moment(int frame) const {
   const TimedPose& pose = truth.trajectory[static_cast<std::size_t>(frame)];
   RunMoment moment;
   moment.frame = frame;
-  moment.time_s = pose.time_s;
+  moment.time_s = truth.timeOf(frame);
   moment.truth_file = truth.meshes.at(frame);
   moment.model_file = run.models.at(frame);
   const auto depth_file = truth.depths.find(frame);

@@ -51,18 +51,18 @@ Eigen::Vector3d eyeOf(const RunFigureOptions& options) {
   return options.eye.norm() > 0 ? options.eye : kFromTheScope;
 }
 
-/// A sequence without a clock counts frames: then a time says nothing.
-std::string captionOf(int frame, double time_s, bool with_clock) {
-  if (!with_clock || !std::isfinite(time_s)) return "frame " + std::to_string(frame);
+/// `time_s` is NaN where the clip has no timestamps.
+std::string captionOf(int frame, double time_s) {
+  if (!std::isfinite(time_s)) return "frame " + std::to_string(frame);
   char text[64];
   std::snprintf(text, sizeof text, "frame %d, %.2f s", frame, time_s);
   return text;
 }
 
-bool hasClock(const JudgedRun& run) {
-  for (std::size_t i = 0; i < run.frames.size(); ++i)
-    if (run.trajectory[i].time_s != run.frames[i]) return true;
-  return false;
+/// What keeps the model at that frame from being one of that moment.
+std::string unfusedText(const JudgedRun& run, int frame) {
+  const auto outcome = run.outcomes.each().find(frame);
+  return run.counts(frame) ? "" : std::string(", ") + toString(outcome->second);
 }
 
 PanelOptions panelsFor(const RunFigureOptions& options, const std::list<Scene>& scenes) {
@@ -91,7 +91,8 @@ std::vector<int> keysOf(const FrameFiles& files) {
 
 RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   const JudgedRun run = openJudgedRun(options.run);
-  const std::vector<int> there = keysOf(run.models);
+  std::vector<int> there = keysOf(run.countedModels());
+  if (there.empty() || !options.frames.empty()) there = keysOf(run.models);
   if (there.empty())
     throw InputError(options.run +
                      ": has no models of single frames; reconstruct with --save-every N");
@@ -106,7 +107,7 @@ RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   auto scene = scenes.begin();
   for (const int frame : frames)
     panels.push_back({&*scene++, cameraView(centre_mm, eyeOf(options), SceneFrame::kCamera),
-                      captionOf(frame, run.timeOf(frame), hasClock(run))});
+                      captionOf(frame, run.timeOf(frame)) + unfusedText(run, frame)});
   return {drawScenes(panels, panelsFor(options, scenes)),
           {{"run", options.run}, {"frames", frames}}};
 }
@@ -187,7 +188,7 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
     explainToo(map, foot);
     scenes.push_back(errorScene(moment, map));
     panels.push_back(
-        panelOf(scenes.back(), eyeOf(options), captionOf(moment.frame, moment.time_s, true)));
+        panelOf(scenes.back(), eyeOf(options), captionOf(moment.frame, moment.time_s)));
     figure.record["errors"].push_back(map.json);
   }
   PanelOptions sheet = panelsFor(options, scenes);
@@ -240,7 +241,7 @@ int frameOfBoth(const RunFigureOptions& options, const std::vector<int>& first,
 FrameFiles allModels(const JudgedRun& run) {
   FrameFiles models = run.models;
   if (!run.last_model.empty() && !run.frames.empty())
-    models.emplace(run.frames.back(), run.last_model);
+    models.emplace(run.lastCounted(), run.last_model);
   return models;
 }
 

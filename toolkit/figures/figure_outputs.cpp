@@ -7,6 +7,7 @@
 #include "io/image_writer.h"
 #include "io/new_files.h"
 #include "toolkit/record/json_text.h"
+#include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
 
 namespace softscope {
@@ -14,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
-
-Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "io/message.h"
 #include "mesh/mesh_check.h"
 #include "toolkit/comparison/compare_inputs.h"
+#include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {
@@ -38,8 +39,6 @@ std::string frameOf(const std::string& path) {
   const std::string_view rest = text.substr(at + kKey.size());
   return std::string(rest.substr(0, rest.find('\n')));
 }
-
-Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 

@@ -10,6 +10,8 @@ FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit) {
           {"n", s.count}};
 }
 
+FactSheet::Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 FactSheet::Json matrixJson(const Eigen::Isometry3d& pose) {
   FactSheet::Json rows = FactSheet::Json::array();
   for (int i = 0; i < 4; ++i) {

@@ -12,6 +12,9 @@ namespace softscope {
 /// mean, sd, rmse, median, p95, max with the unit behind each name, and n; null for NaN.
 FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit);
 
+/// Three numbers.
+FactSheet::Json vectorJson(const Eigen::Vector3d& v);
+
 /// Four rows of four.
 FactSheet::Json matrixJson(const Eigen::Isometry3d& pose);
 

@@ -71,6 +71,7 @@ RunRecord::RunRecord(const Json& inputs, const StereoCalibration& calibration,
 void RunRecord::add(const FrameRecord& record) {
   ++frames_;
   ++frames_of_status_[toString(record.status)];
+  outcomes_.set(record.frame, outcomeOf(record.status));
   for (const auto& [stage, stage_ms] : record.times) elapsed_ms_[stage] += stage_ms;
   frame_ms_.push_back(record.elapsed_ms());
   located_ += record.pose.found;
@@ -87,19 +88,9 @@ void RunRecord::add(const FrameRecord& record) {
     prediction_mm_.push_back(record.evidence.predicted.mean_mm);
 }
 
-int RunRecord::fusedFrames() const {
-  int fused = 0;
-  for (const FrameStatus status :
-       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered})
-    if (const auto found = frames_of_status_.find(toString(status));
-        found != frames_of_status_.end())
-      fused += found->second;
-  return fused;
-}
-
 std::vector<std::string> RunRecord::conclusions() const {
   std::vector<std::string> all;
-  const int left_out = frames_ - fusedFrames();
+  const int left_out = frames_ - outcomes_.count(FrameOutcome::kFused);
   if (left_out > kToldShare * frames_)
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
@@ -129,8 +120,9 @@ double RunRecord::meanOf(const std::vector<double>& values) const {
 Json RunRecord::json() const {
   Json all = json_;
   all["frames"] = frames_;
-  all["frames_fused"] = fusedFrames();
+  all["frames_fused"] = outcomes_.count(FrameOutcome::kFused);
   all["frames_by_status"] = frames_of_status_;
+  all["outcomes"] = outcomes_.json();
   all["points"] = points_;
   all["nodes"] = nodes_;
   all["mean_inliers"] = numberOrNull(meanOf(matches_));
@@ -148,7 +140,8 @@ Json RunRecord::json() const {
 
 FactSheet RunRecord::text(const std::string& folder) const {
   FactSheet facts("reconstruction of " + std::to_string(frames_) + " frames");
-  facts.addLine("frames", statusText());
+  addOutcomeFacts(outcomes_, facts);
+  facts.addLine("  by status", statusText());
   if (located_ > 0)
     facts.addLine("scope", "static in " + std::to_string(scope_static_) + " of " +
                                std::to_string(located_) + " frames");
@@ -160,7 +153,9 @@ FactSheet RunRecord::text(const std::string& folder) const {
     facts.addLine("back-projection",
                   fixed(meanOf(backprojection_mm_), 3) +
                       " mm mean distance of the model from each frame's depth, " +
-                      fixed(meanOf(prediction_mm_), 3) + " mm before it learns from the frame");
+                      fixed(meanOf(prediction_mm_), 3) +
+                      " mm before it learns from the frame; over " +
+                      std::to_string(backprojection_mm_.size()) + " frames");
   if (!frame_ms_.empty()) facts.addLine("time", fixed(meanOf(frame_ms_), 0) + " ms a frame");
   facts.addLine("written to", folder);
   facts.addLine("look at", folder + "/model.ply (MeshLab), " + folder + "/models.pvd (ParaView)");
