@@ -128,6 +128,16 @@ TEST_F(Evaluate, TheDrawnModelIsComparedWithDepthAndPicture) {
   EXPECT_NEAR(result["view"]["psnr_db"], 20 * std::log10(255.0 / 10), 0.1);
   EXPECT_GT(result["view"]["judged_share"], 0.5);  // its points are 1 mm, three pixels apart
   EXPECT_GT(result["view"]["psnr_over_all_pixels_db"], result["view"]["psnr_db"]);
+  for (int k = 0; k < kFrames; ++k) {  // the aperture hides the left half
+    ColourImage half(160, 120, Rgb8{210, 110, 100});
+    for (int v = 0; v < 120; ++v)
+      for (int u = 0; u < 80; ++u) half.at(u, v) = {0, 0, 0};
+    writePng(at("truth/left/00000" + std::to_string(k) + ".png"), half, true);
+  }
+  const Json with_border = evaluated();
+  EXPECT_NEAR(with_border["view"]["judged_share"], result["view"]["judged_share"], 0.05)
+      << "of the tissue, not of black borders";
+  EXPECT_NEAR(with_border["view"]["psnr_db"], result["view"]["psnr_db"], 0.1);
   // 0.1 + 0.02 mm a frame too near; points at the rim, which stand for unseen tissue, twice that.
   EXPECT_NEAR(result["frames"][3]["depth_mean_mm"], 0.16, 0.01);
   EXPECT_TRUE(evaluate({"--no-views", "--json"}).json()["depth"]["mean_mm"].is_null());

@@ -231,7 +231,10 @@ void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
     facts.addLine("drawn view",
                   "PSNR " + fixed(psnr_db, 1) + " dB, SSIM " +
                       fixed(surface.meanOfView([](V v) { return v.picture.ssim; }), 3) +
-                      " over the pixels that the model covers");
+                      " over the pixels that the model covers, " +
+                      percent(surface.meanOfView(
+                          [](V v) { return v.picture.judged_share; })) +
+                      " of the tissue (without masks and black borders)");
   const Statistics backprojection = backprojectionOf(result);
   if (backprojection.count > 0)
     facts.addLine("back-projection", "mean " + fixed(backprojection.mean, 3) + " mm over " +

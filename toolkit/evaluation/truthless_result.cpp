@@ -218,7 +218,8 @@ FactSheet truthlessFacts(const TruthlessResult& result) {
   if (!result.drawn.empty())
     facts.addLine("drawn view", "PSNR " + mean(kPsnr, 1) + " dB, SSIM " + mean(kSsim, 3) +
                                     " over the pixels that the model covers, " +
-                                    fixed(100 * overFrames(result, kJudged).mean, 1) + " %, of " +
+                                    fixed(100 * overFrames(result, kJudged).mean, 1) +
+                                    " % of the tissue (without masks and black borders), of " +
                                     std::to_string(result.drawn.size()) + " models");
   const Statistics backprojection = overFrames(result, kBackProjection);
   if (backprojection.count > 0)

@@ -35,7 +35,7 @@ ReportTable viewTable(const ReportCase& c) {
                   {"PSNR over all pixels [dB]", "view.psnr_over_all_pixels_db"},
                   {"SSIM", "view.ssim"}});
   if (const double share = numberAt(c.record, "view.judged_share"); std::isfinite(share))
-    table.rows.push_back({"pixels that the model covers", percentText(share)});
+    table.rows.push_back({"tissue that the model covers", percentText(share)});
   if (const double share = numberAt(c.record, "coverage.mean_share"); std::isfinite(share))
     table.rows.push_back({"tissue that has depth, by the run itself", percentText(share)});
   return table;
@@ -91,7 +91,7 @@ std::string truthlessSummary(const ReportCase& c) {
 ReportTiles truthlessTiles(const ReportCase& c) {
   const auto value = [&](const char* path) { return numberAt(c.record, path); };
   return {{{"PSNR of the drawn view", decibels(value("view.psnr_db")),
-            "over " + percentText(value("view.judged_share")) + " of the pixels"},
+            "over " + percentText(value("view.judged_share")) + " of the tissue"},
            {"Back-projection", millimetresText(value("backprojection.mean_mm")),
             "by the run itself; no accuracy"},
            {"Tissue with depth", percentText(value("coverage.mean_share")), "by the run itself"},
@@ -136,7 +136,7 @@ std::vector<std::string> truthlessLimits(const ReportCase& c) {
 std::vector<std::string> truthlessMethods() {
   return {
       "PSNR and SSIM: each saved model drawn from the pose that the run estimated, against the "
-      "left picture of that moment, over the pixels that the model covers. Over all pixels: the "
+      "left picture of that moment, over the pixels that the model covers, without masks and black borders. Over all pixels: the "
       "same "
       "differences shared out over the whole picture, the higher the less is covered. SSIM: "
       "windows of 11 x 11, sigma 1.5.",
