@@ -215,7 +215,8 @@ FourPanelOptions FigureCommand::panelsFor(const Scene& scene) const {
   panels.style = options_.figureStyle();
   panels.rule = options_.sideRule();
   panels.centre_mm = options_.centreIn(scene, modelIn(scene));
-  panels.width_mm = options_.field_mm > 0 ? options_.field_mm : sceneWidthMm(scene);
+  panels.width_mm = options_.field_mm;
+  panels.keep_centres = !options_.at.empty();
   panels.columns = columns_;
   if (scene.frame == SceneFrame::kCamera) panels.eye = {0.35, -0.4, -0.85};
   if (!eye_.empty()) panels.eye = parseVector(eye_, "--eye");
@@ -311,8 +312,9 @@ int FigureCommand::run() {
                  [&] { drawing = drawFourPanels(scene, panels); });
   record["volume"] = inputs.volumeJson();
   record["surfaces"] = inputs.surfacesJson();
-  for (const ViewPlane& view : fourViews(scene, panels))
-    record["views"].push_back(viewJson(view, scene.frame, panels.width_mm));
+  const PanelField field = fourViews(scene, panels);
+  for (const ViewPlane& view : field.planes)
+    record["views"].push_back(viewJson(view, scene.frame, field.width_mm));
   return finish(drawing, inputs, record);
 }
 

@@ -46,7 +46,9 @@ ErrorSeriesData seriesData(const EvaluationResult& result) {
   if (!over_time) data.time_label = "frame";
   std::map<int, const JudgedModel*> rows;  // null: nothing was judged
   for (const auto& [frame, time_s] : result.times_s)
-    if (!result.outcomes.fused(frame)) rows[frame] = nullptr;
+    if (!result.outcomes.fused(frame) || frame == result.times_s.begin()->first ||
+        frame == result.times_s.rbegin()->first)  // the axis spans the run
+      rows[frame] = nullptr;
   for (const JudgedModel& model : result.surface.models) rows[model.frame] = &model;
   for (const auto& [frame, model] : rows) {
     const Statistics errors = model == nullptr ? Statistics() : model->errors.distance_mm;

@@ -232,8 +232,7 @@ void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
                   "PSNR " + fixed(psnr_db, 1) + " dB, SSIM " +
                       fixed(surface.meanOfView([](V v) { return v.picture.ssim; }), 3) +
                       " over the pixels that the model covers, " +
-                      percent(surface.meanOfView(
-                          [](V v) { return v.picture.judged_share; })) +
+                      percent(surface.meanOfView([](V v) { return v.picture.judged_share; })) +
                       " of the tissue (without masks and black borders)");
   const Statistics backprojection = backprojectionOf(result);
   if (backprojection.count > 0)

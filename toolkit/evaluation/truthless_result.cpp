@@ -139,7 +139,9 @@ void addPlot(const TruthlessResult& result, const char* label, const Value& valu
   const bool over_time = hasTimes(result);
   ValueSeriesData data{over_time ? "time [s]" : "frame", label, {}, {}};
   for (const auto& [number, frame] : result.frames) {
-    if (!std::isfinite(value(frame)) && result.outcomes.fused(number)) continue;
+    const bool at_end =
+        number == result.frames.begin()->first || number == result.frames.rbegin()->first;
+    if (!std::isfinite(value(frame)) && result.outcomes.fused(number) && !at_end) continue;
     data.x.push_back(over_time ? frame.time_s : number);
     data.y.push_back(result.outcomes.fused(number) ? value(frame) : Statistics::kNone);
   }

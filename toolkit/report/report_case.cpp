@@ -158,7 +158,8 @@ std::vector<std::pair<double, double>> CaseFrames::series(const std::string& key
   for (std::size_t i = 0; i < x.size(); ++i) {
     const bool counts = outcomes[i].empty() || outcomes[i] == "fused";
     const double value = counts ? numberAt(rows[i], key) : Statistics::kNone;
-    if (std::isfinite(value) || !counts) values.emplace_back(x[i], value);
+    const bool at_end = i == 0 || i + 1 == x.size();  // all plots of a case span the same frames
+    if (std::isfinite(value) || !counts || at_end) values.emplace_back(x[i], value);
   }
   return values;
 }

@@ -45,8 +45,8 @@ struct CaseFrames {
   std::vector<FactSheet::Json> rows;  // one per x
   std::vector<std::string> outcomes;  // fused, skipped, lost; empty where the record says nothing
 
-  /// Of the frames that were fused and have the value; NaN for those that were not fused; the
-  /// others are left out.
+  /// Of the frames that were fused and have the value; NaN for those that were not fused, and for
+  /// the first and the last one, so that all series span the same frames; the others are left out.
   std::vector<std::pair<double, double>> series(const std::string& key) const;
   std::size_t fused() const;
 };

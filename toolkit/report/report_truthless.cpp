@@ -136,7 +136,8 @@ std::vector<std::string> truthlessLimits(const ReportCase& c) {
 std::vector<std::string> truthlessMethods() {
   return {
       "PSNR and SSIM: each saved model drawn from the pose that the run estimated, against the "
-      "left picture of that moment, over the pixels that the model covers, without masks and black borders. Over all pixels: the "
+      "left picture of that moment, over the pixels that the model covers, without masks and black "
+      "borders. Over all pixels: the "
       "same "
       "differences shared out over the whole picture, the higher the less is covered. SSIM: "
       "windows of 11 x 11, sigma 1.5.",
