@@ -19,6 +19,7 @@
 #include "io/message.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
+#include "toolkit/evaluation/depth_map_result.h"
 #include "toolkit/evaluation/evaluate_outputs.h"
 #include "toolkit/evaluation/evaluate_plots.h"
 #include "toolkit/evaluation/evaluate_record.h"
@@ -43,6 +44,11 @@ const char* const kDetails =
     "Against a mesh (STL, PLY, OBJ; a CT's, say) the last model, or each one, is compared.\n"
     "Of a sequence without groundtruth/ it gives what needs no truth: PSNR and SSIM of the drawn\n"
     "model, back-projection, coverage, steps and jitter of the scope; and says what is missing.\n"
+    "In the place of RUN a disparity or depth map, or a folder of maps, is judged against the "
+    "true\n"
+    "ones (--reference): EPE, bad-1, 2, 3, MAE and RMSE in mm, coverage; with --confidence "
+    "whether\n"
+    "predicted sigmas tell the errors (intervals, sparsification).\n"
     "With --out DIR it writes evaluation.json, frames.csv, tracks.csv, and the figures\n"
     "error_series, error_histogram and worst_frames as SVG, PDF and PNG; errors.pvd shows the\n"
     "error of every point in ParaView, `softscope report DIR` makes a page of it all.\n"
@@ -70,11 +76,13 @@ class EvaluateCommand : public Command {
   EvaluationResult againstSequence(const JudgedRun& run);
   EvaluationResult againstMesh(const JudgedRun& run);
   int besidePictures(const JudgedRun& run, const EvaluateOutputs* outputs);
+  int judgeMaps();
   FactSheet::Json hashes() const;
   FrameFiles modelsFor(const JudgedRun& run) const;
   int finish(EvaluationResult result, const EvaluateOutputs* outputs);
 
   std::string run_, reference_, out_, align_ = "none";
+  DepthMapOptions maps_;
   std::vector<std::string> fail_if_;
   double unit_mm_ = 1;
   RecordPaths paths_;
@@ -85,7 +93,8 @@ class EvaluateCommand : public Command {
 };
 
 void EvaluateCommand::declare(ArgumentList& arguments) {
-  arguments.positional("RUN", run_, "folder that reconstruct wrote", true);
+  arguments.positional("RUN", run_, "folder that reconstruct wrote; or maps of disparity or depth",
+                       true);
   arguments.option("--reference", "PATH", reference_, "sequence, best with groundtruth/, or a mesh",
                    true);
   arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
@@ -94,6 +103,12 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
                    "to a mesh: none (the default), rigid (one for all models), icp (each model)");
   arguments.option("--reference-unit-mm", "N", unit_mm_,
                    "what one unit of a mesh measures: 1000 for metres");
+  arguments.option("--map", "KIND", maps_.kind,
+                   "of maps whose names don't say it: disparity (px) or depth (mm)");
+  arguments.option("--calibration", "FILE", maps_.calibration,
+                   "of rectified views: errors of disparity maps in mm, too");
+  arguments.option("--confidence", "PATH", maps_.confidence,
+                   "confidence.png of `depth`, or a folder of them: judges predicted sigmas");
   softscope::declare(paths_, arguments);
   arguments.flag("--each", each_, "against a mesh: every model, not the last alone");
   arguments.flag("--no-views", no_views_,
@@ -111,6 +126,10 @@ MeshAlignment EvaluateCommand::alignment() const {
 int EvaluateCommand::run() {
   interrupt_.emplace();
   for (const std::string& text : fail_if_) thresholds_.push_back(parseThreshold(text));
+  if (holdsDepthMaps(run_)) return judgeMaps();
+  if (!maps_.kind.empty() || !maps_.calibration.empty() || !maps_.confidence.empty())
+    throw OptionError("--map, --calibration and --confidence are of depth maps, but " + run_ +
+                      " is none and no folder of them");
   const bool sequence = isFolder(reference_);
   if (sequence && (alignment() != MeshAlignment::kNone || each_))
     throw OptionError(
@@ -132,6 +151,30 @@ int EvaluateCommand::run() {
     return kInterrupted;
   }
   return finish(std::move(result), outputs ? &*outputs : nullptr);
+}
+
+int EvaluateCommand::judgeMaps() {
+  if (alignment() != MeshAlignment::kNone || each_)
+    throw OptionError("--align and --each are for a mesh; maps are compared pixel by pixel");
+  maps_.measured = run_;
+  maps_.reference = reference_;
+  const char* preferred = maps_.mapKind() == MapKind::kDepth ? "depth" : "disparity";
+  checkThresholds(thresholds_, depthMapJson({}), preferred);
+  std::optional<EvaluateOutputs> outputs;
+  if (!out_.empty()) outputs.emplace(out_, force_);
+  const DepthMapResult result =
+      judgeDepthMaps(maps_, [&](int, int) { return !interrupt_->requested(); });
+  if (result.interrupted) {
+    spdlog::warn("interrupted: nothing is written");
+    return kInterrupted;
+  }
+  FactSheet::Json record = depthMapJson(result);
+  const auto outcomes = checkThresholds(thresholds_, record, preferred);
+  record["thresholds"] = thresholdsJson(outcomes);
+  record = paths_.applyTo(record);
+  if (outputs) outputs->write(result, record);
+  printResult(record, depthMapFacts(result), {out_}, common.json);
+  return exitCodeOf(outcomes);
 }
 
 EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {

@@ -19,11 +19,23 @@ namespace fs = std::filesystem;
 
 constexpr double kDotsPerInch = 300;
 
-const char* const kFiles[] = {
-    "evaluation.json",     "frames.csv",         "tracks.csv",          "error_series.svg",
-    "error_series.pdf",    "error_series.png",   "error_histogram.svg", "error_histogram.pdf",
-    "error_histogram.png", "worst_frames.svg",   "worst_frames.pdf",    "worst_frames.png",
-    "errors.pvd",          "quality_series.svg", "quality_series.pdf",  "quality_series.png"};
+const char* const kFiles[] = {"evaluation.json",
+                              "frames.csv",
+                              "tracks.csv",
+                              "error_series.svg",
+                              "error_series.pdf",
+                              "error_series.png",
+                              "error_histogram.svg",
+                              "error_histogram.pdf",
+                              "error_histogram.png",
+                              "worst_frames.svg",
+                              "worst_frames.pdf",
+                              "worst_frames.png",
+                              "maps.csv",
+                              "errors.pvd",
+                              "quality_series.svg",
+                              "quality_series.pdf",
+                              "quality_series.png"};
 
 std::string mapName(const ErrorMap& map) { return "errors/" + numberedName(map.frame, ".vtp"); }
 
@@ -98,6 +110,13 @@ void EvaluateOutputs::write(const TruthlessResult& result, const FactSheet::Json
   put("frames.csv", truthlessCsv(result));
   const VectorDrawing plots = truthlessPlots(result);
   if (plots.height_pt > 0) putFigure("quality_series", plots);
+  put("evaluation.json", jsonText(record));
+  new_files_.keep();
+}
+
+void EvaluateOutputs::write(const DepthMapResult& result, const FactSheet::Json& record) const {
+  new_files_.makeFolder(folder_);
+  put("maps.csv", depthMapCsv(result));
   put("evaluation.json", jsonText(record));
   new_files_.keep();
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/new_files.h"
+#include "toolkit/evaluation/depth_map_result.h"
 #include "toolkit/evaluation/evaluate_frames.h"
 #include "toolkit/evaluation/evaluate_result.h"
 #include "toolkit/evaluation/truthless_result.h"
@@ -26,6 +27,8 @@ class EvaluateOutputs {
              const FactSheet::Json& record) const;
   /// evaluation.json, frames.csv, and the figure quality_series.
   void write(const TruthlessResult& result, const FactSheet::Json& record) const;
+  /// evaluation.json and maps.csv.
+  void write(const DepthMapResult& result, const FactSheet::Json& record) const;
 
  private:
   void put(const std::string& name, const std::string& bytes) const;
