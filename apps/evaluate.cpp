@@ -195,7 +195,9 @@ EvaluationResult EvaluateCommand::againstSequence(const JudgedRun& folder) {
     return !interrupt_->requested();
   });
   result.revisits = judgeRevisits(folder, truth, result);
-  result.warnings = sequenceWarnings(folder, truth, result);
+  result.warnings = folder.warnings();
+  for (std::string& warning : sequenceWarnings(folder, truth, result))
+    result.warnings.push_back(std::move(warning));
   result.warnings.insert(result.warnings.end(), origin.begin(), origin.end());
   return result;
 }
@@ -250,6 +252,7 @@ EvaluationResult EvaluateCommand::againstMesh(const JudgedRun& folder) {
   const TriangleMesh mesh = readMesh(reference_, {unit_mm_});
   EvaluationResult result;
   result.against_mesh = true;
+  result.warnings = folder.warnings();
   result.outcomes = folder.outcomes;
   for (const int frame : folder.frames) result.times_s[frame] = folder.timeOf(frame);
   result.alignment = how;

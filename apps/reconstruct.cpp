@@ -268,7 +268,7 @@ void ReconstructCommand::reconstructAll(const SequencePaths& sequence,
     FrameRecord frame;
     try {
       frame = result->ok() ? reconstructor.process(result->frame, frames.following())
-                           : reconstructor.skip(result->index, result->error);
+                           : reconstructor.skip(result->index, result->error, result->time_s);
     } catch (const BackendError& error) {
       failure_ = error.what();
       break;

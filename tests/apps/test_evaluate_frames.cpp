@@ -68,6 +68,13 @@ TEST_F(EvaluateLost, AStatusThatNoFrameCanHaveIsRefused) {
   expectRefused({"frames.csv", "line 4", "fsued"}, evaluate());
 }
 
+TEST_F(Evaluate, ARunThatWasStoppedIsCalledSo) {
+  EXPECT_EQ(evaluated()["warnings"].dump().find("was stopped"), std::string::npos);
+  write("run/checkpoint.bin", "left by a run that was killed");
+  EXPECT_THAT(evaluated()["warnings"].dump(), HasSubstr("was stopped, killed, or is not over: its "
+                                                        "last frame is 5"));
+}
+
 TEST_F(Evaluate, AClipWithoutTimestampsHasFramesOnEveryAxis) {
   for (const char* file : {"truth/groundtruth/trajectory.txt", "run/trajectory.txt"}) {
     std::string lines;

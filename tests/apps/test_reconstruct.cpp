@@ -91,6 +91,16 @@ TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
   EXPECT_EQ(reconstruct({"--out", at("run"), "--scope", "still", "--force"}).exit_code, 2);
 }
 
+TEST_F(Reconstruct, AnUnreadableFrameKeepsItsTime) {
+  const std::string clip = makeClip(4);
+  fs::resize_file(clip + "/left/000002.png", 200);
+  ASSERT_EQ(reconstruct({"--out", at("run")}).exit_code, 0);
+  EXPECT_THAT(textOf(at("run/trajectory.txt")), HasSubstr("\n0.080000 ")) << "not 2 seconds";
+  const Outcome judged = run({"evaluate", at("run"), "--reference", clip, "--json", "--quiet"});
+  ASSERT_EQ(judged.exit_code, 0) << judged.err;
+  EXPECT_EQ(judged.json()["outcomes"]["skipped"], 1);
+}
+
 TEST_F(Reconstruct, ResumesToTheSameBytes) {
   makeClip(8);
   ASSERT_EQ(reconstruct({"--out", at("whole")}).exit_code, 0);

@@ -177,6 +177,7 @@ TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::p
   findSequence(sequence);  // throws where it is none
   TruthlessResult result;
   result.outcomes = run.outcomes;
+  result.warnings = run.warnings();
   addPath(run, result);
   for (const auto& [frame, mean_mm] : run.backprojection_mm)
     result.frames[frame].backprojection_mm = mean_mm;

@@ -65,6 +65,12 @@ bool measuresBackProjection(const FrameRows& rows, std::size_t k) {
 
 }  // namespace
 
+std::vector<std::string> JudgedRun::warnings() const {
+  if (!stopped) return {};
+  return {say("the run was stopped, killed, or is not over: its last frame is ", frames.back(),
+              ", and what followed is not in these numbers; go on with reconstruct --resume")};
+}
+
 double JudgedRun::timeOf(int frame) const {
   const auto found = std::lower_bound(frames.begin(), frames.end(), frame);
   if (found == frames.end() || *found != frame) return std::nan("");
@@ -104,6 +110,7 @@ JudgedRun openJudgedRun(const fs::path& folder) {
       run.backprojection_mm[rows.frames[k]] = rows.backprojection_mm[k];
   for (std::size_t k = 0; k < rows.coverage.size(); ++k)
     if (std::isfinite(rows.coverage[k])) run.coverage[rows.frames[k]] = rows.coverage[k];
+  run.stopped = isThere(folder / "checkpoint.bin") || isThere(folder / "writing.lock");
   run.models = numberedFiles(folder / "models", ".ply");
   run.last_model = fileOrNone(folder / "model.ply");
   run.tracks = fileOrNone(folder / "tracks.csv");

@@ -25,9 +25,12 @@ struct JudgedRun {
                                             // first one, whose value is zero by construction
   std::map<int, double> coverage;           // share of the tissue that has depth, of all frames
   FrameFiles models;                        // models/NNNNNN.ply
+  bool stopped = false;                     // before its end: the clip's last frames lack
   std::filesystem::path last_model;         // model.ply; empty where it is missing
   std::filesystem::path tracks;             // tracks.csv; empty where it is missing
 
+  /// What a reader of any of its numbers should know; empty for a run that reached its end.
+  std::vector<std::string> warnings() const;
   /// NaN where the frame has no pose, and for all frames of a clip without timestamps.
   double timeOf(int frame) const;
   /// Whether the frame's pose, model and tracks say something of it: it was fused.
