@@ -10,13 +10,13 @@ namespace softscope {
 namespace {
 
 /// From pale to dark, so that a grey print tells them apart as well.
-Rgb8 colourOf(FrameOutcome outcome) {
+Rgb8 colourOf(FusionOutcome outcome) {
   switch (outcome) {
-    case FrameOutcome::kFused:
+    case FusionOutcome::kFused:
       return {190, 215, 228};
-    case FrameOutcome::kSkipped:
+    case FusionOutcome::kSkipped:
       return {230, 159, 0};
-    case FrameOutcome::kLost:
+    case FusionOutcome::kLost:
       return {140, 30, 30};
   }
   return {};
@@ -32,8 +32,8 @@ double borderBefore(const std::vector<double>& x, std::size_t i) {
 
 std::vector<LegendEntry> legendOf(const OutcomeStripData& data) {
   std::vector<LegendEntry> entries;
-  for (const FrameOutcome outcome :
-       {FrameOutcome::kFused, FrameOutcome::kSkipped, FrameOutcome::kLost}) {
+  for (const FusionOutcome outcome :
+       {FusionOutcome::kFused, FusionOutcome::kSkipped, FusionOutcome::kLost}) {
     const auto count = std::count(data.outcomes.begin(), data.outcomes.end(), outcome);
     entries.push_back(
         {std::to_string(count) + " " + toString(outcome), colourOf(outcome), /*filled=*/true});
@@ -44,13 +44,13 @@ std::vector<LegendEntry> legendOf(const OutcomeStripData& data) {
 
 }  // namespace
 
-const char* toString(FrameOutcome outcome) {
+const char* toString(FusionOutcome outcome) {
   switch (outcome) {
-    case FrameOutcome::kFused:
+    case FusionOutcome::kFused:
       return "fused";
-    case FrameOutcome::kSkipped:
+    case FusionOutcome::kSkipped:
       return "skipped";
-    case FrameOutcome::kLost:
+    case FusionOutcome::kLost:
       return "lost";
   }
   return "lost";

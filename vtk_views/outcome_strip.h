@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-enum class FrameOutcome { kFused, kSkipped, kLost };
+enum class FusionOutcome { kFused, kSkipped, kLost };
 
-const char* toString(FrameOutcome outcome);
+const char* toString(FusionOutcome outcome);
 
 /// One cell per frame, in the order of `x`.
 struct OutcomeStripData {
   std::vector<double> x;  // rising: frame numbers, or seconds
-  std::vector<FrameOutcome> outcomes;
+  std::vector<FusionOutcome> outcomes;
 };
 
 /// Cells over the same x axis as a plot of this style that spans the same frames; the legend above

@@ -65,15 +65,15 @@ TEST(FrameOutcomes, AreCountedAndShownFrameByFrame) {
   EXPECT_TRUE(outcomes.json()["lost_share"].is_number() &&
               std::isnan(outcomes.json()["lost_share"].get<double>()));
   for (int frame = 0; frame < 33; ++frame)
-    outcomes.set(frame, frame == 0   ? FrameOutcome::kFused
-                        : frame == 4 ? FrameOutcome::kSkipped
-                                     : FrameOutcome::kLost);
+    outcomes.set(frame, frame == 0   ? FusionOutcome::kFused
+                        : frame == 4 ? FusionOutcome::kSkipped
+                                     : FusionOutcome::kLost);
   EXPECT_EQ(outcomes.text(), "1 of 33 fused, 1 skipped, 31 lost");
   EXPECT_EQ(outcomes.strip(), "#LLLs" + std::string(28, 'L'));
   EXPECT_FALSE(outcomes.fused(3));
   FrameOutcomes many;
   for (int frame = 0; frame < 1000; ++frame)
-    many.set(frame, frame == 500 ? FrameOutcome::kLost : FrameOutcome::kFused);
+    many.set(frame, frame == 500 ? FusionOutcome::kLost : FusionOutcome::kFused);
   EXPECT_EQ(many.strip().size(), 72u);
   EXPECT_EQ(many.strip().find('L'), 36u) << "a single lost frame of a long run is still seen";
 }

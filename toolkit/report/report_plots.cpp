@@ -30,8 +30,8 @@ double valueAt(const std::vector<std::pair<double, double>>& series, double x) {
 OutcomeStripData outcomeStrip(const CaseFrames& frames) {
   OutcomeStripData strip;
   for (std::size_t i = 0; i < frames.x.size(); ++i)
-    for (const FrameOutcome outcome :
-         {FrameOutcome::kFused, FrameOutcome::kSkipped, FrameOutcome::kLost})
+    for (const FusionOutcome outcome :
+         {FusionOutcome::kFused, FusionOutcome::kSkipped, FusionOutcome::kLost})
       if (frames.outcomes[i] == toString(outcome)) {
         strip.x.push_back(frames.x[i]);
         strip.outcomes.push_back(outcome);

@@ -9,15 +9,16 @@ namespace {
 
 constexpr std::size_t kMostLetters = 72;
 
-constexpr FrameOutcome kAll[] = {FrameOutcome::kFused, FrameOutcome::kSkipped, FrameOutcome::kLost};
+constexpr FusionOutcome kAll[] = {FusionOutcome::kFused, FusionOutcome::kSkipped,
+                                  FusionOutcome::kLost};
 
-char letterOf(FrameOutcome outcome) {
+char letterOf(FusionOutcome outcome) {
   switch (outcome) {
-    case FrameOutcome::kFused:
+    case FusionOutcome::kFused:
       return '#';
-    case FrameOutcome::kSkipped:
+    case FusionOutcome::kSkipped:
       return 's';
-    case FrameOutcome::kLost:
+    case FusionOutcome::kLost:
       return 'L';
   }
   return 'L';
@@ -25,55 +26,55 @@ char letterOf(FrameOutcome outcome) {
 
 }  // namespace
 
-FrameOutcome outcomeOf(FrameStatus status) {
+FusionOutcome outcomeOf(FrameStatus status) {
   switch (status) {
     case FrameStatus::kStarted:
     case FrameStatus::kFused:
     case FrameStatus::kRecovered:
-      return FrameOutcome::kFused;
+      return FusionOutcome::kFused;
     case FrameStatus::kLost:
-      return FrameOutcome::kLost;
+      return FusionOutcome::kLost;
     case FrameStatus::kSkippedDepth:
     case FrameStatus::kSkippedResidual:
     case FrameStatus::kUnconfirmed:
     case FrameStatus::kUnreadable:
-      return FrameOutcome::kSkipped;
+      return FusionOutcome::kSkipped;
   }
-  return FrameOutcome::kSkipped;
+  return FusionOutcome::kSkipped;
 }
 
-int FrameOutcomes::count(FrameOutcome outcome) const {
+int FrameOutcomes::count(FusionOutcome outcome) const {
   return static_cast<int>(std::count_if(each_.begin(), each_.end(),
                                         [&](const auto& e) { return e.second == outcome; }));
 }
 
 bool FrameOutcomes::fused(int frame) const {
   const auto found = each_.find(frame);
-  return found == each_.end() || found->second == FrameOutcome::kFused;
+  return found == each_.end() || found->second == FusionOutcome::kFused;
 }
 
 FactSheet::Json FrameOutcomes::json() const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   FactSheet::Json json;
   json["frames"] = empty() ? FactSheet::Json() : FactSheet::Json(count());
-  for (const FrameOutcome outcome : kAll)
+  for (const FusionOutcome outcome : kAll)
     json[toString(outcome)] = empty() ? FactSheet::Json() : FactSheet::Json(count(outcome));
-  for (const FrameOutcome outcome : kAll)
+  for (const FusionOutcome outcome : kAll)
     json[std::string(toString(outcome)) + "_share"] =
         empty() ? kNone : static_cast<double>(count(outcome)) / count();
   return json;
 }
 
 std::string FrameOutcomes::text() const {
-  std::string text = std::to_string(count(FrameOutcome::kFused)) + " of " +
-                     std::to_string(count()) + " " + toString(FrameOutcome::kFused);
-  for (const FrameOutcome outcome : {FrameOutcome::kSkipped, FrameOutcome::kLost})
+  std::string text = std::to_string(count(FusionOutcome::kFused)) + " of " +
+                     std::to_string(count()) + " " + toString(FusionOutcome::kFused);
+  for (const FusionOutcome outcome : {FusionOutcome::kSkipped, FusionOutcome::kLost})
     text += ", " + std::to_string(count(outcome)) + " " + toString(outcome);
   return text;
 }
 
 std::string FrameOutcomes::strip() const {
-  std::vector<FrameOutcome> all;
+  std::vector<FusionOutcome> all;
   for (const auto& [frame, outcome] : each_) all.push_back(outcome);
   const std::size_t letters = std::min(all.size(), kMostLetters);
   std::string strip;

@@ -12,18 +12,18 @@ namespace softscope {
 
 /// Fused: the model learned from the frame. Lost: the model was not found in it. Skipped: the
 /// others that changed nothing (too little depth, no warp, unconfirmed, unreadable).
-FrameOutcome outcomeOf(FrameStatus status);
+FusionOutcome outcomeOf(FrameStatus status);
 
 /// By frame number. Empty where the run's frames.csv has no column `status`.
 class FrameOutcomes {
  public:
-  void set(int frame, FrameOutcome outcome) { each_[frame] = outcome; }
+  void set(int frame, FusionOutcome outcome) { each_[frame] = outcome; }
   bool empty() const { return each_.empty(); }
   int count() const { return static_cast<int>(each_.size()); }
-  int count(FrameOutcome outcome) const;
+  int count(FusionOutcome outcome) const;
   /// Whether the frame counts; true where nothing is known of it.
   bool fused(int frame) const;
-  const std::map<int, FrameOutcome>& each() const { return each_; }
+  const std::map<int, FusionOutcome>& each() const { return each_; }
 
   /// frames, fused, skipped, lost, and the shares of the last three; null for what is not known.
   FactSheet::Json json() const;
@@ -34,7 +34,7 @@ class FrameOutcomes {
   std::string strip() const;
 
  private:
-  std::map<int, FrameOutcome> each_;
+  std::map<int, FusionOutcome> each_;
 };
 
 /// The lines that every summary begins with; nothing where no outcome is known.

@@ -59,7 +59,7 @@ FrameRows frameRows(const fs::path& file, std::size_t poses) {
 
 /// The model of the first frame is that frame's depth.
 bool measuresBackProjection(const FrameRows& rows, std::size_t k) {
-  return rows.statuses.empty() || (outcomeOf(rows.statuses[k]) == FrameOutcome::kFused &&
+  return rows.statuses.empty() || (outcomeOf(rows.statuses[k]) == FusionOutcome::kFused &&
                                    rows.statuses[k] != FrameStatus::kStarted);
 }
 

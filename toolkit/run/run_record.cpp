@@ -90,7 +90,7 @@ void RunRecord::add(const FrameRecord& record) {
 
 std::vector<std::string> RunRecord::conclusions() const {
   std::vector<std::string> all;
-  const int left_out = frames_ - outcomes_.count(FrameOutcome::kFused);
+  const int left_out = frames_ - outcomes_.count(FusionOutcome::kFused);
   if (left_out > kToldShare * frames_)
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
@@ -120,7 +120,7 @@ double RunRecord::meanOf(const std::vector<double>& values) const {
 Json RunRecord::json() const {
   Json all = json_;
   all["frames"] = frames_;
-  all["frames_fused"] = outcomes_.count(FrameOutcome::kFused);
+  all["frames_fused"] = outcomes_.count(FusionOutcome::kFused);
   all["frames_by_status"] = frames_of_status_;
   all["outcomes"] = outcomes_.json();
   all["points"] = points_;
