@@ -7,9 +7,11 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(makeReconstructCommand());
   commands.push_back(makeDepthCommand());
+  commands.push_back(makeCalibrateCommand());
   commands.push_back(makeSimulateCommand());
   commands.push_back(makeEvaluateCommand());
   commands.push_back(makeCompareCommand());
+  commands.push_back(makeBenchmarkCommand());
   commands.push_back(makeStudyCommand());
   commands.push_back(makeSliceCommand());
   commands.push_back(makeFigureCommand());

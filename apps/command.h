@@ -25,6 +25,8 @@ class Command {
   CommonOptions common;
 };
 
+std::unique_ptr<Command> makeBenchmarkCommand();
+std::unique_ptr<Command> makeCalibrateCommand();
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeDepthCommand();
 std::unique_ptr<Command> makeSettingsCommand();

@@ -1,8 +1,6 @@
 // apps/compare.cpp: `softscope compare`: a model against a reference surface.
-#include <spdlog/spdlog.h>
-
 #include <cmath>
-#include <filesystem>
+#include <optional>
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
@@ -10,15 +8,9 @@
 #include "apps/shared_arguments.h"
 #include "apps/threshold_exit.h"
 #include "core/error.h"
-#include "io/file_hash.h"
 #include "io/text_lines.h"
-#include "mesh/mesh_check.h"
-#include "toolkit/comparison/compare_inputs.h"
+#include "toolkit/comparison/compare_files.h"
 #include "toolkit/comparison/compare_outputs.h"
-#include "toolkit/comparison/compare_record.h"
-#include "toolkit/evaluation/evaluate_plots.h"
-#include "toolkit/evaluation/thresholds.h"
-#include "toolkit/record/record_paths.h"
 
 namespace softscope {
 namespace {
@@ -50,13 +42,6 @@ std::vector<double> parseTaus(const std::string& text) {
   return taus_mm;
 }
 
-void addMeshWarnings(const TriangleMesh& mesh, const std::string& name,
-                     std::vector<std::string>& warnings) {
-  if (mesh.empty()) return;
-  for (const std::string& warning : meshWarnings(checkMesh(mesh)))
-    warnings.push_back(name + ": " + warning);
-}
-
 class CompareCommand : public Command {
  public:
   std::string name() const override { return "compare"; }
@@ -71,30 +56,26 @@ class CompareCommand : public Command {
   int run() override;
 
  private:
-  ObservedSplit split(const TriangleMesh& reference, const SurfaceComparison& comparison) const;
-
-  std::string reference_, test_, out_, align_, landmarks_, taus_ = "0.5,1,2";
+  CompareOptions options_;
+  std::string out_, align_, landmarks_, taus_ = "0.5,1,2";
   std::vector<std::string> fail_if_;
   ErrorColourOptions picture_;
-  std::string observed_;
-  double observed_reach_mm_ = 2;
-  double reference_unit_mm_ = 1, test_unit_mm_ = 1;
   bool force_ = false;
-  RecordPaths paths_;
 };
 
 void CompareCommand::declare(ArgumentList& arguments) {
-  arguments.option("--reference", "MESH", reference_, "surface to judge by (STL, PLY, OBJ, VTP)",
-                   true);
-  arguments.option("--test", "MODEL", test_, "surface, or points as reconstruct writes them", true);
+  arguments.option("--reference", "MESH", options_.reference,
+                   "surface to judge by (STL, PLY, OBJ, VTP)", true);
+  arguments.option("--test", "MODEL", options_.test,
+                   "surface, or points as reconstruct writes them", true);
   arguments.option("--align", "HOW", align_,
                    "none (the default), landmarks, or icp, which begins at the landmarks if given");
   arguments.option("--landmarks", "FILE", landmarks_, "pairs of points; alone: --align landmarks");
   arguments.option("--tau", "LIST", taus_, "thresholds in mm (default 0.5,1,2)");
   arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
-  arguments.option("--observed", "SCAN", observed_,
+  arguments.option("--observed", "SCAN", options_.observed,
                    "what was seen, points or surface in the reference's place: splits the values");
-  arguments.option("--observed-within-mm", "N", observed_reach_mm_,
+  arguments.option("--observed-within-mm", "N", options_.observed_reach_mm,
                    "the reference counts as seen this near to it (default 2)");
   arguments.option("--errors", "KIND", picture_.kind,
                    "colours of error_map: absolute (default) or signed");
@@ -102,62 +83,30 @@ void CompareCommand::declare(ArgumentList& arguments) {
                    "end of its colour bar (default: a round number, not below the P95)");
   arguments.option("--fail-if", "LIMIT", fail_if_,
                    "e.g. accuracy.p95_mm>2: then exit code 1; repeatable");
-  arguments.option("--reference-unit-mm", "N", reference_unit_mm_,
+  arguments.option("--reference-unit-mm", "N", options_.reference_unit_mm,
                    "what one unit of the file measures: 1000 for metres");
-  arguments.option("--test-unit-mm", "N", test_unit_mm_, "the same of the test");
-  softscope::declare(paths_, arguments);
+  arguments.option("--test-unit-mm", "N", options_.test_unit_mm, "the same of the test");
+  softscope::declare(options_.paths, arguments);
   arguments.flag("--force", force_, "overwrite what is there");
 }
 
-ObservedSplit CompareCommand::split(const TriangleMesh& reference,
-                                    const SurfaceComparison& comparison) const {
-  TriangleMesh observed = readSurfaceOrPoints(observed_, reference_unit_mm_);
-  matchSpaces(reference, observed);
-  return splitByObserved(reference, observed, comparison, observed_reach_mm_);
-}
-
 int CompareCommand::run() {
-  const SurfaceFitOptions fit = parseFit(align_, landmarks_, "--landmarks");
+  options_.fit = parseFit(align_, landmarks_, "--landmarks");
   require(picture_.kind != "none", "--errors", picture_.kind, "must be absolute or signed");
   picture_.validate();
-  require(observed_reach_mm_ > 0 && std::isfinite(observed_reach_mm_), "--observed-within-mm",
-          observed_reach_mm_, "must be above 0");
-  const std::vector<double> taus_mm = parseTaus(taus_);
-  std::vector<Threshold> thresholds;
-  for (const std::string& text : fail_if_) thresholds.push_back(parseThreshold(text));
-  checkThresholds(thresholds, comparisonJson({}), "accuracy");  // misspelt: told before the work
+  options_.taus_mm = parseTaus(taus_);
+  for (const std::string& text : fail_if_) options_.thresholds.push_back(parseThreshold(text));
+  options_.validate();  // before the work
   std::optional<CompareOutputs> outputs;
   if (!out_.empty()) outputs.emplace(out_, force_);
-
-  ComparisonResult result;
-  result.reference = reference_;
-  result.test = test_;
-  const TriangleMesh reference = readSurfaceOrPoints(reference_, reference_unit_mm_);
-  if (reference.empty())
-    throw InputError(reference_ +
-                     ": is a set of points, but a reference is a surface; give a mesh");
-  TriangleMesh test = readSurfaceOrPoints(test_, test_unit_mm_);
-  addMeshWarnings(reference, reference_, result.warnings);
-  addMeshWarnings(test, test_, result.warnings);
-  result.space = matchSpaces(reference, test);
-  result.fit = fitSurface(reference, test.vertices_mm, fit);
-  test.vertices_mm = movePoints(result.fit.reference_from_test, test.vertices_mm);
-  for (const std::string& warning : result.fit.warnings) result.warnings.push_back(warning);
-  result.comparison = compareSurfaces(reference, test, taus_mm);
-  if (!observed_.empty()) result.observed = split(reference, result.comparison);
-
-  FactSheet::Json record = comparisonJson(result);
-  record["inputs_sha256"] = {{"reference", sha256Of(reference_)}, {"test", sha256Of(test_)}};
-  const auto outcomes = checkThresholds(thresholds, record, "accuracy");
-  record["thresholds"] = thresholdsJson(outcomes);
-  record["error_histogram"] = histogramJson(result.comparison.accuracy.each_mm);
-  record = paths_.applyTo(record);
+  FileComparison compared = compareFiles(options_);
   if (outputs)
-    if (const std::string problem = outputs->write(result, reference, test, picture_, record);
+    if (const std::string problem = outputs->write(compared.result, compared.reference,
+                                                   compared.test, picture_, compared.record);
         !problem.empty())
-      result.warnings.push_back(problem);
-  printResult(record, comparisonFacts(result), {out_}, common.json);
-  return exitCodeOf(outcomes);
+      compared.result.warnings.push_back(problem);
+  printResult(compared.record, comparisonFacts(compared.result), {out_}, common.json);
+  return exitCodeOf(compared.outcomes);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@
 #include "toolkit/depth/frame_statistics.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/record_paths.h"
+#include "toolkit/run/out_folder.h"
 
 namespace softscope {
 namespace {
@@ -64,6 +65,7 @@ class DepthCommand : public Command {
   bool is_sequence_ = false;  // files are numbered
   bool row_warning_given_ = false;
   bool interrupted_ = false;
+  std::string failure_;  // of the back end in the middle of the sequence
   std::optional<InterruptGuard> interrupt_;
   std::optional<DepthRange> range_;
 };
@@ -129,6 +131,8 @@ int DepthCommand::run() {
   const auto summary = paths_.applyTo(record.json());
   if (record.goodFrames() > 0) outputs.writeSummary(jsonText(summary));
   outputs.keep();
+  if (!failure_.empty())
+    throw BackendError(failure_ + ". What is finished stays; --backend cpu needs no GPU");
   if (common.json)
     printJson(summary);
   else
@@ -161,6 +165,10 @@ void DepthCommand::measureAll(SequenceReader& reader, DepthEstimator& estimator,
         measureOne(*result, estimator, outputs, record);
       } catch (const InputError& problem) {
         error = problem.what();
+      } catch (const BackendError& problem) {
+        failure_ = problem.what();
+        interrupted_ = true;
+        return;
       }
     if (!error.empty()) {
       spdlog::error("frame {}: {}", result->index, error);

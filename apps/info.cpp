@@ -3,14 +3,15 @@
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
-#include "apps/info_parts.h"
 #include "apps/result_output.h"
 #include "apps/shared_arguments.h"
 #include "core/error.h"
+#include "io/dataset_form.h"
 #include "io/folder.h"
 #include "io/sequence_paths.h"
 #include "io/text_lines.h"
 #include "toolkit/figures/volume_arguments.h"
+#include "toolkit/inspection/describe_file.h"
 #include "vtk_views/volume_summary.h"
 
 namespace softscope {
@@ -71,7 +72,7 @@ class InfoCommand : public Command {
   }
 
   FactSheet describeFolder() const {
-    if (looksLikeSequence(path_)) return describeSequence(path_, check_);
+    if (looksLikeSequence(path_) || recogniseDataset(path_)) return describeSequence(path_, check_);
     if (looksLikeVolume(path_)) return describeVolume(path_, volumeOptions());
     try {
       return describeCalibration(path_);

@@ -23,11 +23,4 @@ struct SequenceArguments {
   void applyFrames(SequenceOptions& options) const;
 };
 
-/// Throws OptionError where `out` is, or lies in, a folder of pictures, masks or depth of the
-/// sequence: results among them would be read as its frames.
-void requireApart(const std::string& out, const SequencePaths& sequence);
-
-/// The same, and where `out` is the sequence's own folder, whose files would be replaced.
-void requireOutside(const std::string& out, const SequencePaths& sequence);
-
 }  // namespace softscope

@@ -2,22 +2,14 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <iostream>
-#include <optional>
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
-#include "apps/progress_bar.h"
 #include "apps/result_output.h"
+#include "apps/work_progress.h"
 #include "core/error.h"
-#include "eval/simulation/simulator.h"
-#include "toolkit/record/json_text.h"
-#include "toolkit/record/setting_json.h"
-#include "toolkit/record/version.h"
-#include "toolkit/simulation/simulate_inputs.h"
-#include "toolkit/simulation/simulate_options.h"
-#include "toolkit/simulation/simulate_outputs.h"
+#include "toolkit/simulation/simulate_sequence.h"
 
 namespace softscope {
 namespace {
@@ -32,6 +24,7 @@ const char* const kDetails =
     "heartbeat.*, push.*, cut.*, scope.*, camera.*, instrument.*, smoke, event.*,\n"
     "light.*, sensor.*;\n"
     "data/scenario.toml has them all.\n"
+    "--layout writes one clip with its truth as a data set ships it (docs/datasets.md).\n"
     "--frames, --size, --seed, --organ and --texture are stronger than --set, --set than "
     "--scenario.";
 
@@ -49,15 +42,12 @@ class SimulateCommand : public Command {
   int run() override;
 
  private:
-  void readOptions(SettingsBinder& binder, SimulateOptions& options);
-  FactSheet::Json record(const SettingsBinder& binder) const;
-  int simulateAll(Simulator& simulator, SimulateOutputs& outputs, const SimulateOptions& options);
-  void report(const Simulator& simulator, int frames, double elapsed_s) const;
+  SimulateOptions readOptions() const;
+  void report(const SimulatedSequence& made, double elapsed_s) const;
 
-  std::string out_, scenario_, organ_, texture_, size_, frames_, seed_, truth_;
+  std::string out_, scenario_, organ_, texture_, size_, frames_, seed_, truth_, layout_;
   std::vector<std::string> assignments_;
   bool force_ = false;
-  std::optional<InterruptGuard> interrupt_;
 };
 
 void SimulateCommand::declare(ArgumentList& arguments) {
@@ -73,78 +63,55 @@ void SimulateCommand::declare(ArgumentList& arguments) {
   arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
   arguments.option("--truth", "LIST", truth_,
                    "some of mesh,depth,trajectory,tracks (the default), normals,flow; or none");
+  arguments.option("--layout", "NAME", layout_,
+                   "one clip as a data set ships it: stir2026, surgt or scared");
   arguments.flag("--force", force_, "overwrite an earlier simulation");
 }
 
 /// The short options are settings too, so that one check and one record serve all.
-void SimulateCommand::readOptions(SettingsBinder& binder, SimulateOptions& options) {
+SimulateOptions SimulateCommand::readOptions() const {
+  SimulateOptions options;
   Settings settings;
   if (!scenario_.empty()) settings = readSettings(scenario_);
   for (const std::string& assignment : assignments_) addAssignment(settings, assignment);
   if (!frames_.empty()) addAssignment(settings, "frames=" + frames_);
   if (!seed_.empty()) addAssignment(settings, "seed=" + seed_);
-  binder = settingsOf(options);
-  binder.apply(settings);
+  settingsOf(options).apply(settings);
   if (!organ_.empty()) options.organ = organ_;
   if (!texture_.empty()) options.texture = texture_;
   if (!size_.empty()) setPictureSize(size_, options.simulation.scope);
-  options.validate();
-  readTexture(options);
-}
-
-FactSheet::Json SimulateCommand::record(const SettingsBinder& binder) const {
-  FactSheet::Json json{
-      {"schema_version", 1}, {"softscope", versionText()}, {"command", "simulate"}};
-  for (const SettingInfo& setting : binder.list()) json["options"][setting.key] = valueOf(setting);
-  return json;
+  return options;
 }
 
 int SimulateCommand::run() {
-  interrupt_.emplace();
-  SimulateOptions options;
-  SettingsBinder binder;
-  readOptions(binder, options);
-  const TruthKinds truth = TruthKinds::parse(truth_);
-  OrganFile organ = readOrgan(options);
-  for (const std::string& warning : organ.warnings) spdlog::warn("{}", warning);
-  Simulator simulator(std::move(organ.mesh), options.simulation);
-  SimulateOutputs outputs({out_, truth, options.pictures, options.simulation.frames_per_second,
-                           options.jpeg_quality, options.masks, options.input_depth, force_},
-                          jsonText(record(binder)));
+  const InterruptGuard interrupt;
+  const SimulateOptions options = readOptions();
+  WorkProgress progress("simulate", progressStyle(common.quiet), interrupt);
   const auto start = std::chrono::steady_clock::now();
-  const int done = simulateAll(simulator, outputs, options);
-  if (done == 0) return kInterrupted;
-  outputs.finish(simulator);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  report(simulator, done, elapsed.count());
-  return done < options.frames ? kInterrupted : kDone;
-}
-
-int SimulateCommand::simulateAll(Simulator& simulator, SimulateOutputs& outputs,
-                                 const SimulateOptions& options) {
-  ProgressBar progress("simulate", options.frames, progressStyle(common.quiet), std::cerr);
-  for (int i = 0; i < options.frames; ++i) {
-    if (interrupt_->requested()) {
-      spdlog::warn("interrupted: a sequence of {} frames stays", i);
-      return i;
-    }
-    const bool with_truth = i % options.truth_every == 0 || i + 1 == options.frames;
-    outputs.addFrame(i, simulator.frame(i, outputs.wantsFlow() && with_truth),
-                     simulator.triangles(), with_truth);
-    progress.advance();
+  const TruthKinds truth = TruthKinds::parse(truth_);
+  if (!layout_.empty()) {
+    require(truth_.empty(), "--truth", truth_, "is not chosen with --layout: the form has its own");
+    require(!force_, "--force", "given",
+            "nothing is overwritten with --layout; choose a new folder");
   }
-  return options.frames;
+  const SimulatedSequence made =
+      layout_.empty() ? simulateSequence(options, truth, out_, force_, listenerOf(progress))
+                      : simulateLayout(options, layout_, out_, listenerOf(progress));
+  if (made.interrupted) spdlog::warn("interrupted: a sequence of {} frames stays", made.frames);
+  if (made.frames == 0) return kInterrupted;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  report(made, elapsed.count());
+  return made.interrupted ? kInterrupted : kDone;
 }
 
-void SimulateCommand::report(const Simulator& simulator, int frames, double elapsed_s) const {
+void SimulateCommand::report(const SimulatedSequence& made, double elapsed_s) const {
   FactSheet facts("simulated sequence");
   facts.add("folder", "folder", out_);
-  facts.add("frames", "frames", frames);
+  facts.add("frames", "frames", made.frames);
   facts.add("picture",
-            std::to_string(simulator.rig().left.width_px) + " x " +
-                std::to_string(simulator.rig().left.height_px) + " px",
-            "picture_px", {simulator.rig().left.width_px, simulator.rig().left.height_px});
-  facts.add("tracked points", "tracked_points", static_cast<int>(simulator.trackPoints().size()));
+            std::to_string(made.width_px) + " x " + std::to_string(made.height_px) + " px",
+            "picture_px", {made.width_px, made.height_px});
+  facts.add("tracked points", "tracked_points", made.tracked_points);
   facts.add("time", fixed(elapsed_s, 1) + " s", "elapsed_s", elapsed_s);
   printFacts(facts, common.json);
 }

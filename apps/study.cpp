@@ -10,11 +10,11 @@
 #include "apps/interrupt.h"
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
-#include "apps/shell_word.h"
 #include "core/error.h"
 #include "io/message.h"
 #include "toolkit/record/child_process.h"
 #include "toolkit/record/machine.h"
+#include "toolkit/record/shell_word.h"
 #include "toolkit/study/study_case.h"
 #include "toolkit/study/study_outputs.h"
 

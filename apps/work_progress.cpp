@@ -1,5 +1,7 @@
 #include "apps/work_progress.h"
 
+#include <spdlog/spdlog.h>
+
 #include <iostream>
 #include <utility>
 
@@ -14,9 +16,16 @@ Progress WorkProgress::callback() {
 }
 
 bool WorkProgress::tell(int done, int total) {
-  if (!bar_) bar_.emplace(what_, total, style_, std::cerr);
-  for (; told_ < done; ++told_) bar_->advance();
+  if (!bar_ && !ended_) bar_.emplace(what_, total, style_, std::cerr);
+  for (; bar_ && shown_ < done; ++shown_) bar_->advance();
+  ended_ = interrupted() || (done >= total && total > 0);
+  if (ended_) bar_.reset();
   return !interrupted();
+}
+
+WorkListener listenerOf(WorkProgress& progress) {
+  return {progress.callback(), [](const std::string& text) { spdlog::warn("{}", text); },
+          [](const std::string& text) { spdlog::info("{}", text); }};
 }
 
 }  // namespace softscope

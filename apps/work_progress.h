@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// Ends the bar's line when it is destroyed.
+/// The bar's line ends with the work, be it done or stopped.
 class WorkProgress {
  public:
   WorkProgress(std::string what, ProgressBar::Style style, const InterruptGuard& interrupt);
@@ -27,7 +27,11 @@ class WorkProgress {
   ProgressBar::Style style_;
   const InterruptGuard& interrupt_;
   std::optional<ProgressBar> bar_;
-  int told_ = 0;
+  int shown_ = 0;
+  bool ended_ = false;
 };
+
+/// Warnings and notes go to the log.
+WorkListener listenerOf(WorkProgress& progress);
 
 }  // namespace softscope

@@ -7,7 +7,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/SoftscopeFlags.cmake)
 # once for all of them. Local names must then differ within a folder; a clash is a compile error:
 # give the later one a better name, or SKIP_UNITY_BUILD_INCLUSION where each file has its own.
 function(softscope_join target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SOFTSCOPE_JOIN})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD "${SOFTSCOPE_JOIN}")
 endfunction()
 
 # softscope_precompile(<target> <header>…): parses these headers once for all files of the target.

@@ -4,7 +4,6 @@
 #include "core/image.h"
 #include "cuda/kernel.h"
 #include "cuda/match_search.h"
-#include "cuda/match_select.h"
 #include "cuda/view_draw.h"
 #include "features/lift_formulas.h"
 

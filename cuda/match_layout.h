@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "cuda/arena.h"
 #include "cuda/match_images.h"
+#include "cuda/match_list.h"
 #include "cuda/match_search.h"
 #include "cuda/match_select.h"
 #include "cuda/match_surf.h"

@@ -33,7 +33,7 @@ struct RefineKernel {
     int held;  // not refused
     float live_u, live_v, sigma_px, similarity;
   };
-  struct Match {
+  struct alignas(16) Match {
     float steepest_u[kSide * kWindowLanes], steepest_v[kSide * kWindowLanes];
     float contrast[kSide * kWindowLanes], weight[kSide * kWindowLanes];
     float sums[5][kWindowLanes];
@@ -115,6 +115,27 @@ struct RefineKernel {
   }
 
  private:
+  struct Four {
+    float values[4];
+  };
+  /// Four values with one load.
+  SOFTSCOPE_HD static Four four(const float* from) {
+    Four loaded;
+    __builtin_memcpy(&loaded, __builtin_assume_aligned(from, 16), sizeof loaded);
+    return loaded;
+  }
+  /// Sum over a plane, value by value; `termsAt(k, terms)` gives four of them.
+  template <class TermsAt>
+  SOFTSCOPE_HD static float sumOfFours(const TermsAt& termsAt) {
+    float sum = 0;
+    SOFTSCOPE_UNROLL(4)
+    for (int k = 0; k < kSide * kWindowLanes; k += 4) {
+      float terms[4];
+      termsAt(k, terms);
+      for (int i = 0; i < 4; ++i) sum += terms[i];
+    }
+    return sum;
+  }
   SOFTSCOPE_HD static float sumOf(const float* values, int count) {
     float sum = 0;
     SOFTSCOPE_UNROLL(16)
@@ -156,7 +177,10 @@ struct RefineKernel {
     }
   }
   SOFTSCOPE_HD void sumWeights(Match& match) const {
-    const float kept = sumOf(match.weight, kSide * kWindowLanes);
+    const float kept = sumOfFours([&](int k, float(&terms)[4]) {
+      const Four w = four(match.weight + k);
+      for (int i = 0; i < 4; ++i) terms[i] = w.values[i];
+    });
     if (!(kept >= kLeastWindowShare * window.all)) match.state = kLost;
     match.moments = {};
     match.moments.square = kept;  // until the weights are divided by it
@@ -182,9 +206,10 @@ struct RefineKernel {
                           : lane == 1 ? match.contrast
                           : lane == 2 ? match.steepest_u
                                       : match.steepest_v;
-    float sum = 0;
-    SOFTSCOPE_UNROLL(16)
-    for (int k = 0; k < kSide * kWindowLanes; ++k) sum += match.weight[k] * values[k];
+    const float sum = sumOfFours([&](int k, float(&terms)[4]) {
+      const Four w = four(match.weight + k), x = four(values + k);
+      for (int i = 0; i < 4; ++i) terms[i] = w.values[i] * x.values[i];
+    });
     float* const to[] = {&match.search.weight_sq, &match.moments.mean, &match.moments.gradient_u,
                          &match.moments.gradient_v};
     *to[lane] = sum;
@@ -196,10 +221,12 @@ struct RefineKernel {
                           : lane == 1 ? match.steepest_u
                                       : match.steepest_v;
     const float means[] = {match.moments.mean, match.moments.gradient_u, match.moments.gradient_v};
-    float sum = 0;
-    SOFTSCOPE_UNROLL(16)
-    for (int k = 0; k < kSide * kWindowLanes; ++k)
-      sum += match.weight[k] * (match.contrast[k] - match.moments.mean) * (values[k] - means[lane]);
+    const float mean = match.moments.mean, other_mean = means[lane];
+    const float sum = sumOfFours([&](int k, float(&terms)[4]) {
+      const Four w = four(match.weight + k), x = four(match.contrast + k), y = four(values + k);
+      for (int i = 0; i < 4; ++i)
+        terms[i] = w.values[i] * (x.values[i] - mean) * (y.values[i] - other_mean);
+    });
     float* const to[] = {&match.moments.square, &match.moments.along_u, &match.moments.along_v};
     *to[lane] = sum;
   }
@@ -219,9 +246,10 @@ struct RefineKernel {
     if (lane > 3) return;
     const float* a = lane < 2 ? match.steepest_u : match.steepest_v;
     const float* b = lane % 2 == 0 ? match.steepest_u : match.steepest_v;
-    float sum = 0;
-    SOFTSCOPE_UNROLL(16)
-    for (int k = 0; k < kSide * kWindowLanes; ++k) sum += match.weight[k] * a[k] * b[k];
+    const float sum = sumOfFours([&](int k, float(&terms)[4]) {
+      const Four w = four(match.weight + k), x = four(a + k), y = four(b + k);
+      for (int i = 0; i < 4; ++i) terms[i] = w.values[i] * x.values[i] * y.values[i];
+    });
     float* const to[] = {&match.information.uu, &match.information.uv, &match.information.vu,
                          &match.information.vv};
     *to[lane] = sum;

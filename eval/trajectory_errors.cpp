@@ -72,6 +72,32 @@ RigidFit fitPositions(const Poses& truth, const Poses& estimate) {
   return fit;
 }
 
+/// `estimate` with its positions brought into the truth's world and length.
+Poses similar(const Poses& estimate, const SimilarityFit& fit) {
+  Poses moved;
+  for (Eigen::Isometry3d pose : estimate) {
+    pose.translation() = fit.scale * (fit.rotation * pose.translation()) + fit.translation_mm;
+    pose.linear() = fit.rotation * pose.linear();
+    moved.push_back(pose);
+  }
+  return moved;
+}
+
+/// `truth` has three positions or more that aren't on one line.
+void addScaled(const Poses& truth, const Poses& estimate, const std::vector<int>& moments,
+               TrajectoryErrors& errors) {
+  std::vector<Eigen::Vector3d> source_mm, target_mm;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    source_mm.push_back(estimate[i].translation());
+    target_mm.push_back(truth[i].translation());
+  }
+  const SimilarityFit fit = fitSimilarity(source_mm, target_mm);
+  const Poses moved = similar(estimate, fit);
+  errors.scale = fit.scale;
+  errors.absolute_scaled = poseErrors(truth, moved, Eigen::Isometry3d::Identity());
+  errors.relative_scaled = stepErrors(truth, moved, moments);
+}
+
 }  // namespace
 
 TrajectoryErrors trajectoryErrors(const Poses& truth, const Poses& estimate,
@@ -89,6 +115,8 @@ TrajectoryErrors trajectoryErrors(const Poses& truth, const Poses& estimate,
   if (!fit.unique) {
     errors.absolute.each_deg.assign(truth.size(), Statistics::kNone);
     summarise(errors.absolute);
+  } else {
+    addScaled(truth, estimate, moments, errors);
   }
   return errors;
 }

@@ -19,12 +19,18 @@ struct PoseErrors {
 /// Definitions as evo has them (Grupp 2017; Sturm et al., IROS 2012): docs/evaluation.md.
 struct TrajectoryErrors {
   PoseErrors unaligned;  // both worlds taken as one
-  PoseErrors absolute;   // ATE: after the rigid alignment of all positions
-  PoseErrors relative;   // RPE: of the steps from each pose to the next; one value fewer, NaN
-                         // where these are not of neighbouring moments
+  PoseErrors absolute;   // ATE, SE(3): after the rigid alignment of all positions
+  PoseErrors relative;   // RPE, SE(3): of the steps from each pose to the next; one value fewer,
+                         // NaN where these are not of neighbouring moments
+  /// ATE and RPE, Sim(3): the same after the alignment with a scale. Not comparable with SE(3): an
+  /// error of scale, which a stereo scope should not have, is gone. Angles as `absolute` has them.
+  PoseErrors absolute_scaled;
+  PoseErrors relative_scaled;
+  double scale = Statistics::kNone;  // of that alignment: truth over estimate; NaN: not unique
   Eigen::Isometry3d truth_from_estimate = Eigen::Isometry3d::Identity();  // that alignment
   /// False where the positions leave a rotation free (a still scope, a straight path, fewer than
-  /// three poses): then absolute.each_deg and absolute.rotation_deg are NaN.
+  /// three poses): then absolute.each_deg and absolute.rotation_deg are NaN, and Sim(3) is left
+  /// out.
   bool alignment_unique = false;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace softscope {
 
@@ -13,5 +14,18 @@ using Progress = std::function<bool(int done, int total)>;
 inline bool goesOn(const Progress& progress, int done, int total) {
   return !progress || progress(done, total);
 }
+
+/// What long work tells while it runs. Each callback may be empty.
+struct WorkListener {
+  Progress progress;
+  std::function<void(const std::string&)> warning, note;  // one line each
+
+  void warn(const std::string& text) const {
+    if (warning) warning(text);
+  }
+  void tell(const std::string& text) const {
+    if (note) note(text);
+  }
+};
 
 }  // namespace softscope

@@ -84,6 +84,23 @@ bool isSeen(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_mm,
   return point_left_mm.z() <= seen_mm + kSeenWithin_mm;  // false where it is NaN
 }
 
+/// Tissue in the right image with nothing before it.
+bool isSeenByRight(const Eigen::Vector3d& point_left_mm, const ScopeScene& scene,
+                   const ScopeTool& instrument, const ScopeLens& lens, double baseline_mm) {
+  const Eigen::Vector3d centre_mm(baseline_mm, 0, 0), ray = point_left_mm - centre_mm;
+  if (ray.z() <= 0) return false;
+  const Eigen::Vector2d at = lens.project(ray);
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() <= lens.camera.width_px - 1 &&
+        at.y() <= lens.camera.height_px - 1))
+    return false;
+  const Eigen::Vector3f origin_mm = centre_mm.cast<float>(),
+                        direction = (ray / ray.z()).cast<float>();
+  const RayHit hit = scene.tree.cast(origin_mm, direction);
+  const auto depth_mm = static_cast<float>(ray.z());
+  if (instrument.meet(origin_mm, direction, depth_mm)) return false;
+  return !hit.met() || hit.distance >= depth_mm - kSeenWithin_mm;
+}
+
 const SimulationOptions& validated(const SimulationOptions& options) {
   options.validate();
   return options;
@@ -185,6 +202,9 @@ void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame&
     frame.tracks_world_mm.push_back(positionOf(point, frame.vertices_world_mm, triangles()));
     frame.tracks_visible.push_back(
         isSeen(left_from_world * frame.tracks_world_mm.back(), frame.depth_mm, lens_));
+    frame.tracks_visible_right.push_back(
+        isSeenByRight(left_from_world * frame.tracks_world_mm.back(), scene, instrumentAt(time_s),
+                      lens_, rig_.baseline_mm));
   }
 }
 

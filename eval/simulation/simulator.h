@@ -25,6 +25,7 @@ struct SimulatedFrame {
   Raster<Eigen::Vector3f> normals;                 // left camera's frame, unit; 0: no tissue
   std::vector<Eigen::Vector3d> tracks_world_mm;    // one a track point
   std::vector<bool> tracks_visible;                // to the left camera
+  std::vector<bool> tracks_visible_right;          // to the right one
   Raster<Eigen::Vector2f> flow_px;                 // to the next frame, of tissue; NaN: none
 };
 

@@ -135,8 +135,8 @@ Found openCasOne(const Files& texts) {
 Found namedIn(const fs::path& folder) {
   for (const char* name :
        {"calibration.yaml", "calibration.yml", "calibration.xml", "calibration.json",
-        "endoscope_calibration.yaml", "frame_data.json", "intrinsics.yml", "intrinsics.yaml",
-        "intrinsics.xml", "left.yaml", "left.yml"})
+        "endoscope_calibration.yaml", "frame_data.json", "calib.json", "intrinsics.yml",
+        "intrinsics.yaml", "intrinsics.xml", "left.yaml", "left.yml"})
     if (isFile(folder / name)) return aroundFile(folder / name);
   return std::nullopt;
 }

@@ -48,6 +48,7 @@ void requireMillimetres(const Raster<float>& depth_mm, const std::string& name) 
 
 FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& options)
     : options_(options), right_offset_(options.rightOffset()) {
+  if (options_.layout == "auto" && !paths.layout.empty()) options_.layout = paths.layout;
   options.validate();
   requireSequence(paths);
   is_packed_ = !paths.stereo.empty();

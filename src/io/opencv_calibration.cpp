@@ -20,22 +20,38 @@ const Aliases kLeftMatrix = {"M1",
                              "camera_matrix_1",
                              "KL",
                              "left_camera_matrix",
-                             "camera_matrix_left"};
+                             "camera_matrix_left",
+                             "K_left",
+                             "leftcameramat"};
 const Aliases kRightMatrix = {"M2",
                               "K2",
                               "cameraMatrix2",
                               "camera_matrix_2",
                               "KR",
                               "right_camera_matrix",
-                              "camera_matrix_right"};
-const Aliases kLeftDistortion = {
-    "D1", "distCoeffs1",     "dist_coeffs_1",   "distortion_coefficients_1",
-    "DL", "left_distortion", "dist_coeffs_left"};
-const Aliases kRightDistortion = {
-    "D2", "distCoeffs2",      "dist_coeffs_2",    "distortion_coefficients_2",
-    "DR", "right_distortion", "dist_coeffs_right"};
-const Aliases kRotation = {"R", "rotation_matrix", "rotation"};
-const Aliases kTranslation = {"T", "translation_vector", "translation"};
+                              "camera_matrix_right",
+                              "K_right",
+                              "rightcameramat"};
+const Aliases kLeftDistortion = {"D1",
+                                 "distCoeffs1",
+                                 "dist_coeffs_1",
+                                 "distortion_coefficients_1",
+                                 "DL",
+                                 "left_distortion",
+                                 "dist_coeffs_left",
+                                 "D_left",
+                                 "leftdistortioncoeffs"};
+const Aliases kRightDistortion = {"D2",
+                                  "distCoeffs2",
+                                  "dist_coeffs_2",
+                                  "distortion_coefficients_2",
+                                  "DR",
+                                  "right_distortion",
+                                  "dist_coeffs_right",
+                                  "D_right",
+                                  "rightdistortioncoeffs"};
+const Aliases kRotation = {"R", "rotation_matrix", "rotation", "R_left_to_right"};
+const Aliases kTranslation = {"T", "translation_vector", "translation", "t_left_to_right"};
 const Aliases kWidth = {"image_width", "imageWidth", "width"};
 const Aliases kHeight = {"image_height", "imageHeight", "height"};
 const Aliases kSize = {"image_size", "imageSize", "img_size"};
@@ -107,6 +123,16 @@ void setFlags(const Members& members, CalibrationDraft& draft) {
     draft.calibration.depth_unit_mm = singleNumber(members, {"depth_unit_mm"});
 }
 
+/// Pinholes of one focal length and row, side by side: resampling would only blur.
+bool isRectified(const StereoCalibration& pair) {
+  const PinholeCamera &left = pair.left.pinhole, &right = pair.right.pinhole;
+  const Eigen::Vector3d t = pair.right_from_left.translation();
+  return pair.left.distortion.isZero() && pair.right.distortion.isZero() &&
+         pair.right_from_left.linear().isIdentity(1e-9) && left.fx_px == left.fy_px &&
+         left.fx_px == right.fx_px && left.fy_px == right.fy_px && left.cy_px == right.cy_px &&
+         std::hypot(t.y(), t.z()) <= 1e-9 * std::abs(t.x());
+}
+
 }  // namespace
 
 CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const std::string& name) {
@@ -123,6 +149,11 @@ CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const s
       distortionFrom(members.numbersIfAny(kRightDistortion), members.label(kRightDistortion));
   out.right_from_left = poseFrom(members.numbers(kRotation), members.numbers(kTranslation),
                                  members.label(kRotation), members.label(kTranslation));
+  if (members.find({"K_left", "leftcameramat"})) {  // STIR's forms are in metres
+    out.form = members.find({"K_left"}) ? "STIR 2026" : "STIR";
+    draft.unit = "m";
+    out.rectified = isRectified(out);
+  }
   setFlags(members, draft);
   if (!out.rectified && (!members.find(kLeftDistortion) || !members.find(kRightDistortion)))
     out.warnings.push_back(name +

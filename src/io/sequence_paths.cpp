@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "io/dataset_form.h"
 #include "io/folder.h"
 #include "io/message.h"
 #include "io/picture_source.h"
@@ -58,6 +59,15 @@ SequencePaths findSequence(const fs::path& folder) {
   paths.left = viewNamed(folder, "left");
   paths.right = viewNamed(folder, "right");
   if (paths.left.empty() && paths.right.empty()) paths.stereo = videoNamed(folder, "stereo");
+  const bool is_own = !paths.left.empty() || !paths.stereo.empty();
+  if (!is_own || isFile(folder / "calib.json")) {  // STIR's name; its videos may be called as ours
+    if (const auto clip = recogniseDataset(folder)) {
+      SequencePaths shipped = clip->paths;
+      shipped.mask = paths.mask;
+      shipped.timestamps = paths.timestamps;
+      return shipped;
+    }
+  }
   if (paths.left.empty() && paths.stereo.empty())
     throw InputError(
         say(shown(folder), ": holds ", paths.right.empty() ? "no left view" : "a right view alone",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace softscope {
 
@@ -14,10 +15,13 @@ struct SequencePaths {
   std::filesystem::path mask;         // a folder or a picture; empty = none
   std::filesystem::path depth;        // a folder or a file; empty = none
   std::filesystem::path timestamps;   // a file; empty = none
+  std::string form;    // of the data set, where it is one: "SurgT"; empty = docs/formats.md
+  std::string layout;  // of `stereo`, where the folder says it; an option that isn't auto wins
 };
 
 /// The parts of a sequence folder (docs/formats.md): left/ and right/, else left.* and right.*
-/// videos, else one stereo.* video; mask/, depth/ and timestamps.txt where they exist.
+/// videos, else one stereo.* video; mask/, depth/ and timestamps.txt where they exist. Or a clip of
+/// a known data set as it is shipped (io/dataset_form.h).
 /// Throws InputError where the views are missing.
 SequencePaths findSequence(const std::filesystem::path& folder);
 

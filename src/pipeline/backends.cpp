@@ -46,10 +46,11 @@ std::string whyNotOnGpu(const FrameDepthOptions& depth) {
   return whyNoCuda();
 }
 
-/// `makeOnCpu()` or `makeOnGpu()`.
+/// `makeOnCpu()` or `makeOnGpu()`. `what` the GPU computes.
 template <class MakeOnCpu, class MakeOnGpu>
-auto choose(const std::string& name, const FrameDepthOptions& depth, const MakeOnCpu& makeOnCpu,
-            const MakeOnGpu& makeOnGpu) -> Chosen<decltype(makeOnCpu())> {
+auto choose(const std::string& name, const FrameDepthOptions& depth, const std::string& what,
+            const MakeOnCpu& makeOnCpu, const MakeOnGpu& makeOnGpu)
+    -> Chosen<decltype(makeOnCpu())> {
   requireBackendName(name);
   if (name == "cpu") return {makeOnCpu(), "cpu", ""};
   if (name == "cuda") {
@@ -59,7 +60,7 @@ auto choose(const std::string& name, const FrameDepthOptions& depth, const MakeO
   }
   std::string why = whyNotOnGpu(depth);
   if (why.empty()) try {
-      return {makeOnGpu(), "cuda", "stereo on the GPU, the next frame's beside this one's stages"};
+      return {makeOnGpu(), "cuda", what + " on the GPU"};
     } catch (const Error& error) {
       why = error.what();  // too little memory, or an option without kernels
     }
@@ -84,7 +85,8 @@ Chosen<std::unique_ptr<ReconstructionBackend>> makeBackend(const std::string& na
                                                            const StereoCalibration& calibration,
                                                            const ReconstructionOptions& options) {
   return choose(
-      name, options.depth, [&] { return makeCpuBackend(calibration, options); },
+      name, options.depth, "stereo and matching",
+      [&] { return makeCpuBackend(calibration, options); },
       [&] { return makeCudaBackend(calibration, options); });
 }
 
@@ -92,7 +94,7 @@ Chosen<std::unique_ptr<FrameDepth>> makeFrameDepth(const std::string& name,
                                                    const StereoCalibration& calibration,
                                                    const FrameDepthOptions& options) {
   return choose(
-      name, options, [&] { return std::make_unique<FrameDepth>(calibration, options); },
+      name, options, "stereo", [&] { return std::make_unique<FrameDepth>(calibration, options); },
       [&] { return std::make_unique<FrameDepth>(calibration, options, makeCudaStereoStage); });
 }
 

@@ -35,9 +35,8 @@ struct Chosen {
 };
 
 /// `auto` takes the GPU where one runs this build, has the memory, and the depth comes from a
-/// method that has kernels; a frame then takes less time on two cores, and the same on four or more
-/// (docs/benchmarks.md). `cuda` throws BackendError, or OptionError for such a method,
-/// instead of taking the processor.
+/// method that has kernels; a frame then takes less time (docs/benchmarks.md). `cuda` throws
+/// BackendError, or OptionError for such a method, instead of taking the processor.
 Chosen<std::unique_ptr<ReconstructionBackend>> makeBackend(const std::string& name,
                                                            const StereoCalibration& calibration,
                                                            const ReconstructionOptions& options);

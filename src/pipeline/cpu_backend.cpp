@@ -38,7 +38,7 @@ class CpuBackend : public ReconstructionBackend {
         device_(parts.device),
         depth_ahead_from_threads_(parts.depth_ahead_from_threads),
         depth_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo)),
-        matcher_(makeFeatureMatcher(options.matcher)),
+        matcher_(parts.makeMatcher(options.matcher, rig())),
         solver_(makeDeformSolver(options.deform)) {
     options.validate();
   }

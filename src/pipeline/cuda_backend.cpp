@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cuda/device_info.h"
+#include "cuda/match.h"
 #include "cuda/stereo.h"
 #include "pipeline/cpu_backend.h"
 #include "stereo/host_prior.h"
@@ -40,6 +41,13 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Mask& m
           clock.laps()};
 }
 
+/// Other methods have no kernels.
+std::unique_ptr<FeatureMatcher> makeCudaMatcher(const MatcherOptions& options,
+                                                const RectifiedRig& rig) {
+  if (options.method != "dense-surf") return makeFeatureMatcher(options);
+  return std::make_unique<cuda::Matcher>(options, rig.left.width_px, rig.left.height_px);
+}
+
 }  // namespace
 
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
@@ -52,6 +60,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   BackendParts parts;
   parts.name = "cuda";
   parts.makeStereo = makeCudaStereoStage;
+  parts.makeMatcher = makeCudaMatcher;
   parts.depth_ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;

@@ -49,7 +49,8 @@ Outcome run(const std::vector<std::string>& arguments) {
   const fs::path base = fs::temp_directory_path() / ("softscope_run_" + std::to_string(getpid()) +
                                                      "_" + std::to_string(count++));
   const std::string out = base.string() + ".out", err = base.string() + ".err";
-  const bool runs_itself = !arguments.empty() && arguments[0] == "study";  // by its own file
+  const bool runs_itself =  // by its own file
+      !arguments.empty() && (arguments[0] == "study" || arguments[0] == "benchmark");
   const int status = runs_itself ? spawn(arguments, out, err) : runForked(arguments, out, err);
   const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(out), textOf(err)};
   fs::remove(out);

@@ -27,15 +27,15 @@ TEST_P(EveryCommand, KnowsTheNearestOption) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Apps, EveryCommand,
-                         testing::Values("reconstruct", "depth", "simulate", "evaluate", "export",
-                                         "info", "doctor"),
+                         testing::Values("reconstruct", "depth", "simulate", "calibrate",
+                                         "evaluate", "export", "info", "doctor"),
                          [](const auto& command) { return std::string(command.param); });
 
 TEST(CommandLine, OverviewListsEveryCommand) {
   const Outcome help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* name :
-       {"reconstruct", "depth", "simulate", "evaluate", "export", "info", "doctor", "example:"})
+  for (const char* name : {"reconstruct", "depth", "simulate", "calibrate", "evaluate", "export",
+                           "info", "doctor", "example:"})
     EXPECT_THAT(help.out, HasSubstr(name));
   EXPECT_EQ(run({"help", "depth"}).out, run({"depth", "--help"}).out);
 }

@@ -54,6 +54,7 @@ TEST_F(Depth, APairGivesEveryFile) {
   const auto json = outcome.json();
   EXPECT_EQ(json, parsed(at("out/summary.json")));
   EXPECT_EQ(json["frames_done"], 1);
+  EXPECT_EQ(json["backend"], "cpu") << "auto, for a single pair";
   EXPECT_GT(json["mean_coverage"], 0.7);  // the left rim has no partner in the right picture
   EXPECT_NEAR(json["frames"][0]["depth_mm"]["median"], 50, 1);
   EXPECT_TRUE(json["options"].contains("stereo.elas.coarser_levels"));

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
@@ -172,6 +173,18 @@ TEST_F(Reconstruct, NeverOverwritesUnasked) {
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_THAT(both.err, HasSubstr("another softscope reconstruct is writing to it"));
   EXPECT_EQ(linesOf(at("run/frames.csv")), 2) << "nothing was touched";
+}
+
+TEST_F(Reconstruct, TellsBackEndAndTimeOfAFrame) {
+  makeClip(2);
+  const Outcome done = reconstruct({"--out", at("run"), "--backend", "cpu", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto json = nlohmann::json::parse(done.out);
+  EXPECT_EQ(json["machine"]["backend"], "cpu");
+  const auto& ms = json["frame_ms"];
+  EXPECT_GT(ms["p50"].get<double>(), 0);
+  EXPECT_LE(ms["p50"].get<double>(), ms["p95"].get<double>());
+  EXPECT_LE(ms["p99"].get<double>(), ms["slowest"].get<double>());
 }
 
 TEST_F(Reconstruct, TellsWhatIsWrongWithItsArguments) {

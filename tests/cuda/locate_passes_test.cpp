@@ -23,7 +23,8 @@ std::vector<LiftedMatch> hostLifted(const test::LocateScene& scene, const GrayIm
   cuda::Arena arena(memory.data());
   const cuda::LocateLayout layout(arena, MatcherOptions(), width, height, points);
   const auto copy = [](void* to, const auto& from) {
-    std::memcpy(to, static_cast<const void*>(from.data()), from.size() * sizeof from[0]);
+    if (!from.empty())
+      std::memcpy(to, static_cast<const void*>(from.data()), from.size() * sizeof from[0]);
   };
   copy(layout.view.positions_mm, scene.model.positions_mm);
   copy(layout.view.normals, scene.model.normals);

@@ -3,9 +3,10 @@
 #include "toolkit/evaluation/evaluate_frames.h"
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
+
+#include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {
@@ -179,12 +180,6 @@ FactsByFrame gather(const EvaluationResult& result) {
   return facts;
 }
 
-std::string cellOf(double value) {
-  char text[32] = "";
-  if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
 }  // namespace
 
 FrameTable frameTable(const EvaluationResult& result) {
@@ -208,7 +203,7 @@ std::string FrameTable::csv() const {
   text += "\n";
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t i = 0; i < rows[r].size(); ++i)
-      text += (i > 0 ? "," : "") + cellOf(rows[r][i]) +
+      text += (i > 0 ? "," : "") + csvCell(rows[r][i]) +
               (i + 1 == kOutcomeAt ? "," + outcomes[r] : std::string());
     text += "\n";
   }
@@ -235,8 +230,8 @@ FactSheet::Json FrameTable::json() const {
 std::string tracksCsv(const TrackErrors& tracks) {
   std::string text = "frame,id,error_mm,no_motion_mm,visible\n";
   for (const TrackError& e : tracks.each)
-    text += std::to_string(e.frame) + "," + std::to_string(e.id) + "," + cellOf(e.error_mm) + "," +
-            cellOf(e.control_mm) + "," + (e.visible ? "1\n" : "0\n");
+    text += std::to_string(e.frame) + "," + std::to_string(e.id) + "," + csvCell(e.error_mm) + "," +
+            csvCell(e.control_mm) + "," + (e.visible ? "1\n" : "0\n");
   return text;
 }
 

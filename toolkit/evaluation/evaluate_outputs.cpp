@@ -9,6 +9,7 @@
 #include "io/image_writer.h"
 #include "io/message.h"
 #include "io/text_lines.h"
+#include "toolkit/evaluation/evaluate_frames.h"
 #include "toolkit/evaluation/evaluate_plots.h"
 #include "toolkit/record/json_text.h"
 
@@ -86,10 +87,15 @@ void EvaluateOutputs::putMaps(const std::vector<ErrorMap>& maps) const {
   put("errors.pvd", mapsPvd(maps));
 }
 
-void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& frames,
-                            const FactSheet::Json& record) const {
+void EvaluateOutputs::write(const RunEvaluation& evaluation) const {
   new_files_.makeFolder(folder_);
-  put("frames.csv", frames.csv());
+  std::visit([&](const auto& result) { write(result); }, evaluation.result);
+  put("evaluation.json", jsonText(evaluation.record));  // last: where it is, the others are
+  new_files_.keep();
+}
+
+void EvaluateOutputs::write(const EvaluationResult& result) const {
+  put("frames.csv", frameTable(result).csv());
   if (result.tracks) put("tracks.csv", tracksCsv(*result.tracks));
   if (!result.surface.models.empty()) {
     const std::string title = comparisonTitle(result.run, result.reference);
@@ -101,24 +107,16 @@ void EvaluateOutputs::write(const EvaluationResult& result, const FrameTable& fr
     putFigure("worst_frames", withOutcomeStrip(strip, drawWorstFrames(worstFramesData(result))));
   }
   putMaps(result.surface.maps);
-  put("evaluation.json", jsonText(record));  // last: where it is, the others are
-  new_files_.keep();
 }
 
-void EvaluateOutputs::write(const TruthlessResult& result, const FactSheet::Json& record) const {
-  new_files_.makeFolder(folder_);
+void EvaluateOutputs::write(const TruthlessResult& result) const {
   put("frames.csv", truthlessCsv(result));
   const VectorDrawing plots = truthlessPlots(result);
   if (plots.height_pt > 0) putFigure("quality_series", plots);
-  put("evaluation.json", jsonText(record));
-  new_files_.keep();
 }
 
-void EvaluateOutputs::write(const DepthMapResult& result, const FactSheet::Json& record) const {
-  new_files_.makeFolder(folder_);
+void EvaluateOutputs::write(const DepthMapResult& result) const {
   put("maps.csv", depthMapCsv(result));
-  put("evaluation.json", jsonText(record));
-  new_files_.keep();
 }
 
 }  // namespace softscope

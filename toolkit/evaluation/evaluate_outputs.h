@@ -4,11 +4,7 @@
 #include <filesystem>
 
 #include "io/new_files.h"
-#include "toolkit/evaluation/depth_map_result.h"
-#include "toolkit/evaluation/evaluate_frames.h"
-#include "toolkit/evaluation/evaluate_result.h"
-#include "toolkit/evaluation/truthless_result.h"
-#include "toolkit/record/fact_sheet.h"
+#include "toolkit/evaluation/evaluate_run.h"
 #include "vtk_views/vector_drawing.h"
 
 namespace softscope {
@@ -23,14 +19,14 @@ class EvaluateOutputs {
   /// evaluation.json, frames.csv, tracks.csv where tracks were judged, and the figures
   /// error_series, error_histogram and worst_frames as SVG, PDF and PNG where a surface was, with
   /// errors/NNNNNN.vtp of some of its moments.
-  void write(const EvaluationResult& result, const FrameTable& frames,
-             const FactSheet::Json& record) const;
-  /// evaluation.json, frames.csv, and the figure quality_series.
-  void write(const TruthlessResult& result, const FactSheet::Json& record) const;
-  /// evaluation.json and maps.csv.
-  void write(const DepthMapResult& result, const FactSheet::Json& record) const;
+  /// Without truth: evaluation.json, frames.csv, and the figure quality_series.
+  /// Of maps: evaluation.json and maps.csv.
+  void write(const RunEvaluation& evaluation) const;
 
  private:
+  void write(const EvaluationResult& result) const;
+  void write(const TruthlessResult& result) const;
+  void write(const DepthMapResult& result) const;
   void put(const std::string& name, const std::string& bytes) const;
   void putMaps(const std::vector<ErrorMap>& maps) const;
   void putFigure(const std::string& name, const VectorDrawing& figure) const;

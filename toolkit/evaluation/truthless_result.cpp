@@ -107,26 +107,20 @@ const Value kStep = [](const TruthlessFrame& f) { return f.step_mm; };
 const Value kStepDeg = [](const TruthlessFrame& f) { return f.step_deg; };
 const Value kSecondDifference = [](const TruthlessFrame& f) { return f.second_difference_mm; };
 
-struct Column {
+struct TruthlessColumn {
   const char* heading;
   const Value& value;
 };
 
-const Column kColumns[] = {{"view_psnr_db", kPsnr},
-                           {"view_psnr_over_all_pixels_db", kPsnrOverAll},
-                           {"view_ssim", kSsim},
-                           {"view_judged_share", kJudged},
-                           {"backprojection_mean_mm", kBackProjection},
-                           {"coverage", kCoverage},
-                           {"step_mm", kStep},
-                           {"step_deg", kStepDeg},
-                           {"second_difference_mm", kSecondDifference}};
-
-std::string cellOf(double value) {
-  char text[32] = "";
-  if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
+const TruthlessColumn kTruthlessColumns[] = {{"view_psnr_db", kPsnr},
+                                             {"view_psnr_over_all_pixels_db", kPsnrOverAll},
+                                             {"view_ssim", kSsim},
+                                             {"view_judged_share", kJudged},
+                                             {"backprojection_mean_mm", kBackProjection},
+                                             {"coverage", kCoverage},
+                                             {"step_mm", kStep},
+                                             {"step_deg", kStepDeg},
+                                             {"second_difference_mm", kSecondDifference}};
 
 /// Times of a clip without timestamps are NaN.
 bool hasTimes(const TruthlessResult& result) {
@@ -164,7 +158,8 @@ Json framesJson(const TruthlessResult& result) {
     Json row{{"frame", number}, {"time_s", frame.time_s}};
     if (const auto at = result.outcomes.each().find(number); at != result.outcomes.each().end())
       row["outcome"] = toString(at->second);
-    for (const Column& column : kColumns) row[column.heading] = column.value(frame);
+    for (const TruthlessColumn& column : kTruthlessColumns)
+      row[column.heading] = column.value(frame);
     frames.push_back(std::move(row));
   }
   return frames;
@@ -245,13 +240,14 @@ FactSheet truthlessFacts(const TruthlessResult& result) {
 
 std::string truthlessCsv(const TruthlessResult& result) {
   std::string text = "frame,time_s,outcome";
-  for (const Column& column : kColumns) text += std::string(",") + column.heading;
+  for (const TruthlessColumn& column : kTruthlessColumns) text += std::string(",") + column.heading;
   text += "\n";
   for (const auto& [number, frame] : result.frames) {
     const auto outcome = result.outcomes.each().find(number);
-    text += std::to_string(number) + "," + cellOf(frame.time_s) + "," +
+    text += std::to_string(number) + "," + csvCell(frame.time_s) + "," +
             (outcome == result.outcomes.each().end() ? "" : toString(outcome->second));
-    for (const Column& column : kColumns) text += "," + cellOf(column.value(frame));
+    for (const TruthlessColumn& column : kTruthlessColumns)
+      text += "," + csvCell(column.value(frame));
     text += "\n";
   }
   return text;

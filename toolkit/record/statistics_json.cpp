@@ -1,6 +1,9 @@
 // toolkit/record/statistics_json.cpp: one wording for all records.
 #include "toolkit/record/statistics_json.h"
 
+#include <cmath>
+#include <cstdio>
+
 namespace softscope {
 
 FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit) {
@@ -11,6 +14,12 @@ FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit) {
 }
 
 FactSheet::Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+std::string csvCell(double value) {
+  char text[32] = "";
+  if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
 
 FactSheet::Json matrixJson(const Eigen::Isometry3d& pose) {
   FactSheet::Json rows = FactSheet::Json::array();

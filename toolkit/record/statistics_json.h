@@ -12,11 +12,14 @@ namespace softscope {
 /// mean, sd, rmse, median, p95, max with the unit behind each name, and n; null for NaN.
 FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit);
 
-/// Three numbers.
+/// x, y, z.
 FactSheet::Json vectorJson(const Eigen::Vector3d& v);
 
 /// Four rows of four.
 FactSheet::Json matrixJson(const Eigen::Isometry3d& pose);
+
+/// Nine digits of a value of a CSV file; empty where it is not finite.
+std::string csvCell(double value);
 
 const char* stopText(AlignmentStop stop);
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "eval/statistics.h"
 #include "io/file_hash.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/setting_json.h"
@@ -129,6 +130,10 @@ Json RunRecord::json() const {
   all["mean_backprojection_mm"] = numberOrNull(meanOf(backprojection_mm_));
   all["mean_prediction_mm"] = numberOrNull(meanOf(prediction_mm_));
   all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
+  if (!frame_ms_.empty()) {
+    const std::vector<double> ms = percentiles(frame_ms_, {50, 95, 99, 100});
+    all["frame_ms"] = {{"p50", ms[0]}, {"p95", ms[1]}, {"p99", ms[2]}, {"slowest", ms[3]}};
+  }
   Json& stages = all["mean_stage_ms"] = Json::object();
   for (const auto& [stage, sum_ms] : elapsed_ms_) stages[stage] = sum_ms / std::max(1, frames_);
   all["frames_scope_static"] = scope_static_;

@@ -14,7 +14,7 @@ namespace softscope {
 namespace {
 
 /// Commas between quotes part nothing.
-std::vector<std::string_view> cellsOf(std::string_view line) {
+std::vector<std::string_view> commaCells(std::string_view line) {
   std::vector<std::string_view> cells;
   bool quoted = false;
   std::size_t begin = 0;
@@ -54,7 +54,7 @@ NumberTable::NumberTable(std::string_view text, const std::string& name,
 
 void NumberTable::readHeading(std::string_view line, const std::vector<std::string>& needed,
                               const std::vector<std::string>& optional, const std::string& word) {
-  const auto cells = cellsOf(line);
+  const auto cells = commaCells(line);
   cells_ = cells.size();
   const auto placeOf = [&](const std::string& column) {
     const auto found = std::find(cells.begin(), cells.end(), column);
@@ -71,7 +71,7 @@ void NumberTable::readHeading(std::string_view line, const std::vector<std::stri
 }
 
 void NumberTable::readRow(std::string_view line, int line_number) {
-  const auto cells = cellsOf(line);
+  const auto cells = commaCells(line);
   if (cells.size() != cells_)
     throw InputError(say(name_, ": line ", line_number, " has ", cells.size(), " cells, but ",
                          cells_, " are expected; is the file cut short?"));

@@ -1,0 +1,165 @@
+// apps/calibrate.cpp: `softscope calibrate`: films of a board to a stereo calibration.
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+#include "apps/command.h"
+#include "apps/exit_codes.h"
+#include "apps/interrupt.h"
+#include "apps/result_output.h"
+#include "apps/work_progress.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/folder.h"
+#include "io/image_writer.h"
+#include "io/new_files.h"
+#include "io/text_lines.h"
+#include "toolkit/calibration/calibration_result.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kDetails =
+    "LEFT and RIGHT: folders of images or videos of the same moments; or LEFT alone with both\n"
+    "views in one image. Film a flat board that fills a third to a half of the image: 15 to 30\n"
+    "still views, tilted by 20 to 40 degrees to all sides, near and far, in all parts of the "
+    "image.\n"
+    "Blurred and doubled views, and views that don't fit, are left out and named. Writes the\n"
+    "calibration with its quality, and an image of where the board was seen, beside it.\n"
+    "More examples:\n"
+    "  softscope calibrate stereo.mp4 --layout top-bottom --board 9x6 --square 3 --out c.yaml\n"
+    "  softscope calibrate left/ right/ --board 8x6 --square 4 --marker 3 --out c.yaml   (ChArUco)";
+
+class CalibrateCommand : public Command {
+ public:
+  std::string name() const override { return "calibrate"; }
+  std::string summary() const override {
+    return "films of a checkerboard or ChArUco board to a stereo calibration and its quality";
+  }
+  std::string details() const override { return kDetails; }
+  std::string example() const override {
+    return "softscope calibrate left.mp4 right.mp4 --board 9x6 --square 3 --out calibration.yaml";
+  }
+  void declare(ArgumentList& arguments) override;
+  int run() override;
+
+ private:
+  BoardFilmOptions filmOptions() const;
+  std::vector<double> distances() const;
+  void write(const CalibrationReport& report) const;
+
+  std::string left_, right_, out_, board_, square_, marker_, coverage_;
+  std::string dictionary_ = "4X4_50", layout_ = "auto", distances_ = "50,80,120";
+  int every_ = 0, lens_ = 5;
+  bool right_first_ = false, force_ = false;
+};
+
+void CalibrateCommand::declare(ArgumentList& arguments) {
+  arguments.positional("LEFT", left_, "folder of images or video; alone: both views in one image",
+                       true);
+  arguments.positional("RIGHT", right_, "the same moments by the right camera", false);
+  arguments.option("--out", "FILE", out_, "calibration to write (YAML)", true);
+  arguments.option("--board", "CxR", board_,
+                   "inner corners of a checkerboard, squares of a ChArUco board", true);
+  arguments.option("--square", "MM", square_, "side of a square", true);
+  arguments.option("--marker", "MM", marker_, "side of a marker: the board is a ChArUco board");
+  arguments.option("--dictionary", "NAME", dictionary_, "of the markers (default 4X4_50)");
+  arguments.option("--layout", "NAME", layout_,
+                   "of both views in one image: side-by-side, top-bottom, interlaced or auto");
+  arguments.flag("--right-first", right_first_, "in such an image the right view comes first");
+  arguments.option("--every", "N", every_, "each n-th frame (default: 300 frames at most)");
+  arguments.option("--lens", "N", lens_, "coefficients of distortion: 0, 2, 4 or 5 (default)");
+  arguments.option("--distances", "LIST", distances_,
+                   "mm at which depth errors are predicted (default 50,80,120)");
+  arguments.option("--coverage", "FILE", coverage_,
+                   "image of the coverage (default: FILE of --out with _coverage.png)");
+  arguments.flag("--force", force_, "overwrite what is there");
+}
+
+double lengthOf(const std::string& option, const std::string& text) {
+  const auto value = numberOf(text);
+  require(value.has_value() && *value > 0, option, text, "must be a length in mm above 0");
+  return *value;
+}
+
+/// A whole number of 1 to 999, else 0.
+int countOf(const std::string& text) {
+  const bool digits = !text.empty() && text.size() <= 3 &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
+  return digits ? std::stoi(text) : 0;
+}
+
+BoardFilmOptions CalibrateCommand::filmOptions() const {
+  BoardFilmOptions options;
+  options.left = left_;
+  options.right = right_;
+  options.layout = layout_;
+  options.right_first = right_first_;
+  options.every = every_;
+  const std::size_t cross = std::min(board_.find('x'), board_.size());
+  options.board.columns = countOf(board_.substr(0, cross));
+  options.board.rows = countOf(board_.substr(std::min(cross + 1, board_.size())));
+  require(options.board.columns > 0 && options.board.rows > 0, "--board", board_,
+          "must be COLUMNSxROWS, e.g. 9x6 (a checkerboard of 10 x 7 squares)");
+  options.board.square_mm = lengthOf("--square", square_);
+  if (!marker_.empty()) options.board.marker_mm = lengthOf("--marker", marker_);
+  options.board.dictionary = dictionary_;
+  options.validate();
+  return options;
+}
+
+std::vector<double> CalibrateCommand::distances() const {
+  std::vector<double> distances;
+  std::istringstream words(distances_);
+  for (std::string word; std::getline(words, word, ',');)
+    distances.push_back(lengthOf("--distances", word));
+  return distances;
+}
+
+void CalibrateCommand::write(const CalibrationReport& report) const {
+  NewFiles files;
+  const fs::path out = out_, image = coverage_;
+  if (!out.parent_path().empty()) files.makeFolder(out.parent_path());
+  files.make(out, [&] { writeFile(out, calibrationText(report), force_); });
+  files.make(image, [&] { writePng(image, coverageImage(report), force_); });
+  files.keep();
+}
+
+int CalibrateCommand::run() {
+  InterruptGuard interrupt;
+  const BoardFilmOptions film_options = filmOptions();
+  SolveOptions options;
+  options.bundle.lens_coefficients = lens_;
+  options.validate();
+  const std::vector<double> distances_mm = distances();
+  if (coverage_.empty())
+    coverage_ = (fs::path(out_).parent_path() / (fs::path(out_).stem().string() + "_coverage.png"))
+                    .string();
+  for (const std::string& file : {out_, coverage_})
+    if (isThere(file) && !force_)
+      throw OptionError(file + ": is there already; give another name, or --force to replace it");
+
+  BoardFilm film;
+  {
+    WorkProgress progress("calibrate", progressStyle(common.quiet), interrupt);
+    film = readBoardFilm(film_options, progress.callback());
+  }
+  if (film.stopped) return kInterrupted;
+  const CalibrationReport report =
+      calibrateFromFilm(film, film_options.board, options, distances_mm);
+  write(report);
+  FactSheet facts = calibrationFacts(report, film);
+  facts.add("calibration", "calibration", out_);
+  facts.add("coverage image", "coverage_image", coverage_);
+  printFacts(facts, common.json);
+  return kDone;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> makeCalibrateCommand() { return std::make_unique<CalibrateCommand>(); }
+
+}  // namespace softscope

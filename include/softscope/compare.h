@@ -1,0 +1,30 @@
+// include/softscope/compare.h: a surface or model against a reference surface.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "softscope/evaluate.h"
+
+namespace softscope::api {
+
+struct ComparisonOptions {
+  std::string align = "none";  // none, landmarks or icp
+  std::string landmarks;       // file of pairs of points
+  double reference_unit_mm = 1, test_unit_mm = 1;
+  std::vector<double> taus_mm{0.5, 1, 2};  // thresholds of precision, recall, F and surface Dice
+};
+
+struct Comparison {
+  Distances accuracy, completeness;       // test to reference, reference to test
+  std::map<std::string, double> metrics;  // by path; NaN: not measured
+  std::vector<std::string> warnings;
+  std::string record;  // JSON as in comparison.json
+};
+
+/// Files: STL, PLY, OBJ or VTP; the test may be points. Throws OptionError and InputError.
+Comparison compare(const std::string& reference, const std::string& test,
+                   const ComparisonOptions& options = {});
+
+}  // namespace softscope::api

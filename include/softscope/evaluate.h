@@ -1,0 +1,48 @@
+// include/softscope/evaluate.h: how far a run is from the truth.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "softscope/run.h"
+
+namespace softscope::api {
+
+/// NaN where nothing was measured.
+struct Distances {
+  double mean_mm = 0, sd_mm = 0, rmse_mm = 0, median_mm = 0, p95_mm = 0, max_mm = 0;
+  long count = 0;
+};
+
+struct SurfaceErrors {
+  Distances all, observed, predicted;  // observed: points that the scope sees at that moment
+};
+
+struct Evaluation {
+  SurfaceErrors surface;                  // NaN without ground truth or mesh
+  std::map<std::string, double> metrics;  // by path: "surface.observed.p95_mm"; NaN: not measured
+  std::vector<std::string> warnings;
+  std::string record;  // JSON as in evaluation.json: docs/evaluation.md
+
+  /// Throws OptionError where there is no such metric.
+  double metric(const std::string& path) const;
+};
+
+struct EvaluationOptions {
+  std::string align = "none";    // to a mesh: none, rigid (one for all models), icp (each model)
+  bool each_model = false;       // against a mesh: every saved model, not the last alone
+  double reference_unit_mm = 1;  // of a mesh file: 1000 for metres
+  bool views = true;             // draw the models for depth, PSNR and SSIM
+  std::string out;               // folder for evaluation.json, tables and figures; empty: none
+  bool overwrite = false;
+  std::function<bool(int done, int total)> progress;  // models; false: stop
+};
+
+/// `reference`: a sequence folder, best with groundtruth/, or a mesh file. Throws OptionError and
+/// InputError; Error where `progress` stopped it.
+Evaluation evaluate(const Run& run, const std::string& reference,
+                    const EvaluationOptions& options = {});
+
+}  // namespace softscope::api

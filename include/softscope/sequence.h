@@ -1,0 +1,34 @@
+// include/softscope/sequence.h: a stereo sequence on disk, frame by frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "softscope/calibration.h"
+#include "softscope/frame.h"
+
+namespace softscope::api {
+
+/// Frames are read ahead on a thread. For one consumer thread.
+class Sequence {
+ public:
+  /// A folder with left/ and right/ images or videos and a calibration. Throws InputError.
+  explicit Sequence(const std::string& folder);
+  /// Two image folders or videos with their calibration file. Throws InputError.
+  Sequence(const std::string& left, const std::string& right, const std::string& calibration);
+  ~Sequence();
+  Sequence(Sequence&&) noexcept;
+  Sequence& operator=(Sequence&&) noexcept;
+
+  Calibration calibration() const;
+  int frameCount() const;
+  /// Nothing after the last frame.
+  std::optional<Frame> next();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace softscope::api

@@ -1,0 +1,114 @@
+// python/bind_reconstruction.cpp: model, run, reconstructor, settings.
+#include "python/arrays.h"
+#include "python/bindings.h"
+
+namespace softscope::python {
+namespace {
+
+api::FrameReport process(api::Reconstructor& self, const Bytes& left, const Bytes& right,
+                         const std::optional<Bytes>& mask, double time_s) {
+  api::FrameView frame = frameOf(left, right, mask);
+  frame.time_s = time_s;
+  const py::gil_scoped_release released;
+  return self.process(frame);
+}
+
+}  // namespace
+
+void bindRuns(py::module_& module) {
+  py::class_<api::Model>(module, "Model", "N points in the frame of the first left camera.")
+      .def("__len__", &api::Model::size)
+      .def_property_readonly(
+          "points_mm",
+          [](const py::object& self) {
+            const auto& model = self.cast<api::Model&>();
+            return arrayOver(model.points_mm, {py::ssize_t(model.points_mm.size() / 3), 3}, self);
+          },
+          "N x 3, float32, mm; a view without a copy.")
+      .def_property_readonly(
+          "normals",
+          [](const py::object& self) {
+            const auto& model = self.cast<api::Model&>();
+            return arrayOver(model.normals, {py::ssize_t(model.normals.size() / 3), 3}, self);
+          },
+          "N x 3, float32, unit length, out of the tissue.")
+      .def_property_readonly(
+          "colours",
+          [](const py::object& self) {
+            const auto& model = self.cast<api::Model&>();
+            return arrayOver(model.colours, {py::ssize_t(model.colours.size() / 3), 3}, self);
+          },
+          "N x 3, uint8, RGB.")
+      .def_property_readonly(
+          "weights",
+          [](const py::object& self) {
+            const auto& model = self.cast<api::Model&>();
+            return arrayOver(model.weights, {py::ssize_t(model.weights.size())}, self);
+          },
+          "N, float32: how often, and how well, each point was seen.");
+
+  py::class_<api::Run>(module, "Run", "The folder that a reconstruction leaves.")
+      .def(py::init<std::string>(), "folder"_a, Released())
+      .def_property_readonly("folder", &api::Run::folder)
+      .def_property_readonly("frames", &api::Run::frames, "Frames with a pose, rising.")
+      .def_property_readonly(
+          "poses", [](const api::Run& self) { return poseArrays(self.poses()); },
+          "F x 4 x 4, float64: world_from_left of each frame, mm.")
+      .def_property_readonly("saved_models", &api::Run::savedModels)
+      .def("model", py::overload_cast<>(&api::Run::model, py::const_), Released(),
+           "The last model.")
+      .def("model", py::overload_cast<int>(&api::Run::model, py::const_), "frame"_a, Released(),
+           "The model that was saved at this frame.");
+}
+
+void bindReconstructor(py::module_& module) {
+  py::class_<api::FrameReport>(module, "FrameReport", "What became of one frame.")
+      .def_readonly("frame", &api::FrameReport::frame)
+      .def_readonly("status", &api::FrameReport::status)
+      .def_readonly("reason", &api::FrameReport::reason)
+      .def_readonly("fused", &api::FrameReport::fused)
+      .def_property_readonly(
+          "world_from_left",
+          [](const api::FrameReport& self) { return poseArray(self.world_from_left); },
+          "4 x 4, float64, mm.")
+      .def_readonly("coverage", &api::FrameReport::coverage)
+      .def_readonly("matches", &api::FrameReport::matches)
+      .def_readonly("points", &api::FrameReport::points)
+      .def_readonly("elapsed_ms", &api::FrameReport::elapsed_ms)
+      .def("__repr__", [](const api::FrameReport& self) {
+        return "<softscope.FrameReport " + std::to_string(self.frame) + ": " + self.status + ">";
+      });
+
+  py::class_<api::Reconstructor>(module, "Reconstructor",
+                                 "Stereo frames to a live, deforming model.")
+      .def(py::init([](const api::Calibration& calibration, const py::dict& settings,
+                       const std::string& backend) {
+             return std::make_unique<api::Reconstructor>(calibration, optionsOf(settings), backend);
+           }),
+           "calibration"_a, "settings"_a = py::dict(), "backend"_a = "auto",
+           "backend: auto, cpu or cuda; settings: what differs from the defaults, e.g. "
+           "{'stereo.method': 'sgbm'}; settings() "
+           "lists the keys.")
+      .def("record_to", &api::Reconstructor::recordTo, "folder"_a, "save_every"_a = 10,
+           "overwrite"_a = false, "Before the first frame: writes a run folder meanwhile.")
+      .def("process", &process, "left"_a, "right"_a, "mask"_a = py::none(),
+           "time_s"_a = std::numeric_limits<double>::quiet_NaN(),
+           "left, right: height x width x 3 (RGB) or height x width, uint8; mask: height x width, "
+           "uint8, not 0: ignored pixel. Arrays that are contiguous are not copied by Python.")
+      .def("model", &api::Reconstructor::model, Released(), "A copy of the model as it is now.")
+      .def("finish", &api::Reconstructor::finish, Released(),
+           "Completes the folder of record_to() and returns it as a Run.");
+
+  module.def(
+      "settings",
+      [] {
+        py::dict all;
+        for (const api::SettingDescription& s : api::reconstructionSettings())
+          all[py::str(s.key)] = py::dict("type"_a = s.type, "unit"_a = s.unit, "range"_a = s.range,
+                                         "default"_a = s.default_text, "meaning"_a = s.meaning);
+        return all;
+      },
+      "Every setting of a reconstruction by its key.");
+}
+
+}  // namespace softscope::python

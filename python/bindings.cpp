@@ -1,0 +1,34 @@
+// python/bindings.cpp: the module `softscope`: the public face for Python; lengths are mm.
+#include "python/bindings.h"
+
+#include <pybind11/pybind11.h>
+
+#include "softscope/error.h"
+
+namespace softscope::python {
+namespace {
+
+namespace py = pybind11;
+
+void bindErrors(py::module_& module) {
+  const py::object error = py::register_exception<Error>(module, "Error", PyExc_RuntimeError);
+  py::register_exception<OptionError>(module, "OptionError", error);
+  py::register_exception<InputError>(module, "InputError", error);
+  py::register_exception<BackendError>(module, "BackendError", error);
+}
+
+}  // namespace
+}  // namespace softscope::python
+
+PYBIND11_MODULE(softscope, module) {
+  using namespace softscope::python;
+  module.doc() = "Live, deforming tissue models from stereo endoscope images. Lengths are mm.";
+  bindErrors(module);
+  bindSequences(module);
+  bindDepth(module);
+  bindRuns(module);
+  bindReconstructor(module);
+  bindJudges(module);
+  bindPages(module);
+  bindSimulation(module);
+}

@@ -1,0 +1,16 @@
+// python/bindings.h: the parts of the module.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace softscope::python {
+
+void bindSequences(pybind11::module_& module);
+void bindDepth(pybind11::module_& module);
+void bindRuns(pybind11::module_& module);
+void bindReconstructor(pybind11::module_& module);
+void bindJudges(pybind11::module_& module);
+void bindPages(pybind11::module_& module);
+void bindSimulation(pybind11::module_& module);
+
+}  // namespace softscope::python

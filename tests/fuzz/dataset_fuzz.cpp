@@ -1,0 +1,48 @@
+// tests/fuzz/dataset_fuzz.cpp: files of known data sets: STIR 2026, SurgT, SCARED.
+#include <cmath>
+
+#include "fuzz/fuzz_target.h"
+#include "io/stir_files.h"
+#include "io/surgt_files.h"
+#include "io/xyz_files.h"
+
+namespace softscope::test {
+namespace {
+
+void mustBeSound(const StirAnnotations& annotations) noexcept {
+  for (const auto& [frame, points] : annotations) {
+    mustHold(frame >= 0 && points.size() == annotations.begin()->second.size());
+    for (const StirPoint& point : points)
+      mustHold(std::isfinite(point.left_u_px) && std::isfinite(point.disparity_px));
+  }
+  mustHold(parseStirAnnotations(stirAnnotationsJson(annotations), "again").size() ==
+           annotations.size());
+}
+
+void mustBeSound(const std::vector<SurgtFrame>& frames) noexcept {
+  for (const SurgtFrame& frame : frames) {
+    mustHold(frame.boxes || !frame.visible_in_both);
+    if (frame.boxes) mustHold((*frame.boxes)[0][2] > 0 && (*frame.boxes)[1][3] > 0);
+  }
+  if (!frames.empty())
+    mustHold(parseSurgtTruth(surgtTruthYaml(frames), "again").size() == frames.size());
+}
+
+}  // namespace
+}  // namespace softscope::test
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace softscope;
+  using namespace softscope::test;
+  const std::string_view text = textOf(data, size);
+  if (const auto found = answerOf([&] { return parseStirAnnotations(text, "fuzz"); }))
+    mustBeSound(*found);
+  answerOf([&] { return parseStirQueries(text, "fuzz"); });
+  if (const auto found = answerOf([&] { return parseSurgtTruth(text, "fuzz"); }))
+    mustBeSound(*found);
+  if (const auto found = answerOf([&] { return parseSurgtInfo(text, "fuzz"); }))
+    mustHold(found->width_px > 0 && found->video.find('/') == std::string::npos);
+  if (const auto found = answerOf([&] { return parsePointRaster(text, "fuzz"); }))
+    for (const Eigen::Vector3f& p : found->values) mustHold(p.allFinite() || std::isnan(p.z()));
+  return 0;
+}

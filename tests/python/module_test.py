@@ -1,0 +1,188 @@
+"""The Python module: what it computes, what it shares with NumPy, what it refuses."""
+import filecmp
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import softscope
+
+PROGRAM = os.environ["SOFTSCOPE"]
+
+
+class Clip(unittest.TestCase):
+    """Six frames of 240 x 180 pixels, reconstructed from NumPy arrays."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = Path(cls.folder.name)
+        cls.clip = str(cls.root / "clip")
+        softscope.simulate(cls.clip, {"frames": 6, "truth_every": 1}, width_px=240, height_px=180)
+        cls.sequence = softscope.Sequence(cls.clip)
+        cls.calibration = cls.sequence.calibration
+        cls.frames = list(cls.sequence)
+        cls.made, cls.reports = cls.reconstruct(str(cls.root / "run"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def reconstruct(cls, out):
+        reconstructor = softscope.Reconstructor(cls.calibration)
+        reconstructor.record_to(out, save_every=1)
+        reports = [reconstructor.process(np.array(frame.left), np.array(frame.right),
+                                         time_s=frame.time_s) for frame in cls.frames]
+        return reconstructor.finish(), reports
+
+
+class Reconstructs(Clip):
+    def test_every_frame_is_fused(self):
+        self.assertEqual([report.status for report in self.reports], ["started"] + 5 * ["fused"])
+        self.assertEqual([report.frame for report in self.reports], list(range(6)))
+        self.assertGreater(self.reports[-1].points, 1000)
+
+    def test_the_result_has_the_commands_bytes(self):
+        out = str(self.root / "command")
+        subprocess.run([PROGRAM, "reconstruct", self.clip, "--out", out, "--save-every", "1",
+                        "--quiet"], check=True, stdout=subprocess.DEVNULL)
+        for name in ["model.ply", "trajectory.txt", "models/000003.ply", "nodes/000003.csv"]:
+            self.assertTrue(filecmp.cmp(f"{self.made.folder}/{name}", f"{out}/{name}", False), name)
+
+    def test_the_model_is_near_the_truth(self):
+        evaluation = softscope.evaluate(self.made, self.clip)
+        # The command gives the same number; half a millimetre is 1 % of the distance.
+        self.assertLess(evaluation.surface.observed.p95_mm, 0.5)
+        self.assertEqual(evaluation.metric("surface.observed.p95_mm"),
+                         evaluation.surface.observed.p95_mm)
+        self.assertGreater(evaluation.surface.observed.count, 1000)
+
+    def test_a_run_has_poses_and_models(self):
+        run = softscope.Run(self.made.folder)
+        self.assertEqual(run.frames, list(range(6)))
+        self.assertEqual(run.poses.shape, (6, 4, 4))
+        np.testing.assert_array_equal(run.poses[0], np.eye(4))
+        np.testing.assert_allclose(run.poses[3], self.reports[3].world_from_left, atol=1e-6)
+        self.assertEqual(run.saved_models, list(range(6)))
+        model = run.model(3)
+        self.assertEqual(len(model), self.reports[3].points)
+        self.assertEqual(model.points_mm.shape, (len(model), 3))
+        np.testing.assert_allclose(np.linalg.norm(model.normals, axis=1), 1, atol=1e-5)
+
+    def test_a_comparison_gives_both_directions(self):
+        found = softscope.compare(f"{self.clip}/groundtruth/mesh/000005.ply",
+                                  f"{self.made.folder}/model.ply")
+        self.assertLess(found.accuracy.p95_mm, 2)
+        self.assertGreater(found.completeness.p95_mm, found.accuracy.p95_mm)
+
+    def test_depth_has_the_commands_values(self):
+        pair = self.frames[2].left, self.frames[2].right
+        depth = softscope.DepthEstimator(self.calibration).measure(*pair)
+        out = self.root / "depth"
+        subprocess.run([PROGRAM, "depth", self.clip, "--frames", "2:3", "--write", "depth", "--out",
+                        str(out), "--quiet"], check=True, stdout=subprocess.DEVNULL)
+        bytes_of_file = next(out.glob("*depth.pfm")).read_bytes()
+        values = np.frombuffer(bytes_of_file[-4 * 180 * 240:], "<f4").reshape(180, 240)[::-1]
+        measured = np.isfinite(depth.depth_mm)
+        self.assertGreater(measured.mean(), 0.5)
+        np.testing.assert_array_equal(depth.depth_mm[measured], values[measured])
+        self.assertEqual(depth.normals.shape, (180, 240, 3))
+        self.assertEqual(depth.left.shape, (180, 240, 3))
+        self.assertTrue((depth.sigma_mm[measured] > 0).all())
+
+    def test_a_page_and_a_figure_have_the_commands_bytes(self):
+        softscope.evaluate(self.made, self.clip, out=str(self.root / "evaluation"))
+        for made_by in ("module", "command"):
+            (self.root / made_by).mkdir(exist_ok=True)
+        cases, page, figure = [str(self.root / "evaluation")], "page.html", "figure.svg"
+        self.assertEqual(softscope.report(cases, str(self.root / "module" / page)), [])
+        softscope.figure([str(self.root / "module" / figure)], run=self.made.folder,
+                         reference=self.clip)
+        for words in (["report", *cases, "--out", str(self.root / "command" / page)],
+                      ["figure", self.made.folder, "--reference", self.clip, "--out",
+                       str(self.root / "command" / figure)]):
+            subprocess.run([PROGRAM, *words, "--quiet"], check=True, stdout=subprocess.DEVNULL)
+        for name in (page, figure, "figure.json"):
+            self.assertTrue(filecmp.cmp(self.root / "module" / name, self.root / "command" / name,
+                                        False), name)
+
+    def test_settings_change_the_result(self):
+        self.assertIn("stereo.method", softscope.settings())
+        reconstructor = softscope.Reconstructor(self.calibration, {"stereo.method": "sgbm"})
+        report = reconstructor.process(self.frames[0].left, self.frames[0].right)
+        self.assertNotEqual(report.points, self.reports[0].points)
+
+    def test_a_grey_image_stands_for_three_equal_channels(self):
+        grey = [np.ascontiguousarray(image[:, :, 1])
+                for image in (self.frames[0].left, self.frames[0].right)]
+        threefold = [np.repeat(image[:, :, None], 3, axis=2) for image in grey]
+        reports = [softscope.Reconstructor(self.calibration).process(*pair)
+                   for pair in (grey, threefold)]
+        self.assertEqual(reports[0].points, reports[1].points)
+        self.assertGreater(reports[0].points, 1000)
+
+
+class Shares(Clip):
+    def test_arrays_are_views_that_keep_their_owner(self):
+        frame = softscope.Sequence(self.clip).__next__()
+        left = frame.left
+        self.assertEqual((left.shape, left.dtype), ((180, 240, 3), np.uint8))
+        self.assertFalse(left.flags.owndata)
+        self.assertIs(left.base, frame)
+        self.assertIsNone(frame.mask)
+        points = self.made.model().points_mm
+        self.assertFalse(points.flags.owndata)
+        self.assertTrue(np.isfinite(points).all())
+
+
+class Refuses(Clip):
+    def test_errors_have_a_type_and_a_text(self):
+        with self.assertRaisesRegex(softscope.InputError, "no such folder"):
+            softscope.Run(str(self.root / "none"))
+        with self.assertRaisesRegex(softscope.OptionError, "stereo.method"):
+            softscope.Reconstructor(self.calibration, {"stereo.methd": "sgbm"})
+        with self.assertRaisesRegex(softscope.OptionError, "rigid"):
+            softscope.evaluate(self.made, self.clip, align="somehow")
+        with self.assertRaises(softscope.OptionError):
+            softscope.Reconstructor(self.calibration).finish()
+        self.assertTrue(issubclass(softscope.InputError, softscope.Error))
+        self.assertTrue(issubclass(softscope.Error, RuntimeError))
+
+    def test_images_of_another_shape_or_type_are_refused(self):
+        reconstructor = softscope.Reconstructor(self.calibration)
+        left = self.frames[0].left
+        with self.assertRaisesRegex(softscope.InputError, "dimensions"):
+            reconstructor.process(left.reshape(-1), left)
+        with self.assertRaisesRegex(softscope.InputError, "channels"):
+            reconstructor.process(np.zeros((180, 240, 4), np.uint8), left)
+        with self.assertRaisesRegex(softscope.InputError, "empty"):
+            reconstructor.process(np.zeros((0, 0, 3), np.uint8), left)
+        with self.assertRaises(softscope.InputError):
+            reconstructor.process(left[:90], left[:90])
+        with self.assertRaises(softscope.InputError):
+            reconstructor.process(left, left, mask=np.zeros((90, 240), np.uint8))
+        with self.assertRaises(TypeError):
+            reconstructor.process(left.astype(float), left)
+
+    def test_progress_counts_and_stops(self):
+        seen = []
+        with self.assertRaisesRegex(softscope.Error, "stopped"):
+            softscope.evaluate(self.made, self.clip, views=False,
+                               progress=lambda done, total: seen.append((done, total)) or done < 2)
+        self.assertEqual(seen[:3], [(0, 6), (1, 6), (2, 6)])
+        made = softscope.simulate(str(self.root / "short"), {"frames": 5}, width_px=64,
+                                  height_px=48, progress=lambda done, total: done < 2)
+        self.assertEqual(made.frames, 2)
+
+    def test_an_exception_of_the_callback_comes_through(self):
+        def fail(done, total):
+            raise KeyError("mine")
+        with self.assertRaisesRegex(KeyError, "mine"):
+            softscope.evaluate(self.made, self.clip, views=False, progress=fail)
+
+
+if __name__ == "__main__":
+    unittest.main()

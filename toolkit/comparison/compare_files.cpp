@@ -1,0 +1,75 @@
+// toolkit/comparison/compare_files.cpp: read, align, measure.
+#include "toolkit/comparison/compare_files.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "io/file_hash.h"
+#include "mesh/mesh_check.h"
+#include "toolkit/comparison/compare_inputs.h"
+#include "toolkit/evaluation/evaluate_plots.h"
+
+namespace softscope {
+namespace {
+
+constexpr const char* kAccuracy = "accuracy";  // where a bare metric is looked for
+
+void addMeshWarnings(const TriangleMesh& mesh, const std::string& name,
+                     std::vector<std::string>& warnings) {
+  if (mesh.empty()) return;
+  for (const std::string& warning : meshWarnings(checkMesh(mesh)))
+    warnings.push_back(name + ": " + warning);
+}
+
+ObservedSplit split(const CompareOptions& options, const FileComparison& compared) {
+  TriangleMesh observed = readSurfaceOrPoints(options.observed, options.reference_unit_mm);
+  matchSpaces(compared.reference, observed);
+  return splitByObserved(compared.reference, observed, compared.result.comparison,
+                         options.observed_reach_mm);
+}
+
+void readSurfaces(const CompareOptions& options, FileComparison& compared) {
+  compared.reference = readSurfaceOrPoints(options.reference, options.reference_unit_mm);
+  if (compared.reference.empty())
+    throw InputError(options.reference +
+                     ": is a set of points, but a reference is a surface; give a mesh");
+  compared.test = readSurfaceOrPoints(options.test, options.test_unit_mm);
+  addMeshWarnings(compared.reference, options.reference, compared.result.warnings);
+  addMeshWarnings(compared.test, options.test, compared.result.warnings);
+}
+
+}  // namespace
+
+void CompareOptions::validate() const {
+  require(observed_reach_mm > 0 && std::isfinite(observed_reach_mm), "--observed-within-mm",
+          observed_reach_mm, "must be above 0");
+  for (const double tau_mm : taus_mm)
+    require(tau_mm > 0 && std::isfinite(tau_mm), "--tau", tau_mm, "must be above 0");
+  checkThresholds(thresholds, comparisonJson({}), kAccuracy);
+}
+
+FileComparison compareFiles(const CompareOptions& options) {
+  options.validate();
+  FileComparison compared;
+  ComparisonResult& result = compared.result;
+  result.reference = options.reference;
+  result.test = options.test;
+  readSurfaces(options, compared);
+  result.space = matchSpaces(compared.reference, compared.test);
+  result.fit = fitSurface(compared.reference, compared.test.vertices_mm, options.fit);
+  compared.test.vertices_mm = movePoints(result.fit.reference_from_test, compared.test.vertices_mm);
+  for (const std::string& warning : result.fit.warnings) result.warnings.push_back(warning);
+  result.comparison = compareSurfaces(compared.reference, compared.test, options.taus_mm);
+  if (!options.observed.empty()) result.observed = split(options, compared);
+
+  FactSheet::Json record = comparisonJson(result);
+  record["inputs_sha256"] = {{"reference", sha256Of(options.reference)},
+                             {"test", sha256Of(options.test)}};
+  compared.outcomes = checkThresholds(options.thresholds, record, kAccuracy);
+  record["thresholds"] = thresholdsJson(compared.outcomes);
+  record["error_histogram"] = histogramJson(result.comparison.accuracy.each_mm);
+  compared.record = options.paths.applyTo(record);
+  return compared;
+}
+
+}  // namespace softscope

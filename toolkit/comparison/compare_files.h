@@ -1,0 +1,40 @@
+// toolkit/comparison/compare_files.h: a surface or model against a reference surface.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+#include "toolkit/comparison/compare_record.h"
+#include "toolkit/comparison/surface_fit.h"
+#include "toolkit/evaluation/thresholds.h"
+#include "toolkit/record/record_paths.h"
+
+namespace softscope {
+
+struct CompareOptions {
+  std::string reference;  // mesh file
+  std::string test;       // mesh, or points as `reconstruct` writes them
+  SurfaceFitOptions fit;
+  std::vector<double> taus_mm{0.5, 1, 2};  // of precision, recall, F and surface Dice
+  std::string observed;                    // file of what was seen; empty: no split
+  double observed_reach_mm = 2;            // the reference counts as seen this near to it
+  double reference_unit_mm = 1, test_unit_mm = 1;
+  std::vector<Threshold> thresholds;
+  RecordPaths paths;
+
+  /// Throws OptionError: a value out of its range, a threshold of an unknown metric.
+  void validate() const;
+};
+
+struct FileComparison {
+  ComparisonResult result;
+  TriangleMesh reference, test;  // the test in the reference's place
+  std::vector<ThresholdOutcome> outcomes;
+  FactSheet::Json record;  // of comparison.json
+};
+
+/// Throws InputError, and OptionError as validate() does.
+FileComparison compareFiles(const CompareOptions& options);
+
+}  // namespace softscope

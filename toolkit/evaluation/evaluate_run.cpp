@@ -1,0 +1,206 @@
+// toolkit/evaluation/evaluate_run.cpp: by the kind of reference.
+#include "toolkit/evaluation/evaluate_run.h"
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "io/file_hash.h"
+#include "io/folder.h"
+#include "io/message.h"
+#include "mesh/mesh_check.h"
+#include "mesh/mesh_reader.h"
+#include "toolkit/evaluation/evaluate_frames.h"
+#include "toolkit/evaluation/evaluate_plots.h"
+#include "toolkit/evaluation/evaluate_record.h"
+#include "toolkit/run/provenance.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = FactSheet::Json;
+
+constexpr const char* kSurface = "surface";  // where a bare metric is looked for
+constexpr const char* kView = "view";        // the same without truth
+
+enum class ReferenceKind { kTruth, kSequence, kMesh, kMaps };
+
+ReferenceKind kindOf(const EvaluateOptions& options) {
+  if (holdsDepthMaps(options.run)) return ReferenceKind::kMaps;
+  if (!isFolder(options.reference)) return ReferenceKind::kMesh;
+  return hasTruth(options.reference) ? ReferenceKind::kTruth : ReferenceKind::kSequence;
+}
+
+/// Counts the models of a series of `total`.
+AfterModel counting(const Progress& progress, std::size_t total) {
+  const auto count = static_cast<int>(total);
+  goesOn(progress, 0, count);
+  return [&progress, count, done = 0]() mutable { return goesOn(progress, ++done, count); };
+}
+
+EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun& run,
+                                 const Progress& progress) {
+  const SequenceTruth truth = openSequenceTruth(options.reference);
+  requireSameSequence(run, truth);
+  const std::vector<std::string> origin = checkOrigin(run, truth);
+  EvaluationResult result;
+  result.outcomes = run.outcomes;
+  for (const int frame : run.frames) result.times_s[frame] = truth.timeOf(frame);
+  result.camera = judgeCamera(run, truth);
+  result.tracks = judgeTracks(run, truth);
+  result.backprojection_mm = run.backprojection_mm;
+  const auto frames = framesToJudge(run, truth);
+  result.surface = judgeSeries(run, truth, options.views, counting(progress, frames.size()));
+  result.revisits = judgeRevisits(run, truth, result);
+  result.warnings = run.warnings();
+  for (std::string& warning : sequenceWarnings(run, truth, result))
+    result.warnings.push_back(std::move(warning));
+  result.warnings.insert(result.warnings.end(), origin.begin(), origin.end());
+  return result;
+}
+
+FrameFiles modelsFor(const EvaluateOptions& options, const JudgedRun& run) {
+  if (options.each_model && run.countedModels().empty())
+    throw InputError(shown(run.folder / "models") +
+                     ": holds no model NNNNNN.ply of a fused frame, but --each asks for them; "
+                     "reconstruct with --save-every 1");
+  if (options.each_model) return run.countedModels();
+  if (run.last_model.empty())
+    throw InputError(shown(run.folder / "model.ply") +
+                     ": is missing, but it is what a mesh is compared with; reconstruct again");
+  return {{run.lastCounted(), run.last_model}};
+}
+
+EvaluationResult againstMesh(const EvaluateOptions& options, const JudgedRun& run,
+                             const Progress& progress) {
+  const FrameFiles models = modelsFor(options, run);
+  const TriangleMesh mesh = readMesh(options.reference, {options.reference_unit_mm});
+  EvaluationResult result;
+  result.against_mesh = true;
+  result.warnings = run.warnings();
+  result.outcomes = run.outcomes;
+  for (const int frame : run.frames) result.times_s[frame] = run.timeOf(frame);
+  result.alignment = options.alignment;
+  for (const std::string& warning : meshWarnings(checkMesh(mesh)))
+    result.warnings.push_back(options.reference + ": " + warning);
+  AlignedSeries series =
+      judgeAgainstMesh(run, models, mesh, options.alignment, counting(progress, models.size()));
+  result.surface = std::move(series.surface);
+  result.alignments = std::move(series.alignments);
+  return result;
+}
+
+/// Of run.json, which has those of the run's inputs, and of a mesh; a sequence has too many bytes.
+Json hashesOf(const EvaluateOptions& options) {
+  Json hashes = Json::object();
+  const fs::path record = fs::path(options.run) / "run.json";
+  if (isThere(record)) hashes["run"] = sha256Of(record);
+  if (!isFolder(options.reference)) hashes["reference"] = sha256Of(options.reference);
+  return hashes;
+}
+
+RunEvaluation withoutTruth(const EvaluateOptions& options, const JudgedRun& run,
+                           const Progress& progress) {
+  TruthlessResult result = judgeWithoutTruth(run, options.reference, options.views,
+                                             counting(progress, run.countedModels().size()));
+  RunEvaluation evaluation;
+  evaluation.interrupted = result.interrupted;
+  if (result.interrupted) return evaluation;
+  result.run = options.run;
+  result.sequence = options.reference;
+  Json record = truthlessJson(result);
+  evaluation.outcomes = checkThresholds(options.thresholds, record, kView);
+  record["thresholds"] = thresholdsJson(evaluation.outcomes);
+  record["inputs_sha256"] = hashesOf(options);
+  evaluation.record = options.paths.applyTo(record);
+  evaluation.facts = truthlessFacts(result);
+  evaluation.result = std::move(result);
+  return evaluation;
+}
+
+DepthMapOptions mapOptionsOf(const EvaluateOptions& options) {
+  return {options.run, options.reference, options.map_kind, options.calibration,
+          options.confidence};
+}
+
+/// Where a bare metric of maps is looked for.
+const char* mapPart(const DepthMapOptions& options) {
+  return options.mapKind() == MapKind::kDepth ? "depth" : "disparity";
+}
+
+RunEvaluation ofMaps(const EvaluateOptions& options, const Progress& progress) {
+  const DepthMapOptions maps = mapOptionsOf(options);
+  DepthMapResult result = judgeDepthMaps(maps, progress);
+  RunEvaluation evaluation;
+  evaluation.interrupted = result.interrupted;
+  if (result.interrupted) return evaluation;
+  Json record = depthMapJson(result);
+  evaluation.outcomes = checkThresholds(options.thresholds, record, mapPart(maps));
+  record["thresholds"] = thresholdsJson(evaluation.outcomes);
+  evaluation.record = options.paths.applyTo(record);
+  evaluation.facts = depthMapFacts(result);
+  evaluation.result = std::move(result);
+  return evaluation;
+}
+
+RunEvaluation withTruth(const EvaluateOptions& options, EvaluationResult result) {
+  RunEvaluation evaluation;
+  evaluation.interrupted = result.surface.interrupted;
+  if (evaluation.interrupted) return evaluation;
+  result.run = options.run;
+  result.reference = options.reference;
+  Json record = evaluationJson(result);
+  evaluation.outcomes = checkThresholds(options.thresholds, record, kSurface);
+  record["thresholds"] = thresholdsJson(evaluation.outcomes);
+  record["error_histogram"] = histogramJson(result.surface.pool.all_mm());
+  record["frames"] = frameTable(result).json();
+  record["inputs_sha256"] = hashesOf(options);
+  evaluation.record = options.paths.applyTo(record);
+  evaluation.facts = evaluationFacts(result);
+  evaluation.result = std::move(result);
+  return evaluation;
+}
+
+void validateMaps(const EvaluateOptions& options) {
+  if (options.alignment != MeshAlignment::kNone || options.each_model)
+    throw OptionError("--align and --each are for a mesh; maps are compared pixel by pixel");
+  checkThresholds(options.thresholds, depthMapJson({}), mapPart(mapOptionsOf(options)));
+}
+
+}  // namespace
+
+MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& option) {
+  for (const MeshAlignment kind :
+       {MeshAlignment::kNone, MeshAlignment::kRigid, MeshAlignment::kIcp})
+    if (name == toString(kind)) return kind;
+  throw OptionError(option + " is `" + name + "`, but must be none, rigid or icp");
+}
+
+void EvaluateOptions::validate() const {
+  const ReferenceKind kind = kindOf(*this);
+  if (kind == ReferenceKind::kMaps) return validateMaps(*this);
+  if (!map_kind.empty() || !calibration.empty() || !confidence.empty())
+    throw OptionError("--map, --calibration and --confidence are of depth maps, but " + run +
+                      " is none and no folder of them");
+  if (kind != ReferenceKind::kMesh && (alignment != MeshAlignment::kNone || each_model))
+    throw OptionError(
+        "--align and --each are for a mesh; a sequence is compared frame by frame, "
+        "in its camera's frame, with no alignment");
+  EvaluationResult empty;
+  empty.against_mesh = kind == ReferenceKind::kMesh;
+  const bool truthless = kind == ReferenceKind::kSequence;
+  checkThresholds(thresholds, truthless ? truthlessJson({}) : evaluationJson(empty),
+                  truthless ? kView : kSurface);
+}
+
+RunEvaluation evaluateRun(const EvaluateOptions& options, const Progress& progress) {
+  options.validate();
+  const ReferenceKind kind = kindOf(options);
+  if (kind == ReferenceKind::kMaps) return ofMaps(options, progress);
+  const JudgedRun run = openJudgedRun(options.run);
+  if (kind == ReferenceKind::kSequence) return withoutTruth(options, run, progress);
+  return withTruth(options, kind == ReferenceKind::kMesh ? againstMesh(options, run, progress)
+                                                         : againstSequence(options, run, progress));
+}
+
+}  // namespace softscope

@@ -1,0 +1,24 @@
+// toolkit/face/distances_of.h: statistics and metrics as the public face has them.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "eval/statistics.h"
+#include "softscope/evaluate.h"
+#include "toolkit/evaluation/thresholds.h"
+#include "toolkit/record/fact_sheet.h"
+
+namespace softscope::api {
+
+inline Distances distancesOf(const Statistics& s) {
+  return {s.mean, s.sd, s.rmse, s.median, s.p95, s.max, static_cast<long>(s.count)};
+}
+
+inline std::map<std::string, double> metricMapOf(const FactSheet::Json& record) {
+  std::map<std::string, double> metrics;
+  for (const auto& [path, value] : metricsOf(record)) metrics[path] = value;
+  return metrics;
+}
+
+}  // namespace softscope::api

@@ -1,0 +1,44 @@
+// toolkit/face/options.cpp: of include/softscope/options.h.
+#include "softscope/options.h"
+
+#include "io/settings.h"
+#include "toolkit/face/run_options_of.h"
+
+namespace softscope::api {
+
+namespace {
+
+template <class Made>
+Made filled(const Options& options) {
+  Made made;
+  Settings settings;
+  for (const auto& [key, value] : options.values()) addAssignment(settings, key + "=" + value);
+  settingsOf(made).apply(settings);
+  made.validate();
+  return made;
+}
+
+}  // namespace
+
+RunOptions runOptionsOf(const Options& options) { return filled<RunOptions>(options); }
+
+DepthOptions depthOptionsOf(const Options& options) { return filled<DepthOptions>(options); }
+
+Options& Options::set(const std::string& key, const std::string& value) {
+  RunOptions checked;
+  Settings settings;
+  addAssignment(settings, key + "=" + value);
+  settingsOf(checked).apply(settings);
+  values_[key] = value;
+  return *this;
+}
+
+std::vector<SettingDescription> reconstructionSettings() {
+  RunOptions options;
+  std::vector<SettingDescription> all;
+  for (const SettingInfo& s : settingsOf(options).list())
+    all.push_back({s.key, s.type, s.unit, s.range, s.default_text, s.help});
+  return all;
+}
+
+}  // namespace softscope::api

@@ -1,0 +1,164 @@
+// toolkit/inspection/describe_sequence.cpp: a sequence folder: what is there, what isn't, is it
+// plausible?
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "core/error.h"
+#include "io/dataset_form.h"
+#include "io/folder.h"
+#include "io/picture_source.h"
+#include "io/sequence_reader.h"
+#include "io/timestamps_file.h"
+#include "stereo/rectifier.h"
+#include "stereo/row_alignment.h"
+#include "stereo/stereo_options.h"
+#include "toolkit/inspection/describe_file.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kSlowestRate = 0.2;  // frames a second, before the unit of time is doubted
+
+std::string layoutOf(const SequencePaths& paths) {
+  if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
+  const std::string left = paths.left.filename().string();
+  if (!paths.form.empty()) return left + " and " + paths.right.filename().string();
+  if (paths.right.empty()) return "left view alone, in " + left;
+  return fs::is_directory(paths.left)
+             ? "pictures in left/ and right/"
+             : "videos " + left + " and " + paths.right.filename().string();
+}
+
+void addTimes(const SequencePaths& paths, FactSheet& facts) {
+  if (paths.timestamps.empty()) {
+    facts.missing("timestamps.txt: frames have no times");
+    return;
+  }
+  const std::vector<double> times_s = readTimestamps(paths.timestamps);
+  const double duration_s = times_s.empty() ? 0 : times_s.back() - times_s.front();
+  const double rate = duration_s > 0 ? double(times_s.size() - 1) / duration_s : 0;
+  facts.add("timestamps", fixed(duration_s, 2) + " s, " + fixed(rate, 2) + " frames a second",
+            "duration_s", duration_s);
+  if (rate > 0 && rate < kSlowestRate)
+    facts.warn("frames lie " + fixed(1 / rate, 1) +
+               " s apart. Are the timestamps in milliseconds? Then write seconds");
+}
+
+void addCount(const fs::path& folder, const std::string& label, const std::string& key,
+              const std::vector<std::string_view>& kinds, FactSheet& facts) {
+  if (!fs::is_directory(folder)) return;
+  facts.add(label, key, int(filesIn(folder, kinds).size()));
+}
+
+/// Of a clip of a known data set: which, and its ground truth.
+void addDataset(const DatasetClip& clip, FactSheet& facts) {
+  facts.add("data set", "dataset", clip.form);
+  std::string names;
+  FactSheet::Json list = FactSheet::Json::array();
+  for (const fs::path& file : clip.truth) {
+    names += (names.empty() ? "" : ", ") + file.filename().string();
+    list.push_back(file.filename().string());
+  }
+  facts.addQuietly("dataset_truth", list);
+  if (names.empty())
+    facts.missing("ground truth: the clip can be reconstructed, but not judged");
+  else
+    facts.addLine("ground truth", names);
+}
+
+/// Optional parts: masks, depth, truth.
+void addExtras(const std::string& folder, const SequencePaths& paths, FactSheet& facts) {
+  const fs::path truth = fs::path(folder) / "groundtruth";
+  if (paths.mask.empty()) facts.missing("mask/: instruments are not masked");
+  addCount(paths.mask, "masks", "masks", {".png", ".bmp", ".jpg", ".tif"}, facts);
+  addCount(paths.depth, "depth files", "depth_files", {".png", ".pfm", ".tif", ".tiff"}, facts);
+  addCount(truth / "mesh", "true meshes", "groundtruth.meshes", {".ply"}, facts);
+  addCount(truth / "depth", "true depth", "groundtruth.depth_files", {".png", ".pfm"}, facts);
+  for (const char* name : {"trajectory.txt", "tracks.csv"})
+    if (fs::exists(truth / name))
+      facts.add(std::string("true ") + name, "present",
+                std::string("groundtruth.") + fs::path(name).stem().string(), true);
+}
+
+void addRows(const Frame& frame, const StereoCalibration& calibration, FactSheet& facts) {
+  if (frame.pair.right.empty()) return;
+  const StereoPair rectified = Rectifier(calibration).rectify(frame.pair);
+  const RowAlignment rows = measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
+                                                StereoOptions().disparity_max_px);
+  if (!rows.known()) {
+    facts.warn(
+        "left and right views hardly match in the first frame. Are they of one moment, and "
+        "not exchanged?");
+    return;
+  }
+  facts.add("rows differ by", fixed(rows.mean_row_difference_px, 2) + " px in the first frame",
+            "mean_row_difference_px", rows.mean_row_difference_px);
+  if (rows.mean_row_difference_px > RowAlignment::kWarnAbovePx)
+    facts.warn("rows differ by " + fixed(rows.mean_row_difference_px, 2) +
+               " px after rectification, more than 0.5. Is the calibration this scope's? "
+               "`softscope depth` removes what it can");
+}
+
+/// Every frame that can't be read, a warning each.
+void checkFrames(SequenceReader& reader, FactSheet& facts) {
+  int bad = 0;
+  while (const auto result = reader.next()) {
+    if (result->ok()) continue;
+    facts.warn("frame " + std::to_string(result->index) + ": " + result->error);
+    ++bad;
+  }
+  facts.add("unreadable frames", "unreadable_frames", bad);
+  if (bad > 0)
+    facts.fail(std::to_string(bad) + " of " + std::to_string(reader.frameCount()) +
+               " frames can't be read; the warnings name them. Copy or export them again");
+}
+
+/// What can be said of a sequence that can't be opened as a whole.
+void addView(const fs::path& view, const std::string& key, FactSheet& facts) {
+  if (view.empty()) return;
+  try {
+    facts.add(key + " pictures", key + "_pictures", openPictures(view)->count());
+  } catch (const InputError& error) {
+    facts.fail(error.what());
+  }
+}
+
+void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool check_all,
+                   FactSheet& facts) {
+  SequenceReader reader(paths, {});
+  const auto first = reader.next();
+  if (!first || !first->ok())
+    throw InputError(first ? first->error : folder + ": has not one frame");
+  const ColourImage& left = first->frame.pair.left;
+  facts.add("frames", "frames", reader.totalCount());
+  facts.add("size", std::to_string(left.width_px) + " x " + std::to_string(left.height_px) + " px",
+            "width_px", left.width_px);
+  facts.addQuietly("height_px", left.height_px);
+  addCalibration(reader.calibration(), "calibration", facts);
+  addRows(first->frame, reader.calibration(), facts);
+  if (check_all) checkFrames(reader, facts);
+}
+
+}  // namespace
+
+FactSheet describeSequence(const std::string& folder, bool check_all) {
+  const SequencePaths paths = findSequence(folder);
+  FactSheet facts(folder + ": a sequence");
+  facts.addQuietly("kind", "sequence");
+  if (!paths.form.empty()) addDataset(*recogniseDataset(folder), facts);
+  facts.add("layout", "layout", layoutOf(paths));
+  try {
+    addFirstFrame(folder, paths, check_all, facts);
+  } catch (const InputError& error) {
+    facts.fail(error.what());
+    addView(paths.left, "left", facts);
+    addView(paths.right, "right", facts);
+  }
+  addTimes(paths, facts);
+  addExtras(folder, paths, facts);
+  return facts;
+}
+
+}  // namespace softscope

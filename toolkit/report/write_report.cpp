@@ -1,0 +1,70 @@
+// toolkit/report/write_report.cpp: cases in, files out.
+#include "toolkit/report/write_report.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/message.h"
+#include "io/new_files.h"
+#include "vtk_views/report_html.h"
+#include "vtk_views/report_pdf.h"
+
+namespace softscope {
+namespace {
+
+std::vector<ReportCase> readVersus(const ReportOptions& options) {
+  if (options.versus.empty()) return {};
+  if (options.versus.size() != options.cases.size() || options.cases.size() < 2)
+    throw OptionError(say("--versus is given ", options.versus.size(), " times, but there are ",
+                          options.cases.size(),
+                          " cases; it takes two cases or more, and one --versus for each"));
+  std::vector<ReportCase> cases;
+  for (const std::string& folder : options.versus) cases.push_back(readReportCase(folder));
+  return cases;
+}
+
+std::vector<ReportCase> readCases(const ReportOptions& options) {
+  if (!options.names.empty() && options.names.size() != options.cases.size())
+    throw OptionError(say("--name is given ", options.names.size(), " times, but there are ",
+                          options.cases.size(), " cases; name all or none"));
+  std::vector<ReportCase> cases;
+  for (std::size_t i = 0; i < options.cases.size(); ++i) {
+    cases.push_back(readReportCase(options.cases[i]));
+    cases.back().name = !options.names.empty() ? options.names[i] : say("Case ", i + 1);
+  }
+  return cases;
+}
+
+}  // namespace
+
+void ReportOptions::validate() const {
+  require(limit_mm >= 0 && std::isfinite(limit_mm), "--limit-mm", limit_mm, "must be above 0");
+  require(seed >= 0, "--seed", seed, "must be 0 or more");
+  requireWritable(html, overwrite);
+  if (!pdf.empty()) requireWritable(pdf, overwrite);
+  if (html == pdf) throw OptionError("--out and --pdf name the same file; give two");
+}
+
+ReportDocument writeReport(const ReportOptions& options) {
+  options.validate();
+  ReportRequest request;
+  request.cases = readCases(options);
+  request.versus = readVersus(options);
+  request.title = options.title;
+  request.limit_mm = options.limit_mm;
+  request.choices = {options.with_paths, static_cast<std::uint64_t>(options.seed)};
+  for (const ReportCase& c : request.cases)
+    request.outcomes.push_back(checkThresholds(options.thresholds, c.record, c.mainPart()));
+  ReportDocument document = makeReport(std::move(request));
+  const std::string html = reportHtml(document.page);
+  const std::string pdf = options.pdf.empty() ? "" : reportPdf(document.page);
+  NewFiles files;
+  files.make(options.html, [&] { writeFile(options.html, html, options.overwrite); });
+  if (!options.pdf.empty())
+    files.make(options.pdf, [&] { writeFile(options.pdf, pdf, options.overwrite); });
+  files.keep();
+  return document;
+}
+
+}  // namespace softscope

@@ -1,0 +1,47 @@
+#include "toolkit/run/out_folder.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Without links and dots; of what isn't there yet, as far as it is.
+fs::path settled(const fs::path& path) {
+  std::error_code problem;
+  const fs::path found = fs::weakly_canonical(fs::absolute(path), problem);
+  const fs::path plain = problem ? path.lexically_normal() : found;
+  return plain.has_filename() ? plain : plain.parent_path();
+}
+
+bool liesIn(const fs::path& path, const fs::path& folder) {
+  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end == folder.end();
+}
+
+[[noreturn]] void refuseInput(const fs::path& out, const char* what) {
+  throw OptionError("--out " + out.string() + ": " + what +
+                    "; choose a folder of its own for the results");
+}
+
+}  // namespace
+
+void requireApart(const fs::path& out, const SequencePaths& sequence) {
+  std::error_code ignored;
+  for (const fs::path& part :
+       {sequence.left, sequence.right, sequence.stereo, sequence.mask, sequence.depth})
+    if (!part.empty() && fs::is_directory(part, ignored) && liesIn(settled(out), settled(part)))
+      refuseInput(out, "is, or lies in, a folder of the sequence, whose frames would be mixed up");
+}
+
+void requireOutside(const fs::path& out, const SequencePaths& sequence) {
+  requireApart(out, sequence);
+  const fs::path& view = sequence.left.empty() ? sequence.stereo : sequence.left;
+  if (settled(out) == settled(view).parent_path())
+    refuseInput(out, "is the folder of the sequence, whose own files would be replaced");
+}
+
+}  // namespace softscope

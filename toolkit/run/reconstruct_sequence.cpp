@@ -1,0 +1,227 @@
+// toolkit/run/reconstruct_sequence.cpp: frame by frame, with checkpoints.
+#include "toolkit/run/reconstruct_sequence.h"
+
+#include <optional>
+
+#include "core/error.h"
+#include "io/file_hash.h"
+#include "io/folder.h"
+#include "io/frame_window.h"
+#include "io/message.h"
+#include "io/sequence_reader.h"
+#include "io/track_points_file.h"
+#include "pipeline/backends.h"
+#include "pipeline/reconstructor.h"
+#include "toolkit/record/json_text.h"
+#include "toolkit/run/out_folder.h"
+#include "toolkit/run/run_folder.h"
+#include "toolkit/run/run_record.h"
+#include "toolkit/run/run_tables.h"
+#include "toolkit/run/stereo_sync.h"
+
+namespace softscope {
+namespace {
+
+using Json = FactSheet::Json;
+
+constexpr const char* kOutcomes = "outcomes";  // where a bare metric is looked for
+
+/// Whether images that the run began with are there no longer.
+bool isGone(const SequencePaths& sequence) {
+  for (const std::filesystem::path& view : {sequence.left, sequence.right, sequence.stereo})
+    if (!view.empty() && !isThere(view)) return true;
+  return false;
+}
+
+/// Everything that decides the result; a run goes on only with the same.
+std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& settings,
+                     const std::filesystem::path& tracks) {
+  std::string all;
+  for (const SettingInfo& setting : settings)
+    all += setting.key + "=" + setting.current_text + "\n";
+  for (const auto& [part, input] : inputs.items())
+    all += part + "=" + input["sha256"].get<std::string>() + "\n";
+  if (!tracks.empty()) all += sha256Of(tracks);
+  return sha256OfBytes(all);
+}
+
+std::vector<TrackSeed> seedsOf(const std::filesystem::path& tracks) {
+  std::vector<TrackSeed> seeds;
+  if (tracks.empty()) return seeds;
+  for (const TrackPixel& pixel : readTrackPixels(tracks))
+    seeds.push_back({pixel.id, pixel.u_px, pixel.v_px});
+  return seeds;
+}
+
+class SequenceRun {
+ public:
+  SequenceRun(ReconstructOptions options, const WorkListener& listener)
+      : options_(std::move(options)), listener_(listener) {}
+
+  ReconstructedRun run();
+
+ private:
+  std::optional<Checkpoint> earlierState(const RunFolder& folder,
+                                         const std::string& settings) const;
+  void skipDone(const Checkpoint& earlier);
+  std::unique_ptr<ReconstructionBackend> backendOf(const StereoCalibration& calibration) const;
+  void reconstructAll(FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
+                      RunFolder& folder, RunRecord& record, Checkpoint& checkpoint);
+  ReconstructedRun finish(bool nothing, RunFolder& folder, RunRecord& record) const;
+
+  ReconstructOptions options_;
+  const WorkListener& listener_;
+  bool interrupted_ = false, all_done_ = false, input_gone_ = false;
+  std::string failure_;  // of the back end in the middle of the run
+};
+
+/// The state to go on from; nothing for a run that starts. Throws OptionError.
+std::optional<Checkpoint> SequenceRun::earlierState(const RunFolder& folder,
+                                                    const std::string& settings) const {
+  if (!options_.resume) return std::nullopt;
+  const std::string out = options_.out.string();
+  std::optional<Checkpoint> earlier = folder.readCheckpoint();
+  if (!earlier && !folder.wasKilled())
+    throw OptionError("--resume: " + out + " holds no interrupted run; start it without --resume");
+  if (!earlier)
+    listener_.warn("the run in " + out + " was killed before its first checkpoint: it starts anew");
+  if (earlier && earlier->settings != settings)
+    throw OptionError(
+        "--resume: the run in " + out +
+        " was begun with other settings, pictures, calibration or tracked pixels; give the "
+        "same, or start again without --resume");
+  return earlier;
+}
+
+std::unique_ptr<ReconstructionBackend> SequenceRun::backendOf(
+    const StereoCalibration& calibration) const {
+  auto chosen = makeBackend(options_.backend, calibration, options_.settings.method);
+  if (!chosen.why.empty()) listener_.tell("back end: " + chosen.name + " (" + chosen.why + ")");
+  return std::move(chosen.part);
+}
+
+/// Where no frame is left, the run was stopped between its last one and its record.
+void SequenceRun::skipDone(const Checkpoint& earlier) {
+  SequenceOptions& sequence = options_.settings.sequence;
+  const int done = earlier.next_frame - sequence.frames.begin;
+  all_done_ = done >= SequenceReader(options_.sequence, sequence).frameCount();
+  if (!all_done_) sequence.frames.begin = earlier.next_frame;
+}
+
+ReconstructedRun SequenceRun::run() {
+  options_.validate();
+  const std::vector<TrackSeed> tracked = seedsOf(options_.tracks);
+  requireOutside(options_.out, options_.sequence);
+  RunFolder folder({options_.out, options_.save_every, !tracked.empty(), options_.overwrite},
+                   options_.resume);
+  SequenceOptions& sequence = options_.settings.sequence;
+  const ReconstructionOptions& method = options_.settings.method;
+  if (method.depth.source == "stereo" || options_.sequence.depth.empty())
+    if (const std::string warning =
+            settleRightOffset(options_.sequence, sequence, method.depth.stereo.disparity_max_px);
+        !warning.empty())
+      listener_.warn(warning);
+  const Json inputs = inputsJson(options_.sequence);
+  const SettingsBinder binder = settingsOf(options_.settings);
+  Checkpoint checkpoint{
+      digestOf(inputs, binder.list(), options_.tracks), sequence.frames.begin, {}};
+  const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);
+  if (earlier) {
+    checkpoint.next_frame = earlier->next_frame;
+    skipDone(*earlier);
+  }
+
+  SequenceReader reader(options_.sequence, sequence);
+  FrameWindow frames(reader);  // outlives the back end, which looks ahead in it
+  for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
+  Reconstructor reconstructor(backendOf(reader.calibration()), method);
+  reconstructor.track(tracked);
+  folder.tellCamera(reconstructor.backend().rig().left);
+  RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
+  checkThresholds(options_.thresholds, record.json(), kOutcomes);  // before the work
+  if (earlier) {
+    folder.takeOver(earlier->next_frame);
+    reconstructor.restore(earlier->state);
+    record.set("resumed_at_frame", earlier->next_frame);
+    for (const FrameRecord& frame : folder.earlierFrames()) record.add(frame);
+  }
+  reconstructAll(frames, reader.frameCount(), reconstructor, folder, record, checkpoint);
+  return finish(reconstructor.backend().empty(), folder, record);
+}
+
+void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
+                                 RunFolder& folder, RunRecord& record, Checkpoint& checkpoint) {
+  int since_flush = 0, processed = 0;
+  bool at_end = all_done_;
+  bool wanted = goesOn(listener_.progress, 0, frame_count);
+  while (wanted && !at_end) {
+    const FrameResult* result = frames.advance();
+    if (result == nullptr) break;
+    input_gone_ = !result->ok() && isGone(options_.sequence);
+    if (input_gone_) break;
+    FrameRecord frame;
+    try {
+      frame = result->ok() ? reconstructor.process(result->frame, frames.following())
+                           : reconstructor.skip(result->index, result->error, result->time_s);
+    } catch (const BackendError& error) {
+      failure_ = error.what();
+      break;
+    }
+    if (!frame.reason.empty())
+      listener_.warn(say("frame ", frame.frame, ": ", toString(frame.status), ": ", frame.reason));
+    folder.add(frame);
+    record.add(asTabled(frame));
+    if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
+      folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
+    checkpoint.next_frame = frame.frame + 1;
+    at_end = ++processed == frame_count;
+    if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {
+      checkpoint.state = reconstructor.state();
+      folder.flush(checkpoint);
+      since_flush = 0;
+    }
+    wanted = goesOn(listener_.progress, processed, frame_count);
+  }
+  interrupted_ = (!wanted || input_gone_ || !failure_.empty()) && !at_end;
+  if (interrupted_ && !input_gone_ && failure_.empty())
+    listener_.warn("interrupted: what is finished stays; --resume goes on");
+  if (reconstructor.backend().empty()) return;
+  checkpoint.state = reconstructor.state();
+  if (!interrupted_) folder.saveLastModel(checkpoint.state.model);
+  folder.flush(checkpoint);  // resumable until run.json is there
+}
+
+ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord& record) const {
+  record.set("interrupted", interrupted_);
+  if (nothing && !interrupted_)
+    throw InputError(options_.name + ": not one frame could be used; the reasons stand above");
+  for (const std::string& conclusion : record.conclusions()) listener_.warn(conclusion);
+  Json all = record.json();
+  const auto outcomes = checkThresholds(options_.thresholds, all, kOutcomes);
+  if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
+  const Json written = options_.paths.applyTo(all);
+  if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
+  if (!failure_.empty())
+    throw BackendError(failure_ + (nothing ? ". --backend cpu needs no GPU"
+                                           : ". What is finished stays; go on with --resume, "
+                                             "without the GPU with --resume --backend cpu"));
+  if (input_gone_)
+    throw InputError(options_.name +
+                     ": was removed while it was read, or its disk; what is finished "
+                     "stays. Put it back and go on with --resume");
+  return {written, record.text(options_.out.string()), outcomes, interrupted_};
+}
+
+}  // namespace
+
+void ReconstructOptions::validate() const {
+  settings.validate();
+  require(checkpoint_every >= 1, "--checkpoint-every", checkpoint_every, "must be 1 or more");
+  requireBackendName(backend);
+}
+
+ReconstructedRun reconstructSequence(ReconstructOptions options, const WorkListener& listener) {
+  return SequenceRun(std::move(options), listener).run();
+}
+
+}  // namespace softscope
