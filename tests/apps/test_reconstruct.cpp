@@ -185,6 +185,9 @@ TEST_F(Reconstruct, TellsBackEndAndTimeOfAFrame) {
   EXPECT_GT(ms["p50"].get<double>(), 0);
   EXPECT_LE(ms["p50"].get<double>(), ms["p95"].get<double>());
   EXPECT_LE(ms["p99"].get<double>(), ms["slowest"].get<double>());
+  const Outcome slow =
+      reconstruct({"--out", at("run"), "--force", "--fail-if", "frame_ms.p95>1000000"});
+  EXPECT_EQ(slow.exit_code, 0) << slow.err;
 }
 
 TEST_F(Reconstruct, TellsWhatIsWrongWithItsArguments) {

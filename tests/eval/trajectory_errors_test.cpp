@@ -99,6 +99,7 @@ TEST(TrajectoryErrors, AStepOverMomentsThatWereLeftOutIsNone) {
   ASSERT_EQ(errors.relative.each_mm.size(), 3u);
   EXPECT_TRUE(std::isnan(errors.relative.each_mm[1])) << "from moment 1 to 5";
   EXPECT_EQ(errors.relative.translation_mm.count, 2u);
+  EXPECT_EQ(errors.relative_scaled.translation_mm.count, 2u);
   EXPECT_THROW(trajectoryErrors(truth, truth, {0, 1}), InputError);
 }
 

@@ -130,10 +130,12 @@ Json RunRecord::json() const {
   all["mean_backprojection_mm"] = numberOrNull(meanOf(backprojection_mm_));
   all["mean_prediction_mm"] = numberOrNull(meanOf(prediction_mm_));
   all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
-  if (!frame_ms_.empty()) {
-    const std::vector<double> ms = percentiles(frame_ms_, {50, 95, 99, 100});
-    all["frame_ms"] = {{"p50", ms[0]}, {"p95", ms[1]}, {"p99", ms[2]}, {"slowest", ms[3]}};
-  }
+  std::vector<double> ms(4, Statistics::kNone);  // a limit finds the names before the first frame
+  if (!frame_ms_.empty()) ms = percentiles(frame_ms_, {50, 95, 99, 100});
+  all["frame_ms"] = {{"p50", numberOrNull(ms[0])},
+                     {"p95", numberOrNull(ms[1])},
+                     {"p99", numberOrNull(ms[2])},
+                     {"slowest", numberOrNull(ms[3])}};
   Json& stages = all["mean_stage_ms"] = Json::object();
   for (const auto& [stage, sum_ms] : elapsed_ms_) stages[stage] = sum_ms / std::max(1, frames_);
   all["frames_scope_static"] = scope_static_;
