@@ -113,7 +113,8 @@ ParsedLine parseCommandLine(const std::vector<std::string>& words,
   if (words.empty()) throw OptionError("softscope: no command given. See `softscope --help`");
   if (asksForHelp(words[0]) || (words[0] == "help" && words.size() == 1))
     return {nullptr, overviewText(commands)};
-  if (words[0] == "--version") return {nullptr, "softscope " + versionText() + "\n"};
+  if (words[0] == "--version" || words[0] == "-V")
+    return {nullptr, "softscope " + versionText() + "\n"};
   const bool help_word = words[0] == "help";
   Command& command = findCommand(words[help_word ? 1 : 0], commands);
   ArgumentList arguments;

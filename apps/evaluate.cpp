@@ -29,6 +29,11 @@ const char* const kDetails =
     "Against a mesh (STL, PLY, OBJ; a CT's, say) the last model, or each one, is compared.\n"
     "Of a sequence without groundtruth/ it gives what needs no truth: PSNR and SSIM of the drawn\n"
     "model, back-projection, coverage, steps and jitter of the scope; and says what is missing.\n"
+    "In the place of RUN a disparity or depth map, or a folder of maps, is judged against the "
+    "true\n"
+    "ones (--reference): EPE, bad-1, 2, 3, MAE and RMSE in mm, coverage; with --confidence "
+    "whether\n"
+    "predicted sigmas tell the errors (intervals, sparsification).\n"
     "With --out DIR it writes evaluation.json, frames.csv, tracks.csv, and the figures\n"
     "error_series, error_histogram and worst_frames as SVG, PDF and PNG; errors.pvd shows the\n"
     "error of every point in ParaView, `softscope report DIR` makes a page of it all.\n"
@@ -59,7 +64,8 @@ class EvaluateCommand : public Command {
 };
 
 void EvaluateCommand::declare(ArgumentList& arguments) {
-  arguments.positional("RUN", options_.run, "folder that reconstruct wrote", true);
+  arguments.positional("RUN", options_.run,
+                       "folder that reconstruct wrote; or maps of disparity or depth", true);
   arguments.option("--reference", "PATH", options_.reference,
                    "sequence, best with groundtruth/, or a mesh", true);
   arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
@@ -68,6 +74,12 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
                    "to a mesh: none (the default), rigid (one for all models), icp (each model)");
   arguments.option("--reference-unit-mm", "N", options_.reference_unit_mm,
                    "what one unit of a mesh measures: 1000 for metres");
+  arguments.option("--map", "KIND", options_.map_kind,
+                   "of maps whose names don't say it: disparity (px) or depth (mm)");
+  arguments.option("--calibration", "FILE", options_.calibration,
+                   "of rectified views: errors of disparity maps in mm, too");
+  arguments.option("--confidence", "PATH", options_.confidence,
+                   "confidence.png of `depth`, or a folder of them: judges predicted sigmas");
   softscope::declare(options_.paths, arguments);
   arguments.flag("--each", options_.each_model, "against a mesh: every model, not the last alone");
   arguments.flag("--no-views", no_views_,

@@ -42,7 +42,7 @@ std::string overviewText(const std::vector<std::unique_ptr<Command>>& commands) 
   for (const auto& command : commands) text += entry(command->name(), command->summary());
   text += "\n";
   text += entry("--help", "this text; `softscope <command> --help` tells a command's options");
-  text += entry("--version", "the version");
+  text += entry("--version, -V", "the version");
   text += "\nexample:\n  softscope doctor\n";
   return text;
 }

@@ -5,6 +5,7 @@
 #include "apps/result_output.h"
 #include "apps/sequence_arguments.h"
 #include "apps/shared_arguments.h"
+#include "apps/threshold_exit.h"
 #include "apps/work_progress.h"
 #include "toolkit/run/reconstruct_sequence.h"
 
@@ -19,7 +20,9 @@ const char* const kDetails =
     "A sequence is a folder with left/ and right/ pictures or videos and calibration.yaml;\n"
     "two videos and a calibration do as well: see the second example.\n"
     "A frame that isn't good enough is skipped and reported, never fused. Ctrl-C ends the run\n"
-    "cleanly; --resume goes on from there, with the same result as if it had not been stopped.";
+    "cleanly; --resume goes on from there, with the same result as if it had not been stopped.\n"
+    "--fail-if METRIC>LIMIT ends with exit code 1 where that holds: a number of run.json, or per\n"
+    "cent of the frames: lost>10%, skipped>5%, fused<80%.";
 
 class ReconstructCommand : public Command {
  public:
@@ -41,6 +44,7 @@ class ReconstructCommand : public Command {
   SequenceArguments source_;
   SettingsArguments settings_;
   ReconstructOptions options_;
+  std::vector<std::string> fail_if_;
   std::string out_, track_, preset_ = "default", matcher_, scope_;
   bool no_correspondence_ = false;
 };
@@ -66,6 +70,8 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
                    "bring all files up to date every N frames (default 100)");
   arguments.flag("--resume", options_.resume, "go on with an interrupted run");
   arguments.flag("--force", options_.overwrite, "replace an earlier run");
+  arguments.option("--fail-if", "LIMIT", fail_if_,
+                   "e.g. lost>10%: then exit code 1, the run stays; repeatable");
   softscope::declare(options_.paths, arguments);
   settings_.declare(arguments);
 }
@@ -83,6 +89,7 @@ RunOptions ReconstructCommand::readSettings() const {
 
 int ReconstructCommand::run() {
   const InterruptGuard interrupt;
+  for (const std::string& text : fail_if_) options_.thresholds.push_back(parseThreshold(text));
   options_.settings = readSettings();
   options_.validate();
   options_.sequence = source_.paths("reconstruct");
@@ -95,7 +102,7 @@ int ReconstructCommand::run() {
     printJson(made.record);
   else
     printFacts(made.facts, false);
-  return made.interrupted ? kInterrupted : kDone;
+  return made.interrupted ? kInterrupted : exitCodeOf(made.outcomes);
 }
 
 }  // namespace

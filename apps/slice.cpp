@@ -167,7 +167,8 @@ int SliceCommand::run() {
   scene.dot_reach_mm = options_.dot_reach_mm;
   PanelOptions panels;
   panels.style = options_.figureStyle();
-  panels.width_mm = options_.field_mm > 0 ? options_.field_mm : sceneWidthMm(scene);
+  panels.width_mm = options_.field_mm;
+  panels.keep_centres = !options_.at.empty();
   panels.columns = columns_;
   const std::vector<ViewPlane> planes = planesThrough(scene);
   Json record = figureRecord("slice", options_);
@@ -176,8 +177,9 @@ int SliceCommand::run() {
                  [&] { drawing = drawSlices(scene, planes, panels); });
   record["volume"] = inputs.volumeJson();
   record["surfaces"] = inputs.surfacesJson();
-  for (const ViewPlane& plane : planes)
-    record["views"].push_back(viewJson(plane, scene.frame, panels.width_mm));
+  const PanelField field = sliceViews(scene, planes, panels);
+  for (const ViewPlane& plane : field.planes)
+    record["views"].push_back(viewJson(plane, scene.frame, field.width_mm));
   record["warnings"] = inputs.warnings();
   for (const std::string& warning : inputs.warnings()) spdlog::warn("{}", warning);
   record = options_.paths.applyTo(record);

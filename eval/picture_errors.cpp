@@ -1,12 +1,14 @@
 // eval/picture_errors.cpp: squared differences, and windows of moments.
 #include "eval/picture_errors.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "eval/pixel_masks.h"
 
 namespace softscope {
 namespace {
@@ -105,7 +107,8 @@ double decibels(double mean_square) { return 10 * std::log10(255.0 * 255.0 / mea
 }  // namespace
 
 PictureErrors pictureErrors(const ColourImage& drawn, const ColourImage& photograph,
-                            const Mask& ignore) {
+                            const Mask& undrawn, const Mask& not_tissue) {
+  const Mask ignore = ignoreEither(undrawn, not_tissue);
   if (!drawn.sameShape(photograph) || (!ignore.empty() && !drawn.sameShape(ignore)))
     throw InputError("a picture of " + std::to_string(drawn.width_px) + " x " +
                      std::to_string(drawn.height_px) + " pixels is compared with one of " +
@@ -120,7 +123,10 @@ PictureErrors pictureErrors(const ColourImage& drawn, const ColourImage& photogr
   }
   PictureErrors errors;
   if (drawn.empty()) return errors;
-  errors.judged_share = judged / static_cast<double>(drawn.size());
+  const auto dark = std::count_if(not_tissue.values.begin(), not_tissue.values.end(),
+                                  [](std::uint8_t mark) { return mark != 0; });
+  const double tissue = static_cast<double>(drawn.size()) - static_cast<double>(dark);
+  if (tissue > 0) errors.judged_share = judged / tissue;
   if (judged == 0) return errors;
   errors.psnr_db = decibels(squares / (3 * judged));
   errors.psnr_over_all_pixels_db = decibels(squares / (3 * static_cast<double>(drawn.size())));

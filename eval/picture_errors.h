@@ -15,12 +15,12 @@ struct PictureErrors {
   /// Structural similarity of luma (Wang et al. 2004): Gaussian window 11 x 11, sigma 1.5,
   /// K1 0.01, K2 0.03; the mean over the pixels whose whole window is judged.
   double ssim = Statistics::kNone;
-  double judged_share = Statistics::kNone;  // of the pixels
+  double judged_share = Statistics::kNone;  // of the pixels that may show tissue
 };
 
-/// Judges the pixels that `ignore` doesn't mark (non-zero; empty: all). Throws InputError where
-/// sizes differ.
+/// Judges the pixels that `ignore` and `not_tissue` (instruments, black borders) don't mark
+/// (non-zero; empty: all). Throws InputError where sizes differ.
 PictureErrors pictureErrors(const ColourImage& drawn, const ColourImage& photograph,
-                            const Mask& ignore = {});
+                            const Mask& ignore = {}, const Mask& not_tissue = {});
 
 }  // namespace softscope

@@ -44,9 +44,14 @@ PoseErrors poseErrors(const Poses& truth, const Poses& estimate,
   return errors;
 }
 
-PoseErrors stepErrors(const Poses& truth, const Poses& estimate) {
+PoseErrors stepErrors(const Poses& truth, const Poses& estimate, const std::vector<int>& moments) {
   PoseErrors errors;
   for (std::size_t i = 1; i < truth.size(); ++i) {
+    if (!moments.empty() && moments[i] != moments[i - 1] + 1) {
+      errors.each_mm.push_back(Statistics::kNone);
+      errors.each_deg.push_back(Statistics::kNone);
+      continue;
+    }
     const Eigen::Isometry3d true_step = truth[i - 1].inverse() * truth[i];
     add(true_step.inverse() * (estimate[i - 1].inverse() * estimate[i]), errors);
   }
@@ -79,7 +84,8 @@ Poses similar(const Poses& estimate, const SimilarityFit& fit) {
 }
 
 /// `truth` has three positions or more that aren't on one line.
-void addScaled(const Poses& truth, const Poses& estimate, TrajectoryErrors& errors) {
+void addScaled(const Poses& truth, const Poses& estimate, const std::vector<int>& moments,
+               TrajectoryErrors& errors) {
   std::vector<Eigen::Vector3d> source_mm, target_mm;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     source_mm.push_back(estimate[i].translation());
@@ -89,25 +95,28 @@ void addScaled(const Poses& truth, const Poses& estimate, TrajectoryErrors& erro
   const Poses moved = similar(estimate, fit);
   errors.scale = fit.scale;
   errors.absolute_scaled = poseErrors(truth, moved, Eigen::Isometry3d::Identity());
-  errors.relative_scaled = stepErrors(truth, moved);
+  errors.relative_scaled = stepErrors(truth, moved, moments);
 }
 
 }  // namespace
 
-TrajectoryErrors trajectoryErrors(const Poses& truth, const Poses& estimate) {
+TrajectoryErrors trajectoryErrors(const Poses& truth, const Poses& estimate,
+                                  const std::vector<int>& moments) {
   check(truth, estimate);
+  if (!moments.empty() && moments.size() != truth.size())
+    throw InputError("a trajectory needs one moment per pose, or none");
   const RigidFit fit = fitPositions(truth, estimate);
   TrajectoryErrors errors;
   errors.unaligned = poseErrors(truth, estimate, Eigen::Isometry3d::Identity());
   errors.absolute = poseErrors(truth, estimate, fit.target_from_source);
-  errors.relative = stepErrors(truth, estimate);
+  errors.relative = stepErrors(truth, estimate, moments);
   errors.truth_from_estimate = fit.target_from_source;
   errors.alignment_unique = fit.unique;
   if (!fit.unique) {
     errors.absolute.each_deg.assign(truth.size(), Statistics::kNone);
     summarise(errors.absolute);
   } else {
-    addScaled(truth, estimate, errors);
+    addScaled(truth, estimate, moments, errors);
   }
   return errors;
 }

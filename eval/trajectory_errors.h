@@ -20,7 +20,8 @@ struct PoseErrors {
 struct TrajectoryErrors {
   PoseErrors unaligned;  // both worlds taken as one
   PoseErrors absolute;   // ATE, SE(3): after the rigid alignment of all positions
-  PoseErrors relative;   // RPE, SE(3): of the steps from each pose to the next; one value fewer
+  PoseErrors relative;   // RPE, SE(3): of the steps from each pose to the next; one value fewer,
+                         // NaN where these are not of neighbouring moments
   /// ATE and RPE, Sim(3): the same after the alignment with a scale. Not comparable with SE(3): an
   /// error of scale, which a stereo scope should not have, is gone. Angles as `absolute` has them.
   PoseErrors absolute_scaled;
@@ -34,8 +35,10 @@ struct TrajectoryErrors {
 };
 
 /// world_from_left, mm, moment by moment. Throws InputError for unequal counts, for none at all,
-/// and for poses that are not finite.
+/// and for poses that are not finite. `moments`: the number of each pose's moment, where some were
+/// left out; empty: none was.
 TrajectoryErrors trajectoryErrors(const std::vector<Eigen::Isometry3d>& truth,
-                                  const std::vector<Eigen::Isometry3d>& estimate);
+                                  const std::vector<Eigen::Isometry3d>& estimate,
+                                  const std::vector<int>& moments = {});
 
 }  // namespace softscope

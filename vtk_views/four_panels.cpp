@@ -20,6 +20,10 @@ FigureFoot footOf(const Scene& scene, const PanelOptions& options) {
   return foot;
 }
 
+double panelWidthPt(std::size_t count, const PanelOptions& options, const FigureFoot& foot) {
+  return layOutPanels(count, options.columns, options.style, foot).panels[0].width_pt;
+}
+
 std::vector<SceneSurface> surfacesIn3d(const Scene& scene) {
   std::vector<SceneSurface> surfaces;
   for (const SceneSurface& surface : scene.surfaces)
@@ -27,13 +31,13 @@ std::vector<SceneSurface> surfacesIn3d(const Scene& scene) {
   return surfaces;
 }
 
-void draw3d(const Scene& scene, const ViewPlane& camera, const PanelOptions& options,
-            const PanelPlace& place, VectorDrawing& drawing) {
+void draw3d(const Scene& scene, const ViewPlane& camera, double width_mm,
+            const PanelOptions& options, const PanelPlace& place, VectorDrawing& drawing) {
   SurfacePictureOptions picture;
   const double wanted_px = place.width_pt / 72 * options.style.dots_per_inch;
   picture.width_px = std::clamp(static_cast<int>(std::lround(wanted_px)), 50, kMost3dPx);
   picture.height_px = picture.width_px;
-  picture.width_mm = options.width_mm;
+  picture.width_mm = width_mm;
   picture.see_through = true;
   drawing.parts.emplace_back(
       DrawnPicture{place.top_left,
@@ -42,7 +46,7 @@ void draw3d(const Scene& scene, const ViewPlane& camera, const PanelOptions& opt
                                 camera, picture)});
   drawPanelFrame(place, drawing);
   drawSideNames(camera, scene.frame, place, kDark, options.style, drawing);
-  drawScaleBar(options.width_mm, place, kDark, options.style, drawing);
+  drawScaleBar(width_mm, place, kDark, options.style, drawing);
 }
 
 std::string captionOf(const ViewPlane& plane, SceneFrame frame) {
@@ -80,11 +84,29 @@ double sceneWidthMm(const Scene& scene) {
   return std::max(width_mm, 1e-3);
 }
 
-std::vector<ViewPlane> fourViews(const Scene& scene, const FourPanelOptions& options) {
-  return {axialView(options.centre_mm, scene.frame, options.rule),
-          coronalView(options.centre_mm, scene.frame, options.rule),
-          sagittalView(options.centre_mm, scene.frame),
-          cameraView(sceneCentre(scene), options.eye, scene.frame)};
+PanelField fourViews(const Scene& scene, const FourPanelOptions& options) {
+  const std::vector<ViewPlane> planes{axialView(options.centre_mm, scene.frame, options.rule),
+                                      coronalView(options.centre_mm, scene.frame, options.rule),
+                                      sagittalView(options.centre_mm, scene.frame),
+                                      cameraView(sceneCentre(scene), options.eye, scene.frame)};
+  if (options.width_mm > 0) return {planes, options.width_mm};
+  const bool in_3d = !surfacesIn3d(scene).empty();
+  std::vector<FieldView> views;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (i < 3 || in_3d) views.push_back({&scene, planes[i], /*is_3d=*/i == 3});
+  PanelField field = fitField(views, panelWidthPt(views.size(), options, footOf(scene, options)),
+                              options.style, options.keep_centres);
+  if (!in_3d) field.planes.push_back(planes[3]);
+  return field;
+}
+
+PanelField sliceViews(const Scene& scene, const std::vector<ViewPlane>& planes,
+                      const PanelOptions& options) {
+  if (options.width_mm > 0) return {planes, options.width_mm};
+  std::vector<FieldView> views;
+  for (const ViewPlane& plane : planes) views.push_back({&scene, plane, false});
+  return fitField(views, panelWidthPt(planes.size(), options, footOf(scene, options)),
+                  options.style, options.keep_centres);
 }
 
 VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options) {
@@ -92,13 +114,14 @@ VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options
   const bool in_3d = !surfacesIn3d(scene).empty();
   const PanelGrid grid = layOutPanels(in_3d ? 4 : 3, options.columns, options.style, foot);
   VectorDrawing drawing = newSheet(grid);
-  const std::vector<ViewPlane> views = fourViews(scene, options);
+  const PanelField field = fourViews(scene, options);
+  const std::vector<ViewPlane>& views = field.planes;
   for (std::size_t i = 0; i < 3; ++i) {
-    drawSlicePanel(scene, views[i], options.width_mm, grid.panels[i], options.style, drawing);
+    drawSlicePanel(scene, views[i], field.width_mm, grid.panels[i], options.style, drawing);
     drawCaption(i, captionOf(views[i], scene.frame), grid.panels[i], options.style, drawing);
   }
   if (in_3d) {
-    draw3d(scene, views[3], options, grid.panels[3], drawing);
+    draw3d(scene, views[3], field.width_mm, options, grid.panels[3], drawing);
     drawCaption(3, views[3].name, grid.panels[3], options.style, drawing);
   }
   drawFoot(foot, grid, options.style, drawing);
@@ -110,8 +133,9 @@ VectorDrawing drawSlices(const Scene& scene, const std::vector<ViewPlane>& plane
   const FigureFoot foot = footOf(scene, options);
   const PanelGrid grid = layOutPanels(planes.size(), options.columns, options.style, foot);
   VectorDrawing drawing = newSheet(grid);
+  const PanelField field = sliceViews(scene, planes, options);
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    drawSlicePanel(scene, planes[i], options.width_mm, grid.panels[i], options.style, drawing);
+    drawSlicePanel(scene, field.planes[i], field.width_mm, grid.panels[i], options.style, drawing);
     drawCaption(i, captionOf(planes[i], scene.frame), grid.panels[i], options.style, drawing);
   }
   drawFoot(foot, grid, options.style, drawing);
@@ -122,8 +146,16 @@ VectorDrawing drawScenes(const std::vector<ScenePanel>& panels, const PanelOptio
   const FigureFoot foot = footOf(*panels.at(0).scene, options);
   const PanelGrid grid = layOutPanels(panels.size(), options.columns, options.style, foot);
   VectorDrawing drawing = newSheet(grid);
+  PanelField field{{}, options.width_mm};
+  std::vector<FieldView> views;
+  for (const ScenePanel& panel : panels) {
+    views.push_back({panel.scene, panel.camera, /*is_3d=*/true});
+    field.planes.push_back(panel.camera);
+  }
+  if (!(field.width_mm > 0))
+    field = fitField(views, grid.panels[0].width_pt, options.style, options.keep_centres);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    draw3d(*panels[i].scene, panels[i].camera, options, grid.panels[i], drawing);
+    draw3d(*panels[i].scene, field.planes[i], field.width_mm, options, grid.panels[i], drawing);
     drawCaption(i, panels[i].caption, grid.panels[i], options.style, drawing);
   }
   drawFoot(foot, grid, options.style, drawing);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vtk_views/figure_style.h"
+#include "vtk_views/panel_field.h"
 #include "vtk_views/panel_grid.h"
 #include "vtk_views/scene.h"
 #include "vtk_views/vector_drawing.h"
@@ -15,9 +16,10 @@ namespace softscope {
 /// What a figure with panels needs besides its scene.
 struct PanelOptions {
   FigureStyle style;
-  double width_mm = 200;  // of tissue, that each panel shows
-  int columns = 0;        // 0: as many as there is room for
-  FigureFoot foot;        // its legend is the scene's where empty
+  double width_mm = 0;        // of tissue, that each panel shows; 0: as its surfaces need
+  bool keep_centres = false;  // of the planes: they were asked for; else the surfaces' middles
+  int columns = 0;            // 0: as many as there is room for
+  FigureFoot foot;            // its legend is the scene's where empty
 };
 
 struct FourPanelOptions : PanelOptions {
@@ -26,8 +28,11 @@ struct FourPanelOptions : PanelOptions {
   Eigen::Vector3d eye = {0.45, -0.8, 0.4};              // side that the 3-D panel is seen from
 };
 
-/// The three planes and the camera of the fourth panel.
-std::vector<ViewPlane> fourViews(const Scene& scene, const FourPanelOptions& options);
+/// The three planes and the camera of the fourth panel, and what all of them show.
+PanelField fourViews(const Scene& scene, const FourPanelOptions& options);
+/// The same of slices through these planes.
+PanelField sliceViews(const Scene& scene, const std::vector<ViewPlane>& planes,
+                      const PanelOptions& options);
 
 /// Three panels where no surface is to be shown in 3-D. Throws BackendError where nothing renders.
 VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options);
@@ -46,9 +51,10 @@ struct ScenePanel {
 /// A panel each, all at one scale; the legend is the first scene's. At least one.
 VectorDrawing drawScenes(const std::vector<ScenePanel>& panels, const PanelOptions& options);
 
-/// The middle of the surfaces' box (the median of those that the figure is about, where any are
-/// marked so), and what a panel shows so that they fit with some room around.
+/// The middle of the surfaces' box; the median of those that the figure is about, where any are
+/// marked so.
 Eigen::Vector3d sceneCentre(const Scene& scene);
+/// What a view from anywhere shows so that they fit with some room around.
 double sceneWidthMm(const Scene& scene);
 
 }  // namespace softscope

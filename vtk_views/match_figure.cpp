@@ -11,7 +11,7 @@ namespace softscope {
 namespace {
 
 constexpr Rgb8 kInlier{0, 158, 115}, kOutlier{230, 60, 20}, kNoteInk{90, 90, 90};  // Okabe and Ito
-constexpr double kGapPt = 1.5 * kPtPerMm, kLinePt = 0.35, kDotPt = 0.55;
+constexpr double kGapPt = 1.5 * kPtPerMm, kLinePt = 0.6, kDotPt = 1.3;
 
 class MatchSheet {
  public:

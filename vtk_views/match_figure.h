@@ -32,6 +32,6 @@ struct MatchFigure {
 /// Every match is a dot in both pictures; of each row at most `lines` are joined by a line, evenly
 /// spread over the given order, inliers and outliers in their true proportion. Outliers lie on top.
 /// Throws Error where there is no panel or the pictures differ in size.
-VectorDrawing drawMatches(const MatchFigure& figure, const FigureStyle& style, int lines = 80);
+VectorDrawing drawMatches(const MatchFigure& figure, const FigureStyle& style, int lines = 24);
 
 }  // namespace softscope

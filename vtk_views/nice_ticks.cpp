@@ -29,7 +29,7 @@ std::string Ticks::label(double value) const {
 double roundUp(double value) {
   if (!(value > 1e-6) || !std::isfinite(value)) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double leading : {1.0, 2.0, 5.0})
+  for (const double leading : {1.0, 2.0, 2.5, 5.0})
     if (value <= leading * power * (1 + 1e-9)) return leading * power;
   return 10 * power;
 }

@@ -21,7 +21,7 @@ struct SceneSurface {
   Rgb8 colour{230, 159, 0};
   /// Measured elsewhere: empty, or one a vertex, mm; NaN = not observed.
   std::vector<double> errors_mm;
-  double dot_scale = 1;   // of points in slices, in widths of lines
+  double dot_scale = 1;   // of lines and points in slices, in widths of lines
   bool in_3d = true;      // drawn in 3-D panels too
   bool in_focus = false;  // the figure is about it: centre and size follow the surfaces marked so
 

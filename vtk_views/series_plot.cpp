@@ -162,7 +162,7 @@ VectorDrawing drawErrorHistogram(const ErrorHistogramData& data, const PlotStyle
     char note[64];
     std::snprintf(note, sizeof note, "%.2g %% beyond \xE2\x86\x92", 100 * data.share_beyond);
     DrawnText text;
-    text.at = {axes.right() - 2, axes.bottom() - 0.5 * style.font_pt};
+    text.at = {drawing.width_pt - 0.5 * style.font_pt, 2.86 * style.font_pt};  // beside the legend
     text.text = note;
     text.size_pt = style.font_pt;
     text.anchor = TextAnchor::kEnd;

@@ -97,8 +97,17 @@ void drawSideNames(const ViewPlane& plane, SceneFrame frame, const PanelPlace& p
     drawing.parts.emplace_back(text);
   };
   const PointPt middle = place.at(0, 0);
-  put(plane.right, {place.right() - inset_pt, middle.y_pt + half_pt}, TextAnchor::kEnd);
-  put(-plane.right, {place.top_left.x_pt + inset_pt, middle.y_pt + half_pt}, TextAnchor::kStart);
+  // Words stand upright at the sides, where they need no more room than a letter.
+  text.upwards = frame == SceneFrame::kCamera;
+  if (text.upwards) {
+    put(plane.right, {place.right() - inset_pt, middle.y_pt}, TextAnchor::kMiddle);
+    put(-plane.right, {place.top_left.x_pt + inset_pt + 2 * half_pt, middle.y_pt},
+        TextAnchor::kMiddle);
+  } else {
+    put(plane.right, {place.right() - inset_pt, middle.y_pt + half_pt}, TextAnchor::kEnd);
+    put(-plane.right, {place.top_left.x_pt + inset_pt, middle.y_pt + half_pt}, TextAnchor::kStart);
+  }
+  text.upwards = false;
   put(plane.up, {middle.x_pt, place.top_left.y_pt + inset_pt + 2 * half_pt}, TextAnchor::kMiddle);
   put(-plane.up, {middle.x_pt, place.bottom() - inset_pt}, TextAnchor::kMiddle);
 }
@@ -141,7 +150,8 @@ void drawSlicePanel(const Scene& scene, const ViewPlane& plane, double width_mm,
     if (surface.isPoints())
       drawDots(surface, plane, scene.dot_reach_mm, width_mm, place, style.line_pt, colour, drawing);
     else
-      drawContour(surface, plane, width_mm, place, style.line_pt, colour, drawing);
+      drawContour(surface, plane, width_mm, place, surface.dot_scale * style.line_pt, colour,
+                  drawing);
   }
   if (!on_ct) drawPanelFrame(place, drawing);
   drawSideNames(plane, scene.frame, place, on_ct ? kOnCt : kOnWhite, style, drawing);

@@ -35,12 +35,14 @@ class FrameLoader {
   /// where the calibration left it out.
   Frame load(int index);
 
+  /// Of its timestamp, or its place in a video; NaN where neither is known.
+  double timeOf(int index) const;
+
  private:
   StereoPair readPair(int index);
   void requirePartner(int index) const;
   void settleSize(const ColourImage& left, const std::string& name);
   void requireShape(int width_px, int height_px, const std::string& name) const;
-  double timeOf(int index) const;
 
   SequenceOptions options_;
   int right_offset_;

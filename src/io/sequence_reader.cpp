@@ -29,6 +29,7 @@ class SequenceReader::Impl {
         range_(rangeWithin(options.frames, loader_.count())),
         queue_(static_cast<std::size_t>(options.read_ahead)) {
     first_.index = std::max(range_.begin, loader_.firstWithPartner());
+    first_.time_s = loader_.timeOf(first_.index);
     first_.frame = loader_.load(first_.index);  // throws: what is wrong with it is wrong with all
     calibration_ = loader_.calibration();
     thread_ = std::thread([this] { readAhead(); });
@@ -67,6 +68,7 @@ class SequenceReader::Impl {
   FrameResult load(int index) {
     FrameResult result;
     result.index = index;
+    result.time_s = loader_.timeOf(index);
     try {
       result.frame = loader_.load(index);
     } catch (const InputError& error) {

@@ -16,6 +16,7 @@ namespace softscope {
 struct FrameResult {
   int index = 0;      // position in the sequence, from 0
   Frame frame;        // empty where error isn't
+  double time_s = 0;  // of the frame, also where it can't be read
   std::string error;  // one line; empty where all is well
 
   bool ok() const { return error.empty(); }

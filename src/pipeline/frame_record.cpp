@@ -24,6 +24,15 @@ const char* toString(FrameStatus status) {
   return "unreadable";
 }
 
+std::optional<FrameStatus> frameStatusNamed(std::string_view name) {
+  for (const FrameStatus status :
+       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
+        FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
+        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable})
+    if (name == toString(status)) return status;
+  return std::nullopt;
+}
+
 double FrameRecord::elapsed_ms() const {
   double sum = 0;
   for (const auto& stage : times) sum += stage.second;

@@ -1,7 +1,9 @@
 // src/pipeline/frame_record.h: what became of one frame; a line of frames.csv.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/reconstruction_backend.h"
@@ -20,6 +22,8 @@ enum class FrameStatus {
 };
 
 const char* toString(FrameStatus status);
+/// None where no status has this name.
+std::optional<FrameStatus> frameStatusNamed(std::string_view name);
 
 struct FrameRecord {
   int frame = 0;

@@ -52,9 +52,10 @@ FrameRecord Reconstructor::process(const Frame& frame, const Frame* next) {
   return record;
 }
 
-FrameRecord Reconstructor::skip(int index, const std::string& reason) {
+FrameRecord Reconstructor::skip(int index, const std::string& reason, double time_s) {
   FrameRecord record;
   record.frame = index;
+  record.time_s = time_s;
   reject(record, FrameStatus::kUnreadable, reason);
   finish(record);
   return record;

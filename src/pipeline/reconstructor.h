@@ -34,7 +34,7 @@ class Reconstructor {
   FrameRecord process(const Frame& frame, const Frame* next = nullptr);
 
   /// A frame that could not even be read.
-  FrameRecord skip(int index, const std::string& reason);
+  FrameRecord skip(int index, const std::string& reason, double time_s = kUnknown);
 
   /// Before the first frame.
   void track(const std::vector<TrackSeed>& seeds) { backend_->track(seeds); }

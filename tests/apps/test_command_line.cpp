@@ -43,6 +43,7 @@ TEST(CommandLine, OverviewListsEveryCommand) {
 TEST(CommandLine, TellsItsVersion) {
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.exit_code, 0);
+  EXPECT_EQ(run({"-V"}).out, version.out);
   EXPECT_THAT(version.out, testing::MatchesRegex("softscope [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 

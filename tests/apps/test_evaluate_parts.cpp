@@ -7,6 +7,8 @@
 #include "io/ply_writer.h"
 #include "tests/apps/made_run.h"
 #include "toolkit/evaluation/thresholds.h"
+#include "toolkit/run/frame_clock.h"
+#include "toolkit/run/frame_outcomes.h"
 #include "toolkit/run/model_file.h"
 
 namespace softscope::test {
@@ -41,6 +43,46 @@ TEST(EvaluateThresholds, CompareAsWritten) {
   EXPECT_TRUE(parseThreshold("a<-1e-3").fails(-1));
   EXPECT_TRUE(parseThreshold("a<=0").fails(0));
   EXPECT_TRUE(parseThreshold("a<=0").fails(std::nan(""))) << "not measured isn't good";
+}
+
+TEST(EvaluateThresholds, PerCentAsksForAShare) {
+  const FactSheet::Json result{{"outcomes", {{"lost", 3}, {"lost_share", 0.25}}}};
+  const auto check = [&](const char* text) {
+    return checkThresholds({parseThreshold(text)}, result, "outcomes")[0];
+  };
+  EXPECT_TRUE(check("lost>10%").failed);
+  EXPECT_FALSE(check("lost > 30 %").failed);
+  EXPECT_TRUE(check("lost_share>=25%").failed);
+  EXPECT_EQ(check("lost>10%").path, "outcomes.lost_share");
+  EXPECT_EQ(check("lost>10%").threshold.text(), "lost>10%");
+  EXPECT_EQ(check("lost>2").path, "outcomes.lost") << "a count";
+  EXPECT_THROW(parseThreshold("lost>%"), OptionError);
+}
+
+TEST(FrameOutcomes, AreCountedAndShownFrameByFrame) {
+  FrameOutcomes outcomes;
+  EXPECT_TRUE(outcomes.fused(3)) << "nothing is known against it";
+  EXPECT_TRUE(outcomes.json()["lost_share"].is_number() &&
+              std::isnan(outcomes.json()["lost_share"].get<double>()));
+  for (int frame = 0; frame < 33; ++frame)
+    outcomes.set(frame, frame == 0   ? FusionOutcome::kFused
+                        : frame == 4 ? FusionOutcome::kSkipped
+                                     : FusionOutcome::kLost);
+  EXPECT_EQ(outcomes.text(), "1 of 33 fused, 1 skipped, 31 lost");
+  EXPECT_EQ(outcomes.strip(), "#LLLs" + std::string(28, 'L'));
+  EXPECT_FALSE(outcomes.fused(3));
+  FrameOutcomes many;
+  for (int frame = 0; frame < 1000; ++frame)
+    many.set(frame, frame == 500 ? FusionOutcome::kLost : FusionOutcome::kFused);
+  EXPECT_EQ(many.strip().size(), 72u);
+  EXPECT_EQ(many.strip().find('L'), 36u) << "a single lost frame of a long run is still seen";
+}
+
+TEST(FrameClock, FrameNumbersAreNoTimes) {
+  EXPECT_FALSE(hasClock({0, 1, 2}, std::vector<double>{0, 1, 2}));
+  EXPECT_TRUE(hasClock({0, 1, 2}, std::vector<double>{0, 0.04, 0.08}));
+  EXPECT_FALSE(hasClock({0, 1, 2}, std::vector<double>{0, 0.04, std::nan("")}));
+  EXPECT_FALSE(hasClock({0, 1}, std::vector<double>{0.04, 0.04}));
 }
 
 TEST(EvaluateThresholds, AmbiguousNamesMustBeWrittenInFull) {

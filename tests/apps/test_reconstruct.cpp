@@ -81,7 +81,25 @@ TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
   EXPECT_EQ(doubted.json()["frames_by_status"]["unconfirmed"], 3);
   EXPECT_THAT(std::string(doubted.json()["warnings"].back()),
               HasSubstr("3 of 4 frames were not fused (1 started, 3 unconfirmed)"));
+  EXPECT_EQ(doubted.json()["outcomes"]["skipped"], 3);
+  const Outcome limited = reconstruct({"--out", at("run"), "--set", "gate.min_confidence=1",
+                                       "--force", "--fail-if", "skipped>10%"});
+  EXPECT_EQ(limited.exit_code, 1) << limited.err;
+  EXPECT_THAT(limited.err, HasSubstr("outcomes.skipped_share is 0.7500"));
+  EXPECT_THAT(limited.out, HasSubstr("1 of 4 fused, 3 skipped, 0 lost"));
+  EXPECT_TRUE(fs::exists(at("run/run.json"))) << "the run stays";
+  EXPECT_EQ(reconstruct({"--out", at("run"), "--force", "--fail-if", "lsot>10%"}).exit_code, 2);
   EXPECT_EQ(reconstruct({"--out", at("run"), "--scope", "still", "--force"}).exit_code, 2);
+}
+
+TEST_F(Reconstruct, AnUnreadableFrameKeepsItsTime) {
+  const std::string clip = makeClip(4);
+  fs::resize_file(clip + "/left/000002.png", 200);
+  ASSERT_EQ(reconstruct({"--out", at("run")}).exit_code, 0);
+  EXPECT_THAT(textOf(at("run/trajectory.txt")), HasSubstr("\n0.080000 ")) << "not 2 seconds";
+  const Outcome judged = run({"evaluate", at("run"), "--reference", clip, "--json", "--quiet"});
+  ASSERT_EQ(judged.exit_code, 0) << judged.err;
+  EXPECT_EQ(judged.json()["outcomes"]["skipped"], 1);
 }
 
 TEST_F(Reconstruct, ResumesToTheSameBytes) {
@@ -167,6 +185,9 @@ TEST_F(Reconstruct, TellsBackEndAndTimeOfAFrame) {
   EXPECT_GT(ms["p50"].get<double>(), 0);
   EXPECT_LE(ms["p50"].get<double>(), ms["p95"].get<double>());
   EXPECT_LE(ms["p99"].get<double>(), ms["slowest"].get<double>());
+  const Outcome slow =
+      reconstruct({"--out", at("run"), "--force", "--fail-if", "frame_ms.p95>1000000"});
+  EXPECT_EQ(slow.exit_code, 0) << slow.err;
 }
 
 TEST_F(Reconstruct, TellsWhatIsWrongWithItsArguments) {

@@ -134,7 +134,7 @@ TEST_F(Report, WithoutTruthItSaysSoAndClaimsNoDistance) {
   for (const char* part :
        {"There is no ground truth: how far the model lies from the tissue is not known.",
         "a PSNR of 28.0 dB", "it lies 0.250 mm on average from the depth that it was made of",
-        "over 75.0 % of the pixels", "judged at 4 moments", "mean PSNR has a 95 % confidence",
+        "over 75.0 % of the tissue", "judged at 4 moments", "mean PSNR has a 95 % confidence",
         "Not measured, because it takes ground truth: surface errors; errors of the drawn depth.",
         ">frame<", "back-projection [mm]"})
     EXPECT_THAT(html, HasSubstr(part));

@@ -62,6 +62,16 @@ TEST(PictureErrors, IgnoredPixelsCountInNothingButTheSecondFigure) {
       << "no window may reach into the ignored part";
 }
 
+TEST(PictureErrors, TheShareIsOfTheTissue) {
+  Mask undrawn(32, 24, 0), border(32, 24, 0);
+  for (int v = 0; v < 24; ++v)
+    for (int u = 0; u < 16; ++u) {
+      if (u < 8) border.at(u, v) = 1;  // a quarter of the picture
+      undrawn.at(u, v) = 1;            // the border and as much tissue
+    }
+  EXPECT_NEAR(pictureErrors(flat(100), flat(110), undrawn, border).judged_share, 2.0 / 3, 1e-12);
+}
+
 TEST(PictureErrors, NothingJudgedIsNoNumber) {
   const PictureErrors errors = pictureErrors(flat(1), flat(2), Mask(32, 24, 255));
   EXPECT_TRUE(std::isnan(errors.psnr_db));

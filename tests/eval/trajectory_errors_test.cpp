@@ -93,6 +93,16 @@ TEST(TrajectoryErrors, ADriftThatTurnsIsAConstantStepError) {
   EXPECT_NEAR(errors.relative.rotation_deg.mean, 0.2, 1e-6);
 }
 
+TEST(TrajectoryErrors, AStepOverMomentsThatWereLeftOutIsNone) {
+  const Poses truth = helix(4);
+  const TrajectoryErrors errors = trajectoryErrors(truth, truth, {0, 1, 5, 6});
+  ASSERT_EQ(errors.relative.each_mm.size(), 3u);
+  EXPECT_TRUE(std::isnan(errors.relative.each_mm[1])) << "from moment 1 to 5";
+  EXPECT_EQ(errors.relative.translation_mm.count, 2u);
+  EXPECT_EQ(errors.relative_scaled.translation_mm.count, 2u);
+  EXPECT_THROW(trajectoryErrors(truth, truth, {0, 1}), InputError);
+}
+
 TEST(TrajectoryErrors, HalfATurnIs180Degrees) {
   const TrajectoryErrors errors =
       trajectoryErrors({Eigen::Isometry3d::Identity()}, {pose({0, 0, 0}, 180)});

@@ -109,6 +109,44 @@ TEST(FourPanels, CarryLettersBarsCaptionsAndLegend) {
   EXPECT_EQ(partsOf<DrawnPicture>(drawing).size(), 1u) << "no CT: only 3-D is pixels";
 }
 
+TEST(FourPanels, TheFieldFollowsTheProjectedBoxes) {
+  for (const double width_mm : {89.0, 183.0}) {
+    Scene scene = lopsidedScene();
+    scene.frame = SceneFrame::kCamera;
+    FourPanelOptions options = optionsFor(scene);
+    options.style.width_mm = width_mm;
+    options.width_mm = 0;
+    const PanelField field = fourViews(scene, options);
+    const double panel_pt =
+        layOutPanels(4, 0, options.style, {legendOf(scene), {}, {}, {}}).panels[0].width_pt;
+    const double room_mm = sideRoomPt(options.style) / panel_pt * field.width_mm;
+    double widest_mm = 0;
+    for (const ViewPlane& view : field.planes) {
+      Eigen::AlignedBox2d box;
+      for (const SceneSurface& surface : scene.surfaces)
+        for (const Eigen::Vector3f& p : surface.mesh.vertices_mm)
+          box.extend(view.project(p.cast<double>()));
+      EXPECT_LT(box.center().norm(), 1e-4) << view.name << ": half the panel is empty";
+      EXPECT_LE(box.sizes().maxCoeff() / 2, field.width_mm / 2 - room_mm + 1e-4)
+          << view.name << ": cut, or under the words at the sides";
+      widest_mm = std::max(widest_mm, box.sizes().maxCoeff());
+    }
+    EXPECT_NEAR(widest_mm / 2, field.width_mm / 2 - room_mm, 1e-4) << "one panel is full";
+    EXPECT_NEAR(field.planes[0].centre_mm.z(), options.centre_mm.z(), 1e-9)
+        << "the slice stays where it was asked for";
+  }
+}
+
+TEST(FourPanels, StraysOfAModelDontWidenTheField) {
+  Scene scene = lopsidedScene();
+  const double before_mm =
+      sliceViews(scene, {axialView({0, 0, 0}, scene.frame, SideRule::kRadiological)}, {}).width_mm;
+  scene.surfaces[1].mesh.vertices_mm.emplace_back(500.0f, 0.0f, 0.0f);  // of no triangle
+  EXPECT_NEAR(
+      sliceViews(scene, {axialView({0, 0, 0}, scene.frame, SideRule::kRadiological)}, {}).width_mm,
+      before_mm, 1e-9);
+}
+
 TEST(FourPanels, NothingIsDrawnBeyondTheSheet) {
   Scene scene = lopsidedScene();
   for (const double width_mm : {89.0, 183.0}) {

@@ -26,7 +26,8 @@ TEST(NiceTicks, KeepBoundsThatAreRound) {
 
 TEST(RoundUp, EndsAtOneTwoOrFive) {
   EXPECT_DOUBLE_EQ(roundUp(0.13), 0.2);
-  EXPECT_DOUBLE_EQ(roundUp(2.1), 5);
+  EXPECT_DOUBLE_EQ(roundUp(2.1), 2.5);
+  EXPECT_DOUBLE_EQ(roundUp(2.6), 5);
   EXPECT_DOUBLE_EQ(roundUp(6), 10);
   EXPECT_DOUBLE_EQ(roundUp(0.5), 0.5) << "a round number stays";
   for (const double none : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})

@@ -81,7 +81,6 @@ VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh&
   const Eigen::Vector3d eye = comparisonEye(inLps(reference), result.comparison.closest);
   PanelOptions panels;
   panels.style = style;
-  panels.width_mm = sceneWidthMm(scene);
   map.explainIn(panels.foot);
   if (map.colours.with_sign && !result.observed) panels.foot.bar.missing = "beyond the border";
   panels.foot.legend = {{"reference", scene.surfaces[0].colour, /*filled=*/true}};

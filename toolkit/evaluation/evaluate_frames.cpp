@@ -12,6 +12,7 @@ namespace softscope {
 namespace {
 
 constexpr double kNone = Statistics::kNone;
+constexpr std::size_t kOutcomeAt = 2;  // behind frame and time_s
 
 /// What is known of one frame; null or NaN where it isn't.
 struct FrameFacts {
@@ -136,7 +137,6 @@ using FactsByFrame = std::map<int, FrameFacts>;
 void addCamera(const CameraResult& camera, FactsByFrame& facts) {
   for (std::size_t k = 0; k < camera.frames.size(); ++k) {
     FrameFacts& frame = facts[camera.frames[k]];
-    frame.time_s = camera.times_s[k];
     frame.pose_mm = camera.errors.unaligned.each_mm[k];
     frame.pose_deg = camera.errors.unaligned.each_deg[k];
     frame.ate_mm = camera.errors.absolute.each_mm[k];
@@ -161,6 +161,8 @@ void addTracks(const TrackErrors& tracks, FactsByFrame& facts) {
 
 FactsByFrame gather(const EvaluationResult& result) {
   FactsByFrame facts;
+  if (!result.against_mesh)
+    for (const auto& [number, time_s] : result.times_s) facts[number].time_s = time_s;
   const SurfaceSeries& surface = result.surface;
   for (std::size_t i = 0; i < surface.models.size(); ++i) {
     FrameFacts& frame = facts[surface.models[i].frame];
@@ -187,16 +189,22 @@ FrameTable frameTable(const EvaluationResult& result) {
   for (const auto& [number, facts] : gather(result)) {
     table.rows.emplace_back();
     for (const Column& column : columns) table.rows.back().push_back(column.value(facts));
+    const auto outcome = result.outcomes.each().find(number);
+    table.outcomes.emplace_back(
+        outcome == result.outcomes.each().end() ? "" : toString(outcome->second));
   }
   return table;
 }
 
 std::string FrameTable::csv() const {
   std::string text;
-  for (std::size_t i = 0; i < headings.size(); ++i) text += (i > 0 ? "," : "") + headings[i];
+  for (std::size_t i = 0; i < headings.size(); ++i)
+    text += (i > 0 ? "," : "") + headings[i] + (i + 1 == kOutcomeAt ? ",outcome" : "");
   text += "\n";
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + csvCell(row[i]);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t i = 0; i < rows[r].size(); ++i)
+      text += (i > 0 ? "," : "") + csvCell(rows[r][i]) +
+              (i + 1 == kOutcomeAt ? "," + outcomes[r] : std::string());
     text += "\n";
   }
   return text;
@@ -204,13 +212,16 @@ std::string FrameTable::csv() const {
 
 FactSheet::Json FrameTable::json() const {
   FactSheet::Json frames = FactSheet::Json::array();
-  for (const auto& row : rows) {
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto& row = rows[r];
     FactSheet::Json frame = FactSheet::Json::object();
-    for (std::size_t i = 0; i < row.size(); ++i)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i == kOutcomeAt && !outcomes[r].empty()) frame["outcome"] = outcomes[r];
       if (row[i] == std::floor(row[i]) && std::abs(row[i]) < 1e15)
         frame[headings[i]] = static_cast<long long>(row[i]);
       else
         frame[headings[i]] = row[i];
+    }
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -13,12 +13,13 @@ namespace softscope {
 struct FrameTable {
   std::vector<std::string> headings;  // the first is "frame"
   std::vector<std::vector<double>> rows;
+  std::vector<std::string> outcomes;  // of each row: fused, skipped, lost; empty if not known
 
   std::string csv() const;
   FactSheet::Json json() const;
 };
 
-/// Every frame with a pose (of a mesh: with a model), rising; docs/evaluation.md explains the
+/// Every frame of the run (of a mesh: with a judged model), rising; docs/evaluation.md explains the
 /// columns.
 FrameTable frameTable(const EvaluationResult& result);
 

@@ -20,11 +20,23 @@ namespace fs = std::filesystem;
 
 constexpr double kDotsPerInch = 300;
 
-const char* const kFiles[] = {
-    "evaluation.json",     "frames.csv",         "tracks.csv",          "error_series.svg",
-    "error_series.pdf",    "error_series.png",   "error_histogram.svg", "error_histogram.pdf",
-    "error_histogram.png", "worst_frames.svg",   "worst_frames.pdf",    "worst_frames.png",
-    "errors.pvd",          "quality_series.svg", "quality_series.pdf",  "quality_series.png"};
+const char* const kFiles[] = {"evaluation.json",
+                              "frames.csv",
+                              "tracks.csv",
+                              "error_series.svg",
+                              "error_series.pdf",
+                              "error_series.png",
+                              "error_histogram.svg",
+                              "error_histogram.pdf",
+                              "error_histogram.png",
+                              "worst_frames.svg",
+                              "worst_frames.pdf",
+                              "worst_frames.png",
+                              "maps.csv",
+                              "errors.pvd",
+                              "quality_series.svg",
+                              "quality_series.pdf",
+                              "quality_series.png"};
 
 std::string mapName(const ErrorMap& map) { return "errors/" + numberedName(map.frame, ".vtp"); }
 
@@ -87,10 +99,12 @@ void EvaluateOutputs::write(const EvaluationResult& result) const {
   if (result.tracks) put("tracks.csv", tracksCsv(*result.tracks));
   if (!result.surface.models.empty()) {
     const std::string title = comparisonTitle(result.run, result.reference);
-    putFigure("error_series", drawErrorSeries(seriesData(result)));
+    const OutcomeStripData strip = outcomeStrip(result);
+    putFigure("error_series", withOutcomeStrip(strip, drawErrorSeries(seriesData(result))));
     putFigure("error_histogram",
-              drawErrorHistogram(histogramOf(result.surface.pool.all_mm(), title)));
-    putFigure("worst_frames", drawWorstFrames(worstFramesData(result)));
+              withOutcomeStrip(
+                  strip, drawErrorHistogram(histogramOf(result.surface.pool.all_mm(), title))));
+    putFigure("worst_frames", withOutcomeStrip(strip, drawWorstFrames(worstFramesData(result))));
   }
   putMaps(result.surface.maps);
 }
@@ -99,6 +113,10 @@ void EvaluateOutputs::write(const TruthlessResult& result) const {
   put("frames.csv", truthlessCsv(result));
   const VectorDrawing plots = truthlessPlots(result);
   if (plots.height_pt > 0) putFigure("quality_series", plots);
+}
+
+void EvaluateOutputs::write(const DepthMapResult& result) const {
+  put("maps.csv", depthMapCsv(result));
 }
 
 }  // namespace softscope

@@ -20,11 +20,13 @@ class EvaluateOutputs {
   /// error_series, error_histogram and worst_frames as SVG, PDF and PNG where a surface was, with
   /// errors/NNNNNN.vtp of some of its moments.
   /// Without truth: evaluation.json, frames.csv, and the figure quality_series.
+  /// Of maps: evaluation.json and maps.csv.
   void write(const RunEvaluation& evaluation) const;
 
  private:
   void write(const EvaluationResult& result) const;
   void write(const TruthlessResult& result) const;
+  void write(const DepthMapResult& result) const;
   void put(const std::string& name, const std::string& bytes) const;
   void putMaps(const std::vector<ErrorMap>& maps) const;
   void putFigure(const std::string& name, const VectorDrawing& figure) const;

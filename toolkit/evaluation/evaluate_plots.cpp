@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "eval/histogram.h"
 
@@ -19,13 +20,13 @@ std::string lastPart(const std::string& path) {
   return place.filename().string();
 }
 
-/// Whether times tell the models apart.
-bool timesRise(const SurfaceSeries& surface) {
-  for (std::size_t i = 0; i < surface.models.size(); ++i)
-    if (!std::isfinite(surface.models[i].time_s) ||
-        (i > 0 && surface.models[i].time_s <= surface.models[i - 1].time_s))
-      return false;
-  return true;
+/// Whether every frame of the plots has a time.
+bool hasTimes(const EvaluationResult& result) {
+  const auto& models = result.surface.models;
+  return std::all_of(result.times_s.begin(), result.times_s.end(),
+                     [](const auto& time) { return std::isfinite(time.second); }) &&
+         std::all_of(models.begin(), models.end(),
+                     [](const JudgedModel& model) { return std::isfinite(model.time_s); });
 }
 
 /// 1, 2 or 5 times a power of ten, and its halves in between.
@@ -41,15 +42,35 @@ double binEnd(double value) {
 ErrorSeriesData seriesData(const EvaluationResult& result) {
   ErrorSeriesData data;
   data.title = comparisonTitle(result.run, result.reference);
-  const bool over_time = timesRise(result.surface);
+  const bool over_time = hasTimes(result);
   if (!over_time) data.time_label = "frame";
-  for (const JudgedModel& model : result.surface.models) {
-    data.times.push_back(over_time ? model.time_s : model.frame);
-    data.mean.push_back(model.errors.distance_mm.mean);
-    data.median.push_back(model.errors.distance_mm.median);
-    data.p95.push_back(model.errors.distance_mm.p95);
+  std::map<int, const JudgedModel*> rows;  // null: nothing was judged
+  for (const auto& [frame, time_s] : result.times_s)
+    if (!result.outcomes.fused(frame) || frame == result.times_s.begin()->first ||
+        frame == result.times_s.rbegin()->first)  // the axis spans the run
+      rows[frame] = nullptr;
+  for (const JudgedModel& model : result.surface.models) rows[model.frame] = &model;
+  for (const auto& [frame, model] : rows) {
+    const Statistics errors = model == nullptr ? Statistics() : model->errors.distance_mm;
+    const double time_s = model == nullptr ? result.times_s.at(frame) : model->time_s;
+    data.times.push_back(over_time ? time_s : frame);
+    data.mean.push_back(errors.mean);
+    data.median.push_back(errors.median);
+    data.p95.push_back(errors.p95);
   }
   return data;
+}
+
+OutcomeStripData outcomeStrip(const EvaluationResult& result) {
+  OutcomeStripData strip;
+  const bool over_time = hasTimes(result);
+  for (const auto& [frame, outcome] : result.outcomes.each()) {
+    const auto time = result.times_s.find(frame);
+    if (time == result.times_s.end()) continue;
+    strip.x.push_back(over_time ? time->second : frame);
+    strip.outcomes.push_back(outcome);
+  }
+  return strip;
 }
 
 WorstFramesData worstFramesData(const EvaluationResult& result) {

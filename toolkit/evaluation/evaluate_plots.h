@@ -11,8 +11,12 @@
 
 namespace softscope {
 
-/// Of all judged models, over time, or over frames where no time is known. At least one model.
+/// Of all judged models, over time, or over frames where no time is known; a frame that was not
+/// fused leaves a gap. At least one model.
 ErrorSeriesData seriesData(const EvaluationResult& result);
+
+/// Which frames were fused, over the same axis; of no frame where that is not known.
+OutcomeStripData outcomeStrip(const EvaluationResult& result);
 
 /// The ten models with the largest mean, worst first. At least one model.
 WorstFramesData worstFramesData(const EvaluationResult& result);

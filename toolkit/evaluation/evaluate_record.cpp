@@ -196,7 +196,8 @@ void addCameraFacts(const CameraResult& camera, FactSheet& facts) {
   };
   facts.addLine("camera", "rmse " + rmse(camera.errors.unaligned) + " unaligned; ATE " +
                               fixed(camera.errors.absolute.translation_mm.rmse, 3) + " mm; RPE " +
-                              rmse(camera.errors.relative) + " a frame");
+                              rmse(camera.errors.relative) + " a frame; over " +
+                              std::to_string(camera.frames.size()) + " fused frames");
 }
 
 void addTrackFacts(const TrackErrors& tracks, FactSheet& facts) {
@@ -230,11 +231,14 @@ void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
     facts.addLine("drawn view",
                   "PSNR " + fixed(psnr_db, 1) + " dB, SSIM " +
                       fixed(surface.meanOfView([](V v) { return v.picture.ssim; }), 3) +
-                      " over the pixels that the model covers");
+                      " over the pixels that the model covers, " +
+                      percent(surface.meanOfView([](V v) { return v.picture.judged_share; })) +
+                      " of the tissue (without masks and black borders)");
   const Statistics backprojection = backprojectionOf(result);
   if (backprojection.count > 0)
-    facts.addLine("back-projection",
-                  "mean " + fixed(backprojection.mean, 3) + " mm, as the run measured it");
+    facts.addLine("back-projection", "mean " + fixed(backprojection.mean, 3) + " mm over " +
+                                         std::to_string(backprojection.count) +
+                                         " frames, as the run measured it");
 }
 
 void addAlignmentFacts(const EvaluationResult& result, FactSheet& facts) {
@@ -255,6 +259,7 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
   json["command"] = "evaluate";
   json["inputs"] = {{"run", result.run}, {"reference", result.reference}};
   json["comparison"] = comparisonJson(result);
+  json["outcomes"] = result.outcomes.json();
   json["surface"] = surfaceJson(result);
   if (!result.against_mesh) {
     json["camera"] = cameraJson(result.camera.value_or(CameraResult()));
@@ -272,6 +277,7 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
 FactSheet evaluationFacts(const EvaluationResult& result) {
   FactSheet facts(result.run + " against " + result.reference +
                   (result.against_mesh ? "" : ", in the current camera's frame"));
+  addOutcomeFacts(result.outcomes, facts);
   if (result.against_mesh) addAlignmentFacts(result, facts);
   addSurfaceFacts(result, facts);
   if (result.camera) addCameraFacts(*result.camera, facts);

@@ -1,6 +1,8 @@
 // toolkit/evaluation/evaluate_result.cpp: from folders to eval's functions.
 #include "toolkit/evaluation/evaluate_result.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "io/message.h"
 #include "toolkit/run/table_reader.h"
@@ -21,13 +23,15 @@ CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
                                                  : trueWorldFromLeft(run.frames[0]).inverse();
   CameraResult result;
   std::vector<Eigen::Isometry3d> true_poses, poses;
+  std::vector<int> places;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    if (!run.counts(run.frames[k])) continue;
+    places.push_back(static_cast<int>(k));
     result.frames.push_back(run.frames[k]);
-    result.times_s.push_back(truth.trajectory[static_cast<std::size_t>(run.frames[k])].time_s);
     true_poses.push_back(start_from_world * trueWorldFromLeft(run.frames[k]));
     poses.push_back(run.trajectory[k].world_from_left);
   }
-  result.errors = trajectoryErrors(true_poses, poses);
+  if (!poses.empty()) result.errors = trajectoryErrors(true_poses, poses, places);
   return result;
 }
 
@@ -40,8 +44,14 @@ std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth
     true_tracks[{sample.frame, sample.id}] = sample.position_mm;
     if (!sample.visible) unseen.insert({sample.frame, sample.id});
   }
-  const std::vector<TrackSample> tracks = readTracks(run.tracks);
-  TrackErrors errors = trackErrors(true_tracks, tracks, truthFromRun(run, truth), unseen);
+  std::vector<TrackSample> tracks = readTracks(run.tracks);
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                              [&](const TrackSample& sample) { return !run.counts(sample.frame); }),
+               tracks.end());
+  std::map<int, Eigen::Isometry3d> moves;
+  for (const auto& [frame, move] : truthFromRun(run, truth))
+    if (run.counts(frame)) moves[frame] = move;
+  TrackErrors errors = trackErrors(true_tracks, tracks, moves, unseen);
   if (!tracks.empty() && errors.without_truth == tracks.size())
     throw InputError(say(shown(run.tracks), ": has no frame and id in common with ",
                          shown(truth.tracks),
@@ -84,6 +94,10 @@ std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTr
   if (run.frames.size() < truth.trajectory.size())
     warnings.push_back(say("the run has ", run.frames.size(), " of the sequence's ",
                            truth.trajectory.size(), " frames; only these are judged"));
+  if (run.outcomes.empty())
+    warnings.push_back(
+        "the run's frames.csv says of no frame whether it was fused, so all of them count; "
+        "reconstruct again");
   if (run.tracks.empty() && !truth.tracks.empty())
     warnings.push_back("the run has no tracks.csv; reconstruct with --track to judge tracks");
   if (result.tracks && result.tracks->without_truth > 0)

@@ -16,7 +16,6 @@ namespace softscope {
 /// The scope's path against the true one; values are in the order of `frames`.
 struct CameraResult {
   std::vector<int> frames;
-  std::vector<double> times_s;  // of the true path
   TrajectoryErrors errors;
 };
 
@@ -34,12 +33,14 @@ struct EvaluationResult {
   std::optional<CameraResult> camera;
   std::optional<TrackErrors> tracks;
   RevisitResult revisits;
+  FrameOutcomes outcomes;                   // of the run
+  std::map<int, double> times_s;            // of all frames of the run; NaN without timestamps
   std::map<int, double> backprojection_mm;  // by frame, as the run itself measured it
   std::vector<std::string> warnings;
 };
 
-/// Poses of a run that doesn't begin at frame 0 are taken from its first frame on, as its own world
-/// begins there.
+/// Of the frames that were fused. Poses of a run that doesn't begin at frame 0 are taken from its
+/// first frame on, as its own world begins there.
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth);
 
 /// Throws InputError where the run's tracks have nothing in common with the true ones. None where

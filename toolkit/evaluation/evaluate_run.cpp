@@ -23,9 +23,10 @@ using Json = FactSheet::Json;
 constexpr const char* kSurface = "surface";  // where a bare metric is looked for
 constexpr const char* kView = "view";        // the same without truth
 
-enum class ReferenceKind { kTruth, kSequence, kMesh };
+enum class ReferenceKind { kTruth, kSequence, kMesh, kMaps };
 
 ReferenceKind kindOf(const EvaluateOptions& options) {
+  if (holdsDepthMaps(options.run)) return ReferenceKind::kMaps;
   if (!isFolder(options.reference)) return ReferenceKind::kMesh;
   return hasTruth(options.reference) ? ReferenceKind::kTruth : ReferenceKind::kSequence;
 }
@@ -43,27 +44,31 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
   requireSameSequence(run, truth);
   const std::vector<std::string> origin = checkOrigin(run, truth);
   EvaluationResult result;
+  result.outcomes = run.outcomes;
+  for (const int frame : run.frames) result.times_s[frame] = truth.timeOf(frame);
   result.camera = judgeCamera(run, truth);
   result.tracks = judgeTracks(run, truth);
   result.backprojection_mm = run.backprojection_mm;
   const auto frames = framesToJudge(run, truth);
   result.surface = judgeSeries(run, truth, options.views, counting(progress, frames.size()));
   result.revisits = judgeRevisits(run, truth, result);
-  result.warnings = sequenceWarnings(run, truth, result);
+  result.warnings = run.warnings();
+  for (std::string& warning : sequenceWarnings(run, truth, result))
+    result.warnings.push_back(std::move(warning));
   result.warnings.insert(result.warnings.end(), origin.begin(), origin.end());
   return result;
 }
 
 FrameFiles modelsFor(const EvaluateOptions& options, const JudgedRun& run) {
-  if (options.each_model && run.models.empty())
+  if (options.each_model && run.countedModels().empty())
     throw InputError(shown(run.folder / "models") +
-                     ": holds no model NNNNNN.ply, but --each asks for them; reconstruct with "
-                     "--save-every 1");
-  if (options.each_model) return run.models;
+                     ": holds no model NNNNNN.ply of a fused frame, but --each asks for them; "
+                     "reconstruct with --save-every 1");
+  if (options.each_model) return run.countedModels();
   if (run.last_model.empty())
     throw InputError(shown(run.folder / "model.ply") +
                      ": is missing, but it is what a mesh is compared with; reconstruct again");
-  return {{run.frames.back(), run.last_model}};
+  return {{run.lastCounted(), run.last_model}};
 }
 
 EvaluationResult againstMesh(const EvaluateOptions& options, const JudgedRun& run,
@@ -72,6 +77,9 @@ EvaluationResult againstMesh(const EvaluateOptions& options, const JudgedRun& ru
   const TriangleMesh mesh = readMesh(options.reference, {options.reference_unit_mm});
   EvaluationResult result;
   result.against_mesh = true;
+  result.warnings = run.warnings();
+  result.outcomes = run.outcomes;
+  for (const int frame : run.frames) result.times_s[frame] = run.timeOf(frame);
   result.alignment = options.alignment;
   for (const std::string& warning : meshWarnings(checkMesh(mesh)))
     result.warnings.push_back(options.reference + ": " + warning);
@@ -94,7 +102,7 @@ Json hashesOf(const EvaluateOptions& options) {
 RunEvaluation withoutTruth(const EvaluateOptions& options, const JudgedRun& run,
                            const Progress& progress) {
   TruthlessResult result = judgeWithoutTruth(run, options.reference, options.views,
-                                             counting(progress, run.models.size()));
+                                             counting(progress, run.countedModels().size()));
   RunEvaluation evaluation;
   evaluation.interrupted = result.interrupted;
   if (result.interrupted) return evaluation;
@@ -106,6 +114,31 @@ RunEvaluation withoutTruth(const EvaluateOptions& options, const JudgedRun& run,
   record["inputs_sha256"] = hashesOf(options);
   evaluation.record = options.paths.applyTo(record);
   evaluation.facts = truthlessFacts(result);
+  evaluation.result = std::move(result);
+  return evaluation;
+}
+
+DepthMapOptions mapOptionsOf(const EvaluateOptions& options) {
+  return {options.run, options.reference, options.map_kind, options.calibration,
+          options.confidence};
+}
+
+/// Where a bare metric of maps is looked for.
+const char* mapPart(const DepthMapOptions& options) {
+  return options.mapKind() == MapKind::kDepth ? "depth" : "disparity";
+}
+
+RunEvaluation ofMaps(const EvaluateOptions& options, const Progress& progress) {
+  const DepthMapOptions maps = mapOptionsOf(options);
+  DepthMapResult result = judgeDepthMaps(maps, progress);
+  RunEvaluation evaluation;
+  evaluation.interrupted = result.interrupted;
+  if (result.interrupted) return evaluation;
+  Json record = depthMapJson(result);
+  evaluation.outcomes = checkThresholds(options.thresholds, record, mapPart(maps));
+  record["thresholds"] = thresholdsJson(evaluation.outcomes);
+  evaluation.record = options.paths.applyTo(record);
+  evaluation.facts = depthMapFacts(result);
   evaluation.result = std::move(result);
   return evaluation;
 }
@@ -128,6 +161,12 @@ RunEvaluation withTruth(const EvaluateOptions& options, EvaluationResult result)
   return evaluation;
 }
 
+void validateMaps(const EvaluateOptions& options) {
+  if (options.alignment != MeshAlignment::kNone || options.each_model)
+    throw OptionError("--align and --each are for a mesh; maps are compared pixel by pixel");
+  checkThresholds(options.thresholds, depthMapJson({}), mapPart(mapOptionsOf(options)));
+}
+
 }  // namespace
 
 MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& option) {
@@ -139,6 +178,10 @@ MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& opt
 
 void EvaluateOptions::validate() const {
   const ReferenceKind kind = kindOf(*this);
+  if (kind == ReferenceKind::kMaps) return validateMaps(*this);
+  if (!map_kind.empty() || !calibration.empty() || !confidence.empty())
+    throw OptionError("--map, --calibration and --confidence are of depth maps, but " + run +
+                      " is none and no folder of them");
   if (kind != ReferenceKind::kMesh && (alignment != MeshAlignment::kNone || each_model))
     throw OptionError(
         "--align and --each are for a mesh; a sequence is compared frame by frame, "
@@ -152,8 +195,9 @@ void EvaluateOptions::validate() const {
 
 RunEvaluation evaluateRun(const EvaluateOptions& options, const Progress& progress) {
   options.validate();
-  const JudgedRun run = openJudgedRun(options.run);
   const ReferenceKind kind = kindOf(options);
+  if (kind == ReferenceKind::kMaps) return ofMaps(options, progress);
+  const JudgedRun run = openJudgedRun(options.run);
   if (kind == ReferenceKind::kSequence) return withoutTruth(options, run, progress);
   return withTruth(options, kind == ReferenceKind::kMesh ? againstMesh(options, run, progress)
                                                          : againstSequence(options, run, progress));

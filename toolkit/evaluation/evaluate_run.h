@@ -1,10 +1,11 @@
-// toolkit/evaluation/evaluate_run.h: a run folder against what it is judged by.
+// toolkit/evaluation/evaluate_run.h: a run folder, or maps, against what they are judged by.
 #pragma once
 
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "toolkit/evaluation/depth_map_result.h"
 #include "toolkit/evaluation/evaluate_result.h"
 #include "toolkit/evaluation/thresholds.h"
 #include "toolkit/evaluation/truthless_result.h"
@@ -15,12 +16,13 @@
 namespace softscope {
 
 struct EvaluateOptions {
-  std::string run;        // folder that reconstructSequence() wrote
-  std::string reference;  // sequence folder, best with groundtruth/, or a mesh file
+  std::string run;        // folder that reconstructSequence() wrote; or a map, a folder of maps
+  std::string reference;  // sequence folder, best with groundtruth/, or a mesh file; of maps maps
   MeshAlignment alignment = MeshAlignment::kNone;  // of a mesh
   bool each_model = false;                         // of a mesh: all models, not the last alone
   double reference_unit_mm = 1;                    // of a mesh file: 1000 for metres
   bool views = true;                               // draw each model for depth, PSNR and SSIM
+  std::string map_kind, calibration, confidence;   // of maps alone: DepthMapOptions
   std::vector<Threshold> thresholds;
   RecordPaths paths;
 
@@ -33,14 +35,15 @@ MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& opt
 
 /// Where it was interrupted, `interrupted` alone is right.
 struct RunEvaluation {
-  std::variant<EvaluationResult, TruthlessResult> result;  // the latter: no truth beside the run
+  /// TruthlessResult: no truth beside the run. DepthMapResult: of maps.
+  std::variant<EvaluationResult, TruthlessResult, DepthMapResult> result;
   std::vector<ThresholdOutcome> outcomes;
   FactSheet::Json record;  // of evaluation.json
   FactSheet facts{""};     // for people
   bool interrupted = false;
 };
 
-/// Progress counts models. Throws InputError, and OptionError as validate() does.
+/// Progress counts models, or maps. Throws InputError, and OptionError as validate() does.
 RunEvaluation evaluateRun(const EvaluateOptions& options, const Progress& progress = {});
 
 }  // namespace softscope

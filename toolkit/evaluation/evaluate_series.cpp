@@ -82,7 +82,7 @@ double SurfaceSeries::meanOf(const std::function<double(const ModelErrors&)>& va
 
 std::vector<int> framesToJudge(const JudgedRun& run, const SequenceTruth& truth) {
   std::vector<int> frames;
-  for (const auto& [frame, file] : run.models)
+  for (const auto& [frame, file] : run.countedModels())
     if (truth.meshes.count(frame) != 0) frames.push_back(frame);
   return frames;
 }
@@ -118,7 +118,7 @@ SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth, bool
             view = view_judge->judge(now.file, run_from_left, frames[i], now.depth_mm);
           if (i + 1 < frames.size()) next = read(i + 1);
         });
-    const double time_s = truth.trajectory[static_cast<std::size_t>(frames[i])].time_s;
+    const double time_s = truth.timeOf(frames[i]);
     maps.add(frames[i], time_s, now.points_mm, errors, now.mesh, now.world_from_left);
     keep(frames[i], time_s, std::move(errors), series).view = std::move(view);
     if (!after_model()) {

@@ -47,7 +47,7 @@ struct SurfaceSeries {
 /// Called after each model; false asks to stop.
 using AfterModel = std::function<bool()>;
 
-/// Frames that have a true mesh and a model.
+/// Frames that were fused and have a true mesh and a model.
 std::vector<int> framesToJudge(const JudgedRun& run, const SequenceTruth& truth);
 
 /// Each model in the frame of its own moment's camera. The next moment is read meanwhile.

@@ -11,6 +11,8 @@
 #include "io/image_reader.h"
 #include "io/message.h"
 #include "io/sequence_paths.h"
+#include "stereo/image_border.h"
+#include "stereo/view_masks.h"
 
 namespace softscope {
 namespace {
@@ -75,8 +77,8 @@ ViewErrors ViewJudge::judge(const ModelFile& file, const Eigen::Isometry3d& run_
   errors.depth = depthErrors(view.depth_mm, true_depth_mm, {{3}}, ignore);
   if (!file.coloured) return errors;
   if (const auto picture = photograph(frame))
-    errors.picture =
-        pictureErrors(view.colour, *picture, ignoreEither(ignore, ignoreUnmeasured(view.depth_mm)));
+    errors.picture = pictureErrors(view.colour, *picture, ignoreUnmeasured(view.depth_mm),
+                                   united(ignore, findBlackBorder(*picture)));
   return errors;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 
 #include "core/error.h"
 #include "io/message.h"
@@ -10,6 +12,7 @@
 #include "toolkit/evaluation/evaluate_depth.h"
 #include "toolkit/evaluation/evaluate_series.h"
 #include "toolkit/run/model_file.h"
+#include "toolkit/run/model_surface.h"
 #include "toolkit/run/provenance.h"
 
 namespace softscope {
@@ -17,12 +20,40 @@ namespace {
 
 constexpr int kScanStepPx = 3;  // every so many columns and rows of the depth become a point
 
+/// Neighbours whose depths differ by more than this many times their distance are of two sides.
+constexpr double kSteepest = 3;
+
 TriangleMesh scanOf(const Raster<float>& depth_mm, const PinholeCamera& left) {
   TriangleMesh scan;
-  for (int v = 0; v < depth_mm.height_px; v += kScanStepPx)
-    for (int u = 0; u < depth_mm.width_px; u += kScanStepPx)
-      if (std::isfinite(depth_mm.at(u, v)))
-        scan.vertices_mm.push_back(liftPixel<double>(left, u, v, depth_mm.at(u, v)).cast<float>());
+  const int columns = (depth_mm.width_px + kScanStepPx - 1) / kScanStepPx;
+  const int rows = (depth_mm.height_px + kScanStepPx - 1) / kScanStepPx;
+  std::vector<std::int32_t> vertex_at(static_cast<std::size_t>(columns * rows), -1);
+  const auto at = [&](int i, int j) {
+    return vertex_at[static_cast<std::size_t>(j * columns + i)];
+  };
+  const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    if (a < 0 || b < 0 || c < 0) return;
+    float nearest = std::numeric_limits<float>::max(), farthest = 0;
+    for (const std::int32_t k : {a, b, c}) {
+      nearest = std::min(nearest, scan.vertices_mm[static_cast<std::size_t>(k)].z());
+      farthest = std::max(farthest, scan.vertices_mm[static_cast<std::size_t>(k)].z());
+    }
+    if (farthest - nearest < kSteepest * kScanStepPx * nearest / left.fx_px)
+      scan.triangles.push_back({a, b, c});
+  };
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const int u = i * kScanStepPx, v = j * kScanStepPx;
+      if (!std::isfinite(depth_mm.at(u, v))) continue;
+      vertex_at[static_cast<std::size_t>(j * columns + i)] =
+          static_cast<std::int32_t>(scan.vertices_mm.size());
+      scan.vertices_mm.push_back(liftPixel<double>(left, u, v, depth_mm.at(u, v)).cast<float>());
+    }
+  for (int j = 0; j + 1 < rows; ++j)
+    for (int i = 0; i + 1 < columns; ++i) {
+      add(at(i, j), at(i, j + 1), at(i + 1, j));
+      add(at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
+    }
   return scan;
 }
 
@@ -48,9 +79,9 @@ JudgedPair::JudgedPair(const std::string& run_folder, const std::string& sequenc
   requireSameSequence(run, truth);
   warnings = checkOrigin(run, truth);
   if (frames().empty())
-    throw InputError(
-        shown(run.folder) +
-        ": no frame has both a model and a true mesh; reconstruct with --save-every 1");
+    throw InputError(shown(run.folder) +
+                     ": no frame has both a model of a fused frame and a true mesh; reconstruct "
+                     "with --save-every 1");
 }
 
 std::vector<int> JudgedPair::frames() const { return framesToJudge(run, truth); }
@@ -63,15 +94,22 @@ int JudgedPair::chooseFrame(int wanted) const {
   for (std::size_t i = 0; i < std::min<std::size_t>(there.size(), 8); ++i)
     some += std::to_string(there[i]) + ", ";
   throw OptionError(say("--frame is ", wanted,
-                        ", but a model and a true mesh are there for frames ", some, "up to ",
-                        there.back()));
+                        ", but fused, with a model and a true mesh, are the frames ", some,
+                        "up to ", there.back()));
 }
 
-RunMoment JudgedPair::moment(int frame) const {
+std::string momentText(int frame, double time_s) {
+  if (!std::isfinite(time_s)) return "frame " + std::to_string(frame);
+  char text[64];
+  std::snprintf(text, sizeof text, "frame %d, %.2f s", frame, time_s);
+  return text;
+}
+
+RunMoment JudgedPair::moment(int frame, bool surface) const {
   const TimedPose& pose = truth.trajectory[static_cast<std::size_t>(frame)];
   RunMoment moment;
   moment.frame = frame;
-  moment.time_s = pose.time_s;
+  moment.time_s = truth.timeOf(frame);
   moment.truth_file = truth.meshes.at(frame);
   moment.model_file = run.models.at(frame);
   const auto depth_file = truth.depths.find(frame);
@@ -81,12 +119,13 @@ RunMoment JudgedPair::moment(int frame) const {
   moment.truth = readMesh(moment.truth_file);
   const Raster<float> depth_mm = trueDepth(truth, frame, moment.truth);
   ModelFile file = readModel(moment.model_file);
+  if (surface) moment.model = modelSurface(file);
   if (file.coloured) moment.model.colours = std::move(file.model.colours);
   moment.model.vertices_mm =
       movePoints(truthFromRun(run, truth).at(frame), file.model.positions_mm);
-  const TriangleTree surface(moment.truth);
-  moment.errors =
-      modelErrors(moment.model.vertices_mm, {surface, depth_mm, truth.rig, pose.world_from_left});
+  const TriangleTree true_surface(moment.truth);
+  moment.errors = modelErrors(moment.model.vertices_mm,
+                              {true_surface, depth_mm, truth.rig, pose.world_from_left});
   for (TriangleMesh* mesh : {&moment.truth, &moment.model})
     mesh->vertices_mm = movePoints(moment.left_from_true_world, mesh->vertices_mm);
   moment.scan = scanOf(depth_mm, truth.rig.left);

@@ -17,8 +17,8 @@ struct RunMoment {
   int frame = 0;
   double time_s = 0;
   TriangleMesh truth;
-  TriangleMesh model;  // points, with their colours
-  TriangleMesh scan;   // points of the tissue that the scope sees, from the true depth
+  TriangleMesh model;  // with its colours; points, or on demand a surface
+  TriangleMesh scan;   // the tissue that the scope sees, from the true depth
   ModelErrors errors;
   Eigen::Isometry3d left_from_true_world = Eigen::Isometry3d::Identity();
   std::filesystem::path truth_file, model_file, scan_file;
@@ -27,6 +27,9 @@ struct RunMoment {
   std::vector<double> distances(bool observed_only) const;
   std::vector<double> signedDistances(bool observed_only) const;
 };
+
+/// "frame 20, 0.80 s"; `time_s` is NaN where the clip has no timestamps.
+std::string momentText(int frame, double time_s);
 
 /// A run and the sequence that it was made from.
 struct JudgedPair {
@@ -41,7 +44,8 @@ struct JudgedPair {
   std::vector<int> frames() const;
   /// `wanted`, or the last one where that is -1. Throws OptionError for a frame that isn't there.
   int chooseFrame(int wanted) const;
-  RunMoment moment(int frame) const;
+  /// `surface`: with triangles between the model's points.
+  RunMoment moment(int frame, bool surface) const;
 };
 
 }  // namespace softscope

@@ -58,7 +58,16 @@ const std::pair<std::string, double>& find(const std::string& name, const Metric
 
 }  // namespace
 
-std::string Threshold::text() const { return metric + relation + exactText(limit); }
+std::string Threshold::text() const {
+  return metric + relation + exactText(percent ? 100 * limit : limit) + (percent ? "%" : "");
+}
+
+std::string Threshold::name() const {
+  const std::string end = "_share";
+  const bool is_share = metric.size() > end.size() &&
+                        metric.compare(metric.size() - end.size(), end.size(), end) == 0;
+  return percent && !is_share ? metric + end : metric;
+}
 
 bool Threshold::fails(double value) const {
   if (std::isnan(value)) return true;
@@ -72,16 +81,22 @@ Threshold parseThreshold(const std::string& text) {
   const std::size_t begin = text.find_first_of("<>");
   const std::size_t end = begin == std::string::npos ? begin : text.find_first_not_of("<>=", begin);
   if (end != std::string::npos) {
-    const Threshold threshold{
-        std::string(trimmed(text.substr(0, begin))), text.substr(begin, end - begin),
-        numberOf(trimmed(text.substr(end))).value_or(std::numeric_limits<double>::quiet_NaN())};
+    std::string_view number = trimmed(std::string_view(text).substr(end));
+    Threshold threshold{std::string(trimmed(text.substr(0, begin))),
+                        text.substr(begin, end - begin), 0,
+                        /*percent=*/!number.empty() && number.back() == '%'};
+    if (threshold.percent) number = trimmed(number.substr(0, number.size() - 1));
+    threshold.limit = numberOf(number).value_or(std::numeric_limits<double>::quiet_NaN());
+    if (threshold.percent) threshold.limit /= 100;
     const auto& relation = threshold.relation;
     const bool named = threshold.metric.find('=') == std::string::npos && !threshold.metric.empty();
     const bool known = relation == ">" || relation == ">=" || relation == "<" || relation == "<=";
     if (known && named && std::isfinite(threshold.limit)) return threshold;
   }
-  throw OptionError("--fail-if is `" + text +
-                    "`, but must be a metric, one of > >= < <=, and a number, e.g. p95_mm>2");
+  throw OptionError(
+      "--fail-if is `" + text +
+      "`, but must be a metric, one of > >= < <=, and a number, or for a share per cent: "
+      "p95_mm>2, lost>10%");
 }
 
 Metrics metricsOf(const FactSheet::Json& result) {
@@ -96,7 +111,7 @@ std::vector<ThresholdOutcome> checkThresholds(const std::vector<Threshold>& thre
   const Metrics metrics = metricsOf(result);
   std::vector<ThresholdOutcome> outcomes;
   for (const Threshold& threshold : thresholds) {
-    const auto& [path, value] = find(threshold.metric, metrics, preferred);
+    const auto& [path, value] = find(threshold.name(), metrics, preferred);
     outcomes.push_back({threshold, path, value, threshold.fails(value)});
   }
   return outcomes;

@@ -14,12 +14,15 @@ struct Threshold {
   std::string metric;    // as the user wrote it
   std::string relation;  // >, >=, < or <=
   double limit = 0;
+  bool percent = false;  // written as such: the metric is a share, the limit its hundredth
 
   std::string text() const;
+  /// As it is looked up: `lost>10%` asks for lost_share.
+  std::string name() const;
   bool fails(double value) const;  // a value that is NaN fails: what wasn't measured isn't good
 };
 
-/// Throws OptionError where the text is no `name relation number`.
+/// Throws OptionError where the text is no `name relation number`, maybe with % at its end.
 Threshold parseThreshold(const std::string& text);
 
 /// What a threshold came to.

@@ -35,25 +35,31 @@ double angleDeg(const Eigen::Isometry3d& motion) {
 
 void addPath(const JudgedRun& run, TruthlessResult& result) {
   std::vector<double> squares;
+  const auto counts = [&](std::size_t k) {
+    return k < run.frames.size() && run.counts(run.frames[k]);
+  };
+  std::vector<std::size_t> counted;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
     TruthlessFrame& frame = result.frames[run.frames[k]];
-    frame.time_s = run.trajectory[k].time_s;
+    frame.time_s = run.timeOf(run.frames[k]);
+    if (!counts(k)) continue;
+    counted.push_back(k);
     const Eigen::Isometry3d& here = run.trajectory[k].world_from_left;
-    if (k > 0) {
+    if (k > 0 && counts(k - 1)) {
       const Eigen::Isometry3d step = run.trajectory[k - 1].world_from_left.inverse() * here;
       frame.step_mm = step.translation().norm();
       frame.step_deg = angleDeg(step);
     }
-    if (k == 0 || k + 1 == run.frames.size()) continue;
+    if (k == 0 || !counts(k - 1) || !counts(k + 1)) continue;
     const Eigen::Vector3d before = run.trajectory[k - 1].world_from_left.translation(),
                           after = run.trajectory[k + 1].world_from_left.translation();
     frame.second_difference_mm = (before - 2 * here.translation() + after).norm();
     squares.push_back(frame.second_difference_mm * frame.second_difference_mm);
   }
   result.jitter_rms_mm = std::sqrt(statistics(squares).mean);
-  if (run.trajectory.size() < 2) return;
-  const Eigen::Isometry3d motion =
-      run.trajectory.front().world_from_left.inverse() * run.trajectory.back().world_from_left;
+  if (counted.size() < 2) return;
+  const Eigen::Isometry3d motion = run.trajectory[counted.front()].world_from_left.inverse() *
+                                   run.trajectory[counted.back()].world_from_left;
   result.moved_mm = motion.translation().norm();
   result.turned_deg = angleDeg(motion);
 }
@@ -66,7 +72,7 @@ void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
   ViewJudge judge(pictures);
   const PinholeCamera& left = pictures.rig.left;
   const Raster<float> no_depth(left.width_px, left.height_px, std::nanf(""));
-  for (const auto& [frame, file] : run.models) {
+  for (const auto& [frame, file] : run.countedModels()) {
     const auto at = std::lower_bound(run.frames.begin(), run.frames.end(), frame);
     if (at == run.frames.end() || *at != frame) continue;
     const auto& pose = run.trajectory[static_cast<std::size_t>(at - run.frames.begin())];
@@ -84,7 +90,8 @@ void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
 
 Statistics overFrames(const TruthlessResult& result, const Value& value) {
   std::vector<double> values;
-  for (const auto& [number, frame] : result.frames) values.push_back(value(frame));
+  for (const auto& [number, frame] : result.frames)
+    if (result.outcomes.fused(number)) values.push_back(value(frame));
   return statistics(values);
 }
 
@@ -115,28 +122,24 @@ const TruthlessColumn kTruthlessColumns[] = {{"view_psnr_db", kPsnr},
                                              {"step_deg", kStepDeg},
                                              {"second_difference_mm", kSecondDifference}};
 
-/// A sequence without timestamps counts frames as seconds: then a time says nothing.
-bool hasClock(const TruthlessResult& result) {
-  double last_s = -1;
-  bool counts_frames = true;
-  for (const auto& [number, frame] : result.frames) {
-    if (!(frame.time_s > last_s)) return false;
-    last_s = frame.time_s;
-    counts_frames = counts_frames && frame.time_s == number;
-  }
-  return !counts_frames;
+/// Times of a clip without timestamps are NaN.
+bool hasTimes(const TruthlessResult& result) {
+  return std::all_of(result.frames.begin(), result.frames.end(),
+                     [](const auto& frame) { return std::isfinite(frame.second.time_s); });
 }
 
 void addPlot(const TruthlessResult& result, const char* label, const Value& value,
              const PlotStyle& style, VectorDrawing& drawing) {
-  const bool over_time = hasClock(result);
+  const bool over_time = hasTimes(result);
   ValueSeriesData data{over_time ? "time [s]" : "frame", label, {}, {}};
   for (const auto& [number, frame] : result.frames) {
-    if (!std::isfinite(value(frame))) continue;
+    const bool at_end =
+        number == result.frames.begin()->first || number == result.frames.rbegin()->first;
+    if (!std::isfinite(value(frame)) && result.outcomes.fused(number) && !at_end) continue;
     data.x.push_back(over_time ? frame.time_s : number);
-    data.y.push_back(value(frame));
+    data.y.push_back(result.outcomes.fused(number) ? value(frame) : Statistics::kNone);
   }
-  if (data.x.empty()) return;
+  if (statistics(data.y).count == 0) return;
   appendBelow(drawValueSeries(data, style), 0, drawing);
 }
 
@@ -153,6 +156,8 @@ Json framesJson(const TruthlessResult& result) {
   Json frames = Json::array();
   for (const auto& [number, frame] : result.frames) {
     Json row{{"frame", number}, {"time_s", frame.time_s}};
+    if (const auto at = result.outcomes.each().find(number); at != result.outcomes.each().end())
+      row["outcome"] = toString(at->second);
     for (const TruthlessColumn& column : kTruthlessColumns)
       row[column.heading] = column.value(frame);
     frames.push_back(std::move(row));
@@ -166,6 +171,8 @@ TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::p
                                   bool views, const std::function<bool()>& after_model) {
   findSequence(sequence);  // throws where it is none
   TruthlessResult result;
+  result.outcomes = run.outcomes;
+  result.warnings = run.warnings();
   addPath(run, result);
   for (const auto& [frame, mean_mm] : run.backprojection_mm)
     result.frames[frame].backprojection_mm = mean_mm;
@@ -175,7 +182,7 @@ TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::p
 }
 
 Json truthlessJson(const TruthlessResult& result) {
-  Json camera{{"poses", result.frames.size()},
+  Json camera{{"poses", overFrames(result, [](const TruthlessFrame&) { return 0.0; }).count},
               {"moved_mm", result.moved_mm},
               {"turned_deg", result.turned_deg},
               {"jitter_rms_mm", result.jitter_rms_mm}};
@@ -186,10 +193,13 @@ Json truthlessJson(const TruthlessResult& result) {
             {"command", "evaluate"},
             {"inputs", {{"run", result.run}, {"reference", result.sequence}}},
             {"comparison", {{"reference_kind", "pictures"}, {"alignment", "none"}}},
+            {"outcomes", result.outcomes.json()},
             {"missing", kMissing},
             {"view", viewJson(result)},
             {"backprojection", statisticsJson(overFrames(result, kBackProjection), "_mm")},
-            {"coverage", {{"mean_share", overFrames(result, kCoverage).mean}}},
+            {"coverage",
+             {{"mean_share", overFrames(result, kCoverage).mean},
+              {"n", overFrames(result, kCoverage).count}}},
             {"camera", camera},
             {"warnings", result.warnings}};
   json["frames"] = framesJson(result);
@@ -199,23 +209,29 @@ Json truthlessJson(const TruthlessResult& result) {
 FactSheet truthlessFacts(const TruthlessResult& result) {
   FactSheet facts(result.run + " beside the pictures of " + result.sequence +
                   ", which has no ground truth");
+  addOutcomeFacts(result.outcomes, facts);
   const auto mean = [&](const Value& value, int decimals) {
     return fixed(overFrames(result, value).mean, decimals);
   };
   if (!result.drawn.empty())
     facts.addLine("drawn view", "PSNR " + mean(kPsnr, 1) + " dB, SSIM " + mean(kSsim, 3) +
                                     " over the pixels that the model covers, " +
-                                    fixed(100 * overFrames(result, kJudged).mean, 1) + " %, of " +
+                                    fixed(100 * overFrames(result, kJudged).mean, 1) +
+                                    " % of the tissue (without masks and black borders), of " +
                                     std::to_string(result.drawn.size()) + " models");
   const Statistics backprojection = overFrames(result, kBackProjection);
   if (backprojection.count > 0)
-    facts.addLine("back-projection", spreadText(backprojection) + ", as the run measured it");
+    facts.addLine("back-projection", spreadText(backprojection) + " over " +
+                                         std::to_string(backprojection.count) +
+                                         " frames, as the run measured it");
   if (overFrames(result, kCoverage).count > 0)
     facts.addLine("coverage", fixed(100 * overFrames(result, kCoverage).mean, 1) +
-                                  " % of the tissue has depth");
+                                  " % of the tissue has depth, mean of " +
+                                  std::to_string(overFrames(result, kCoverage).count) + " frames");
   facts.addLine("scope", "moved " + fixed(result.moved_mm, 2) + " mm and turned " +
                              fixed(result.turned_deg, 2) +
-                             " deg from first to last; of a scope that stands still that is drift");
+                             " deg from the first fused frame to the last; of a scope that stands "
+                             "still that is drift");
   facts.addLine("  jitter", fixed(result.jitter_rms_mm, 4) + " mm rms of second differences");
   for (const std::string& missing : kMissing) facts.addLine("missing", missing);
   for (const std::string& warning : result.warnings) facts.warn(warning);
@@ -223,11 +239,13 @@ FactSheet truthlessFacts(const TruthlessResult& result) {
 }
 
 std::string truthlessCsv(const TruthlessResult& result) {
-  std::string text = "frame,time_s";
+  std::string text = "frame,time_s,outcome";
   for (const TruthlessColumn& column : kTruthlessColumns) text += std::string(",") + column.heading;
   text += "\n";
   for (const auto& [number, frame] : result.frames) {
-    text += std::to_string(number) + "," + csvCell(frame.time_s);
+    const auto outcome = result.outcomes.each().find(number);
+    text += std::to_string(number) + "," + csvCell(frame.time_s) + "," +
+            (outcome == result.outcomes.each().end() ? "" : toString(outcome->second));
     for (const TruthlessColumn& column : kTruthlessColumns)
       text += "," + csvCell(column.value(frame));
     text += "\n";
@@ -240,6 +258,14 @@ VectorDrawing truthlessPlots(const TruthlessResult& result) {
   style.height_mm = 42;
   VectorDrawing drawing;
   drawing.width_pt = style.width_mm * kPtPerMm;
+  OutcomeStripData strip;
+  for (const auto& [number, outcome] : result.outcomes.each()) {
+    const auto frame = result.frames.find(number);
+    if (frame == result.frames.end()) continue;
+    strip.x.push_back(hasTimes(result) ? frame->second.time_s : number);
+    strip.outcomes.push_back(outcome);
+  }
+  if (!strip.x.empty()) appendBelow(drawOutcomeStrip(strip, style), 0, drawing);
   addPlot(result, "PSNR [dB]", kPsnr, style, drawing);
   addPlot(result, "SSIM", kSsim, style, drawing);
   addPlot(result, "back-projection [mm]", kBackProjection, style, drawing);

@@ -16,7 +16,8 @@
 
 namespace softscope {
 
-/// NaN = not measured. A step leads from the frame before.
+/// NaN = not measured. Of a frame that was not fused time and coverage alone are known, and no
+/// number over the frames has it in. A step leads from the frame before.
 struct TruthlessFrame {
   double time_s = Statistics::kNone;
   double backprojection_mm = Statistics::kNone;  // as the run measured it
@@ -28,6 +29,7 @@ struct TruthlessFrame {
 
 struct TruthlessResult {
   std::string run, sequence;              // as the user named them
+  FrameOutcomes outcomes;                 // of the run
   std::map<int, TruthlessFrame> frames;   // every frame with a pose
   std::vector<int> drawn;                 // those with a saved model and a picture
   double moved_mm = Statistics::kNone;    // from the first to the last pose: drift of a still scope

@@ -47,7 +47,8 @@ Evaluation evaluate(const Run& run, const std::string& reference,
     evaluation.warnings = judged->warnings;
   } else {
     evaluation.surface = {distancesOf({}), distancesOf({}), distancesOf({})};
-    evaluation.warnings = std::get<TruthlessResult>(found.result).warnings;
+    if (const auto* beside = std::get_if<TruthlessResult>(&found.result))
+      evaluation.warnings = beside->warnings;
   }
   evaluation.metrics = metricMapOf(found.record);
   evaluation.record = jsonText(found.record);

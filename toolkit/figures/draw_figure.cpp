@@ -99,7 +99,8 @@ FourPanelOptions FigureMaker::panelsFor(const Scene& scene) const {
   panels.style = request_.page.figureStyle();
   panels.rule = request_.page.sideRule();
   panels.centre_mm = request_.page.centreIn(scene, modelIn(scene));
-  panels.width_mm = request_.page.field_mm > 0 ? request_.page.field_mm : sceneWidthMm(scene);
+  panels.width_mm = request_.page.field_mm;
+  panels.keep_centres = !request_.page.at.empty();
   panels.columns = request_.columns;
   if (scene.frame == SceneFrame::kCamera) panels.eye = {0.35, -0.4, -0.85};
   if (request_.eye) panels.eye = *request_.eye;
@@ -163,8 +164,9 @@ DrawnFigure FigureMaker::draw() const {
                  [&] { drawing = drawFourPanels(scene, panels); });
   record["volume"] = inputs.volumeJson();
   record["surfaces"] = inputs.surfacesJson();
-  for (const ViewPlane& view : fourViews(scene, panels))
-    record["views"].push_back(viewJson(view, scene.frame, panels.width_mm));
+  const PanelField field = fourViews(scene, panels);
+  for (const ViewPlane& view : field.planes)
+    record["views"].push_back(viewJson(view, scene.frame, field.width_mm));
   return finish(std::move(drawing), inputs, std::move(record));
 }
 

@@ -11,6 +11,7 @@
 #include "toolkit/evaluation/run_moment.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/run/model_file.h"
+#include "toolkit/run/model_surface.h"
 #include "vtk_views/nice_ticks.h"
 #include "vtk_views/series_plot.h"
 
@@ -39,38 +40,16 @@ Scene sceneOf(TriangleMesh model) {
   return scene;
 }
 
-TriangleMesh modelMesh(const std::filesystem::path& file) {
-  ModelFile read = readModel(file);
-  TriangleMesh mesh;
-  mesh.vertices_mm = std::move(read.model.positions_mm);
-  if (read.coloured) mesh.colours = std::move(read.model.colours);
-  return mesh;
-}
+TriangleMesh modelMesh(const std::filesystem::path& file) { return modelSurface(readModel(file)); }
 
 Eigen::Vector3d eyeOf(const RunFigureOptions& options) {
   return options.eye.norm() > 0 ? options.eye : kFromTheScope;
 }
 
-/// A sequence without a clock counts frames: then a time says nothing.
-std::string captionOf(int frame, double time_s, bool with_clock) {
-  if (!with_clock || !std::isfinite(time_s)) return "frame " + std::to_string(frame);
-  char text[64];
-  std::snprintf(text, sizeof text, "frame %d, %.2f s", frame, time_s);
-  return text;
-}
-
-bool hasClock(const JudgedRun& run) {
-  for (std::size_t i = 0; i < run.frames.size(); ++i)
-    if (run.trajectory[i].time_s != run.frames[i]) return true;
-  return false;
-}
-
-PanelOptions panelsFor(const RunFigureOptions& options, const std::list<Scene>& scenes) {
-  PanelOptions panels = options.panels;
-  if (panels.width_mm > 0) return panels;
-  for (const Scene& scene : scenes)
-    panels.width_mm = std::max(panels.width_mm, sceneWidthMm(scene));
-  return panels;
+/// What keeps the model at that frame from being one of that moment.
+std::string unfusedText(const JudgedRun& run, int frame) {
+  const auto outcome = run.outcomes.each().find(frame);
+  return run.counts(frame) ? "" : std::string(", ") + toString(outcome->second);
 }
 
 /// The frames to show, each of which `there` must hold.
@@ -91,7 +70,8 @@ std::vector<int> keysOf(const FrameFiles& files) {
 
 RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   const JudgedRun run = openJudgedRun(options.run);
-  const std::vector<int> there = keysOf(run.models);
+  std::vector<int> there = keysOf(run.countedModels());
+  if (there.empty() || !options.frames.empty()) there = keysOf(run.models);
   if (there.empty())
     throw InputError(options.run +
                      ": has no models of single frames; reconstruct with --save-every N");
@@ -106,9 +86,8 @@ RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   auto scene = scenes.begin();
   for (const int frame : frames)
     panels.push_back({&*scene++, cameraView(centre_mm, eyeOf(options), SceneFrame::kCamera),
-                      captionOf(frame, run.timeOf(frame), hasClock(run))});
-  return {drawScenes(panels, panelsFor(options, scenes)),
-          {{"run", options.run}, {"frames", frames}}};
+                      momentText(frame, run.timeOf(frame)) + unfusedText(run, frame)});
+  return {drawScenes(panels, options.panels), {{"run", options.run}, {"frames", frames}}};
 }
 
 /// The truth in grey, the model coloured by its errors.
@@ -164,15 +143,17 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
   ErrorSeriesData series;
   std::list<RunMoment> moments;
   for (const int frame : pair.frames()) {
-    RunMoment moment = pair.moment(frame);
+    const bool is_shown =
+        std::find(shown_frames.begin(), shown_frames.end(), frame) != shown_frames.end();
+    RunMoment moment = pair.moment(frame, is_shown);
     noteMoment(moment, inputs);
     const Statistics errors = statistics(moment.distances(options.observed_only));
-    series.times.push_back(moment.time_s);
+    series.times.push_back(std::isfinite(moment.time_s) ? moment.time_s : frame);
+    if (!std::isfinite(moment.time_s)) series.time_label = "frame";
     series.mean.push_back(errors.mean);
     series.median.push_back(errors.median);
     series.p95.push_back(errors.p95);
-    if (std::find(shown_frames.begin(), shown_frames.end(), frame) != shown_frames.end())
-      moments.push_back(std::move(moment));
+    if (is_shown) moments.push_back(std::move(moment));
   }
   std::vector<const RunMoment*> each;
   for (const RunMoment& moment : moments) each.push_back(&moment);
@@ -187,14 +168,15 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
     explainToo(map, foot);
     scenes.push_back(errorScene(moment, map));
     panels.push_back(
-        panelOf(scenes.back(), eyeOf(options), captionOf(moment.frame, moment.time_s, true)));
+        panelOf(scenes.back(), eyeOf(options), momentText(moment.frame, moment.time_s)));
     figure.record["errors"].push_back(map.json);
   }
-  PanelOptions sheet = panelsFor(options, scenes);
+  PanelOptions sheet = options.panels;
   sheet.foot = foot;
   figure.drawing = drawScenes(panels, sheet);
   const PlotStyle plot{sheet.style.width_mm, 0.35 * std::max(sheet.style.width_mm, 120.0),
                        sheet.style.font_pt};
+  series.title = std::string("(") + char('a' + panels.size()) + ") every judged frame";
   if (series.times.size() > 1)
     appendBelow(drawErrorSeries(series, plot), sheet.style.font_pt, figure.drawing);
   return figure;
@@ -240,14 +222,18 @@ int frameOfBoth(const RunFigureOptions& options, const std::vector<int>& first,
 FrameFiles allModels(const JudgedRun& run) {
   FrameFiles models = run.models;
   if (!run.last_model.empty() && !run.frames.empty())
-    models.emplace(run.frames.back(), run.last_model);
+    models.emplace(run.lastCounted(), run.last_model);
   return models;
+}
+
+std::string twoRunsText(const std::string& moment) {
+  return "Two reconstructions, each at " + moment + "; one place and one scale.";
 }
 
 RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs) {
   const JudgedPair first(options.run, options.sequence), second(options.other, options.sequence);
   const int frame = frameOfBoth(options, first.frames(), second.frames());
-  const RunMoment a = first.moment(frame), b = second.moment(frame);
+  const RunMoment a = first.moment(frame, true), b = second.moment(frame, true);
   const ErrorColourOptions errors = sharedRange(options, {&a, &b});
   RunFigure figure;
   figure.record = {
@@ -267,8 +253,9 @@ RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs)
     mapped.push_back(panelOf(scenes.back(), eyeOf(options), name + ", errors"));
   }
   coloured.insert(coloured.end(), mapped.begin(), mapped.end());
-  PanelOptions sheet = panelsFor(options, scenes);
+  PanelOptions sheet = options.panels;
   sheet.foot = foot;
+  sheet.foot.notes = {twoRunsText(momentText(frame, a.time_s))};
   figure.drawing = drawScenes(coloured, sheet);
   return figure;
 }
@@ -286,8 +273,9 @@ RunFigure compareColoured(const RunFigureOptions& options, SceneInputs& inputs) 
     scenes.push_back(sceneOf(modelMesh(file)));
     panels.push_back(panelOf(scenes.back(), eyeOf(options), name));
   }
-  return {drawScenes(panels, panelsFor(options, scenes)),
-          {{"runs", {options.run, options.other}}, {"frame", frame}}};
+  PanelOptions sheet = options.panels;
+  sheet.foot.notes = {twoRunsText(momentText(frame, openJudgedRun(options.run).timeOf(frame)))};
+  return {drawScenes(panels, sheet), {{"runs", {options.run, options.other}}, {"frame", frame}}};
 }
 
 }  // namespace

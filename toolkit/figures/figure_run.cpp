@@ -11,21 +11,23 @@ namespace {
 
 using Json = FactSheet::Json;
 
-constexpr double kScanDots = 2.4;  // under the model's, so wider
+constexpr double kScanLine = 2.6;  // under the model's, so wider
 
 }  // namespace
 
 Json addRunMoment(const RunMomentOptions& options, SceneInputs& inputs, FigureFoot& foot) {
   const JudgedPair pair(options.run, options.sequence);
   for (const std::string& warning : pair.warnings) inputs.warn(warning);
-  RunMoment moment = pair.moment(pair.chooseFrame(options.frame));
+  RunMoment moment = pair.moment(pair.chooseFrame(options.frame), /*surface=*/true);
   const bool coloured = options.errors.kind != "none";
   inputs.scene().frame = SceneFrame::kCamera;
   inputs.addMade({"true surface", std::move(moment.truth), {170, 170, 170}, {}}, "reference",
                  moment.truth_file);
+  foot.notes.push_back("Model and scan of " + momentText(moment.frame, moment.time_s) +
+                       ", as the scope sees them.");
   SceneSurface& scan = inputs.addMade({"scan of this frame", std::move(moment.scan), kScanRed, {}},
                                       "scan", moment.scan_file);
-  scan.dot_scale = kScanDots;
+  scan.dot_scale = kScanLine;
   scan.in_3d = !coloured;
   SceneSurface& model = inputs.addMade({"model", std::move(moment.model), surfaceColour(1), {}},
                                        "model", moment.model_file);

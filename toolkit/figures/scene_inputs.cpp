@@ -12,6 +12,7 @@
 #include "mesh/mesh_check.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/record/statistics_json.h"
+#include "toolkit/run/model_surface.h"
 
 namespace softscope {
 namespace {
@@ -40,6 +41,15 @@ std::string frameOf(const std::string& path) {
   return std::string(rest.substr(0, rest.find('\n')));
 }
 
+/// A model that reconstruct wrote is cut as a surface; what else consists of points stays points.
+void addTriangles(const std::string& path, TriangleMesh& mesh) {
+  try {
+    const TriangleMesh surface = modelSurface(readModel(path));
+    if (surface.vertices_mm.size() == mesh.vertices_mm.size()) mesh.triangles = surface.triangles;
+  } catch (const InputError&) {  // another program's points
+  }
+}
+
 }  // namespace
 
 void SceneInputs::note(const std::string& role, const std::string& path) {
@@ -62,6 +72,8 @@ SceneSurface& SceneInputs::addSurface(const std::string& path, const std::string
   surface.mesh = readSurfaceOrPoints(path, unit_mm_);
   surface.colour = colour;
   frames_.push_back(surface.mesh.space.empty() ? frameOf(path) : "");
+  space_is_said_ |= !surface.mesh.space.empty();
+  if (!frames_.back().empty() && surface.isPoints()) addTriangles(path, surface.mesh);
   assumptions_.push_back(frames_.back().empty() ? bringToLps(surface.mesh)
                                                 : "a scope's frame: " + frames_.back());
   surface_paths_.push_back(path);
@@ -93,6 +105,7 @@ void SceneInputs::checkFrames() {
     scene_.frame = SceneFrame::kCamera;
     return;
   }
+  if (!scene_.volume && !space_is_said_) scene_.frame = SceneFrame::kAxes;
   for (std::size_t i = 0; i < frames_.size(); ++i)
     if (of_scope(frames_[i]))
       warn(surface_paths_[i] + ": lies in a scope's frame (" + frames_[i] +

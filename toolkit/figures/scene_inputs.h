@@ -51,6 +51,7 @@ class SceneInputs {
   void checkFrames();
 
   std::vector<std::string> surface_paths_, assumptions_, frames_;  // one a surface
+  bool space_is_said_ = false;                                     // by a surface
   std::vector<std::string> warnings_;
 };
 

@@ -10,6 +10,7 @@
 #include "io/folder.h"
 #include "io/message.h"
 #include "mesh/coarse_mesh.h"
+#include "toolkit/run/frame_clock.h"
 
 namespace softscope {
 namespace {
@@ -150,6 +151,40 @@ std::vector<double> ReportCase::overFrames(const std::string& key) const {
   for (const Json& frame : record["frames"])
     if (std::isfinite(numberAt(frame, "mean_mm"))) values.push_back(numberAt(frame, key));
   return values;
+}
+
+std::vector<std::pair<double, double>> CaseFrames::series(const std::string& key) const {
+  std::vector<std::pair<double, double>> values;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const bool counts = outcomes[i].empty() || outcomes[i] == "fused";
+    const double value = counts ? numberAt(rows[i], key) : Statistics::kNone;
+    const bool at_end = i == 0 || i + 1 == x.size();  // all plots of a case span the same frames
+    if (std::isfinite(value) || !counts || at_end) values.emplace_back(x[i], value);
+  }
+  return values;
+}
+
+std::size_t CaseFrames::fused() const {
+  return static_cast<std::size_t>(std::count(outcomes.begin(), outcomes.end(), "fused"));
+}
+
+CaseFrames framesOf(const ReportCase& c) {
+  CaseFrames frames;
+  if (!c.record.contains("frames") || !c.record["frames"].is_array()) return frames;
+  std::vector<int> numbers;
+  std::vector<double> times_s;
+  for (const Json& row : c.record["frames"]) {
+    const double number = numberAt(row, "frame");
+    if (!(number >= 0 && number < 1e9) || (!numbers.empty() && number <= numbers.back())) return {};
+    numbers.push_back(static_cast<int>(number));
+    times_s.push_back(numberAt(row, "time_s"));
+    frames.rows.push_back(row);
+    frames.outcomes.push_back(textAt(row, "outcome"));
+  }
+  const bool clock = hasClock(numbers, times_s);
+  frames.x_label = clock ? "time [s]" : "frame";
+  frames.x = clock ? times_s : std::vector<double>(numbers.begin(), numbers.end());
+  return frames;
 }
 
 ReportCase readReportCase(const fs::path& path) {

@@ -38,6 +38,22 @@ struct ReportCase {
   std::vector<double> overFrames(const std::string& key) const;
 };
 
+/// The frames of a record, over time where the clip has a clock, else over their numbers.
+struct CaseFrames {
+  std::string x_label;
+  std::vector<double> x;              // rising
+  std::vector<FactSheet::Json> rows;  // one per x
+  std::vector<std::string> outcomes;  // fused, skipped, lost; empty where the record says nothing
+
+  /// Of the frames that were fused and have the value; NaN for those that were not fused, and for
+  /// the first and the last one, so that all series span the same frames; the others are left out.
+  std::vector<std::pair<double, double>> series(const std::string& key) const;
+  std::size_t fused() const;
+};
+
+/// Without rows where the record has no frames, or they are not in order.
+CaseFrames framesOf(const ReportCase& c);
+
 /// `path`: the folder, or the JSON file in it. Throws InputError: neither, broken, of another
 /// version; for a run that wasn't evaluated it says what to do.
 ReportCase readReportCase(const std::filesystem::path& path);

@@ -23,6 +23,7 @@ struct CohortMetric {
 };
 
 constexpr CohortMetric kMetrics[] = {
+    {"fused_share", "frames fused [share]", "outcomes.fused_share", ""},
     {"mean_mm", "mean distance [mm]", "surface.mean_mm", "accuracy.mean_mm"},
     {"median_mm", "median [mm]", "surface.median_mm", "accuracy.median_mm"},
     {"p95_mm", "P95 [mm]", "surface.p95_mm", "accuracy.p95_mm"},

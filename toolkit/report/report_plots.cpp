@@ -19,29 +19,42 @@ std::vector<double> numbersAt(const FactSheet::Json& list) {
   return numbers;
 }
 
+double valueAt(const std::vector<std::pair<double, double>>& series, double x) {
+  for (const auto& [at, value] : series)
+    if (at == x) return value;
+  return Statistics::kNone;
+}
+
 }  // namespace
 
-bool rises(const std::vector<double>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]) || (i > 0 && values[i] <= values[i - 1])) return false;
-  return true;
+OutcomeStripData outcomeStrip(const CaseFrames& frames) {
+  OutcomeStripData strip;
+  for (std::size_t i = 0; i < frames.x.size(); ++i)
+    for (const FusionOutcome outcome :
+         {FusionOutcome::kFused, FusionOutcome::kSkipped, FusionOutcome::kLost})
+      if (frames.outcomes[i] == toString(outcome)) {
+        strip.x.push_back(frames.x[i]);
+        strip.outcomes.push_back(outcome);
+      }
+  return strip;
 }
 
 std::optional<CaptionedFigure> seriesFigure(const ReportCase& c) {
+  const CaseFrames frames = framesOf(c);
   ErrorSeriesData data;
-  data.times = c.overFrames("time_s");
-  if (data.times.size() < 2) return std::nullopt;
-  if (!rises(data.times)) {
-    data.times = c.overFrames("frame");
-    data.time_label = "frame";
-    if (!rises(data.times)) return std::nullopt;
-  }
   data.title = "Error over time";
-  data.mean = c.overFrames("mean_mm");
-  data.median = c.overFrames("median_mm");
-  data.p95 = c.overFrames("p95_mm");
-  return CaptionedFigure{drawErrorSeries(data),
-                         "Distance of the model's points from the reference, moment by moment."};
+  data.time_label = frames.x_label;
+  const auto medians = frames.series("median_mm"), p95s = frames.series("p95_mm");
+  for (const auto& [x, mean] : frames.series("mean_mm")) {
+    data.times.push_back(x);
+    data.mean.push_back(mean);
+    data.median.push_back(valueAt(medians, x));
+    data.p95.push_back(valueAt(p95s, x));
+  }
+  if (statistics(data.mean).count < 2) return std::nullopt;
+  return CaptionedFigure{withOutcomeStrip(outcomeStrip(frames), drawErrorSeries(data)),
+                         "Distance of the model's points from the reference, moment by moment. A "
+                         "gap: frames that were not fused."};
 }
 
 std::optional<CaptionedFigure> histogramFigure(const ReportCase& c) {

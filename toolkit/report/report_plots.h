@@ -7,14 +7,15 @@
 #include <vector>
 
 #include "toolkit/report/report_case.h"
+#include "vtk_views/outcome_strip.h"
 #include "vtk_views/vector_drawing.h"
 
 namespace softscope {
 
 using CaptionedFigure = std::pair<VectorDrawing, std::string>;
 
-/// Whether a curve may be drawn over these values: finite, each above the one before.
-bool rises(const std::vector<double>& values);
+/// Which frames were fused, skipped, lost; of no frame where the record says nothing.
+OutcomeStripData outcomeStrip(const CaseFrames& frames);
 
 /// Error over the judged moments; none for a pair, a single moment, or a record without frames.
 std::optional<CaptionedFigure> seriesFigure(const ReportCase& c);

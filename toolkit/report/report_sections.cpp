@@ -104,6 +104,23 @@ ReportTable scoresTable(const ReportCase& c) {
   return table;
 }
 
+/// How many frames the numbers stand on, before any number; none for a pair.
+void addFrames(const ReportCase& c, std::vector<ReportPart>& parts) {
+  const double all = numberAt(c.record, "outcomes.frames");
+  const auto count = [&](const char* outcome) {
+    return numberAt(c.record, std::string("outcomes.") + outcome);
+  };
+  if (!(all > 0)) return;
+  parts.emplace_back(ReportParagraph{
+      "Of " + whole(all) + " frames " + whole(count("fused")) + " were fused, " +
+      whole(count("skipped")) + " skipped, " + whole(count("lost")) +
+      " lost. Every number below is of the fused frames alone; of what happened in the others "
+      "nothing is known."});
+  const OutcomeStripData strip = outcomeStrip(framesOf(c));
+  if (strip.x.empty()) return;
+  parts.emplace_back(ReportFigures{{{drawOutcomeStrip(strip), "The frames over time."}}});
+}
+
 ReportParagraph headline(const ReportCase& c) {
   if (!c.hasTruth()) return truthlessHeadline(c);
   std::string text = "The model lies " + millimetresText(c.main("mean_mm")) +
@@ -195,7 +212,11 @@ ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices) {
 }
 
 std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices) {
-  std::vector<ReportPart> parts{headline(c), tiles(c), confidence(c, choices)};
+  std::vector<ReportPart> parts;
+  addFrames(c, parts);
+  parts.emplace_back(headline(c));
+  parts.emplace_back(tiles(c));
+  parts.emplace_back(confidence(c, choices));
   addTable(thresholdsTable(c), parts);
   if (!c.hasTruth()) {
     for (ReportTable& table : truthlessTables(c)) addTable(std::move(table), parts);

@@ -14,36 +14,18 @@ std::string decibels(double value) {
   return std::isfinite(value) ? fixed(value, 1) + " dB" : "not measured";
 }
 
-/// Of the frames that have both a place in time and the value.
-ValueSeriesData valuesOver(const ReportCase& c, const std::string& x, const std::string& y) {
-  ValueSeriesData data{x == "frame" ? "frame" : "time [s]", "", {}, {}};
-  if (!c.record.contains("frames") || !c.record["frames"].is_array()) return data;
-  for (const auto& frame : c.record["frames"]) {
-    const double at = numberAt(frame, x), value = numberAt(frame, y);
-    if (!std::isfinite(at) || !std::isfinite(value)) continue;
-    data.x.push_back(at);
+void addFigure(const CaseFrames& frames, const std::string& key, const std::string& label,
+               const std::string& caption, std::vector<CaptionedFigure>& figures) {
+  ValueSeriesData data{frames.x_label, label, {}, {}};
+  for (const auto& [x, value] : frames.series(key)) {
+    data.x.push_back(x);
     data.y.push_back(value);
   }
-  return data;
-}
-
-/// A clip without timestamps counts frames as seconds: then a time says nothing.
-ValueSeriesData series(const ReportCase& c, const std::string& key) {
-  ValueSeriesData by_frame = valuesOver(c, "frame", key);
-  ValueSeriesData by_time = valuesOver(c, "time_s", key);
-  const bool has_clock =
-      by_time.x.size() == by_frame.x.size() && by_time.x != by_frame.x && rises(by_time.x);
-  return has_clock ? by_time : by_frame;
-}
-
-void addFigure(const ReportCase& c, const std::string& key, const std::string& label,
-               const std::string& caption, std::vector<CaptionedFigure>& figures) {
-  ValueSeriesData data = series(c, key);
-  if (data.x.size() < 2 || !rises(data.x)) return;
-  data.y_label = label;
+  if (statistics(data.y).count < 2) return;
   PlotStyle style;
   style.height_mm = 42;
-  figures.emplace_back(drawValueSeries(data, style), caption);
+  figures.emplace_back(withOutcomeStrip(outcomeStrip(frames), drawValueSeries(data, style), style),
+                       caption);
 }
 
 ReportTable viewTable(const ReportCase& c) {
@@ -53,7 +35,7 @@ ReportTable viewTable(const ReportCase& c) {
                   {"PSNR over all pixels [dB]", "view.psnr_over_all_pixels_db"},
                   {"SSIM", "view.ssim"}});
   if (const double share = numberAt(c.record, "view.judged_share"); std::isfinite(share))
-    table.rows.push_back({"pixels that the model covers", percentText(share)});
+    table.rows.push_back({"tissue that the model covers", percentText(share)});
   if (const double share = numberAt(c.record, "coverage.mean_share"); std::isfinite(share))
     table.rows.push_back({"tissue that has depth, by the run itself", percentText(share)});
   return table;
@@ -61,8 +43,8 @@ ReportTable viewTable(const ReportCase& c) {
 
 ReportTable pathTable(const ReportCase& c) {
   return valueTable("The scope's path, as estimated", "", c.record,
-                    {{"moved from first to last frame [mm]", "camera.moved_mm"},
-                     {"turned from first to last frame [degrees]", "camera.turned_deg"},
+                    {{"moved from first to last fused frame [mm]", "camera.moved_mm"},
+                     {"turned from first to last fused frame [degrees]", "camera.turned_deg"},
                      {"jitter, rms of second differences [mm]", "camera.jitter_rms_mm"}});
 }
 
@@ -81,7 +63,10 @@ std::string missingText(const ReportCase& c) {
 }  // namespace
 
 std::vector<double> drawnPsnrs(const ReportCase& c) {
-  return valuesOver(c, "frame", "view_psnr_db").y;
+  std::vector<double> psnrs;
+  for (const auto& [x, psnr_db] : framesOf(c).series("view_psnr_db"))
+    if (std::isfinite(psnr_db)) psnrs.push_back(psnr_db);
+  return psnrs;
 }
 
 ReportParagraph truthlessHeadline(const ReportCase& c) {
@@ -106,12 +91,12 @@ std::string truthlessSummary(const ReportCase& c) {
 ReportTiles truthlessTiles(const ReportCase& c) {
   const auto value = [&](const char* path) { return numberAt(c.record, path); };
   return {{{"PSNR of the drawn view", decibels(value("view.psnr_db")),
-            "over " + percentText(value("view.judged_share")) + " of the pixels"},
+            "over " + percentText(value("view.judged_share")) + " of the tissue"},
            {"Back-projection", millimetresText(value("backprojection.mean_mm")),
             "by the run itself; no accuracy"},
            {"Tissue with depth", percentText(value("coverage.mean_share")), "by the run itself"},
            {"Scope moved", millimetresText(value("camera.moved_mm")),
-            "first to last; drift if it stood still"}}};
+            "first to last fused frame; drift if it stood still"}}};
 }
 
 std::vector<ReportTable> truthlessTables(const ReportCase& c) {
@@ -124,12 +109,14 @@ std::vector<ReportTable> truthlessTables(const ReportCase& c) {
 
 std::vector<CaptionedFigure> truthlessFigures(const ReportCase& c) {
   std::vector<CaptionedFigure> figures;
-  addFigure(c, "view_psnr_db", "PSNR [dB]", "The drawn model beside the picture.", figures);
-  addFigure(c, "view_ssim", "SSIM", "The same, by structure: 1 is the picture itself.", figures);
-  addFigure(c, "backprojection_mean_mm", "back-projection [mm]",
-            "Distance of the model in sight from the depth of that frame.", figures);
-  addFigure(c, "step_mm", "scope's step [mm]", "How far the scope moved since the frame before.",
+  const CaseFrames frames = framesOf(c);
+  addFigure(frames, "view_psnr_db", "PSNR [dB]", "The drawn model beside the picture.", figures);
+  addFigure(frames, "view_ssim", "SSIM", "The same, by structure: 1 is the picture itself.",
             figures);
+  addFigure(frames, "backprojection_mean_mm", "back-projection [mm]",
+            "Distance of the model in sight from the depth of that frame.", figures);
+  addFigure(frames, "step_mm", "scope's step [mm]",
+            "How far the scope moved since the frame before.", figures);
   return figures;
 }
 
@@ -149,12 +136,12 @@ std::vector<std::string> truthlessLimits(const ReportCase& c) {
 std::vector<std::string> truthlessMethods() {
   return {
       "PSNR and SSIM: each saved model drawn from the pose that the run estimated, against the "
-      "left picture of that moment, over the pixels that the model covers. Over all pixels: the "
+      "left picture of that moment, over the pixels that the model covers, without masks and black "
+      "borders. Over all pixels: the "
       "same "
       "differences shared out over the whole picture, the higher the less is covered. SSIM: "
       "windows of 11 x 11, sigma 1.5.",
-      "Back-projection: points in sight that the depth explains, to its planes, after the warp and "
-      "before fusion; mean of absolutes of each frame, then over the frames.",
+      kBackProjectionMeaning,
       "Jitter: root mean square of the second differences of the scope's positions. The confidence "
       "interval is a percentile bootstrap of the drawn models' PSNR, 2000 resamples, seeded."};
 }

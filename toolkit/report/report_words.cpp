@@ -14,6 +14,11 @@ std::string countText(double count) {
 
 }  // namespace
 
+const char* const kBackProjectionMeaning =
+    "Back-projection: the model, after the fusion of a frame, drawn into that frame, minus the "
+    "frame's own depth; mean of absolutes over the pixels that show the model and have a sure "
+    "depth, then the mean over the fused frames after the first.";
+
 std::string numberText(double value) {
   if (!std::isfinite(value)) return kDash;
   const double size = std::abs(value);

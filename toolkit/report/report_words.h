@@ -16,6 +16,9 @@ std::string millimetresText(double value);           // "0.072 mm"
 std::string percentText(double share);               // 0.984 is "98.4 %"
 std::string intervalText(const Interval& interval);  // "0.05 to 0.09"
 
+/// What back-projection is, wherever a text says it: docs/evaluation.md, "Back-projection".
+extern const char* const kBackProjectionMeaning;
+
 /// One row a named part of the record that has a mean: mean, SD, RMSE, median, P95, max, n.
 struct NamedPart {
   std::string name, path;

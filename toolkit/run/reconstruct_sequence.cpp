@@ -24,6 +24,8 @@ namespace {
 
 using Json = FactSheet::Json;
 
+constexpr const char* kOutcomes = "outcomes";  // where a bare metric is looked for
+
 /// Whether images that the run began with are there no longer.
 bool isGone(const SequencePaths& sequence) {
   for (const std::filesystem::path& view : {sequence.left, sequence.right, sequence.stereo})
@@ -136,6 +138,7 @@ ReconstructedRun SequenceRun::run() {
   reconstructor.track(tracked);
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
+  checkThresholds(options_.thresholds, record.json(), kOutcomes);  // before the work
   if (earlier) {
     folder.takeOver(earlier->next_frame);
     reconstructor.restore(earlier->state);
@@ -159,7 +162,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     FrameRecord frame;
     try {
       frame = result->ok() ? reconstructor.process(result->frame, frames.following())
-                           : reconstructor.skip(result->index, result->error);
+                           : reconstructor.skip(result->index, result->error, result->time_s);
     } catch (const BackendError& error) {
       failure_ = error.what();
       break;
@@ -193,7 +196,10 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   if (nothing && !interrupted_)
     throw InputError(options_.name + ": not one frame could be used; the reasons stand above");
   for (const std::string& conclusion : record.conclusions()) listener_.warn(conclusion);
-  const Json written = options_.paths.applyTo(record.json());
+  Json all = record.json();
+  const auto outcomes = checkThresholds(options_.thresholds, all, kOutcomes);
+  if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
+  const Json written = options_.paths.applyTo(all);
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
   if (!failure_.empty())
     throw BackendError(failure_ + (nothing ? ". --backend cpu needs no GPU"
@@ -203,7 +209,7 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
     throw InputError(options_.name +
                      ": was removed while it was read, or its disk; what is finished "
                      "stays. Put it back and go on with --resume");
-  return {written, record.text(options_.out.string()), interrupted_};
+  return {written, record.text(options_.out.string()), outcomes, interrupted_};
 }
 
 }  // namespace

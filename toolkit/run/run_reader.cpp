@@ -11,6 +11,7 @@
 #include "io/message.h"
 #include "io/trajectory_file.h"
 #include "stereo/rectifier.h"
+#include "toolkit/run/frame_clock.h"
 #include "toolkit/run/table_reader.h"
 
 namespace softscope {
@@ -56,12 +57,44 @@ FrameRows frameRows(const fs::path& file, std::size_t poses) {
   return rows;
 }
 
+/// The model of the first frame is that frame's depth.
+bool measuresBackProjection(const FrameRows& rows, std::size_t k) {
+  return rows.statuses.empty() || (outcomeOf(rows.statuses[k]) == FusionOutcome::kFused &&
+                                   rows.statuses[k] != FrameStatus::kStarted);
+}
+
 }  // namespace
+
+std::vector<std::string> JudgedRun::warnings() const {
+  if (!stopped) return {};
+  return {say("the run was stopped, killed, or is not over: its last frame is ", frames.back(),
+              ", and what followed is not in these numbers; go on with reconstruct --resume")};
+}
 
 double JudgedRun::timeOf(int frame) const {
   const auto found = std::lower_bound(frames.begin(), frames.end(), frame);
   if (found == frames.end() || *found != frame) return std::nan("");
+  if (!hasClock(frames, trajectory)) return std::nan("");
   return trajectory[static_cast<std::size_t>(found - frames.begin())].time_s;
+}
+
+FrameFiles JudgedRun::countedModels() const {
+  FrameFiles counted;
+  for (const auto& [frame, file] : models)
+    if (counts(frame)) counted[frame] = file;
+  return counted;
+}
+
+int JudgedRun::lastCounted() const {
+  const auto last = std::find_if(frames.rbegin(), frames.rend(), [&](int f) { return counts(f); });
+  return last == frames.rend() ? frames.back() : *last;
+}
+
+double SequenceTruth::timeOf(int frame) const {
+  std::vector<int> frames(trajectory.size());
+  std::iota(frames.begin(), frames.end(), 0);
+  return hasClock(frames, trajectory) ? trajectory[static_cast<std::size_t>(frame)].time_s
+                                      : std::nan("");
 }
 
 JudgedRun openJudgedRun(const fs::path& folder) {
@@ -70,11 +103,14 @@ JudgedRun openJudgedRun(const fs::path& folder) {
   run.trajectory = readRunTrajectory(folder);
   const FrameRows rows = frameRows(folder / "frames.csv", run.trajectory.size());
   run.frames = rows.frames;
+  for (std::size_t k = 0; k < rows.statuses.size(); ++k)
+    run.outcomes.set(rows.frames[k], outcomeOf(rows.statuses[k]));
   for (std::size_t k = 0; k < rows.backprojection_mm.size(); ++k)
-    if (std::isfinite(rows.backprojection_mm[k]))
+    if (std::isfinite(rows.backprojection_mm[k]) && measuresBackProjection(rows, k))
       run.backprojection_mm[rows.frames[k]] = rows.backprojection_mm[k];
   for (std::size_t k = 0; k < rows.coverage.size(); ++k)
     if (std::isfinite(rows.coverage[k])) run.coverage[rows.frames[k]] = rows.coverage[k];
+  run.stopped = isThere(folder / "checkpoint.bin") || isThere(folder / "writing.lock");
   run.models = numberedFiles(folder / "models", ".ply");
   run.last_model = fileOrNone(folder / "model.ply");
   run.tracks = fileOrNone(folder / "tracks.csv");

@@ -9,6 +9,7 @@
 
 #include "core/stereo_rig.h"
 #include "core/trajectory.h"
+#include "toolkit/run/frame_outcomes.h"
 
 namespace softscope {
 
@@ -19,14 +20,25 @@ struct JudgedRun {
   std::filesystem::path folder;
   Trajectory trajectory;                    // world_from_left
   std::vector<int> frames;                  // the frame of each pose, rising
-  std::map<int, double> backprojection_mm;  // of frames.csv, by frame, where it has a value
-  std::map<int, double> coverage;           // the same: share of the tissue that has depth
+  FrameOutcomes outcomes;                   // of frames.csv
+  std::map<int, double> backprojection_mm;  // of frames that were fused into the model, not the
+                                            // first one, whose value is zero by construction
+  std::map<int, double> coverage;           // share of the tissue that has depth, of all frames
   FrameFiles models;                        // models/NNNNNN.ply
+  bool stopped = false;                     // before its end: the clip's last frames lack
   std::filesystem::path last_model;         // model.ply; empty where it is missing
   std::filesystem::path tracks;             // tracks.csv; empty where it is missing
 
-  /// NaN where the frame has no pose.
+  /// What a reader of any of its numbers should know; empty for a run that reached its end.
+  std::vector<std::string> warnings() const;
+  /// NaN where the frame has no pose, and for all frames of a clip without timestamps.
   double timeOf(int frame) const;
+  /// Whether the frame's pose, model and tracks say something of it: it was fused.
+  bool counts(int frame) const { return outcomes.fused(frame); }
+  /// Of the models, those that count.
+  FrameFiles countedModels() const;
+  /// The frame that the last model shows: the last that counts.
+  int lastCounted() const;
 };
 
 /// Throws InputError: no such folder, no trajectory, or a table of frames that doesn't fit it.
@@ -44,6 +56,9 @@ struct SequenceTruth {
   RectifiedRig rig;
   double depth_unit_mm = 0.01;
   bool rectified = true;  // so are the pictures, and what is given for their pixels
+
+  /// NaN where the clip has no timestamps.
+  double timeOf(int frame) const;
 };
 
 /// Throws InputError: no such folder, no groundtruth in it, no true trajectory, no calibration.

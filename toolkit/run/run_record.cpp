@@ -72,6 +72,7 @@ RunRecord::RunRecord(const Json& inputs, const StereoCalibration& calibration,
 void RunRecord::add(const FrameRecord& record) {
   ++frames_;
   ++frames_of_status_[toString(record.status)];
+  outcomes_.set(record.frame, outcomeOf(record.status));
   for (const auto& [stage, stage_ms] : record.times) elapsed_ms_[stage] += stage_ms;
   frame_ms_.push_back(record.elapsed_ms());
   located_ += record.pose.found;
@@ -88,19 +89,9 @@ void RunRecord::add(const FrameRecord& record) {
     prediction_mm_.push_back(record.evidence.predicted.mean_mm);
 }
 
-int RunRecord::fusedFrames() const {
-  int fused = 0;
-  for (const FrameStatus status :
-       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered})
-    if (const auto found = frames_of_status_.find(toString(status));
-        found != frames_of_status_.end())
-      fused += found->second;
-  return fused;
-}
-
 std::vector<std::string> RunRecord::conclusions() const {
   std::vector<std::string> all;
-  const int left_out = frames_ - fusedFrames();
+  const int left_out = frames_ - outcomes_.count(FusionOutcome::kFused);
   if (left_out > kToldShare * frames_)
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
@@ -130,18 +121,21 @@ double RunRecord::meanOf(const std::vector<double>& values) const {
 Json RunRecord::json() const {
   Json all = json_;
   all["frames"] = frames_;
-  all["frames_fused"] = fusedFrames();
+  all["frames_fused"] = outcomes_.count(FusionOutcome::kFused);
   all["frames_by_status"] = frames_of_status_;
+  all["outcomes"] = outcomes_.json();
   all["points"] = points_;
   all["nodes"] = nodes_;
   all["mean_inliers"] = numberOrNull(meanOf(matches_));
   all["mean_backprojection_mm"] = numberOrNull(meanOf(backprojection_mm_));
   all["mean_prediction_mm"] = numberOrNull(meanOf(prediction_mm_));
   all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
-  if (!frame_ms_.empty()) {
-    const std::vector<double> ms = percentiles(frame_ms_, {50, 95, 99, 100});
-    all["frame_ms"] = {{"p50", ms[0]}, {"p95", ms[1]}, {"p99", ms[2]}, {"slowest", ms[3]}};
-  }
+  std::vector<double> ms(4, Statistics::kNone);  // a limit finds the names before the first frame
+  if (!frame_ms_.empty()) ms = percentiles(frame_ms_, {50, 95, 99, 100});
+  all["frame_ms"] = {{"p50", numberOrNull(ms[0])},
+                     {"p95", numberOrNull(ms[1])},
+                     {"p99", numberOrNull(ms[2])},
+                     {"slowest", numberOrNull(ms[3])}};
   Json& stages = all["mean_stage_ms"] = Json::object();
   for (const auto& [stage, sum_ms] : elapsed_ms_) stages[stage] = sum_ms / std::max(1, frames_);
   all["frames_scope_static"] = scope_static_;
@@ -153,7 +147,8 @@ Json RunRecord::json() const {
 
 FactSheet RunRecord::text(const std::string& folder) const {
   FactSheet facts("reconstruction of " + std::to_string(frames_) + " frames");
-  facts.addLine("frames", statusText());
+  addOutcomeFacts(outcomes_, facts);
+  facts.addLine("  by status", statusText());
   if (located_ > 0)
     facts.addLine("scope", "static in " + std::to_string(scope_static_) + " of " +
                                std::to_string(located_) + " frames");
@@ -165,7 +160,9 @@ FactSheet RunRecord::text(const std::string& folder) const {
     facts.addLine("back-projection",
                   fixed(meanOf(backprojection_mm_), 3) +
                       " mm mean distance of the model from each frame's depth, " +
-                      fixed(meanOf(prediction_mm_), 3) + " mm before it learns from the frame");
+                      fixed(meanOf(prediction_mm_), 3) +
+                      " mm before it learns from the frame; over " +
+                      std::to_string(backprojection_mm_.size()) + " frames");
   if (!frame_ms_.empty()) facts.addLine("time", fixed(meanOf(frame_ms_), 0) + " ms a frame");
   facts.addLine("written to", folder);
   facts.addLine("look at", folder + "/model.ply (MeshLab), " + folder + "/models.pvd (ParaView)");

@@ -11,6 +11,7 @@
 #include "pipeline/frame_record.h"
 #include "pipeline/reconstruction_backend.h"
 #include "toolkit/record/fact_sheet.h"
+#include "toolkit/run/frame_outcomes.h"
 
 namespace softscope {
 
@@ -27,7 +28,6 @@ class RunRecord {
   void addWarning(const std::string& text) { warnings_.push_back(text); }
   void set(const std::string& key, const FactSheet::Json& value) { json_[key] = value; }
 
-  int fusedFrames() const;
   /// What a user should know of the whole run: frames that were not fused, or fused with little
   /// evidence, a static scope. In json() among the warnings.
   std::vector<std::string> conclusions() const;
@@ -42,6 +42,7 @@ class RunRecord {
   FactSheet::Json json_;
   FactSheet::Json warnings_ = FactSheet::Json::array();
   std::map<std::string, int> frames_of_status_;
+  FrameOutcomes outcomes_;
   std::map<std::string, double> elapsed_ms_;  // of every stage, over all frames
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
   int frames_ = 0, points_ = 0, nodes_ = 0;

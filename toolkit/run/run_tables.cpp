@@ -53,7 +53,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-std::vector<std::string> cellsOf(std::string_view line) {
+std::vector<std::string> cellsOfLine(std::string_view line) {
   std::vector<std::string> cells(1);
   bool in_quotes = false;
   for (const char c : line) {
@@ -71,11 +71,7 @@ double numberIn(const std::string& cell) {
 }
 
 FrameStatus statusNamed(const std::string& name, const std::string& file) {
-  for (const FrameStatus status :
-       {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
-        FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
-        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable})
-    if (name == toString(status)) return status;
+  if (const auto status = frameStatusNamed(name)) return *status;
   throw InputError(file + ": a frame has an unknown status; start again without --resume");
 }
 
@@ -157,8 +153,8 @@ std::string framesCsvLine(const FrameRecord& record) {
 }
 
 FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
-  static const std::vector<std::string> heading = cellsOf(framesCsvHeading());
-  const std::vector<std::string> cells = cellsOf(line);
+  static const std::vector<std::string> heading = cellsOfLine(framesCsvHeading());
+  const std::vector<std::string> cells = cellsOfLine(line);
   if (cells.size() != heading.size())
     throw InputError(name + ": a line has " + std::to_string(cells.size()) + " cells, but " +
                      std::to_string(heading.size()) +

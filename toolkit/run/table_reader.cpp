@@ -27,18 +27,25 @@ std::vector<std::string_view> commaCells(std::string_view line) {
   return cells;
 }
 
+FrameStatus statusAt(const NumberTable& table, std::size_t row, const std::string& name) {
+  if (const auto status = frameStatusNamed(table.wordAt(row))) return *status;
+  throw InputError(say(name, ": line ", table.lineOf(row), " has the status ",
+                       excerpt(table.wordAt(row)),
+                       ", which no frame can have; is the file damaged? Reconstruct again"));
+}
+
 }  // namespace
 
 NumberTable::NumberTable(std::string_view text, const std::string& name,
                          const std::vector<std::string>& needed,
-                         const std::vector<std::string>& optional)
+                         const std::vector<std::string>& optional, const std::string& word)
     : name_(name) {
   int line_number = 0;
   for (const std::string_view line : linesOf(text)) {
     ++line_number;
     if (trimmed(line).empty()) continue;
     if (cells_ == 0)
-      readHeading(line, needed, optional);
+      readHeading(line, needed, optional, word);
     else
       readRow(line, line_number);
   }
@@ -46,7 +53,7 @@ NumberTable::NumberTable(std::string_view text, const std::string& name,
 }
 
 void NumberTable::readHeading(std::string_view line, const std::vector<std::string>& needed,
-                              const std::vector<std::string>& optional) {
+                              const std::vector<std::string>& optional, const std::string& word) {
   const auto cells = commaCells(line);
   cells_ = cells.size();
   const auto placeOf = [&](const std::string& column) {
@@ -60,6 +67,7 @@ void NumberTable::readHeading(std::string_view line, const std::vector<std::stri
                            excerpt(line), ". Is it the right file?"));
   }
   for (const std::string& column : optional) places_.push_back(placeOf(column));
+  if (!word.empty()) word_place_ = placeOf(word);
 }
 
 void NumberTable::readRow(std::string_view line, int line_number) {
@@ -77,6 +85,7 @@ void NumberTable::readRow(std::string_view line, int line_number) {
     values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   rows_.push_back(std::move(values));
+  words_.emplace_back(word_place_ < 0 ? "" : cells[static_cast<std::size_t>(word_place_)]);
   lines_.push_back(line_number);
 }
 
@@ -102,7 +111,7 @@ std::vector<TrackSample> readTracks(const std::filesystem::path& file) {
 
 FrameRows readFrameRows(const std::filesystem::path& file) {
   const NumberTable table(readBytes(file), shown(file), {"frame"},
-                          {"backprojection_mean_mm", "coverage"});
+                          {"backprojection_mean_mm", "coverage"}, "status");
   FrameRows rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     rows.frames.push_back(table.indexAt(i, 0));
@@ -112,6 +121,12 @@ FrameRows readFrameRows(const std::filesystem::path& file) {
       throw InputError(say(shown(file), ": frame ", rows.frames[i], " stands below frame ",
                            rows.frames[i - 1], "; they must rise"));
   }
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    if (!table.wordAt(i).empty()) rows.statuses.push_back(statusAt(table, i, shown(file)));
+  if (!rows.statuses.empty() && rows.statuses.size() != rows.frames.size())
+    throw InputError(shown(file) +
+                     ": some frames have no status, but all or none are expected; is the file "
+                     "damaged? Reconstruct again");
   return rows;
 }
 

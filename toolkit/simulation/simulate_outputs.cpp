@@ -79,7 +79,7 @@ void requireUsableFolder(const fs::path& folder, bool overwrite) {
 }
 
 template <class Value>
-void append(std::string& bytes, const Value& value) {
+void appendValue(std::string& bytes, const Value& value) {
   char raw[sizeof value];
   std::memcpy(raw, &value, sizeof value);
   bytes.append(raw, sizeof value);
@@ -96,10 +96,10 @@ std::string meshPly(const std::vector<Eigen::Vector3f>& vertices_world_mm,
           "\nproperty float x\nproperty float y\nproperty float z\nelement face ", triangles.size(),
           "\nproperty list uchar int vertex_indices\nend_header\n");
   for (const Eigen::Vector3f& p : vertices_world_mm)
-    for (int axis = 0; axis < 3; ++axis) append(bytes, p[axis]);
+    for (int axis = 0; axis < 3; ++axis) appendValue(bytes, p[axis]);
   for (const Triangle& triangle : triangles) {
     bytes.push_back(3);
-    for (const std::int32_t vertex : triangle) append(bytes, vertex);
+    for (const std::int32_t vertex : triangle) appendValue(bytes, vertex);
   }
   return bytes;
 }
@@ -108,18 +108,18 @@ std::string vectorPfm(const Raster<Eigen::Vector3f>& vectors) {
   std::string bytes = say("PF\n", vectors.width_px, " ", vectors.height_px, "\n-1.0\n");
   for (int v = vectors.height_px - 1; v >= 0; --v)
     for (int u = 0; u < vectors.width_px; ++u)
-      for (int axis = 0; axis < 3; ++axis) append(bytes, vectors.at(u, v)[axis]);
+      for (int axis = 0; axis < 3; ++axis) appendValue(bytes, vectors.at(u, v)[axis]);
   return bytes;
 }
 
 std::string flowBytes(const Raster<Eigen::Vector2f>& flow_px) {
   constexpr float kUnknownFlow = 1e10F;
   std::string bytes = "PIEH";
-  append(bytes, std::int32_t(flow_px.width_px));
-  append(bytes, std::int32_t(flow_px.height_px));
+  appendValue(bytes, std::int32_t(flow_px.width_px));
+  appendValue(bytes, std::int32_t(flow_px.height_px));
   for (const Eigen::Vector2f& flow : flow_px.values)
     for (int axis = 0; axis < 2; ++axis)
-      append(bytes, std::isfinite(flow[axis]) ? flow[axis] : kUnknownFlow);
+      appendValue(bytes, std::isfinite(flow[axis]) ? flow[axis] : kUnknownFlow);
   return bytes;
 }
 

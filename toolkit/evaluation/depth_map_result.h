@@ -1,0 +1,59 @@
+// toolkit/evaluation/depth_map_result.h: disparity or depth maps against true ones.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/depth_errors.h"
+#include "eval/disparity_errors.h"
+#include "eval/predicted_sigma.h"
+#include "toolkit/progress.h"
+#include "toolkit/record/fact_sheet.h"
+
+namespace softscope {
+
+enum class MapKind { kDisparity, kDepth };
+
+struct DepthMapOptions {
+  std::string measured;     // a map, or a folder of maps
+  std::string reference;    // the true map, or as many in a folder; of the same kind
+  std::string kind;         // disparity, depth; empty: by the names of the measured maps
+  std::string calibration;  // of the rectified views: gives errors of disparity in mm, too
+  std::string confidence;   // confidence.png of `depth`, or a folder of as many; empty: none
+
+  /// Throws OptionError.
+  MapKind mapKind() const;
+};
+
+/// One map. Values over NaN are left out; px of disparity, mm of depth.
+struct JudgedMap {
+  std::string name;
+  std::optional<DisparityErrors> disparity;
+  std::optional<DepthErrors> depth;
+  IntervalCoverage intervals;
+  Sparsification sparse;
+};
+
+/// Means over the maps; a map counts once, however many pixels it has.
+struct DepthMapResult {
+  std::string measured, reference;
+  MapKind kind = MapKind::kDepth;
+  std::vector<JudgedMap> maps;
+  bool interrupted = false;
+};
+
+/// True where `path` is a map, or a folder that holds maps and no run.
+bool holdsDepthMaps(const std::filesystem::path& path);
+
+/// Maps of folders belong together by the frame number that their names begin with, else by their
+/// order. Throws InputError where a partner is missing or sizes differ.
+DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& progress = {});
+
+FactSheet::Json depthMapJson(const DepthMapResult& result);
+FactSheet depthMapFacts(const DepthMapResult& result);
+/// One line per map.
+std::string depthMapCsv(const DepthMapResult& result);
+
+}  // namespace softscope
