@@ -162,15 +162,13 @@ TEST(StereoSolver, QualityNamesWhatIsMissing) {
   const CalibrationSolution good = solve(r, sightings);
   const BoardCoverage coverage = boardCoverage(good);
   EXPECT_GT(coverage.left_share, 0.6);
-  std::vector<BoardSighting> few(sightings.begin(), sightings.begin() + 6);
-  for (const auto& [name, count] : {std::pair{"more views", 6}}) {
-    const CalibrationSolution poor = solve(r, few);
-    const auto advice = whatToFilm(poor, boardCoverage(poor));
-    EXPECT_TRUE(std::any_of(advice.begin(), advice.end(), [&](const std::string& line) {
-      return line.find(name) != std::string::npos;
-    })) << count;
-    EXPECT_GT(depthOutlook(poor, 80).bias_95_mm, depthOutlook(good, 80).bias_95_mm);
-  }
+  const std::vector<BoardSighting> few(sightings.begin(), sightings.begin() + 6);
+  const CalibrationSolution poor = solve(r, few);
+  const auto advice = whatToFilm(poor, boardCoverage(poor));
+  EXPECT_TRUE(std::any_of(advice.begin(), advice.end(), [](const std::string& line) {
+    return line.find("more views") != std::string::npos;
+  }));
+  EXPECT_GT(depthOutlook(poor, 80).bias_95_mm, depthOutlook(good, 80).bias_95_mm);
   // z^2 / (f B) * 0.25 px = 0.68 mm at 80 mm
   EXPECT_NEAR(depthOutlook(good, 80).sigma_mm, 80.0 * 80 / (566 * 4.2) * 0.25, 0.03);
   EXPECT_LT(depthOutlook(good, 80).bias_95_mm, 2);
