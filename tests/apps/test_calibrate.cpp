@@ -1,6 +1,7 @@
 // tests/apps/test_calibrate.cpp: `softscope calibrate` from rendered films to a calibration.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "calibrate/rendered_boards.h"
@@ -38,7 +39,7 @@ class Calibrate : public InFolder {
     fs::create_directories(at("left"));
     fs::create_directories(at("right"));
     BoardRendering r = rendering();
-    const auto poses = boardPoses(r, views);
+    const auto poses = boardPoses(r, std::max(views, 5));
     for (int i = 0; i < views; ++i)
       write(i, renderBoard(r, poses[std::size_t(i)], false, 2 * i),
             renderBoard(r, poses[std::size_t(i)], true, 2 * i + 1));
