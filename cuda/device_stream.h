@@ -3,6 +3,8 @@
 
 #include <cuda_runtime_api.h>
 
+#include <cstddef>
+
 #include "core/error.h"
 #include "cuda/device_info.h"
 #include "cuda/device_memory.h"
@@ -26,6 +28,17 @@ class Stream {
   Stream& operator=(const Stream&) = delete;
   ~Stream() { cudaStreamDestroy(stream_); }
   operator cudaStream_t() const { return stream_; }
+
+  // Enqueued: the host's memory must live, unchanged, until wait() returns.
+  void toDevice(void* to, const void* from, std::size_t bytes) const {
+    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_),
+          "copying to the device");
+  }
+  void fromDevice(void* to, const void* from, std::size_t bytes) const {
+    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_),
+          "copying from the device");
+  }
+  void wait() const { check(cudaStreamSynchronize(stream_), "waiting for the device"); }
 
  private:
   cudaStream_t stream_ = nullptr;

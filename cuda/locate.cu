@@ -3,6 +3,7 @@
 #include "cuda/event_clock.h"
 #include "cuda/locate.h"
 #include "cuda/locate_passes.h"
+#include "cuda/view_upload.h"
 
 namespace softscope::cuda {
 namespace {
@@ -46,17 +47,7 @@ class Locator::Device {
   ~Device() { cudaStreamSynchronize(stream_); }
 
   void setModel(const PointModel& model) {
-    const ViewLayout& view = layout_.view;
-    if (model.size() > static_cast<std::size_t>(view.capacity))
-      throw Error("the model has " + std::to_string(model.size()) +
-                  " points, but the GPU was prepared for " + std::to_string(view.capacity));
-    const std::size_t count = model.size();
-    copy(view.positions_mm, model.positions_mm.data(), count * sizeof(ViewVector));
-    copy(view.normals, model.normals.data(), count * sizeof(ViewVector));
-    copy(view.colours, model.colours.data(), count * sizeof(Rgb8));
-    copy(view.anchors, model.anchors.data(), count);
-    wait();  // the model may change
-    point_count_ = static_cast<int>(count);
+    point_count_ = uploadModel(stream_, layout_.view, model);
   }
   void setLive(const MatchPicture& live, const DepthMap& depth) {
     send(live.gray, layout_.match.levels.front().gray[1]);
@@ -84,10 +75,10 @@ class Locator::Device {
     exchange().lift = {camera_, rigidRows(world_from_left)};
     exchange().match = {has_seen_gray_ ? 0 : 1, {1, is_live_masked_ ? 1 : 0}};
     exchange().point_count = point_count_;
-    copy(layout_.view.point_count, &exchange().point_count, sizeof(int));
-    copy(layout_.view.camera, &exchange().camera, sizeof(ViewProjector));
-    copy(layout_.inputs, &exchange().lift, sizeof(LiftInputs));
-    copy(layout_.match.inputs, &exchange().match, sizeof(MatchInputs));
+    stream_.toDevice(layout_.view.point_count, &exchange().point_count, sizeof(int));
+    stream_.toDevice(layout_.view.camera, &exchange().camera, sizeof(ViewProjector));
+    stream_.toDevice(layout_.inputs, &exchange().lift, sizeof(LiftInputs));
+    stream_.toDevice(layout_.match.inputs, &exchange().match, sizeof(MatchInputs));
     if (is_timed_) {
       clock_.restart(stream_);
       timed_passes_.locate(view_options_, has_seen_gray_);
@@ -97,20 +88,21 @@ class Locator::Device {
           stream_, [&] { passes_.locate(view_options_, has_seen_gray_); });
     }
   }
-  void wait() { check(cudaStreamSynchronize(stream_), "waiting for the device"); }
+  void wait() { stream_.wait(); }
 
   LocatedMatches download() {
     const std::size_t slots = layout_.match.slot_count;
     auto* pixels = static_cast<SlotMatch*>(matches_memory_.data());
     auto* lifted = reinterpret_cast<LiftSlot*>(pixels + slots);
-    fetch(layout_.match.match_count, &exchange().match_count, sizeof(int));
-    fetch(layout_.lifted_count, &exchange().lifted_count, sizeof(int));
+    stream_.fromDevice(&exchange().match_count, layout_.match.match_count, sizeof(int));
+    stream_.fromDevice(&exchange().lifted_count, layout_.lifted_count, sizeof(int));
     wait();
     const auto bytes = [](int count, std::size_t each) {
       return static_cast<std::size_t>(count) * each;
     };
-    fetch(layout_.match.list, pixels, bytes(exchange().match_count, sizeof(SlotMatch)));
-    fetch(layout_.list, lifted, bytes(exchange().lifted_count, sizeof(LiftSlot)));
+    stream_.fromDevice(pixels, layout_.match.list,
+                       bytes(exchange().match_count, sizeof(SlotMatch)));
+    stream_.fromDevice(lifted, layout_.list, bytes(exchange().lifted_count, sizeof(LiftSlot)));
     wait();
     return {pixelMatches(pixels, exchange().match_count),
             liftedMatches(lifted, exchange().lifted_count)};
@@ -124,20 +116,8 @@ class Locator::Device {
   LocateExchange& exchange() { return *static_cast<LocateExchange*>(exchange_memory_.data()); }
   template <class T>
   void send(const Raster<T>& image, const View<T>& to) {
-    if (image.width_px != to.width || image.height_px != to.height)
-      throw InputError("the image has " + std::to_string(image.width_px) + " x " +
-                       std::to_string(image.height_px) +
-                       " pixels, but matching on the GPU was prepared for " +
-                       std::to_string(to.width) + " x " + std::to_string(to.height));
-    copy(to.data, image.values.data(), image.size() * sizeof(T));
-  }
-  void copy(void* to, const void* from, std::size_t bytes) {
-    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_),
-          "copying to the device");
-  }
-  void fetch(const void* from, void* to, std::size_t bytes) {
-    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_),
-          "copying from the device");
+    requireMatchShape(image, to);
+    stream_.toDevice(to.data, image.values.data(), image.size() * sizeof(T));
   }
 
   using Executor = DeviceExecutor<EventClock>;

@@ -42,7 +42,7 @@ class Matcher::Device {
     inputs->has_anchor = model.anchor.empty() ? 0 : 1;
     inputs->masked[0] = model.ignore.empty() ? 0 : 1;
     inputs->masked[1] = live.ignore.empty() ? 0 : 1;
-    copy(layout_.inputs, inputs, sizeof(MatchInputs));
+    stream_.toDevice(layout_.inputs, inputs, sizeof(MatchInputs));
     const View<std::uint8_t>* gray = layout_.levels.front().gray;
     send(model.gray, 0, gray[0]);
     send(live.gray, 1, gray[1]);
@@ -59,13 +59,13 @@ class Matcher::Device {
       graph_.launch(stream_, [&] { passes_.match(); });
     }
   }
-  void wait() { check(cudaStreamSynchronize(stream_), "waiting for the device"); }
+  void wait() { stream_.wait(); }
 
   std::vector<PixelMatch> download() {
     auto* count = static_cast<int*>(list_memory_.data());
     auto* list = reinterpret_cast<SlotMatch*>(count + 1);
-    fetch(layout_.match_count, count, sizeof(int));
-    fetch(layout_.list, list, layout_.slot_count * sizeof(SlotMatch));
+    stream_.fromDevice(count, layout_.match_count, sizeof(int));
+    stream_.fromDevice(list, layout_.list, layout_.slot_count * sizeof(SlotMatch));
     wait();
     return pixelMatches(list, *count);
   }
@@ -78,22 +78,10 @@ class Matcher::Device {
   static constexpr std::size_t kImages = 5;
 
   void send(const Raster<std::uint8_t>& image, std::size_t place, const View<std::uint8_t>& to) {
-    if (image.width_px != to.width || image.height_px != to.height)
-      throw InputError("the image has " + std::to_string(image.width_px) + " x " +
-                       std::to_string(image.height_px) +
-                       " pixels, but matching on the GPU was prepared for " +
-                       std::to_string(to.width) + " x " + std::to_string(to.height));
+    requireMatchShape(image, to);
     auto* staged = static_cast<std::uint8_t*>(staging_.data()) + place * pixels_;
     std::memcpy(staged, image.values.data(), pixels_);
-    copy(to.data, staged, pixels_);
-  }
-  void copy(void* to, const void* from, std::size_t bytes) {
-    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_),
-          "copying to the device");
-  }
-  void fetch(const void* from, void* to, std::size_t bytes) {
-    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_),
-          "copying from the device");
+    stream_.toDevice(to.data, staged, pixels_);
   }
 
   using Executor = DeviceExecutor<EventClock>;

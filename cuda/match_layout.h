@@ -180,6 +180,16 @@ inline std::vector<PixelMatch> pixelMatches(const SlotMatch* list, int count) {
   return matches;
 }
 
+/// Throws InputError for an image of another shape than was prepared for.
+template <class T>
+void requireMatchShape(const Raster<T>& image, const View<T>& prepared) {
+  if (image.width_px != prepared.width || image.height_px != prepared.height)
+    throw InputError("the image has " + std::to_string(image.width_px) + " x " +
+                     std::to_string(image.height_px) +
+                     " pixels, but matching on the GPU was prepared for " +
+                     std::to_string(prepared.width) + " x " + std::to_string(prepared.height));
+}
+
 /// Throws OptionError where matching can't run on the GPU with these options.
 inline void requireMatchLimits(const MatcherOptions& options, int width_px, int height_px) {
   require(options.method == "dense-surf", "matcher.method", options.method,

@@ -73,7 +73,7 @@ class Stereo::Device {
     const GrayImage* images[] = {&left, &right};
     for (int view = 0; view < 2; ++view) {
       std::memcpy(staged + view * pixels_, images[view]->values.data(), pixels_);
-      copy(full().gray[view].data, staged + view * pixels_, pixels_);
+      stream_.toDevice(full().gray[view].data, staged + view * pixels_, pixels_);
     }
   }
   void upload(const ColourImage& left, const ColourImage& right) {
@@ -84,7 +84,7 @@ class Stereo::Device {
     for (int view = 0; view < 2; ++view) {
       std::memcpy(static_cast<void*>(staged + view * pixels_), images[view]->values.data(),
                   pixels_ * sizeof(Rgb8));
-      copy(layout_.colour[view].data, staged + view * pixels_, pixels_ * sizeof(Rgb8));
+      stream_.toDevice(layout_.colour[view].data, staged + view * pixels_, pixels_ * sizeof(Rgb8));
     }
     passes_.toGray();
   }
@@ -93,7 +93,7 @@ class Stereo::Device {
     if (!mask.empty()) requireShape(mask);
     exchange().inputs.masked = mask.empty() ? 0 : 1;
     if (mask.empty()) return;
-    copy(layout_.mask.data, mask.values.data(), pixels_);
+    stream_.toDevice(layout_.mask.data, mask.values.data(), pixels_);
     wait();
   }
 
@@ -112,7 +112,7 @@ class Stereo::Device {
     }
   }
   void wait() {
-    cuda::check(cudaStreamSynchronize(stream_), "waiting for the device");
+    stream_.wait();
     is_enqueued_ = false;
   }
 
@@ -174,15 +174,9 @@ class Stereo::Device {
     wait();
     return staging_.data();
   }
-  void copy(void* to, const void* from, std::size_t bytes) {
-    cuda::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_),
-                "copying to the device");
-  }
   template <class T>
   void fetch(const View<T>& from, T* to) {
-    cuda::check(
-        cudaMemcpyAsync(to, from.data, pixels_ * sizeof(T), cudaMemcpyDeviceToHost, stream_),
-        "copying from the device");
+    stream_.fromDevice(to, from.data, pixels_ * sizeof(T));
   }
 
   static std::size_t pointBytes(const StereoLevel& level) {
@@ -192,22 +186,20 @@ class Stereo::Device {
   /// Fetches the level's support points and brings their prior.
   void priorFromHost(const StereoLevel& level) {
     auto* points = static_cast<float*>(points_memory_.data());
-    cuda::check(
-        cudaMemcpyAsync(points, level.kept, pointBytes(level), cudaMemcpyDeviceToHost, stream_),
-        "copying from the device");
-    cuda::check(cudaStreamSynchronize(stream_), "waiting for support points");
+    stream_.fromDevice(points, level.kept, pointBytes(level));
+    stream_.wait();
     Raster<float> confirmed(level.grid.columns, level.grid.rows);
     std::memcpy(confirmed.values.data(), points, pointBytes(level));
     const HostPrior prior = host_prior_(confirmed, level.options, level.width, level.height);
     std::memcpy(points, prior.support.values.data(), pointBytes(level));
-    copy(level.kept, points, pointBytes(level));
+    stream_.toDevice(level.kept, points, pointBytes(level));
     exchange().point_count = prior.point_count;
-    copy(&level.counters->point_count, &exchange().point_count, sizeof(int));
+    stream_.toDevice(&level.counters->point_count, &exchange().point_count, sizeof(int));
     auto* staged = static_cast<std::int16_t*>(staging_.data());
     for (const Raster<std::int16_t>* px8 : {&prior.left_px8, &prior.right_px8}) {
       std::memcpy(staged, px8->values.data(), px8->size() * sizeof(std::int16_t));
-      copy(level.prior[px8 == &prior.left_px8 ? 0 : 1].data, staged,
-           px8->size() * sizeof(std::int16_t));
+      stream_.toDevice(level.prior[px8 == &prior.left_px8 ? 0 : 1].data, staged,
+                       px8->size() * sizeof(std::int16_t));
       staged += px8->size();
     }
   }
@@ -220,9 +212,7 @@ class Stereo::Device {
     cuda::check(cudaStreamWaitEvent(side_stream_, level_done_, 0), "waiting for a level");
     launch(shares_[static_cast<std::size_t>(k)], side_stream_, [this, k] {
       side_passes_.measureShare(level(k));
-      cuda::check(cudaMemcpyAsync(&exchange().shares[k], &level(k).counters->share,
-                                  sizeof(OpenShare), cudaMemcpyDeviceToHost, side_stream_),
-                  "copying from the device");
+      side_stream_.fromDevice(&exchange().shares[k], &level(k).counters->share, sizeof(OpenShare));
     });
     cuda::check(cudaEventRecord(share_read_, side_stream_), "recording an event");
   }
@@ -243,7 +233,8 @@ class Stereo::Device {
       priorFromHost(level(k));
       launch(level_ends_[static_cast<std::size_t>(k)], stream_, end);
     };
-    matchLevel(0, [&] { copy(layout_.inputs, &exchange().inputs, sizeof(FrameInputs)); });
+    matchLevel(0,
+               [&] { stream_.toDevice(layout_.inputs, &exchange().inputs, sizeof(FrameInputs)); });
     // In most frames the full size is enough: the rest follows while the host looks.
     measureShare(0, launch);
     finish();

@@ -3,6 +3,7 @@
 #include "cuda/event_clock.h"
 #include "cuda/view.h"
 #include "cuda/view_passes.h"
+#include "cuda/view_upload.h"
 
 namespace softscope::cuda {
 namespace {
@@ -39,26 +40,14 @@ class ModelRenderer::Device {
         timed_passes_(timed_executor_, layout_) {}
   ~Device() { cudaStreamSynchronize(stream_); }
 
-  void upload(const PointModel& model) {
-    if (model.size() > static_cast<std::size_t>(layout_.capacity))
-      throw Error("the model has " + std::to_string(model.size()) +
-                  " points, but the GPU was prepared for " + std::to_string(layout_.capacity));
-    static_assert(sizeof(ViewVector) == sizeof(Eigen::Vector3f));
-    const std::size_t count = model.size();
-    copy(layout_.positions_mm, model.positions_mm.data(), count * sizeof(ViewVector));
-    copy(layout_.normals, model.normals.data(), count * sizeof(ViewVector));
-    copy(layout_.colours, model.colours.data(), count * sizeof(Rgb8));
-    copy(layout_.anchors, model.anchors.data(), count);
-    wait();  // the model may change
-    point_count_ = static_cast<int>(count);
-  }
+  void upload(const PointModel& model) { point_count_ = uploadModel(stream_, layout_, model); }
   void draw(const Eigen::Isometry3d& world_from_left) {
     wait();  // the pinned memory is free again
     world_from_left_ = world_from_left;
     auto* exchange = static_cast<ViewExchange*>(exchange_memory_.data());
     *exchange = {viewProjector(camera_, world_from_left, options_), point_count_};
-    copy(layout_.camera, &exchange->camera, sizeof(ViewProjector));
-    copy(layout_.point_count, &exchange->point_count, sizeof(int));
+    stream_.toDevice(layout_.camera, &exchange->camera, sizeof(ViewProjector));
+    stream_.toDevice(layout_.point_count, &exchange->point_count, sizeof(int));
     if (is_timed_) {
       clock_.restart(stream_);
       timed_passes_.draw(options_);
@@ -67,7 +56,7 @@ class ModelRenderer::Device {
       graph_.launch(stream_, [&] { passes_.draw(options_); });
     }
   }
-  void wait() { check(cudaStreamSynchronize(stream_), "waiting for the device"); }
+  void wait() { stream_.wait(); }
 
   ModelView download() {
     const int width = camera_.width_px, height = camera_.height_px;
@@ -91,15 +80,9 @@ class ModelRenderer::Device {
   std::size_t deviceBytes() const { return memory_.bytes(); }
 
  private:
-  void copy(void* to, const void* from, std::size_t bytes) {
-    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_),
-          "copying to the device");
-  }
   template <class T>
   void fetch(const View<T>& from, Raster<T>& to) {
-    check(cudaMemcpyAsync(to.values.data(), from.data, to.size() * sizeof(T),
-                          cudaMemcpyDeviceToHost, stream_),
-          "copying from the device");
+    stream_.fromDevice(to.values.data(), from.data, to.size() * sizeof(T));
   }
 
   using Executor = DeviceExecutor<EventClock>;

@@ -211,10 +211,6 @@ Raster<float> rasterOf(const Plane& plane, int width, int height) {
   return raster;
 }
 
-}  // namespace
-
-namespace {
-
 /// One round of reweighting.
 LightDifference fitLight(const RefinementContext& context, const Plane& disparity,
                          const LightDifference& light, double tolerance_gray) {

@@ -7,68 +7,24 @@
 // is matched with NEXT, a later left image. --stride: one point every N pixels (2). --check
 // compares alone, for compute-sanitizer.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
-#include "cuda/device_info.h"
 #include "cuda/locate.h"
 #include "cuda/match.h"
 #include "cuda/view.h"
 #include "stereo/depth_from_disparity.h"
 #include "stereo/elas_matcher.h"
+#include "tests/bench/cuda_bench.h"
 
 using namespace softscope;
+using namespace softscope::bench;
 
 namespace {
-
-GrayImage readPgm(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string magic;
-  int width = 0, height = 0, most = 0;
-  file >> magic >> width >> height >> most;
-  file.get();
-  if (!file || magic != "P5" || most != 255)
-    throw InputError(path + ": not a binary 8-bit PGM without comments");
-  GrayImage image(width, height);
-  file.read(reinterpret_cast<char*>(image.values.data()),
-            static_cast<std::streamsize>(image.size()));
-  if (!file) throw InputError(path + ": too short");
-  return image;
-}
-
-double nowMs() {
-  return std::chrono::duration<double, std::milli>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-double atShare(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-void print(const char* what, const std::vector<double>& values) {
-  std::printf("  %-36s p50 %.3f  p95 %.3f  p99 %.3f  max %.3f ms\n", what, atShare(values, 0.5),
-              atShare(values, 0.95), atShare(values, 0.99), atShare(values, 1));
-}
-
-RectifiedRig rigOf(const GrayImage& image) {
-  RectifiedRig rig;
-  rig.left = {image.width_px,
-              image.height_px,
-              600,
-              600,
-              image.width_px / 2.0 + 0.3,
-              image.height_px / 2.0 - 0.2};
-  rig.baseline_mm = 5;
-  return rig;
-}
 
 /// A scene: its model, where the camera stands now, and what it sees.
 struct Scene {
@@ -168,25 +124,6 @@ std::vector<double> timesOf(int repeats, const Work& work) {
   return times_ms;
 }
 
-template <class Stage, class Work>
-void printStages(Stage& stage, const Work& work) {
-  stage.timeStages(true);
-  std::map<std::string, std::vector<double>> laps;
-  std::vector<std::string> order;
-  for (int i = 0; i < 60; ++i) {
-    work();
-    for (const auto& [name, elapsed_ms] : stage.stageTimes()) {
-      if (laps.find(name) == laps.end()) order.push_back(name);
-      laps[name].push_back(elapsed_ms);
-    }
-  }
-  stage.timeStages(false);
-  std::printf("  stages launched one by one, p50 in us:");
-  for (const std::string& name : order)
-    std::printf(" %s %.1f;", name.c_str(), 1000 * atShare(laps[name], 0.5));
-  std::printf("\n");
-}
-
 void time(cuda::ModelRenderer& renderer, cuda::Matcher& matcher, cuda::Locator& locator,
           const Scene& scene, const MatchPicture& picture, int repeats) {
   print("view: draw, wait", timesOf(repeats, [&] {
@@ -276,17 +213,5 @@ int main(int argc, char** argv) {
       files.push_back(argument);
   }
   if (files.empty() || files.size() % 3 != 0) return usage();
-  try {
-    const cuda::DeviceInfo info = cuda::queryDevices();
-    if (!info.devices.empty())
-      std::printf("%s, driver CUDA %s, runtime %s\n", info.devices.front().name.c_str(),
-                  info.driver_version.c_str(), info.runtime_version.c_str());
-    return run(files, stride, repeats, check_only);
-  } catch (const BackendError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 4;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 3;
-  }
+  return bench::onDevice([&] { return run(files, stride, repeats, check_only); });
 }

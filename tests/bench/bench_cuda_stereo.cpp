@@ -4,38 +4,21 @@
 // Binary 8-bit PGM, rectified, rows aligned. --rows: the prior by rows. --check compares
 // alone, for compute-sanitizer.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
-#include "cuda/device_info.h"
 #include "cuda/stereo.h"
 #include "stereo/depth_from_disparity.h"
 #include "stereo/elas_matcher.h"
+#include "tests/bench/cuda_bench.h"
 
 using namespace softscope;
+using namespace softscope::bench;
 
 namespace {
-
-GrayImage readPgm(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string magic;
-  int width = 0, height = 0, most = 0;
-  file >> magic >> width >> height >> most;
-  file.get();
-  if (!file || magic != "P5" || most != 255)
-    throw InputError(path + ": not a binary 8-bit PGM without comments");
-  GrayImage image(width, height);
-  file.read(reinterpret_cast<char*>(image.values.data()),
-            static_cast<std::streamsize>(image.size()));
-  if (!file) throw InputError(path + ": too short");
-  return image;
-}
 
 /// Values that differ in a bit; NaN equals NaN.
 long differing(const float* a, const float* b, std::size_t count) {
@@ -45,43 +28,6 @@ long differing(const float* a, const float* b, std::size_t count) {
     differ += !both_nan && std::memcmp(a + i, b + i, sizeof(float)) != 0;
   }
   return differ;
-}
-
-double nowMs() {
-  return std::chrono::duration<double, std::milli>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-struct Percentiles {
-  explicit Percentiles(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const auto at = [&](double share) {
-      return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-    };
-    p50 = at(0.5);
-    p95 = at(0.95);
-    p99 = at(0.99);
-    most = values.back();
-  }
-  double p50, p95, p99, most;
-};
-void print(const char* what, const std::vector<double>& values) {
-  const Percentiles p(values);
-  std::printf("  %-34s p50 %.3f  p95 %.3f  p99 %.3f  max %.3f ms\n", what, p.p50, p.p95, p.p99,
-              p.most);
-}
-
-RectifiedRig rigOf(const GrayImage& image) {
-  RectifiedRig rig;
-  rig.left = {image.width_px,
-              image.height_px,
-              600,
-              600,
-              image.width_px / 2.0 + 0.3,
-              image.height_px / 2.0 - 0.2};
-  rig.baseline_mm = 5;
-  return rig;
 }
 
 /// Prints how many values differ; returns whether none does.
@@ -134,21 +80,7 @@ void time(cuda::Stereo& stereo, const GrayImage& left, const GrayImage& right, i
   print("compute, wait", compute_ms);
   print("upload of gray, compute, wait", frame_ms);
   print("download of everything", download_ms);
-  stereo.timeStages(true);
-  std::map<std::string, std::vector<double>> laps;
-  std::vector<std::string> order;
-  for (int i = 0; i < 60; ++i) {
-    stereo.compute();
-    for (const auto& [stage, elapsed_ms] : stereo.stageTimes()) {
-      if (laps.find(stage) == laps.end()) order.push_back(stage);
-      laps[stage].push_back(elapsed_ms);
-    }
-  }
-  stereo.timeStages(false);
-  std::printf("  stages launched one by one, p50 in us:");
-  for (const std::string& stage : order)
-    std::printf(" %s %.1f;", stage.c_str(), 1000 * Percentiles(laps[stage]).p50);
-  std::printf("\n");
+  printStages(stereo, [&] { stereo.compute(); });
 }
 
 int run(const std::vector<std::string>& files, const StereoOptions& options, int repeats,
@@ -171,10 +103,6 @@ int run(const std::vector<std::string>& files, const StereoOptions& options, int
   }
   return all_equal ? 0 : 1;
 }
-
-}  // namespace
-
-namespace {
 
 int usage() {
   std::fprintf(stderr,
@@ -204,17 +132,5 @@ int main(int argc, char** argv) {
       files.push_back(argument);
   }
   if (files.empty() || files.size() % 2 != 0) return usage();
-  try {
-    const cuda::DeviceInfo info = cuda::queryDevices();
-    if (!info.devices.empty())
-      std::printf("%s, driver CUDA %s, runtime %s\n", info.devices.front().name.c_str(),
-                  info.driver_version.c_str(), info.runtime_version.c_str());
-    return run(files, options, repeats, check_only);
-  } catch (const BackendError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 4;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 3;
-  }
+  return bench::onDevice([&] { return run(files, options, repeats, check_only); });
 }

@@ -7,16 +7,16 @@
 
 #include "cuda/host_executor.h"
 #include "cuda/match_passes.h"
+#include "host_memory.h"
 
 namespace softscope::test {
 
-/// Memory for a layout, filled with garbage at first.
 class HostMatch {
  public:
   HostMatch(const MatcherOptions& options, int width, int height, unsigned seed)
       : executor_(seed),
-        memory_(bytesFor(options, width, height) + cuda::Arena::kAlignment, '\xA5'),
-        arena_(aligned(memory_.data())),
+        memory_(bytesFor(options, width, height)),
+        arena_(memory_.data()),
         layout_(arena_, options, width, height),
         passes_(executor_, layout_) {}
 
@@ -38,10 +38,6 @@ class HostMatch {
   static void copy(const Raster<std::uint8_t>& from, std::uint8_t* to) {
     std::copy(from.values.begin(), from.values.end(), to);
   }
-  static void* aligned(char* data) {
-    const auto place = reinterpret_cast<std::uintptr_t>(data);
-    return data + (cuda::Arena::kAlignment - place % cuda::Arena::kAlignment);
-  }
   static std::size_t bytesFor(const MatcherOptions& options, int width, int height) {
     cuda::Arena counting;
     cuda::MatchLayout(counting, options, width, height);
@@ -49,7 +45,7 @@ class HostMatch {
   }
 
   cuda::HostExecutor executor_;
-  std::vector<char> memory_;
+  HostMemory memory_;
   cuda::Arena arena_;
   cuda::MatchLayout layout_;
   cuda::MatchPasses<cuda::HostExecutor> passes_;

@@ -8,16 +8,16 @@
 #include "core/image.h"
 #include "cuda/host_executor.h"
 #include "cuda/stereo_passes.h"
+#include "host_memory.h"
 #include "stereo/host_prior.h"
 
 namespace softscope::test {
 
-/// Memory for a layout, filled with garbage at first.
 class HostStereo {
  public:
   HostStereo(const StereoOptions& options, int width, int height, unsigned seed)
       : executor_(seed),
-        memory_(bytesFor(options, width, height) + cuda::Arena::kAlignment, '\xA5'),
+        memory_(bytesFor(options, width, height)),
         arena_(memory_.data()),
         layout_(arena_, options, width, height),
         passes_(executor_, layout_) {
@@ -71,7 +71,7 @@ class HostStereo {
   }
 
   cuda::HostExecutor executor_;
-  std::vector<char> memory_;
+  HostMemory memory_;
   cuda::Arena arena_;
   cuda::StereoLayout layout_;
   cuda::StereoPasses<cuda::HostExecutor> passes_;

@@ -8,16 +8,16 @@
 #include "core/point_model.h"
 #include "cuda/host_executor.h"
 #include "cuda/view_passes.h"
+#include "host_memory.h"
 
 namespace softscope::test {
 
-/// Memory for a layout, filled with garbage at first.
 class HostView {
  public:
   HostView(const PinholeCamera& camera, int point_capacity, unsigned seed)
       : camera_(camera),
         executor_(seed),
-        memory_(bytesFor(camera, point_capacity) + cuda::Arena::kAlignment, '\xA5'),
+        memory_(bytesFor(camera, point_capacity)),
         arena_(memory_.data()),
         layout_(arena_, camera.width_px, camera.height_px, point_capacity),
         passes_(executor_, layout_) {}
@@ -58,7 +58,7 @@ class HostView {
 
   PinholeCamera camera_;
   cuda::HostExecutor executor_;
-  std::vector<char> memory_;
+  HostMemory memory_;
   cuda::Arena arena_;
   cuda::ViewLayout layout_;
   cuda::ViewPasses<cuda::HostExecutor> passes_;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "cuda/host_executor.h"
+#include "host_memory.h"
 #include "locate_cases.h"
 
 namespace softscope {
@@ -19,7 +20,7 @@ std::vector<LiftedMatch> hostLifted(const test::LocateScene& scene, const GrayIm
   const int points = static_cast<int>(scene.model.size());
   cuda::Arena counting;
   cuda::LocateLayout(counting, MatcherOptions(), width, height, points);
-  std::vector<char> memory(counting.bytes(), '\xA5');
+  test::HostMemory memory(counting.bytes());
   cuda::Arena arena(memory.data());
   const cuda::LocateLayout layout(arena, MatcherOptions(), width, height, points);
   const auto copy = [](void* to, const auto& from) {

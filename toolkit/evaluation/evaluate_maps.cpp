@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_maps.cpp: every so-manyth model, of each one point a stretch.
+// toolkit/evaluation/evaluate_maps.cpp: models and points sampled evenly for maps of the error.
 #include "toolkit/evaluation/evaluate_maps.h"
 
 #include <algorithm>

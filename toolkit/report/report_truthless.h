@@ -1,4 +1,4 @@
-// toolkit/report/report_truthless.h: what a report says of a run whose truth nobody knows.
+// toolkit/report/report_truthless.h: what a report says of a run without ground truth.
 #pragma once
 
 #include <string>
