@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "vtk_views/depth_picture.h"
+#include "vtk_views/plots/depth_picture.h"
 
 namespace softscope {
 

@@ -11,8 +11,8 @@
 #include "pipeline/backends.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/version.h"
-#include "vtk_views/fonts.h"
-#include "vtk_views/render_check.h"
+#include "vtk_views/drawing/fonts.h"
+#include "vtk_views/scenes/render_check.h"
 
 namespace softscope {
 namespace {

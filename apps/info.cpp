@@ -12,7 +12,7 @@
 #include "io/text_lines.h"
 #include "toolkit/figures/volume_arguments.h"
 #include "toolkit/inspection/describe_file.h"
-#include "vtk_views/volume_summary.h"
+#include "vtk_views/volumes/volume_summary.h"
 
 namespace softscope {
 namespace {

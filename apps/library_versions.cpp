@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "vtk_views/drawing_versions.h"
+#include "vtk_views/scenes/drawing_versions.h"
 
 namespace softscope {
 namespace {

@@ -20,9 +20,9 @@
 #include "io/text_lines.h"
 #include "toolkit/viewer/view_movie.h"
 #include "toolkit/viewer/view_run.h"
-#include "vtk_views/view_picture.h"
-#include "vtk_views/view_window.h"
-#include "vtk_views/x_display.h"
+#include "vtk_views/viewer/view_picture.h"
+#include "vtk_views/viewer/view_window.h"
+#include "vtk_views/viewer/x_display.h"
 
 namespace softscope {
 namespace {

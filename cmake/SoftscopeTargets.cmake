@@ -31,6 +31,20 @@ function(softscope_library name)
     PRIVATE ${ARG_PRIVATE_LINKS} softscope_flags)
 endfunction()
 
+# softscope_rooms(<folder>): a folder inside this library is a room. Files of one room alone are
+# compiled at once, eight at most, so that local names must differ within a room only.
+function(softscope_rooms name)
+  get_target_property(sources softscope_${name} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(room "${source}" DIRECTORY)
+    string(MAKE_C_IDENTIFIER "files_${room}" counter)
+    math(EXPR ${counter} "${${counter}} + 1")
+    math(EXPR group "(${${counter}} - 1) / 8")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${room}${group}")
+  endforeach()
+  set_target_properties(softscope_${name} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # softscope_inline(<folder>): for loops of many small Eigen operations. UBSan's checks make Eigen's
 # one-line functions too large for clang to inline by itself; inlined all the same, the simulator runs
 # 5 times as fast. Not for every folder: what includes JSON or Boost compiles 2 to 5 times as long.

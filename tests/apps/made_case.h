@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "vtk_views/error_map.h"
+#include "vtk_views/files/error_map.h"
 
 namespace softscope::test {
 

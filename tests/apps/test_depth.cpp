@@ -13,7 +13,7 @@
 #include "support/data_folder.h"
 #include "support/scene.h"
 #include "tests/apps/run_softscope.h"
-#include "vtk_views/depth_picture.h"
+#include "vtk_views/plots/depth_picture.h"
 
 namespace softscope::test {
 namespace {

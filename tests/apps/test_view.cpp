@@ -12,7 +12,7 @@
 #include "io/picture_source.h"
 #include "support/x_server.h"
 #include "tests/apps/evaluate_fixture.h"
-#include "vtk_views/render_check.h"
+#include "vtk_views/scenes/render_check.h"
 
 namespace softscope::test {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "core/parallel.h"
 #include "mesh/mesh_reader.h"
-#include "vtk_views/four_panels.h"
-#include "vtk_views/plane_contours.h"
+#include "vtk_views/scenes/four_panels.h"
+#include "vtk_views/scenes/plane_contours.h"
 
 namespace softscope {
 namespace {

@@ -1,4 +1,4 @@
-"""The two tables of docs/architecture.md, and the includes that break them."""
+"""The tables of docs/architecture.md, and the includes that break them."""
 import re
 from pathlib import Path
 
@@ -37,6 +37,10 @@ class Rules:
         for folder, _, may_include in table(text, "Folder"):
             everything = may_include == "everything"
             self.allowed[names(folder)[0]] = None if everything else set(names(may_include))
+        self.rooms = {}  # room, as a path from the root: the rooms of its library it may include
+        for room, _, may_include in table(text, "Inside a library"):
+            library = names(room)[0].rpartition("/")[0]
+            self.rooms[names(room)[0]] = {f"{library}/{name}" for name in names(may_include)}
         self.homes = {}  # beginning of a header's name: the places it may be included, None = all
         self.free = []  # places that may include every library
         for _, headers, home in table(text, "Library"):
@@ -64,9 +68,22 @@ class Rules:
             return f'"{header}" is not written from the root of src or of the repository'
         target = header.split("/")[0]
         allowed = self.allowed[folder]
-        if allowed is None or target == folder.split("/")[-1] or target in allowed:
+        if target == folder.split("/")[-1]:
+            return self.check_room(path, folder, header)
+        if allowed is None or target in allowed:
             return None
         return f'"{header}": {folder} may include {", ".join(sorted(allowed)) or "nothing else"}'
+
+    def room_of(self, path):
+        """"src/io/files" of "src/io/files/folder.h"; None in a library without rooms."""
+        return next((room for room in self.rooms if lies_in(path, room)), None)
+
+    def check_room(self, path, folder, header):
+        room, target = self.room_of(path), self.room_of(folder + header[header.index("/"):])
+        if room is None or target is None or target == room or target in self.rooms[room]:
+            return None
+        allowed = sorted(name.rpartition("/")[2] for name in self.rooms[room])
+        return f'"{header}": {room} may include {", ".join(allowed) or "no other room"}'
 
     def check_library(self, path, header):
         beginnings = [b for b in self.homes if header.startswith(b)]
@@ -105,3 +122,11 @@ def folders_without_row(root):
     there = {f"src/{path.name}" for path in (root / "src").iterdir() if path.is_dir()}
     there |= {path.name for path in root.iterdir() if (path / "CMakeLists.txt").is_file()}
     return sorted(there - {"src"} - set(Rules(text).allowed))
+
+
+def sources_without_room(root):
+    """Sources of a library with rooms that lie in none of them."""
+    rules = Rules((root / "docs/architecture.md").read_text(encoding="utf-8"))
+    libraries = sorted({room.rpartition("/")[0] for room in rules.rooms})
+    paths = [path.relative_to(root).as_posix() for path in source_files(root, libraries)]
+    return [path for path in paths if rules.room_of(path) is None]

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "support/folder_test.h"
-#include "vtk_views/volume.h"
+#include "vtk_views/volumes/volume.h"
 
 namespace softscope::test {
 

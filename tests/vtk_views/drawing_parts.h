@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 

@@ -1,7 +1,7 @@
 // tests/vtk_views/made_view.h: a red patch that moves to the right, seen by a scope.
 #pragma once
 
-#include "vtk_views/view_source.h"
+#include "vtk_views/viewer/view_source.h"
 
 namespace softscope::test {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "vtk_views/colour_map.h"
+#include "vtk_views/drawing/colour_map.h"
 
 namespace softscope {
 namespace {

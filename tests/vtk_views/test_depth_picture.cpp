@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "vtk_views/colour_map.h"
-#include "vtk_views/depth_picture.h"
+#include "vtk_views/drawing/colour_map.h"
+#include "vtk_views/plots/depth_picture.h"
 
 namespace softscope {
 namespace {

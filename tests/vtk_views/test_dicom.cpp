@@ -19,8 +19,8 @@
 
 #include "core/error.h"
 #include "tests/vtk_views/dicom_tags.h"
-#include "vtk_views/dicom_series.h"
-#include "vtk_views/volume.h"
+#include "vtk_views/volumes/dicom_series.h"
+#include "vtk_views/volumes/volume.h"
 
 namespace softscope {
 namespace {

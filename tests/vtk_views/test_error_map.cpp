@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
-#include "vtk_views/error_map.h"
-#include "vtk_views/error_surface_vtp.h"
+#include "vtk_views/files/error_map.h"
+#include "vtk_views/files/error_surface_vtp.h"
 
 namespace softscope {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "vtk_views/error_surface_vtp.h"
+#include "vtk_views/files/error_surface_vtp.h"
 
 namespace softscope {
 namespace {

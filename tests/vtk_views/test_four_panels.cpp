@@ -10,12 +10,12 @@
 #include "mesh/mesh_reader.h"
 #include "tests/support/data_folder.h"
 #include "vtk_views/box_mesh.h"
-#include "vtk_views/colour_map.h"
+#include "vtk_views/drawing/colour_map.h"
 #include "vtk_views/drawing_parts.h"
-#include "vtk_views/four_panels.h"
-#include "vtk_views/plane_contours.h"
-#include "vtk_views/slice_panel.h"
-#include "vtk_views/surface_picture.h"
+#include "vtk_views/scenes/four_panels.h"
+#include "vtk_views/scenes/plane_contours.h"
+#include "vtk_views/scenes/slice_panel.h"
+#include "vtk_views/scenes/surface_picture.h"
 
 namespace softscope {
 namespace {

@@ -14,10 +14,10 @@
 
 #include "core/error.h"
 #include "support/folder_test.h"
-#include "vtk_views/error_map.h"
-#include "vtk_views/guarded_read.h"
-#include "vtk_views/vtk_errors.h"
-#include "vtk_views/vtp_surface.h"
+#include "vtk_views/files/error_map.h"
+#include "vtk_views/files/guarded_read.h"
+#include "vtk_views/files/vtk_errors.h"
+#include "vtk_views/files/vtp_surface.h"
 
 namespace softscope {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "vtk_views/level_plot.h"
+#include "vtk_views/plots/level_plot.h"
 
 namespace softscope {
 namespace {

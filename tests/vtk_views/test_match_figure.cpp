@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "vtk_views/drawing_parts.h"
-#include "vtk_views/match_figure.h"
+#include "vtk_views/plots/match_figure.h"
 
 namespace softscope {
 namespace {

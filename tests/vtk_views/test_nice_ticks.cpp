@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "vtk_views/nice_ticks.h"
+#include "vtk_views/drawing/nice_ticks.h"
 
 namespace softscope {
 namespace {

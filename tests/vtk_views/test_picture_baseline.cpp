@@ -9,7 +9,7 @@
 #include "io/image_reader.h"
 #include "io/image_writer.h"
 #include "vtk_views/box_mesh.h"
-#include "vtk_views/four_panels.h"
+#include "vtk_views/scenes/four_panels.h"
 
 namespace softscope {
 namespace {

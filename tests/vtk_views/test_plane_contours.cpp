@@ -9,8 +9,8 @@
 
 #include <cmath>
 
-#include "vtk_views/clip_line.h"
-#include "vtk_views/plane_contours.h"
+#include "vtk_views/scenes/clip_line.h"
+#include "vtk_views/scenes/plane_contours.h"
 
 namespace softscope {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <cstdlib>
 
-#include "vtk_views/egl_display.h"
-#include "vtk_views/fonts.h"
-#include "vtk_views/offscreen_window.h"
-#include "vtk_views/render_check.h"
+#include "vtk_views/drawing/fonts.h"
+#include "vtk_views/scenes/egl_display.h"
+#include "vtk_views/scenes/offscreen_window.h"
+#include "vtk_views/scenes/render_check.h"
 
 namespace softscope {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "vtk_views/html_text.h"
-#include "vtk_views/report_html.h"
+#include "vtk_views/drawing/html_text.h"
+#include "vtk_views/report/report_html.h"
 
 namespace softscope {
 namespace {

@@ -4,12 +4,12 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "vtk_views/agreement_plot.h"
-#include "vtk_views/cairo_picture.h"
-#include "vtk_views/error_map_figure.h"
-#include "vtk_views/offscreen_window.h"
-#include "vtk_views/paper_sheet.h"
-#include "vtk_views/report_pdf.h"
+#include "vtk_views/drawing/cairo_picture.h"
+#include "vtk_views/drawing/paper_sheet.h"
+#include "vtk_views/plots/agreement_plot.h"
+#include "vtk_views/report/report_pdf.h"
+#include "vtk_views/scenes/error_map_figure.h"
+#include "vtk_views/scenes/offscreen_window.h"
 
 namespace softscope {
 namespace {

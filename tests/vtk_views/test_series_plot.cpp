@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "vtk_views/drawing/fonts.h"
 #include "vtk_views/drawing_parts.h"
-#include "vtk_views/fonts.h"
-#include "vtk_views/plot_axes.h"
-#include "vtk_views/series_plot.h"
-#include "vtk_views/value_series_plot.h"
-#include "vtk_views/worst_frames_plot.h"
+#include "vtk_views/plots/plot_axes.h"
+#include "vtk_views/plots/series_plot.h"
+#include "vtk_views/plots/value_series_plot.h"
+#include "vtk_views/plots/worst_frames_plot.h"
 
 namespace softscope {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "made_view.h"
-#include "vtk_views/view_controls.h"
-#include "vtk_views/view_sheet.h"
+#include "vtk_views/viewer/view_controls.h"
+#include "vtk_views/viewer/view_sheet.h"
 
 namespace softscope {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "core/error.h"
 #include "made_view.h"
-#include "vtk_views/colour_map.h"
-#include "vtk_views/render_check.h"
-#include "vtk_views/view_picture.h"
-#include "vtk_views/view_sheet.h"
-#include "vtk_views/x_display.h"
+#include "vtk_views/drawing/colour_map.h"
+#include "vtk_views/scenes/render_check.h"
+#include "vtk_views/viewer/view_picture.h"
+#include "vtk_views/viewer/view_sheet.h"
+#include "vtk_views/viewer/x_display.h"
 
 namespace softscope {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "vtk_views/view_plane.h"
+#include "vtk_views/scenes/view_plane.h"
 
 namespace softscope {
 namespace {

@@ -6,9 +6,9 @@
 #include "core/error.h"
 #include "made_view.h"
 #include "support/x_server.h"
-#include "vtk_views/colour_map.h"
-#include "vtk_views/view_sheet.h"
-#include "vtk_views/view_window.h"
+#include "vtk_views/drawing/colour_map.h"
+#include "vtk_views/viewer/view_sheet.h"
+#include "vtk_views/viewer/view_window.h"
 
 namespace softscope {
 namespace {

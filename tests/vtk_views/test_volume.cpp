@@ -9,9 +9,9 @@
 #include "core/error.h"
 #include "tests/support/data_folder.h"
 #include "tests/vtk_views/marker_volumes.h"
-#include "vtk_views/grey_window.h"
-#include "vtk_views/slice_picture.h"
-#include "vtk_views/volume.h"
+#include "vtk_views/scenes/slice_picture.h"
+#include "vtk_views/volumes/grey_window.h"
+#include "vtk_views/volumes/volume.h"
 
 namespace softscope {
 namespace {

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "vtk_views/volume_summary.h"
+#include "vtk_views/volumes/volume_summary.h"
 
 namespace softscope {
 namespace {

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "vtk_views/error_surface_vtp.h"
-#include "vtk_views/point_cloud_vtp.h"
-#include "vtk_views/vtp_surface.h"
+#include "vtk_views/files/error_surface_vtp.h"
+#include "vtk_views/files/point_cloud_vtp.h"
+#include "vtk_views/files/vtp_surface.h"
 
 namespace softscope {
 namespace {

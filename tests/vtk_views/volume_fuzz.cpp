@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "fuzz/fuzz_target.h"
-#include "vtk_views/volume_formats.h"
+#include "vtk_views/volumes/volume_formats.h"
 
 namespace softscope::test {
 namespace {

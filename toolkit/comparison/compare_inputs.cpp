@@ -8,7 +8,7 @@
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/ply_points.h"
 #include "toolkit/run/table_reader.h"
-#include "vtk_views/vtp_surface.h"
+#include "vtk_views/files/vtp_surface.h"
 
 namespace softscope {
 namespace {

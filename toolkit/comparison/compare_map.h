@@ -3,7 +3,7 @@
 
 #include "core/triangle_mesh.h"
 #include "toolkit/comparison/compare_record.h"
-#include "vtk_views/error_map.h"
+#include "vtk_views/files/error_map.h"
 
 namespace softscope {
 

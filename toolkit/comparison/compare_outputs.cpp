@@ -13,7 +13,7 @@
 #include "toolkit/evaluation/evaluate_plots.h"
 #include "toolkit/evaluation/thresholds.h"
 #include "toolkit/record/json_text.h"
-#include "vtk_views/error_surface_vtp.h"
+#include "vtk_views/files/error_surface_vtp.h"
 
 namespace softscope {
 namespace {

@@ -8,7 +8,7 @@
 #include "io/new_files.h"
 #include "toolkit/comparison/compare_record.h"
 #include "toolkit/evaluation/surface_error_map.h"
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "toolkit/record/statistics_json.h"
-#include "vtk_views/four_panels.h"
+#include "vtk_views/scenes/four_panels.h"
 
 namespace softscope {
 namespace {

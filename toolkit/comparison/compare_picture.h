@@ -4,8 +4,8 @@
 #include "core/triangle_mesh.h"
 #include "toolkit/comparison/compare_record.h"
 #include "toolkit/evaluation/surface_error_map.h"
-#include "vtk_views/figure_style.h"
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/figure_style.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 

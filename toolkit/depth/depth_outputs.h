@@ -8,7 +8,7 @@
 #include "core/stereo_rig.h"
 #include "io/new_files.h"
 #include "toolkit/depth/depth_estimator.h"
-#include "vtk_views/depth_picture.h"
+#include "vtk_views/plots/depth_picture.h"
 
 namespace softscope {
 

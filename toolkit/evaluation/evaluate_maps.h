@@ -8,7 +8,7 @@
 #include "core/triangle_mesh.h"
 #include "eval/model_errors.h"
 #include "mesh/coarse_mesh.h"
-#include "vtk_views/error_map.h"
+#include "vtk_views/files/error_map.h"
 
 namespace softscope {
 

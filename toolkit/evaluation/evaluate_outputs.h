@@ -5,7 +5,7 @@
 
 #include "io/new_files.h"
 #include "toolkit/evaluation/evaluate_run.h"
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 

@@ -6,8 +6,8 @@
 
 #include "toolkit/evaluation/evaluate_result.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/series_plot.h"
-#include "vtk_views/worst_frames_plot.h"
+#include "vtk_views/plots/series_plot.h"
+#include "vtk_views/plots/worst_frames_plot.h"
 
 namespace softscope {
 

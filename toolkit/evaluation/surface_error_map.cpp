@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "eval/statistics.h"
 #include "toolkit/record/statistics_json.h"
-#include "vtk_views/nice_ticks.h"
+#include "vtk_views/drawing/nice_ticks.h"
 
 namespace softscope {
 

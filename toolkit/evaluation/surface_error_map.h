@@ -7,7 +7,7 @@
 
 #include "eval/triangle_tree.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/panel_grid.h"
+#include "vtk_views/scenes/panel_grid.h"
 
 namespace softscope {
 

@@ -12,7 +12,7 @@
 #include "toolkit/evaluation/evaluate_view.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
-#include "vtk_views/value_series_plot.h"
+#include "vtk_views/plots/value_series_plot.h"
 
 namespace softscope {
 namespace {

@@ -12,7 +12,7 @@
 #include "eval/statistics.h"
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/run/run_reader.h"
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 

@@ -9,7 +9,7 @@
 #include "io/message.h"
 #include "mesh/mesh_writer.h"
 #include "toolkit/export/export_gltf.h"
-#include "vtk_views/surface_vtp.h"
+#include "vtk_views/files/surface_vtp.h"
 
 namespace softscope {
 

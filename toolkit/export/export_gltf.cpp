@@ -9,7 +9,7 @@
 
 #include "mesh/mesh_writer.h"
 #include "toolkit/record/version.h"
-#include "vtk_views/html_text.h"
+#include "vtk_views/drawing/html_text.h"
 
 namespace softscope {
 namespace {

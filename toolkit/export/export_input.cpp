@@ -11,7 +11,7 @@
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/ply_points.h"
 #include "toolkit/run/run_reader.h"
-#include "vtk_views/vtp_surface.h"
+#include "vtk_views/files/vtp_surface.h"
 
 namespace softscope {
 namespace {

@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "io/message.h"
 #include "mesh/mesh_check.h"
-#include "vtk_views/html_text.h"
+#include "vtk_views/drawing/html_text.h"
 
 namespace softscope {
 namespace {

@@ -12,7 +12,7 @@
 #include "toolkit/figures/figure_outputs.h"
 #include "toolkit/figures/figure_run.h"
 #include "toolkit/figures/scene_inputs.h"
-#include "vtk_views/four_panels.h"
+#include "vtk_views/scenes/four_panels.h"
 
 namespace softscope {
 namespace {

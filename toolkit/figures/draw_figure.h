@@ -9,7 +9,7 @@
 #include "toolkit/evaluation/surface_error_map.h"
 #include "toolkit/figures/figure_options.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 

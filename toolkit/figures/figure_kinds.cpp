@@ -12,8 +12,8 @@
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/model_surface.h"
-#include "vtk_views/nice_ticks.h"
-#include "vtk_views/series_plot.h"
+#include "vtk_views/drawing/nice_ticks.h"
+#include "vtk_views/plots/series_plot.h"
 
 namespace softscope {
 namespace {

@@ -8,7 +8,7 @@
 #include "toolkit/evaluation/surface_error_map.h"
 #include "toolkit/figures/scene_inputs.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/four_panels.h"
+#include "vtk_views/scenes/four_panels.h"
 
 namespace softscope {
 

@@ -13,7 +13,7 @@
 #include "pose/ransac_pose.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/run_reader.h"
-#include "vtk_views/match_figure.h"
+#include "vtk_views/plots/match_figure.h"
 
 namespace softscope {
 namespace {

@@ -12,7 +12,7 @@
 #include "io/nearest_name.h"
 #include "io/text_lines.h"
 #include "toolkit/comparison/landmark_places.h"
-#include "vtk_views/four_panels.h"
+#include "vtk_views/scenes/four_panels.h"
 
 namespace softscope {
 namespace {

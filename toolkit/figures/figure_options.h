@@ -9,9 +9,9 @@
 
 #include "toolkit/figures/volume_arguments.h"
 #include "toolkit/record/record_paths.h"
-#include "vtk_views/figure_style.h"
-#include "vtk_views/scene.h"
-#include "vtk_views/view_plane.h"
+#include "vtk_views/drawing/figure_style.h"
+#include "vtk_views/scenes/scene.h"
+#include "vtk_views/scenes/view_plane.h"
 
 namespace softscope {
 

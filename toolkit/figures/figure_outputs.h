@@ -5,8 +5,8 @@
 
 #include "toolkit/figures/figure_options.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/vector_drawing.h"
-#include "vtk_views/view_plane.h"
+#include "vtk_views/drawing/vector_drawing.h"
+#include "vtk_views/scenes/view_plane.h"
 
 namespace softscope {
 

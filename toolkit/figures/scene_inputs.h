@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/scene.h"
+#include "vtk_views/scenes/scene.h"
 
 namespace softscope {
 

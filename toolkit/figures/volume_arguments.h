@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "vtk_views/volume_summary.h"
+#include "vtk_views/volumes/volume_summary.h"
 
 namespace softscope {
 

@@ -5,7 +5,7 @@
 
 #include "core/stereo_rig.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/volume_summary.h"
+#include "vtk_views/volumes/volume_summary.h"
 
 namespace softscope {
 

@@ -1,6 +1,6 @@
 // toolkit/inspection/describe_volume.cpp: a CT or MR volume.
 #include "toolkit/inspection/describe_file.h"
-#include "vtk_views/volume_summary.h"
+#include "vtk_views/volumes/volume_summary.h"
 
 namespace softscope {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "eval/statistics.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/error_map.h"
+#include "vtk_views/files/error_map.h"
 
 namespace softscope {
 

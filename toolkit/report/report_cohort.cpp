@@ -6,7 +6,7 @@
 
 #include "eval/cohort.h"
 #include "toolkit/report/report_words.h"
-#include "vtk_views/agreement_plot.h"
+#include "vtk_views/plots/agreement_plot.h"
 
 namespace softscope {
 namespace {

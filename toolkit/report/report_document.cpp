@@ -11,8 +11,8 @@
 #include "toolkit/report/report_privacy.h"
 #include "toolkit/report/report_truthless.h"
 #include "toolkit/report/report_words.h"
-#include "vtk_views/error_map_figure.h"
-#include "vtk_views/nice_ticks.h"
+#include "vtk_views/drawing/nice_ticks.h"
+#include "vtk_views/scenes/error_map_figure.h"
 
 namespace softscope {
 namespace {

@@ -8,7 +8,7 @@
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/report/report_case.h"
 #include "toolkit/report/report_sections.h"
-#include "vtk_views/report_page.h"
+#include "vtk_views/report/report_page.h"
 
 namespace softscope {
 

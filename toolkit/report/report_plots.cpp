@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "vtk_views/series_plot.h"
+#include "vtk_views/plots/series_plot.h"
 
 namespace softscope {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "toolkit/report/report_case.h"
-#include "vtk_views/outcome_strip.h"
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/vector_drawing.h"
+#include "vtk_views/plots/outcome_strip.h"
 
 namespace softscope {
 

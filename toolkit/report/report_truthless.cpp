@@ -5,7 +5,7 @@
 
 #include "toolkit/report/report_plots.h"
 #include "toolkit/report/report_words.h"
-#include "vtk_views/value_series_plot.h"
+#include "vtk_views/plots/value_series_plot.h"
 
 namespace softscope {
 namespace {

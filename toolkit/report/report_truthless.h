@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "toolkit/report/report_plots.h"
-#include "vtk_views/report_page.h"
+#include "vtk_views/report/report_page.h"
 
 namespace softscope {
 

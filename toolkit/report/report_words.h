@@ -6,7 +6,7 @@
 
 #include "eval/cohort.h"
 #include "toolkit/report/report_case.h"
-#include "vtk_views/report_page.h"
+#include "vtk_views/report/report_page.h"
 
 namespace softscope {
 

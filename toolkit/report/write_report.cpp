@@ -7,8 +7,8 @@
 #include "io/atomic_file.h"
 #include "io/message.h"
 #include "io/new_files.h"
-#include "vtk_views/report_html.h"
-#include "vtk_views/report_pdf.h"
+#include "vtk_views/report/report_html.h"
+#include "vtk_views/report/report_pdf.h"
 
 namespace softscope {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "pipeline/frame_record.h"
 #include "toolkit/record/fact_sheet.h"
-#include "vtk_views/outcome_strip.h"
+#include "vtk_views/plots/outcome_strip.h"
 
 namespace softscope {
 

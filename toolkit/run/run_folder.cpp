@@ -15,7 +15,7 @@
 #include "io/text_lines.h"
 #include "io/trajectory_file.h"
 #include "toolkit/run/run_tables.h"
-#include "vtk_views/point_cloud_vtp.h"
+#include "vtk_views/files/point_cloud_vtp.h"
 
 namespace softscope {
 namespace {

@@ -8,8 +8,8 @@
 #include "io/atomic_file.h"
 #include "io/image_writer.h"
 #include "toolkit/record/json_text.h"
-#include "vtk_views/html_text.h"
-#include "vtk_views/level_plot.h"
+#include "vtk_views/drawing/html_text.h"
+#include "vtk_views/plots/level_plot.h"
 
 namespace softscope {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "toolkit/study/study_folder.h"
 #include "toolkit/study/study_table.h"
-#include "vtk_views/vector_drawing.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 

@@ -14,7 +14,7 @@
 #include "mesh/mesh_reader.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/evaluation/evaluate_maps.h"
-#include "vtk_views/error_map.h"
+#include "vtk_views/files/error_map.h"
 
 namespace softscope {
 namespace {

@@ -9,7 +9,7 @@
 #include "eval/triangle_tree.h"
 #include "toolkit/evaluation/surface_error_map.h"
 #include "toolkit/run/run_reader.h"
-#include "vtk_views/view_source.h"
+#include "vtk_views/viewer/view_source.h"
 
 namespace softscope {
 

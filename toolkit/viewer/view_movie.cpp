@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/video_writer.h"
-#include "vtk_views/view_picture.h"
+#include "vtk_views/viewer/view_picture.h"
 
 namespace softscope {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "toolkit/progress.h"
-#include "vtk_views/view_controls.h"
+#include "vtk_views/viewer/view_controls.h"
 
 namespace softscope {
 

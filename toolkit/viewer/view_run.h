@@ -10,7 +10,7 @@
 #include "toolkit/figures/volume_arguments.h"
 #include "toolkit/run/models_on_disk.h"
 #include "toolkit/viewer/view_errors.h"
-#include "vtk_views/view_source.h"
+#include "vtk_views/viewer/view_source.h"
 
 namespace softscope {
 

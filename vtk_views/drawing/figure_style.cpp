@@ -1,0 +1,34 @@
+// vtk_views/drawing/figure_style.cpp: widths and sizes of letters as the publishers' guides give
+// them.
+#include "vtk_views/drawing/figure_style.h"
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+const std::vector<FigureStyle>& styles() {
+  static const std::vector<FigureStyle> kStyles{{"ieee", 88.9, 7.5, 0.9, 600},
+                                                {"nature", 89, 6.5, 0.75, 600},
+                                                {"elsevier", 90, 7, 0.9, 600},
+                                                {"slides", 254, 14, 2, 200}};
+  return kStyles;
+}
+
+}  // namespace
+
+std::vector<std::string> figureStyleNames() {
+  std::vector<std::string> names;
+  for (const FigureStyle& style : styles()) names.push_back(style.name);
+  return names;
+}
+
+FigureStyle figureStyle(const std::string& name) {
+  for (const FigureStyle& style : styles())
+    if (style.name == name) return style;
+  std::string known;
+  for (const FigureStyle& style : styles()) known += (known.empty() ? "" : ", ") + style.name;
+  throw OptionError("--style is `" + name + "`, but must be one of " + known);
+}
+
+}  // namespace softscope

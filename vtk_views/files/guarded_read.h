@@ -1,0 +1,27 @@
+// vtk_views/files/guarded_read.h: the one door to readers of other libraries.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace softscope {
+
+/// Throws InputError where `file` is missing, a folder, a pipe or a device: opening a pipe waits
+/// for its writer.
+void requireRegularFile(const std::filesystem::path& file);
+
+/// Runs `read` in a child process with limits and returns the bytes that it returns. Readers of
+/// other libraries crash or hang on some damaged files: the child's death is an InputError that
+/// names `source`, what the library prints goes nowhere, and an Error that `read` throws is thrown
+/// here again. Limits: processor time of 10 s and 1 s per MB of input, twice that on the clock, and
+/// memory of 2 GiB and 16 times the input (none under AddressSanitizer, which reserves terabytes).
+/// `read` must not share work among threads: the child has only its own.
+std::string guardedRead(const std::string& source, std::uintmax_t input_bytes,
+                        const std::function<std::string()>& read);
+
+/// True in the child of guardedRead(), and nowhere else.
+bool insideGuardedRead();
+
+}  // namespace softscope

@@ -1,0 +1,125 @@
+// vtk_views/scenes/view_plane.cpp: sides and letters from the axes alone.
+#include "vtk_views/scenes/view_plane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kNamed = 0.26;      // sine of 15 degrees: what leans less isn't named
+constexpr double kAlongAxis = 1e-6;  // a standard plane's normal has no other parts
+
+ViewPlane make(const char* name, const Vector3d& centre_mm, const Vector3d& right,
+               const Vector3d& up) {
+  return {name, centre_mm, right, up};
+}
+
+/// Up for a picture that is looked at from `towards_viewer`.
+Vector3d upFor(const Vector3d& towards_viewer, SceneFrame frame) {
+  const Vector3d usual =
+      frame != SceneFrame::kCamera ? Vector3d(Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
+  const Vector3d other =
+      frame != SceneFrame::kCamera ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
+  // Within 45 degrees of the axis a picture is read as an axial one (of a scope: one from above).
+  const Vector3d& hint = std::abs(towards_viewer.dot(usual)) > std::sqrt(0.5) ? other : usual;
+  return (hint - hint.dot(towards_viewer) * towards_viewer).normalized();
+}
+
+ViewPlane lookFrom(const char* name, const Vector3d& centre_mm, const Vector3d& towards_viewer,
+                   SceneFrame frame) {
+  const Vector3d up = upFor(towards_viewer, frame);
+  return make(name, centre_mm, up.cross(towards_viewer), up);
+}
+
+using SideNames = std::array<std::array<const char*, 2>, 3>;  // by axis, then sign
+
+const SideNames& namesOf(SceneFrame frame) {
+  static const SideNames kLetters{{{"R", "L"}, {"A", "P"}, {"I", "S"}}};
+  static const SideNames kWords{{{"left", "right"}, {"up", "down"}, {"near", "far"}}};
+  static const SideNames kSigns{{{"-x", "+x"}, {"-y", "+y"}, {"-z", "+z"}}};
+  if (frame == SceneFrame::kPatient) return kLetters;
+  return frame == SceneFrame::kCamera ? kWords : kSigns;
+}
+
+Vector3d unitOf(const Vector3d& direction) {
+  if (!(direction.norm() > 1e-9) || !direction.allFinite())
+    throw OptionError("a direction must be three numbers that aren't all 0");
+  return direction.normalized();
+}
+
+}  // namespace
+
+ViewPlane axialView(const Vector3d& centre_mm, SceneFrame frame, SideRule rule) {
+  const Vector3d front = -Vector3d::UnitY();
+  if (frame == SceneFrame::kCamera)
+    return make("from the scope", centre_mm, Vector3d::UnitX(), front);
+  const double side = rule == SideRule::kRadiological ? 1 : -1;
+  return make("axial", centre_mm, side * Vector3d::UnitX(), front);
+}
+
+ViewPlane coronalView(const Vector3d& centre_mm, SceneFrame frame, SideRule rule) {
+  if (frame == SceneFrame::kCamera)
+    return make("from above", centre_mm, Vector3d::UnitX(), Vector3d::UnitZ());
+  const double side = rule == SideRule::kRadiological ? 1 : -1;
+  return make("coronal", centre_mm, side * Vector3d::UnitX(), Vector3d::UnitZ());
+}
+
+ViewPlane sagittalView(const Vector3d& centre_mm, SceneFrame frame) {
+  if (frame == SceneFrame::kCamera)
+    return make("from the right", centre_mm, Vector3d::UnitZ(), -Vector3d::UnitY());
+  return make("sagittal", centre_mm, Vector3d::UnitY(), Vector3d::UnitZ());
+}
+
+ViewPlane obliqueView(const Vector3d& centre_mm, const Vector3d& normal, SceneFrame frame,
+                      SideRule rule) {
+  const Vector3d n = unitOf(normal);
+  Eigen::Index axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  const ViewPlane nearest = axis == 0   ? sagittalView(centre_mm, frame)
+                            : axis == 1 ? coronalView(centre_mm, frame, rule)
+                                        : axialView(centre_mm, frame, rule);
+  const Vector3d towards_viewer = n.dot(nearest.towardsViewer()) < 0 ? Vector3d(-n) : n;
+  const Vector3d up = (nearest.up - nearest.up.dot(n) * n).normalized();
+  return make("oblique", centre_mm, up.cross(towards_viewer), up);
+}
+
+ViewPlane cameraView(const Vector3d& centre_mm, const Vector3d& towards_viewer, SceneFrame frame) {
+  return lookFrom("3-D", centre_mm, unitOf(towards_viewer), frame);
+}
+
+std::string sideName(const Vector3d& direction, SceneFrame frame) {
+  const Vector3d unit = direction.normalized();
+  std::array<int, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return std::abs(unit[a]) > std::abs(unit[b]); });
+  std::string name;
+  for (const int axis : order) {
+    if (std::abs(unit[axis]) < kNamed) continue;
+    if (frame != SceneFrame::kPatient && !name.empty()) break;  // words are long: the strongest
+    name += namesOf(frame)[std::size_t(axis)][unit[axis] > 0 ? 1 : 0];
+  }
+  return name;
+}
+
+std::string positionText(const ViewPlane& plane, SceneFrame frame) {
+  const Vector3d normal = plane.towardsViewer();
+  Eigen::Index axis = 0;
+  if (normal.cwiseAbs().maxCoeff(&axis) < 1 - kAlongAxis) return {};
+  const double place = plane.centre_mm[axis];
+  char text[48];
+  if (frame == SceneFrame::kPatient)
+    std::snprintf(text, sizeof text, "%c %.1f mm", (place < 0 ? "RAI" : "LPS")[axis],
+                  std::abs(place));
+  else
+    std::snprintf(text, sizeof text, "%c %.1f mm", "xyz"[axis], place);
+  return text;
+}
+
+}  // namespace softscope

@@ -1,0 +1,50 @@
+// vtk_views/viewer/view_picture.cpp: drawn twice as fine, then averaged, over the foot.
+#include "vtk_views/viewer/view_picture.h"
+
+#include "core/error.h"
+#include "vtk_views/scenes/offscreen_window.h"
+#include "vtk_views/scenes/window_pixels.h"
+#include "vtk_views/viewer/view_sheet.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kFiner = 2;
+constexpr int kLeastWidth = 320, kLeastHeight = 240, kMost = 4096;
+
+}  // namespace
+
+void requireViewSize(int width_px, int height_px) {
+  require(width_px >= kLeastWidth && width_px <= kMost, "--size", width_px,
+          "must be 320 to 4096 pixels wide");
+  require(height_px >= kLeastHeight && height_px <= kMost, "--size", height_px,
+          "must be 240 to 4096 pixels high");
+}
+
+ViewPicture::ViewPicture(ViewSource& source, int width_px, int height_px)
+    : source_(source),
+      width_px_(width_px),
+      height_px_(height_px - kViewFootPx),
+      scene_(source.world()) {
+  requireViewSize(width_px, height_px);
+  window_ = makeOffscreenWindow(kFiner * width_px_, kFiner * height_px_);
+  window_->AddRenderer(scene_.renderer());
+}
+
+ColourImage ViewPicture::draw(const Playback& playback, const ViewState& state, double turn_deg) {
+  const auto moment = source_.moment(playback.index(), state.colour == ViewColour::kErrors);
+  const double aspect = double(width_px_) / height_px_;
+  if (!first_) first_ = moment;
+  scene_.show(*moment, state);
+  scene_.look(state.look == Look::kScope ? *moment : *first_, state.look, aspect);
+  if (state.look != Look::kScope) scene_.turn(turn_deg);
+  scene_.sizeFor(kFiner * height_px_, state.dot_scale, kFiner);
+  window_->Render();
+  const ColourImage view = readPixels(window_, width_px_, height_px_, kFiner);
+  const ViewFoot foot =
+      footOf(source_, *moment, playback, state, scene_.widthShownMm(aspect), /*of_window=*/false);
+  const ColourImage card = state.help ? drawViewHelp() : ColourImage();
+  return composeView(view, drawViewFoot(foot, width_px_), state.help ? &card : nullptr);
+}
+
+}  // namespace softscope

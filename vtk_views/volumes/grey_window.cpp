@@ -1,0 +1,64 @@
+// vtk_views/volumes/grey_window.cpp: presets as radiologists use them.
+#include "vtk_views/volumes/grey_window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+const std::vector<GreyWindow>& presets() {
+  static const std::vector<GreyWindow> kPresets{{"soft-tissue", 400, 40},
+                                                {"lung", 1500, -600},
+                                                {"bone", 1800, 400},
+                                                {"liver", 150, 90},
+                                                {"vessels", 700, 200}};
+  return kPresets;
+}
+
+GreyWindow middleOf(const Volume& volume) {
+  const double low = volume.percentile(0.01), high = volume.percentile(0.99);
+  return {"middle 98 % of the values", std::max(high - low, 1e-6), (low + high) / 2};
+}
+
+}  // namespace
+
+std::uint8_t GreyWindow::grey(double value) const {
+  if (std::isnan(value)) return 0;
+  const double share = std::clamp((value - level) / width + 0.5, 0.0, 1.0);
+  return static_cast<std::uint8_t>(std::lround(255 * share));
+}
+
+std::vector<std::string> windowNames() {
+  std::vector<std::string> names{"auto"};
+  for (const GreyWindow& preset : presets()) names.push_back(preset.name);
+  return names;
+}
+
+GreyWindow parseWindow(const std::string& text, const Volume& volume) {
+  if (text == "auto") return volume.inHounsfield() ? presets()[0] : middleOf(volume);
+  for (const GreyWindow& preset : presets()) {
+    if (text != preset.name) continue;
+    if (!volume.inHounsfield())
+      throw OptionError("--window " + text +
+                        " is in Hounsfield units, but the volume's values aren't; give auto or "
+                        "WIDTH,LEVEL");
+    return preset;
+  }
+  GreyWindow window;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf%n", &window.width, &window.level, &used) < 2 ||
+      std::size_t(used) != text.size() || !(window.width > 0) || !std::isfinite(window.width) ||
+      !std::isfinite(window.level)) {
+    std::string names;
+    for (const std::string& name : windowNames()) names += name + ", ";
+    throw OptionError("--window is `" + text + "`, but must be " + names +
+                      "or WIDTH,LEVEL with a width above 0");
+  }
+  return window;
+}
+
+}  // namespace softscope

@@ -1,0 +1,177 @@
+#include "vtk_views/volumes/header_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+#include "vtk_views/files/guarded_read.h"
+
+namespace softscope {
+namespace {
+
+constexpr std::size_t kLongestHeaderLine = 1 << 16;
+constexpr int kMostHeaderLines = 4000;
+
+std::string withoutSpaces(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::ifstream openHeader(const std::string& path) {
+  requireRegularFile(path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path + ": can't be opened; check its rights");
+  return file;
+}
+
+/// False at the end of the file. Throws where the line can't be text.
+bool nextLine(const std::string& path, std::istream& file, std::string& line) {
+  line.clear();
+  char c = 0;
+  while (file.get(c)) {
+    if (c == '\n') return true;
+    if ((static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\r') ||
+        line.size() == kLongestHeaderLine)
+      throw InputError(path + ": its header holds bytes that are no text, after " + inQuotes(line) +
+                       ". Is it damaged, or of another kind than its name says?");
+    line += c;
+  }
+  return !line.empty();
+}
+
+[[noreturn]] void failLine(const std::string& path, const std::string& line) {
+  throw InputError(path + ": its header has the line " + inQuotes(line) +
+                   ", which says nothing. Is it damaged, or of another kind than its name says?");
+}
+
+/// "a finite number", "3 finite numbers".
+std::string countOf(std::size_t count, const std::string& noun) {
+  return count == 1 ? "a " + noun : std::to_string(count) + " " + noun + "s";
+}
+
+}  // namespace
+
+HeaderText HeaderText::readMetaImage(const std::string& path, const std::string& last_key) {
+  HeaderText header;
+  header.path_ = path;
+  std::ifstream file = openHeader(path);
+  std::string line;
+  for (int n = 0; n < kMostHeaderLines && nextLine(path, file, line); ++n) {
+    const auto at = line.find('=');
+    if (withoutSpaces(line).empty()) continue;
+    if (at == std::string::npos) failLine(path, line);
+    const std::string key = withoutSpaces(line.substr(0, at));
+    header.add(key, withoutSpaces(line.substr(at + 1)));
+    if (key != last_key) continue;
+    file.clear();
+    header.end_offset_ = static_cast<std::uintmax_t>(file.tellg());
+    return header;
+  }
+  throw InputError(path + ": the header has no line `" + last_key +
+                   "`. Is the file complete, and of the kind its name says?");
+}
+
+HeaderText HeaderText::readNrrd(const std::string& path) {
+  HeaderText header;
+  header.path_ = path;
+  std::ifstream file = openHeader(path);
+  std::string line;
+  if (!nextLine(path, file, line) || line.compare(0, 5, "NRRD0") != 0)
+    throw InputError(path + ": does not begin with NRRD0, so it is no NRRD file");
+  for (int n = 0; n < kMostHeaderLines && nextLine(path, file, line); ++n) {
+    line = withoutSpaces(line);
+    if (line.empty()) break;
+    if (line[0] == '#') continue;
+    const auto at = line.find(':');
+    if (at == std::string::npos) failLine(path, line);
+    if (line.compare(at, 2, ":=") == 0) continue;
+    header.add(withoutSpaces(line.substr(0, at)), withoutSpaces(line.substr(at + 1)));
+  }
+  file.clear();
+  header.end_offset_ = static_cast<std::uintmax_t>(file.tellg());
+  return header;
+}
+
+void HeaderText::add(const std::string& key, const std::string& value) {
+  const auto [place, is_new] = fields_.emplace(key, value);
+  if (!is_new && place->second != value)
+    fail(key, "before, and " + inQuotes(value) + " in a second line; which one holds?");
+}
+
+std::string HeaderText::firstOf(std::initializer_list<const char*> keys) const {
+  for (const char* key : keys)
+    if (has(key)) return key;
+  return {};
+}
+
+const std::string& HeaderText::text(const std::string& key) const {
+  const auto found = fields_.find(key);
+  if (found == fields_.end())
+    throw InputError(path_ + ": the header has no line `" + key +
+                     "`. Is the file complete, and of the kind its name says?");
+  return found->second;
+}
+
+std::string HeaderText::textOr(const std::string& key, const std::string& otherwise) const {
+  return has(key) ? text(key) : otherwise;
+}
+
+std::vector<double> HeaderText::numbers(const std::string& key, std::size_t count) const {
+  const std::vector<double> values = finiteNumbers(text(key));
+  if (values.size() != count) fail(key, "but must be " + countOf(count, "finite number"));
+  return values;
+}
+
+std::vector<std::int64_t> HeaderText::wholes(const std::string& key, std::size_t count,
+                                             std::int64_t least, std::int64_t most) const {
+  std::vector<std::int64_t> values;
+  for (const double value : numbers(key, count)) {
+    if (value != std::floor(value) || value < double(least) || value > double(most))
+      fail(key, least == most ? "but must be " + std::to_string(least)
+                              : "but must be " + countOf(count, "whole number") + " from " +
+                                    std::to_string(least) + " to " + std::to_string(most));
+    values.push_back(static_cast<std::int64_t>(value));
+  }
+  return values;
+}
+
+bool HeaderText::flagOr(const std::string& key, bool otherwise) const {
+  if (!has(key)) return otherwise;
+  const std::string& value = text(key);
+  for (const char* yes : {"True", "true", "TRUE", "1"})
+    if (value == yes) return true;
+  for (const char* no : {"False", "false", "FALSE", "0"})
+    if (value == no) return false;
+  fail(key, "but must be True or False");
+}
+
+void HeaderText::fail(const std::string& key, const std::string& complaint) const {
+  throw InputError(path_ + ": `" + key + "` is " + inQuotes(textOr(key, "")) + ", " + complaint);
+}
+
+std::vector<double> finiteNumbers(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream words(text);
+  std::vector<double> values;
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    values.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0' || !std::isfinite(values.back())) return {};
+  }
+  return values;
+}
+
+std::string inQuotes(const std::string& text) {
+  constexpr std::size_t kLongestQuote = 60;
+  std::string shown_text = text.substr(0, kLongestQuote);
+  for (char& c : shown_text)
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+  return "\"" + shown_text + (text.size() > kLongestQuote ? "…\"" : "\"");
+}
+
+}  // namespace softscope
