@@ -7,7 +7,7 @@
 #include "apps/result_output.h"
 #include "apps/work_progress.h"
 #include "core/error.h"
-#include "io/folder.h"
+#include "io/files/folder.h"
 #include "toolkit/benchmark/stir_benchmark.h"
 #include "toolkit/record/child_process.h"
 

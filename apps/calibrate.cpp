@@ -10,11 +10,11 @@
 #include "apps/result_output.h"
 #include "apps/work_progress.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/folder.h"
-#include "io/image_writer.h"
-#include "io/new_files.h"
-#include "io/text_lines.h"
+#include "io/files/atomic_file.h"
+#include "io/files/folder.h"
+#include "io/files/new_files.h"
+#include "io/images/image_writer.h"
+#include "io/text/text_lines.h"
 #include "toolkit/calibration/calibration_result.h"
 
 namespace softscope {

@@ -6,7 +6,7 @@
 
 #include "apps/help_text.h"
 #include "core/error.h"
-#include "io/nearest_name.h"
+#include "io/text/nearest_name.h"
 #include "toolkit/record/version.h"
 
 namespace softscope {

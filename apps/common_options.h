@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/argument_list.h"
-#include "io/settings.h"
+#include "io/settings/settings.h"
 
 namespace softscope {
 

@@ -8,7 +8,7 @@
 #include "apps/shared_arguments.h"
 #include "apps/threshold_exit.h"
 #include "core/error.h"
-#include "io/text_lines.h"
+#include "io/text/text_lines.h"
 #include "toolkit/comparison/compare_files.h"
 #include "toolkit/comparison/compare_outputs.h"
 

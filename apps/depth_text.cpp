@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "io/text_lines.h"
+#include "io/text/text_lines.h"
 
 namespace softscope {
 

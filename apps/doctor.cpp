@@ -7,7 +7,7 @@
 #include "apps/library_versions.h"
 #include "apps/result_output.h"
 #include "core/parallel.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "pipeline/backends.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/version.h"

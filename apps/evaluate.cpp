@@ -11,7 +11,7 @@
 #include "apps/threshold_exit.h"
 #include "apps/work_progress.h"
 #include "core/error.h"
-#include "io/folder.h"
+#include "io/files/folder.h"
 #include "toolkit/evaluation/evaluate_outputs.h"
 #include "toolkit/evaluation/evaluate_run.h"
 

@@ -9,8 +9,8 @@
 #include "apps/result_output.h"
 #include "apps/shared_arguments.h"
 #include "core/error.h"
-#include "io/message.h"
-#include "io/text_lines.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/figures/draw_figure.h"
 #include "toolkit/figures/figure_outputs.h"
 

@@ -6,8 +6,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include "io/message.h"
-#include "io/quiet_libraries.h"
+#include "io/images/quiet_libraries.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

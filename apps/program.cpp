@@ -15,8 +15,8 @@
 #include "apps/log.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "io/message.h"
-#include "io/quiet_libraries.h"
+#include "io/images/quiet_libraries.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

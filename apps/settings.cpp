@@ -5,7 +5,7 @@
 #include "apps/exit_codes.h"
 #include "apps/result_output.h"
 #include "core/error.h"
-#include "io/settings_text.h"
+#include "io/settings/settings_text.h"
 #include "pipeline/run_options.h"
 #include "toolkit/record/setting_json.h"
 #include "toolkit/simulation/simulate_options.h"

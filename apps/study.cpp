@@ -11,7 +11,7 @@
 #include "apps/progress_bar.h"
 #include "apps/result_output.h"
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "toolkit/record/child_process.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/shell_word.h"

@@ -1,7 +1,7 @@
 #include "pipeline/run_options.h"
 
 #include "core/error.h"
-#include "io/sequence_settings.h"
+#include "io/sequences/sequence_settings.h"
 #include "pipeline/reconstruction_settings.h"
 
 namespace softscope {

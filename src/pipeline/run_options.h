@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/sequence_options.h"
-#include "io/settings_binder.h"
+#include "io/sequences/sequence_options.h"
+#include "io/settings/settings_binder.h"
 #include "pipeline/reconstruction_options.h"
 
 namespace softscope {

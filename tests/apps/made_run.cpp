@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <string>
 
-#include "io/atomic_file.h"
-#include "io/calibration_writer.h"
-#include "io/depth_files.h"
-#include "io/ply_writer.h"
-#include "io/trajectory_file.h"
+#include "io/calibrations/calibration_writer.h"
+#include "io/files/atomic_file.h"
+#include "io/geometry/depth_files.h"
+#include "io/geometry/ply_writer.h"
+#include "io/geometry/trajectory_file.h"
 #include "tests/apps/run_softscope.h"
 #include "toolkit/simulation/simulate_outputs.h"
 

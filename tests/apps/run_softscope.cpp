@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/calibration_writer.h"
-#include "io/image_writer.h"
+#include "io/calibrations/calibration_writer.h"
+#include "io/images/image_writer.h"
 #include "support/scene.h"
 #include "tests/apps/forked_program.h"
 

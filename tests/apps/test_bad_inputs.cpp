@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "io/image_writer.h"
+#include "io/images/image_writer.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {

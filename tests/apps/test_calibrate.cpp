@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "calibrate/rendered_boards.h"
-#include "io/calibration_reader.h"
-#include "io/folder.h"
-#include "io/image_reader.h"
-#include "io/image_writer.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/files/folder.h"
+#include "io/images/image_reader.h"
+#include "io/images/image_writer.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {

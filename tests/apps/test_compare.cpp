@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "io/ply_writer.h"
+#include "io/geometry/ply_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 
 namespace softscope::test {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/calibration_reader.h"
-#include "io/dataset_form.h"
-#include "io/depth_files.h"
-#include "io/stir_files.h"
-#include "io/surgt_files.h"
-#include "io/xyz_files.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/datasets/stir_files.h"
+#include "io/datasets/surgt_files.h"
+#include "io/geometry/depth_files.h"
+#include "io/geometry/xyz_files.h"
+#include "io/sequences/dataset_form.h"
 #include "stereo/rectifier.h"
 #include "tests/apps/run_softscope.h"
 

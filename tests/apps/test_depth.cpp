@@ -5,10 +5,10 @@
 #include <cstring>
 #include <fstream>
 
-#include "io/calibration_writer.h"
-#include "io/depth_files.h"
-#include "io/image_reader.h"
-#include "io/image_writer.h"
+#include "io/calibrations/calibration_writer.h"
+#include "io/geometry/depth_files.h"
+#include "io/images/image_reader.h"
+#include "io/images/image_writer.h"
 #include "stereo/rectifier.h"
 #include "support/data_folder.h"
 #include "support/scene.h"

@@ -1,8 +1,8 @@
 // tests/apps/test_evaluate.cpp: `softscope evaluate` on a run whose errors are known.
 #include <cmath>
 
-#include "io/image_writer.h"
-#include "io/ply_writer.h"
+#include "io/geometry/ply_writer.h"
+#include "io/images/image_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 #include "toolkit/run/table_reader.h"
 

@@ -2,9 +2,9 @@
 // input.
 #include <cmath>
 
-#include "io/atomic_file.h"
-#include "io/depth_files.h"
-#include "io/ply_writer.h"
+#include "io/files/atomic_file.h"
+#include "io/geometry/depth_files.h"
+#include "io/geometry/ply_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 
 namespace softscope::test {

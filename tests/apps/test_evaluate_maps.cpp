@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include "core/raster.h"
-#include "io/depth_files.h"
-#include "io/image_writer.h"
+#include "io/geometry/depth_files.h"
+#include "io/images/image_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 
 namespace softscope::test {

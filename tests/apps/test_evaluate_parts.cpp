@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/ply_writer.h"
+#include "io/geometry/ply_writer.h"
 #include "tests/apps/made_run.h"
 #include "toolkit/evaluation/thresholds.h"
 #include "toolkit/run/frame_clock.h"

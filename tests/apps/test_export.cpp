@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/image_writer.h"
-#include "io/ply_writer.h"
+#include "io/geometry/ply_writer.h"
+#include "io/images/image_writer.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "tests/apps/made_run.h"

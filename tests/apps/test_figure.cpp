@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "io/ply_writer.h"
+#include "io/geometry/ply_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 
 namespace softscope::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "io/depth_files.h"
-#include "io/image_writer.h"
+#include "io/geometry/depth_files.h"
+#include "io/images/image_writer.h"
 #include "support/data_folder.h"
 #include "tests/apps/run_softscope.h"
 

@@ -12,8 +12,8 @@
 #include <random>
 #include <thread>
 
-#include "io/file_lock.h"
-#include "io/image_writer.h"
+#include "io/files/file_lock.h"
+#include "io/images/image_writer.h"
 #include "pipeline/backends.h"
 #include "tests/apps/run_softscope.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "io/image_reader.h"
+#include "io/images/image_reader.h"
 #include "tests/apps/evaluate_fixture.h"
 #include "tests/apps/made_case.h"
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "eval/simulation/organ_mesh.h"
-#include "io/image_reader.h"
-#include "io/image_writer.h"
+#include "io/images/image_reader.h"
+#include "io/images/image_writer.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "tests/apps/run_softscope.h"

@@ -6,10 +6,10 @@
 #include <csignal>
 #include <thread>
 
-#include "io/file_lock.h"
-#include "io/image_reader.h"
-#include "io/image_writer.h"
-#include "io/picture_source.h"
+#include "io/files/file_lock.h"
+#include "io/images/image_reader.h"
+#include "io/images/image_writer.h"
+#include "io/sequences/picture_source.h"
 #include "support/x_server.h"
 #include "tests/apps/evaluate_fixture.h"
 #include "vtk_views/scenes/render_check.h"

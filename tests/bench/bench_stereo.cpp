@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/parallel.h"
-#include "io/image_reader.h"
+#include "io/images/image_reader.h"
 #include "stereo/depth_from_disparity.h"
 #include "stereo/opencv_view.h"
 #include "stereo/row_alignment.h"

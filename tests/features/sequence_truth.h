@@ -14,10 +14,10 @@
 #include "features/highlight_mask.h"
 #include "features/matcher.h"
 #include "features/model_view.h"
-#include "io/calibration_reader.h"
-#include "io/depth_files.h"
-#include "io/image_reader.h"
-#include "io/trajectory_file.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/geometry/depth_files.h"
+#include "io/geometry/trajectory_file.h"
+#include "io/images/image_reader.h"
 
 namespace softscope::test {
 

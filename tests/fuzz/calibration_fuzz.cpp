@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "fuzz/fuzz_target.h"
-#include "io/calibration_check.h"
-#include "io/calibration_forms.h"
-#include "io/calibration_reader.h"
-#include "io/calibration_writer.h"
+#include "io/calibrations/calibration_check.h"
+#include "io/calibrations/calibration_forms.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/calibrations/calibration_writer.h"
 
 namespace softscope::test {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"
-#include "io/stir_files.h"
-#include "io/surgt_files.h"
-#include "io/xyz_files.h"
+#include "io/datasets/stir_files.h"
+#include "io/datasets/surgt_files.h"
+#include "io/geometry/xyz_files.h"
 
 namespace softscope::test {
 namespace {

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"
-#include "io/depth_files.h"
-#include "io/pfm_file.h"
+#include "io/geometry/depth_files.h"
+#include "io/geometry/pfm_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace softscope;

@@ -1,7 +1,7 @@
 // tests/fuzz/image_fuzz.cpp: colour pictures and masks of every form.
 #include "fuzz/fuzz_target.h"
-#include "io/image_header.h"
-#include "io/image_reader.h"
+#include "io/images/image_header.h"
+#include "io/images/image_reader.h"
 
 namespace {
 

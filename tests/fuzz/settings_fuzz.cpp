@@ -1,9 +1,9 @@
 // tests/fuzz/settings_fuzz.cpp: settings files, assignments, frame ranges.
 #include "fuzz/fuzz_target.h"
-#include "io/sequence_options.h"
-#include "io/sequence_settings.h"
-#include "io/settings.h"
-#include "io/settings_binder.h"
+#include "io/sequences/sequence_options.h"
+#include "io/sequences/sequence_settings.h"
+#include "io/settings/settings.h"
+#include "io/settings/settings_binder.h"
 
 namespace softscope::test {
 namespace {

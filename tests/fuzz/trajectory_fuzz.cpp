@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"
-#include "io/timestamps_file.h"
-#include "io/trajectory_file.h"
+#include "io/geometry/trajectory_file.h"
+#include "io/sequences/timestamps_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace softscope;

@@ -1,8 +1,8 @@
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 
 #include <gtest/gtest.h>
 
-#include "io/file_bytes.h"
+#include "io/files/file_bytes.h"
 #include "io/temporary_folder.h"
 
 namespace softscope::test {

@@ -2,8 +2,8 @@
 // warning.
 #include <gtest/gtest.h>
 
-#include "io/calibration_reader.h"
 #include "io/calibration_texts.h"
+#include "io/calibrations/calibration_reader.h"
 #include "io/temporary_folder.h"
 
 namespace softscope::test {

@@ -1,11 +1,11 @@
-#include "io/calibration_reader.h"
+#include "io/calibrations/calibration_reader.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
 #include "io/calibration_texts.h"
-#include "io/calibration_writer.h"
+#include "io/calibrations/calibration_writer.h"
 #include "io/temporary_folder.h"
 
 namespace softscope::test {

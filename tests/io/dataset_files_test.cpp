@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/calibration_reader.h"
-#include "io/dataset_form.h"
-#include "io/image_writer.h"
-#include "io/stir_files.h"
-#include "io/surgt_files.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/datasets/stir_files.h"
+#include "io/datasets/surgt_files.h"
+#include "io/geometry/xyz_files.h"
+#include "io/images/image_writer.h"
+#include "io/sequences/dataset_form.h"
 #include "io/temporary_folder.h"
-#include "io/xyz_files.h"
 
 namespace softscope::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/depth_files.h"
+#include "io/geometry/depth_files.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/image_codec.h"
-#include "io/pfm_file.h"
+#include "io/geometry/pfm_file.h"
+#include "io/images/image_codec.h"
 #include "io/temporary_folder.h"
 #include "support/data_folder.h"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "io/calibration_reader.h"
-#include "io/sequence_reader.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/sequences/sequence_reader.h"
 #include "io/temporary_folder.h"
 #include "support/data_folder.h"
 

@@ -1,12 +1,12 @@
-#include "io/document.h"
+#include "io/documents/document.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "io/number_tree.h"
+#include "io/documents/number_tree.h"
 #include "io/temporary_folder.h"
-#include "io/text_lines.h"
+#include "io/text/text_lines.h"
 
 namespace softscope::test {
 namespace {

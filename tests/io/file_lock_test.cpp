@@ -1,4 +1,4 @@
-#include "io/file_lock.h"
+#include "io/files/file_lock.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "io/folder.h"
+#include "io/files/folder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "io/image_reader.h"
+#include "io/images/image_reader.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/image_codec.h"
-#include "io/image_header.h"
-#include "io/image_writer.h"
+#include "io/images/image_codec.h"
+#include "io/images/image_header.h"
+#include "io/images/image_writer.h"
 #include "io/temporary_folder.h"
 #include "io/textures.h"
 #include "support/data_folder.h"

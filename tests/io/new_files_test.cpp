@@ -1,4 +1,4 @@
-#include "io/new_files.h"
+#include "io/files/new_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "io/ply_writer.h"
+#include "io/geometry/ply_writer.h"
 
 #include <gtest/gtest.h>
 

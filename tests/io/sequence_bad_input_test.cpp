@@ -2,10 +2,10 @@
 // reported.
 #include <gtest/gtest.h>
 
-#include "io/depth_files.h"
-#include "io/file_bytes.h"
+#include "io/files/file_bytes.h"
+#include "io/geometry/depth_files.h"
 #include "io/sequence_folder.h"
-#include "io/sequence_reader.h"
+#include "io/sequences/sequence_reader.h"
 
 namespace softscope::test {
 namespace {

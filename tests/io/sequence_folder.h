@@ -7,8 +7,8 @@
 
 #include "core/frame.h"
 #include "io/calibration_texts.h"
-#include "io/image_codec.h"
-#include "io/image_writer.h"
+#include "io/images/image_codec.h"
+#include "io/images/image_writer.h"
 #include "io/temporary_folder.h"
 #include "io/textures.h"
 

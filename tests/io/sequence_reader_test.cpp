@@ -1,15 +1,15 @@
-#include "io/sequence_reader.h"
+#include "io/sequences/sequence_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "io/depth_files.h"
-#include "io/frame_window.h"
+#include "io/geometry/depth_files.h"
 #include "io/sequence_folder.h"
-#include "io/sequence_settings.h"
-#include "io/settings_binder.h"
+#include "io/sequences/frame_window.h"
+#include "io/sequences/sequence_settings.h"
+#include "io/settings/settings_binder.h"
 
 namespace softscope::test {
 namespace {

@@ -1,11 +1,11 @@
-#include "io/settings.h"
+#include "io/settings/settings.h"
 
 #include <gtest/gtest.h>
 
-#include "io/nearest_name.h"
-#include "io/settings_binder.h"
-#include "io/settings_text.h"
+#include "io/settings/settings_binder.h"
+#include "io/settings/settings_text.h"
 #include "io/temporary_folder.h"
+#include "io/text/nearest_name.h"
 
 namespace softscope::test {
 namespace {

@@ -1,8 +1,8 @@
-#include "io/stereo_packing.h"
+#include "io/sequences/stereo_packing.h"
 
 #include <gtest/gtest.h>
 
-#include "io/image_reader.h"
+#include "io/images/image_reader.h"
 #include "io/sequence_folder.h"
 #include "support/data_folder.h"
 

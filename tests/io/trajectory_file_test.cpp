@@ -1,11 +1,11 @@
-#include "io/trajectory_file.h"
+#include "io/geometry/trajectory_file.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "io/sequences/timestamps_file.h"
 #include "io/temporary_folder.h"
-#include "io/timestamps_file.h"
 #include "support/data_folder.h"
 
 namespace softscope::test {

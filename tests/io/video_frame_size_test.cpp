@@ -1,12 +1,12 @@
 // tests/io/video_frame_size_test.cpp: sizes of packets, and videos whose frames change size.
-#include "io/video_frame_size.h"
+#include "io/sequences/video_frame_size.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/picture_source.h"
-#include "io/video_writer.h"
+#include "io/images/video_writer.h"
+#include "io/sequences/picture_source.h"
 #include "temporary_folder.h"
 
 namespace softscope::test {

@@ -1,5 +1,5 @@
 // tests/io/video_writer_test.cpp: what is written comes back, nearly.
-#include "io/video_writer.h"
+#include "io/images/video_writer.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "core/error.h"
-#include "io/picture_source.h"
+#include "io/sequences/picture_source.h"
 #include "temporary_folder.h"
 
 namespace softscope {

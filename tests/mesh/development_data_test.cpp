@@ -7,8 +7,8 @@
 
 #include "eval/statistics.h"
 #include "eval/triangle_tree.h"
-#include "io/calibration_reader.h"
-#include "io/depth_files.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/geometry/depth_files.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "mesh/open_mesh_check.h"

@@ -10,8 +10,8 @@
 #include <type_traits>
 
 #include "core/error.h"
-#include "io/sequence_settings.h"
-#include "io/settings_text.h"
+#include "io/sequences/sequence_settings.h"
+#include "io/settings/settings_text.h"
 #include "pipeline/reconstruction_settings.h"
 #include "pipeline/run_options.h"
 

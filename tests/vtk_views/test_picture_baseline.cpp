@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "io/image_reader.h"
-#include "io/image_writer.h"
+#include "io/images/image_reader.h"
+#include "io/images/image_writer.h"
 #include "vtk_views/box_mesh.h"
 #include "vtk_views/scenes/four_panels.h"
 

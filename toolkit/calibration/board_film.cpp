@@ -5,10 +5,10 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "io/frame_pairing.h"
-#include "io/message.h"
-#include "io/picture_source.h"
-#include "io/stereo_packing.h"
+#include "io/sequences/frame_pairing.h"
+#include "io/sequences/picture_source.h"
+#include "io/sequences/stereo_packing.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

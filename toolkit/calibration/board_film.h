@@ -12,7 +12,7 @@ namespace softscope {
 
 struct BoardFilmOptions {
   std::filesystem::path left, right;  // folders of images or videos; no right: both views in one
-  std::string layout = "auto";        // of both views in one image: io/stereo_packing.h
+  std::string layout = "auto";        // of both views in one image: io/sequences/stereo_packing.h
   bool right_first = false;
   int every = 0;  // each n-th frame; 0: as many as give 300 frames at most
   BoardOptions board;

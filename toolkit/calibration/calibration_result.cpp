@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/calibration_reader.h"
-#include "io/calibration_writer.h"
-#include "io/message.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/calibrations/calibration_writer.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

@@ -24,7 +24,7 @@ struct CalibrationReport {
 };
 
 /// Chooses views, solves, judges. Throws InputError where the views are too few or alike, or the
-/// result is no calibration of a stereo endoscope (io/calibration_check.h).
+/// result is no calibration of a stereo endoscope (io/calibrations/calibration_check.h).
 CalibrationReport calibrateFromFilm(const BoardFilm& film, const BoardOptions& board,
                                     const SolveOptions& options,
                                     const std::vector<double>& distances_mm);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/file_hash.h"
+#include "io/files/file_hash.h"
 #include "mesh/mesh_check.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/evaluation/evaluate_plots.h"

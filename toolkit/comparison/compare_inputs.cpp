@@ -2,8 +2,8 @@
 #include "toolkit/comparison/compare_inputs.h"
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/message.h"
+#include "io/files/file_bytes.h"
+#include "io/text/message.h"
 #include "mesh/mesh_reader.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/ply_points.h"

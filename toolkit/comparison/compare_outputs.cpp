@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/image_writer.h"
-#include "io/message.h"
-#include "io/text_lines.h"
+#include "io/files/atomic_file.h"
+#include "io/images/image_writer.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/comparison/compare_map.h"
 #include "toolkit/comparison/compare_picture.h"
 #include "toolkit/evaluation/evaluate_plots.h"

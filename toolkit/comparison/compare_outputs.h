@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/triangle_mesh.h"
-#include "io/new_files.h"
+#include "io/files/new_files.h"
 #include "toolkit/comparison/compare_record.h"
 #include "toolkit/evaluation/surface_error_map.h"
 #include "vtk_views/drawing/vector_drawing.h"

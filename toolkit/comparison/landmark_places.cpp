@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/message.h"
-#include "io/text_lines.h"
+#include "io/files/file_bytes.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 
 namespace softscope {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "io/atomic_file.h"
-#include "io/depth_files.h"
-#include "io/image_writer.h"
-#include "io/nearest_name.h"
-#include "io/ply_writer.h"
+#include "io/files/atomic_file.h"
+#include "io/geometry/depth_files.h"
+#include "io/geometry/ply_writer.h"
+#include "io/images/image_writer.h"
+#include "io/text/nearest_name.h"
 #include "toolkit/depth/frame_statistics.h"
 #include "toolkit/record/fact_sheet.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/stereo_rig.h"
-#include "io/new_files.h"
+#include "io/files/new_files.h"
 #include "toolkit/depth/depth_estimator.h"
 #include "vtk_views/plots/depth_picture.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/stereo_rig.h"
-#include "io/settings_binder.h"
+#include "io/settings/settings_binder.h"
 #include "toolkit/depth/depth_estimator.h"
 #include "toolkit/record/fact_sheet.h"
 

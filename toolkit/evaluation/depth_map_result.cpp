@@ -6,11 +6,11 @@
 #include <functional>
 
 #include "core/error.h"
-#include "io/calibration_reader.h"
-#include "io/depth_files.h"
-#include "io/folder.h"
-#include "io/image_reader.h"
-#include "io/message.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/files/folder.h"
+#include "io/geometry/depth_files.h"
+#include "io/images/image_reader.h"
+#include "io/text/message.h"
 #include "stereo/rectifier.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"

@@ -9,8 +9,8 @@
 #include "core/parallel.h"
 #include "eval/simulation/ray_tree.h"
 #include "eval/surface_alignment.h"
-#include "io/depth_files.h"
-#include "io/message.h"
+#include "io/geometry/depth_files.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

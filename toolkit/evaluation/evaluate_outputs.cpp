@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/folder.h"
-#include "io/image_writer.h"
-#include "io/message.h"
-#include "io/text_lines.h"
+#include "io/files/atomic_file.h"
+#include "io/files/folder.h"
+#include "io/images/image_writer.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/evaluation/evaluate_frames.h"
 #include "toolkit/evaluation/evaluate_plots.h"
 #include "toolkit/record/json_text.h"

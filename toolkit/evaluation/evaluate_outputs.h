@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/new_files.h"
+#include "io/files/new_files.h"
 #include "toolkit/evaluation/evaluate_run.h"
 #include "vtk_views/drawing/vector_drawing.h"
 

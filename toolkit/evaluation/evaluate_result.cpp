@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "toolkit/run/table_reader.h"
 
 namespace softscope {

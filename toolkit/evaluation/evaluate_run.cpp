@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "io/file_hash.h"
-#include "io/folder.h"
-#include "io/message.h"
+#include "io/files/file_hash.h"
+#include "io/files/folder.h"
+#include "io/text/message.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "toolkit/evaluation/evaluate_frames.h"

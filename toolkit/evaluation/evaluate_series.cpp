@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "eval/error_series.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "mesh/mesh_reader.h"
 #include "toolkit/evaluation/evaluate_depth.h"
 #include "toolkit/run/model_file.h"

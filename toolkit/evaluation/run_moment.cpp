@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "mesh/mesh_reader.h"
 #include "toolkit/evaluation/evaluate_depth.h"
 #include "toolkit/evaluation/evaluate_series.h"

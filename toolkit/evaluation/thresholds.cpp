@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "io/nearest_name.h"
-#include "io/text_lines.h"
+#include "io/text/nearest_name.h"
+#include "io/text/text_lines.h"
 
 namespace softscope {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "core/error.h"
-#include "io/calibration_reader.h"
-#include "io/sequence_paths.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/sequences/sequence_paths.h"
 #include "stereo/rectifier.h"
 #include "toolkit/evaluation/evaluate_view.h"
 #include "toolkit/record/statistics_json.h"

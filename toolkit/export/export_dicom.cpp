@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/file_bytes.h"
-#include "io/image_reader.h"
-#include "io/message.h"
+#include "io/files/atomic_file.h"
+#include "io/files/file_bytes.h"
+#include "io/images/image_reader.h"
+#include "io/text/message.h"
 #include "toolkit/record/child_process.h"
 
 namespace softscope {

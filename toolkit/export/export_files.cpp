@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "mesh/mesh_writer.h"
 #include "toolkit/export/export_gltf.h"
 #include "vtk_views/files/surface_vtp.h"

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/message.h"
+#include "io/files/file_bytes.h"
+#include "io/text/message.h"
 #include "mesh/mesh_reader.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/ply_points.h"

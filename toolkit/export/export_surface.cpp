@@ -2,7 +2,7 @@
 #include "toolkit/export/export_surface.h"
 
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "mesh/mesh_check.h"
 #include "vtk_views/drawing/html_text.h"
 

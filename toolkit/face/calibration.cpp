@@ -1,8 +1,8 @@
 // toolkit/face/calibration.cpp: of include/softscope/calibration.h.
 #include "softscope/calibration.h"
 
-#include "io/calibration_check.h"
-#include "io/calibration_reader.h"
+#include "io/calibrations/calibration_check.h"
+#include "io/calibrations/calibration_reader.h"
 #include "toolkit/face/calibration_data.h"
 
 namespace softscope::api {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 
 namespace softscope::api {
 

@@ -1,7 +1,7 @@
 // toolkit/face/options.cpp: of include/softscope/options.h.
 #include "softscope/options.h"
 
-#include "io/settings.h"
+#include "io/settings/settings.h"
 #include "toolkit/face/run_options_of.h"
 
 namespace softscope::api {

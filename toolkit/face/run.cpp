@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "io/folder.h"
-#include "io/message.h"
+#include "io/files/folder.h"
+#include "io/text/message.h"
 #include "toolkit/face/model_copy.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/run_reader.h"

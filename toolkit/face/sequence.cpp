@@ -1,7 +1,7 @@
 // toolkit/face/sequence.cpp: of include/softscope/sequence.h.
 #include "softscope/sequence.h"
 
-#include "io/sequence_reader.h"
+#include "io/sequences/sequence_reader.h"
 #include "pipeline/run_options.h"
 #include "toolkit/face/calibration_data.h"
 #include "toolkit/face/image_copies.h"

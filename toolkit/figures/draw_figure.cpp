@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "eval/triangle_tree.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "toolkit/figures/figure_kinds.h"
 #include "toolkit/figures/figure_matches.h"
 #include "toolkit/figures/figure_outputs.h"

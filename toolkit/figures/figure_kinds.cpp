@@ -7,7 +7,7 @@
 #include <list>
 
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 #include "toolkit/evaluation/run_moment.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/run/model_file.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/message.h"
-#include "io/sequence_paths.h"
-#include "io/sequence_reader.h"
+#include "io/files/file_bytes.h"
+#include "io/sequences/sequence_paths.h"
+#include "io/sequences/sequence_reader.h"
+#include "io/text/message.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/run_options.h"
 #include "pose/ransac_pose.h"

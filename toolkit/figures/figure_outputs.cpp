@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "io/atomic_file.h"
-#include "io/image_writer.h"
-#include "io/new_files.h"
+#include "io/files/atomic_file.h"
+#include "io/files/new_files.h"
+#include "io/images/image_writer.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"

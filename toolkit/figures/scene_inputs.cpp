@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "eval/surface_alignment.h"
-#include "io/file_hash.h"
-#include "io/message.h"
+#include "io/files/file_hash.h"
+#include "io/text/message.h"
 #include "mesh/mesh_check.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/record/statistics_json.h"

@@ -1,7 +1,7 @@
 // toolkit/inspection/describe_calibration.cpp: how the two cameras see.
 #include <cmath>
 
-#include "io/calibration_reader.h"
+#include "io/calibrations/calibration_reader.h"
 #include "toolkit/inspection/describe_file.h"
 
 namespace softscope {

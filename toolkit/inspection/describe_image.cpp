@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "core/error.h"
-#include "io/depth_files.h"
-#include "io/file_bytes.h"
-#include "io/image_header.h"
-#include "io/image_reader.h"
-#include "io/picture_source.h"
+#include "io/files/file_bytes.h"
+#include "io/geometry/depth_files.h"
+#include "io/images/image_header.h"
+#include "io/images/image_reader.h"
+#include "io/sequences/picture_source.h"
 #include "toolkit/inspection/describe_file.h"
 
 namespace softscope {

@@ -1,7 +1,7 @@
 // toolkit/inspection/describe_mesh.cpp: a surface, or points without one.
 #include <algorithm>
 
-#include "io/file_bytes.h"
+#include "io/files/file_bytes.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
 #include "toolkit/inspection/describe_file.h"

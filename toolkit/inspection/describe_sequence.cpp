@@ -5,11 +5,11 @@
 #include <set>
 
 #include "core/error.h"
-#include "io/dataset_form.h"
-#include "io/folder.h"
-#include "io/picture_source.h"
-#include "io/sequence_reader.h"
-#include "io/timestamps_file.h"
+#include "io/files/folder.h"
+#include "io/sequences/dataset_form.h"
+#include "io/sequences/picture_source.h"
+#include "io/sequences/sequence_reader.h"
+#include "io/sequences/timestamps_file.h"
 #include "stereo/rectifier.h"
 #include "stereo/row_alignment.h"
 #include "stereo/stereo_options.h"

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/message.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "io/message.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/text_lines.h"
+#include "io/text/text_lines.h"
 
 namespace softscope {
 namespace {

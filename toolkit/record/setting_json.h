@@ -1,7 +1,7 @@
 // toolkit/record/setting_json.h: settings as records keep them.
 #pragma once
 
-#include "io/settings_binder.h"
+#include "io/settings/settings_binder.h"
 #include "toolkit/record/fact_sheet.h"
 
 namespace softscope {

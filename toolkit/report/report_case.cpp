@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/file_hash.h"
-#include "io/folder.h"
-#include "io/message.h"
+#include "io/files/file_bytes.h"
+#include "io/files/file_hash.h"
+#include "io/files/folder.h"
+#include "io/text/message.h"
 #include "mesh/coarse_mesh.h"
 #include "toolkit/run/frame_clock.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/message.h"
-#include "io/new_files.h"
+#include "io/files/atomic_file.h"
+#include "io/files/new_files.h"
+#include "io/text/message.h"
 #include "vtk_views/report/report_html.h"
 #include "vtk_views/report/report_pdf.h"
 

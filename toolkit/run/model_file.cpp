@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/message.h"
+#include "io/files/file_bytes.h"
+#include "io/text/message.h"
 #include "mesh/ply_header.h"
 
 namespace softscope {

@@ -10,10 +10,10 @@
 #include <string>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/folder.h"
-#include "io/message.h"
-#include "io/text_lines.h"
+#include "io/files/file_bytes.h"
+#include "io/files/folder.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_reader.h"
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/sequence_paths.h"
+#include "io/sequences/sequence_paths.h"
 
 namespace softscope {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "io/text_lines.h"
+#include "io/text/text_lines.h"
 #include "mesh/ply_header.h"
 
 namespace softscope {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/file_bytes.h"
-#include "io/file_hash.h"
-#include "io/message.h"
-#include "io/sequence_paths.h"
-#include "io/text_lines.h"
+#include "io/files/file_bytes.h"
+#include "io/files/file_hash.h"
+#include "io/sequences/sequence_paths.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/record/fact_sheet.h"
 
 namespace softscope {

@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "core/error.h"
-#include "io/file_hash.h"
-#include "io/folder.h"
-#include "io/frame_window.h"
-#include "io/message.h"
-#include "io/sequence_reader.h"
-#include "io/track_points_file.h"
+#include "io/files/file_hash.h"
+#include "io/files/folder.h"
+#include "io/geometry/track_points_file.h"
+#include "io/sequences/frame_window.h"
+#include "io/sequences/sequence_reader.h"
+#include "io/text/message.h"
 #include "pipeline/backends.h"
 #include "pipeline/reconstructor.h"
 #include "toolkit/record/json_text.h"

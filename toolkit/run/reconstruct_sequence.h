@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/sequence_paths.h"
+#include "io/sequences/sequence_paths.h"
 #include "pipeline/run_options.h"
 #include "toolkit/evaluation/thresholds.h"
 #include "toolkit/progress.h"

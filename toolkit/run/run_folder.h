@@ -9,7 +9,7 @@
 #include "core/camera.h"
 #include "core/point_cloud.h"
 #include "core/trajectory.h"
-#include "io/file_lock.h"
+#include "io/files/file_lock.h"
 #include "pipeline/checkpoint.h"
 #include "pipeline/frame_record.h"
 

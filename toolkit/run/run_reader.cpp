@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "io/calibration_reader.h"
-#include "io/folder.h"
-#include "io/message.h"
-#include "io/trajectory_file.h"
+#include "io/calibrations/calibration_reader.h"
+#include "io/files/folder.h"
+#include "io/geometry/trajectory_file.h"
+#include "io/text/message.h"
 #include "stereo/rectifier.h"
 #include "toolkit/run/frame_clock.h"
 #include "toolkit/run/table_reader.h"

@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 #include "eval/statistics.h"
-#include "io/file_hash.h"
+#include "io/files/file_hash.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/setting_json.h"
 #include "toolkit/record/version.h"

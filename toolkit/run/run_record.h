@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/stereo_rig.h"
-#include "io/sequence_paths.h"
-#include "io/settings_binder.h"
+#include "io/sequences/sequence_paths.h"
+#include "io/settings/settings_binder.h"
 #include "pipeline/frame_record.h"
 #include "pipeline/reconstruction_backend.h"
 #include "toolkit/record/fact_sheet.h"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <deque>
 
-#include "io/message.h"
-#include "io/sequence_reader.h"
+#include "io/sequences/sequence_reader.h"
+#include "io/text/message.h"
 #include "stereo/rectifier.h"
 #include "stereo/view_synchrony.h"
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "io/sequence_options.h"
-#include "io/sequence_paths.h"
+#include "io/sequences/sequence_options.h"
+#include "io/sequences/sequence_paths.h"
 
 namespace softscope {
 

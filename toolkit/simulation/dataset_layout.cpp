@@ -6,16 +6,16 @@
 
 #include "core/error.h"
 #include "eval/simulation/scope_lens.h"
-#include "io/atomic_file.h"
-#include "io/calibration_writer.h"
-#include "io/image_writer.h"
-#include "io/message.h"
-#include "io/nearest_name.h"
-#include "io/new_files.h"
-#include "io/stir_files.h"
-#include "io/surgt_files.h"
-#include "io/video_writer.h"
-#include "io/xyz_files.h"
+#include "io/calibrations/calibration_writer.h"
+#include "io/datasets/stir_files.h"
+#include "io/datasets/surgt_files.h"
+#include "io/files/atomic_file.h"
+#include "io/files/new_files.h"
+#include "io/geometry/xyz_files.h"
+#include "io/images/image_writer.h"
+#include "io/images/video_writer.h"
+#include "io/text/message.h"
+#include "io/text/nearest_name.h"
 
 namespace softscope {
 namespace {

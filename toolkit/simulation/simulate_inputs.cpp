@@ -2,8 +2,8 @@
 #include "toolkit/simulation/simulate_inputs.h"
 
 #include "core/error.h"
-#include "io/image_reader.h"
-#include "io/message.h"
+#include "io/images/image_reader.h"
+#include "io/text/message.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_repair.h"
 #include "toolkit/comparison/compare_inputs.h"

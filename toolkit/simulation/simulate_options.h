@@ -4,7 +4,7 @@
 #include <string>
 
 #include "eval/simulation/simulation_options.h"
-#include "io/settings_binder.h"
+#include "io/settings/settings_binder.h"
 
 namespace softscope {
 

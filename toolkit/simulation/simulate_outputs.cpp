@@ -9,13 +9,13 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "io/atomic_file.h"
-#include "io/calibration_writer.h"
-#include "io/depth_files.h"
-#include "io/folder.h"
-#include "io/image_writer.h"
-#include "io/message.h"
-#include "io/trajectory_file.h"
+#include "io/calibrations/calibration_writer.h"
+#include "io/files/atomic_file.h"
+#include "io/files/folder.h"
+#include "io/geometry/depth_files.h"
+#include "io/geometry/trajectory_file.h"
+#include "io/images/image_writer.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

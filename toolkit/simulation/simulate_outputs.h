@@ -7,8 +7,8 @@
 
 #include "core/trajectory.h"
 #include "eval/simulation/simulator.h"
-#include "io/new_files.h"
-#include "io/video_writer.h"
+#include "io/files/new_files.h"
+#include "io/images/video_writer.h"
 #include "toolkit/simulation/simulate_options.h"
 
 namespace softscope {

@@ -8,11 +8,11 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
-#include "io/file_hash.h"
-#include "io/file_lock.h"
-#include "io/message.h"
-#include "io/trajectory_file.h"
+#include "io/files/atomic_file.h"
+#include "io/files/file_hash.h"
+#include "io/files/file_lock.h"
+#include "io/geometry/trajectory_file.h"
+#include "io/text/message.h"
 #include "toolkit/record/child_process.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/path_words.h"

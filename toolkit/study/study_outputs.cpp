@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/atomic_file.h"
-#include "io/image_writer.h"
+#include "io/files/atomic_file.h"
+#include "io/images/image_writer.h"
 #include "toolkit/record/json_text.h"
 #include "vtk_views/drawing/html_text.h"
 #include "vtk_views/plots/level_plot.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "io/message.h"
+#include "io/text/message.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/version.h"
 

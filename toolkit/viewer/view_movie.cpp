@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "io/video_writer.h"
+#include "io/images/video_writer.h"
 #include "vtk_views/viewer/view_picture.h"
 
 namespace softscope {

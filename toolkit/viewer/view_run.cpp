@@ -7,9 +7,9 @@
 
 #include "core/error.h"
 #include "eval/surface_alignment.h"
-#include "io/file_bytes.h"
-#include "io/message.h"
-#include "io/text_lines.h"
+#include "io/files/file_bytes.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/table_reader.h"
 

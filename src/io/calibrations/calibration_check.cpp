@@ -1,0 +1,175 @@
+#include "io/calibrations/calibration_check.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "io/images/picture_limits.h"
+#include "io/text/message.h"
+
+namespace softscope {
+namespace {
+
+constexpr CalibrationLimits kLimits;
+constexpr double kDegreesPerRadian = 57.29577951308232;
+// What numbers rounded in a file, or a rectification in single precision, may leave.
+constexpr double kRectifiedAngleDeg = 0.1;
+constexpr double kRectifiedRowsPx = 2.0;
+constexpr double kRectifiedFocalRatio = 0.005;
+constexpr double kLensSlope = 1;  // beyond 45 degrees a good lens model may grow without bounds
+
+using Warnings = std::vector<std::string>;
+
+void checkFocal(const RawCamera& camera, const std::string& what, Warnings& warnings) {
+  const auto require = [&](double focal_px, const char* name) {
+    if (focal_px > 0 && std::isfinite(focal_px)) return;
+    throw InputError(say(what, "'s ", name, " is ", focal_px,
+                         " px, but a focal length is a positive ",
+                         "number. Calibrate or export it again."));
+  };
+  require(camera.pinhole.fx_px, "fx");
+  require(camera.pinhole.fy_px, "fy");
+  const double aspect = camera.pinhole.fx_px / camera.pinhole.fy_px;
+  if (aspect > kLimits.usual_most_aspect || aspect < 1 / kLimits.usual_most_aspect)
+    warnings.push_back(say(what, "'s fx / fy is ", aspect,
+                           ", but pixels are nearly square. Was the ", "picture stretched?"));
+}
+
+/// The unit in which `baseline`, given in `unit`, would be an endoscope's; empty where in none.
+std::string guessUnit(double baseline_mm, const std::string& unit) {
+  const double in_file = baseline_mm / (unit == "m" ? 1000 : unit == "cm" ? 10 : 1);
+  const auto usual = [](double mm) {
+    return mm >= kLimits.usual_least_baseline_mm && mm <= kLimits.usual_most_baseline_mm;
+  };
+  if (unit != "m" && usual(in_file * 1000)) return "In metres? Then write `unit: m`";
+  if (unit != "cm" && usual(in_file * 10)) return "In centimetres? Then write `unit: cm`";
+  if (unit != "mm" && usual(in_file)) return "In millimetres? Then write `unit: mm`";
+  return "Calibrate again, or give its length";
+}
+
+void checkBaseline(const StereoCalibration& calibration, const std::string& unit,
+                   Warnings& warnings) {
+  const double mm = calibration.baseline_mm();
+  const std::string found =
+      say(calibration.source, ": the baseline is ", mm, " mm, but an endoscope's is ",
+          kLimits.usual_least_baseline_mm, " to ", kLimits.usual_most_baseline_mm, " mm. ");
+  if (!(mm >= kLimits.least_baseline_mm && mm <= kLimits.most_baseline_mm))
+    throw InputError(found + guessUnit(mm, unit) +
+                     " (or set calibration.unit, calibration.baseline_mm).");
+  if (mm < kLimits.usual_least_baseline_mm || mm > kLimits.usual_most_baseline_mm)
+    warnings.push_back(found + "Is it meant?");
+}
+
+void checkSides(const StereoCalibration& calibration, Warnings& warnings) {
+  const Eigen::Vector3d centre = -(calibration.right_from_left.linear().transpose() *
+                                   calibration.right_from_left.translation());
+  if (!(centre.x() > 0 && std::abs(centre.y()) < centre.x()))
+    throw InputError(say(calibration.source, ": the right camera lies at (", centre.x(), ", ",
+                         centre.y(), ", ", centre.z(),
+                         ") mm of the left one, but it must lie to its ",
+                         "right (x > 0). Are left and right exchanged, or T from right to left?"));
+  const double angle_deg =
+      Eigen::AngleAxisd(calibration.right_from_left.linear()).angle() * kDegreesPerRadian;
+  if (angle_deg > kLimits.usual_most_convergence_deg)
+    warnings.push_back(say(calibration.source, ": the cameras are turned by ", angle_deg,
+                           "° against each other, but an endoscope's by less than ",
+                           kLimits.usual_most_convergence_deg, "°. Is R meant?"));
+}
+
+void checkRectified(const StereoCalibration& calibration) {
+  if (!calibration.rectified) return;
+  const auto contradict = [&](const std::string& found) {
+    throw InputError(say(calibration.source, ": said to be rectified, but ", found,
+                         ". Give the rectified cameras, or `rectified: 0` with the raw pictures."));
+  };
+  if (!calibration.left.distortion.isZero() || !calibration.right.distortion.isZero())
+    contradict("its lens distortion is not 0");
+  const double angle_deg =
+      Eigen::AngleAxisd(calibration.right_from_left.linear()).angle() * kDegreesPerRadian;
+  if (angle_deg > kRectifiedAngleDeg) contradict(say("R turns by ", angle_deg, "°"));
+  const PinholeCamera &left = calibration.left.pinhole, &right = calibration.right.pinhole;
+  if (std::abs(left.fx_px / right.fx_px - 1) > kRectifiedFocalRatio ||
+      std::abs(left.fy_px / right.fy_px - 1) > kRectifiedFocalRatio)
+    contradict(say("the focal lengths differ, ", left.fx_px, " and ", right.fx_px, " px"));
+  if (!(std::abs(left.cy_px - right.cy_px) <= kRectifiedRowsPx))
+    contradict(say("cy differs, ", left.cy_px, " and ", right.cy_px, " px"));
+}
+
+/// How far the lens moves the point (x, y) at unit depth, px: OpenCV's model (core/camera.h).
+double lensShiftPx(const RawCamera& camera, double x, double y) {
+  const auto& k = camera.distortion.coefficients;
+  const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  const double radial =
+      (1 + k[0] * r2 + k[1] * r4 + k[4] * r6) / (1 + k[5] * r2 + k[6] * r4 + k[7] * r6);
+  const double moved_x =
+      x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x) + k[8] * r2 + k[9] * r4;
+  const double moved_y =
+      y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y + k[10] * r2 + k[11] * r4;
+  return std::hypot((moved_x - x) * camera.pinhole.fx_px, (moved_y - y) * camera.pinhole.fy_px);
+}
+
+/// Throws where the lens moves a point at the middle of the picture's edge, at 45 degrees at most,
+/// by more than the picture is long.
+void checkLens(const RawCamera& camera, const std::string& what) {
+  const PinholeCamera& pinhole = camera.pinhole;
+  const double across = std::min(pinhole.width_px / (2 * pinhole.fx_px), kLensSlope);
+  const double down = std::min(pinhole.height_px / (2 * pinhole.fy_px), kLensSlope);
+  const double diagonal_px = std::hypot(pinhole.width_px, pinhole.height_px);
+  for (const auto& [x, y] : {std::pair{across, 0.0}, std::pair{0.0, down}}) {
+    const double shift_px = lensShiftPx(camera, x, y);
+    if (!(shift_px <= diagonal_px))
+      throw InputError(
+          say(what, "'s lens moves the edge of the picture by ", shift_px,
+              " px, but the picture is ", pinhole.width_px, " x ", pinhole.height_px,
+              " px. A distortion coefficient is damaged; calibrate or export it again."));
+  }
+}
+
+void checkView(const PinholeCamera& camera, const std::string& what, Warnings& warnings) {
+  const double view_deg = 2 * std::atan(camera.width_px / (2 * camera.fx_px)) * kDegreesPerRadian;
+  if (view_deg < kLimits.usual_least_view_deg || view_deg > kLimits.usual_most_view_deg)
+    warnings.push_back(say(what, " sees ", view_deg, "° (fx ", camera.fx_px, " px on ",
+                           camera.width_px, " px), but an endoscope sees ",
+                           kLimits.usual_least_view_deg, " to ", kLimits.usual_most_view_deg,
+                           "°. Was it calibrated at this size?"));
+  const auto central = [](double c, int size) { return c >= 0.25 * size && c <= 0.75 * size; };
+  if (!central(camera.cx_px, camera.width_px) || !central(camera.cy_px, camera.height_px))
+    warnings.push_back(say(what, "'s principal point (", camera.cx_px, ", ", camera.cy_px,
+                           ") lies far from the middle of ", camera.width_px, " x ",
+                           camera.height_px, " pixels. Was it calibrated at this size?"));
+}
+
+}  // namespace
+
+std::vector<std::string> checkCalibration(const StereoCalibration& calibration,
+                                          const std::string& unit) {
+  Warnings warnings;
+  checkFocal(calibration.left, calibration.source + ": the left camera", warnings);
+  checkFocal(calibration.right, calibration.source + ": the right camera", warnings);
+  checkBaseline(calibration, unit, warnings);
+  checkSides(calibration, warnings);
+  checkRectified(calibration);
+  if (!(calibration.depth_unit_mm >= 1e-5 && calibration.depth_unit_mm <= 10))
+    throw InputError(say(calibration.source, ": depth_unit_mm is ", calibration.depth_unit_mm,
+                         ", but one step of a depth file is 0.00001 to 10 mm."));
+  return warnings;
+}
+
+std::vector<std::string> checkPictureFit(const StereoCalibration& calibration) {
+  const PinholeCamera &left = calibration.left.pinhole, &right = calibration.right.pinhole;
+  if (left.width_px != right.width_px || left.height_px != right.height_px)
+    throw InputError(say(calibration.source, ": the left camera has ", left.width_px, " x ",
+                         left.height_px, " pixels, the right one ", right.width_px, " x ",
+                         right.height_px, ", but both must have the same."));
+  if (left.width_px == 0 || left.height_px == 0) return {};
+  requirePictureSize(left.width_px, left.height_px, calibration.source);
+  checkLens(calibration.left, calibration.source + ": the left camera");
+  checkLens(calibration.right, calibration.source + ": the right camera");
+  Warnings warnings;
+  checkView(left, calibration.source + ": the left camera", warnings);
+  checkView(right, calibration.source + ": the right camera", warnings);
+  return warnings;
+}
+
+}  // namespace softscope

@@ -1,0 +1,56 @@
+// src/io/calibrations/calibration_forms.h: each form of calibration that is in use, bytes to noun;
+// unchecked.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/stereo_rig.h"
+#include "io/documents/document.h"
+
+namespace softscope {
+
+/// A calibration as its file has it: lengths still in the file's unit.
+struct CalibrationDraft {
+  StereoCalibration calibration;
+  std::string unit = "mm";   // of right_from_left's translation
+  bool has_baseline = true;  // false: the form leaves it out
+};
+
+/// A file's content and what messages call it.
+struct NamedText {
+  std::string name;
+  std::string_view text;
+};
+
+// All throw InputError. Which numbers each accepts: docs/formats.md.
+
+/// stereoCalibrate's names M1 D1 M2 D2 R T, or their usual aliases. `documents`: one, or the two
+/// that OpenCV's sample writes (intrinsics, extrinsics). SCARED's files are of this form as well.
+CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const std::string& name);
+
+/// ROS camera_info of both cameras. `rectified`: the pictures are image_rect, so the projection
+/// matrices count.
+CalibrationDraft draftFromRos(const Document& left, const Document& right, const std::string& name,
+                              bool rectified);
+
+/// OpenCAS in one file, which begins with `RAT`.
+CalibrationDraft draftFromOpenCas(const NamedText& file);
+
+struct OpenCasFiles {
+  NamedText left_intrinsics, left_distortion, right_intrinsics, right_distortion, left_to_right;
+};
+CalibrationDraft draftFromOpenCas(const OpenCasFiles& files);
+
+struct HamlynFiles {
+  NamedText left, right, extrinsics;
+};
+CalibrationDraft draftFromHamlyn(const HamlynFiles& files);
+/// The three blocks of numbers in one file.
+CalibrationDraft draftFromHamlyn(const NamedText& file);
+
+/// LLFF's poses_bounds.npy; says neither baseline nor principal point (the picture's middle).
+CalibrationDraft draftFromEndoNerf(std::string_view npy, const std::string& name);
+
+}  // namespace softscope

@@ -1,0 +1,141 @@
+#include "io/calibrations/calibration_reader.h"
+
+#include "core/error.h"
+#include "io/calibrations/calibration_check.h"
+#include "io/calibrations/calibration_files.h"
+#include "io/calibrations/calibration_forms.h"
+#include "io/calibrations/calibration_settings.h"
+#include "io/documents/npy_file.h"
+#include "io/files/file_bytes.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+double millimetresPer(const std::string& unit, const std::string& name) {
+  if (unit == "mm") return 1;
+  if (unit == "cm") return 10;
+  if (unit == "m") return 1000;
+  throw InputError(say(name, ": unit is ", excerpt(unit), ", but mm, cm or m is expected."));
+}
+
+void setBaseline(const CalibrationDraft& draft, const CalibrationHints& hints,
+                 StereoCalibration& out) {
+  Eigen::Vector3d t = out.right_from_left.translation();
+  if (hints.baseline_mm > 0) {
+    t = draft.has_baseline && t.norm() > 0 ? Eigen::Vector3d(t * (hints.baseline_mm / t.norm()))
+                                           : Eigen::Vector3d(-hints.baseline_mm, 0, 0);
+  } else if (!draft.has_baseline) {
+    throw InputError(out.source +
+                     ": this form doesn't say the baseline. Give it in mm: "
+                     "calibration.baseline_mm=… (4.3 for a da Vinci Si).");
+  }
+  out.right_from_left.translation() = t;
+}
+
+void setSize(const CalibrationHints& hints, PinholeCamera& camera) {
+  if (camera.width_px == 0) camera.width_px = hints.image_width_px;
+  if (camera.height_px == 0) camera.height_px = hints.image_height_px;
+}
+
+StereoCalibration finish(const CalibrationDraft& draft, const std::string& name,
+                         const CalibrationHints& hints) {
+  StereoCalibration out = draft.calibration;
+  out.source = name;
+  const std::string& unit = hints.unit.empty() ? draft.unit : hints.unit;
+  out.right_from_left.translation() *= millimetresPer(unit, name);
+  setBaseline(draft, hints, out);
+  setSize(hints, out.left.pinhole);
+  setSize(hints, out.right.pinhole);
+  out.rectified = out.rectified || hints.rectified;
+  for (std::string& line : checkCalibration(out, unit)) out.warnings.push_back(std::move(line));
+  for (std::string& line : checkPictureFit(out)) out.warnings.push_back(std::move(line));
+  return out;
+}
+
+bool isScaredName(const std::string& name) {
+  return fs::path(name).filename() == "endoscope_calibration.yaml";
+}
+
+CalibrationDraft draftFromDocument(const Document& document, const std::string& name) {
+  if (document.find("projection_matrix"))
+    throw InputError(name +
+                     ": one camera's camera_info, but those of both are expected. Give the "
+                     "left one with the right one beside it.");
+  const Document* scared = document.find("camera-calibration");
+  CalibrationDraft draft = draftFromOpenCv({scared ? *scared : document}, name);
+  if (scared || isScaredName(name)) draft.calibration.form = "SCARED";
+  return draft;
+}
+
+/// Whether most lines with content are numbers alone: a text without names. A JSON or XML document
+/// over many lines has such lines too, but begins with its bracket.
+bool isBareNumbers(std::string_view text) {
+  const std::string_view content = trimmed(text);
+  if (!content.empty() && (content[0] == '{' || content[0] == '<')) return false;
+  std::size_t lines = 0;
+  for (const std::string_view line : linesOf(text)) lines += trimmed(line).empty() ? 0 : 1;
+  return 2 * numberRows(text).size() >= lines && lines > 0;
+}
+
+CalibrationDraft draftFromBytes(std::string_view bytes, const std::string& name) {
+  if (isNpy(bytes)) return draftFromEndoNerf(bytes, name);
+  const std::string_view content = trimmed(bytes);
+  if (content.empty()) throw InputError(name + ": the file is empty. Copy or export it again.");
+  if (content.substr(0, 3) == "RAT") return draftFromOpenCas(NamedText{name, bytes});
+  if (isBareNumbers(bytes)) return draftFromHamlyn(NamedText{name, bytes});
+  return draftFromDocument(parseDocument(bytes, name), name);
+}
+
+std::vector<Document> documentsOf(const std::vector<NamedText>& texts) {
+  std::vector<Document> documents;
+  for (const NamedText& file : texts) documents.push_back(parseDocument(file.text, file.name));
+  return documents;
+}
+
+CalibrationDraft draftFromSet(CalibrationSet set, const std::vector<NamedText>& texts,
+                              const CalibrationHints& hints) {
+  const std::string& name = texts[0].name;
+  switch (set) {
+    case CalibrationSet::kOpenCvTwo:
+      return draftFromOpenCv(documentsOf(texts), name);
+    case CalibrationSet::kRosPair: {
+      const std::vector<Document> both = documentsOf(texts);
+      return draftFromRos(both[0], both[1], name, hints.rectified);
+    }
+    case CalibrationSet::kHamlynThree:
+      return draftFromHamlyn(HamlynFiles{texts[0], texts[1], texts[2]});
+    case CalibrationSet::kOpenCasFive:
+      return draftFromOpenCas(OpenCasFiles{texts[0], texts[1], texts[2], texts[3], texts[4]});
+    case CalibrationSet::kOneFile:
+      break;
+  }
+  return draftFromBytes(texts[0].text, name);
+}
+
+}  // namespace
+
+void CalibrationHints::validate() const { requireAllowed(*this); }
+
+StereoCalibration readCalibration(const fs::path& file_or_folder, const CalibrationHints& hints) {
+  hints.validate();
+  const CalibrationFiles files = locateCalibration(file_or_folder);
+  std::vector<std::string> contents;
+  for (const fs::path& file : files.files)
+    contents.push_back(readBytes(file, kCalibrationLimitBytes));
+  std::vector<NamedText> texts;
+  for (std::size_t i = 0; i < contents.size(); ++i)
+    texts.push_back({shown(files.files[i]), contents[i]});
+  return finish(draftFromSet(files.set, texts, hints), texts[0].name, hints);
+}
+
+StereoCalibration parseCalibration(std::string_view bytes, const std::string& name,
+                                   const CalibrationHints& hints) {
+  hints.validate();
+  return finish(draftFromBytes(bytes, name), name, hints);
+}
+
+}  // namespace softscope

@@ -1,0 +1,165 @@
+// src/io/calibrations/opencv_calibration.cpp: stereoCalibrate's names in any document; SCARED's as
+// well.
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "io/calibrations/calibration_forms.h"
+#include "io/calibrations/calibration_parts.h"
+#include "io/documents/number_tree.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
+
+namespace softscope {
+namespace {
+
+// The names under which files carry the same thing; the first one is what errors ask for.
+using Aliases = std::vector<std::string_view>;
+const Aliases kLeftMatrix = {"M1",
+                             "K1",
+                             "cameraMatrix1",
+                             "camera_matrix_1",
+                             "KL",
+                             "left_camera_matrix",
+                             "camera_matrix_left",
+                             "K_left",
+                             "leftcameramat"};
+const Aliases kRightMatrix = {"M2",
+                              "K2",
+                              "cameraMatrix2",
+                              "camera_matrix_2",
+                              "KR",
+                              "right_camera_matrix",
+                              "camera_matrix_right",
+                              "K_right",
+                              "rightcameramat"};
+const Aliases kLeftDistortion = {"D1",
+                                 "distCoeffs1",
+                                 "dist_coeffs_1",
+                                 "distortion_coefficients_1",
+                                 "DL",
+                                 "left_distortion",
+                                 "dist_coeffs_left",
+                                 "D_left",
+                                 "leftdistortioncoeffs"};
+const Aliases kRightDistortion = {"D2",
+                                  "distCoeffs2",
+                                  "dist_coeffs_2",
+                                  "distortion_coefficients_2",
+                                  "DR",
+                                  "right_distortion",
+                                  "dist_coeffs_right",
+                                  "D_right",
+                                  "rightdistortioncoeffs"};
+const Aliases kRotation = {"R", "rotation_matrix", "rotation", "R_left_to_right"};
+const Aliases kTranslation = {"T", "translation_vector", "translation", "t_left_to_right"};
+const Aliases kWidth = {"image_width", "imageWidth", "width"};
+const Aliases kHeight = {"image_height", "imageHeight", "height"};
+const Aliases kSize = {"image_size", "imageSize", "img_size"};
+
+/// One or two documents asked as one.
+class Members {
+ public:
+  Members(const std::vector<Document>& documents, std::string name)
+      : documents_(documents), name_(std::move(name)) {}
+
+  const Document* find(const Aliases& names) const {
+    for (const std::string_view name : names)
+      for (const Document& document : documents_)
+        if (const Document* found = document.find(name)) return found;
+    return nullptr;
+  }
+  std::string label(const Aliases& names) const { return say(name_, ": ", names.front()); }
+
+  std::vector<double> numbers(const Aliases& names) const {
+    const Document* found = find(names);
+    if (!found)
+      throw InputError(say(label(names),
+                           " is missing, but a stereo calibration has M1, D1, M2, D2,",
+                           " R and T. Write them as stereoCalibrate names them."));
+    return numbersOf(*found, label(names));
+  }
+  std::vector<double> numbersIfAny(const Aliases& names) const {
+    return find(names) ? numbers(names) : std::vector<double>{};
+  }
+
+ private:
+  const std::vector<Document>& documents_;
+  std::string name_;
+};
+
+double singleNumber(const Members& members, const Aliases& names) {
+  const std::vector<double> values = members.numbers(names);
+  if (values.size() != 1)
+    throw InputError(
+        say(members.label(names), " has ", values.size(), " numbers, but one is expected."));
+  return values[0];
+}
+
+void setSize(const Members& members, StereoCalibration& out) {
+  int width_px = 0, height_px = 0;
+  if (members.find(kWidth) && members.find(kHeight)) {
+    width_px = wholePixels(singleNumber(members, kWidth), 0, members.label(kWidth));
+    height_px = wholePixels(singleNumber(members, kHeight), 0, members.label(kHeight));
+  } else if (members.find(kSize)) {
+    const std::vector<double> size = members.numbers(kSize);
+    if (size.size() != 2) throw InputError(members.label(kSize) + " must be width and height.");
+    width_px = wholePixels(size[0], 0, members.label(kSize));
+    height_px = wholePixels(size[1], 0, members.label(kSize));
+  }
+  out.left.pinhole.width_px = out.right.pinhole.width_px = width_px;
+  out.left.pinhole.height_px = out.right.pinhole.height_px = height_px;
+}
+
+void setFlags(const Members& members, CalibrationDraft& draft) {
+  if (const Document* unit = members.find({"unit", "units"})) draft.unit = unit->text;
+  if (const Document* flag = members.find({"rectified"})) {
+    const std::string text = lowerCase(flag->text);
+    if (text != "0" && text != "1" && text != "true" && text != "false")
+      throw InputError(
+          say(members.label({"rectified"}), " is ", excerpt(text), ", but 0 or 1 is expected."));
+    draft.calibration.rectified = text == "1" || text == "true";
+  }
+  if (members.find({"depth_unit_mm"}))
+    draft.calibration.depth_unit_mm = singleNumber(members, {"depth_unit_mm"});
+}
+
+/// Pinholes of one focal length and row, side by side: resampling would only blur.
+bool isRectified(const StereoCalibration& pair) {
+  const PinholeCamera &left = pair.left.pinhole, &right = pair.right.pinhole;
+  const Eigen::Vector3d t = pair.right_from_left.translation();
+  return pair.left.distortion.isZero() && pair.right.distortion.isZero() &&
+         pair.right_from_left.linear().isIdentity(1e-9) && left.fx_px == left.fy_px &&
+         left.fx_px == right.fx_px && left.fy_px == right.fy_px && left.cy_px == right.cy_px &&
+         std::hypot(t.y(), t.z()) <= 1e-9 * std::abs(t.x());
+}
+
+}  // namespace
+
+CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const std::string& name) {
+  const Members members(documents, name);
+  CalibrationDraft draft;
+  StereoCalibration& out = draft.calibration;
+  out.form = "OpenCV";
+  setSize(members, out);
+  setCameraMatrix(out.left.pinhole, members.numbers(kLeftMatrix), members.label(kLeftMatrix));
+  setCameraMatrix(out.right.pinhole, members.numbers(kRightMatrix), members.label(kRightMatrix));
+  out.left.distortion =
+      distortionFrom(members.numbersIfAny(kLeftDistortion), members.label(kLeftDistortion));
+  out.right.distortion =
+      distortionFrom(members.numbersIfAny(kRightDistortion), members.label(kRightDistortion));
+  out.right_from_left = poseFrom(members.numbers(kRotation), members.numbers(kTranslation),
+                                 members.label(kRotation), members.label(kTranslation));
+  if (members.find({"K_left", "leftcameramat"})) {  // STIR's forms are in metres
+    out.form = members.find({"K_left"}) ? "STIR 2026" : "STIR";
+    draft.unit = "m";
+    out.rectified = isRectified(out);
+  }
+  setFlags(members, draft);
+  if (!out.rectified && (!members.find(kLeftDistortion) || !members.find(kRightDistortion)))
+    out.warnings.push_back(name +
+                           ": D1 or D2 is missing; the lens is taken to be without distortion.");
+  return draft;
+}
+
+}  // namespace softscope

@@ -1,0 +1,21 @@
+// src/io/documents/npy_file.h: NumPy's arrays of floating-point numbers.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace softscope {
+
+struct NpyArray {
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+  std::vector<double> values;  // row-major, rows * columns
+};
+
+bool isNpy(std::string_view bytes);
+
+/// Reads a two-dimensional array of <f4 or <f8 in C order. Throws InputError on anything else.
+NpyArray parseNpy(std::string_view bytes, const std::string& name);
+
+}  // namespace softscope

@@ -1,0 +1,27 @@
+// src/io/files/file_lock.h: one process at a time, and whether there still is one.
+#pragma once
+
+#include <filesystem>
+
+namespace softscope {
+
+/// A lock that ends with its process, however that ends. It keeps out only those who ask for it.
+class FileLock {
+ public:
+  /// Makes the file where it is missing; holds nothing yet.
+  explicit FileLock(const std::filesystem::path& file);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  /// False while another holds it. True also where nothing can be locked: a lock is no guarantee.
+  bool tryToHold() const;
+
+ private:
+  int descriptor_;
+};
+
+/// Whether somebody holds a lock on `file` at this moment; false where there is no such file.
+bool isHeld(const std::filesystem::path& file);
+
+}  // namespace softscope

@@ -1,0 +1,42 @@
+// src/io/files/new_files.h: files of one result, which are taken back where it fails.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <vector>
+
+namespace softscope {
+
+/// Without keep() the destructor removes every file and folder that was made through it, so that a
+/// command that fails leaves no part of a series. What replaced an earlier file stays. May be used
+/// by several threads.
+class NewFiles {
+ public:
+  NewFiles() = default;
+  ~NewFiles();
+  NewFiles(const NewFiles&) = delete;
+  NewFiles& operator=(const NewFiles&) = delete;
+
+  /// Calls `write`, which writes `file`.
+  template <class Write>
+  void make(const std::filesystem::path& file, const Write& write);
+  /// Makes the folder and those above it where they are missing. Throws filesystem_error.
+  void makeFolder(const std::filesystem::path& folder);
+  void keep();
+
+ private:
+  static bool isThere(const std::filesystem::path& file);
+  void add(const std::filesystem::path& file);
+
+  std::mutex mutex_;
+  std::vector<std::filesystem::path> files_, folders_;
+};
+
+template <class Write>
+void NewFiles::make(const std::filesystem::path& file, const Write& write) {
+  const bool replaces = isThere(file);
+  write();
+  if (!replaces) add(file);
+}
+
+}  // namespace softscope

@@ -1,0 +1,23 @@
+// src/io/images/image_walks.h: each picture form from its first byte to its last, without decoding.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace softscope {
+
+inline constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1A\n";
+
+struct PictureSize {
+  long width_px = 0;
+  long height_px = 0;
+};
+
+// All throw InputError on a truncated or damaged file; sizes are as the file says, unchecked.
+PictureSize walkPng(std::string_view bytes, const std::string& name);
+PictureSize walkJpeg(std::string_view bytes, const std::string& name);
+PictureSize walkBmp(std::string_view bytes, const std::string& name);
+PictureSize walkTiff(std::string_view bytes, const std::string& name);
+PictureSize walkPnm(std::string_view bytes, const std::string& name);
+
+}  // namespace softscope

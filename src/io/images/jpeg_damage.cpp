@@ -1,0 +1,69 @@
+// src/io/images/jpeg_damage.cpp: libjpeg's warnings, listened to.
+#include "io/images/jpeg_damage.h"
+
+#include <jerror.h>
+#include <jpeglib.h>
+#include <stdio.h>  // before jpeglib.h, which needs its types
+
+#include <algorithm>
+#include <array>
+#include <csetjmp>
+
+#include "core/error.h"
+
+namespace softscope {
+namespace {
+
+struct Listener {
+  jpeg_error_mgr manager;  // first: libjpeg hands out its address
+  jmp_buf way_out;
+  std::array<char, JMSG_LENGTH_MAX> complaint{};  // empty: none
+};
+
+Listener& listenerOf(j_common_ptr jpeg) { return *reinterpret_cast<Listener*>(jpeg->err); }
+
+[[noreturn]] void fail(j_common_ptr jpeg) {
+  Listener& listener = listenerOf(jpeg);
+  listener.manager.format_message(jpeg, listener.complaint.data());
+  longjmp(listener.way_out, 1);
+}
+
+/// The first warning about the data ends it; odd versions of headers are no damage.
+void listen(j_common_ptr jpeg, int level) {
+  constexpr std::array<int, 5> kOfData{JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF,
+                                       JWRN_EXTRANEOUS_DATA, JWRN_MUST_RESYNC};
+  const int code = jpeg->err->msg_code;
+  if (level < 0 && std::find(kOfData.begin(), kOfData.end(), code) != kOfData.end()) fail(jpeg);
+}
+
+void staySilent(j_common_ptr) {}
+
+/// Nothing here has a destructor that longjmp would pass over.
+void readCodes(std::string_view bytes, Listener& listener) {
+  jpeg_decompress_struct jpeg;
+  jpeg.err = jpeg_std_error(&listener.manager);
+  listener.manager.error_exit = fail;
+  listener.manager.emit_message = listen;
+  listener.manager.output_message = staySilent;
+  jpeg_create_decompress(&jpeg);
+  if (setjmp(listener.way_out) == 0) {
+    jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
+                 static_cast<unsigned long>(bytes.size()));
+    jpeg_read_header(&jpeg, TRUE);
+    jpeg_read_coefficients(&jpeg);
+    jpeg_finish_decompress(&jpeg);
+  }
+  jpeg_destroy_decompress(&jpeg);
+}
+
+}  // namespace
+
+void requireSoundJpeg(std::string_view bytes, const std::string& name) {
+  Listener listener;
+  readCodes(bytes, listener);
+  if (listener.complaint[0] != '\0')
+    throw InputError(name + ": the picture is damaged inside (" + listener.complaint.data() +
+                     "); copy or export it again.");
+}
+
+}  // namespace softscope

@@ -1,0 +1,14 @@
+// src/io/images/picture_limits.h: how large a picture may be; one place for the limits.
+#pragma once
+
+#include <string>
+
+namespace softscope {
+
+inline constexpr int kMostSidePx = 16384;
+inline constexpr long kMostPixels = 64L << 20;  // 8192 x 8192
+
+/// Throws InputError, in the name of `what`, on an empty or absurdly large picture.
+void requirePictureSize(long width_px, long height_px, const std::string& what);
+
+}  // namespace softscope

@@ -1,0 +1,152 @@
+#include "io/sequences/frame_loader.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "io/calibrations/calibration_check.h"
+#include "io/geometry/depth_files.h"
+#include "io/images/image_reader.h"
+#include "io/sequences/frame_pairing.h"
+#include "io/sequences/timestamps_file.h"
+#include "io/text/message.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+void requireSequence(const SequencePaths& paths) {
+  if (paths.left.empty() == paths.stereo.empty())
+    throw OptionError("a sequence needs left and right, or stereo, and not both.");
+  if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
+    throw OptionError("a sequence needs right pictures or depth beside the left ones.");
+  if (paths.calibration.empty())
+    throw OptionError("a sequence needs a calibration. Give it with --calibration.");
+}
+
+void requireCount(std::size_t found, int expected, const fs::path& path, const char* what) {
+  if (found == static_cast<std::size_t>(expected)) return;
+  throw InputError(say(shown(path), ": has ", found, " ", what, ", but the sequence has ", expected,
+                       " frames; one a frame is expected."));
+}
+
+constexpr float kNearestMm = 2;  // no scope sees sharply before that
+
+/// Depth that all lies nearer: metres, read as millimetres.
+void requireMillimetres(const Raster<float>& depth_mm, const std::string& name) {
+  float farthest_mm = 0;
+  for (const float value : depth_mm.values) farthest_mm = std::max(farthest_mm, value);
+  if (farthest_mm == 0 || farthest_mm >= kNearestMm) return;
+  throw InputError(say(name, ": its largest depth is ", farthest_mm,
+                       " mm, but tissue lies farther than ", kNearestMm,
+                       " mm. In metres? Write millimetres (of 16-bit files, say what a step is "
+                       "worth: depth_unit_mm in the calibration)."));
+}
+
+}  // namespace
+
+FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& options)
+    : options_(options), right_offset_(options.rightOffset()) {
+  if (options_.layout == "auto" && !paths.layout.empty()) options_.layout = paths.layout;
+  options.validate();
+  requireSequence(paths);
+  is_packed_ = !paths.stereo.empty();
+  if (is_packed_ && right_offset_ != 0)
+    throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
+                          shown(paths.stereo), " are in the same pictures. Leave it at auto."));
+  const fs::path& first = is_packed_ ? paths.stereo : paths.left;
+  left_ = openPictures(first);
+  count_ = left_->count();
+  const ViewFiles view{first, left_->files(), count_};
+  if (!paths.right.empty()) {
+    right_ = openPictures(paths.right);
+    requirePartners(view, {paths.right, right_->files(), right_->count()});
+    if (std::abs(right_offset_) >= count_)
+      throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but there are ",
+                            count_, " pictures: no two would belong together."));
+  }
+  if (!paths.mask.empty()) masks_ = partnersIn(paths.mask, kMaskKinds, view);
+  if (!paths.depth.empty()) depths_ = partnersIn(paths.depth, kDepthKinds, view);
+  if (!paths.timestamps.empty()) {
+    times_s_ = readTimestamps(paths.timestamps);
+    requireCount(times_s_.size(), count_, paths.timestamps, "times");
+  }
+  calibration_ = readCalibration(paths.calibration, options.calibration);
+}
+
+int FrameLoader::firstWithPartner() const { return right_ ? std::max(0, -right_offset_) : 0; }
+
+bool FrameLoader::survivesErrors() const {
+  return left_->survivesErrors() && (!right_ || right_->survivesErrors());
+}
+
+Frame FrameLoader::load(int index) {
+  requirePartner(index);  // before anything is read: a video doesn't go back
+  Frame frame;
+  frame.index = index;
+  frame.time_s = timeOf(index);
+  frame.pair = readPair(index);
+  if (!is_settled_) settleSize(frame.pair.left, left_->nameOf(index));
+  requireShape(frame.pair.left.width_px, frame.pair.left.height_px, left_->nameOf(index));
+  if (right_)
+    requireShape(frame.pair.right.width_px, frame.pair.right.height_px, right_->nameOf(index));
+  const auto i = static_cast<std::size_t>(index);
+  if (!masks_.empty()) {
+    frame.mask = readMask(masks_[i]);
+    requireShape(frame.mask.width_px, frame.mask.height_px, shown(masks_[i]));
+  }
+  if (!depths_.empty()) {
+    frame.depth_mm = readDepth(depths_[i], calibration_.depth_unit_mm);
+    requireShape(frame.depth_mm.width_px, frame.depth_mm.height_px, shown(depths_[i]));
+    requireMillimetres(frame.depth_mm, shown(depths_[i]));
+  }
+  return frame;
+}
+
+StereoPair FrameLoader::readPair(int index) {
+  if (!is_packed_)
+    return {left_->read(index), right_ ? right_->read(index + right_offset_) : ColourImage{}};
+  const ColourImage packed = left_->read(index);
+  const PinholeCamera& camera = calibration_.left.pinhole;
+  if (!is_settled_)
+    packing_ = choosePacking(packed, options_.layout, options_.right_first,
+                             {camera.width_px, camera.height_px}, left_->nameOf(index));
+  return unpack(packed, packing_, left_->nameOf(index));
+}
+
+void FrameLoader::requirePartner(int index) const {
+  const int partner = index + right_offset_;
+  if (right_ && (partner < 0 || partner >= count_))
+    throw InputError(say(left_->nameOf(index), ": the right view has no picture of this moment ",
+                         "(sequence.right_offset is ", options_.right_offset, ")"));
+}
+
+void FrameLoader::settleSize(const ColourImage& left, const std::string& name) {
+  is_settled_ = true;
+  PinholeCamera& camera = calibration_.left.pinhole;
+  if (camera.width_px != 0 && camera.height_px != 0) return;
+  camera.width_px = calibration_.right.pinhole.width_px = left.width_px;
+  camera.height_px = calibration_.right.pinhole.height_px = left.height_px;
+  calibration_.warnings.push_back(
+      say(calibration_.source, ": doesn't say for which picture size it ", "holds; taken to be ",
+          name, "'s ", left.width_px, " x ", left.height_px, "."));
+  for (std::string& line : checkPictureFit(calibration_))
+    calibration_.warnings.push_back(std::move(line));
+}
+
+void FrameLoader::requireShape(int width_px, int height_px, const std::string& name) const {
+  const PinholeCamera& camera = calibration_.left.pinhole;
+  if (width_px == camera.width_px && height_px == camera.height_px) return;
+  throw InputError(say(name, ": ", width_px, " x ", height_px, " pixels, but ", calibration_.source,
+                       " is for ", camera.width_px, " x ", camera.height_px,
+                       ". Give the calibration made for this size."));
+}
+
+double FrameLoader::timeOf(int index) const {
+  if (!times_s_.empty()) return times_s_[static_cast<std::size_t>(index)];
+  const double rate_hz = left_->framesPerSecond();
+  return rate_hz > 0 ? index / rate_hz : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace softscope

@@ -1,0 +1,35 @@
+// src/io/sequences/sequence_options.h: what of a sequence is read, and how.
+#pragma once
+
+#include <string>
+
+#include "io/calibrations/calibration_reader.h"
+
+namespace softscope {
+
+/// Frames begin, begin + 1, …, end - 1.
+struct FrameRange {
+  int begin = 0;
+  int end = -1;  // -1 = to the last
+};
+
+/// "A:B" is A up to, not with, B; either may be left out ("10:", ":20"). Throws OptionError.
+FrameRange parseFrameRange(const std::string& text);
+
+struct SequenceOptions {
+  FrameRange frames;
+  std::string layout = "auto";  // of one picture with both views: io/sequences/stereo_packing.h
+  bool right_first = false;     // … whose right view comes first
+  // Right picture f + offset belongs to left picture f: a whole number, or auto. The reader takes
+  // auto for 0; who can match pictures may look for it first.
+  std::string right_offset = "auto";
+  int read_ahead = 4;  // frames kept ready
+  CalibrationHints calibration;
+
+  int rightOffset() const;
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+}  // namespace softscope

@@ -1,0 +1,82 @@
+#include "io/sequences/sequence_paths.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "core/error.h"
+#include "io/files/folder.h"
+#include "io/sequences/dataset_form.h"
+#include "io/sequences/picture_source.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
+
+namespace softscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 10> kVideoKinds = {".mp4",  ".avi", ".mkv",  ".mov", ".m4v",
+                                                          ".webm", ".mpg", ".mpeg", ".wmv", ".ts"};
+
+template <class Kinds>
+bool isOneOf(const fs::path& file, const Kinds& kinds) {
+  return std::find(kinds.begin(), kinds.end(), lowerCase(file.extension().string())) != kinds.end();
+}
+
+/// Also a symbolic link that leads nowhere: opening it will say so.
+bool hasEntry(const fs::path& path) {
+  std::error_code code;
+  return fs::exists(fs::symlink_status(path, code));
+}
+
+fs::path ifThere(const fs::path& path) { return hasEntry(path) ? path : fs::path(); }
+
+/// folder/name.mp4, .avi, …; empty where there is none.
+fs::path videoNamed(const fs::path& folder, const std::string& name) {
+  for (const std::string_view kind : kVideoKinds)
+    if (const fs::path file = folder / (name + std::string(kind)); hasEntry(file)) return file;
+  return {};
+}
+
+/// A folder of pictures, else a video.
+fs::path viewNamed(const fs::path& folder, const std::string& name) {
+  return hasEntry(folder / name) ? folder / name : videoNamed(folder, name);
+}
+
+}  // namespace
+
+bool isVideo(const fs::path& file) { return isOneOf(file, kVideoKinds); }
+bool isPicture(const fs::path& file) { return isOneOf(file, kPictureKinds); }
+
+SequencePaths findSequence(const fs::path& folder) {
+  requireFolder(folder);
+  SequencePaths paths;
+  paths.calibration = folder;
+  paths.mask = ifThere(folder / "mask");
+  paths.depth = ifThere(folder / "depth");
+  paths.timestamps = ifThere(folder / "timestamps.txt");
+  paths.left = viewNamed(folder, "left");
+  paths.right = viewNamed(folder, "right");
+  if (paths.left.empty() && paths.right.empty()) paths.stereo = videoNamed(folder, "stereo");
+  const bool is_own = !paths.left.empty() || !paths.stereo.empty();
+  if (!is_own || isFile(folder / "calib.json")) {  // STIR's name; its videos may be called as ours
+    if (const auto clip = recogniseDataset(folder)) {
+      SequencePaths shipped = clip->paths;
+      shipped.mask = paths.mask;
+      shipped.timestamps = paths.timestamps;
+      return shipped;
+    }
+  }
+  if (paths.left.empty() && paths.stereo.empty())
+    throw InputError(
+        say(shown(folder), ": holds ", paths.right.empty() ? "no left view" : "a right view alone",
+            ", but left/ and right/ with pictures, left.mp4 and right.mp4, or stereo.mp4 "
+            "are expected."));
+  if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
+    throw InputError(shown(folder) +
+                     ": holds a left view, but neither a right one nor depth/. Add one.");
+  return paths;
+}
+
+}  // namespace softscope

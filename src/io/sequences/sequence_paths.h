@@ -1,0 +1,32 @@
+// src/io/sequences/sequence_paths.h: where the parts of a sequence lie.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace softscope {
+
+/// left and right: each a picture, a folder of pictures or a video. Or stereo: the same, with both
+/// views in one picture. right may be empty where depth is given.
+struct SequencePaths {
+  std::filesystem::path left, right;
+  std::filesystem::path stereo;
+  std::filesystem::path calibration;  // a file, or a folder that holds one
+  std::filesystem::path mask;         // a folder or a picture; empty = none
+  std::filesystem::path depth;        // a folder or a file; empty = none
+  std::filesystem::path timestamps;   // a file; empty = none
+  std::string form;    // of the data set, where it is one: "SurgT"; empty = docs/formats.md
+  std::string layout;  // of `stereo`, where the folder says it; an option that isn't auto wins
+};
+
+/// The parts of a sequence folder (docs/formats.md): left/ and right/, else left.* and right.*
+/// videos, else one stereo.* video; mask/, depth/ and timestamps.txt where they exist. Or a clip of
+/// a known data set as it is shipped (io/sequences/dataset_form.h).
+/// Throws InputError where the views are missing.
+SequencePaths findSequence(const std::filesystem::path& folder);
+
+/// By extension.
+bool isVideo(const std::filesystem::path& file);
+bool isPicture(const std::filesystem::path& file);
+
+}  // namespace softscope

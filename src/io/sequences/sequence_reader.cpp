@@ -1,0 +1,102 @@
+#include "io/sequences/sequence_reader.h"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+
+#include "core/error.h"
+#include "io/sequences/bounded_queue.h"
+#include "io/sequences/frame_loader.h"
+#include "io/text/message.h"
+
+namespace softscope {
+namespace {
+
+FrameRange rangeWithin(FrameRange range, int count) {
+  if (range.end < 0) range.end = count;
+  if (range.begin >= count || range.end > count || range.begin >= range.end)
+    throw OptionError(say("--frames ", range.begin, ":", range.end, ", but the sequence has ",
+                          count, " frames, 0:", count, "."));
+  return range;
+}
+
+}  // namespace
+
+class SequenceReader::Impl {
+ public:
+  Impl(const SequencePaths& paths, const SequenceOptions& options)
+      : loader_(paths, options),
+        range_(rangeWithin(options.frames, loader_.count())),
+        queue_(static_cast<std::size_t>(options.read_ahead)) {
+    first_.index = std::max(range_.begin, loader_.firstWithPartner());
+    first_.time_s = loader_.timeOf(first_.index);
+    first_.frame = loader_.load(first_.index);  // throws: what is wrong with it is wrong with all
+    calibration_ = loader_.calibration();
+    thread_ = std::thread([this] { readAhead(); });
+  }
+  ~Impl() {
+    queue_.close();
+    thread_.join();
+  }
+
+  const StereoCalibration& calibration() const { return calibration_; }
+  int frameCount() const { return range_.end - range_.begin; }
+  int totalCount() const { return loader_.count(); }
+
+  std::optional<FrameResult> next() {
+    std::optional<FrameResult> result = queue_.pop();
+    // The queue is closed after failure_ is set, so the mutex inside has ordered both.
+    if (!result && failure_) std::rethrow_exception(failure_);
+    return result;
+  }
+
+ private:
+  void readAhead() {
+    try {
+      bool go_on = true;
+      for (int index = range_.begin; index < range_.end && go_on; ++index) {
+        FrameResult result = index == first_.index ? std::move(first_) : load(index);
+        go_on = result.ok() || index < first_.index || loader_.survivesErrors();
+        go_on = queue_.push(std::move(result)) && go_on;
+      }
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    queue_.close();
+  }
+
+  FrameResult load(int index) {
+    FrameResult result;
+    result.index = index;
+    result.time_s = loader_.timeOf(index);
+    try {
+      result.frame = loader_.load(index);
+    } catch (const InputError& error) {
+      result.error = error.what();
+    }
+    return result;
+  }
+
+  FrameLoader loader_;  // after the constructor, the thread's alone but for count()
+  FrameRange range_;
+  FrameResult first_;
+  StereoCalibration calibration_;
+  BoundedQueue<FrameResult> queue_;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+SequenceReader::SequenceReader(const SequencePaths& paths, const SequenceOptions& options)
+    : impl_(std::make_unique<Impl>(paths, options)) {}
+SequenceReader::SequenceReader(const std::filesystem::path& folder, const SequenceOptions& options)
+    : SequenceReader(findSequence(folder), options) {}
+SequenceReader::~SequenceReader() = default;
+SequenceReader::SequenceReader(SequenceReader&&) noexcept = default;
+SequenceReader& SequenceReader::operator=(SequenceReader&&) noexcept = default;
+
+const StereoCalibration& SequenceReader::calibration() const { return impl_->calibration(); }
+int SequenceReader::frameCount() const { return impl_->frameCount(); }
+int SequenceReader::totalCount() const { return impl_->totalCount(); }
+std::optional<FrameResult> SequenceReader::next() { return impl_->next(); }
+
+}  // namespace softscope

@@ -1,0 +1,16 @@
+// src/io/sequences/timestamps_file.h: when each frame was taken.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace softscope {
+
+/// Seconds, one a line, each later than the one above; lines that begin with # and empty ones are
+/// skipped. Throws InputError with the line.
+std::vector<double> readTimestamps(const std::filesystem::path& file);
+std::vector<double> parseTimestamps(std::string_view text, const std::string& name);
+
+}  // namespace softscope

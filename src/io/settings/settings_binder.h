@@ -1,0 +1,74 @@
+// src/io/settings/settings_binder.h: which settings there are, and the options that they fill.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/setting_rules.h"
+#include "io/settings/settings.h"
+
+namespace softscope {
+
+/// One setting as help texts, documents and a run's record show it.
+struct SettingInfo {
+  std::string key;
+  std::string type;          // "true/false", "whole number", "number", "text"
+  std::string unit;          // "mm", as the key's ending says; empty: none
+  std::string range;         // "above 0", "elas or sgbm"
+  std::string default_text;  // the value when it was bound
+  std::string current_text;
+  std::string help;
+};
+
+/// Visitor of describe() (core/setting_rules.h): binds keys to the fields of option structs.
+///   SettingsBinder binder;
+///   describe(binder, options);
+///   binder.apply(settings);
+/// Fields must outlive the binder. What one setting demands of another is the options' validate().
+class SettingsBinder {
+ public:
+  // Each throws Error where the key is bound already.
+  void operator()(const std::string& key, bool& field, const std::string& help);
+  void operator()(const std::string& key, int& field, const NumberRule& rule,
+                  const std::string& help);
+  void operator()(const std::string& key, std::uint32_t& field, const NumberRule& rule,
+                  const std::string& help);
+  void operator()(const std::string& key, double& field, const NumberRule& rule,
+                  const std::string& help);
+  void operator()(const std::string& key, std::string& field, const TextRule& rule,
+                  const std::string& help);
+  void operator()(const std::string& key, std::string& field, const FreeText& rule,
+                  const std::string& help);
+  template <class Choice>
+  void operator()(const std::string& key, Choice& field, const ChoiceRule<Choice>& rule,
+                  const std::string& help) {
+    addChoice(
+        key, rule.texts(), help, [&field, rule] { return rule.nameOf(field); },
+        [&field, rule](std::size_t index) { field = rule.names[index].second; });
+  }
+
+  /// Sets the fields that `settings` names, all of them or none. Throws OptionError naming an
+  /// unknown key, the nearest known one and where it came from, or a value of another type or out
+  /// of its range.
+  void apply(const Settings& settings);
+
+  /// In the order of binding.
+  std::vector<SettingInfo> list() const;
+
+ private:
+  struct Entry {
+    SettingInfo info;
+    std::function<std::string()> current;
+    /// Checks the value and returns what would set the field.
+    std::function<std::function<void()>(const std::string& key, const Setting&)> prepare;
+  };
+  void add(Entry entry);
+  void addChoice(const std::string& key, const TextRule& names, const std::string& help,
+                 std::function<std::string()> current, std::function<void(std::size_t)> choose);
+  const Entry& entryOf(const std::string& key, const Setting& setting) const;
+
+  std::vector<Entry> entries_;
+};
+
+}  // namespace softscope

@@ -1,0 +1,60 @@
+#include "io/text/nearest_name.h"
+
+#include <algorithm>
+
+#include "io/text/text_lines.h"
+
+namespace softscope {
+namespace {
+
+// Longer names are no misspellings; the cap bounds the work.
+constexpr std::size_t kLongestName = 200;
+
+std::string_view lastPart(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+int allowed(std::string_view name) { return std::max(2, static_cast<int>(name.size()) / 3); }
+
+}  // namespace
+
+int editDistance(std::string_view a, std::string_view b) {
+  // Optimal string alignment: three rows of the usual table are enough.
+  std::vector<int> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) above[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] =
+          std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, above);
+    std::swap(above, row);
+  }
+  return above[b.size()];
+}
+
+std::string nearestName(std::string_view name, const std::vector<std::string>& known) {
+  if (name.size() > kLongestName) return {};
+  const std::string wanted = lowerCase(name);
+  const std::string_view wanted_part = lastPart(wanted);
+  std::string best;
+  int best_distance = 1 << 20;
+  for (const std::string& candidate : known) {
+    const std::string lower = lowerCase(candidate);
+    const int whole = editDistance(wanted, lower);
+    // A right last part under a wrong or missing head is as good as two wrong letters.
+    const int part = editDistance(wanted_part, lastPart(lower)) + 2;
+    const int distance = std::min(whole <= allowed(wanted) ? whole : 1 << 20,
+                                  part - 2 <= allowed(wanted_part) ? part : 1 << 20);
+    if (distance >= best_distance) continue;
+    best = candidate;
+    best_distance = distance;
+  }
+  return best;
+}
+
+}  // namespace softscope
