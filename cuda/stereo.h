@@ -10,8 +10,8 @@
 #include "core/depth_map.h"
 #include "core/image.h"
 #include "core/rectified_rig.h"
-#include "stereo/host_prior.h"
-#include "stereo/stereo_options.h"
+#include "stereo/matching/host_prior.h"
+#include "stereo/options/stereo_options.h"
 
 namespace softscope::cuda {
 

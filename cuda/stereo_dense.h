@@ -5,7 +5,7 @@
 
 #include "cuda/kernel.h"
 #include "cuda/stereo_support.h"
-#include "stereo/matching_formulas.h"
+#include "stereo/kernels/matching_formulas.h"
 
 namespace softscope::cuda {
 

@@ -4,7 +4,7 @@
 
 #include "core/image.h"
 #include "cuda/kernel.h"
-#include "stereo/filter_formulas.h"
+#include "stereo/kernels/filter_formulas.h"
 
 namespace softscope::cuda {
 

@@ -13,9 +13,9 @@
 #include "cuda/stereo_refinement.h"
 #include "cuda/stereo_support.h"
 #include "cuda/stereo_surface.h"
-#include "stereo/pyramid.h"
-#include "stereo/stereo_matcher.h"
-#include "stereo/stereo_options.h"
+#include "stereo/matching/stereo_matcher.h"
+#include "stereo/options/stereo_options.h"
+#include "stereo/refinement/pyramid.h"
 
 namespace softscope::cuda {
 

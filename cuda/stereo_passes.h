@@ -9,7 +9,7 @@
 #include "core/rectified_rig.h"
 #include "cuda/reset_kernel.h"
 #include "cuda/stereo_layout.h"
-#include "stereo/pyramid.h"
+#include "stereo/refinement/pyramid.h"
 
 namespace softscope::cuda {
 

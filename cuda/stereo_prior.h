@@ -4,7 +4,7 @@
 
 #include "cuda/kernel.h"
 #include "cuda/stereo_dense.h"
-#include "stereo/prior_formulas.h"
+#include "stereo/kernels/prior_formulas.h"
 
 namespace softscope::cuda {
 

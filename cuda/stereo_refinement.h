@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "cuda/kernel.h"
-#include "stereo/filter_formulas.h"
-#include "stereo/refinement_formulas.h"
-#include "stereo/refinement_window.h"
+#include "stereo/kernels/filter_formulas.h"
+#include "stereo/kernels/refinement_formulas.h"
+#include "stereo/refinement/refinement_window.h"
 
 namespace softscope::cuda {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cuda/kernel.h"
-#include "stereo/matching_formulas.h"
+#include "stereo/kernels/matching_formulas.h"
 
 namespace softscope::cuda {
 

@@ -6,9 +6,9 @@
 #include "core/camera.h"
 #include "cuda/kernel.h"
 #include "cuda/stereo_refinement.h"
-#include "stereo/filter_formulas.h"
-#include "stereo/refinement_formulas.h"
-#include "stereo/smoothing_formulas.h"
+#include "stereo/kernels/filter_formulas.h"
+#include "stereo/kernels/refinement_formulas.h"
+#include "stereo/kernels/smoothing_formulas.h"
 
 namespace softscope::cuda {
 

@@ -18,7 +18,7 @@
 #include "pipeline/relocaliser.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
-#include "stereo/stage_clock.h"
+#include "stereo/matching/stage_clock.h"
 
 namespace softscope {
 namespace {

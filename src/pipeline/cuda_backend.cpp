@@ -6,8 +6,8 @@
 #include "cuda/match.h"
 #include "cuda/stereo.h"
 #include "pipeline/cpu_backend.h"
-#include "stereo/host_prior.h"
-#include "stereo/stage_clock.h"
+#include "stereo/matching/host_prior.h"
+#include "stereo/matching/stage_clock.h"
 
 namespace softscope {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "core/error.h"
 #include "pipeline/reconstruction_settings.h"
-#include "stereo/depth_from_disparity.h"
-#include "stereo/image_border.h"
-#include "stereo/stage_clock.h"
-#include "stereo/view_masks.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/images/view_masks.h"
+#include "stereo/matching/stage_clock.h"
+#include "stereo/rectification/image_border.h"
 
 namespace softscope {
 

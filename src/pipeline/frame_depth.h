@@ -8,8 +8,8 @@
 #include "core/frame.h"
 #include "core/stereo_rig.h"
 #include "pipeline/stereo_stage.h"
-#include "stereo/rectifier.h"
-#include "stereo/row_alignment.h"
+#include "stereo/rectification/rectifier.h"
+#include "stereo/rectification/row_alignment.h"
 
 namespace softscope {
 

@@ -18,7 +18,7 @@
 #include "fusion/view_evidence.h"
 #include "pipeline/material_points.h"
 #include "pose/ransac_pose.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/matching/stereo_matcher.h"
 
 namespace softscope {
 

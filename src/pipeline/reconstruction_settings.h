@@ -7,7 +7,7 @@
 #include "fusion/fusion_settings.h"
 #include "pipeline/reconstruction_options.h"
 #include "pose/pose_settings.h"
-#include "stereo/stereo_settings.h"
+#include "stereo/options/stereo_settings.h"
 
 namespace softscope {
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "stereo/depth_from_disparity.h"
-#include "stereo/stage_clock.h"
-#include "stereo/view_masks.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/images/view_masks.h"
+#include "stereo/matching/stage_clock.h"
 
 namespace softscope {
 namespace {

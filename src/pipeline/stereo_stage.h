@@ -7,8 +7,8 @@
 
 #include "core/depth_map.h"
 #include "core/rectified_rig.h"
-#include "stereo/row_alignment.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/matching/stereo_matcher.h"
+#include "stereo/rectification/row_alignment.h"
 
 namespace softscope {
 

@@ -11,7 +11,7 @@
 #include "io/geometry/depth_files.h"
 #include "io/geometry/xyz_files.h"
 #include "io/sequences/dataset_form.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {

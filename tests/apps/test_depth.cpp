@@ -9,7 +9,7 @@
 #include "io/geometry/depth_files.h"
 #include "io/images/image_reader.h"
 #include "io/images/image_writer.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 #include "support/data_folder.h"
 #include "support/scene.h"
 #include "tests/apps/run_softscope.h"

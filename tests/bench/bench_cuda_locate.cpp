@@ -17,8 +17,8 @@
 #include "cuda/locate.h"
 #include "cuda/match.h"
 #include "cuda/view.h"
-#include "stereo/depth_from_disparity.h"
-#include "stereo/elas_matcher.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/matching/elas_matcher.h"
 #include "tests/bench/cuda_bench.h"
 
 using namespace softscope;

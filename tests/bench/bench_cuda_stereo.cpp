@@ -11,8 +11,8 @@
 
 #include "core/error.h"
 #include "cuda/stereo.h"
-#include "stereo/depth_from_disparity.h"
-#include "stereo/elas_matcher.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/matching/elas_matcher.h"
 #include "tests/bench/cuda_bench.h"
 
 using namespace softscope;

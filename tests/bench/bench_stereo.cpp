@@ -10,10 +10,10 @@
 
 #include "core/parallel.h"
 #include "io/images/image_reader.h"
-#include "stereo/depth_from_disparity.h"
-#include "stereo/opencv_view.h"
-#include "stereo/row_alignment.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/images/opencv_view.h"
+#include "stereo/matching/stereo_matcher.h"
+#include "stereo/rectification/row_alignment.h"
 #include "stereo_study/study.h"
 #include "support/data_folder.h"
 

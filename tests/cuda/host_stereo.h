@@ -9,7 +9,7 @@
 #include "cuda/host_executor.h"
 #include "cuda/stereo_passes.h"
 #include "host_memory.h"
-#include "stereo/host_prior.h"
+#include "stereo/matching/host_prior.h"
 
 namespace softscope::test {
 

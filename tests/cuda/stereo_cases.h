@@ -6,9 +6,9 @@
 #include <cstring>
 #include <vector>
 
-#include "stereo/depth_from_disparity.h"
-#include "stereo/elas_matcher.h"
-#include "stereo/row_alignment.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/matching/elas_matcher.h"
+#include "stereo/rectification/row_alignment.h"
 #include "support/scene.h"
 
 namespace softscope::test {

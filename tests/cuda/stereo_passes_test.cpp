@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "host_stereo.h"
-#include "stereo/dense_matching.h"
-#include "stereo/row_prior.h"
-#include "stereo/support_points.h"
+#include "stereo/matching/dense_matching.h"
+#include "stereo/matching/row_prior.h"
+#include "stereo/matching/support_points.h"
 #include "stereo_cases.h"
 
 namespace softscope {

@@ -13,7 +13,7 @@
 #include "mesh/mesh_reader.h"
 #include "mesh/open_mesh_check.h"
 #include "mesh/surface_from_points.h"
-#include "stereo/depth_from_disparity.h"
+#include "stereo/depth/depth_from_disparity.h"
 #include "support/data_folder.h"
 
 namespace softscope::test {

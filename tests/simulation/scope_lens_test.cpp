@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "eval/simulation/simulator.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 
 namespace softscope {
 namespace {

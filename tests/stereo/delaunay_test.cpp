@@ -1,6 +1,6 @@
 // tests/stereo/delaunay_test.cpp: the triangulation is Delaunay's, also where points are
 // degenerate.
-#include "stereo/delaunay.h"
+#include "stereo/matching/delaunay.h"
 
 #include <gtest/gtest.h>
 

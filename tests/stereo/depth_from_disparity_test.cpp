@@ -1,5 +1,5 @@
 // tests/stereo/depth_from_disparity_test.cpp: depth, its error and normals by closed formulas.
-#include "stereo/depth_from_disparity.h"
+#include "stereo/depth/depth_from_disparity.h"
 
 #include <gtest/gtest.h>
 

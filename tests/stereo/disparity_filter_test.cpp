@@ -1,5 +1,5 @@
 // tests/stereo/disparity_filter_test.cpp: small cases by hand.
-#include "stereo/disparity_filter.h"
+#include "stereo/refinement/disparity_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "stereo/gradient_image.h"
-#include "stereo/kernel_sets.h"
+#include "stereo/images/gradient_image.h"
+#include "stereo/kernels/kernel_sets.h"
 #include "support/scene.h"
 
 namespace softscope {

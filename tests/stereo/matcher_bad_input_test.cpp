@@ -5,7 +5,7 @@
 #include <random>
 
 #include "core/error.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/matching/stereo_matcher.h"
 #include "support/scene.h"
 
 namespace softscope {

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/parallel.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/matching/stereo_matcher.h"
 #include "support/scene.h"
 
 namespace softscope {

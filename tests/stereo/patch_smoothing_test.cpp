@@ -1,5 +1,5 @@
 // tests/stereo/patch_smoothing_test.cpp: noise goes, edges and relief stay.
-#include "stereo/patch_smoothing.h"
+#include "stereo/refinement/patch_smoothing.h"
 
 #include <gtest/gtest.h>
 

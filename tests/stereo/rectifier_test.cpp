@@ -1,5 +1,5 @@
 // tests/stereo/rectifier_test.cpp: rows correspond after rectification, and depth is right.
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <opencv2/core/eigen.hpp>
 
 #include "core/error.h"
-#include "stereo/depth_from_disparity.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/matching/stereo_matcher.h"
 #include "support/scene.h"
 
 namespace softscope {

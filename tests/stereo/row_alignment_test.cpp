@@ -1,12 +1,12 @@
 // tests/stereo/row_alignment_test.cpp: a row error is found, told and removed.
-#include "stereo/row_alignment.h"
+#include "stereo/rectification/row_alignment.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "stereo/row_model.h"
+#include "stereo/rectification/row_model.h"
 #include "support/scene.h"
 
 namespace softscope {

@@ -1,5 +1,5 @@
 // tests/stereo/row_prior_test.cpp: the prior between support points has exact values.
-#include "stereo/row_prior.h"
+#include "stereo/matching/row_prior.h"
 
 #include <gtest/gtest.h>
 

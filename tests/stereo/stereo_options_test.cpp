@@ -1,5 +1,5 @@
 // tests/stereo/stereo_options_test.cpp: wrong options are refused by name.
-#include "stereo/stereo_options.h"
+#include "stereo/options/stereo_options.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // tests/stereo/subpixel_refinement_test.cpp: hundredths of a pixel, and honest about the error.
-#include "stereo/subpixel_refinement.h"
+#include "stereo/refinement/subpixel_refinement.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "stereo/light_formulas.h"
+#include "stereo/kernels/light_formulas.h"
 #include "support/scene.h"
 
 namespace softscope {

@@ -1,5 +1,5 @@
 // tests/stereo/support_points_test.cpp: points that need no help are right.
-#include "stereo/support_points.h"
+#include "stereo/matching/support_points.h"
 
 #include <gtest/gtest.h>
 

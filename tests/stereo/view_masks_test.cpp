@@ -1,5 +1,5 @@
 // tests/stereo/view_masks_test.cpp: what is masked or black border is known before matching.
-#include "stereo/view_masks.h"
+#include "stereo/images/view_masks.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "stereo/image_border.h"
-#include "stereo/row_alignment.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/matching/stereo_matcher.h"
+#include "stereo/rectification/image_border.h"
+#include "stereo/rectification/row_alignment.h"
 #include "support/scene.h"
 
 namespace softscope {

@@ -1,5 +1,5 @@
 // tests/stereo/view_synchrony_test.cpp: views that were cut some pictures apart are found out.
-#include "stereo/view_synchrony.h"
+#include "stereo/rectification/view_synchrony.h"
 
 #include <gtest/gtest.h>
 

@@ -10,10 +10,10 @@
 #include "io/images/image_reader.h"
 #include "io/sequences/sequence_reader.h"
 #include "mesh/mesh_reader.h"
-#include "stereo/depth_from_disparity.h"
-#include "stereo/image_border.h"
-#include "stereo/rectifier.h"
-#include "stereo/stereo_matcher.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/matching/stereo_matcher.h"
+#include "stereo/rectification/image_border.h"
+#include "stereo/rectification/rectifier.h"
 
 namespace softscope::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "eval/depth_errors.h"
 #include "eval/disparity_errors.h"
 #include "eval/surface_alignment.h"
-#include "stereo/row_alignment.h"
+#include "stereo/rectification/row_alignment.h"
 
 namespace softscope::test {
 

@@ -14,7 +14,7 @@
 #include "io/sequences/sequence_reader.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/run/run_reader.h"
 #include "toolkit/run/table_reader.h"

@@ -1,8 +1,8 @@
 // toolkit/depth/depth_estimator.cpp: measured depth, and its points in the frame asked for.
 #include "toolkit/depth/depth_estimator.h"
 
-#include "stereo/depth_from_disparity.h"
-#include "stereo/stage_clock.h"
+#include "stereo/depth/depth_from_disparity.h"
+#include "stereo/matching/stage_clock.h"
 
 namespace softscope {
 namespace {

@@ -11,7 +11,7 @@
 #include "io/geometry/depth_files.h"
 #include "io/images/image_reader.h"
 #include "io/text/message.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
 

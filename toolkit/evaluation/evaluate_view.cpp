@@ -11,8 +11,8 @@
 #include "io/images/image_reader.h"
 #include "io/sequences/sequence_paths.h"
 #include "io/text/message.h"
-#include "stereo/image_border.h"
-#include "stereo/view_masks.h"
+#include "stereo/images/view_masks.h"
+#include "stereo/rectification/image_border.h"
 
 namespace softscope {
 namespace {

@@ -9,7 +9,7 @@
 #include "eval/depth_errors.h"
 #include "eval/picture_errors.h"
 #include "io/sequences/frame_loader.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/run_reader.h"
 

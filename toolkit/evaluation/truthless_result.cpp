@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "io/calibrations/calibration_reader.h"
 #include "io/sequences/sequence_paths.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 #include "toolkit/evaluation/evaluate_view.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"

@@ -10,9 +10,9 @@
 #include "io/sequences/picture_source.h"
 #include "io/sequences/sequence_reader.h"
 #include "io/sequences/timestamps_file.h"
-#include "stereo/rectifier.h"
-#include "stereo/row_alignment.h"
-#include "stereo/stereo_options.h"
+#include "stereo/options/stereo_options.h"
+#include "stereo/rectification/rectifier.h"
+#include "stereo/rectification/row_alignment.h"
 #include "toolkit/inspection/describe_file.h"
 
 namespace softscope {

@@ -10,7 +10,7 @@
 #include "io/files/folder.h"
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
-#include "stereo/rectifier.h"
+#include "stereo/rectification/rectifier.h"
 #include "toolkit/run/frame_clock.h"
 #include "toolkit/run/table_reader.h"
 

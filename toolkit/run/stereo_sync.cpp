@@ -7,8 +7,8 @@
 
 #include "io/sequences/sequence_reader.h"
 #include "io/text/message.h"
-#include "stereo/rectifier.h"
-#include "stereo/view_synchrony.h"
+#include "stereo/rectification/rectifier.h"
+#include "stereo/rectification/view_synchrony.h"
 
 namespace softscope {
 namespace {

@@ -1,0 +1,98 @@
+#include "stereo/images/view_masks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/error.h"
+#include "stereo/images/spread.h"
+
+namespace softscope {
+namespace {
+
+/// Mean of the unmasked pixels of each square, and their number (0: none).
+struct FillLevel {
+  Raster<float> mean, count;
+};
+
+FillLevel coarser(const FillLevel& fine) {
+  const int width = (fine.mean.width_px + 1) / 2, height = (fine.mean.height_px + 1) / 2;
+  FillLevel level{Raster<float>(width, height, 0), Raster<float>(width, height, 0)};
+  for (int v = 0; v < fine.mean.height_px; ++v)
+    for (int u = 0; u < fine.mean.width_px; ++u) {
+      level.mean.at(u / 2, v / 2) += fine.count.at(u, v) * fine.mean.at(u, v);
+      level.count.at(u / 2, v / 2) += fine.count.at(u, v);
+    }
+  for (std::size_t i = 0; i < level.mean.size(); ++i)
+    if (level.count.values[i] > 0) level.mean.values[i] /= level.count.values[i];
+  return level;
+}
+
+bool isFull(const FillLevel& level) {
+  return std::all_of(level.count.values.begin(), level.count.values.end(),
+                     [](float count) { return count > 0; });
+}
+
+/// Bilinear value of the coarser level at a pixel of the finer one.
+float interpolate(const Raster<float>& coarse, int u, int v) {
+  const float x = std::max(0.5f * static_cast<float>(u) - 0.25f, 0.0f);
+  const float y = std::max(0.5f * static_cast<float>(v) - 0.25f, 0.0f);
+  const int u0 = static_cast<int>(x), v0 = static_cast<int>(y);
+  const int u1 = std::min(u0 + 1, coarse.width_px - 1), v1 = std::min(v0 + 1, coarse.height_px - 1);
+  const float fu = x - static_cast<float>(u0), fv = y - static_cast<float>(v0);
+  return (1 - fv) * ((1 - fu) * coarse.at(u0, v0) + fu * coarse.at(u1, v0)) +
+         fv * ((1 - fu) * coarse.at(u0, v1) + fu * coarse.at(u1, v1));
+}
+
+void fillFrom(const Raster<float>& coarse, FillLevel& fine) {
+  for (int v = 0; v < fine.mean.height_px; ++v)
+    for (int u = 0; u < fine.mean.width_px; ++u)
+      if (fine.count.at(u, v) == 0) fine.mean.at(u, v) = interpolate(coarse, u, v);
+}
+
+}  // namespace
+
+Mask united(const Mask& one, const Mask& other) {
+  if (one.empty()) return other;
+  if (!other.empty() && !other.sameShape(one))
+    throw Error("masks of one view have different sizes");
+  Mask both = one;
+  for (std::size_t i = 0; i < other.size(); ++i) both.values[i] |= other.values[i];
+  return both;
+}
+
+Mask dilated(const Mask& mask, int radius_px) {
+  if (mask.empty()) return {};
+  Mask marks = mask;
+  for (std::uint8_t& value : marks.values) value = value != 0;
+  return spread(marks, radius_px);
+}
+
+void dropMasked(const Mask& mask, Raster<float>* raster) {
+  if (!raster->sameShape(mask)) return;
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask.values[i] != 0) raster->values[i] = std::numeric_limits<float>::quiet_NaN();
+}
+
+GrayImage fillMasked(const GrayImage& image, const Mask& mask) {
+  if (mask.empty()) return image;
+  std::vector<FillLevel> levels(1);
+  levels[0] = {Raster<float>(image.width_px, image.height_px),
+               Raster<float>(image.width_px, image.height_px)};
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    levels[0].mean.values[i] = image.values[i];
+    levels[0].count.values[i] = mask.values[i] == 0 ? 1.0f : 0.0f;
+  }
+  while (!isFull(levels.back())) {
+    if (levels.back().mean.size() == 1) return image;
+    levels.push_back(coarser(levels.back()));
+  }
+  for (std::size_t k = levels.size() - 1; k > 0; --k) fillFrom(levels[k].mean, levels[k - 1]);
+  GrayImage filled(image.width_px, image.height_px);
+  for (std::size_t i = 0; i < image.size(); ++i)
+    filled.values[i] = static_cast<std::uint8_t>(std::lround(levels[0].mean.values[i]));
+  return filled;
+}
+
+}  // namespace softscope

@@ -1,0 +1,28 @@
+// src/stereo/images/view_masks.h: pixels of both views that must not be matched.
+#pragma once
+
+#include "core/image.h"
+
+namespace softscope {
+
+/// Non-zero: outside the tissue (instrument, black border, outside the raw image). Each is empty or
+/// has its view's shape.
+struct ViewMasks {
+  Mask left, right;
+};
+
+/// Masked in either; each may be empty.
+Mask united(const Mask& one, const Mask& other);
+
+/// Masked pixels widened by `radius_px` rows and columns, as 0 or 1; empty stays empty.
+Mask dilated(const Mask& mask, int radius_px);
+
+/// NaN under the mask; unchanged where that is empty or has another shape.
+void dropMasked(const Mask& mask, Raster<float>* raster);
+
+/// The image with masked pixels replaced by a smooth continuation of the others (means over
+/// squares of doubling size), so that no gradient arises at the mask's edge. Unchanged where `mask`
+/// is empty or covers everything.
+GrayImage fillMasked(const GrayImage& image, const Mask& mask);
+
+}  // namespace softscope

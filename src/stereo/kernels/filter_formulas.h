@@ -1,0 +1,81 @@
+// src/stereo/kernels/filter_formulas.h: formulas of disparity filters, pyramid levels, depth and
+// erosion, for the CPU and the GPU.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/hd.h"
+
+namespace softscope {
+
+SOFTSCOPE_FORMULA float absoluteOf(float x) { return x < 0.0f ? -x : x; }
+SOFTSCOPE_FORMULA bool isNumber(float x) { return x == x; }
+
+/// Does the right image confirm disparity `d` of column u? `back`: disparity of the right image at
+/// column u - d; -1 where unmatched.
+SOFTSCOPE_FORMULA bool confirmsDisparity(int d, int back, int tolerance_px) {
+  const int apart = back - d;
+  return back >= 0 && (apart < 0 ? -apart : apart) <= tolerance_px;
+}
+
+/// k-th of `gap` values between two measured ones.
+SOFTSCOPE_FORMULA float gapValue(float before, float after, int k, int gap) {
+  return before + (after - before) * static_cast<float>(k) / static_cast<float>(gap + 1);
+}
+
+/// A step between two measured pixels `apart` pixels from each other.
+SOFTSCOPE_FORMULA bool isDepthStep(float a, float b, int apart, float step, float slope) {
+  return absoluteOf(a - b) > step + slope * static_cast<float>(apart - 1);
+}
+
+constexpr float kOneSurfacePx = 1.5f;  // four pixels that differ by more lie on two surfaces
+
+/// Where a pixel of the full size lies in the half size.
+struct HalfPosition {
+  int u0, v0;
+  float fu, fv;
+};
+SOFTSCOPE_FORMULA HalfPosition halfPosition(int u, int v) {
+  const float x = 0.5f * static_cast<float>(u) - 0.25f, y = 0.5f * static_cast<float>(v) - 0.25f;
+  const float x0 = x > 0.0f ? x : 0.0f, y0 = y > 0.0f ? y : 0.0f;
+  const int u0 = static_cast<int>(x0), v0 = static_cast<int>(y0);
+  return {u0, v0, x0 - static_cast<float>(u0), y0 - static_cast<float>(v0)};
+}
+
+/// Four neighbours: (u0, v0), (u1, v0), (u0, v1), (u1, v1), the last column and row repeated.
+struct FourPixels {
+  float a, b, c, d;
+};
+SOFTSCOPE_FORMULA FourPixels fourPixels(const float* values, int width, int height, int u0,
+                                        int v0) {
+  const int u1 = u0 + 1 < width ? u0 + 1 : width - 1, v1 = v0 + 1 < height ? v0 + 1 : height - 1;
+  const float *upper = values + static_cast<std::ptrdiff_t>(v0) * width,
+              *lower = values + static_cast<std::ptrdiff_t>(v1) * width;
+  return {upper[u0], upper[u1], lower[u0], lower[u1]};
+}
+/// NaN across a hole.
+SOFTSCOPE_FORMULA float bilinear(const FourPixels& p, float fu, float fv) {
+  return (1 - fv) * ((1 - fu) * p.a + fu * p.b) + fv * ((1 - fu) * p.c + fu * p.d);
+}
+/// All four measured, on one surface.
+SOFTSCOPE_FORMULA bool isOneSurface(const FourPixels& p) {
+  if (!(isNumber(p.a) && isNumber(p.b) && isNumber(p.c) && isNumber(p.d))) return false;
+  float low = p.a, high = p.a;
+  for (const float x : {p.b, p.c, p.d}) {
+    low = x < low ? x : low;
+    high = x > high ? x : high;
+  }
+  return high - low <= kOneSurfacePx;
+}
+
+struct DepthPixel {
+  float depth_mm, sigma_mm;
+};
+/// `d` > 0: disparity with the rig's offset. `scale` = fx * baseline.
+SOFTSCOPE_FORMULA DepthPixel depthOfDisparity(double d, float sigma_px, double scale) {
+  const double z = scale / d;
+  return {static_cast<float>(z), static_cast<float>(z * z / scale * sigma_px)};
+}
+
+}  // namespace softscope

@@ -1,0 +1,29 @@
+// src/stereo/kernels/kernel_sets.h: which instruction sets this processor runs.
+#pragma once
+
+#include "stereo/kernels/matching_kernels.h"
+#include "stereo/kernels/normal_kernels.h"
+#include "stereo/kernels/refinement_kernels.h"
+
+namespace softscope {
+
+struct KernelSet {
+  const char* name;  // "baseline", "avx2"
+  const MatchingKernels* matching;
+  const RefinementKernels* refinement;
+  const NormalKernels* normal;
+};
+
+/// Every set that this processor runs, slowest first.
+struct KernelSetList {
+  KernelSet sets[2];
+  int count;
+};
+KernelSetList allKernelSets();
+
+/// Of the fastest set.
+const MatchingKernels& matchingKernels();
+const RefinementKernels& refinementKernels();
+const NormalKernels& normalKernels();
+
+}  // namespace softscope

@@ -1,0 +1,22 @@
+// src/stereo/matching/row_prior.h: disparity prior per pixel, interpolated from the support points
+// (ELAS §3.2, without a triangulation).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/raster.h"
+#include "stereo/matching/plane_prior.h"  // kNoPrior
+#include "stereo/matching/support_points.h"
+
+namespace softscope {
+
+/// Prior disparity per pixel, unit 1/8 px (docs/stereo.md 3.2). Each row that has points is
+/// interpolated linearly between them and held constant beyond them; a pixel is interpolated
+/// between the nearest evidence above and below it. `points`: in the frame of the image that is
+/// matched, in any order; of several on one pixel the larger disparity counts; points outside the
+/// image are ignored. All kNoPrior if no point is left.
+Raster<std::int16_t> interpolateRows(const std::vector<SupportPoint>& points, int width_px,
+                                     int height_px);
+
+}  // namespace softscope

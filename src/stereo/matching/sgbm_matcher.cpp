@@ -1,0 +1,56 @@
+#include "stereo/matching/sgbm_matcher.h"
+
+#include <limits>
+#include <opencv2/calib3d.hpp>
+
+#include "stereo/images/opencv_view.h"
+#include "stereo/matching/stage_clock.h"
+#include "stereo/refinement/disparity_filter.h"
+
+namespace softscope {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr int kSobelReach = 1;            // its costs use gradients
+constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §7
+
+}  // namespace
+
+DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& right_image,
+                                const ViewMasks& ignored) {
+  requireRectifiedPair(left_image, right_image);
+  const GrayImage left = fillMasked(left_image, ignored.left);
+  const GrayImage right = fillMasked(right_image, ignored.right);
+  StageClock clock;
+  const int count = (options_.disparity_max_px - options_.disparity_min_px + 16) / 16 * 16;
+  const int block = options_.sgbm_block_px, area = block * block;
+  const auto sgbm = cv::StereoSGBM::create(options_.disparity_min_px, count, block, 8 * area,
+                                           32 * area, 1, 63, 10, 100, 2);
+  cv::Mat found;
+  sgbm->compute(opencvView(left), opencvView(right), found);  // 1/16 px
+  clock.lap("match");
+  DisparityMap map{Raster<float>(left.width_px, left.height_px, kNaN),
+                   Raster<float>(left.width_px, left.height_px, kNaN)};
+  const Mask left_blocked = dilated(ignored.left, options_.sgbm_block_px / 2 + kSobelReach);
+  const Mask right_blocked = dilated(ignored.right, options_.sgbm_block_px / 2 + kSobelReach);
+  const auto is_blocked = [](const Mask& blocked, int u, int v) {
+    return blocked.contains(u, v) && blocked.at(u, v) != 0;
+  };
+  const short unmatched = static_cast<short>((options_.disparity_min_px - 1) * 16);
+  for (int v = 0; v < left.height_px; ++v)
+    for (int u = 0; u < left.width_px; ++u) {
+      const short d = found.at<short>(v, u);
+      if (d <= unmatched) continue;
+      if (is_blocked(left_blocked, u, v) || is_blocked(right_blocked, u - (d + 8) / 16, v))
+        continue;
+      map.disparity_px.at(u, v) = static_cast<float>(d) / 16;
+      map.sigma_px.at(u, v) = kStandardErrorPx;
+    }
+  removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
+  erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
+  clock.lap("erode");
+  times_ = clock.laps();
+  return map;
+}
+
+}  // namespace softscope

@@ -1,0 +1,48 @@
+// src/stereo/matching/stereo_matcher.h: how far left did each pixel move?
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/depth_map.h"
+#include "core/image.h"
+#include "stereo/images/view_masks.h"
+#include "stereo/options/stereo_options.h"
+
+namespace softscope {
+
+/// Stage and milliseconds, in the order of work.
+using StageTimes = std::vector<std::pair<std::string, double>>;
+
+/// Finds, for each pixel of the rectified left picture, how far left it moved in the right one.
+class StereoMatcher {
+ public:
+  virtual ~StereoMatcher() = default;
+
+  /// "elas" or "sgbm"; written into every report.
+  virtual std::string name() const = 0;
+
+  /// Both pictures rectified and of one shape, else Error. Result: the left picture's shape, NaN
+  /// where there is no match. Same input, same bytes, whatever the number of threads. No matching
+  /// window reaches `ignored` pixels of its own view, and those of the left have no disparity.
+  virtual DisparityMap match(const GrayImage& left, const GrayImage& right,
+                             const ViewMasks& ignored) = 0;
+  DisparityMap match(const GrayImage& left, const GrayImage& right) {
+    return match(left, right, {});
+  }
+
+  /// Of the last match().
+  virtual const StageTimes& times() const = 0;
+};
+
+constexpr int kSmallestPicturePx = 32;
+
+/// Throws InputError unless both pictures have one shape, kSmallestPicturePx or more each way.
+void requireRectifiedPair(const GrayImage& left, const GrayImage& right);
+
+/// Throws OptionError if the options break a rule.
+std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options);
+
+}  // namespace softscope

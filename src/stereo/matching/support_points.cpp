@@ -1,0 +1,205 @@
+#include "stereo/matching/support_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/parallel.h"
+#include "core/raster.h"
+#include "stereo/kernels/kernel_sets.h"
+#include "stereo/kernels/matching_formulas.h"
+
+namespace softscope {
+namespace {
+
+constexpr float kNone = kNoSupport;
+constexpr int kReach = kSupportMargin;
+
+/// Mean |gradient| of the support window around (u, v).
+double texture(const GradientView& image, int u, int v) {
+  return static_cast<double>(supportTextureSum(image.at(u, v), image.stride)) / kCostDifferences;
+}
+
+/// Least cost at u over disparities that are not next to `best`.
+int secondBestCost(const SupportRow& row, int u, int best, int count) {
+  int second = 0xFFFF;
+  for (int i = 0; i < count; ++i)
+    if (std::abs(i - best) > 1)
+      second = std::min<int>(second, row.volume[static_cast<long>(i) * row.stride + u]);
+  return second;
+}
+
+/// The support candidates of one row, kNone where a test fails.
+class RowMatcher {
+ public:
+  RowMatcher(const GradientImage& left, const GradientImage& right, const StereoOptions& options,
+             int row_offset_px)
+      : left_(left.view()),
+        right_(right.view(row_offset_px)),
+        left_blocked_(left.blocked(kReach)),
+        right_blocked_(right.blocked(kReach)),
+        row_offset_(row_offset_px),
+        width_(left.width_px()),
+        minimum_(options.disparity_min_px),
+        count_(options.disparity_max_px - options.disparity_min_px + 1),
+        elas_(options.elas) {
+    const std::size_t stride = static_cast<std::size_t>((width_ + 63) / 64 * 64);
+    buffer_.resize(stride * (static_cast<std::size_t>(count_) + 5) + kSupportScratch);
+    std::uint16_t* rest = buffer_.data() + stride * static_cast<std::size_t>(count_);
+    row_ = {buffer_.data(),    rest + 4 * stride,       rest, rest + stride, rest + 2 * stride,
+            rest + 3 * stride, static_cast<int>(stride)};
+  }
+
+  void match(int v, float* candidates, int columns) {
+    matchingKernels().supportRow(left_, right_, v, width_, minimum_, count_, row_);
+    for (int c = 0; c < columns; ++c) candidates[c] = candidate(c * elas_.support_step_px, v);
+  }
+
+ private:
+  float candidate(int u, int v) const {
+    if (u < kReach || u >= width_ - kReach || row_.cost_left[u] == 0xFFFF) return kNone;
+    const int disparity = row_.disparity_left[u], best = disparity - minimum_;
+    if (texture(left_, u, v) < elas_.support_texture) return kNone;
+    if (isBlocked(left_blocked_, u, v)) return kNone;
+    if (isBlocked(right_blocked_, u - disparity, v + row_offset_)) return kNone;
+    const int returned = row_.disparity_right[u - disparity];
+    if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
+    if (best == 0 || best == count_ - 1) return kNone;  // the true one may lie outside the range
+    const int count = supportCountAt(u, width_, minimum_, count_);
+    if (row_.cost_left[u] > elas_.support_uniqueness * secondBestCost(row_, u, best, count))
+      return kNone;
+    if (best + 1 == count) return static_cast<float>(disparity);
+    return static_cast<float>(disparity) +
+           parabolaOffset(cost(best - 1, u), cost(best, u), cost(best + 1, u));
+  }
+  static bool isBlocked(const Mask& blocked, int u, int v) {
+    return blocked.contains(u, v) && blocked.at(u, v) != 0;
+  }
+  int cost(int i, int u) const { return row_.volume[static_cast<long>(i) * row_.stride + u]; }
+
+  GradientView left_, right_;
+  Mask left_blocked_, right_blocked_;
+  int row_offset_;
+  int width_, minimum_, count_;
+  const ElasOptions& elas_;
+  std::vector<std::uint16_t> buffer_;
+  SupportRow row_;
+};
+
+bool hasNeighbours(const Raster<float>& grid, int c, int r, const ElasOptions& options) {
+  const int reach = options.support_window_cells;
+  int neighbours = -1;  // not itself
+  for (int y = std::max(0, r - reach); y <= std::min(grid.height_px - 1, r + reach); ++y)
+    for (int x = std::max(0, c - reach); x <= std::min(grid.width_px - 1, c + reach); ++x)
+      neighbours += grid.at(x, y) != kNone && std::abs(grid.at(x, y) - grid.at(c, r)) <=
+                                                  static_cast<float>(options.support_agreement_px);
+  return neighbours >= options.support_min_neighbours;
+}
+
+Raster<float> removeLonely(const Raster<float>& grid, const ElasOptions& options) {
+  Raster<float> kept(grid.width_px, grid.height_px, kNone);
+  parallelRows(grid.height_px, [&](int r) {
+    for (int c = 0; c < grid.width_px; ++c)
+      if (grid.at(c, r) != kNone && hasNeighbours(grid, c, r, options))
+        kept.at(c, r) = grid.at(c, r);
+  });
+  return kept;
+}
+
+/// True if, within reach, both neighbours along (dx, dy) have this point's disparity.
+bool isRedundant(const Raster<float>& grid, int c, int r, int dx, int dy, int reach) {
+  int agreeing = 0;
+  for (const int sign : {-1, 1})
+    for (int k = 1; k <= reach; ++k) {
+      const int x = c + sign * k * dx, y = r + sign * k * dy;
+      if (!grid.contains(x, y)) break;
+      if (grid.at(x, y) == kNone) continue;
+      agreeing += std::abs(grid.at(x, y) - grid.at(c, r)) <= 0.5f;
+      break;
+    }
+  return agreeing == 2;
+}
+
+void removeRedundant(Raster<float>& grid, int dx, int dy, int reach) {
+  for (int r = 0; r < grid.height_px; ++r)
+    for (int c = 0; c < grid.width_px; ++c)
+      if (grid.at(c, r) != kNone && isRedundant(grid, c, r, dx, dy, reach)) grid.at(c, r) = kNone;
+}
+
+void matchRows(const GradientImage& left, const GradientImage& right, const StereoOptions& options,
+               int row_offset_px, const std::vector<int>& rows, Raster<float>& grid) {
+  parallelRanges(static_cast<int>(rows.size()), 4, [&](int begin, int end) {
+    RowMatcher matcher(left, right, options, row_offset_px);
+    for (int i = begin; i < end; ++i) {
+      const int r = rows[static_cast<std::size_t>(i)];
+      matcher.match(r * options.elas.support_step_px, grid.row(r), grid.width_px);
+    }
+  });
+}
+
+std::vector<float> foundIn(const Raster<float>& grid) {
+  std::vector<float> found;
+  std::copy_if(grid.values.begin(), grid.values.end(), std::back_inserter(found),
+               [](float d) { return d != kNone; });
+  return found;
+}
+
+}  // namespace
+
+StereoOptions narrowedTo(const std::vector<float>& disparities_px, StereoOptions options) {
+  if (disparities_px.size() < std::size_t{kFewestForRange}) return options;
+  const int first = options.disparity_min_px, last = options.disparity_max_px;
+  // How many lie within kNearDisparityPx of each disparity, those of first - kNearDisparityPx
+  // first.
+  std::vector<int> alike(static_cast<std::size_t>(last - first + 1 + 2 * kNearDisparityPx));
+  for (const float d : disparities_px) {
+    const long shifted = std::clamp<long>(std::lround(d), first, last) - first;
+    for (long i = shifted; i <= shifted + 2 * kNearDisparityPx; ++i)
+      ++alike[static_cast<std::size_t>(i)];
+  }
+  const auto isSurface = [](int count) { return count >= kFewestNear; };
+  const auto low = std::find_if(alike.begin(), alike.end(), isSurface);
+  const auto high = std::find_if(alike.rbegin(), alike.rend(), isSurface);
+  if (low == alike.end()) return options;
+  const int lowest = first - kNearDisparityPx + static_cast<int>(low - alike.begin());
+  const int highest = first - kNearDisparityPx + static_cast<int>(alike.rend() - high) - 1;
+  options.disparity_min_px = std::max(first, lowest - kBeyondRangePx);
+  options.disparity_max_px = std::min(last, highest + kBeyondRangePx);
+  return options;
+}
+
+std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
+                                            const StereoOptions& options, int row_offset_px) {
+  const int step = options.elas.support_step_px;
+  Raster<float> grid((left.width_px() + step - 1) / step, (left.height_px() + step - 1) / step,
+                     kNone);
+  std::vector<int> first_rows, other_rows;
+  for (int r = 0; r < grid.height_px; ++r)
+    if (r * step >= kReach && r * step < left.height_px() - kReach)
+      (r % kRangeRows == 1 ? first_rows : other_rows).push_back(r);
+  matchRows(left, right, options, row_offset_px, first_rows, grid);
+  matchRows(left, right, narrowedTo(foundIn(grid), options), row_offset_px, other_rows, grid);
+  grid = removeLonely(grid, options.elas);
+  return pointsOf(grid, options.elas);
+}
+
+std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options) {
+  if (options.prior ==
+      PriorMethod::kPlanes) {  // triangles don't need what their neighbours say already
+    removeRedundant(grid, 0, 1, options.support_redundant_cells);
+    removeRedundant(grid, 1, 0, options.support_redundant_cells);
+  }
+  const int step = options.support_step_px;
+  std::vector<SupportPoint> points;
+  for (int r = 0; r < grid.height_px; ++r)
+    for (int c = 0; c < grid.width_px; ++c)
+      if (grid.at(c, r) != kNone) points.push_back({c * step, r * step, grid.at(c, r)});
+  return points;
+}
+
+std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
+  for (SupportPoint& p : points) p.u_px -= static_cast<int>(p.disparity_px + 0.5f);
+  return points;
+}
+
+}  // namespace softscope

@@ -1,0 +1,98 @@
+#include "stereo/rectification/image_border.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+#include "stereo/images/spread.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kBlack = 4;     // largest channel: black that went through a codec
+constexpr int kDark = 16;     // largest channel beside it: the codec's ringing
+constexpr int kReachPx = 5;   // squares of 11 x 11: noise of one level leaves none of them even
+constexpr int kEven = 1;      // levels between neighbours
+constexpr int kBesidePx = 8;  // a codec's block
+
+int largestOf(Rgb8 c) { return std::max({c.red, c.green, c.blue}); }
+
+/// 1 where the largest channel is above kBlack, or other than its right neighbour's.
+Raster<std::uint8_t> signal(const ColourImage& image) {
+  Raster<std::uint8_t> marks(image.width_px, image.height_px, 0);
+  parallelRows(image.height_px, [&](int v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      const int here = largestOf(image.at(u, v));
+      const int beside = largestOf(image.at(std::min(u + 1, image.width_px - 1), v));
+      // Beside a bright pixel lies the cut, which the pixel itself marks.
+      marks.at(u, v) = here > kBlack || (beside <= kBlack && std::abs(here - beside) > kEven);
+    }
+  });
+  return marks;
+}
+
+/// 1 where the largest channel is above the limit.
+Raster<std::uint8_t> above(const ColourImage& image, int limit) {
+  Raster<std::uint8_t> marks(image.width_px, image.height_px, 0);
+  parallelRows(image.height_px, [&](int v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      marks.at(u, v) = largestOf(image.at(u, v)) > limit;
+    }
+  });
+  return marks;
+}
+
+/// The pixels that are 1 in `open` and connected to the image's edge within it.
+Mask connectedToEdge(const Raster<std::uint8_t>& open) {
+  const int width = open.width_px, height = open.height_px;
+  Mask reached(width, height, 0);
+  std::vector<std::pair<int, int>> front;
+  const auto reach = [&](int u, int v) {
+    if (!open.contains(u, v) || open.at(u, v) == 0 || reached.at(u, v) != 0) return;
+    reached.at(u, v) = 1;
+    front.emplace_back(u, v);
+  };
+  for (int u = 0; u < width; ++u) reach(u, 0), reach(u, height - 1);
+  for (int v = 0; v < height; ++v) reach(0, v), reach(width - 1, v);
+  while (!front.empty()) {
+    const auto [u, v] = front.back();
+    front.pop_back();
+    reach(u - 1, v), reach(u + 1, v), reach(u, v - 1), reach(u, v + 1);
+  }
+  return reached;
+}
+
+std::size_t countOf(const Mask& mask) {
+  return mask.size() - static_cast<std::size_t>(
+                           std::count(mask.values.begin(), mask.values.end(), std::uint8_t{0}));
+}
+
+}  // namespace
+
+Mask findBlackBorder(const ColourImage& image) {
+  // 1 where the whole square is black; pixels beyond the image count as black.
+  Raster<std::uint8_t> core = spread(signal(image), kReachPx);
+  for (std::uint8_t& value : core.values) value = value == 0;
+  core = connectedToEdge(core);
+  if (countOf(core) == 0 || countOf(core) > core.size() * 3 / 4) return {};
+  const Raster<std::uint8_t> beside = spread(core, kReachPx + kBesidePx);
+  Raster<std::uint8_t> dark = above(image, kDark);
+  for (std::size_t i = 0; i < dark.size(); ++i)
+    dark.values[i] = core.values[i] != 0 || (dark.values[i] == 0 && beside.values[i] != 0);
+  return connectedToEdge(dark);
+}
+
+ViewMasks pixelsToIgnore(const StereoPair& rectified, const Rectifier& rectifier,
+                         bool find_border) {
+  constexpr int kCubicReach = 2;  // of the resampling: these hold a share of the outside
+  ViewMasks ignored{dilated(rectifier.outside(), kCubicReach),
+                    dilated(rectifier.outsideRight(), kCubicReach)};
+  if (!find_border) return ignored;
+  ignored.left = united(ignored.left, findBlackBorder(rectified.left));
+  ignored.right = united(ignored.right, findBlackBorder(rectified.right));
+  return ignored;
+}
+
+}  // namespace softscope

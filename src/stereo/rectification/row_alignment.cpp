@@ -1,0 +1,59 @@
+#include "stereo/rectification/row_alignment.h"
+
+#include "stereo/rectification/row_meter.h"
+#include "stereo/rectification/row_resampling.h"
+
+namespace softscope {
+namespace {
+
+/// Row differences small enough to let the picture be, or not known.
+bool canStay(const RowAlignment& found) {
+  return !found.known() ||
+         found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||
+         found.mean_row_difference_px < RowAlignment::kRemoveAbovePx;
+}
+
+/// Masked wherever the moved image has a share of a masked pixel.
+Mask moveMask(const Mask& mask, const RowAlignment& alignment) {
+  if (mask.empty()) return {};
+  Mask marks = dilated(mask, 1);  // the cubic's weights of farther rows are small and negative
+  for (std::uint8_t& value : marks.values) value = value == 0 ? 0 : 255;
+  return moveRows(marks, alignment);
+}
+
+}  // namespace
+
+RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
+                                 int disparity_max_px, const ViewMasks& ignored) {
+  return RowMeter(left, disparity_max_px, ignored.left).measure(right, ignored.right);
+}
+
+ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment) {
+  return moveRows(right, alignment);
+}
+
+AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px, const ViewMasks& ignored) {
+  RowMeter meter(toGray(rectified.left), disparity_max_px, ignored.left);
+  const GrayImage right = toGray(rectified.right);
+  AlignedPair aligned{rectified, ignored, meter.measure(right, ignored.right)};
+  if (canStay(aligned.before)) return aligned;
+  RowAlignment whole = aligned.before;
+  const RowAlignment rest = meter.measure(moveRows(right, whole), moveMask(ignored.right, whole));
+  if (!canStay(rest))
+    for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
+  aligned.pair.right = removeRowError(rectified.right, whole);
+  aligned.ignored.right = moveMask(ignored.right, whole);
+  aligned.removed = true;
+  aligned.roll_rad = whole.tilt_px_per_px();
+  return aligned;
+}
+
+void removeRoll(double roll_rad, Raster<float>* disparity_px) {
+  const double centre_v_px = (disparity_px->height_px - 1) / 2.0;
+  for (int v = 0; v < disparity_px->height_px; ++v) {
+    const float excess_px = static_cast<float>(roll_rad * (v - centre_v_px));
+    for (int u = 0; u < disparity_px->width_px; ++u) disparity_px->at(u, v) -= excess_px;
+  }
+}
+
+}  // namespace softscope

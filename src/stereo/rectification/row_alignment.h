@@ -1,0 +1,64 @@
+// src/stereo/rectification/row_alignment.h: do rows really correspond?
+#pragma once
+
+#include <array>
+
+#include "core/image.h"
+#include "stereo/images/view_masks.h"
+
+namespace softscope {
+
+/// What matched pixels say about the rows of a rectified pair. Row difference = v_right - v_left.
+/// Its model over the right picture is a polynomial, so that not only a shift and a tilt but also
+/// what lens and unequal exposure times leave can be removed.
+struct RowAlignment {
+  int matches = 0;                    // pixels that agree with the model
+  double mean_row_difference_px = 0;  // mean absolute difference before
+  double residual_px = 0;             // mean absolute difference once the model is removed
+  std::array<double, 6> model{};      // of 1, x, y, x², xy, y² in half widths from the centre
+  double half_width_px = 1;           // scale of x and y
+  double centre_u_px = 0, centre_v_px = 0;
+
+  double shift_px() const { return model[0]; }
+  double tilt_px_per_px() const { return model[1] / half_width_px; }
+  double at(double u_px, double v_px) const {
+    const double x = (u_px - centre_u_px) / half_width_px, y = (v_px - centre_v_px) / half_width_px;
+    return model[0] + model[1] * x + model[2] * y + model[3] * x * x + model[4] * x * y +
+           model[5] * y * y;
+  }
+
+  static constexpr int kFewestMatches = 30;      // below, nothing is known
+  static constexpr double kWarnAbovePx = 0.5;    // matchers lose pixels beyond
+  static constexpr double kRemoveAbovePx = 0.2;  // below, resampling costs more than it mends
+  bool known() const { return matches >= kFewestMatches; }
+};
+
+/// Matches a coarse grid of pixels over all disparities up to `disparity_max_px` and rows up to
+/// ten off. Never fails: few matches mean !known().
+RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
+                                 int disparity_max_px, const ViewMasks& ignored = {});
+
+/// The right picture moved so that the model's row difference vanishes.
+ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment);
+
+/// A rectified pair whose rows correspond.
+struct AlignedPair {
+  StereoPair pair;
+  ViewMasks ignored;     // the right one moved with its view
+  RowAlignment before;   // as found
+  bool removed = false;  // whether the right picture was moved
+  /// Of the right camera about its optical axis, as the rows' tilt shows: see removeRoll().
+  double roll_rad = 0;
+};
+
+/// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right picture;
+/// measures once more, since matches are better then, and moves the right picture by both at once.
+/// What is ignored says nothing about the rows.
+AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px,
+                      const ViewMasks& ignored = {});
+
+/// Moving rows removes half of a roll; the other half makes disparities too large by
+/// roll_rad * (v - centre_v), px, which this subtracts.
+void removeRoll(double roll_rad, Raster<float>* disparity_px);
+
+}  // namespace softscope

@@ -1,0 +1,119 @@
+#include "stereo/rectification/row_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "stereo/images/view_masks.h"
+#include "stereo/matching/support_points.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kGridPx = 12;
+constexpr int kReach = 4;                // of the window, every second pixel
+constexpr int kRowReach = 2;             // rows tried around a support point's
+constexpr int kCoarseOffset = 2;         // rows between the coarse trials
+constexpr int kFarthestOffset = 10;      // of the trials
+constexpr std::size_t kMany = 150;       // matches that settle where the rows are
+constexpr double kLeastCurvature = 0.3;  // of the cost over rows: less says nothing about rows
+
+/// Mean difference of the two windows.
+double windowCost(const GradientView& left, const GradientView& right, int u, int v, int u_right,
+                  int v_right) {
+  int sum = 0;
+  for (int dy = -kReach; dy <= kReach; dy += 2)
+    for (int dx = -kReach; dx <= kReach; dx += 2) {
+      const int a = *left.at(u + dx, v + dy), b = *right.at(u_right + dx, v_right + dy);
+      sum += std::abs(a % 256 - b % 256) + std::abs(a / 256 - b / 256);
+    }
+  return sum / 50.0;
+}
+
+/// The row at which a support point's window matches best, to a fraction of a pixel.
+std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& right,
+                                 const SupportPoint& point, int row_offset) {
+  const int disparity = static_cast<int>(std::lround(point.disparity_px));
+  std::array<double, 2 * kRowReach + 1> cost;
+  cost.fill(1e9);
+  for (int k = -kRowReach; k <= kRowReach; ++k)
+    for (int shift = -1; shift <= 1; ++shift)
+      cost[k + kRowReach] =
+          std::min(cost[k + kRowReach],
+                   windowCost(left, right, point.u_px, point.v_px, point.u_px - disparity + shift,
+                              point.v_px + row_offset + k));
+  const auto best = std::min_element(cost.begin(), cost.end());
+  if (best == cost.begin() || best == cost.end() - 1) return {};
+  const double curvature = best[-1] - 2 * best[0] + best[1];
+  if (curvature < kLeastCurvature) return {};
+  const double row = row_offset + static_cast<double>(best - cost.begin()) - kRowReach +
+                     0.5 * (best[-1] - best[1]) / curvature;
+  return RowMatch{static_cast<double>(point.u_px - disparity), point.v_px + row, row};
+}
+
+/// Many matches in their own row: rows farther off needn't be tried.
+bool isWellAligned(const std::vector<RowMatch>& matches) {
+  if (matches.size() < kMany) return false;
+  double sum = 0;
+  for (const RowMatch& m : matches) sum += std::abs(m.difference_px);
+  return sum < RowAlignment::kRemoveAbovePx * static_cast<double>(matches.size());
+}
+
+}  // namespace
+
+RowMeter::RowMeter(const GrayImage& left, int disparity_max_px, const Mask& ignored)
+    : margin_px_(disparity_max_px),
+      left_(fillMasked(left, ignored), ElasOptions{}.gradient_gain, disparity_max_px, ignored) {
+  options_.disparity_max_px = disparity_max_px;
+  options_.elas.support_step_px = kGridPx;
+  options_.elas.support_redundant_cells = 0;
+}
+
+RowAlignment RowMeter::scale() const {
+  RowAlignment scale;
+  scale.half_width_px = left_.width_px() / 2.0;
+  scale.centre_u_px = (left_.width_px() - 1) / 2.0;
+  scale.centre_v_px = (left_.height_px() - 1) / 2.0;
+  return scale;
+}
+
+std::vector<RowMatch> RowMeter::match(const GrayImage& right_image, const Mask& ignored) {
+  const GradientImage right(fillMasked(right_image, ignored), ElasOptions{}.gradient_gain,
+                            margin_px_, ignored);
+  const auto matches = matchRows(right, 0);
+  if (isWellAligned(matches)) return matches;
+  // True rows give the most matches, but for those that a roll moves further.
+  std::map<int, std::vector<RowMatch>> found{{0, matches}};
+  int best = 0;
+  for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
+    for (const int signed_offset : {-offset, offset}) {
+      found[signed_offset] = matchRows(right, signed_offset);
+      if (found[signed_offset].size() > found[best].size()) best = signed_offset;
+    }
+    if (offset >= std::abs(best) + 2 * kCoarseOffset && found[best].size() >= kMany) break;
+  }
+  std::vector<RowMatch> nearest = found[best];
+  for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset})
+    nearest.insert(nearest.end(), found[neighbour].begin(), found[neighbour].end());
+  return nearest;
+}
+
+std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_offset) {
+  const auto points = findSupportPoints(left_, right, options_, row_offset);
+  const int top = kReach + kRowReach, bottom = left_.height_px() - top;
+  std::vector<RowMatch> matches;
+  std::vector<float> disparities_px;
+  for (const SupportPoint& p : points) {
+    disparities_px.push_back(p.disparity_px);
+    if (p.v_px + row_offset < top || p.v_px + row_offset >= bottom) continue;
+    if (const auto match = matchRow(left_.view(), right.view(), p, row_offset))
+      matches.push_back(*match);
+  }
+  // What comes next is seen in the same range; wrong rows have no range.
+  if (disparities_px.size() >= kMany) options_ = narrowedTo(disparities_px, options_);
+  return matches;
+}
+
+}  // namespace softscope

@@ -1,0 +1,115 @@
+#include "stereo/rectification/row_model.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/median.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kMismatchPx = 1;       // from the model: the match counts no longer
+constexpr int kColumns = 8, kRows = 6;  // of the grid in which matches are counted
+constexpr double kEmptyWeight = 1;      // of no difference, in a cell without matches
+
+using Terms = Eigen::Matrix<double, 6, 1>;
+
+Terms termsAt(const RowAlignment& scale, double u, double v) {
+  const double x = (u - scale.centre_u_px) / scale.half_width_px;
+  const double y = (v - scale.centre_v_px) / scale.half_width_px;
+  return (Terms() << 1, x, y, x * x, x * y, y * y).finished();
+}
+
+struct RowEquations {
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Terms rhs = Terms::Zero();
+
+  void add(const Terms& terms, double difference_px, double weight) {
+    normal += weight * terms * terms.transpose();
+    rhs += weight * difference_px * terms;
+  }
+};
+
+/// How many matches lie in each cell of a grid.
+class CellCounts {
+ public:
+  explicit CellCounts(const RowAlignment& scale)
+      : width_px_(2 * scale.centre_u_px + 1), height_px_(2 * scale.centre_v_px + 1) {}
+
+  void add(const RowMatch& match, double weight) {
+    const int c =
+        std::clamp(static_cast<int>(match.u_right_px * kColumns / width_px_), 0, kColumns - 1);
+    const int r = std::clamp(static_cast<int>(match.v_right_px * kRows / height_px_), 0, kRows - 1);
+    weight_[r][c] += weight;
+  }
+
+  /// Where nothing was matched rows stay as they are, rather than follow the curvature of others.
+  void addEmptyCells(const RowAlignment& scale, RowEquations& equations) const {
+    for (int r = 0; r < kRows; ++r)
+      for (int c = 0; c < kColumns; ++c)
+        if (weight_[r][c] < 1)
+          equations.add(
+              termsAt(scale, (c + 0.5) * width_px_ / kColumns, (r + 0.5) * height_px_ / kRows), 0,
+              kEmptyWeight);
+  }
+
+ private:
+  double width_px_, height_px_;
+  double weight_[kRows][kColumns] = {};
+};
+
+std::vector<double> residualsOf(const std::vector<RowMatch>& matches,
+                                const RowAlignment& alignment) {
+  std::vector<double> residuals;
+  for (const RowMatch& m : matches)
+    residuals.push_back(m.difference_px - alignment.at(m.u_right_px, m.v_right_px));
+  return residuals;
+}
+
+double medianAbsolute(std::vector<double> values) {
+  for (double& x : values) x = std::abs(x);
+  return medianOf(std::move(values));
+}
+
+std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlignment& alignment) {
+  const std::vector<double> residuals = residualsOf(matches, alignment);
+  const double limit = std::max(0.4, 4.685 * 1.4826 * medianAbsolute(residuals));
+  RowEquations equations;
+  CellCounts cells(alignment);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double t = residuals[i] / limit, w = std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;
+    equations.add(termsAt(alignment, matches[i].u_right_px, matches[i].v_right_px),
+                  matches[i].difference_px, w);
+    cells.add(matches[i], w);
+  }
+  cells.addEmptyCells(alignment, equations);
+  // Few matches must not bend the picture: slopes cost a little, curvature more.
+  equations.normal.diagonal() += (Terms() << 0.1, 2, 2, 8, 8, 8).finished();
+  const Terms solved = equations.normal.ldlt().solve(equations.rhs);
+  std::array<double, 6> model;
+  std::copy_n(solved.data(), 6, model.begin());
+  return model;
+}
+
+}  // namespace
+
+RowAlignment fitRowModel(const std::vector<RowMatch>& matches, RowAlignment alignment) {
+  constexpr int kRounds = 8;
+  if (matches.size() < RowAlignment::kFewestMatches) return alignment;
+  for (int round = 0; round < kRounds; ++round) alignment.model = refit(matches, alignment);
+  const std::vector<double> residuals = residualsOf(matches, alignment);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (std::abs(residuals[i]) > kMismatchPx) continue;
+    ++alignment.matches;
+    alignment.residual_px += std::abs(residuals[i]);
+    alignment.mean_row_difference_px += std::abs(matches[i].difference_px);
+  }
+  if (alignment.matches == 0) return alignment;
+  alignment.residual_px /= alignment.matches;
+  alignment.mean_row_difference_px /= alignment.matches;
+  return alignment;
+}
+
+}  // namespace softscope

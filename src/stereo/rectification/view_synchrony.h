@@ -1,0 +1,44 @@
+// src/stereo/rectification/view_synchrony.h: do both views of a clip show the same moments?
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/image.h"
+#include "stereo/rectification/row_meter.h"
+
+namespace softscope {
+
+/// Which right picture shows the moment of a left one.
+struct ViewSynchrony {
+  int right_offset = 0;    // right picture f + right_offset belongs to left picture f
+  int agreeing = 0;        // matches whose rows agree with those of all moments, so paired
+  int agreeing_as_is = 0;  // … and paired by equal numbers
+};
+
+/// Two videos may have been started or cut a few pictures apart; then whatever moves sideways has
+/// a wrong depth, and whatever moves up or down differs in its rows. Of one moment, row
+/// differences are the same in every frame: what the calibration leaves. So the offset sought is
+/// the one at which most matches of many moments agree on one row model (docs/stereo.md).
+class SynchronyMeter {
+ public:
+  static constexpr int kReach = 2;  // offsets -kReach … kReach are tried
+  static constexpr int kOffsets = 2 * kReach + 1;
+
+  explicit SynchronyMeter(int disparity_max_px) : disparity_max_px_(disparity_max_px) {}
+
+  /// One moment, rectified: rights[k] is right picture f + k - kReach of left picture f.
+  void add(const GrayImage& left, const std::array<GrayImage, kOffsets>& rights);
+
+  /// Offset 0 unless another one is clearly better: a clip that stands still says nothing.
+  ViewSynchrony result() const;
+
+ private:
+  int agreeingAt(int offset) const;
+
+  int disparity_max_px_;
+  std::array<std::vector<RowMatch>, kOffsets> matches_;
+  RowAlignment scale_;
+};
+
+}  // namespace softscope

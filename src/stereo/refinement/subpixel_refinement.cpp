@@ -1,0 +1,254 @@
+#include "stereo/refinement/subpixel_refinement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/parallel.h"
+#include "stereo/kernels/kernel_sets.h"
+#include "stereo/refinement/depth_steps.h"
+#include "stereo/refinement/plane.h"
+#include "stereo/refinement/refinement_window.h"
+
+namespace softscope {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr int kBandRows = 80;  // solved by one thread at a time
+
+/// What all bands share: the pictures, the window, and how to weigh.
+struct RefinementContext {
+  RefinementContext(const GrayImage& left_image, const GrayImage& right_image,
+                    const RefinementOptions& refinement)
+      : options(refinement),
+        width(left_image.width_px),
+        height(left_image.height_px),
+        left(splitBrightness(left_image, refinement.highpass_sigma_px)),
+        right(splitBrightness(right_image, refinement.highpass_sigma_px)),
+        window(refinementWindow(refinement)),
+        residual_limits(residualLimits(refinement)),
+        limits(planeLimits(refinement)) {}
+
+  RefinementOptions options;
+  int width, height;
+  BrightnessParts left, right;
+  RefinementWindow window;
+  ResidualLimits residual_limits;
+  PlaneLimits limits;
+};
+
+/// A band of rows, solved from top to bottom. Only the rows that a window needs are held, so that
+/// they stay in the cache.
+class Band {
+ public:
+  /// What a step starts from and gives.
+  struct Step {
+    const LightDifference& light;
+    const Plane& disparity;
+    Plane& next;
+    Plane* sigma;                 // null but in the last step, which is a whole one and is judged
+    Raster<std::uint8_t>& mixed;  // windows that may hold two surfaces; after the first step: do
+    bool first;                   // mixed windows, slow to solve, wait for the next step
+  };
+
+  Band(const RefinementContext& context, const Step& step)
+      : context_(context),
+        radius_(context.options.radius_px),
+        width_(context.width),
+        light_(step.light),
+        disparity_(step.disparity),
+        next_(step.next),
+        sigma_(step.sigma),
+        mixed_(step.mixed),
+        first_(step.first),
+        pixels_(step.sigma == nullptr ? kTarget + 1 : kPixelPlanes, Plane(width_, height(), 0, 0)),
+        columns_(width_, kColumnMomentCount, 0, 0),
+        moments_(width_, kMomentCount, 0, 0) {}
+
+  void solve(int begin, int end) {
+    for (int v = begin - radius_; v < end + radius_; ++v) {
+      linearise(v);
+      if (v - radius_ >= begin) solveRow(v - radius_);
+    }
+  }
+
+ private:
+  enum { kInformation, kTarget, kResidualSq, kWeight, kDifferenceSq, kEnergy, kPixelPlanes };
+  using RowsOfWindow = std::array<const float*, 2 * RefinementOptions::kLargestRadiusPx + 1>;
+
+  int height() const { return 2 * radius_ + 1; }
+  int slot(int v) const { return (v + height()) % height(); }
+
+  /// Residual and gradient of every pixel of a row at its present disparity.
+  void linearise(int v) {
+    const auto pixel = [&](int plane) {
+      return sigma_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
+    };
+    refinementKernels().residualRow(
+        {context_.left.fast.row(v), context_.right.fast.row(v), context_.left.slow.row(v),
+         context_.right.slow.row(v), lightOfRow(light_, v, width_, context_.height),
+         disparity_.row(v), width_, context_.residual_limits, pixel(kInformation), pixel(kTarget),
+         pixel(kResidualSq), pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
+  }
+
+  /// Sums over the windows of a row, then the plane of each pixel.
+  void solveRow(int v) {
+    MomentRow moments;
+    for (int k = 0; k < kMomentCount; ++k) moments.sums[k] = moments_.row(k);
+    sumWindows(v, moments);
+    selectWindows(v, moments);
+    const PlaneLimits& limits = context_.limits;
+    const PlaneRow row{moments,
+                       disparity_.row(v),
+                       width_,
+                       limits.farthest_step_px,
+                       limits.prior_weight,
+                       limits.noise_floor_sq,
+                       limits.independent_pixels,
+                       limits.model_variance_px2,
+                       limits.max_variance_px2,
+                       limits.max_difference,
+                       sigma_ != nullptr ? 1.0f : static_cast<float>(context_.options.relaxation),
+                       next_.row(v),
+                       sigma_ != nullptr ? sigma_->row(v) : nullptr};
+    refinementKernels().solvePlanes(row);
+    if (holdsMixed())
+      for (const int u : near_) next_.row(v)[u] = disparity_.row(v)[u];
+    if (sigma_ != nullptr) refinementKernels().judgePlanes(row);
+  }
+
+  /// The rows of one plane in the window around row v.
+  RowsOfWindow rowsAround(int plane, int v) const {
+    RowsOfWindow rows{};
+    for (int y = 0; y < height(); ++y)
+      rows[static_cast<std::size_t>(y)] = pixels_[plane].row(slot(v - radius_ + y));
+    return rows;
+  }
+
+  void sumWindows(int v, const MomentRow& moments) {
+    const float* window = context_.window.weights.data();
+    const RefinementKernels& kernels = refinementKernels();
+    float* columns[kColumnMomentCount];
+    for (int k = 0; k < kColumnMomentCount; ++k) columns[k] = columns_.row(k);
+    kernels.columnMoments(rowsAround(kInformation, v).data(), rowsAround(kTarget, v).data(), window,
+                          radius_, width_, columns);
+    kernels.rowMoments(columns, window, radius_, width_, moments);
+    for (int plane = kResidualSq; plane < kPixelPlanes && sigma_ != nullptr; ++plane) {
+      kernels.sumRows(rowsAround(plane, v).data(), window, height(), width_, columns[0]);
+      RowsOfWindow shifted{};
+      for (int x = 0; x < height(); ++x)
+        shifted[static_cast<std::size_t>(x)] = columns[0] + x - radius_;
+      kernels.sumRows(shifted.data(), window, height(), width_,
+                      moments.sums[kFirstEvidence + plane - kResidualSq]);
+    }
+  }
+
+  bool holdsMixed() const { return first_ && sigma_ == nullptr; }
+
+  /// Lists the mixed windows of a row and, unless they wait, sums the pixels of their own surface.
+  void selectWindows(int v, const MomentRow& moments) {
+    listNear(v);
+    if (near_.empty()) return;
+    std::array<RowsOfWindow, kPixelPlanes> rows;
+    for (std::size_t plane = 0; plane < pixels_.size(); ++plane)
+      rows[plane] = rowsAround(static_cast<int>(plane), v);
+    RowsOfWindow disparity{};
+    for (int y = 0; y < height(); ++y)
+      disparity[static_cast<std::size_t>(y)] = disparity_.row(v - radius_ + y);
+    SelectedRows selected{disparity.data(),
+                          rows[kInformation].data(),
+                          rows[kTarget].data(),
+                          {},
+                          context_.window.selection.data(),
+                          context_.window.tolerance.data(),
+                          false,
+                          radius_};
+    for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
+      selected.evidence[m] = rows[static_cast<std::size_t>(kResidualSq + m)].data();
+    if (first_) {
+      refinementKernels().markMixed(selected, near_.data(), static_cast<int>(near_.size()),
+                                    mixed_.row(v));
+      listNear(v);
+    }
+    if (!holdsMixed())
+      refinementKernels().selectedMoments(selected, near_.data(), static_cast<int>(near_.size()),
+                                          moments);
+  }
+
+  void listNear(int v) {
+    const std::uint8_t* mixed = mixed_.row(v);
+    near_.clear();
+    for (int u = 0; u < width_; ++u)
+      if (mixed[u] != 0 && !std::isnan(disparity_.row(v)[u])) near_.push_back(u);
+  }
+
+  const RefinementContext& context_;
+  int radius_, width_;
+  LightDifference light_;
+  const Plane& disparity_;
+  Plane& next_;
+  Plane* sigma_;
+  Raster<std::uint8_t>& mixed_;
+  bool first_;
+  std::vector<Plane> pixels_;
+  Plane columns_, moments_;
+  std::vector<int> near_;  // columns of a row whose window may reach across a step
+};
+
+/// Margins stay NaN: unmatched.
+Plane planeOf(const Raster<float>& raster) {
+  Plane plane(raster.width_px, raster.height_px, kNaN);
+  parallelRows(raster.height_px,
+               [&](int v) { std::copy_n(raster.row(v), raster.width_px, plane.row(v)); });
+  return plane;
+}
+
+Raster<float> rasterOf(const Plane& plane, int width, int height) {
+  Raster<float> raster(width, height);
+  parallelRows(height, [&](int v) { std::copy_n(plane.row(v), width, raster.row(v)); });
+  return raster;
+}
+
+/// One round of reweighting.
+LightDifference fitLight(const RefinementContext& context, const Plane& disparity,
+                         const LightDifference& light, double tolerance_gray) {
+  const int count = LightFit::samplesAlong(context.height);
+  std::vector<LightSums> rows(static_cast<std::size_t>(count));
+  parallelRows(count, [&](int i) {
+    const int v = LightFit::place(i);
+    for (int part = 0; part < LightFit::kParts; ++part)
+      rows[static_cast<std::size_t>(i)].add(
+          lightSumsOfPart(context.left.slow.row(v), context.right.slow.row(v), disparity.row(v), v,
+                          part, context.width, context.height, light, tolerance_gray));
+  });
+  LightSums sums;
+  for (const LightSums& row : rows) sums.add(row);
+  return solveLight(sums);
+}
+
+}  // namespace
+
+DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
+                             const Raster<float>& initial_px, const RefinementOptions& options) {
+  const RefinementContext context(left, right, options);
+  Raster<std::uint8_t> mixed = nearDepthSteps(
+      initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
+  const int width = left.width_px, height = left.height_px;
+  Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
+  LightDifference light;
+  for (int i = 0; i < options.iterations; ++i) {
+    const bool last = i + 1 == options.iterations;
+    for (int round = 0; round < LightFit::rounds(i); ++round)
+      light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
+    parallelRanges(height, kBandRows, [&](int begin, int end) {
+      Band(context, {light, disparity, next, last ? &sigma : nullptr, mixed, i == 0})
+          .solve(begin, end);
+    });
+    std::swap(disparity, next);
+  }
+  return {rasterOf(disparity, width, height), rasterOf(sigma, width, height)};
+}
+
+}  // namespace softscope

@@ -1,0 +1,17 @@
+// src/stereo/refinement/subpixel_refinement.h: from whole pixels to hundredths.
+#pragma once
+
+#include "core/depth_map.h"
+#include "core/image.h"
+#include "stereo/options/stereo_options.h"
+
+namespace softscope {
+
+/// Fits, around every pixel, the plane d(x, y) = D + a x + b y that best explains the brightness of
+/// the window: each pixel's residual is linearised at its own disparity, so the window follows the
+/// surface (docs/stereo.md §4). Returns refined disparities with their predicted standard error;
+/// pixels whose error exceeds max_sigma_px become NaN. `initial_px`: NaN = unmatched, stays so.
+DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
+                             const Raster<float>& initial_px, const RefinementOptions& options);
+
+}  // namespace softscope
