@@ -1,5 +1,5 @@
 # One target per folder. Headers are included by their path from the source root:
-#   src/core/camera.h is "core/camera.h", eval/statistics.h is "eval/statistics.h".
+#   src/core/camera.h is "core/camera.h", eval/motion/revisit.h is "eval/motion/revisit.h".
 get_filename_component(SOFTSCOPE_ROOT ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 include(${CMAKE_CURRENT_LIST_DIR}/SoftscopeFlags.cmake)
 

@@ -18,8 +18,8 @@
 
 #include "bench/embree_distance.h"
 #include "core/parallel.h"
+#include "eval/distance/triangle_tree.h"
 #include "eval/made_shapes.h"
-#include "eval/triangle_tree.h"
 #include "mesh/mesh_reader.h"
 #include "support/data_folder.h"
 

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "core/error.h"
+#include "eval/alignment/rigid_alignment.h"
 #include "eval/made_shapes.h"
-#include "eval/rigid_alignment.h"
-#include "eval/surface_alignment.h"
+#include "eval/surfaces/surface_alignment.h"
 
 namespace softscope {
 namespace {

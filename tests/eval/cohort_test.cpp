@@ -1,4 +1,4 @@
-#include "eval/cohort.h"
+#include "eval/statistics/cohort.h"
 
 #include <gtest/gtest.h>
 

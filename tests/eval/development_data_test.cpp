@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "eval/brute_force.h"
+#include "eval/distance/triangle_tree.h"
 #include "eval/made_shapes.h"
-#include "eval/surface_alignment.h"
-#include "eval/triangle_tree.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "mesh/mesh_reader.h"
 #include "support/data_folder.h"
 

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "core/error.h"
-#include "eval/depth_errors.h"
-#include "eval/disparity_errors.h"
-#include "eval/pixel_masks.h"
-#include "eval/region_points.h"
+#include "eval/images/depth_errors.h"
+#include "eval/images/disparity_errors.h"
+#include "eval/images/pixel_masks.h"
+#include "eval/surfaces/region_points.h"
 
 namespace softscope {
 namespace {

@@ -1,5 +1,5 @@
 // tests/eval/model_errors_test.cpp: planes before a camera, where every number is known.
-#include "eval/model_errors.h"
+#include "eval/surfaces/model_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "core/error.h"
-#include "eval/error_pool.h"
+#include "eval/distance/point_tree.h"
 #include "eval/made_shapes.h"
-#include "eval/point_tree.h"
+#include "eval/surfaces/error_pool.h"
 
 namespace softscope {
 namespace {

@@ -1,5 +1,5 @@
 // tests/eval/observed_split_test.cpp: open patches, where every vertex's part is known by counting.
-#include "eval/observed_split.h"
+#include "eval/surfaces/observed_split.h"
 
 #include <gtest/gtest.h>
 

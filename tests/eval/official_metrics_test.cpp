@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "eval/box_tracking.h"
-#include "eval/depth_errors.h"
-#include "eval/picture_errors.h"
-#include "eval/rigid_alignment.h"
-#include "eval/tracking_scores.h"
-#include "eval/trajectory_errors.h"
+#include "eval/alignment/rigid_alignment.h"
+#include "eval/images/depth_errors.h"
+#include "eval/images/picture_errors.h"
+#include "eval/motion/box_tracking.h"
+#include "eval/motion/tracking_scores.h"
+#include "eval/motion/trajectory_errors.h"
 
 namespace softscope {
 namespace {

@@ -1,5 +1,5 @@
 // tests/eval/picture_errors_test.cpp: pictures whose likeness has a closed form.
-#include "eval/picture_errors.h"
+#include "eval/images/picture_errors.h"
 
 #include <gtest/gtest.h>
 

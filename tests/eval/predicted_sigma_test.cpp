@@ -1,5 +1,5 @@
 // tests/eval/predicted_sigma_test.cpp: errors whose standard deviation is known.
-#include "eval/predicted_sigma.h"
+#include "eval/images/predicted_sigma.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // tests/eval/revisit_test.cpp: a scope that goes away and comes back, by hand.
-#include "eval/revisit.h"
+#include "eval/motion/revisit.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "eval/error_series.h"
-#include "eval/hausdorff.h"
-#include "eval/histogram.h"
+#include "eval/statistics/error_series.h"
+#include "eval/statistics/histogram.h"
+#include "eval/surfaces/hausdorff.h"
 
 namespace softscope {
 namespace {

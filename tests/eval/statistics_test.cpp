@@ -1,5 +1,5 @@
 // tests/eval/statistics_test.cpp: numbers worked out by hand or by numpy.
-#include "eval/statistics.h"
+#include "eval/statistics/statistics.h"
 
 #include <gtest/gtest.h>
 

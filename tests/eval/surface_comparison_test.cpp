@@ -1,14 +1,14 @@
 // tests/eval/surface_comparison_test.cpp: spheres, shifted planes and landmarks by closed formulas.
-#include "eval/surface_comparison.h"
+#include "eval/surfaces/surface_comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/landmark_errors.h"
+#include "eval/alignment/landmark_errors.h"
 #include "eval/made_shapes.h"
-#include "eval/weighted_statistics.h"
+#include "eval/statistics/weighted_statistics.h"
 
 namespace softscope {
 namespace {

@@ -1,5 +1,5 @@
 // tests/eval/track_errors_test.cpp: three points, by hand.
-#include "eval/track_errors.h"
+#include "eval/motion/track_errors.h"
 
 #include <gtest/gtest.h>
 

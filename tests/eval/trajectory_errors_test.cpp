@@ -1,5 +1,5 @@
 // tests/eval/trajectory_errors_test.cpp: paths whose errors are known in closed form.
-#include "eval/trajectory_errors.h"
+#include "eval/motion/trajectory_errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // tests/eval/triangle_tree_test.cpp: closest points, their side, and what has no side.
-#include "eval/triangle_tree.h"
+#include "eval/distance/triangle_tree.h"
 
 #include <gtest/gtest.h>
 

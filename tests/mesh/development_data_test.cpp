@@ -5,8 +5,8 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cmath>
 
-#include "eval/statistics.h"
-#include "eval/triangle_tree.h"
+#include "eval/distance/triangle_tree.h"
+#include "eval/statistics/statistics.h"
 #include "io/calibrations/calibration_reader.h"
 #include "io/geometry/depth_files.h"
 #include "mesh/mesh_check.h"

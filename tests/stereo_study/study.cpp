@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "eval/pixel_masks.h"
-#include "eval/triangle_tree.h"
+#include "eval/distance/triangle_tree.h"
+#include "eval/images/pixel_masks.h"
 #include "io/calibrations/calibration_reader.h"
 #include "io/geometry/depth_files.h"
 #include "io/images/image_reader.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "eval/depth_errors.h"
-#include "eval/disparity_errors.h"
-#include "eval/surface_alignment.h"
+#include "eval/images/depth_errors.h"
+#include "eval/images/disparity_errors.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "stereo/rectification/row_alignment.h"
 
 namespace softscope::test {

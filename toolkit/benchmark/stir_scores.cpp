@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "eval/cohort.h"
+#include "eval/statistics/cohort.h"
 
 namespace softscope {
 namespace {

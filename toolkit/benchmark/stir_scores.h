@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/tracking_scores.h"
+#include "eval/motion/tracking_scores.h"
 #include "toolkit/record/fact_sheet.h"
 
 namespace softscope {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/observed_split.h"
-#include "eval/surface_comparison.h"
+#include "eval/surfaces/observed_split.h"
+#include "eval/surfaces/surface_comparison.h"
 #include "toolkit/comparison/surface_fit.h"
 #include "toolkit/record/fact_sheet.h"
 

@@ -2,7 +2,7 @@
 #include "toolkit/comparison/surface_fit.h"
 
 #include "core/error.h"
-#include "eval/surface_errors.h"
+#include "eval/surfaces/surface_errors.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/record/statistics_json.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
-#include "eval/landmark_errors.h"
-#include "eval/surface_alignment.h"
+#include "eval/alignment/landmark_errors.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "toolkit/record/fact_sheet.h"
 
 namespace softscope {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "eval/depth_errors.h"
-#include "eval/disparity_errors.h"
-#include "eval/predicted_sigma.h"
+#include "eval/images/depth_errors.h"
+#include "eval/images/disparity_errors.h"
+#include "eval/images/predicted_sigma.h"
 #include "toolkit/progress.h"
 #include "toolkit/record/fact_sheet.h"
 

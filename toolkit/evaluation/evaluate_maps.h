@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
-#include "eval/model_errors.h"
+#include "eval/surfaces/model_errors.h"
 #include "mesh/coarse_mesh.h"
 #include "vtk_views/files/error_map.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "eval/histogram.h"
+#include "eval/statistics/histogram.h"
 
 namespace softscope {
 namespace {

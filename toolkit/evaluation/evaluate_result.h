@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "eval/revisit.h"
-#include "eval/track_errors.h"
-#include "eval/trajectory_errors.h"
+#include "eval/motion/revisit.h"
+#include "eval/motion/track_errors.h"
+#include "eval/motion/trajectory_errors.h"
 #include "toolkit/evaluation/evaluate_series.h"
 
 namespace softscope {

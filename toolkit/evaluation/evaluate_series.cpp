@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "eval/error_series.h"
+#include "eval/statistics/error_series.h"
 #include "io/text/message.h"
 #include "mesh/mesh_reader.h"
 #include "toolkit/evaluation/evaluate_depth.h"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
-#include "eval/error_pool.h"
-#include "eval/model_errors.h"
-#include "eval/surface_alignment.h"
+#include "eval/surfaces/error_pool.h"
+#include "eval/surfaces/model_errors.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "toolkit/evaluation/evaluate_maps.h"
 #include "toolkit/evaluation/evaluate_view.h"
 #include "toolkit/run/run_reader.h"

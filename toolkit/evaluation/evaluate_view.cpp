@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/pixel_masks.h"
+#include "eval/images/pixel_masks.h"
 #include "features/model_view.h"
 #include "io/calibrations/calibration_reader.h"
 #include "io/files/folder.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "eval/depth_errors.h"
-#include "eval/picture_errors.h"
+#include "eval/images/depth_errors.h"
+#include "eval/images/picture_errors.h"
 #include "io/sequences/frame_loader.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/run/model_file.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
-#include "eval/model_errors.h"
+#include "eval/surfaces/model_errors.h"
 #include "toolkit/evaluation/surface_error_map.h"
 #include "toolkit/run/run_reader.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/statistics.h"
+#include "eval/statistics/statistics.h"
 #include "toolkit/record/statistics_json.h"
 #include "vtk_views/drawing/nice_ticks.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/triangle_tree.h"
+#include "eval/distance/triangle_tree.h"
 #include "toolkit/record/fact_sheet.h"
 #include "vtk_views/scenes/panel_grid.h"
 

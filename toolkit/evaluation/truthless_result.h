@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/picture_errors.h"
-#include "eval/statistics.h"
+#include "eval/images/picture_errors.h"
+#include "eval/statistics/statistics.h"
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/run/run_reader.h"
 #include "vtk_views/drawing/vector_drawing.h"

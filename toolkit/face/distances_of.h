@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "eval/statistics.h"
+#include "eval/statistics/statistics.h"
 #include "softscope/evaluate.h"
 #include "toolkit/evaluation/thresholds.h"
 #include "toolkit/record/fact_sheet.h"

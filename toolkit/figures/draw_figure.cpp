@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "eval/triangle_tree.h"
+#include "eval/distance/triangle_tree.h"
 #include "io/text/message.h"
 #include "toolkit/figures/figure_kinds.h"
 #include "toolkit/figures/figure_matches.h"

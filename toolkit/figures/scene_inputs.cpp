@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "eval/surface_alignment.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "io/files/file_hash.h"
 #include "io/text/message.h"
 #include "mesh/mesh_check.h"

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "eval/statistics.h"
-#include "eval/surface_alignment.h"
+#include "eval/statistics/statistics.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "toolkit/record/fact_sheet.h"
 
 namespace softscope {

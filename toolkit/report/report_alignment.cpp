@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "eval/cohort.h"
+#include "eval/statistics/cohort.h"
 #include "toolkit/report/report_words.h"
 
 namespace softscope {

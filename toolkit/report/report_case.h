@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "eval/statistics.h"
+#include "eval/statistics/statistics.h"
 #include "toolkit/record/fact_sheet.h"
 #include "vtk_views/files/error_map.h"
 

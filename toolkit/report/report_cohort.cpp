@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eval/cohort.h"
+#include "eval/statistics/cohort.h"
 #include "toolkit/report/report_words.h"
 #include "vtk_views/plots/agreement_plot.h"
 

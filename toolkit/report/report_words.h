@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/cohort.h"
+#include "eval/statistics/cohort.h"
 #include "toolkit/report/report_case.h"
 #include "vtk_views/report/report_page.h"
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "eval/statistics.h"
+#include "eval/statistics/statistics.h"
 #include "io/files/file_hash.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/setting_json.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "eval/track_errors.h"
+#include "eval/motion/track_errors.h"
 #include "pipeline/frame_record.h"
 
 namespace softscope {

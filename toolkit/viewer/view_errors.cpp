@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/statistics.h"
-#include "eval/surface_alignment.h"
+#include "eval/statistics/statistics.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "io/files/file_bytes.h"
 #include "io/files/folder.h"
 #include "io/text/message.h"

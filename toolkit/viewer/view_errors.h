@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "eval/triangle_tree.h"
+#include "eval/distance/triangle_tree.h"
 #include "toolkit/evaluation/surface_error_map.h"
 #include "toolkit/run/run_reader.h"
 #include "vtk_views/viewer/view_source.h"

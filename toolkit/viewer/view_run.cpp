@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "eval/surface_alignment.h"
+#include "eval/surfaces/surface_alignment.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"

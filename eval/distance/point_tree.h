@@ -1,0 +1,25 @@
+// eval/distance/point_tree.h: how far the nearest of many points is.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "eval/distance/triangle_tree.h"
+
+namespace softscope {
+
+/// Exact: the triangle tree's search, with points in the place of triangles.
+class PointTree {
+ public:
+  /// Copies the points, mm. Throws InputError if there is none, or one is not finite or beyond 1
+  /// km.
+  explicit PointTree(const std::vector<Eigen::Vector3f>& points_mm);
+
+  /// Distance of each query from its nearest point, mm; NaN for a query that is not finite.
+  std::vector<double> distances_mm(const std::vector<Eigen::Vector3f>& queries_mm) const;
+
+ private:
+  TriangleTree tree_;
+};
+
+}  // namespace softscope

@@ -1,0 +1,40 @@
+// eval/images/disparity_errors.h: how far a disparity map is from the truth.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/image.h"
+#include "core/raster.h"
+#include "core/stereo_rig.h"
+#include "eval/statistics/statistics.h"
+
+namespace softscope {
+
+struct DisparityErrorOptions {
+  std::vector<double> bad_thresholds_px = {1, 2, 3};
+
+  /// Throws OptionError: the field, its value, the rule it breaks.
+  void validate() const;
+};
+
+/// Over measured pixels whose truth is known and that the mask does not ignore.
+struct DisparityErrors {
+  Statistics absolute_px;           // |measured - truth|
+  Statistics signed_px;             // measured - truth: positive = measured too near
+  std::vector<double> bad_percent;  // share of absolute errors > bad_thresholds_px[i]
+  /// Measured share of the pixels that have a match inside the right picture (u - truth within it)
+  /// and that the mask does not ignore; NaN where there are none.
+  double coverage_percent = Statistics::kNone;
+  std::size_t matchable_count = 0;  // what coverage_percent is a share of
+};
+
+/// NaN = unmeasured, or unknown truth. `ignore` is empty or of the maps' size.
+/// Throws InputError where sizes differ, OptionError for a negative threshold.
+DisparityErrors disparityErrors(const Raster<float>& measured_px, const Raster<float>& truth_px,
+                                const DisparityErrorOptions& options = {}, const Mask& ignore = {});
+
+/// Disparity of every known depth; NaN elsewhere.
+Raster<float> disparityFromDepth(const Raster<float>& depth_mm, const RectifiedRig& rig);
+
+}  // namespace softscope
