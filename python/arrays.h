@@ -6,6 +6,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "softscope/softscope.h"
 
 namespace softscope::python {
@@ -33,8 +35,9 @@ py::array_t<Value> arrayOver(const std::vector<Value>& values, std::vector<py::s
   return py::array_t<Value>(std::move(shape), values.data(), owner);
 }
 
-inline py::object arrayOf(const api::Image& image, const py::object& owner) {
-  if (image.values.empty()) return py::none();
+inline std::optional<py::array_t<std::uint8_t>> arrayOf(const api::Image& image,
+                                                        const py::object& owner) {
+  if (image.values.empty()) return std::nullopt;
   std::vector<py::ssize_t> shape{image.height_px, image.width_px};
   if (image.channels > 1) shape.push_back(image.channels);
   return arrayOver(image.values, shape, owner);
@@ -61,18 +64,42 @@ inline api::FrameView frameOf(const Bytes& left, const Bytes& right,
 }
 
 /// True, 3 and "sgbm" as a settings file writes them.
-inline std::map<std::string, std::string> settingTexts(const py::dict& settings) {
+inline std::string settingText(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  return py::str(value);
+}
+
+/// "stereo.method" of the keyword stereo_method. One that no setting has keeps its first word, so
+/// that the library's own error can name the nearest key.
+inline std::string keyOf(const std::string& keyword,
+                         const std::vector<api::SettingDescription>& known) {
+  for (const api::SettingDescription& setting : known) {
+    std::string as_keyword = setting.key;
+    std::replace(as_keyword.begin(), as_keyword.end(), '.', '_');
+    if (as_keyword == keyword) return setting.key;
+  }
+  std::string key = keyword;
+  if (const std::size_t end = key.find('_'); end != std::string::npos) key[end] = '.';
+  return key;
+}
+
+/// Settings by key and by keyword together.
+inline std::map<std::string, std::string> settingTexts(
+    const py::dict& settings, const py::kwargs& keywords,
+    const std::vector<api::SettingDescription>& known) {
   std::map<std::string, std::string> texts;
-  for (const auto& [key, value] : settings) {
-    const bool is_bool = py::isinstance<py::bool_>(value);
-    texts[py::str(key)] = is_bool ? (value.cast<bool>() ? "true" : "false") : py::str(value);
+  for (const auto& [key, value] : settings) texts[py::str(key)] = settingText(value);
+  for (const auto& [keyword, value] : keywords) {
+    const std::string key = keyOf(py::str(keyword), known);
+    if (!texts.emplace(key, settingText(value)).second)
+      throw OptionError(key + ": given in settings and as a keyword; give it once");
   }
   return texts;
 }
 
-inline api::Options optionsOf(const py::dict& settings) {
+inline api::Options optionsOf(const std::map<std::string, std::string>& texts) {
   api::Options options;
-  for (const auto& [key, value] : settingTexts(settings)) options.set(key, value);
+  for (const auto& [key, value] : texts) options.set(key, value);
   return options;
 }
 

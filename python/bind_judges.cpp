@@ -103,16 +103,18 @@ void bindSimulation(py::module_& module) {
   module.def(
       "simulate",
       [](const std::string& folder, const py::dict& settings, int width_px, int height_px,
-         bool overwrite, const std::optional<py::function>& progress) {
-        const api::SimulationRequest request{settingTexts(settings), width_px, height_px, overwrite,
-                                             progressOf(progress)};
+         bool overwrite, const std::optional<py::function>& progress, const py::kwargs& keywords) {
+        const api::SimulationRequest request{
+            settingTexts(settings, keywords, api::simulationSettings()), width_px, height_px,
+            overwrite, progressOf(progress)};
         const py::gil_scoped_release released;
         return api::simulate(folder, request);
       },
       "folder"_a, "settings"_a = py::dict(), "width_px"_a = 640, "height_px"_a = 480,
       "overwrite"_a = false, "progress"_a = py::none(),
-      "A stereo sequence with ground truth. settings: keys of a scenario, e.g. {'frames': 40, "
-      "'seed': 3}.");
+      "A stereo sequence with ground truth. Keys of a scenario as keywords, frames=40, "
+      "push_amplitude_mm=3, or as settings={'push.amplitude_mm': 3}; settings('simulate') lists "
+      "them.");
 }
 
 }  // namespace softscope::python

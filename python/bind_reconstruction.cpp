@@ -13,6 +13,13 @@ api::FrameReport process(api::Reconstructor& self, const Bytes& left, const Byte
   return self.process(frame);
 }
 
+std::vector<api::SettingDescription> settingsOf(const std::string& command) {
+  if (command == "reconstruct") return api::reconstructionSettings();
+  if (command == "depth") return api::depthSettings();
+  if (command == "simulate") return api::simulationSettings();
+  throw OptionError("command is `" + command + "`, but must be reconstruct, depth or simulate");
+}
+
 }  // namespace
 
 void bindRuns(py::module_& module) {
@@ -82,13 +89,14 @@ void bindReconstructor(py::module_& module) {
   py::class_<api::Reconstructor>(module, "Reconstructor",
                                  "Stereo frames to a live, deforming model.")
       .def(py::init([](const api::Calibration& calibration, const py::dict& settings,
-                       const std::string& backend) {
-             return std::make_unique<api::Reconstructor>(calibration, optionsOf(settings), backend);
+                       const std::string& backend, const py::kwargs& keywords) {
+             const auto texts = settingTexts(settings, keywords, api::reconstructionSettings());
+             return std::make_unique<api::Reconstructor>(calibration, optionsOf(texts), backend);
            }),
            "calibration"_a, "settings"_a = py::dict(), "backend"_a = "auto",
-           "backend: auto, cpu or cuda; settings: what differs from the defaults, e.g. "
-           "{'stereo.method': 'sgbm'}; settings() "
-           "lists the keys.")
+           "backend: auto, cpu or cuda. What differs from the defaults: by keyword, "
+           "stereo_method='sgbm', or by key, settings={'stereo.method': 'sgbm'}; settings() lists "
+           "the keys.")
       .def("record_to", &api::Reconstructor::recordTo, "folder"_a, "save_every"_a = 10,
            "overwrite"_a = false, "Before the first frame: writes a run folder meanwhile.")
       .def("process", &process, "left"_a, "right"_a, "mask"_a = py::none(),
@@ -101,14 +109,16 @@ void bindReconstructor(py::module_& module) {
 
   module.def(
       "settings",
-      [] {
+      [](const std::string& command) {
         py::dict all;
-        for (const api::SettingDescription& s : api::reconstructionSettings())
+        for (const api::SettingDescription& s : settingsOf(command))
           all[py::str(s.key)] = py::dict("type"_a = s.type, "unit"_a = s.unit, "range"_a = s.range,
                                          "default"_a = s.default_text, "meaning"_a = s.meaning);
         return all;
       },
-      "Every setting of a reconstruction by its key.");
+      "command"_a = "reconstruct",
+      "Every setting by its key; command: reconstruct (of Reconstructor), depth (of "
+      "DepthEstimator) or simulate.");
 }
 
 }  // namespace softscope::python

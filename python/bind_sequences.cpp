@@ -92,12 +92,12 @@ void bindDepth(py::module_& module) {
       .def_readonly("method", &api::Depth::method);
   py::class_<api::DepthEstimator>(module, "DepthEstimator", "One stereo pair to depth.")
       .def(py::init([](const api::Calibration& calibration, const py::dict& settings,
-                       const std::string& backend) {
-             return std::make_unique<api::DepthEstimator>(calibration, optionsOf(settings),
-                                                          backend);
+                       const std::string& backend, const py::kwargs& keywords) {
+             const auto texts = settingTexts(settings, keywords, api::depthSettings());
+             return std::make_unique<api::DepthEstimator>(calibration, optionsOf(texts), backend);
            }),
            "calibration"_a, "settings"_a = py::dict(), "backend"_a = "cpu",
-           "settings: keys stereo.* and depth.*.")
+           "Settings as for Reconstructor, of settings('depth').")
       .def("measure", &measure, "left"_a, "right"_a, "mask"_a = py::none(),
            "Images as for Reconstructor.process().");
 }

@@ -1,4 +1,4 @@
-// include/softscope/options.h: settings of a reconstruction, by name.
+// include/softscope/options.h: settings by name.
 #pragma once
 
 #include <map>
@@ -14,8 +14,10 @@ struct SettingDescription {
   std::string key, type, unit, range, default_text, meaning;
 };
 
-/// Every setting of a reconstruction.
+/// Every setting of Reconstructor, of DepthEstimator, of simulate().
 std::vector<SettingDescription> reconstructionSettings();
+std::vector<SettingDescription> depthSettings();
+std::vector<SettingDescription> simulationSettings();
 
 /// What differs from the defaults: key to value, as `--set key=value` takes them.
 class Options {

@@ -115,6 +115,18 @@ class Reconstructs(Clip):
         report = reconstructor.process(self.frames[0].left, self.frames[0].right)
         self.assertNotEqual(report.points, self.reports[0].points)
 
+    def test_settings_are_keywords_too(self):
+        self.assertIn("push.amplitude_mm", softscope.settings("simulate"))
+        pair = self.frames[0].left, self.frames[0].right
+        points = [softscope.Reconstructor(self.calibration, **given).process(*pair).points
+                  for given in ({"settings": {"stereo.method": "sgbm"}}, {"stereo_method": "sgbm"})]
+        self.assertEqual(points[0], points[1])
+        self.assertNotEqual(points[0], self.reports[0].points)
+        depth = softscope.DepthEstimator(self.calibration, stereo_method="sgbm").measure(*pair)
+        self.assertEqual(depth.method, "sgbm")
+        made = softscope.simulate(str(self.root / "two"), frames=2, width_px=64, height_px=48)
+        self.assertEqual(made.frames, 2)
+
     def test_a_grey_image_stands_for_three_equal_channels(self):
         grey = [np.ascontiguousarray(image[:, :, 1])
                 for image in (self.frames[0].left, self.frames[0].right)]
@@ -144,6 +156,11 @@ class Refuses(Clip):
             softscope.Run(str(self.root / "none"))
         with self.assertRaisesRegex(softscope.OptionError, "stereo.method"):
             softscope.Reconstructor(self.calibration, {"stereo.methd": "sgbm"})
+        with self.assertRaisesRegex(softscope.OptionError, "stereo.method"):
+            softscope.Reconstructor(self.calibration, stereo_methd="sgbm")
+        with self.assertRaisesRegex(softscope.OptionError, "once"):
+            softscope.Reconstructor(self.calibration, {"stereo.method": "sgbm"},
+                                    stereo_method="sgbm")
         with self.assertRaisesRegex(softscope.OptionError, "rigid"):
             softscope.evaluate(self.made, self.clip, align="somehow")
         with self.assertRaises(softscope.OptionError):

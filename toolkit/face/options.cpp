@@ -3,6 +3,7 @@
 
 #include "io/settings/settings.h"
 #include "toolkit/face/run_options_of.h"
+#include "toolkit/simulation/simulate_options.h"
 
 namespace softscope::api {
 
@@ -16,6 +17,15 @@ Made filled(const Options& options) {
   settingsOf(made).apply(settings);
   made.validate();
   return made;
+}
+
+template <class Described>
+std::vector<SettingDescription> listed() {
+  Described options;
+  std::vector<SettingDescription> all;
+  for (const SettingInfo& s : settingsOf(options).list())
+    all.push_back({s.key, s.type, s.unit, s.range, s.default_text, s.help});
+  return all;
 }
 
 }  // namespace
@@ -33,12 +43,8 @@ Options& Options::set(const std::string& key, const std::string& value) {
   return *this;
 }
 
-std::vector<SettingDescription> reconstructionSettings() {
-  RunOptions options;
-  std::vector<SettingDescription> all;
-  for (const SettingInfo& s : settingsOf(options).list())
-    all.push_back({s.key, s.type, s.unit, s.range, s.default_text, s.help});
-  return all;
-}
+std::vector<SettingDescription> reconstructionSettings() { return listed<RunOptions>(); }
+std::vector<SettingDescription> depthSettings() { return listed<DepthOptions>(); }
+std::vector<SettingDescription> simulationSettings() { return listed<SimulateOptions>(); }
 
 }  // namespace softscope::api
