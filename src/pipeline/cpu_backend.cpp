@@ -10,7 +10,6 @@
 #include "deform/graph_builder.h"
 #include "deform/surface_target.h"
 #include "deform/warp.h"
-#include "features/matcher.h"
 #include "fusion/model_update.h"
 #include "fusion/visibility.h"
 #include "pipeline/depth_ahead.h"
@@ -38,7 +37,7 @@ class CpuBackend : public ReconstructionBackend {
         device_(parts.device),
         depth_ahead_from_threads_(parts.depth_ahead_from_threads),
         depth_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo)),
-        matcher_(parts.makeMatcher(options.matcher, rig())),
+        matching_(parts.makeMatching(options, rig())),
         solver_(makeDeformSolver(options.deform)) {
     options.validate();
   }
@@ -71,7 +70,7 @@ class CpuBackend : public ReconstructionBackend {
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
   void scaleTo(const DepthSummary& summary);
-  MatchPicture pictureOf(const ModelView& view) const;
+  GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
                            bool maybe_static);
@@ -85,7 +84,7 @@ class CpuBackend : public ReconstructionBackend {
   std::string name_, device_;
   int depth_ahead_from_threads_;
   DepthAhead depth_;
-  std::unique_ptr<FeatureMatcher> matcher_;
+  std::unique_ptr<MatchStage> matching_;
   std::unique_ptr<DeformSolver> solver_;
 
   ModelState state_;
@@ -158,13 +157,12 @@ void CpuBackend::scaleTo(const DepthSummary& summary) {
     if (*sigma_mm > 0) *sigma_mm = std::max(*sigma_mm, summary.median_sigma_mm);
 }
 
-/// What is searched for: the model as drawn, or, for comparison, what the scope saw from there.
-MatchPicture CpuBackend::pictureOf(const ModelView& view) const {
-  MatchPicture picture = modelPicture(view);
+/// The last image, where it is kept and was seen from there: for comparison it is matched in place
+/// of the drawn model. Else empty.
+GrayImage CpuBackend::seenFrom(const Eigen::Isometry3d& world_from_left) const {
   const LastPicture& last = state_.last;
-  const bool from_there = view.world_from_left.matrix() == last.world_from_left.matrix();
-  if (from_there && !last.left.empty()) picture = {toGray(last.left), picture.ignore};
-  return picture;
+  const bool from_there = world_from_left.matrix() == last.world_from_left.matrix();
+  return from_there && !last.left.empty() ? toGray(last.left) : GrayImage();
 }
 
 LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
@@ -184,11 +182,9 @@ RigidPose CpuBackend::relocalise(const std::vector<Eigen::Isometry3d>& viewpoint
 }
 
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
-  const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
-  clock_.lap("view");
-  ModelMatches found = matchModel(view, pictureOf(view), live_, measured_, *matcher_);
+  ModelMatches found =
+      matching_->match(state_.model, viewed_from, seenFrom(viewed_from), live_, measured_, &clock_);
   matches_ = std::move(found.lifted);
-  clock_.lap("match");
   return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
 }
 
