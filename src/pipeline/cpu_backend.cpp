@@ -7,12 +7,12 @@
 #include "core/error.h"
 #include "core/median.h"
 #include "core/parallel.h"
-#include "deform/graph_builder.h"
 #include "deform/surface_target.h"
 #include "deform/warp.h"
 #include "fusion/model_update.h"
 #include "fusion/visibility.h"
 #include "pipeline/depth_ahead.h"
+#include "pipeline/graph_ahead.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/relocaliser.h"
 #include "pose/ransac_pose.h"
@@ -35,7 +35,7 @@ class CpuBackend : public ReconstructionBackend {
       : options_(options),
         name_(parts.name),
         device_(parts.device),
-        depth_ahead_from_threads_(parts.depth_ahead_from_threads),
+        ahead_from_threads_(parts.ahead_from_threads),
         depth_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo)),
         matching_(parts.makeMatching(options, rig())),
         solver_(makeDeformSolver(options.deform)) {
@@ -47,10 +47,13 @@ class CpuBackend : public ReconstructionBackend {
   const RectifiedRig& rig() const override { return depth_.depth().rig(); }
   bool empty() const override { return state_.model.empty(); }
   ModelState state() const override { return state_; }
-  void restore(ModelState state) override { state_ = std::move(state); }
+  void restore(ModelState state) override {
+    growth_.drop();
+    state_ = std::move(state);
+  }
 
   void prepare(const Frame& next) override {
-    if (threadCount() >= depth_ahead_from_threads_) depth_.prepare(next);
+    if (worksAhead()) depth_.prepare(next);
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
@@ -66,6 +69,7 @@ class CpuBackend : public ReconstructionBackend {
 
  private:
   const PinholeCamera& left() const { return rig().left; }
+  bool worksAhead() const { return threadCount() >= ahead_from_threads_; }
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
@@ -82,13 +86,14 @@ class CpuBackend : public ReconstructionBackend {
 
   ReconstructionOptions options_;
   std::string name_, device_;
-  int depth_ahead_from_threads_;
+  int ahead_from_threads_;
   DepthAhead depth_;
   std::unique_ptr<MatchStage> matching_;
   std::unique_ptr<DeformSolver> solver_;
 
   ModelState state_;
   std::vector<TrackSeed> seeds_;
+  GraphAhead growth_;  // of the model and the graph as fuse() left them; ends before they do
 
   // As it was before acceptWarp(); empty where nothing was warped.
   struct Unwarped {
@@ -268,7 +273,7 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
 }
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
-  growGraph(options_.graph, &state_.model, &state_.graph);
+  growth_.grow(options_.graph, &state_.model, &state_.graph);
   state_.tracked.anchor(state_.model);
   clock_.lap("graph");
   const std::vector<std::int32_t> visible =
@@ -304,6 +309,7 @@ EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
 }
 
 void CpuBackend::rejectWarp() {
+  growth_.drop();
   if (!before_.positions_mm.empty()) {
     state_.model.positions_mm = std::move(before_.positions_mm);
     state_.model.normals = std::move(before_.normals);
@@ -315,11 +321,13 @@ void CpuBackend::rejectWarp() {
 }
 
 void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
+  growth_.drop();
   const Observation observation = observe(world_from_left);
   if (empty()) seedTracks(world_from_left);
   before_ = {};
   const ModelUpdateSummary update =
       updateModel(observation, states_, state_.graph, fusion_, &state_.memory, &state_.model);
+  if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph);
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {measured_.left, world_from_left};
   state_.tracked.renumber(update.index_map, state_.model);

@@ -17,9 +17,10 @@ struct BackendParts {
   std::string name = "cpu", device = "processor";
   StereoStageFactory makeStereo = makeCpuStereoStage;
   MatchStageFactory makeMatching = makeCpuMatchStage;
-  /// From so many threads on, the next frame's depth is measured beside the stages of this one. On
-  /// two, the processor's own stereo and those stages only take turns (docs/benchmarks.md).
-  int depth_ahead_from_threads = 3;
+  /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
+  /// the graph grows beside the stages up to the warp. On two, the processor's own stereo and those
+  /// stages only take turns (docs/benchmarks.md).
+  int ahead_from_threads = 3;
 };
 
 /// Same input, same bytes, whatever the number of threads.

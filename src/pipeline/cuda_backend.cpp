@@ -101,7 +101,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.name = "cuda";
   parts.makeStereo = makeCudaStereoStage;
   parts.makeMatching = makeCudaMatchStage;
-  parts.depth_ahead_from_threads = 2;
+  parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;
   return makeCpuBackend(calibration, options, parts);
