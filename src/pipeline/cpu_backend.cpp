@@ -7,25 +7,19 @@
 #include "core/error.h"
 #include "core/median.h"
 #include "core/parallel.h"
-#include "deform/graph_builder.h"
 #include "deform/surface_target.h"
 #include "deform/warp.h"
-#include "features/matcher.h"
 #include "fusion/model_update.h"
 #include "fusion/visibility.h"
-#include "pipeline/depth_ahead.h"
+#include "pipeline/frame_ahead.h"
+#include "pipeline/graph_ahead.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/relocaliser.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
-#include "stereo/matching/stage_clock.h"
 
 namespace softscope {
 namespace {
-
-/// Depth per pixel of disparity, z² / (f b), up to which limits in mm hold as they are: there the
-/// largest sigma of a new point, 0.5 mm, is twice the 0.1 px that stereo errs by.
-constexpr double kNearMmPerPx = 2.5;
 
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
@@ -36,22 +30,26 @@ class CpuBackend : public ReconstructionBackend {
       : options_(options),
         name_(parts.name),
         device_(parts.device),
-        depth_ahead_from_threads_(parts.depth_ahead_from_threads),
-        depth_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo)),
-        matcher_(parts.makeMatcher(options.matcher, rig())),
+        ahead_from_threads_(parts.ahead_from_threads),
+        frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo),
+                options),
+        matching_(parts.makeMatching(options, rig())),
         solver_(makeDeformSolver(options.deform)) {
     options.validate();
   }
 
   std::string name() const override { return name_; }
   std::string device() const override { return device_; }
-  const RectifiedRig& rig() const override { return depth_.depth().rig(); }
+  const RectifiedRig& rig() const override { return frames_.depth().rig(); }
   bool empty() const override { return state_.model.empty(); }
   ModelState state() const override { return state_; }
-  void restore(ModelState state) override { state_ = std::move(state); }
+  void restore(ModelState state) override {
+    growth_.drop();
+    state_ = std::move(state);
+  }
 
   void prepare(const Frame& next) override {
-    if (threadCount() >= depth_ahead_from_threads_) depth_.prepare(next);
+    if (worksAhead()) frames_.prepare(next);
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
@@ -67,11 +65,11 @@ class CpuBackend : public ReconstructionBackend {
 
  private:
   const PinholeCamera& left() const { return rig().left; }
+  bool worksAhead() const { return threadCount() >= ahead_from_threads_; }
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
   DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
                               const SurfaceTarget& surface, const std::vector<int>& visible) const;
-  void scaleTo(const DepthSummary& summary);
-  MatchPicture pictureOf(const ModelView& view) const;
+  GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
                            bool maybe_static);
@@ -83,13 +81,14 @@ class CpuBackend : public ReconstructionBackend {
 
   ReconstructionOptions options_;
   std::string name_, device_;
-  int depth_ahead_from_threads_;
-  DepthAhead depth_;
-  std::unique_ptr<FeatureMatcher> matcher_;
+  int ahead_from_threads_;
+  FrameAhead frames_;
+  std::unique_ptr<MatchStage> matching_;
   std::unique_ptr<DeformSolver> solver_;
 
   ModelState state_;
   std::vector<TrackSeed> seeds_;
+  GraphAhead growth_;  // of the model and the graph as fuse() left them; ends before they do
 
   // As it was before acceptWarp(); empty where nothing was warped.
   struct Unwarped {
@@ -99,13 +98,7 @@ class CpuBackend : public ReconstructionBackend {
   } before_;
 
   // Of the frame at hand.
-  MeasuredFrame measured_;
-  AssociationOptions association_;  // scaled to its depths
-  FusionOptions fusion_;
-  RansacOptions pose_options_;
-  Mask not_tissue_;
-  Raster<PixelState> states_;
-  MatchPicture live_;
+  FrameView frame_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
   FusionSummary fused_;
@@ -116,55 +109,16 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   clock_ = StageClock();
   matches_.clear();
   pose_ = RigidPose();
-  measured_ = depth_.measure(frame);
-  clock_.lap("depth");
-  not_tissue_ = notTissue(measured_, options_.tissue);
-  live_ = livePicture(measured_, not_tissue_);
-  DepthSummary summary;
-  std::vector<float> sigmas, depths_mm;
-  for (std::size_t i = 0; i < not_tissue_.size(); ++i) {
-    if (not_tissue_.values[i] != 0) continue;
-    ++summary.tissue_px;
-    if (!std::isfinite(measured_.depth.depth_mm.values[i])) continue;
-    ++summary.measured_px;
-    depths_mm.push_back(measured_.depth.depth_mm.values[i]);
-    if (!measured_.depth.sigma_mm.empty()) sigmas.push_back(measured_.depth.sigma_mm.values[i]);
-  }
-  summary.median_sigma_mm = medianOf(std::move(sigmas));
-  const double depth_mm = medianOf(std::move(depths_mm));
-  const double mm_per_px = depth_mm * depth_mm / (left().fx_px * rig().baseline_mm);
-  if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
-  scaleTo(summary);
-  // How sure a pixel is does not depend on where the camera stands.
-  states_ = judgePixels(observe(Eigen::Isometry3d::Identity()), fusion_.pixels);
-  if (measured_.rows.known()) summary.row_difference_px = measured_.rows.mean_row_difference_px;
-  clock_.lap("mask");
-  return summary;
+  frame_ = frames_.measure(frame, &clock_);
+  return frame_.summary;
 }
 
-/// Weights compare a depth with the typical one of its frame: where all depths are worse, because
-/// the tissue is far or the images are poor, they still pull the model together. Limits in mm are
-/// those of near tissue and grow with what a pixel of disparity is worth.
-void CpuBackend::scaleTo(const DepthSummary& summary) {
-  association_ = options_.deform.association;
-  fusion_ = options_.fusion;
-  pose_options_ = options_.pose;
-  for (double* limit_mm : {&association_.max_distance_mm, &fusion_.visibility.max_distance_mm,
-                           &fusion_.insertion.band_mm, &fusion_.insertion.max_sigma_mm,
-                           &fusion_.pixels.max_sigma_mm, &pose_options_.threshold_mm})
-    *limit_mm *= summary.limit_scale;
-  if (!std::isfinite(summary.median_sigma_mm)) return;
-  for (double* sigma_mm : {&association_.reference_sigma_mm, &fusion_.points.reference_sigma_mm})
-    if (*sigma_mm > 0) *sigma_mm = std::max(*sigma_mm, summary.median_sigma_mm);
-}
-
-/// What is searched for: the model as drawn, or, for comparison, what the scope saw from there.
-MatchPicture CpuBackend::pictureOf(const ModelView& view) const {
-  MatchPicture picture = modelPicture(view);
+/// The last image, where it is kept and was seen from there: for comparison it is matched in place
+/// of the drawn model. Else empty.
+GrayImage CpuBackend::seenFrom(const Eigen::Isometry3d& world_from_left) const {
   const LastPicture& last = state_.last;
-  const bool from_there = view.world_from_left.matrix() == last.world_from_left.matrix();
-  if (from_there && !last.left.empty()) picture = {toGray(last.left), picture.ignore};
-  return picture;
+  const bool from_there = world_from_left.matrix() == last.world_from_left.matrix();
+  return from_there && !last.left.empty() ? toGray(last.left) : GrayImage();
 }
 
 LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
@@ -177,24 +131,22 @@ LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
 }
 
 RigidPose CpuBackend::relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) {
-  RigidPose pose = softscope::relocalise(state_.model, viewpoints, live_, measured_, left(),
-                                         options_.model_view, pose_options_);
+  RigidPose pose = softscope::relocalise(state_.model, viewpoints, frame_.live, frame_.measured,
+                                         left(), options_.model_view, frame_.pose);
   clock_.lap("match");
   return pose;
 }
 
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
-  const ModelView view = renderModelView(state_.model, left(), viewed_from, options_.model_view);
-  clock_.lap("view");
-  ModelMatches found = matchModel(view, pictureOf(view), live_, measured_, *matcher_);
+  ModelMatches found = matching_->match(state_.model, viewed_from, seenFrom(viewed_from),
+                                        frame_.live, frame_.measured, &clock_);
   matches_ = std::move(found.lifted);
-  clock_.lap("match");
   return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
 }
 
 PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
                                      const Eigen::Isometry3d& reference, bool maybe_static) {
-  pose_ = estimateRigidPose(posePairs(matches_), pose_options_);
+  pose_ = estimateRigidPose(posePairs(matches_), frame_.pose);
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;
@@ -239,7 +191,12 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
 }
 
 Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const {
-  return {measured_.depth, measured_.normals, measured_.left, not_tissue_, left(), world_from_left};
+  return {frame_.measured.depth,
+          frame_.measured.normals,
+          frame_.measured.left,
+          frame_.not_tissue,
+          left(),
+          world_from_left};
 }
 
 DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left,
@@ -249,7 +206,7 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
   seen.surface = &surface;
   seen.visible = &visible;
   if (!options_.use_correspondences) return seen;
-  const double reference_mm = association_.reference_sigma_mm;
+  const double reference_mm = frame_.association.reference_sigma_mm;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     const LiftedMatch& match = matches_[i];
     // Outliers are tissue that moves by itself, if the windows agree; else they are mistakes.
@@ -258,7 +215,7 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
     pull.model_point = match.model_point;
     pull.source_mm = match.source_world_mm;
     pull.target_mm = (world_from_left * match.target_left_mm.cast<double>()).cast<float>();
-    if ((pull.target_mm - pull.source_mm).norm() > association_.max_distance_mm) continue;
+    if ((pull.target_mm - pull.source_mm).norm() > frame_.association.max_distance_mm) continue;
     if (std::isfinite(match.along_mm) && reference_mm > 0) {
       const Eigen::Vector3f ray =
           (world_from_left.linear() * match.target_left_mm.cast<double>().normalized())
@@ -272,13 +229,14 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
 }
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
-  growGraph(options_.graph, &state_.model, &state_.graph);
+  growth_.grow(options_.graph, &state_.model, &state_.graph);
   state_.tracked.anchor(state_.model);
   clock_.lap("graph");
   const std::vector<std::int32_t> visible =
-      findVisible(state_.model, observe(world_from_left), states_, fusion_.visibility).seen();
-  const DepthTarget surface(measured_.depth, measured_.normals, left(), world_from_left.inverse(),
-                            association_);
+      findVisible(state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility)
+          .seen();
+  const DepthTarget surface(frame_.measured.depth, frame_.measured.normals, left(),
+                            world_from_left.inverse(), frame_.association);
   clock_.lap("visible");
   WarpSummary summary;
   summary.in_sight = static_cast<int>(visible.size());
@@ -301,13 +259,18 @@ void CpuBackend::acceptWarp(bool is_reference) {
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
   const DrawnPoints drawn(state_.model, posedCamera(left(), world_from_left));
-  const EvidenceSummary evidence{backProjectionError(drawn, observation, states_),
-                                 viewEvidence(drawn, observation, states_, fusion_.pixels)};
+  EvidenceSummary evidence;
+  parallelInvoke(
+      [&] { evidence.predicted = backProjectionError(drawn, observation, frame_.states); },
+      [&] {
+        evidence.view = viewEvidence(drawn, observation, frame_.states, frame_.fusion.pixels);
+      });
   clock_.lap("check");
   return evidence;
 }
 
 void CpuBackend::rejectWarp() {
+  growth_.drop();
   if (!before_.positions_mm.empty()) {
     state_.model.positions_mm = std::move(before_.positions_mm);
     state_.model.normals = std::move(before_.normals);
@@ -319,17 +282,23 @@ void CpuBackend::rejectWarp() {
 }
 
 void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
+  growth_.drop();
   const Observation observation = observe(world_from_left);
   if (empty()) seedTracks(world_from_left);
   before_ = {};
-  const ModelUpdateSummary update =
-      updateModel(observation, states_, state_.graph, fusion_, &state_.memory, &state_.model);
+  const ModelUpdateSummary update = updateModel(observation, frame_.states, state_.graph,
+                                                frame_.fusion, &state_.memory, &state_.model);
+  if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph);
   state_.exposure = update.points.gain;
-  if (options_.match_last_picture) state_.last = {measured_.left, world_from_left};
-  state_.tracked.renumber(update.index_map, state_.model);
-  state_.tracked.settle(state_.model);
+  if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
-  fused_.corrected = backProjectionError(state_.model, observation, states_);
+  // Neither needs the other.
+  parallelInvoke(
+      [&] {
+        state_.tracked.renumber(update.index_map, state_.model);
+        state_.tracked.settle(state_.model);
+      },
+      [&] { fused_.corrected = backProjectionError(state_.model, observation, frame_.states); });
   fused_.points = static_cast<int>(state_.model.size());
   fused_.seen = update.seen;
   fused_.fused = update.points.fused;
@@ -346,8 +315,8 @@ FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
 
 void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
   for (const TrackSeed& seed : seeds_)
-    state_.tracked.add(seed.id, depth_.depth().rectifier().rectifiedPixel({seed.u_px, seed.v_px}),
-                       left(), measured_.depth.depth_mm, world_from_left);
+    state_.tracked.add(seed.id, frames_.depth().rectifier().rectifiedPixel({seed.u_px, seed.v_px}),
+                       left(), frame_.measured.depth.depth_mm, world_from_left);
 }
 
 bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
@@ -355,8 +324,8 @@ bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
   const Eigen::Vector2d pixel = projectPoint(left(), point_left);
   const int u = static_cast<int>(std::lround(pixel.x())),
             v = static_cast<int>(std::lround(pixel.y()));
-  if (!not_tissue_.contains(u, v) || not_tissue_.at(u, v) != 0) return false;
-  const float depth_mm = measured_.depth.depth_mm.at(u, v);
+  if (!frame_.not_tissue.contains(u, v) || frame_.not_tissue.at(u, v) != 0) return false;
+  const float depth_mm = frame_.measured.depth.depth_mm.at(u, v);
   return !(point_left.z() - depth_mm > VisibilityOptions::kOcclusionMm);
 }
 

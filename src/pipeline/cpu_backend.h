@@ -1,32 +1,26 @@
 // src/pipeline/cpu_backend.h: every stage on the processor's cores.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "core/stereo_rig.h"
-#include "features/matcher.h"
+#include "pipeline/match_stage.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
 #include "pipeline/stereo_stage.h"
 
 namespace softscope {
 
-/// For images of the rig's size.
-using MatcherFactory =
-    std::function<std::unique_ptr<FeatureMatcher>(const MatcherOptions&, const RectifiedRig&)>;
-
 /// What takes the place of the processor's own stages, and how the whole is named.
 struct BackendParts {
   std::string name = "cpu", device = "processor";
   StereoStageFactory makeStereo = makeCpuStereoStage;
-  MatcherFactory makeMatcher = [](const MatcherOptions& options, const RectifiedRig&) {
-    return makeFeatureMatcher(options);
-  };
-  /// From so many threads on, the next frame's depth is measured beside the stages of this one. On
-  /// two, the processor's own stereo and those stages only take turns (docs/benchmarks.md).
-  int depth_ahead_from_threads = 3;
+  MatchStageFactory makeMatching = makeCpuMatchStage;
+  /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
+  /// the graph grows beside the stages up to the warp. On two, the processor's own stereo and those
+  /// stages only take turns (docs/benchmarks.md).
+  int ahead_from_threads = 3;
 };
 
 /// Same input, same bytes, whatever the number of threads.

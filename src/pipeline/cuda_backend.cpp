@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "cuda/device_info.h"
-#include "cuda/match.h"
+#include "cuda/locate.h"
 #include "cuda/stereo.h"
 #include "pipeline/cpu_backend.h"
 #include "stereo/matching/host_prior.h"
@@ -41,11 +41,51 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Mask& m
           clock.laps()};
 }
 
+class CudaMatchStage final : public MatchStage {
+ public:
+  CudaMatchStage(const ReconstructionOptions& options, const RectifiedRig& rig)
+      : matcher_(options.matcher), view_(options.model_view), left_(rig.left) {
+    reserve(static_cast<std::size_t>(left_.width_px) * static_cast<std::size_t>(left_.height_px) /
+            4);
+  }
+  ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+                     const GrayImage& seen_gray, const MatchPicture& live,
+                     const MeasuredFrame& frame, StageClock* clock) override;
+
+ private:
+  /// Memory of before is given back first, so that the old and the new never add up.
+  void reserve(std::size_t points) {
+    device_.reset();
+    device_ = std::make_unique<cuda::Locator>(left_, view_, matcher_, static_cast<int>(points));
+    capacity_ = points;
+  }
+
+  MatcherOptions matcher_;
+  ModelViewOptions view_;
+  PinholeCamera left_;
+  std::size_t capacity_ = 0;
+  std::unique_ptr<cuda::Locator> device_;
+};
+
+ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+                                   const GrayImage& seen_gray, const MatchPicture& live,
+                                   const MeasuredFrame& frame, StageClock* clock) {
+  // Twice the points at a time, so that a growing model seldom asks for memory.
+  if (model.size() > capacity_) reserve(2 * model.size());
+  device_->setModel(model);
+  device_->setLive(live, frame.depth);
+  device_->setSeenGray(seen_gray);
+  device_->locate(viewed_from);
+  cuda::LocatedMatches found = device_->download();
+  clock->lap("match");
+  return {std::move(found.pixels), std::move(found.lifted)};
+}
+
 /// Other methods have no kernels.
-std::unique_ptr<FeatureMatcher> makeCudaMatcher(const MatcherOptions& options,
-                                                const RectifiedRig& rig) {
-  if (options.method != "dense-surf") return makeFeatureMatcher(options);
-  return std::make_unique<cuda::Matcher>(options, rig.left.width_px, rig.left.height_px);
+std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& options,
+                                               const RectifiedRig& rig) {
+  if (options.matcher.method != "dense-surf") return makeCpuMatchStage(options, rig);
+  return std::make_unique<CudaMatchStage>(options, rig);
 }
 
 }  // namespace
@@ -60,8 +100,8 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   BackendParts parts;
   parts.name = "cuda";
   parts.makeStereo = makeCudaStereoStage;
-  parts.makeMatcher = makeCudaMatcher;
-  parts.depth_ahead_from_threads = 2;
+  parts.makeMatching = makeCudaMatchStage;
+  parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;
   return makeCpuBackend(calibration, options, parts);

@@ -1,5 +1,5 @@
-// src/pipeline/cuda_backend.h: stereo and matching on the GPU, every other stage on the processor's
-// cores.
+// src/pipeline/cuda_backend.h: stereo, model view and matching on the GPU, every other stage on
+// the processor's cores.
 #pragma once
 
 #include <memory>

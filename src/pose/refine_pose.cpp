@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/median.h"
+#include "core/parallel.h"
 #include "pose/pose_settings.h"
 
 namespace softscope {
@@ -119,8 +120,9 @@ class Pairs {
   /// The best end of the searches that begin at both poses.
   Eigen::Isometry3d search(const Eigen::Isometry3d& left_from_world,
                            const Eigen::Isometry3d& other_left_from_world) const {
-    const Eigen::Isometry3d one = searchFrom(left_from_world),
-                            other = searchFrom(other_left_from_world);
+    Eigen::Isometry3d one, other;
+    parallelInvoke([&] { one = searchFrom(left_from_world); },
+                   [&] { other = searchFrom(other_left_from_world); });
     return costAt(other) < costAt(one) ? other : one;
   }
 

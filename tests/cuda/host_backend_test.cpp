@@ -1,7 +1,8 @@
-// tests/cuda/host_backend_test.cpp: a reconstruction whose stereo is done by the GPU's kernels, run
-// on the host, gives the CPU's model.
+// tests/cuda/host_backend_test.cpp: a reconstruction whose stereo and matches come from the GPU's
+// kernels, run on the host, gives the CPU's model.
 #include <gtest/gtest.h>
 
+#include "host_locate.h"
 #include "host_stereo.h"
 #include "pipeline/cpu_backend.h"
 #include "tests/pipeline/short_clip.h"
@@ -9,9 +10,9 @@
 namespace softscope::test {
 namespace {
 
-class KernelsOnTheHost : public StereoStage {
+class StereoOnTheHost : public StereoStage {
  public:
-  KernelsOnTheHost(const StereoOptions& options, const RectifiedRig& rig)
+  StereoOnTheHost(const StereoOptions& options, const RectifiedRig& rig)
       : stereo_(options, rig.left.width_px, rig.left.height_px, 5), rig_(rig) {}
   std::string name() const override { return "elas"; }
   StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override {
@@ -33,6 +34,25 @@ class KernelsOnTheHost : public StereoStage {
   RectifiedRig rig_;
 };
 
+class MatchingOnTheHost : public MatchStage {
+ public:
+  MatchingOnTheHost(const ReconstructionOptions& options, const RectifiedRig& rig)
+      : options_(options), left_(rig.left) {}
+  ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+                     const GrayImage& seen_gray, const MatchPicture& live,
+                     const MeasuredFrame& frame, StageClock* clock) override {
+    cuda::LocatedMatches found =
+        locateOnTheHost(left_, options_.model_view, options_.matcher, model, viewed_from, seen_gray,
+                        live, frame.depth, 7);
+    clock->lap("match");
+    return {std::move(found.pixels), std::move(found.lifted)};
+  }
+
+ private:
+  ReconstructionOptions options_;
+  PinholeCamera left_;
+};
+
 std::string modelAfterThreeFrames(const BackendParts& parts) {
   const ShortClip& clip = shortClip();
   Reconstructor reconstructor(makeCpuBackend(clip.calibration, smallOptions(), parts),
@@ -52,7 +72,10 @@ TEST(HostBackend, KernelsGiveTheModelOfTheCpu) {
   BackendParts parts;
   parts.name = "cuda";
   parts.makeStereo = [](const StereoOptions& options, const RectifiedRig& rig) {
-    return std::make_unique<KernelsOnTheHost>(options, rig);
+    return std::make_unique<StereoOnTheHost>(options, rig);
+  };
+  parts.makeMatching = [](const ReconstructionOptions& options, const RectifiedRig& rig) {
+    return std::make_unique<MatchingOnTheHost>(options, rig);
   };
   EXPECT_TRUE(modelAfterThreeFrames(parts) == modelAfterThreeFrames({}));
 }

@@ -81,9 +81,9 @@ TEST_P(EveryBackend, GoesOnFromACheckpointOfTheCpuAndBack) {
 INSTANTIATE_TEST_SUITE_P(Built, EveryBackend, testing::ValuesIn(builtBackends()),
                          [](const auto& each) { return each.param; });
 
-TEST(DepthAhead, GivesTheSameModelInWhateverOrderFramesCome) {
+TEST(WorkingAhead, GivesTheSameModelInWhateverOrderFramesCome) {
   BackendParts parts;
-  parts.depth_ahead_from_threads = 1;
+  parts.ahead_from_threads = 1;
   Reconstructor ahead = reconstructorOf(parts);
   run(ahead, 0, 4);
   EXPECT_TRUE(modelOf(ahead) == modelOfTheCpu());
@@ -94,9 +94,9 @@ TEST(DepthAhead, GivesTheSameModelInWhateverOrderFramesCome) {
   EXPECT_TRUE(modelOf(mistaken) == modelOfTheCpu());
 }
 
-TEST(DepthAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
+TEST(WorkingAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
   BackendParts parts;
-  parts.depth_ahead_from_threads = 1;
+  parts.ahead_from_threads = 1;
   Reconstructor reconstructor = reconstructorOf(parts);
   const std::vector<Frame>& frames = shortClip().frames;
   Frame one_eyed = frames[1];
@@ -126,7 +126,7 @@ class FailingStage : public StereoStage {
 TEST(LostDevice, LeavesAModelWithWhichTheCpuGoesOn) {
   BackendParts parts;
   parts.name = "cuda";
-  parts.depth_ahead_from_threads = 1;
+  parts.ahead_from_threads = 1;
   parts.makeStereo = [](const StereoOptions& options, const RectifiedRig& rig) {
     return std::make_unique<FailingStage>(makeCpuStereoStage(options, rig));
   };

@@ -1,0 +1,30 @@
+// src/pipeline/graph_ahead.h: growth of the node graph beside stages that don't need it.
+#pragma once
+
+#include <future>
+
+#include "core/point_model.h"
+#include "core/warp_graph.h"
+#include "deform/deform_options.h"
+
+namespace softscope {
+
+/// growGraph() with at most one growth under way on a thread of its own. Same results.
+class GraphAhead {
+ public:
+  /// Begins, on copies. Model and graph must live and stay as they are until grow() or drop().
+  void prepare(const GraphOptions& options, const PointModel& model, const WarpGraph& graph);
+  /// Takes over what was begun for this model and graph, or grows them now.
+  void grow(const GraphOptions& options, PointModel* model, WarpGraph* graph);
+  /// Waits for what was begun and forgets it.
+  void drop();
+
+ private:
+  struct Grown {
+    PointModel model;
+    WarpGraph graph;
+  };
+  std::future<Grown> result_;
+};
+
+}  // namespace softscope

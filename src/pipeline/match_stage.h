@@ -1,0 +1,36 @@
+// src/pipeline/match_stage.h: from the model and a live image to matched points.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <memory>
+
+#include "core/point_model.h"
+#include "core/rectified_rig.h"
+#include "pipeline/model_matches.h"
+#include "pipeline/reconstruction_options.h"
+#include "stereo/matching/stage_clock.h"
+
+namespace softscope {
+
+/// Stages 2 and 3 of a frame: model view, matches, lifted matches. May run on another device.
+/// Every implementation gives the same bytes.
+class MatchStage {
+ public:
+  virtual ~MatchStage() = default;
+  /// Draws the model from `viewed_from` and finds it in `live`, the image of the measured frame.
+  /// `seen_gray`: the image that the scope saw from there, matched in place of the drawn one;
+  /// empty: the drawn one. Laps `view` and `match`, or `match` alone for both.
+  virtual ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+                             const GrayImage& seen_gray, const MatchPicture& live,
+                             const MeasuredFrame& frame, StageClock* clock) = 0;
+};
+
+using MatchStageFactory =
+    std::function<std::unique_ptr<MatchStage>(const ReconstructionOptions&, const RectifiedRig&)>;
+
+/// On the processor's cores. Throws OptionError.
+std::unique_ptr<MatchStage> makeCpuMatchStage(const ReconstructionOptions& options,
+                                              const RectifiedRig& rig);
+
+}  // namespace softscope
