@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 SIZE = (12, 10, 8)  # voxels
+DRAWN_WEIGHT = 0.05  # a drawing in 3-D takes as long as fifty other runs
 SPACING_MM = (2.0, 2.5, 3.0)
 ORIGIN_MM = (-12.0, -10.0, -9.0)
 
@@ -21,6 +22,14 @@ class Form:
     commands: list  # words; the first command is drawn half of the time
     weight: float = 1.0
     shared: list = field(default_factory=list)  # other folders that a command needs, undamaged
+    listed: list = field(default_factory=list, repr=False)
+
+    def files(self, home):
+        """What is damaged, by its path within `home`; listed once."""
+        if not self.listed:
+            self.listed = sorted(file.relative_to(home) for pattern in self.damage
+                                 for file in home.glob(pattern) if file.is_file())
+        return self.listed
 
 
 def voxels():
@@ -312,6 +321,7 @@ def mesh_form(folder, file):
 def forms(video):
     depth = ["--set", "stereo.disparity_max_px=63", "--out", "o", "--quiet"]
     run_files = ["run/*.*", "run/models/*", "run/nodes/*"]
+    evaluation_files = ["ev/*.json", "ev/*.csv", "ev/errors/*", "ev/*.pvd"]
     all_forms = [
         volume_form("mha", "v.mha", ["v.mha"]), volume_form("mhaz", "v.mha", ["v.mha"]),
         volume_form("mhd", "v.mhd", ["v.mhd", "v.raw"]), volume_form("nrrd", "v.nrrd", ["v.nrrd"]),
@@ -347,17 +357,20 @@ def forms(video):
         Form("run", "case", run_files, [
             ["evaluate", "run", "--reference", "clip", "--json", "--quiet"],
             ["export", "run", "--out", "o.obj", "--quiet"],
-            ["figure", "run", "--reference", "clip", "--out", "o.svg", "--quiet"],
-            ["figure", "run", "--kind", "frames", "--out", "o.svg", "--quiet"],
-            ["view", "run", "--screenshot", "o.png", "--size", "320x240", "--quiet"]], weight=0.7),
+            ["figure", "run", "--kind", "frames", "--out", "o.svg", "--quiet"]], weight=0.7),
+        Form("run drawn", "case", run_files, [
+            ["view", "run", "--screenshot", "o.png", "--size", "320x240", "--quiet"],
+            ["figure", "run", "--reference", "clip", "--out", "o.svg", "--quiet"]],
+            weight=DRAWN_WEIGHT),
         Form("stopped run", "stopped", ["out/*.*", "out/models/*"], [
-            [*RECONSTRUCT, "--checkpoint-every", "1", "--resume"]], weight=0.5),
+            [*RECONSTRUCT, "--checkpoint-every", "1", "--resume"]], weight=0.3),
         Form("study record", "studied", ["out/cases/a/case.json", "study.toml"], [
             ["study", "study.toml", "--out", "out", "--table", "--quiet"]]),
-        Form("evaluation", "case", ["ev/*.json", "ev/*.csv", "ev/errors/*", "ev/*.pvd"], [
-            ["report", "ev", "--out", "o.html", "--quiet"],
+        Form("evaluation", "case", evaluation_files, [
+            ["report", "ev", "--out", "o.html", "--quiet"]], weight=0.5),
+        Form("evaluation drawn", "case", evaluation_files, [
             ["view", "run", "--evaluation", "ev", "--screenshot", "o.png", "--size", "320x240",
-             "--quiet"]], weight=0.5),
+             "--quiet"]], weight=DRAWN_WEIGHT),
         Form("landmarks", "marks", ["p.csv"], [
             ["compare", "--reference", "good/m.stl", "--test", "good/m.stl", "--landmarks", "p.csv",
              "--json", "--quiet"]], shared=["good"]),
