@@ -65,9 +65,9 @@ TEST_F(DamagedVolume, WithAbsurdGeometryNamesTheField) {
   const auto directions = [&](const std::string& value) {
     return replaced(nrrd, "(2,0,0) (0,2,0) (0,0,3)", value) + voxels;
   };
-  for (const char* value :
-       {"(nan,0,0) (0,2,0) (0,0,3)", "(2,0,0) (0,2,0) (0,0,3", "(2,0,0) (0,2,0)",
-        "(0,0,0) (0,2,0) (0,0,3)", "(2,0,0) (2,0,0) (0,0,3)", "(2,0,0) (0,2e9,0) (0,0,3)", "", "x"})
+  for (const char* value : {"(nan,0,0) (0,2,0) (0,0,3)", "(2,0,0) (0,2,0) (0,0,3",
+                            "(2,0,0) (0,2,0)", "(0,0,0) (0,2,0) (0,0,3)", "(2,0,0) (2,0,0) (0,0,3)",
+                            "(2,0,0) (0,0x2,0) (0,0,3)", "(2,0,0) (0,2e9,0) (0,0,3)", "", "x"})
     EXPECT_THAT(errorOf("d.nrrd", directions(value)), HasSubstr("space directions")) << value;
   EXPECT_THAT(errorOf("o.nrrd", replaced(nrrd, "(-20,-24", "(inf,-24") + voxels),
               HasSubstr("space origin"));
@@ -76,6 +76,10 @@ TEST_F(DamagedVolume, WithAbsurdGeometryNamesTheField) {
     EXPECT_THAT(errorOf("t.mha", replaced(mha, "1 0 0 0 1 0 0 0 1", value) + voxels),
                 HasSubstr("TransformMatrix"))
         << value;
+  EXPECT_THAT(
+      errorOf("s.mha",
+              replaced(mha, "ElementSpacing = 2 2 3", "ElementSpacing = 2 0x10 3") + voxels),
+      HasSubstr("ElementSpacing"));
   EXPECT_THAT(errorOf("o.mha", replaced(mha, "Offset = 0 0 0", "Offset = 0 0 inf") + voxels),
               HasSubstr("Offset"));
 }
