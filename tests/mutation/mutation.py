@@ -122,7 +122,6 @@ class Tally:
             self.of_form[trial.form.name] += 1
             self.slowest_ms = max(self.slowest_ms, outcome.cpu_ms)
             self.findings += [(trial, what) for what in found]
-
     def line(self):
         seconds = time.monotonic() - self.started
         return (f"{self.runs} runs in {seconds:.0f} s, {self.runs / seconds:.0f} per second; "
@@ -145,6 +144,31 @@ def repeat_line(options, trial):
     return shlex.join(words)
 
 
+def one_of_each_kind(found):
+    """A damaged length can make a hundred numbers absurd: the first tells."""
+    kinds = {}
+    for what in found:
+        kinds.setdefault(what.split(":")[0], what)
+    return list(kinds.values())
+
+
+def unsound_seeds(options, forms, root, folder):
+    """A line for each command that fails on an input without damage: it would judge nothing."""
+    server, wrong = Server(options.server), []
+    for form in forms:
+        place = Place(form, root, folder)
+        file = str(form.files(root / form.folder)[0])
+        for words in form.commands:
+            outcome = server.run([*words, "--threads", "1"], folder, seconds=options.hang_seconds)
+            found = judge(outcome, words, folder, 1000 * options.hang_seconds)
+            if outcome.code != form.sound_code or found:
+                wrong.append(f"{form.name}: softscope {' '.join(words)} ended with {outcome.code} "
+                             f"without damage: {outcome.err.strip()} {', '.join(found)}")
+            place.restore(file)
+    server.close()
+    return wrong
+
+
 def work(options, forms, root, folder, numbers, tally, deadline):
     server, places = Server(options.server), {}
     while time.monotonic() < deadline:
@@ -157,6 +181,7 @@ def work(options, forms, root, folder, numbers, tally, deadline):
         if name not in places:
             places[name] = Place(trial.form, root, folder / name.replace(" ", "_"))
         outcome, found = trial.run(server, places[name], options.hang_seconds)
+        found = one_of_each_kind(found)
         found += [f"input written: {file}" for file in places[name].restore(str(trial.file))]
         tally.add(trial, outcome, found)
         for what in found:
@@ -208,6 +233,8 @@ def options_of(words):
     parser.add_argument("--hang-seconds", type=int, default=20,
                         help="of processor time; more under sanitizers")
     parser.add_argument("--form", help="damages this form alone")
+    parser.add_argument("--check-seeds", action="store_true",
+                        help="runs each command once, without damage")
     parser.add_argument("--only", type=int, help="repeats one run, keeps its folder")
     return parser.parse_args(words)
 
@@ -225,6 +252,10 @@ def main(words):
             forms = [form for form in forms if form.name == options.form]
         if options.only is not None:
             return run_one(options, forms, root)
+        if options.check_seeds:
+            wrong = unsound_seeds(options, forms, root, Path(scratch, "sound"))
+            print("\n".join(wrong) or f"{len(forms)} forms: every command reads its seeds")
+            return 1 if wrong else 0
         return run_all(options, forms, root, Path(scratch))
 
 
