@@ -62,6 +62,13 @@ class Judge(unittest.TestCase):
         (self.folder / "o.obj").write_text("v 1 2 3\nv nan 0 0\n")
         self.assertIn("not finite", self.found(words=words, out="")[0])
 
+    def test_an_image_within_a_drawing_is_no_number(self):
+        words = ["slice", "v.mha", "--out", "o.svg"]
+        (self.folder / "o.svg").write_text('<image href="data:image/png;base64,ab/Nan+/=inf/"/>')
+        self.assertEqual(self.found(words=words, out=""), [])
+        (self.folder / "o.svg").write_text('<line x1="nan"/>')
+        self.assertIn("not finite", self.found(words=words, out="")[0])
+
 
 class Places(unittest.TestCase):
     """A folder is kept from run to run, as if it were made anew."""
