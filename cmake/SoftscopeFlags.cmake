@@ -12,9 +12,6 @@ target_compile_options(softscope_flags INTERFACE
 # Eigen and the standard library are on, and Eigen's unset numbers are NaN.
 if(SOFTSCOPE_SANITIZE)
   set(softscope_sanitizers -fsanitize=address,undefined -fno-sanitize=vptr)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    list(APPEND softscope_sanitizers -fsanitize=fuzzer-no-link)
-  endif()
   target_compile_options(softscope_flags INTERFACE
     ${softscope_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_compile_definitions(softscope_flags INTERFACE

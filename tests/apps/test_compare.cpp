@@ -165,12 +165,16 @@ TEST_F(Compare, BadInputEndsInOneLine) {
   write("hole.csv",
         "test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm\n"
         "0,0,,0,0,0\n0,0,1,0,0,0\n0,0,2,0,0,0\n");
+  write("far.csv",
+        "test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm\n"
+        "0,0,1e34,0,0,0\n0,0,1,0,0,0\n0,0,2,0,0,0\n");
   const Outcome cloud_reference =
       softscope::test::run({"compare", "--reference", at("points.ply"), "--test", at("above.obj")});
   EXPECT_THAT(cloud_reference.err, HasSubstr("a reference is a surface"));
   for (const Outcome& outcome : {cloud_reference, compare("nothing.ply"),
                                  compare("above.obj", {"--landmarks", at("few.csv")}),
-                                 compare("above.obj", {"--landmarks", at("hole.csv")})}) {
+                                 compare("above.obj", {"--landmarks", at("hole.csv")}),
+                                 compare("above.obj", {"--landmarks", at("far.csv")})}) {
     EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   }

@@ -75,6 +75,8 @@ TEST_F(Evaluate, NumbersThatAreNoneAreRefused) {
   expectRefused({"tracks.csv", "`one`"}, evaluate());
   write("run/tracks.csv", "frame,id,x_mm,y_mm,z_mm,visible\n0,99,0,0,0,1\n");
   expectRefused({"tracks.csv", "in common"}, evaluate());
+  write("run/tracks.csv", tracks + "5,1,0,1099511627776,0,1\n");
+  expectRefused({"tracks.csv", "1.09951e+12 mm", "within 1 km"}, evaluate());
   write("run/tracks.csv", tracks + "5,1,nan,nan,nan,0\n");
   EXPECT_EQ(evaluated()["tracks"]["lost"], 1) << "a lost point is no error";
   write("run/trajectory.txt", "0 0 0 0 0 0 0 nan\n");

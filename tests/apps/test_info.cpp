@@ -138,14 +138,14 @@ TEST_F(Info, PointsOfDepthAreDescribed) {
 
 TEST_F(Info, AnAsciiCloudIsReadAsWell) {
   const std::string ply = write("a.ply",
-                                "ply\nformat ascii 1.0\ncomment mm, left frame\nelement vertex 2\n"
+                                "ply\nformat ascii 1.0\ncomment mm, left frame\nelement vertex 3\n"
                                 "property float x\nproperty float y\nproperty float z\n"
-                                "end_header\n1 2 3\n4 nan 9\n");
+                                "end_header\n1 2 3\n4 nan 9\n1e12 0 0\n");
   const auto json = run({"info", ply, "--json"}).json();
-  EXPECT_EQ(json["points"], 2);
+  EXPECT_EQ(json["points"], 3);
   EXPECT_EQ(json["box_high_mm"][2], 3);
   EXPECT_THAT(json["comments"].dump(), HasSubstr("left frame"));
-  EXPECT_THAT(json["warnings"].dump(), HasSubstr("1 points"));
+  EXPECT_THAT(json["warnings"].dump(), HasSubstr("2 points"));
 }
 
 TEST_F(Info, AVolumeTellsWhereItLies) {

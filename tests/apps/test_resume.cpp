@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <thread>
 
 #include "tests/apps/run_softscope.h"
@@ -26,21 +27,40 @@ int framesIn(const fs::path& run_folder) {
 
 class Resume : public InFolder {
  protected:
-  /// Ends a run over a long clip by `signal_number`, or by what `act` does, once its third model is
-  /// there; the frames that were done.
-  int interruptedRun(int signal_number, const std::function<void()>& act = {}) const {
+  /// 60 frames of four moments, there and back: a motion as smooth as that of 60 simulated ones.
+  void makeLongClip() const {
     const Outcome made =
-        softscope::test::run({"simulate", "--out", at("clip"), "--frames", "60", "--size",
-                              "160x120", "--set", "organ.cells_per_side=30", "--quiet"});
+        softscope::test::run({"simulate", "--out", at("four"), "--frames", "4", "--size", "160x120",
+                              "--set", "organ.cells_per_side=30", "--quiet"});
     EXPECT_EQ(made.exit_code, 0) << made.err;
+    const auto picture = [](int number) {
+      const std::string digits = std::to_string(number);
+      return std::string(6 - digits.size(), '0') + digits + ".png";
+    };
+    for (const char* view : {"left", "right"}) {
+      fs::create_directories(fs::path(at("clip")) / view);
+      for (int i = 0; i < 60; ++i)
+        fs::copy_file(fs::path(at("four")) / view / picture(i % 6 < 4 ? i % 6 : 6 - i % 6),
+                      fs::path(at("clip")) / view / picture(i));
+    }
+    fs::copy_file(at("four/calibration.yaml"), at("clip/calibration.yaml"));
+  }
+
+  /// Ends a run over a long clip by `signal_number`, or by what `act` does, once the model of frame
+  /// `last` is there; the frames that were done.
+  int interruptedRun(int signal_number, const std::function<void()>& act = {}, int last = 2,
+                     const std::string& checkpoint_every = "100") const {
+    makeLongClip();
     const std::string clip = at("clip"), out = at("run");
     const pid_t child = fork();
     if (child == 0) {
       execl(executable().c_str(), "softscope", "reconstruct", clip.c_str(), "--out", out.c_str(),
-            "--quiet", "--save-every", "1", "--set", "stereo.disparity_max_px=63", nullptr);
+            "--quiet", "--save-every", "1", "--set", "stereo.disparity_max_px=63",
+            "--checkpoint-every", checkpoint_every.c_str(), nullptr);
       _exit(127);
     }
-    for (int i = 0; i < 6000 && !fs::exists(out + "/models/000002.ply"); ++i)
+    const std::string model = out + "/models/00000" + std::to_string(last) + ".ply";
+    for (int i = 0; i < 6000 && !fs::exists(model); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (act) act();
     kill(child, signal_number);  // 0: none
@@ -112,6 +132,35 @@ TEST_F(Resume, ARunKilledBeforeItsFirstCheckpointStartsAnew) {
   EXPECT_EQ(countFiles(at("run/models")), 6)
       << "nothing of the killed run, a PLY and VTP per frame";
   EXPECT_EQ(resume({}).exit_code, 2) << "a complete run is none to resume";
+}
+
+/// Relative paths and bytes of the models and tables of a run.
+std::map<std::string, std::string> resultsIn(const fs::path& run_folder) {
+  std::map<std::string, std::string> results;
+  for (const auto& entry : fs::recursive_directory_iterator(run_folder)) {
+    const std::string name = fs::relative(entry.path(), run_folder);
+    if (entry.is_regular_file() && name != "frames.csv" && entry.path().extension() != ".json")
+      results[name] = textOf(entry.path());
+  }
+  return results;
+}
+
+TEST_F(Resume, AKilledRunGoesBackToItsCheckpointAndForgetsWhatCameAfterIt) {
+  const int done = interruptedRun(SIGKILL, {}, 6, "4");
+  ASSERT_EQ(done % 4, 0) << "tables are those of a checkpoint";
+  ASSERT_GE(done, 4);
+  ASSERT_LT(done, 60);
+  const std::string frames = "0:" + std::to_string(done + 4);
+  const Outcome resumed = resume({"--checkpoint-every", "4", "--frames", frames});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  const auto record = nlohmann::json::parse(textOf(at("run/run.json")));
+  EXPECT_EQ(record["resumed_at_frame"].get<int>() % 4, 0);
+  EXPECT_EQ(framesIn(at("run")), done + 4) << "each frame once";
+  const Outcome whole = softscope::test::run(
+      {"reconstruct", at("clip"), "--out", at("whole"), "--save-every", "1", "--quiet", "--set",
+       "stereo.disparity_max_px=63", "--checkpoint-every", "4", "--frames", frames});
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_EQ(resultsIn(at("run")), resultsIn(at("whole")));
 }
 
 TEST_F(Resume, AClosedTerminalLosesNothing) {

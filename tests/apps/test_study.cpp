@@ -136,6 +136,23 @@ TEST_F(StudyCommand, TruthThatChangedMakesACaseOutdated) {
   EXPECT_NE(named, named_later);
 }
 
+TEST_F(StudyCommand, ADamagedRecordIsACaseThatWasNotRun) {
+  const std::string cases = small() + "[[case]]\nname = 'a'\n";
+  ASSERT_EQ(study(cases).exit_code, 0);
+  const std::string file = at("out/cases/a/case.json"), sound = textOf(file);
+  for (const auto& [what, with] :
+       std::vector<std::pair<std::string, std::string>>{{"\"reason\": \"\"", "\"reason\": 5"},
+                                                        {"\"status\": \"done\"", "\"status\": []"},
+                                                        {"{", "["}}) {
+    std::string damaged = sound;
+    ASSERT_NE(damaged.find(what), std::string::npos) << what;
+    write("out/cases/a/case.json", damaged.replace(damaged.find(what), what.size(), with));
+    const Outcome table = study(cases, {"--table"});
+    EXPECT_EQ(table.exit_code, 1) << table.err;
+    EXPECT_THAT(table.err, HasSubstr("a: has not been run"));
+  }
+}
+
 TEST_F(StudyCommand, NoFoldersOfTheMachineInWhatItShows) {
   write("clips of Jane Doe/broken/left/notes.txt", "no picture");
   const Outcome done =

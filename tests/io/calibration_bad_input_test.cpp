@@ -30,6 +30,13 @@ TEST(BadCalibration, FocalLengthMustBeAPositiveNumber) {
   expectRefused("505,239", ".Inf,239", {"M2", "inf"});
 }
 
+TEST(BadCalibration, NumbersBeyondAnyPictureAreDamaged) {
+  expectRefused("500,0,321", "4294967296,0,321", {"c.yaml: the left camera", "fx", "up to 1e+06"});
+  expectRefused("500,0,321", "500,0,4294967296",
+                {"c.yaml: the left camera", "principal point", "16384"});
+  expectRefused("505,239", "505,-1e12", {"the right camera", "principal point"});
+}
+
 TEST(BadCalibration, ALensThatMovesTheEdgeBeyondThePictureIsDamaged) {
   expectRefused("-0.1,0.02", "-0.1,4294967296", {"c.yaml: the left camera", "lens moves the edge"});
   expectRefused("-0.11,0.03", "-1e9,0.03", {"the right camera", "640 x 480"});

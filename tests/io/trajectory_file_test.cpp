@@ -41,6 +41,8 @@ TEST(TrajectoryFile, BadLinesAreNamed) {
   expectError<InputError>([] { parseTrajectory("0 0 0 0 0 0 0 2\n", "t"); }, {"quaternion", "2"});
   expectError<InputError>([] { parseTrajectory("0 0 0 0 0 0 0 0\n", "t"); }, {"quaternion"});
   expectError<InputError>([] { parseTrajectory("0 0 nan 0 0 0 0 1\n", "t"); }, {"nan"});
+  expectError<InputError>([] { parseTrajectory("0 0 1e12 0 0 0 0 1\n", "t.txt"); },
+                          {"t.txt: line 1", "1e+12 mm", "within 1 km"});
   expectError<InputError>([] { parseTrajectory("1 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n", "t"); },
                           {"line 2", "Sort"});
   expectError<InputError>([] { parseTrajectory("# none\n", "t"); }, {"no pose"});

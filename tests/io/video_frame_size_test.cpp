@@ -79,6 +79,65 @@ TEST(VideoFrameSize, StandsInTheParameterSetsOfH264AndHevc) {
   EXPECT_FALSE(statedFrameSize(avc, "VP90")) << "another codec";
 }
 
+/// Bits of a parameter set, most significant first.
+class BitWriter {
+ public:
+  BitWriter& bits(std::uint32_t value, int count) {
+    for (int bit = count - 1; bit >= 0; --bit) text_ += (value >> bit & 1) != 0 ? '1' : '0';
+    return *this;
+  }
+  /// Exponential-Golomb code.
+  BitWriter& golomb(std::uint32_t value) {
+    int length = 1;
+    while ((value + 1) >> length != 0) ++length;
+    return bits(0, length - 1).bits(value + 1, length);
+  }
+  std::string bytes() const {
+    std::string all;
+    for (std::size_t at = 0; at < text_.size(); at += 8)
+      all +=
+          static_cast<char>(std::stoi((text_.substr(at, 8) + "10000000").substr(0, 8), nullptr, 2));
+    return all;
+  }
+
+ private:
+  std::string text_;
+};
+
+/// ITU-T H.264, 7.3.2.1.1: high profile, `rows` of macroblocks (of pairs where `interlaced`), the
+/// last `crop` steps of rows hidden.
+std::string avcOf1920(std::uint32_t rows, bool interlaced, std::uint32_t crop) {
+  BitWriter set;
+  set.bits(100, 8).bits(0, 8).bits(40, 8).golomb(0);  // profile, level, id
+  set.golomb(1).golomb(0).golomb(0).bits(0, 2);       // 4:2:0, 8 bits
+  set.golomb(0).golomb(2).golomb(4).bits(0, 1);       // numbers and order of frames
+  set.golomb(119).golomb(rows - 1).bits(interlaced ? 0 : 1, 1);
+  if (interlaced) set.bits(0, 1);
+  set.bits(1, 1).bits(1, 1).golomb(0).golomb(0).golomb(0).golomb(crop).bits(0, 1).bits(1, 1);
+  return std::string("\0\0\0\1\x67", 5) + set.bytes();
+}
+
+TEST(VideoFrameSize, IsThatOfThePictureAndNotOfItsCodedRows) {
+  for (const bool interlaced : {false, true}) {
+    const auto size =
+        statedFrameSize(interlaced ? avcOf1920(34, true, 2) : avcOf1920(68, false, 4), "avc1");
+    ASSERT_TRUE(size);
+    EXPECT_EQ(size->width_px, 1920);
+    EXPECT_EQ(size->height_px, 1080) << "coded as 1088 rows";
+  }
+  EXPECT_EQ(statedFrameSize(avcOf1920(68, false, 0), "avc1")->height_px, 1088);
+  EXPECT_FALSE(statedFrameSize(avcOf1920(68, false, 600), "avc1")) << "nothing is left";
+  // ITU-T H.265, 7.3.2.2.1: one layer, 1920 x 1088, 4 steps of rows hidden.
+  BitWriter set;
+  set.bits(0, 4).bits(0, 3).bits(1, 1);
+  for (int i = 0; i < 12; ++i) set.bits(0x11, 8);
+  set.golomb(0).golomb(1).golomb(1920).golomb(1088).bits(1, 1);
+  set.golomb(0).golomb(0).golomb(0).golomb(4).bits(1, 1);
+  const auto size = statedFrameSize(std::string("\0\0\1\x42\1", 5) + set.bytes(), "hvc1");
+  ASSERT_TRUE(size);
+  EXPECT_EQ(size->height_px, 1080);
+}
+
 TEST(VideoSource, FramesThatChangeSizeAreAnErrorFromThereOn) {
   const TemporaryFolder folder;
   put(folder / "v.avi",

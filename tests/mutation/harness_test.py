@@ -8,6 +8,7 @@ import seeds
 from damage import damaged
 from fault_injection import difference, without_times
 from judge import judge
+from mutation import Place
 from server import Outcome
 
 INFO = ["info", "v.mha", "--json", "--quiet"]
@@ -60,6 +61,57 @@ class Judge(unittest.TestCase):
         words = ["export", "m.ply", "--out", "o.obj"]
         (self.folder / "o.obj").write_text("v 1 2 3\nv nan 0 0\n")
         self.assertIn("not finite", self.found(words=words, out="")[0])
+
+    def test_an_image_within_a_drawing_is_no_number(self):
+        words = ["slice", "v.mha", "--out", "o.svg"]
+        (self.folder / "o.svg").write_text('<image href="data:image/png;base64,ab/Nan+/=inf/"/>')
+        self.assertEqual(self.found(words=words, out=""), [])
+        (self.folder / "o.svg").write_text('<line x1="nan"/>')
+        self.assertIn("not finite", self.found(words=words, out="")[0])
+
+
+class Places(unittest.TestCase):
+    """A folder is kept from run to run, as if it were made anew."""
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        root = Path(place.name)
+        (root / "case/part").mkdir(parents=True)
+        for name in ("case/a.txt", "case/part/b.txt"):
+            (root / name).write_text("sound")
+        form = seeds.Form("form", "case", ["a.txt"], [["info", "a.txt"]])
+        self.place = Place(form, root, root / "job")
+        self.folder = root / "job"
+
+    def content(self):
+        return {str(file.relative_to(self.folder)): file.read_text()
+                for file in self.folder.rglob("*") if file.is_file()}
+
+    def assert_restored(self, written=()):
+        self.assertEqual(self.place.restore("a.txt"), list(written))
+        self.assertEqual(self.content(), {"a.txt": "sound", "part/b.txt": "sound"})
+
+    def test_damage_and_results_go(self):
+        self.place.damage("a.txt", b"damaged")
+        self.assertEqual(self.content(), {"a.txt": "damaged", "part/b.txt": "sound"})
+        (self.folder / "o/p").mkdir(parents=True)
+        (self.folder / "o/p/q.txt").write_text("result")
+        self.assert_restored()
+
+    def test_a_file_that_a_run_replaced_or_removed_comes_back(self):
+        (self.folder / "part/b.txt").unlink()
+        self.assert_restored()
+        (self.folder / "part/b.txt").unlink()
+        (self.folder / "part/b.txt").write_text("other")
+        self.assert_restored()
+        (self.folder / "a.txt").unlink()
+        self.assert_restored()
+
+    def test_a_seed_that_was_written_into_is_named(self):
+        with open(self.folder / "part/b.txt", "a", encoding="utf-8") as file:
+            file.write(" no more")
+        self.assertEqual(self.place.restore("a.txt"), ["part/b.txt"])
 
 
 class Damage(unittest.TestCase):

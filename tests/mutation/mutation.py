@@ -25,9 +25,66 @@ from server import Server
 FIRST_COMMAND_SHARE = 0.5
 
 
-def link_tree(source, target):
-    """Files are shared: softscope never writes into its inputs, damage replaces a whole file."""
-    shutil.copytree(source, target, copy_function=os.link, dirs_exist_ok=True)
+WHOLE_EXIT_EVERY = 20  # runs: the others leave out static destructors
+SECONDS_BETWEEN_TALLIES = 60
+
+
+def tree(folder, inner=""):
+    """Each file and folder below `folder`, by its path within it, as an os.DirEntry."""
+    for entry in os.scandir(f"{folder}/{inner}"):
+        yield inner + entry.name, entry
+        if entry.is_dir(follow_symlinks=False):
+            yield from tree(folder, f"{inner}{entry.name}/")
+
+
+def state_of(entry):
+    """Equal where a file was neither written nor replaced."""
+    status = entry.stat(follow_symlinks=False)
+    return (status.st_ino, status.st_size, status.st_mtime_ns)
+
+
+class Place:
+    """A copy of a form's seeds, kept from run to run. Its files are links to the seeds: softscope
+    never writes into its inputs, damage replaces a whole file."""
+
+    def __init__(self, form, root, folder):
+        self.form, self.root, self.folder = form, root, folder
+        self.make()
+
+    def make(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+        for source in (self.form.folder, *self.form.shared):
+            target = self.folder if source == self.form.folder else self.folder / source
+            shutil.copytree(self.root / source, target, copy_function=os.link, dirs_exist_ok=True)
+        self.seeds = {path: None if entry.is_dir() else state_of(entry)
+                      for path, entry in tree(self.folder)}
+
+    def damage(self, file, data):
+        os.unlink(self.folder / file)
+        (self.folder / file).write_bytes(data)
+
+    def restore(self, damaged_file):
+        """Removes what a run made. Returns the seeds that it wrote into: there must be none."""
+        seen, new, replaced, written = set(), [], [], []
+        for path, entry in tree(self.folder):
+            if path not in self.seeds:
+                new.append((path, entry.is_dir(follow_symlinks=False)))
+                continue
+            seen.add(path)
+            if path == damaged_file or self.seeds[path] is None:
+                continue
+            state = state_of(entry)
+            if state != self.seeds[path]:
+                (written if state[0] == self.seeds[path][0] else replaced).append(path)
+        if replaced or written or len(seen) < len(self.seeds):
+            self.make()
+            return written
+        for path, is_folder in reversed(new):
+            (os.rmdir if is_folder else os.unlink)(self.folder / path)
+        if os.path.lexists(self.folder / damaged_file):
+            os.unlink(self.folder / damaged_file)
+        os.link(self.root / self.form.folder / damaged_file, self.folder / damaged_file)
+        return []
 
 
 class Trial:
@@ -41,25 +98,15 @@ class Trial:
         first = not rest or rng.random() < FIRST_COMMAND_SHARE
         self.words = self.form.commands[0] if first else rng.choice(rest)
         home = root / self.form.folder
-        files = sorted(file for pattern in self.form.damage for file in home.glob(pattern)
-                       if file.is_file())
-        file = rng.choice(files)
-        self.file = file.relative_to(home)
-        self.bytes = damaged(file.read_bytes(), rng)
+        self.file = rng.choice(self.form.files(home))
+        self.bytes = damaged((home / self.file).read_bytes(), rng)
 
-    def prepare(self, root, folder):
-        shutil.rmtree(folder, ignore_errors=True)
-        link_tree(root / self.form.folder, folder)
-        for shared in self.form.shared:
-            link_tree(root / shared, folder / shared)
-        target = folder / self.file
-        target.unlink()
-        target.write_bytes(self.bytes)
-
-    def run(self, server, root, folder, hang_seconds):
-        self.prepare(root, folder)
-        outcome = server.run([*self.words, "--threads", "1"], folder, seconds=hang_seconds + 5)
-        return outcome, judge(outcome, self.words, folder, 1000 * hang_seconds)
+    def run(self, server, place, hang_seconds):
+        place.damage(self.file, self.bytes)
+        exits = "whole" if self.number % WHOLE_EXIT_EVERY == 0 else "quick"
+        outcome = server.run([*self.words, "--threads", "1"], place.folder,
+                             seconds=hang_seconds + 5, exits=exits)
+        return outcome, judge(outcome, self.words, place.folder, 1000 * hang_seconds)
 
 
 class Tally:
@@ -75,6 +122,10 @@ class Tally:
             self.of_form[trial.form.name] += 1
             self.slowest_ms = max(self.slowest_ms, outcome.cpu_ms)
             self.findings += [(trial, what) for what in found]
+    def line(self):
+        seconds = time.monotonic() - self.started
+        return (f"{self.runs} runs in {seconds:.0f} s, {self.runs / seconds:.0f} per second; "
+                f"findings: {len(self.findings)}")
 
     def text(self):
         kinds = collections.Counter(what.split(":")[0] for _, what in self.findings)
@@ -93,15 +144,45 @@ def repeat_line(options, trial):
     return shlex.join(words)
 
 
-def work(options, forms, root, place, numbers, tally, deadline):
-    server = Server(options.server)
+def one_of_each_kind(found):
+    """A damaged length can make a hundred numbers absurd: the first tells."""
+    kinds = {}
+    for what in found:
+        kinds.setdefault(what.split(":")[0], what)
+    return list(kinds.values())
+
+
+def unsound_seeds(options, forms, root, folder):
+    """A line for each command that fails on an input without damage: it would judge nothing."""
+    server, wrong = Server(options.server), []
+    for form in forms:
+        place = Place(form, root, folder)
+        file = str(form.files(root / form.folder)[0])
+        for words in form.commands:
+            outcome = server.run([*words, "--threads", "1"], folder, seconds=options.hang_seconds)
+            found = judge(outcome, words, folder, 1000 * options.hang_seconds)
+            if outcome.code != form.sound_code or found:
+                wrong.append(f"{form.name}: softscope {' '.join(words)} ended with {outcome.code} "
+                             f"without damage: {outcome.err.strip()} {', '.join(found)}")
+            place.restore(file)
+    server.close()
+    return wrong
+
+
+def work(options, forms, root, folder, numbers, tally, deadline):
+    server, places = Server(options.server), {}
     while time.monotonic() < deadline:
         try:
             number = numbers.get_nowait()
         except queue.Empty:
             break
         trial = Trial(forms, root, options.seed, number)
-        outcome, found = trial.run(server, root, place, options.hang_seconds)
+        name = trial.form.name
+        if name not in places:
+            places[name] = Place(trial.form, root, folder / name.replace(" ", "_"))
+        outcome, found = trial.run(server, places[name], options.hang_seconds)
+        found = one_of_each_kind(found)
+        found += [f"input written: {file}" for file in places[name].restore(str(trial.file))]
         tally.add(trial, outcome, found)
         for what in found:
             print(f"run {number}: {what}: {trial.form.name}, {trial.file}: softscope "
@@ -120,7 +201,10 @@ def run_all(options, forms, root, scratch):
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join()
+        while thread.is_alive():
+            thread.join(SECONDS_BETWEEN_TALLIES)
+            if thread.is_alive():
+                print(tally.line(), flush=True)
     print(tally.text())
     return 1 if tally.findings or tally.runs == 0 else 0
 
@@ -130,7 +214,7 @@ def run_one(options, forms, root):
     trial = Trial(forms, root, options.seed, options.only)
     folder = Path(tempfile.mkdtemp(prefix=f"softscope_run_{options.only}_"))
     server = Server(options.server)
-    outcome, found = trial.run(server, root, folder, options.hang_seconds)
+    outcome, found = trial.run(server, Place(trial.form, root, folder), options.hang_seconds)
     server.close()
     print(f"{trial.form.name}: {trial.file} is damaged\ncd {folder}; softscope {' '.join(trial.words)}")
     print(f"exit {outcome.code}, {outcome.cpu_ms} ms, {outcome.memory_kb >> 10} MB\n{outcome.err}", end="")
@@ -149,6 +233,8 @@ def options_of(words):
     parser.add_argument("--hang-seconds", type=int, default=20,
                         help="of processor time; more under sanitizers")
     parser.add_argument("--form", help="damages this form alone")
+    parser.add_argument("--check-seeds", action="store_true",
+                        help="runs each command once, without damage")
     parser.add_argument("--only", type=int, help="repeats one run, keeps its folder")
     return parser.parse_args(words)
 
@@ -166,6 +252,10 @@ def main(words):
             forms = [form for form in forms if form.name == options.form]
         if options.only is not None:
             return run_one(options, forms, root)
+        if options.check_seeds:
+            wrong = unsound_seeds(options, forms, root, Path(scratch, "sound"))
+            print("\n".join(wrong) or f"{len(forms)} forms: every command reads its seeds")
+            return 1 if wrong else 0
         return run_all(options, forms, root, Path(scratch))
 
 

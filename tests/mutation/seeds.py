@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 SIZE = (12, 10, 8)  # voxels
+DRAWN_WEIGHT = 0.05  # a drawing in 3-D takes as long as fifty other runs
 SPACING_MM = (2.0, 2.5, 3.0)
 ORIGIN_MM = (-12.0, -10.0, -9.0)
 
@@ -21,6 +22,15 @@ class Form:
     commands: list  # words; the first command is drawn half of the time
     weight: float = 1.0
     shared: list = field(default_factory=list)  # other folders that a command needs, undamaged
+    sound_code: int = 0  # exit code without damage
+    listed: list = field(default_factory=list, repr=False)
+
+    def files(self, home):
+        """What is damaged, by its path within `home`; listed once."""
+        if not self.listed:
+            self.listed = sorted(file.relative_to(home) for pattern in self.damage
+                                 for file in home.glob(pattern) if file.is_file())
+        return self.listed
 
 
 def voxels():
@@ -211,12 +221,13 @@ def write_texts(root, clip):
     (root / "study").mkdir()
     (root / "study/study.toml").write_text(
         'title = "a study"\n[simulate]\nframes = 2\nscope.width_px = 96\nscope.height_px = 80\n'
-        '[reconstruct]\nstereo.disparity_max_px = 63\n[[case]]\nname = "a"\nnotes = "one"\n'
+        '[reconstruct]\nstereo.disparity_max_px = 63\n[[case]]\nname = "a"\n'
         '[[case]]\nname = "b"\nsimulate.seed = 3\n[[sweep]]\nname = "noise"\n'
         'label = "noise"\nlevels = [1, 2]\nsimulate.sensor.noise = [0.01, 0.02]\n')
     (root / "marks").mkdir()
-    (root / "marks/p.csv").write_text("name,x1,y1,z1,x2,y2,z2\na,20,0,60,20,0,60\nb,0,20,60,0,20,60\n"
-                                      "c,0,0,80,0,0,80\nd,-20,0,60,-20,0,60\n")
+    (root / "marks/p.csv").write_text("test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,"
+                                      "reference_z_mm\n20,0,60,20,0,60\n0,20,60,0,20,60\n"
+                                      "0,0,80,0,0,80\n-20,0,60,-20,0,60\n")
     (root / "pixels").mkdir()
     (root / "pixels/track.csv").write_text("id,u_px,v_px\n0,40,40\n1,50,30\n2,60,50\n")
 
@@ -284,7 +295,11 @@ def make_stopped_run(root, server):
 def make_video(root, softscope):
     """Whether this machine can draw one."""
     (root / "video").mkdir()
-    shutil.copy(root / "clip/calibration.yaml", root / "video/calibration.yaml")
+    calibration = (root / "clip/calibration.yaml").read_text()
+    for small, large in (("image_width: 96", "image_width: 320"), ("84", "280"), ("47.5", "159.5"),
+                         ("image_height: 80", "image_height: 240"), ("39.5", "119.5")):
+        calibration = calibration.replace(small, large)
+    (root / "video/calibration.yaml").write_text(calibration)
     try:
         softscope("view", "run", "--movie", "video/left.mp4", "--size", "320x240", "--seconds", "0.2",
                   "--quiet")
@@ -301,8 +316,9 @@ def volume_form(folder, file, damage):
 
 
 def mesh_form(folder, file):
+    info = [] if folder in ("vtk", "vtp") else [["info", file, "--json", "--quiet"]]
     return Form(folder, folder, [file], [
-        ["info", file, "--json", "--quiet"],
+        *info,
         ["compare", "--reference", "good/m.stl", "--test", file, "--json", "--quiet"],
         ["compare", "--reference", file, "--test", "good/m.stl", "--json", "--quiet"],
         ["export", file, "--out", "o.obj", "--quiet"], ["export", file, "--out", "o.glb", "--quiet"],
@@ -312,6 +328,7 @@ def mesh_form(folder, file):
 def forms(video):
     depth = ["--set", "stereo.disparity_max_px=63", "--out", "o", "--quiet"]
     run_files = ["run/*.*", "run/models/*", "run/nodes/*"]
+    evaluation_files = ["ev/*.json", "ev/*.csv", "ev/errors/*", "ev/*.pvd"]
     all_forms = [
         volume_form("mha", "v.mha", ["v.mha"]), volume_form("mhaz", "v.mha", ["v.mha"]),
         volume_form("mhd", "v.mhd", ["v.mhd", "v.raw"]), volume_form("nrrd", "v.nrrd", ["v.nrrd"]),
@@ -347,17 +364,21 @@ def forms(video):
         Form("run", "case", run_files, [
             ["evaluate", "run", "--reference", "clip", "--json", "--quiet"],
             ["export", "run", "--out", "o.obj", "--quiet"],
-            ["figure", "run", "--reference", "clip", "--out", "o.svg", "--quiet"],
-            ["figure", "run", "--kind", "frames", "--out", "o.svg", "--quiet"],
-            ["view", "run", "--screenshot", "o.png", "--size", "320x240", "--quiet"]], weight=0.7),
+            ["figure", "run", "--kind", "frames", "--out", "o.svg", "--quiet"]], weight=0.7),
+        Form("run drawn", "case", run_files, [
+            ["view", "run", "--screenshot", "o.png", "--size", "320x240", "--quiet"],
+            ["figure", "run", "--reference", "clip", "--out", "o.svg", "--quiet"]],
+            weight=DRAWN_WEIGHT),
         Form("stopped run", "stopped", ["out/*.*", "out/models/*"], [
-            [*RECONSTRUCT, "--checkpoint-every", "1", "--resume"]], weight=0.5),
+            [*RECONSTRUCT, "--checkpoint-every", "1", "--resume"]], weight=0.3),
         Form("study record", "studied", ["out/cases/a/case.json", "study.toml"], [
-            ["study", "study.toml", "--out", "out", "--table", "--quiet"]]),
-        Form("evaluation", "case", ["ev/*.json", "ev/*.csv", "ev/errors/*", "ev/*.pvd"], [
-            ["report", "ev", "--out", "o.html", "--quiet"],
+            ["study", "study.toml", "--out", "out", "--table", "--quiet"]],
+            sound_code=1),  # its digest is another's: the case is outdated
+        Form("evaluation", "case", evaluation_files, [
+            ["report", "ev", "--out", "o.html", "--quiet"]], weight=0.5),
+        Form("evaluation drawn", "case", evaluation_files, [
             ["view", "run", "--evaluation", "ev", "--screenshot", "o.png", "--size", "320x240",
-             "--quiet"]], weight=0.5),
+             "--quiet"]], weight=DRAWN_WEIGHT),
         Form("landmarks", "marks", ["p.csv"], [
             ["compare", "--reference", "good/m.stl", "--test", "good/m.stl", "--landmarks", "p.csv",
              "--json", "--quiet"]], shared=["good"]),
@@ -368,6 +389,5 @@ def forms(video):
     if video:
         all_forms.append(Form("video", "video", ["left.mp4"], [
             ["info", "left.mp4", "--json", "--quiet"],
-            ["depth", "left.mp4", "right.mp4", "--calibration", "calibration.yaml", *depth],
             ["info", ".", "--check", "--json", "--quiet"]]))
     return all_forms

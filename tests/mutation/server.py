@@ -1,7 +1,7 @@
 """One process that runs softscope's commands, each in a fork of it: softscope_server.cpp."""
+import os
 import subprocess
 from dataclasses import dataclass
-from pathlib import Path
 
 
 @dataclass
@@ -19,12 +19,16 @@ class Server:
     def __init__(self, program, prefix=()):
         self._program, self._prefix, self._process = program, prefix, None
 
-    def run(self, words, folder, out="out.txt", err="err.txt", seconds=30, fault="none", event=0):
-        """Runs one command line in `folder`; `out` and `err` are files there, `pipe` or `closed`."""
+    def run(self, words, folder, out="out.txt", err="err.txt", seconds=30, fault="none", event=0,
+            exits="whole"):
+        """Runs one command line in `folder`; `out` and `err` are files there, `pipe` or `closed`.
+        `exits`: `whole`, or `quick` without static destructors."""
         if self._process is None:
+            # Symbols are resolved once, and not by each fork for itself.
             self._process = subprocess.Popen([*self._prefix, self._program], text=True,
+                                             env={**os.environ, "LD_BIND_NOW": "1"},
                                              stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        fields = [folder, out, err, seconds, fault, event, *words]
+        fields = [folder, out, err, seconds, fault, event, exits, *words]
         self._process.stdin.write("\x1f".join(map(str, fields)) + "\n")
         self._process.stdin.flush()
         answer = self._process.stdout.readline().split()
@@ -33,8 +37,8 @@ class Server:
         outcome = Outcome(*map(int, answer))
         for name, file in (("out", out), ("err", err)):
             if file not in ("pipe", "closed"):
-                text = Path(folder, file).read_bytes().decode("utf-8", "replace")
-                setattr(outcome, name, text)
+                with open(f"{folder}/{file}", "rb") as stream:
+                    setattr(outcome, name, stream.read().decode("utf-8", "replace"))
         return outcome
 
     def close(self):

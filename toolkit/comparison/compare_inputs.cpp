@@ -54,8 +54,8 @@ Landmarks readLandmarks(const std::filesystem::path& file) {
       {});
   Landmarks landmarks;
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    landmarks.test_mm.emplace_back(table.at(i, 0), table.at(i, 1), table.at(i, 2));
-    landmarks.reference_mm.emplace_back(table.at(i, 3), table.at(i, 4), table.at(i, 5));
+    landmarks.test_mm.push_back(table.placeAt(i, 0));
+    landmarks.reference_mm.push_back(table.placeAt(i, 3));
     if (!landmarks.test_mm.back().allFinite() || !landmarks.reference_mm.back().allFinite())
       throw InputError(say(shown(file), ": landmark ", i + 1,
                            " lacks a coordinate; complete it or delete its line"));

@@ -27,6 +27,8 @@ Cells cellsOf(std::string_view line) {
   return cells;
 }
 
+constexpr double kFarthestMm = 1e6;
+
 /// Where name, x, y and z stand; -1 where they don't.
 using Columns = std::array<std::ptrdiff_t, 4>;
 
@@ -85,9 +87,9 @@ void PlacesReader::addRow(const Cells& cells, int line) {
   Eigen::Vector3d place_mm;
   for (int axis = 0; axis < 3; ++axis) {
     const auto value = numberOf(cell(static_cast<std::size_t>(axis) + 1));
-    if (!value || !std::isfinite(*value))
+    if (!value || !(std::abs(*value) <= kFarthestMm))
       fail(say("line ", line, ": ", excerpt(cell(static_cast<std::size_t>(axis) + 1)),
-               " is no coordinate in mm"));
+               " is no coordinate in mm within 1 km"));
     place_mm[axis] = *value;
   }
   if (ras_) place_mm.head<2>() = -place_mm.head<2>();

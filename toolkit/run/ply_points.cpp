@@ -35,8 +35,10 @@ double valueAt(const char* bytes, PlyType type, bool little_endian, const std::s
   return value;
 }
 
+constexpr double kFarthestPointMm = 1e7;  // as in a surface
+
 void add(const Eigen::Vector3d& point, PlyPoints& points) {
-  if (point.allFinite())
+  if (point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestPointMm)
     points.box_mm.extend(point);
   else
     ++points.invalid;

@@ -13,6 +13,8 @@
 namespace softscope {
 namespace {
 
+constexpr double kFarthestPlaceMm = 1e6;
+
 /// Commas between quotes part nothing.
 std::vector<std::string_view> commaCells(std::string_view line) {
   std::vector<std::string_view> cells;
@@ -96,15 +98,22 @@ int NumberTable::indexAt(std::size_t row, std::size_t column) const {
                        ", but a whole number from 0 on is expected"));
 }
 
+Eigen::Vector3d NumberTable::placeAt(std::size_t row, std::size_t column) const {
+  const Eigen::Vector3d place_mm(at(row, column), at(row, column + 1), at(row, column + 2));
+  for (const double value : place_mm)
+    if (std::abs(value) > kFarthestPlaceMm)
+      throw InputError(say(name_, ": line ", lines_[row], " holds ", value,
+                           " mm, but a coordinate within 1 km is expected; is the file damaged?"));
+  return place_mm;
+}
+
 std::vector<TrackSample> readTracks(const std::filesystem::path& file) {
   const NumberTable table(readBytes(file), shown(file), {"frame", "id", "x_mm", "y_mm", "z_mm"},
                           {"visible"});
   std::vector<TrackSample> tracks;
   tracks.reserve(table.rows());
   for (std::size_t i = 0; i < table.rows(); ++i)
-    tracks.push_back({table.indexAt(i, 0),
-                      table.indexAt(i, 1),
-                      {table.at(i, 2), table.at(i, 3), table.at(i, 4)},
+    tracks.push_back({table.indexAt(i, 0), table.indexAt(i, 1), table.placeAt(i, 2),
                       !table.has(5) || table.at(i, 5) != 0});
   return tracks;
 }

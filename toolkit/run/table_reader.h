@@ -1,6 +1,7 @@
 // toolkit/run/table_reader.h: the tables of a run and of its truth.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -30,6 +31,8 @@ class NumberTable {
   int lineOf(std::size_t row) const { return lines_[row]; }
   /// The same, which must be a whole number from 0 on; else InputError.
   int indexAt(std::size_t row, std::size_t column) const;
+  /// Three columns from `column` on, in mm; NaN where a cell is. InputError beyond 1 km.
+  Eigen::Vector3d placeAt(std::size_t row, std::size_t column) const;
 
  private:
   void readHeading(std::string_view line, const std::vector<std::string>& needed,

@@ -30,7 +30,7 @@ std::vector<Eigen::Vector3f> readNodes(const ModelOnDisk& model) {
   if (!fs::exists(file)) return nodes;
   const NumberTable table(readBytes(file), shown(file), {"node", "x_mm", "y_mm", "z_mm"}, {});
   for (std::size_t row = 0; row < table.rows(); ++row)
-    nodes.emplace_back(float(table.at(row, 1)), float(table.at(row, 2)), float(table.at(row, 3)));
+    nodes.push_back(table.placeAt(row, 1).cast<float>());
   return nodes;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -159,9 +160,12 @@ std::vector<double> finiteNumbers(std::string text) {
   std::istringstream words(text);
   std::vector<double> values;
   for (std::string word; words >> word;) {
-    char* end = nullptr;
-    values.push_back(std::strtod(word.c_str(), &end));
-    if (*end != '\0' || !std::isfinite(values.back())) return {};
+    // Decimal alone: strtod would take 0x10 for 16, and a comma in some locales.
+    const char *begin = word.data() + (word[0] == '+' ? 1 : 0), *end = word.data() + word.size();
+    double value = 0;
+    const auto read = std::from_chars(begin, end, value);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return {};
+    values.push_back(value);
   }
   return values;
 }

@@ -23,10 +23,10 @@ using Warnings = std::vector<std::string>;
 
 void checkFocal(const RawCamera& camera, const std::string& what, Warnings& warnings) {
   const auto require = [&](double focal_px, const char* name) {
-    if (focal_px > 0 && std::isfinite(focal_px)) return;
+    if (focal_px > 0 && focal_px <= kLimits.most_focal_px) return;
     throw InputError(say(what, "'s ", name, " is ", focal_px,
-                         " px, but a focal length is a positive ",
-                         "number. Calibrate or export it again."));
+                         " px, but a focal length is a positive number up to ",
+                         kLimits.most_focal_px, " px. Calibrate or export it again."));
   };
   require(camera.pinhole.fx_px, "fx");
   require(camera.pinhole.fy_px, "fy");
@@ -34,6 +34,15 @@ void checkFocal(const RawCamera& camera, const std::string& what, Warnings& warn
   if (aspect > kLimits.usual_most_aspect || aspect < 1 / kLimits.usual_most_aspect)
     warnings.push_back(say(what, "'s fx / fy is ", aspect,
                            ", but pixels are nearly square. Was the ", "picture stretched?"));
+}
+
+/// Rectification may move the principal point outside the picture, but by less than the largest
+/// side.
+void checkPrincipalPoint(const PinholeCamera& camera, const std::string& what) {
+  if (std::abs(camera.cx_px) <= kMostSidePx && std::abs(camera.cy_px) <= kMostSidePx) return;
+  throw InputError(say(what, "'s principal point is (", camera.cx_px, ", ", camera.cy_px,
+                       ") px, but it lies near the middle of the picture, and none has more than ",
+                       kMostSidePx, " pixels a side. Calibrate or export it again."));
 }
 
 /// The unit in which `baseline`, given in `unit`, would be an endoscope's; empty where in none.
@@ -147,6 +156,8 @@ std::vector<std::string> checkCalibration(const StereoCalibration& calibration,
   Warnings warnings;
   checkFocal(calibration.left, calibration.source + ": the left camera", warnings);
   checkFocal(calibration.right, calibration.source + ": the right camera", warnings);
+  checkPrincipalPoint(calibration.left.pinhole, calibration.source + ": the left camera");
+  checkPrincipalPoint(calibration.right.pinhole, calibration.source + ": the right camera");
   checkBaseline(calibration, unit, warnings);
   checkSides(calibration, warnings);
   checkRectified(calibration);

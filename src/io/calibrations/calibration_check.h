@@ -16,12 +16,13 @@ struct CalibrationLimits {
   double usual_least_view_deg = 20, usual_most_view_deg = 120;  // field of view, horizontal
   double usual_most_convergence_deg = 15;                       // angle between the cameras
   double usual_most_aspect = 1.25;                              // fx / fy, or its inverse
+  double most_focal_px = 1e6;                                   // the largest picture sees 1°
 };
 
 /// Checks everything that needs no picture size. Throws InputError where it can't be right: focal
-/// length, baseline, side of the right camera, a flag `rectified` that the numbers contradict,
-/// depth unit. Returns what is unusual, a line each. `unit` is the file's, for a guess at what
-/// went wrong.
+/// length, principal point, baseline, side of the right camera, a flag `rectified` that the numbers
+/// contradict, depth unit. Returns what is unusual, a line each. `unit` is the file's, for a guess
+/// at what went wrong.
 std::vector<std::string> checkCalibration(const StereoCalibration& calibration,
                                           const std::string& unit = "mm");
 

@@ -14,6 +14,7 @@ namespace softscope {
 namespace {
 
 constexpr double kQuaternionTolerance = 0.01;
+constexpr double kFarthestMm = 1e6;
 using Numbers = std::array<double, 8>;
 
 Numbers numbersOf(std::string_view line, const std::string& where) {
@@ -40,6 +41,11 @@ TimedPose poseOf(const Numbers& n, const std::string& where) {
   out.time_s = n[0];
   out.world_from_left.linear() = rotation.normalized().toRotationMatrix();
   out.world_from_left.translation() = Eigen::Vector3d(n[1], n[2], n[3]);
+  const double away_mm = out.world_from_left.translation().norm();
+  if (!(away_mm <= kFarthestMm))
+    throw InputError(say(where, " holds a place ", away_mm,
+                         " mm from the origin, but one within 1 km is expected; is the file "
+                         "damaged?"));
   return out;
 }
 

@@ -49,6 +49,20 @@ std::optional<VideoFrameSize> sizeFrom(std::uint64_t width_px, std::uint64_t hei
   return VideoFrameSize{static_cast<int>(width_px), static_cast<int>(height_px)};
 }
 
+/// What a parameter set crops at each side, in units of `step_x` and `step_y` px.
+std::optional<VideoFrameSize> cropped(std::uint64_t width_px, std::uint64_t height_px,
+                                      BitReader& bits, int step_x, int step_y) {
+  if (bits.bits(1) == 0) return sizeFrom(width_px, height_px);
+  const auto sides = [&bits] { return std::uint64_t{bits.golomb()} + bits.golomb(); };
+  const std::uint64_t across_px = sides() * static_cast<unsigned>(step_x);
+  const std::uint64_t down_px = sides() * static_cast<unsigned>(step_y);
+  if (across_px >= width_px || down_px >= height_px) return std::nullopt;
+  return sizeFrom(width_px - across_px, height_px - down_px);
+}
+
+// Pixels per sample of colour, by chroma_format_idc: 4:0:0, 4:2:0, 4:2:2, 4:4:4.
+constexpr int kChromaWidth[] = {1, 2, 2, 1}, kChromaHeight[] = {1, 2, 1, 1};
+
 void skipScalingLists(BitReader& bits, int count) {
   for (int list = 0; list < count; ++list) {
     if (bits.bits(1) == 0) continue;
@@ -73,10 +87,13 @@ std::optional<VideoFrameSize> sizeOfAvc(std::string_view parameters) {
   bits.golomb();  // id
   constexpr std::uint32_t kHighProfiles[] = {100, 110, 122, 244, 44,  83,
                                              86,  118, 128, 138, 139, 134};
+  std::uint32_t chroma = 1;
+  bool separate_planes = false;
   if (std::find(std::begin(kHighProfiles), std::end(kHighProfiles), profile) !=
       std::end(kHighProfiles)) {
-    const std::uint32_t chroma = bits.golomb();
-    if (chroma == 3) bits.skip(1);
+    chroma = bits.golomb();
+    if (chroma > 3) return std::nullopt;
+    if (chroma == 3) separate_planes = bits.bits(1) == 1;
     bits.golomb();
     bits.golomb();
     bits.skip(1);
@@ -96,8 +113,12 @@ std::optional<VideoFrameSize> sizeOfAvc(std::string_view parameters) {
   bits.skip(1);
   const std::uint64_t width_px = 16 * (std::uint64_t{bits.golomb()} + 1);
   const std::uint64_t rows = 16 * (std::uint64_t{bits.golomb()} + 1);
-  const bool whole_frames = bits.bits(1) == 1;
-  return sizeFrom(width_px, whole_frames ? rows : 2 * rows);
+  const int fields = bits.bits(1) == 1 ? 1 : 2;
+  if (fields == 2) bits.skip(1);
+  bits.skip(1);
+  const std::size_t planes = separate_planes ? 0 : chroma;
+  return cropped(width_px, rows * static_cast<unsigned>(fields), bits, kChromaWidth[planes],
+                 kChromaHeight[planes] * fields);
 }
 
 /// ITU-T H.265, 7.3.2.2.1 and 7.3.3.
@@ -114,9 +135,12 @@ std::optional<VideoFrameSize> sizeOfHevc(std::string_view parameters) {
   if (layers > 0) bits.skip(2 * (8 - layers));
   bits.skip(skipped);
   bits.golomb();
-  if (bits.golomb() == 3) bits.skip(1);
+  const std::uint32_t chroma = bits.golomb();
+  if (chroma > 3) return std::nullopt;
+  if (chroma == 3) bits.skip(1);
   const std::uint32_t width_px = bits.golomb();
-  return sizeFrom(width_px, bits.golomb());
+  const std::uint32_t height_px = bits.golomb();
+  return cropped(width_px, height_px, bits, kChromaWidth[chroma], kChromaHeight[chroma]);
 }
 
 /// What follows the header byte or bytes of the first unit of `type`.
