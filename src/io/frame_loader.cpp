@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "io/calibration_check.h"
 #include "io/depth_files.h"
+#include "io/folder.h"
 #include "io/frame_pairing.h"
 #include "io/image_reader.h"
 #include "io/message.h"
@@ -56,6 +57,8 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
                           shown(paths.stereo), " are in the same pictures. Leave it at auto."));
   const fs::path& first = is_packed_ ? paths.stereo : paths.left;
+  left_path_ = first;
+  right_path_ = paths.right;
   left_ = openPictures(first);
   count_ = left_->count();
   const ViewFiles view{first, left_->files(), count_};
@@ -115,9 +118,28 @@ StereoPair FrameLoader::readPair(int index) {
   return unpack(packed, packing_, left_->nameOf(index));
 }
 
-void FrameLoader::requirePartner(int index) const {
+bool FrameLoader::hasPartner(int index) const {
   const int partner = index + right_offset_;
-  if (right_ && (partner < 0 || partner >= count_))
+  return !right_ || (partner >= 0 && partner < count_);
+}
+
+FrameNames FrameLoader::namesOf(int index) const {
+  const auto nameIn = [](const PictureSource& view, const fs::path& path, int i) {
+    const std::vector<fs::path> files = view.files();
+    return (files.empty() ? path : files.at(static_cast<std::size_t>(i))).filename();
+  };
+  const fs::path left = nameIn(*left_, left_path_, index);
+  const bool is_file = !left_->files().empty();
+  FrameNames names;
+  names.number = (is_file ? frameNumber(left) : std::nullopt).value_or(index);
+  names.left = left.string();
+  if (right_ && hasPartner(index))
+    names.right = nameIn(*right_, right_path_, index + right_offset_).string();
+  return names;
+}
+
+void FrameLoader::requirePartner(int index) const {
+  if (!hasPartner(index))
     throw InputError(say(left_->nameOf(index), ": the right view has no picture of this moment ",
                          "(sequence.right_offset is ", options_.right_offset, ")"));
 }

@@ -8,6 +8,7 @@
 
 #include "core/frame.h"
 #include "core/stereo_rig.h"
+#include "io/frame_names.h"
 #include "io/picture_source.h"
 #include "io/sequence_options.h"
 #include "io/sequence_paths.h"
@@ -35,6 +36,10 @@ class FrameLoader {
   /// where the calibration left it out.
   Frame load(int index);
 
+  FrameNames namesOf(int index) const;
+  /// Whether the other view has an image of this moment.
+  bool hasPartner(int index) const;
+
   /// Of its timestamp, or its place in a video; NaN where neither is known.
   double timeOf(int index) const;
 
@@ -46,6 +51,7 @@ class FrameLoader {
 
   SequenceOptions options_;
   int right_offset_;
+  std::filesystem::path left_path_, right_path_;  // left_path_: or of both views
   StereoCalibration calibration_;
   std::unique_ptr<PictureSource> left_, right_;  // left_ alone where both views are packed in it
   bool is_packed_ = false;

@@ -92,6 +92,36 @@ TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
   EXPECT_EQ(reconstruct({"--out", at("run"), "--scope", "still", "--force"}).exit_code, 2);
 }
 
+TEST_F(Reconstruct, EveryStepthFrameKeepsItsNumberAndItsName) {
+  const std::string clip = makeClip(7);
+  for (const char* side : {"/left", "/right"})
+    for (int f = 0; f < 7; ++f)
+      fs::rename(clip + side + "/00000" + std::to_string(f) + ".png",
+                 clip + side + "/img_00012" + std::to_string(f) + ".png");
+  const Outcome done =
+      reconstruct({"--out", at("run"), "--frames", "1:7:2", "--save-every", "2", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.json()["frames"], 3);
+  EXPECT_EQ(textOf(at("run/images.csv")),
+            "frame,number,left,right\n"
+            "1,121,\"img_000121.png\",\"img_000121.png\"\n"
+            "3,123,\"img_000123.png\",\"img_000123.png\"\n"
+            "5,125,\"img_000125.png\",\"img_000125.png\"\n");
+  EXPECT_TRUE(fs::exists(at("run/models/000001.ply")));
+  EXPECT_FALSE(fs::exists(at("run/models/000003.ply"))) << "every second of those asked for";
+  EXPECT_TRUE(fs::exists(at("run/models/000005.ply")));
+  EXPECT_THAT(textOf(at("run/trajectory.txt")), HasSubstr("\n0.120000 ")) << "frame 3, not 1";
+  EXPECT_EQ(linesOf(at("run/trajectory_kitti.txt")), 3) << "a line per pose, no heading";
+  EXPECT_EQ(textOf(at("run/trajectory_kitti.txt")).rfind("1 0 0 0 0 1 0 0 0 0 1 0\n", 0), 0u);
+  const Outcome judged = run({"evaluate", at("run"), "--reference", clip, "--json", "--quiet"});
+  ASSERT_EQ(judged.exit_code, 0) << judged.err;
+  EXPECT_EQ(judged.json()["outcomes"]["frames"], 3);
+  EXPECT_EQ(judged.json()["surface"]["worst_frame"], 5);
+  EXPECT_LT(double(judged.json()["surface"]["mean_mm"]), 0.5)
+      << "judged by the truth of frame 5: the organ breathes";
+  EXPECT_EQ(reconstruct({"--out", at("other"), "--frames", "1:7:0"}).exit_code, 2);
+}
+
 TEST_F(Reconstruct, AnUnreadableFrameKeepsItsTime) {
   const std::string clip = makeClip(4);
   fs::resize_file(clip + "/left/000002.png", 200);
@@ -148,6 +178,7 @@ TEST_F(Reconstruct, PairsTheViewsOfOneMoment) {
   EXPECT_THAT(done.err, HasSubstr("right picture f -1 belongs to left picture f"));
   EXPECT_EQ(done.json()["configuration"]["sequence.right_offset"], "-1");
   EXPECT_EQ(done.json()["frames_fused"], 7);
+  EXPECT_EQ(done.json()["frames_by_status"]["unpaired"], 1) << "nothing is wrong with its files";
   EXPECT_LT(double(done.json()["mean_backprojection_mm"]), 0.2);
   const Outcome as_is =
       reconstruct({"--out", at("as_is"), "--json", "--set", "sequence.right_offset=0"});

@@ -35,8 +35,9 @@ bool isGone(const SequencePaths& sequence) {
 
 /// Everything that decides the result; a run goes on only with the same.
 std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& settings,
-                     const std::filesystem::path& tracks) {
+                     const std::filesystem::path& tracks, int frame_step) {
   std::string all;
+  if (frame_step != 1) all += "frame_step=" + std::to_string(frame_step) + "\n";
   for (const SettingInfo& setting : settings)
     all += setting.key + "=" + setting.current_text + "\n";
   for (const auto& [part, input] : inputs.items())
@@ -103,7 +104,7 @@ std::unique_ptr<ReconstructionBackend> SequenceRun::backendOf(
 /// Where no frame is left, the run was stopped between its last one and its record.
 void SequenceRun::skipDone(const Checkpoint& earlier) {
   SequenceOptions& sequence = options_.settings.sequence;
-  const int done = earlier.next_frame - sequence.frames.begin;
+  const int done = (earlier.next_frame - sequence.frames.begin) / sequence.frames.step;
   all_done_ = done >= SequenceReader(options_.sequence, sequence).frameCount();
   if (!all_done_) sequence.frames.begin = earlier.next_frame;
 }
@@ -112,9 +113,10 @@ ReconstructedRun SequenceRun::run() {
   options_.validate();
   const std::vector<TrackSeed> tracked = seedsOf(options_.tracks);
   requireOutside(options_.out, options_.sequence);
-  RunFolder folder({options_.out, options_.save_every, !tracked.empty(), options_.overwrite},
-                   options_.resume);
   SequenceOptions& sequence = options_.settings.sequence;
+  RunFolder folder({options_.out, options_.save_every, sequence.frames.step, !tracked.empty(),
+                    options_.overwrite},
+                   options_.resume);
   const ReconstructionOptions& method = options_.settings.method;
   if (method.depth.source == "stereo" || options_.sequence.depth.empty())
     if (const std::string warning =
@@ -123,8 +125,9 @@ ReconstructedRun SequenceRun::run() {
       listener_.warn(warning);
   const Json inputs = inputsJson(options_.sequence);
   const SettingsBinder binder = settingsOf(options_.settings);
-  Checkpoint checkpoint{
-      digestOf(inputs, binder.list(), options_.tracks), sequence.frames.begin, {}};
+  Checkpoint checkpoint{digestOf(inputs, binder.list(), options_.tracks, sequence.frames.step),
+                        sequence.frames.begin,
+                        {}};
   const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);
   if (earlier) {
     checkpoint.next_frame = earlier->next_frame;
@@ -162,18 +165,20 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     FrameRecord frame;
     try {
       frame = result->ok() ? reconstructor.process(result->frame, frames.following())
-                           : reconstructor.skip(result->index, result->error, result->time_s);
+                           : reconstructor.skip(result->index, result->error, result->time_s,
+                                                result->unpaired ? FrameStatus::kUnpaired
+                                                                 : FrameStatus::kUnreadable);
     } catch (const BackendError& error) {
       failure_ = error.what();
       break;
     }
     if (!frame.reason.empty())
       listener_.warn(say("frame ", frame.frame, ": ", toString(frame.status), ": ", frame.reason));
-    folder.add(frame);
+    folder.add(frame, result->names);
     record.add(asTabled(frame));
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
       folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
-    checkpoint.next_frame = frame.frame + 1;
+    checkpoint.next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
     if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {
       checkpoint.state = reconstructor.state();
