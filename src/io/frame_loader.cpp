@@ -6,10 +6,12 @@
 #include "core/error.h"
 #include "io/calibration_check.h"
 #include "io/depth_files.h"
+#include "io/depth_relief.h"
 #include "io/folder.h"
 #include "io/frame_pairing.h"
 #include "io/image_reader.h"
 #include "io/message.h"
+#include "io/one_camera.h"
 #include "io/timestamps_file.h"
 
 namespace softscope {
@@ -17,12 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void requireSequence(const SequencePaths& paths) {
-  if (paths.left.empty() == paths.stereo.empty())
+void requireSequence(const SequencePaths& paths, bool uncalibrated) {
+  const bool depth_alone = paths.left.empty() && paths.stereo.empty() && !paths.depth.empty();
+  if (paths.left.empty() == paths.stereo.empty() && !depth_alone)
     throw OptionError("a sequence needs left and right, or stereo, and not both.");
   if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
     throw OptionError("a sequence needs right pictures or depth beside the left ones.");
-  if (paths.calibration.empty())
+  if (paths.calibration.empty() && !uncalibrated)
     throw OptionError("a sequence needs a calibration. Give it with --calibration.");
 }
 
@@ -51,15 +54,17 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     : options_(options), right_offset_(options.rightOffset()) {
   if (options_.layout == "auto" && !paths.layout.empty()) options_.layout = paths.layout;
   options.validate();
-  requireSequence(paths);
+  requireSequence(paths, options.uncalibrated);
   is_packed_ = !paths.stereo.empty();
   if (is_packed_ && right_offset_ != 0)
     throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
                           shown(paths.stereo), " are in the same pictures. Leave it at auto."));
-  const fs::path& first = is_packed_ ? paths.stereo : paths.left;
+  const bool depth_alone = !is_packed_ && paths.left.empty();
+  if (depth_alone) setCalibration(paths);  // says what a step of the files is worth
+  const fs::path& first = is_packed_ ? paths.stereo : depth_alone ? paths.depth : paths.left;
   left_path_ = first;
   right_path_ = paths.right;
-  left_ = openPictures(first);
+  left_ = depth_alone ? openDepthRelief(first, calibration_.depth_unit_mm) : openPictures(first);
   count_ = left_->count();
   const ViewFiles view{first, left_->files(), count_};
   if (!paths.right.empty()) {
@@ -75,7 +80,21 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     times_s_ = readTimestamps(paths.timestamps);
     requireCount(times_s_.size(), count_, paths.timestamps, "times");
   }
-  calibration_ = readCalibration(paths.calibration, options.calibration);
+  if (!depth_alone) setCalibration(paths);
+}
+
+void FrameLoader::setCalibration(const SequencePaths& paths) {
+  if (paths.calibration.empty()) {
+    calibration_ = uncalibrated(0, 0);
+    return;
+  }
+  calibration_ = readCalibration(paths.calibration, options_.calibration);
+  if (hasOneCamera(calibration_) && paths.depth.empty())
+    throw InputError(
+        say(calibration_.source,
+            ": is one camera's, but there is no depth/ to go with it. Add depth files, "
+            "or for a rectified pair the baseline (`softscope calibration-template "
+            "rectified`)."));
 }
 
 int FrameLoader::firstWithPartner() const { return right_ ? std::max(0, -right_offset_) : 0; }
@@ -148,6 +167,10 @@ void FrameLoader::settleSize(const ColourImage& left, const std::string& name) {
   is_settled_ = true;
   PinholeCamera& camera = calibration_.left.pinhole;
   if (camera.width_px != 0 && camera.height_px != 0) return;
+  if (isUncalibrated(calibration_)) {
+    calibration_ = uncalibrated(left.width_px, left.height_px);
+    return;
+  }
   camera.width_px = calibration_.right.pinhole.width_px = left.width_px;
   camera.height_px = calibration_.right.pinhole.height_px = left.height_px;
   calibration_.warnings.push_back(

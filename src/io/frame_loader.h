@@ -44,6 +44,7 @@ class FrameLoader {
   double timeOf(int index) const;
 
  private:
+  void setCalibration(const SequencePaths& paths);
   StereoPair readPair(int index);
   void requirePartner(int index) const;
   void settleSize(const ColourImage& left, const std::string& name);

@@ -30,6 +30,7 @@ struct SequenceOptions {
   std::string right_offset = "auto";
   int read_ahead = 4;  // frames kept ready
   CalibrationHints calibration;
+  bool uncalibrated = false;  // where no calibration is named, the pair is taken to be rectified
 
   int rightOffset() const;
 
