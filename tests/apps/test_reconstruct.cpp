@@ -64,6 +64,14 @@ TEST_F(Reconstruct, WritesTheRunThatOthersRead) {
   const auto record = nlohmann::json::parse(textOf(at("run/run.json")));
   EXPECT_EQ(std::string(record["inputs"]["calibration"]["sha256"]).size(), 64u);
   EXPECT_EQ(record["configuration"]["stereo.disparity_max_px"], 63);
+  const auto crate = nlohmann::json::parse(textOf(at("run/ro-crate-metadata.json")));
+  EXPECT_EQ(crate["@context"], "https://w3id.org/ro/crate/1.1/context");
+  EXPECT_EQ(crate["@graph"][0]["conformsTo"]["@id"], "https://w3id.org/ro/crate/1.1");
+  for (const auto& part : crate["@graph"][1]["hasPart"])
+    EXPECT_TRUE(fs::exists(at("run/") + std::string(part["@id"]))) << part;
+  EXPECT_EQ(crate["@graph"][1]["hasPart"].size(), 10u);
+  EXPECT_THAT(crate.dump(), HasSubstr(std::string(record["inputs"]["calibration"]["sha256"])));
+  EXPECT_THAT(crate.dump(), Not(HasSubstr(folder.string()))) << "no path of this machine";
 }
 
 TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
@@ -82,6 +90,9 @@ TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
   EXPECT_THAT(std::string(doubted.json()["warnings"].back()),
               HasSubstr("3 of 4 frames were not fused (1 started, 3 unconfirmed)"));
   EXPECT_EQ(doubted.json()["outcomes"]["skipped"], 3);
+  EXPECT_THAT(doubted.err, HasSubstr("frame 1: unconfirmed: "));
+  EXPECT_THAT(doubted.err, Not(HasSubstr("frame 2: "))) << "one line per kind";
+  EXPECT_THAT(doubted.err, HasSubstr("unconfirmed: 2 more frames, 2 to 3; frames.csv"));
   const Outcome limited = reconstruct({"--out", at("run"), "--set", "gate.min_confidence=1",
                                        "--force", "--fail-if", "skipped>10%"});
   EXPECT_EQ(limited.exit_code, 1) << limited.err;
@@ -180,11 +191,48 @@ TEST_F(Reconstruct, PairsTheViewsOfOneMoment) {
   EXPECT_EQ(done.json()["frames_fused"], 7);
   EXPECT_EQ(done.json()["frames_by_status"]["unpaired"], 1) << "nothing is wrong with its files";
   EXPECT_LT(double(done.json()["mean_backprojection_mm"]), 0.2);
+  const auto told = run({"info", at("clip"), "--json"}).json();
+  EXPECT_EQ(told["right_offset"], -1) << "the same for every command";
+  EXPECT_THAT(told["warnings"].dump(), HasSubstr("belongs to left picture f"));
+  const Outcome depth = run({"depth", at("clip"), "--out", at("depth"), "--json", "--frames", "0:2",
+                             "--set", "stereo.disparity_max_px=63"});
+  EXPECT_EQ(depth.json()["options"]["sequence.right_offset"], "-1");
+  EXPECT_EQ(depth.json()["frames_done"], 1) << "frame 0 has no partner";
   const Outcome as_is =
       reconstruct({"--out", at("as_is"), "--json", "--set", "sequence.right_offset=0"});
   // Fusion follows wrong depth too; the model that was warped only knows better.
   EXPECT_GT(double(as_is.json()["mean_prediction_mm"]),
             1.2 * double(done.json()["mean_prediction_mm"]));
+}
+
+// Depth and colour of one camera, then depth alone: no word of stereo, and the model is as good.
+TEST_F(Reconstruct, TakesDepthWithColourAndDepthAlone) {
+  const Outcome made =
+      run({"simulate", "--out", at("clip"), "--frames", "6", "--size", "160x120", "--set",
+           "organ.cells_per_side=30", "--set", "input_depth=true", "--quiet"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto rig = run({"info", at("clip"), "--json"}).json()["calibration"]["left"];
+  fs::remove_all(at("clip/right"));
+  write("clip/calibration.yaml", "fx: " + rig["fx_px"].dump() + "\ncx: " + rig["cx_px"].dump() +
+                                     "\ncy: " + rig["cy_px"].dump() + "\ndepth_unit_mm: 0.01\n");
+  for (const bool colour : {true, false}) {
+    if (!colour) fs::remove_all(at("clip/left"));
+    const Outcome described = run({"info", at("clip")});
+    EXPECT_EQ(described.exit_code, 0) << described.out << described.err;
+    EXPECT_THAT(described.out, Not(HasSubstr("baseline")));
+    const std::string out = at(colour ? "colour" : "depth");
+    const Outcome done = reconstruct({"--out", out, "--json"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(done.json()["frames_fused"], 6) << done.err;
+    EXPECT_TRUE(done.json()["rectified_rig"]["baseline_mm"].is_null());
+    const Outcome judged = run({"evaluate", out, "--reference", at("clip"), "--json", "--quiet"});
+    ASSERT_EQ(judged.exit_code, 0) << judged.err;
+    EXPECT_LT(double(judged.json()["surface"]["mean_mm"]), 0.2) << "0.01 mm is a step of the files";
+    const Outcome depth = run({"depth", at("clip"), "--out", out + "_maps", "--write", "depth"});
+    EXPECT_EQ(depth.exit_code, 0) << depth.err;
+    EXPECT_THAT(depth.out, HasSubstr("depth of 6 frames from depth files"));
+    EXPECT_THAT(depth.out, Not(HasSubstr("pair")));
+  }
 }
 
 TEST_F(Reconstruct, NeverOverwritesUnasked) {

@@ -1,6 +1,8 @@
 // toolkit/run/reconstruct_sequence.cpp: frame by frame, with checkpoints.
 #include "toolkit/run/reconstruct_sequence.h"
 
+#include <array>
+#include <ctime>
 #include <optional>
 
 #include "core/error.h"
@@ -14,6 +16,8 @@
 #include "pipeline/reconstructor.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/run/out_folder.h"
+#include "toolkit/run/repeated_warnings.h"
+#include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_record.h"
 #include "toolkit/run/run_tables.h"
@@ -28,7 +32,8 @@ constexpr const char* kOutcomes = "outcomes";  // where a bare metric is looked 
 
 /// Whether images that the run began with are there no longer.
 bool isGone(const SequencePaths& sequence) {
-  for (const std::filesystem::path& view : {sequence.left, sequence.right, sequence.stereo})
+  for (const std::filesystem::path& view :
+       {sequence.left, sequence.right, sequence.stereo, sequence.depth})
     if (!view.empty() && !isThere(view)) return true;
   return false;
 }
@@ -54,10 +59,22 @@ std::vector<TrackSeed> seedsOf(const std::filesystem::path& tracks) {
   return seeds;
 }
 
+/// ISO 8601, universal time.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 16> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d", &parts);
+  return text.data();
+}
+
 class SequenceRun {
  public:
   SequenceRun(ReconstructOptions options, const WorkListener& listener)
-      : options_(std::move(options)), listener_(listener) {}
+      : options_(std::move(options)),
+        listener_(listener),
+        rejections_([&listener](const std::string& text) { listener.warn(text); }) {}
 
   ReconstructedRun run();
 
@@ -72,6 +89,7 @@ class SequenceRun {
 
   ReconstructOptions options_;
   const WorkListener& listener_;
+  RepeatedWarnings rejections_;  // of frames, by status
   bool interrupted_ = false, all_done_ = false, input_gone_ = false;
   std::string failure_;  // of the back end in the middle of the run
 };
@@ -173,7 +191,8 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
       break;
     }
     if (!frame.reason.empty())
-      listener_.warn(say("frame ", frame.frame, ": ", toString(frame.status), ": ", frame.reason));
+      rejections_.add(toString(frame.status), frame.frame,
+                      say(toString(frame.status), ": ", frame.reason));
     folder.add(frame, result->names);
     record.add(asTabled(frame));
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
@@ -187,6 +206,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     }
     wanted = goesOn(listener_.progress, processed, frame_count);
   }
+  rejections_.conclude("frames.csv has the reason of each");
   interrupted_ = (!wanted || input_gone_ || !failure_.empty()) && !at_end;
   if (interrupted_ && !input_gone_ && failure_.empty())
     listener_.warn("interrupted: what is finished stays; --resume goes on");
@@ -206,6 +226,7 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
   const Json written = options_.paths.applyTo(all);
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
+  if (!nothing) folder.writeCrate(jsonText(roCrate(options_.out, written, today())));
   if (!failure_.empty())
     throw BackendError(failure_ + (nothing ? ". --backend cpu needs no GPU"
                                            : ". What is finished stays; go on with --resume, "

@@ -14,6 +14,7 @@
 #include "io/ply_writer.h"
 #include "io/text_lines.h"
 #include "io/trajectory_file.h"
+#include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_tables.h"
 #include "vtk_views/point_cloud_vtp.h"
 
@@ -31,8 +32,9 @@ constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
 constexpr const char* kImages = "images.csv";
 constexpr const char* kKitti = "trajectory_kitti.txt";
 
-const char* const kFiles[] = {"model.ply",  "frames.csv", "trajectory.txt", kKitti,     kImages,
-                              "tracks.csv", "models.pvd", kRecord,          kCheckpoint};
+const char* const kFiles[] = {"model.ply", "frames.csv", "trajectory.txt", kKitti,
+                              kImages,     "tracks.csv", "models.pvd",     kRecord,
+                              kCheckpoint, kCrateFile};
 
 /// Of a model, or of its nodes.
 bool isSavedModel(const fs::path& file) {
@@ -254,5 +256,7 @@ void RunFolder::writeRecord(const std::string& json, bool complete) {
   if (complete) fs::remove(file(kCheckpoint));
   fs::remove(file(kRunLock));
 }
+
+void RunFolder::writeCrate(const std::string& json) { writeFile(file(kCrateFile), json, true); }
 
 }  // namespace softscope

@@ -61,6 +61,8 @@ class RunFolder {
   void saveLastModel(const ModelState& state);
   /// run.json. `complete`: nothing is left to resume, so the checkpoint goes.
   void writeRecord(const std::string& json, bool complete);
+  /// What data repositories read of the folder; after everything else.
+  void writeCrate(const std::string& json);
 
  private:
   struct SavedModel {
