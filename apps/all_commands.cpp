@@ -8,6 +8,7 @@ std::vector<std::unique_ptr<Command>> allCommands() {
   commands.push_back(makeReconstructCommand());
   commands.push_back(makeDepthCommand());
   commands.push_back(makeCalibrateCommand());
+  commands.push_back(makeCalibrationTemplateCommand());
   commands.push_back(makeSimulateCommand());
   commands.push_back(makeEvaluateCommand());
   commands.push_back(makeCompareCommand());

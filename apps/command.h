@@ -27,6 +27,7 @@ class Command {
 
 std::unique_ptr<Command> makeBenchmarkCommand();
 std::unique_ptr<Command> makeCalibrateCommand();
+std::unique_ptr<Command> makeCalibrationTemplateCommand();
 std::unique_ptr<Command> makeCompareCommand();
 std::unique_ptr<Command> makeDepthCommand();
 std::unique_ptr<Command> makeSettingsCommand();

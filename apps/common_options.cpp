@@ -9,11 +9,15 @@ void CommonOptions::declare(ArgumentList& arguments) {
   arguments.flag("--json", json, "print the result on stdout as JSON");
   arguments.flag("--quiet", quiet, "only warnings and errors on stderr, no progress bar");
   arguments.flag("--verbose", verbose, "say more on stderr");
+  arguments.option("--color", "WHEN", color,
+                   "auto (the default: on a terminal, unless NO_COLOR is set), always or never");
   arguments.option("--threads", "N", threads, "work on N threads (0: every core, the default)");
 }
 
 void CommonOptions::validate() const {
   require(threads >= 0 && threads <= 1024, "--threads", threads, "must be 0 (every core) to 1024");
+  require(color == "auto" || color == "always" || color == "never", "--color", color,
+          "must be auto, always or never");
   if (quiet && verbose) throw OptionError("--quiet and --verbose exclude each other; give one");
 }
 

@@ -9,12 +9,13 @@
 
 namespace softscope {
 
-/// --json, --quiet, --verbose, --threads.
+/// --json, --quiet, --verbose, --color, --threads.
 struct CommonOptions {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;  // 0 = as many as there are cores
+  std::string color = "auto";  // of warnings and errors: auto, always or never
+  int threads = 0;             // 0 = as many as there are cores
 
   void declare(ArgumentList& arguments);
   /// Throws OptionError.

@@ -57,7 +57,7 @@ class CompareCommand : public Command {
 
  private:
   CompareOptions options_;
-  std::string out_, align_, landmarks_, taus_ = "0.5,1,2";
+  std::string out_, align_, landmarks_, transform_, taus_ = "0.5,1,2";
   std::vector<std::string> fail_if_;
   ErrorColourOptions picture_;
   bool force_ = false;
@@ -67,10 +67,13 @@ void CompareCommand::declare(ArgumentList& arguments) {
   arguments.option("--reference", "MESH", options_.reference,
                    "surface to judge by (STL, PLY, OBJ, VTP)", true);
   arguments.option("--test", "MODEL", options_.test,
-                   "surface, or points as reconstruct writes them", true);
+                   "surface, or points as reconstruct writes them, or a run", true);
+  arguments.option("--frame", "N", options_.frame, "of a run: its saved model of frame N");
   arguments.option("--align", "HOW", align_,
                    "none (the default), landmarks, or icp, which begins at the landmarks if given");
   arguments.option("--landmarks", "FILE", landmarks_, "pairs of points; alone: --align landmarks");
+  arguments.option("--transform", "FILE", transform_,
+                   "reference_from_test, a 4 x 4 matrix in mm; icp begins at it");
   arguments.option("--tau", "LIST", taus_, "thresholds in mm (default 0.5,1,2)");
   arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
   arguments.option("--observed", "SCAN", options_.observed,
@@ -92,6 +95,7 @@ void CompareCommand::declare(ArgumentList& arguments) {
 
 int CompareCommand::run() {
   options_.fit = parseFit(align_, landmarks_, "--landmarks");
+  options_.fit.transform = transform_;
   require(picture_.kind != "none", "--errors", picture_.kind, "must be absolute or signed");
   picture_.validate();
   options_.taus_mm = parseTaus(taus_);

@@ -27,6 +27,8 @@
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/record_paths.h"
 #include "toolkit/run/out_folder.h"
+#include "toolkit/run/repeated_warnings.h"
+#include "toolkit/run/stereo_sync.h"
 
 namespace softscope {
 namespace {
@@ -51,6 +53,7 @@ class DepthCommand : public Command {
                   DepthRecord& record);
   void measureOne(const FrameResult& result, DepthEstimator& estimator, const DepthOutputs& outputs,
                   DepthRecord& record);
+  void settleOffset(const SequencePaths& sequence, DepthOptions& options);
   void requireFreeOutputs(const DepthOutputs& outputs, const SequenceReader& reader);
   std::string prefixOf(int index) const;
   std::map<std::string, std::string> inputs() const;
@@ -63,7 +66,8 @@ class DepthCommand : public Command {
   SettingsArguments settings_;
 
   bool is_sequence_ = false;  // files are numbered
-  bool row_warning_given_ = false;
+  RepeatedWarnings failures_{[](const std::string& text) { spdlog::error("{}", text); }};
+  RepeatedWarnings warnings_{[](const std::string& text) { spdlog::warn("{}", text); }};
   bool interrupted_ = false;
   std::string failure_;  // of the back end in the middle of the sequence
   std::optional<InterruptGuard> interrupt_;
@@ -82,7 +86,8 @@ void DepthCommand::declare(ArgumentList& arguments) {
   arguments.option("--range", "A:B", range_text_, "mm that the picture's colour bar spans");
   arguments.option("--backend", "NAME", backend_, "auto (the default), cpu or cuda");
   arguments.option("--write", "LIST", write_,
-                   "some of disparity,depth,confidence,cloud,picture (default: all)");
+                   "some of disparity,depth,confidence,cloud,picture (default: all of a pair, "
+                   "depth.png alone of several)");
   arguments.flag("--force", force_, "overwrite what is there");
   softscope::declare(paths_, arguments);
   settings_.declare(arguments);
@@ -101,17 +106,21 @@ int DepthCommand::run() {
   interrupt_.emplace();
   require(frame_ == "left" || frame_ == "raw-left", "--frame", frame_, "must be left or raw-left");
   if (!range_text_.empty()) range_ = parseDepthRange(range_text_);
-  const DepthOutputKinds kinds = DepthOutputKinds::parse(write_);
+  DepthOutputKinds kinds = DepthOutputKinds::parse(write_);
   DepthOptions options;
   SettingsBinder binder = settingsOf(options);
   binder.apply(settings_.read());
   source_.applyFrames(options.sequence);
   options.validate();
 
-  const SequencePaths sequence = source_.paths("depth");
+  const bool in_px = kinds.onlyPixels();
+  options.sequence.uncalibrated = in_px;
+  const SequencePaths sequence = source_.paths("depth", !in_px);
+  settleOffset(sequence, options);
   SequenceReader reader(sequence, options.sequence);
   for (const std::string& warning : reader.calibration().warnings) spdlog::warn("{}", warning);
   is_sequence_ = reader.totalCount() > 1 || (source_.right.empty() && isFolder(source_.left));
+  if (write_.empty() && reader.frameCount() > 1) kinds = DepthOutputKinds::ofSequence();
   const DepthOutputs outputs({out_, kinds, force_, frame_ == "raw-left"});
   requireApart(out_, sequence);
   requireFreeOutputs(outputs, reader);
@@ -136,16 +145,25 @@ int DepthCommand::run() {
   if (common.json)
     printJson(summary);
   else
-    printFacts(record.text(out_), false);
+    printResult(summary, record.text(), outputs.told(record.goodFrames()), false);
   return interrupted_ ? kInterrupted : kDone;
+}
+
+/// As reconstruct does, where there is more than one pair and stereo measures the depth.
+void DepthCommand::settleOffset(const SequencePaths& sequence, DepthOptions& options) {
+  if (options.measurement.source != "stereo" && !sequence.depth.empty()) return;
+  const std::string warning =
+      settleRightOffset(sequence, options.sequence, options.measurement.stereo.disparity_max_px);
+  if (!warning.empty()) spdlog::warn("{}", warning);
 }
 
 void DepthCommand::requireFreeOutputs(const DepthOutputs& outputs, const SequenceReader& reader) {
   if (fs::exists(out_) && !isFolder(out_))
     throw OptionError("--out " + out_ + ": is a file, but must be a folder, there or not yet");
   std::vector<std::string> prefixes;
-  const int begin = source_.frames.empty() ? 0 : parseFrameRange(source_.frames).begin;
-  for (int i = 0; i < reader.frameCount(); ++i) prefixes.push_back(prefixOf(begin + i));
+  const FrameRange range = source_.frames.empty() ? FrameRange() : parseFrameRange(source_.frames);
+  for (int i = 0; i < reader.frameCount(); ++i)
+    prefixes.push_back(prefixOf(range.begin + i * range.step));
   outputs.requireFree(prefixes);
 }
 
@@ -158,7 +176,7 @@ void DepthCommand::measureAll(SequenceReader& reader, DepthEstimator& estimator,
     if (interrupt_->requested()) {
       interrupted_ = true;
       spdlog::warn("interrupted: what is finished stays");
-      return;
+      break;
     }
     std::string error = result->error;
     if (result->ok()) try {
@@ -168,26 +186,26 @@ void DepthCommand::measureAll(SequenceReader& reader, DepthEstimator& estimator,
       } catch (const BackendError& problem) {
         failure_ = problem.what();
         interrupted_ = true;
-        return;
+        break;
       }
     if (!error.empty()) {
-      spdlog::error("frame {}: {}", result->index, error);
+      failures_.add(result->unpaired ? "without a partner" : "not measured", result->index, error);
       record.addFailure(result->index, error);
     }
     progress.advance();
   }
+  failures_.conclude("summary.json has each");
+  warnings_.conclude("summary.json has each");
 }
 
 void DepthCommand::measureOne(const FrameResult& result, DepthEstimator& estimator,
                               const DepthOutputs& outputs, DepthRecord& record) {
   const DepthResult measured = estimator.measure(result.frame);
   if (!range_) range_ = rangeForAll(depthRangeToShow(measured.depth.depth_mm), is_sequence_);
-  if (const std::string warning = rowWarning(measured); !warning.empty() && !row_warning_given_) {
-    row_warning_given_ = true;
-    spdlog::warn("frame {}: {}", result.index, warning);
-  }
+  if (const std::string warning = rowWarning(measured); !warning.empty())
+    warnings_.add("rows differ", result.index, warning);
   if (const std::string warning = coverageWarning(measured); !warning.empty()) {
-    spdlog::warn("frame {}: {}", result.index, warning);
+    warnings_.add("little depth", result.index, warning);
     record.addWarning("frame " + std::to_string(result.index) + ": " + warning);
   }
   const auto start = std::chrono::steady_clock::now();

@@ -19,7 +19,11 @@ const char* const kDepthDetails =
     "  cloud.ply                      points with normals and colours, mm\n"
     "  picture.png                    the depth beside the left picture, with its scale\n"
     "  summary.json                   coverage, percentiles, row alignment, times, options\n"
+    "Of several frames only depth.png and summary.json are written unless --write asks for more.\n"
     "Rasters are those of the rectified left camera. Raw pairs are rectified first.\n"
+    "--write disparity,confidence needs no calibration: two images or folders are then taken to "
+    "be\n"
+    "rectified.\n"
     "LEFT alone may be a sequence folder, or a picture or video that holds both views\n"
     "(side by side, top and bottom, interlaced). Settings: stereo.*, sequence.*, calibration.*,\n"
     "depth.source, depth.align_rows; a wrong key is answered with the nearest one.";

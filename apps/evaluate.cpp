@@ -81,6 +81,8 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
   arguments.option("--confidence", "PATH", options_.confidence,
                    "confidence.png of `depth`, or a folder of them: judges predicted sigmas");
   softscope::declare(options_.paths, arguments);
+  arguments.option("--frame", "N", options_.frame,
+                   "against a mesh: the saved model of frame N, not the last");
   arguments.flag("--each", options_.each_model, "against a mesh: every model, not the last alone");
   arguments.flag("--no-views", no_views_,
                  "don't draw the model for depth, PSNR and SSIM: saves a fifth of the time");

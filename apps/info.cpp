@@ -26,14 +26,18 @@ bool hasEnding(const std::string& path, std::initializer_list<const char*> endin
   return false;
 }
 
+/// Two views, one, or, with a calibration beside it, depth alone.
 bool looksLikeSequence(const fs::path& folder) {
+  bool depth = false, calibration = false;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
-    if (stem != "left" && stem != "right" && stem != "stereo") continue;
     std::error_code ignored;  // a link that leads nowhere is the reader's to report
-    if (entry.is_directory(ignored) || isVideo(entry.path())) return true;
+    const bool view = stem == "left" || stem == "right" || stem == "stereo";
+    if (view && (entry.is_directory(ignored) || isVideo(entry.path()))) return true;
+    depth |= stem == "depth" && entry.is_directory(ignored);
+    calibration |= stem == "calibration";
   }
-  return false;
+  return depth && calibration;
 }
 
 class InfoCommand : public Command {

@@ -6,6 +6,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "io/images/quiet_libraries.h"
 #include "io/text/message.h"
 
@@ -25,6 +27,15 @@ class PrintableText : public spdlog::custom_flag_formatter {
   }
 };
 
+/// NO_COLOR: the usual wish of an environment, https://no-color.org.
+spdlog::color_mode colorMode(const std::string& color) {
+  const char* no_color = std::getenv("NO_COLOR");
+  if (color == "always") return spdlog::color_mode::always;
+  if (color == "never" || (no_color != nullptr && *no_color != '\0'))
+    return spdlog::color_mode::never;
+  return spdlog::color_mode::automatic;
+}
+
 }  // namespace
 
 bool stderrIsTerminal() { return isatty(STDERR_FILENO) == 1; }
@@ -32,7 +43,7 @@ bool stderrIsTerminal() { return isatty(STDERR_FILENO) == 1; }
 void setUpLog(const CommonOptions& common) {
   using Sink = spdlog::sinks::ansicolor_sink<spdlog::details::console_mutex>;
   auto logger = std::make_shared<spdlog::logger>(
-      "softscope", std::make_shared<Sink>(ownErrors(), spdlog::color_mode::automatic));
+      "softscope", std::make_shared<Sink>(ownErrors(), colorMode(common.color)));
   const std::string clear_line = stderrIsTerminal() ? "\r\033[K" : "";
   auto lines = std::make_unique<spdlog::pattern_formatter>();
   lines->add_flag<PrintableText>('*').set_pattern(clear_line + "%^%l%$: %*");

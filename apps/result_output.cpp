@@ -1,6 +1,8 @@
 // apps/result_output.cpp: JSON or lines.
 #include "apps/result_output.h"
 
+#include <spdlog/spdlog.h>
+
 #include <iostream>
 
 #include "toolkit/record/json_text.h"
@@ -23,6 +25,12 @@ void printResult(const FactSheet::Json& record, FactSheet facts,
     label.clear();
   }
   printFacts(facts, false);
+}
+
+void tellWritten(const std::vector<std::string>& files, const std::string& record) {
+  std::string all;
+  for (const std::string& file : files) all += file + ", ";
+  spdlog::info("written: {}{}", all, record);
 }
 
 }  // namespace softscope

@@ -16,4 +16,7 @@ void printFacts(const FactSheet& facts, bool as_json);
 void printResult(const FactSheet::Json& record, FactSheet facts,
                  const std::vector<std::string>& written, bool as_json);
 
+/// On stderr, one line: the files of a figure and its record.
+void tellWritten(const std::vector<std::string>& files, const std::string& record);
+
 }  // namespace softscope

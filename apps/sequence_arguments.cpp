@@ -11,17 +11,18 @@ void SequenceArguments::declareOptions(ArgumentList& arguments) {
   arguments.option("--calibration", "FILE", calibration,
                    "calibration; a sequence folder has its own");
   arguments.option("--mask", "PATH", mask, "picture or folder; non-zero pixels are ignored");
-  arguments.option("--frames", "A:B", frames, "frames A up to, not with, B");
+  arguments.option("--frames", "A:B:STEP", frames,
+                   "frames A up to, not with, B, every STEP-th of them; each may be left out");
 }
 
-SequencePaths SequenceArguments::paths(const std::string& command) const {
+SequencePaths SequenceArguments::paths(const std::string& command, bool calibrated) const {
   std::error_code ignored;  // what isn't there, or a link to itself, is the reader's to report
   const bool is_file = std::filesystem::is_regular_file(left, ignored);
   const bool is_folder = std::filesystem::is_directory(left, ignored);
   SequencePaths paths;
   if (right.empty() && (is_folder || (calibration.empty() && !is_file))) {
     paths = findSequence(left);
-  } else if (calibration.empty()) {
+  } else if (calibration.empty() && (calibrated || right.empty())) {
     throw OptionError("softscope " + command +
                       ": --calibration is missing; only a sequence folder has its own");
   } else if (right.empty()) {

@@ -18,7 +18,8 @@ struct SequenceArguments {
   void declareOptions(ArgumentList& arguments);
 
   /// Throws OptionError where the calibration is missing, InputError where `left` is no sequence.
-  SequencePaths paths(const std::string& command) const;
+  /// `calibrated` false: the calibration may be missing.
+  SequencePaths paths(const std::string& command, bool calibrated = true) const;
   /// Into `options`, where --frames was given. Throws OptionError.
   void applyFrames(SequenceOptions& options) const;
 };

@@ -184,6 +184,7 @@ int SliceCommand::run() {
   for (const std::string& warning : inputs.warnings()) spdlog::warn("{}", warning);
   record = options_.paths.applyTo(record);
   writeFigure(drawing, options_, record);
+  tellWritten(options_.out, options_.recordFile());
   if (common.json) printJson(record);
   return kDone;
 }

@@ -116,6 +116,7 @@ void ViewCommand::declare(ArgumentList& arguments) {
   arguments.option("--speed", "N", movie_.speed, "seconds of the clip a second (default 1)");
   arguments.option("--seconds", "N", movie_.seconds, "length of the movie, whatever the speed");
   arguments.option("--turn", "DEG", movie_.turn_deg, "turn the camera in the movie, all in all");
+  arguments.flag("--clean", movie_.clean, "a screenshot or movie without slider and words");
   arguments.flag("--play", play_, "play at once");
   arguments.flag("--wait", wait_, "wait for the first model of a run that has just begun");
   arguments.flag("--force", force_, "overwrite a screenshot or movie that is there");
@@ -165,6 +166,8 @@ void ViewCommand::validate() {
   require(frame_ >= -1, "--frame", frame_, "must be 0 or more");
   require(movie_.frames_per_second >= 1 && movie_.frames_per_second <= 120, "--fps",
           movie_.frames_per_second, "must be 1 to 120");
+  if (movie_.clean && screenshot_.empty() && movie_file_.empty())
+    throw OptionError("--clean is for --screenshot and --movie; a window needs its slider");
   require(movie_.speed > 0 && movie_.speed <= 1000, "--speed", movie_.speed,
           "must be above 0, at most 1000");
   require(movie_.seconds >= 0 && movie_.seconds <= 3600, "--seconds", movie_.seconds,
@@ -219,7 +222,7 @@ int ViewCommand::firstMoment(const ViewSource& source, bool last_by_default) con
 void ViewCommand::writeScreenshot(RunSource& source, Json& record) const {
   Playback playback(source);
   playback.goTo(firstMoment(source, true));
-  ViewPicture picture(source, width_px_, height_px_);
+  ViewPicture picture(source, width_px_, height_px_, movie_.clean);
   writePng(screenshot_, picture.draw(playback, state_, movie_.turn_deg), force_);
   record["screenshot"] = {{"file", screenshot_}, {"frame", source.frameOf(playback.index())}};
   spdlog::info("written: {}", screenshot_);

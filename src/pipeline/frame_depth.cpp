@@ -31,8 +31,8 @@ FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOpt
 void FrameDepth::requireRectified() const {
   if (!rectified_)
     throw InputError(calibration_source_ +
-                     ": the sequence has depth/, but depth files belong to rectified pictures. Are "
-                     "these? Then write `rectified: 1`; else set depth.source=stereo");
+                     ": the sequence has depth/, but depth files belong to rectified (undistorted) "
+                     "images. Are these? Then write `rectified: 1`; else set depth.source=stereo");
 }
 
 bool FrameDepth::takesFile(const Frame& frame) const {

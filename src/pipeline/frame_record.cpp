@@ -20,6 +20,8 @@ const char* toString(FrameStatus status) {
       return "unconfirmed";
     case FrameStatus::kUnreadable:
       return "unreadable";
+    case FrameStatus::kUnpaired:
+      return "unpaired";
   }
   return "unreadable";
 }
@@ -28,7 +30,7 @@ std::optional<FrameStatus> frameStatusNamed(std::string_view name) {
   for (const FrameStatus status :
        {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
         FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
-        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable})
+        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable, FrameStatus::kUnpaired})
     if (name == toString(status)) return status;
   return std::nullopt;
 }

@@ -19,6 +19,7 @@ enum class FrameStatus {
   kSkippedResidual,  // located, but the model could not be bent to it
   kUnconfirmed,      // located and bent, but the model does not show what the frame shows
   kUnreadable,       // its files are missing or broken
+  kUnpaired,         // the other view has no image of its moment
 };
 
 const char* toString(FrameStatus status);

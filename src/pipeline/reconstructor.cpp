@@ -52,11 +52,12 @@ FrameRecord Reconstructor::process(const Frame& frame, const Frame* next) {
   return record;
 }
 
-FrameRecord Reconstructor::skip(int index, const std::string& reason, double time_s) {
+FrameRecord Reconstructor::skip(int index, const std::string& reason, double time_s,
+                                FrameStatus status) {
   FrameRecord record;
   record.frame = index;
   record.time_s = time_s;
-  reject(record, FrameStatus::kUnreadable, reason);
+  reject(record, status, reason);
   finish(record);
   return record;
 }

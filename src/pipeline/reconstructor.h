@@ -33,8 +33,9 @@ class Reconstructor {
   /// frame that takes its place. The model doesn't depend on it.
   FrameRecord process(const Frame& frame, const Frame* next = nullptr);
 
-  /// A frame that could not even be read.
-  FrameRecord skip(int index, const std::string& reason, double time_s = kUnknown);
+  /// A frame that could not even be read, or has no partner.
+  FrameRecord skip(int index, const std::string& reason, double time_s = kUnknown,
+                   FrameStatus status = FrameStatus::kUnreadable);
 
   /// Before the first frame.
   void track(const std::vector<TrackSeed>& seeds) { backend_->track(seeds); }

@@ -80,6 +80,16 @@ TEST(CommandLine, WrongUsageIsExitCodeTwoAndOneLine) {
   }
 }
 
+TEST(CommandLine, ColoursAreAMatterOfTheOption) {
+  const std::string escape = "\033[";
+  EXPECT_THAT(run({"info", "/absent", "--color", "always"}).err, HasSubstr(escape));
+  EXPECT_THAT(run({"info", "/absent", "--color", "never"}).err, testing::Not(HasSubstr(escape)));
+  EXPECT_THAT(run({"info", "/absent"}).err, testing::Not(HasSubstr(escape))) << "no terminal";
+  const Outcome wrong = run({"info", "/absent", "--color", "sometimes"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("auto, always or never"));
+}
+
 TEST(CommandLine, MisspeltSettingGetsTheNearestKey) {
   const Outcome outcome = run({"depth", "a", "--out", "x", "--set", "stereo.methd=sgbm"});
   EXPECT_EQ(outcome.exit_code, 2);

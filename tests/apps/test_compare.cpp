@@ -105,6 +105,46 @@ TEST_F(Compare, WhatWasObservedIsJudgedByItself) {
   EXPECT_EQ(compare("step.obj", {"--observed", at("none.ply")}).exit_code, 3);
 }
 
+TEST_F(Compare, ARunGivesItsModelOfTheFrameAskedFor) {
+  fs::create_directories(at("run/models"));
+  write("run/trajectory.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
+  write("run/frames.csv", "frame,status\n0,started\n7,lost\n");
+  for (const auto& [name, z] : {std::pair("model.ply", 0.5f), std::pair("models/000000.ply", 0.25f),
+                                std::pair("models/000007.ply", 0.5f)}) {
+    PointCloud cloud;
+    for (int i = 2; i < 18; ++i) cloud.points_mm.emplace_back(float(i), 10.0f, z);
+    writePly(at(std::string("run/") + name), cloud, {"world", ""});
+  }
+  EXPECT_NEAR(compared("run")["accuracy"]["mean_mm"], 0.5, 1e-6) << "the last model";
+  const Json first = compared("run", {"--frame", "0"});
+  EXPECT_NEAR(first["accuracy"]["mean_mm"], 0.25, 1e-6);
+  EXPECT_THAT(std::string(first["inputs"]["test"]), HasSubstr("000000.ply"));
+  EXPECT_THAT(compared("run", {"--frame", "7"})["warnings"].dump(), HasSubstr("was not fused"));
+  const Outcome absent = compare("run", {"--frame", "3"});
+  EXPECT_EQ(absent.exit_code, 2);
+  EXPECT_THAT(absent.err, HasSubstr("saved are the frames 0, 7"));
+  EXPECT_EQ(compare("above.obj", {"--frame", "0"}).exit_code, 2) << "no run";
+}
+
+TEST_F(Compare, AGivenTransformMovesTheTest) {
+  write("down.txt", "# reference_from_test, mm\n1 0 0 0\n0 1 0 0\n0 0 1 -0.5\n0 0 0 1\n");
+  const Json moved = compared("above.obj", {"--transform", at("down.txt")});
+  EXPECT_EQ(moved["alignment"]["method"], "given");
+  EXPECT_NEAR(moved["alignment"]["before"]["mean_mm"], 0.75, 1e-6);
+  EXPECT_NEAR(moved["accuracy"]["mean_mm"], 0.25, 1e-6);
+  const Json on = compared("above.obj", {"--transform", at("down.txt"), "--align", "icp"});
+  EXPECT_EQ(on["alignment"]["method"], "given, then icp");
+  EXPECT_LT(on["accuracy"]["mean_mm"], 1e-3);
+  write("scaled.txt", "2 0 0 0\n0 2 0 0\n0 0 2 0\n");
+  write("short.txt", "1 0 0 0\n");
+  write("words.txt", "one 0 0 0\n");
+  for (const char* file : {"scaled.txt", "short.txt", "words.txt", "absent.txt"}) {
+    const Outcome refused = compare("above.obj", {"--transform", at(file)});
+    EXPECT_EQ(refused.exit_code, 3) << file;
+    EXPECT_THAT(refused.err, HasSubstr(file));
+  }
+}
+
 TEST_F(Compare, AnAlignmentIsToldWithTheErrorsBefore) {
   const Json icp = compared("above.obj", {"--align", "icp"});
   EXPECT_NEAR(icp["alignment"]["before"]["mean_mm"], 0.75, 1e-6);

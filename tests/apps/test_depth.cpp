@@ -144,6 +144,35 @@ TEST_F(Depth, OnlyWhatIsAskedForIsWritten) {
   EXPECT_EQ(countFiles(at("out")), 2);  // and the summary
 }
 
+TEST_F(Depth, OfSeveralFramesOnlyDepthUnlessMoreIsAskedFor) {
+  const std::string sequence = makeSequence("s", 3);
+  const Outcome outcome = run({"depth", sequence, "--out", at("out"), "--frames", "0:3:2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(countFiles(at("out")), 3) << "two maps and the summary";
+  EXPECT_TRUE(fs::exists(at("out/000002_depth.png"))) << "under its own number";
+  EXPECT_THAT(outcome.out, HasSubstr("depth.png of each of 2 frames; summary.json"));
+  EXPECT_THAT(outcome.out, HasSubstr("--write disparity,depth,confidence,cloud,picture"));
+  const Outcome more = run({"depth", sequence, "--out", at("more"), "--write", "disparity,cloud"});
+  ASSERT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_EQ(countFiles(at("more")), 3 * 3 + 1);
+}
+
+TEST_F(Depth, DisparityNeedsNoCalibration) {
+  const std::string sequence = makeSequence("s", 1);
+  const std::string left = sequence + "/left/000000.png", right = sequence + "/right/000000.png";
+  const Outcome outcome = run({"depth", left, right, "--out", at("out"), "--write", "disparity"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  ASSERT_EQ(run({"depth", sequence, "--out", at("with"), "--write", "disparity"}).exit_code, 0);
+  EXPECT_TRUE(textOf(at("out/disparity.pfm")) == textOf(at("with/000000_disparity.pfm")))
+      << "the same, for the pair is rectified";
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr(" mm"))) << "no lengths without a calibration";
+  const auto summary = parsed(at("out/summary.json"));
+  EXPECT_TRUE(summary["calibration"].is_null());
+  EXPECT_TRUE(summary["frames"][0]["depth_mm"].is_null());
+  EXPECT_EQ(run({"depth", left, right, "--out", at("no"), "--write", "disparity,depth"}).exit_code,
+            2);
+}
+
 TEST_F(Depth, ABadFrameIsReportedAndSkipped) {
   const std::string sequence = makeSequence("s", 3);
   fs::resize_file(sequence + "/right/000001.png", 500);
@@ -155,6 +184,18 @@ TEST_F(Depth, ABadFrameIsReportedAndSkipped) {
   EXPECT_EQ(json["failed"][0]["frame"], 1);
   EXPECT_TRUE(fs::exists(at("out/000002_depth.png")));
   EXPECT_FALSE(fs::exists(at("out/000001_depth.png")));
+}
+
+TEST_F(Depth, WarningsComeOnceWithACount) {
+  const std::string sequence = makeSequence("s", 5);
+  for (const char* frame : {"1", "2", "4"})
+    fs::resize_file(sequence + "/right/00000" + frame + ".png", 500);
+  const Outcome outcome = run({"depth", sequence, "--out", at("out"), "--json", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("000001.png"));
+  EXPECT_THAT(outcome.err, HasSubstr("not measured: 2 more frames, 2 to 4; summary.json has each"));
+  EXPECT_EQ(outcome.json()["failed"].size(), 3u);
 }
 
 TEST_F(Depth, BadInputIsExitCodeThreeAndLeavesNothing) {

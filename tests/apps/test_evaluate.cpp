@@ -227,6 +227,22 @@ TEST_F(Evaluate, AgainstAMeshTheLastModelIsCompared) {
   EXPECT_FALSE(result.contains("tracks"));
 }
 
+TEST_F(Evaluate, AgainstAMeshTheModelOfAFrameIsComparedWhereAsked) {
+  const std::string mesh = at("truth/groundtruth/mesh/000002.ply");
+  const auto judged = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line{"evaluate", at("run"), "--reference", mesh, "--json"};
+    line.insert(line.end(), more.begin(), more.end());
+    return softscope::test::run(line);
+  };
+  const Outcome outcome = judged({"--frame", "2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["surface"]["models_judged"], 1);
+  EXPECT_NEAR(outcome.json()["surface"]["max_mm"], 2 * (0.1 + 0.02 * 2), kFloats);
+  EXPECT_EQ(judged({"--frame", "77"}).exit_code, 2);
+  EXPECT_EQ(judged({"--frame", "2", "--each"}).exit_code, 2);
+  EXPECT_EQ(evaluate({"--frame", "2"}).exit_code, 2) << "a sequence has its own frames";
+}
+
 TEST_F(Evaluate, AnAlignmentToAMeshIsToldWithTheErrorsBefore) {
   const std::string mesh = at("truth/groundtruth/mesh/000000.ply");
   for (const auto& [how, alignments] : std::vector<std::pair<std::string, std::size_t>>{

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/images/image_reader.h"
 #include "tests/apps/evaluate_fixture.h"
 
 namespace softscope::test {
@@ -143,6 +144,12 @@ TEST_F(EvaluateWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
   const std::string csv = textOf(at("out/frames.csv"));
   EXPECT_THAT(csv, testing::StartsWith("frame,time_s,outcome,view_psnr_db"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+  EXPECT_EQ(record["drawn_view"]["frame"], 3);
+  EXPECT_EQ(record["drawn_view"]["age_frames"], 0);
+  EXPECT_EQ(record["view"]["pixels"],
+            "pixels that the model covers, without masks and black borders");
+  const ColourImage drawn = readColourImage(at("out/drawn_view.png"));
+  EXPECT_EQ(drawn.width_px, 160 + 4 + 160) << "image, gap, model";
   for (const char* name : {"quality_series.svg", "quality_series.pdf", "quality_series.png"})
     EXPECT_TRUE(fs::exists(at(std::string("out/") + name))) << name;
   EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">PSNR [dB]<"));

@@ -60,6 +60,7 @@ TEST_F(Figure, TheTestIsBroughtToTheReferenceWhereAsked) {
     line.insert(line.end(), more.begin(), more.end());
     const Outcome outcome = figure(line);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("written: " + at("f.svg") + ", " + at("f.json")));
     return outcome.json();
   };
   const Json as_it_is = record({});

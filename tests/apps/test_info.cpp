@@ -47,6 +47,24 @@ TEST_F(Info, ASequenceWithoutCalibrationStillTellsWhatThereIs) {
   EXPECT_THAT(json["problems"].dump(), HasSubstr("calibration"));
 }
 
+TEST_F(Info, EveryTemplateOfACalibrationReadsAsItIs) {
+  for (const char* kind : {"stereo", "rectified", "rgb-d"}) {
+    const std::string file = at(std::string(kind) + ".yaml");
+    const Outcome written = run({"calibration-template", kind, "--out", file});
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    EXPECT_THAT(written.err, HasSubstr("written: " + file));
+    const Outcome outcome = run({"info", file, "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << kind << outcome.err;
+    EXPECT_TRUE(outcome.json()["warnings"].empty()) << kind << outcome.out;
+    EXPECT_DOUBLE_EQ(outcome.json()["left"]["fx_px"], 520);
+    EXPECT_EQ(outcome.json().contains("baseline_mm"), std::string(kind) != "rgb-d");
+    EXPECT_EQ(run({"calibration-template", kind}).out, textOf(file)) << "comments and all";
+  }
+  const Outcome wrong = run({"calibration-template", "rectifed"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean `rectified`?"));
+}
+
 TEST_F(Info, CheckReadsEveryFrame) {
   const std::string sequence = makeSequence("s", 3);
   fs::resize_file(sequence + "/left/000002.png", 200);

@@ -64,6 +64,14 @@ TEST_F(Reconstruct, WritesTheRunThatOthersRead) {
   const auto record = nlohmann::json::parse(textOf(at("run/run.json")));
   EXPECT_EQ(std::string(record["inputs"]["calibration"]["sha256"]).size(), 64u);
   EXPECT_EQ(record["configuration"]["stereo.disparity_max_px"], 63);
+  const auto crate = nlohmann::json::parse(textOf(at("run/ro-crate-metadata.json")));
+  EXPECT_EQ(crate["@context"], "https://w3id.org/ro/crate/1.1/context");
+  EXPECT_EQ(crate["@graph"][0]["conformsTo"]["@id"], "https://w3id.org/ro/crate/1.1");
+  for (const auto& part : crate["@graph"][1]["hasPart"])
+    EXPECT_TRUE(fs::exists(at("run/") + std::string(part["@id"]))) << part;
+  EXPECT_EQ(crate["@graph"][1]["hasPart"].size(), 10u);
+  EXPECT_THAT(crate.dump(), HasSubstr(std::string(record["inputs"]["calibration"]["sha256"])));
+  EXPECT_THAT(crate.dump(), Not(HasSubstr(folder.string()))) << "no path of this machine";
 }
 
 TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
@@ -82,6 +90,9 @@ TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
   EXPECT_THAT(std::string(doubted.json()["warnings"].back()),
               HasSubstr("3 of 4 frames were not fused (1 started, 3 unconfirmed)"));
   EXPECT_EQ(doubted.json()["outcomes"]["skipped"], 3);
+  EXPECT_THAT(doubted.err, HasSubstr("frame 1: unconfirmed: "));
+  EXPECT_THAT(doubted.err, Not(HasSubstr("frame 2: "))) << "one line per kind";
+  EXPECT_THAT(doubted.err, HasSubstr("unconfirmed: 2 more frames, 2 to 3; frames.csv"));
   const Outcome limited = reconstruct({"--out", at("run"), "--set", "gate.min_confidence=1",
                                        "--force", "--fail-if", "skipped>10%"});
   EXPECT_EQ(limited.exit_code, 1) << limited.err;
@@ -90,6 +101,36 @@ TEST_F(Reconstruct, SaysWhetherTheScopeMovedAndWhatWasNotFused) {
   EXPECT_TRUE(fs::exists(at("run/run.json"))) << "the run stays";
   EXPECT_EQ(reconstruct({"--out", at("run"), "--force", "--fail-if", "lsot>10%"}).exit_code, 2);
   EXPECT_EQ(reconstruct({"--out", at("run"), "--scope", "still", "--force"}).exit_code, 2);
+}
+
+TEST_F(Reconstruct, EveryStepthFrameKeepsItsNumberAndItsName) {
+  const std::string clip = makeClip(7);
+  for (const char* side : {"/left", "/right"})
+    for (int f = 0; f < 7; ++f)
+      fs::rename(clip + side + "/00000" + std::to_string(f) + ".png",
+                 clip + side + "/img_00012" + std::to_string(f) + ".png");
+  const Outcome done =
+      reconstruct({"--out", at("run"), "--frames", "1:7:2", "--save-every", "2", "--json"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.json()["frames"], 3);
+  EXPECT_EQ(textOf(at("run/images.csv")),
+            "frame,number,left,right\n"
+            "1,121,\"img_000121.png\",\"img_000121.png\"\n"
+            "3,123,\"img_000123.png\",\"img_000123.png\"\n"
+            "5,125,\"img_000125.png\",\"img_000125.png\"\n");
+  EXPECT_TRUE(fs::exists(at("run/models/000001.ply")));
+  EXPECT_FALSE(fs::exists(at("run/models/000003.ply"))) << "every second of those asked for";
+  EXPECT_TRUE(fs::exists(at("run/models/000005.ply")));
+  EXPECT_THAT(textOf(at("run/trajectory.txt")), HasSubstr("\n0.120000 ")) << "frame 3, not 1";
+  EXPECT_EQ(linesOf(at("run/trajectory_kitti.txt")), 3) << "a line per pose, no heading";
+  EXPECT_EQ(textOf(at("run/trajectory_kitti.txt")).rfind("1 0 0 0 0 1 0 0 0 0 1 0\n", 0), 0u);
+  const Outcome judged = run({"evaluate", at("run"), "--reference", clip, "--json", "--quiet"});
+  ASSERT_EQ(judged.exit_code, 0) << judged.err;
+  EXPECT_EQ(judged.json()["outcomes"]["frames"], 3);
+  EXPECT_EQ(judged.json()["surface"]["worst_frame"], 5);
+  EXPECT_LT(double(judged.json()["surface"]["mean_mm"]), 0.5)
+      << "judged by the truth of frame 5: the organ breathes";
+  EXPECT_EQ(reconstruct({"--out", at("other"), "--frames", "1:7:0"}).exit_code, 2);
 }
 
 TEST_F(Reconstruct, AnUnreadableFrameKeepsItsTime) {
@@ -148,12 +189,50 @@ TEST_F(Reconstruct, PairsTheViewsOfOneMoment) {
   EXPECT_THAT(done.err, HasSubstr("right picture f -1 belongs to left picture f"));
   EXPECT_EQ(done.json()["configuration"]["sequence.right_offset"], "-1");
   EXPECT_EQ(done.json()["frames_fused"], 7);
+  EXPECT_EQ(done.json()["frames_by_status"]["unpaired"], 1) << "nothing is wrong with its files";
   EXPECT_LT(double(done.json()["mean_backprojection_mm"]), 0.2);
+  const auto told = run({"info", at("clip"), "--json"}).json();
+  EXPECT_EQ(told["right_offset"], -1) << "the same for every command";
+  EXPECT_THAT(told["warnings"].dump(), HasSubstr("belongs to left picture f"));
+  const Outcome depth = run({"depth", at("clip"), "--out", at("depth"), "--json", "--frames", "0:2",
+                             "--set", "stereo.disparity_max_px=63"});
+  EXPECT_EQ(depth.json()["options"]["sequence.right_offset"], "-1");
+  EXPECT_EQ(depth.json()["frames_done"], 1) << "frame 0 has no partner";
   const Outcome as_is =
       reconstruct({"--out", at("as_is"), "--json", "--set", "sequence.right_offset=0"});
   // Fusion follows wrong depth too; the model that was warped only knows better.
   EXPECT_GT(double(as_is.json()["mean_prediction_mm"]),
             1.2 * double(done.json()["mean_prediction_mm"]));
+}
+
+// Depth and colour of one camera, then depth alone: no word of stereo, and the model is as good.
+TEST_F(Reconstruct, TakesDepthWithColourAndDepthAlone) {
+  const Outcome made =
+      run({"simulate", "--out", at("clip"), "--frames", "6", "--size", "160x120", "--set",
+           "organ.cells_per_side=30", "--set", "input_depth=true", "--quiet"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto rig = run({"info", at("clip"), "--json"}).json()["calibration"]["left"];
+  fs::remove_all(at("clip/right"));
+  write("clip/calibration.yaml", "fx: " + rig["fx_px"].dump() + "\ncx: " + rig["cx_px"].dump() +
+                                     "\ncy: " + rig["cy_px"].dump() + "\ndepth_unit_mm: 0.01\n");
+  for (const bool colour : {true, false}) {
+    if (!colour) fs::remove_all(at("clip/left"));
+    const Outcome described = run({"info", at("clip")});
+    EXPECT_EQ(described.exit_code, 0) << described.out << described.err;
+    EXPECT_THAT(described.out, Not(HasSubstr("baseline")));
+    const std::string out = at(colour ? "colour" : "depth");
+    const Outcome done = reconstruct({"--out", out, "--json"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_EQ(done.json()["frames_fused"], 6) << done.err;
+    EXPECT_TRUE(done.json()["rectified_rig"]["baseline_mm"].is_null());
+    const Outcome judged = run({"evaluate", out, "--reference", at("clip"), "--json", "--quiet"});
+    ASSERT_EQ(judged.exit_code, 0) << judged.err;
+    EXPECT_LT(double(judged.json()["surface"]["mean_mm"]), 0.2) << "0.01 mm is a step of the files";
+    const Outcome depth = run({"depth", at("clip"), "--out", out + "_maps", "--write", "depth"});
+    EXPECT_EQ(depth.exit_code, 0) << depth.err;
+    EXPECT_THAT(depth.out, HasSubstr("depth of 6 frames from depth files"));
+    EXPECT_THAT(depth.out, Not(HasSubstr("pair")));
+  }
 }
 
 TEST_F(Reconstruct, NeverOverwritesUnasked) {

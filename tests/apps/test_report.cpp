@@ -1,4 +1,5 @@
 // tests/apps/test_report.cpp: `softscope report` on what evaluate and compare wrote.
+#include "io/images/image_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 #include "tests/apps/made_case.h"
 
@@ -122,8 +123,10 @@ TEST_F(Report, SeveralCasesBecomeACohort) {
   EXPECT_NEAR(cohort["p95_mm"]["median"], 0.5, 1e-12);
   EXPECT_NEAR(cohort["agreement"]["bias_mm"], -0.25, 1e-12);
   const std::string html = textOf(at("page.html"));
-  for (const char* part : {"Bland-Altman", "id=\"review\"", "Case 4", "id=\"cases\""})
+  for (const char* part : {"Bland-Altman", "id=\"review\"", "Case 4", "id=\"cases\"",
+                           "name=\"reviewer\"", "name=\"decision\"", "content_sha256"})
     EXPECT_THAT(html, HasSubstr(part));
+  EXPECT_EQ(std::string(outcome.json()["content_sha256"]).size(), 64u);
   EXPECT_EQ(outcome.json()["colour_limit_mm"], 1) << "above the largest P95, 0.8, for all cases";
   EXPECT_THAT(textOf(at("page.pdf")), testing::StartsWith("%PDF"));
 }
@@ -134,14 +137,51 @@ TEST_F(Report, WithoutTruthItSaysSoAndClaimsNoDistance) {
   for (const char* part :
        {"There is no ground truth: how far the model lies from the tissue is not known.",
         "a PSNR of 28.0 dB", "it lies 0.250 mm on average from the depth that it was made of",
-        "over 75.0 % of the tissue", "judged at 4 moments", "mean PSNR has a 95 % confidence",
+        "over 75.0 % of the tissue", "judged at 4 moments",
+        "an interval over them would be too narrow",
         "Not measured, because it takes ground truth: surface errors; errors of the drawn depth.",
         ">frame<", "back-projection [mm]"})
     EXPECT_THAT(html, HasSubstr(part));
-  for (const char* part : {"Mean distance", "95th percentile", "id=\"maps\"", "HD95", "time [s]"})
+  for (const char* part :
+       {"Mean distance", "95th percentile", "id=\"maps\"", "HD95", "time [s]", "95 % confidence"})
     EXPECT_THAT(html, Not(HasSubstr(part)));
   EXPECT_EQ(report({at("real"), "--fail-if", "psnr_db<30", "--force"}).exit_code, 1);
   EXPECT_EQ(report({at("real"), "--fail-if", "p95_mm>1", "--force"}).exit_code, 2);
+}
+
+TEST_F(Report, WithoutTruthTheFirstPictureIsTheModelBesideTheImage) {
+  writeTruthlessCase(at("real"), 28);
+  Json record = Json::parse(textOf(at("real/evaluation.json")));
+  record["drawn_view"] = {{"frame", 30}, {"covers_share", 0.75}, {"age_frames", 2}};
+  write("real/evaluation.json", record.dump());
+  writePng(at("real/drawn_view.png"), ColourImage(64, 24, {90, 60, 50}));
+  const std::string html = page({at("real")});
+  const std::size_t picture = html.find("<img");
+  ASSERT_NE(picture, std::string::npos);
+  EXPECT_LT(picture, html.find("<h2>What was compared"));
+  EXPECT_THAT(html, HasSubstr("image of frame 30"));
+  EXPECT_THAT(html, HasSubstr("It covers 75.0 % of the tissue in sight. It is 2 frames old"));
+  write("real/drawn_view.png", "none");
+  expectRefused({"drawn_view.png", "is no PNG"}, report({at("real"), "--force"}));
+}
+
+TEST_F(Report, AChecklistNamesEachItemAndItsPlace) {
+  const std::string html = page({at("result"), "--checklist", "claim"});
+  EXPECT_THAT(html, HasSubstr("<h2>Reporting checklist"));
+  for (const char* part : {"definition of the reference standard", ">42<", "left to the author"})
+    EXPECT_THAT(html, HasSubstr(part));
+  EXPECT_THAT(page({at("result")}), Not(HasSubstr("Reporting checklist")));
+  EXPECT_EQ(report({at("result"), "--checklist", "clame", "--force"}).exit_code, 2);
+}
+
+TEST_F(Report, NoHeadingStandsAlone) {
+  writeTruthlessCase(at("real"), 28);
+  Json record = Json::parse(textOf(at("real/evaluation.json")));
+  record["frames"] = Json::array();  // nothing to plot, and no map
+  write("real/evaluation.json", record.dump());
+  writeTruthlessCase(at("other"), 28);
+  for (const auto& cases : {std::vector<std::string>{at("real")}, {at("real"), at("other")}})
+    EXPECT_THAT(page(cases), Not(HasSubstr("<h2>Pictures")));
 }
 
 TEST_F(Report, CasesWithoutTruthDontCountAmongTheDistances) {

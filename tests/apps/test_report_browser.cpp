@@ -100,6 +100,8 @@ addEventListener("load", () => {
   press("4"); press("n"); press("2"); press("o");
   told.hidden = !viewer.style.model;
   told.shown = viewer.map.name;
+  document.querySelector("#review [name=reviewer]").value = "A. Reviewer";
+  document.querySelector("#review [name=decision]").value = "rejected";
   told.review = JSON.parse(review.text());
   const out = document.createElement("pre");
   out.id = "told";
@@ -132,6 +134,10 @@ TEST_F(ReportInBrowser, AnswersClicksAndKeys) {
   EXPECT_EQ(told["shown"], "B");
   EXPECT_EQ(told["review"]["grades"][0]["grade"], 4);
   EXPECT_EQ(told["review"]["grades"][1]["grade"], 2);
+  EXPECT_EQ(std::string(told["review"]["report_sha256"]).size(), 64u);
+  EXPECT_EQ(told["review"]["reviewer"], "A. Reviewer");
+  EXPECT_EQ(told["review"]["decision"], "rejected");
+  EXPECT_THAT(std::string(told["review"]["saved"]), testing::ContainsRegex("^20.*T.*Z$"));
 }
 
 }  // namespace

@@ -54,6 +54,34 @@ class View : public Evaluate {
   }
 };
 
+TEST_F(View, ACleanPictureIsTheViewAlone) {
+  const ColourImage clean = picture({"--clean", "--look", "scope"});
+  ASSERT_EQ(clean.height_px, 360);
+  EXPECT_EQ(countNear(clean, {0, 110, 170}, 8), 0) << "the slider's blue";
+  EXPECT_GT(countNear(picture({"--look", "scope"}), {0, 110, 170}, 8), 20);
+  int wall = 0;  // where the foot would be
+  for (int v = 272; v < 360; ++v)
+    for (int u = 0; u < 480; ++u) wall += std::abs(clean.at(u, v).green - kWall.green) < 40;
+  EXPECT_GT(wall, 480 * 88 / 5) << "the view fills the picture";
+  EXPECT_EQ(view({"--clean"}).exit_code, 2) << "a window keeps its slider";
+}
+
+TEST_F(View, LettersKeepTheirShareOfALargePicture) {
+  const auto blueRows = [&](const char* size) {  // of the slider, left of its knob
+    EXPECT_EQ(view({"--screenshot", at("large.png"), "--size", size, "--force"}).exit_code, 0);
+    const ColourImage shown = readColourImage(at("large.png"));
+    int rows = 0;
+    for (int v = shown.height_px - shown.height_px / 6; v < shown.height_px; ++v) {
+      const Rgb8 c = shown.at(shown.width_px / 2, v);
+      rows += c.red < 60 && std::abs(c.blue - 170) < 60;
+    }
+    return rows;
+  };
+  const int usual = blueRows("960x720");
+  EXPECT_GE(usual, 2);
+  EXPECT_GT(blueRows("1920x1440"), usual + 1) << "a line of 3 px becomes one of 6";
+}
+
 TEST_F(View, AScreenshotShowsTheTissueWithoutADisplay) {
   const ColourImage shown = picture();
   EXPECT_EQ(shown.width_px, 480);

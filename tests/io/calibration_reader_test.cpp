@@ -6,6 +6,7 @@
 
 #include "io/calibration_texts.h"
 #include "io/calibrations/calibration_writer.h"
+#include "io/calibrations/one_camera.h"
 #include "io/temporary_folder.h"
 
 namespace softscope::test {
@@ -49,6 +50,33 @@ TEST(CalibrationReader, ReadsOpenCvYaml) {
   EXPECT_EQ(found.source, "c.yaml");
   EXPECT_TRUE(found.warnings.empty());
   EXPECT_DOUBLE_EQ(found.depth_unit_mm, 0.01);
+}
+
+TEST(CalibrationReader, ARectifiedPairNeedsFourNumbers) {
+  const auto found =
+      parseCalibration("f: 500\ncx: 321\ncy: 241\nbaseline: 0.5\nunit: cm\n", "c.yaml");
+  expectCamera(found.left, 500, 500, 321, 241, 0);
+  expectCamera(found.right, 500, 500, 321, 241, 0);
+  EXPECT_DOUBLE_EQ(found.baseline_mm(), 5);
+  EXPECT_TRUE(found.rectified);
+  EXPECT_FALSE(hasOneCamera(found));
+  EXPECT_TRUE(found.warnings.empty());
+  expectError<InputError>([] { parseCalibration("f: 500\ncy: 241\nbaseline: 5\n", "c.yaml"); },
+                          {"c.yaml: cx", "is missing", "calibration-template"});
+  expectError<InputError>(
+      [] { parseCalibration("f: 500\ncx: 321\ncy: 241\nbaseline: 0.005\n", "c.yaml"); },
+      {"In metres?"});
+}
+
+TEST(CalibrationReader, OneCameraIsEnoughForDepth) {
+  for (const char* text : {"fx: 500\nfy: 500\ncx: 321\ncy: 241\ndepth_unit_mm: 1\n",
+                           "K: [500, 0, 321, 0, 500, 241, 0, 0, 1]\ndepth_unit_mm: 1\n"}) {
+    const auto found = parseCalibration(text, "c.yaml");
+    expectCamera(found.left, 500, 500, 321, 241, 0);
+    EXPECT_TRUE(hasOneCamera(found)) << text;
+    EXPECT_TRUE(found.rectified);
+    EXPECT_DOUBLE_EQ(found.depth_unit_mm, 1);
+  }
 }
 
 TEST(CalibrationReader, ReadsOpenCvXml) {

@@ -110,8 +110,60 @@ TEST(SequenceReader, FrameRangesAreHalfOpen) {
   EXPECT_EQ(parseFrameRange("2:").end, -1);
   EXPECT_EQ(parseFrameRange(":7").end, 7);
   EXPECT_EQ(parseFrameRange(":").begin, 0);
-  for (const char* text : {"", "5", "5:5", "7:3", "-1:4", "a:b", "1:2:3", "1.5:2"})
+  for (const char* text :
+       {"", "5", "5:5", "7:3", "-1:4", "a:b", "1:2:3:4", "1:5:0", "1:5:-2", "1:5:a", "1.5:2"})
     expectError<OptionError>([&] { parseFrameRange(text); }, {"--frames"});
+}
+
+TEST(SequenceReader, ReadsEveryStepthFrameUnderItsOwnNumber) {
+  EXPECT_EQ(parseFrameRange("1:9:3").step, 3);
+  EXPECT_EQ(parseFrameRange("::5").step, 5);
+  EXPECT_EQ(parseFrameRange("2:7:").step, 1);
+  for (const bool video : {false, true}) {
+    TemporaryFolder folder;
+    if (video)
+      makeTwoVideos(folder, 9);
+    else
+      makeSequence(folder.path(), 9);
+    SequenceOptions options;
+    options.frames = parseFrameRange("1:9:3");
+    SequenceReader reader(folder.path(), options);
+    EXPECT_EQ(reader.frameCount(), 3);
+    const auto frames = expectTestPairs(reader, video ? kVideoTolerance : 0);
+    ASSERT_EQ(frames.size(), 3U);
+    EXPECT_EQ(frames[0].index, 1);
+    EXPECT_EQ(frames[1].index, 4);
+    EXPECT_EQ(frames[2].index, 7);
+  }
+}
+
+// Frame 0 of a clip whose first picture is IMG_0120 is known to its owner as 120.
+TEST(SequenceReader, TellsTheNamesAndNumbersOfTheFiles) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 3);
+  for (const char* side : {"left", "right"})
+    for (int i = 0; i < 3; ++i)
+      std::filesystem::rename(folder / side / numbered(i),
+                              folder / side / (std::string(side) + "_" + numbered(120 + i)));
+  SequenceOptions options;
+  options.right_offset = "-1";
+  SequenceReader reader(folder.path(), options);
+  const auto first = reader.next(), second = reader.next();
+  EXPECT_TRUE(first->unpaired);
+  EXPECT_EQ(first->names.number, 120);
+  EXPECT_EQ(first->names.left, "left_000120.png");
+  EXPECT_EQ(first->names.right, "");
+  EXPECT_FALSE(second->unpaired);
+  EXPECT_EQ(second->names.number, 121);
+  EXPECT_EQ(second->names.right, "right_000120.png");
+
+  TemporaryFolder videos;
+  makeTwoVideos(videos, 2);
+  SequenceReader of_video(videos.path());
+  of_video.next();
+  const auto last = of_video.next();
+  EXPECT_EQ(last->names.number, 1);
+  EXPECT_EQ(last->names.left, "left.avi");
 }
 
 TEST(SequenceReader, ReadsMasksDepthAndTimes) {

@@ -28,6 +28,21 @@ TEST(TrajectoryFile, ComesBackWithinItsDigits) {
             1e-6);
 }
 
+TEST(TrajectoryFile, KittiSFormHasTheSamePosesRowByRow) {
+  TimedPose pose;
+  pose.world_from_left =
+      Eigen::Translation3d(1.25, -2.5, 80) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ());
+  const std::string text = kittiText({TimedPose{}, pose});
+  EXPECT_EQ(text.substr(0, text.find('\n')), "1 0 0 0 0 1 0 0 0 0 1 0");
+  std::istringstream second(text.substr(text.find('\n') + 1));
+  const double expected[] = {0, -1, 0, 1.25, 1, 0, 0, -2.5, 0, 0, 1, 80};
+  for (const double value : expected) {
+    double found = 7;
+    ASSERT_TRUE(second >> found);
+    EXPECT_NEAR(found, value, 1e-8);  // quaternions of trajectory.txt carry nine digits
+  }
+}
+
 TEST(TrajectoryFile, TheOrderIsTumS) {
   const Trajectory found = parseTrajectory("# t x y z qx qy qz qw\n\n0.5 1 2 3 0 0 0.6 0.8\n", "t");
   ASSERT_EQ(found.size(), 1U);

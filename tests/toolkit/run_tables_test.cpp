@@ -23,7 +23,7 @@ TEST(RunTables, EveryLineHasTheHeadingsCells) {
   for (const FrameStatus status :
        {FrameStatus::kStarted, FrameStatus::kFused, FrameStatus::kRecovered,
         FrameStatus::kSkippedDepth, FrameStatus::kLost, FrameStatus::kSkippedResidual,
-        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable}) {
+        FrameStatus::kUnconfirmed, FrameStatus::kUnreadable, FrameStatus::kUnpaired}) {
     FrameRecord record;
     record.status = status;
     record.reason = "a \"quoted\", torn\nreason";

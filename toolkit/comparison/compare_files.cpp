@@ -5,9 +5,13 @@
 
 #include "core/error.h"
 #include "io/files/file_hash.h"
+#include "io/files/folder.h"
+#include "io/text/message.h"
 #include "mesh/mesh_check.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/evaluation/evaluate_plots.h"
+#include "toolkit/export/export_input.h"
+#include "toolkit/run/run_reader.h"
 
 namespace softscope {
 namespace {
@@ -28,12 +32,24 @@ ObservedSplit split(const CompareOptions& options, const FileComparison& compare
                          options.observed_reach_mm);
 }
 
-void readSurfaces(const CompareOptions& options, FileComparison& compared) {
+/// The test's file: of a run the model asked for.
+std::string testFile(const CompareOptions& options, std::vector<std::string>& warnings) {
+  if (!isFolder(options.test)) return options.test;
+  const JudgedRun run = openJudgedRun(options.test);
+  for (const std::string& warning : run.warnings()) warnings.push_back(warning);
+  if (options.frame >= 0 && !run.counts(options.frame))
+    warnings.push_back(say("frame ", options.frame, " of ", options.test,
+                           " was not fused: its model shows an earlier moment"));
+  return savedModel(options.test, options.frame).file.string();
+}
+
+void readSurfaces(const CompareOptions& options, const std::string& test,
+                  FileComparison& compared) {
   compared.reference = readSurfaceOrPoints(options.reference, options.reference_unit_mm);
   if (compared.reference.empty())
     throw InputError(options.reference +
                      ": is a set of points, but a reference is a surface; give a mesh");
-  compared.test = readSurfaceOrPoints(options.test, options.test_unit_mm);
+  compared.test = readSurfaceOrPoints(test, options.test_unit_mm);
   addMeshWarnings(compared.reference, options.reference, compared.result.warnings);
   addMeshWarnings(compared.test, options.test, compared.result.warnings);
 }
@@ -43,6 +59,10 @@ void readSurfaces(const CompareOptions& options, FileComparison& compared) {
 void CompareOptions::validate() const {
   require(observed_reach_mm > 0 && std::isfinite(observed_reach_mm), "--observed-within-mm",
           observed_reach_mm, "must be above 0");
+  if (frame >= 0 && !isFolder(test))
+    throw OptionError("--frame is for a run, but --test " + test + " is no folder of one");
+  if (!fit.transform.empty() && !fit.landmarks.empty())
+    throw OptionError("--transform and --landmarks exclude each other; give one");
   for (const double tau_mm : taus_mm)
     require(tau_mm > 0 && std::isfinite(tau_mm), "--tau", tau_mm, "must be above 0");
   checkThresholds(thresholds, comparisonJson({}), kAccuracy);
@@ -53,8 +73,9 @@ FileComparison compareFiles(const CompareOptions& options) {
   FileComparison compared;
   ComparisonResult& result = compared.result;
   result.reference = options.reference;
-  result.test = options.test;
-  readSurfaces(options, compared);
+  const std::string test = testFile(options, result.warnings);
+  result.test = test;
+  readSurfaces(options, test, compared);
   result.space = matchSpaces(compared.reference, compared.test);
   result.fit = fitSurface(compared.reference, compared.test.vertices_mm, options.fit);
   compared.test.vertices_mm = movePoints(result.fit.reference_from_test, compared.test.vertices_mm);
@@ -63,8 +84,7 @@ FileComparison compareFiles(const CompareOptions& options) {
   if (!options.observed.empty()) result.observed = split(options, compared);
 
   FactSheet::Json record = comparisonJson(result);
-  record["inputs_sha256"] = {{"reference", sha256Of(options.reference)},
-                             {"test", sha256Of(options.test)}};
+  record["inputs_sha256"] = {{"reference", sha256Of(options.reference)}, {"test", sha256Of(test)}};
   compared.outcomes = checkThresholds(options.thresholds, record, kAccuracy);
   record["thresholds"] = thresholdsJson(compared.outcomes);
   record["error_histogram"] = histogramJson(result.comparison.accuracy.each_mm);

@@ -14,7 +14,8 @@ namespace softscope {
 
 struct CompareOptions {
   std::string reference;  // mesh file
-  std::string test;       // mesh, or points as `reconstruct` writes them
+  std::string test;       // mesh, or points as `reconstruct` writes them, or the folder of a run
+  int frame = -1;         // of a run; -1: its last model
   SurfaceFitOptions fit;
   std::vector<double> taus_mm{0.5, 1, 2};  // of precision, recall, F and surface Dice
   std::string observed;                    // file of what was seen; empty: no split

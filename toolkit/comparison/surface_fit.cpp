@@ -3,6 +3,10 @@
 
 #include "core/error.h"
 #include "eval/surfaces/surface_errors.h"
+#include "io/calibrations/calibration_parts.h"
+#include "io/files/file_bytes.h"
+#include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/record/statistics_json.h"
 
@@ -16,7 +20,33 @@ SurfaceFitOptions parseFit(const std::string& align, const std::string& landmark
     throw OptionError("--align landmarks needs " + landmarks_option + " FILE");
   if (align == "none" && !landmarks.empty())
     throw OptionError("--align none and " + landmarks_option + " exclude each other; give one");
-  return {landmarks, align == "icp"};
+  return {landmarks, align == "icp", ""};
+}
+
+Eigen::Isometry3d readTransform(const std::string& file) {
+  std::vector<double> numbers;
+  const std::string text = readBytes(file, kTextLimitBytes);
+  for (const std::string_view line : linesOf(text))
+    for (const std::string_view word : wordsOf(line.substr(0, line.find('#')))) {
+      const auto number = numberOf(word);
+      if (!number)
+        throw InputError(say(shown(file), ": ", excerpt(word),
+                             " is no number; a matrix of 3 or 4 rows of 4 numbers is expected"));
+      numbers.push_back(*number);
+    }
+  const bool closed = numbers.size() == 16 && numbers[12] == 0 && numbers[13] == 0 &&
+                      numbers[14] == 0 && numbers[15] == 1;
+  if (numbers.size() != 12 && !closed)
+    throw InputError(say(shown(file), ": holds ", numbers.size(),
+                         " numbers, but a rigid motion has 3 rows of 4, and maybe 0 0 0 1 below"));
+  std::vector<double> rotation, translation;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column)
+      rotation.push_back(numbers[4 * row + column]);
+    translation.push_back(numbers[4 * row + 3]);
+  }
+  return poseFrom(rotation, translation, shown(file) + ": the rotation",
+                  shown(file) + ": the translation");
 }
 
 SurfaceFit fitSurface(const TriangleMesh& reference, const std::vector<Eigen::Vector3f>& test_mm,
@@ -31,10 +61,14 @@ SurfaceFit fitSurface(const TriangleMesh& reference, const std::vector<Eigen::Ve
     fit.reference_from_test = fit.landmarks->fit.target_from_source;
     fit.method = "landmarks";
   }
+  if (!options.transform.empty()) {
+    fit.reference_from_test = readTransform(options.transform);
+    fit.method = "given";
+  }
   if (!options.closest_points) return fit;
   fit.icp = alignToSurface(test_mm, surface, {}, fit.reference_from_test);
   fit.reference_from_test = fit.icp->surface_from_points;
-  fit.method = fit.landmarks ? "landmarks, then icp" : "icp";
+  fit.method = fit.method == "none" ? "icp" : fit.method + ", then icp";
   if (!fit.icp->converged())
     fit.warnings.emplace_back(
         "the alignment did not converge; a better start may help: --landmarks");

@@ -16,9 +16,14 @@ namespace softscope {
 struct SurfaceFitOptions {
   std::string landmarks;  // file of pairs; empty: none
   bool closest_points = false;
+  std::string transform;  // file of reference_from_test (readTransform()); empty: none
 
-  bool moves() const { return closest_points || !landmarks.empty(); }
+  bool moves() const { return closest_points || !landmarks.empty() || !transform.empty(); }
 };
+
+/// A rigid motion, mm: a matrix of 3 or 4 rows of 4 numbers, row by row; # begins a comment.
+/// Throws InputError: other numbers, a rotation that is none, a last row other than 0 0 0 1.
+Eigen::Isometry3d readTransform(const std::string& file);
 
 /// From --align, which may be empty, and the option of that name with a file of landmarks: these
 /// alone mean landmarks, with icp that it begins at them. Throws OptionError: an unknown way,
@@ -27,7 +32,8 @@ SurfaceFitOptions parseFit(const std::string& align, const std::string& landmark
                            const std::string& landmarks_option);
 
 struct SurfaceFit {
-  std::string method = "none";  // none, landmarks, icp, "landmarks, then icp"
+  // none, landmarks, given, icp, "landmarks, then icp", "given, then icp"
+  std::string method = "none";
   Eigen::Isometry3d reference_from_test = Eigen::Isometry3d::Identity();
   std::optional<Statistics> before_mm;  // the test's distances before it
   std::optional<LandmarkErrors> landmarks;

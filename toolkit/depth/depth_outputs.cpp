@@ -34,7 +34,7 @@ std::string noteOf(const DepthResult& measured) {
 
 DepthOutputKinds DepthOutputKinds::parse(const std::string& list) {
   if (list.empty()) return {};
-  DepthOutputKinds kinds{false, false, false, false, false};
+  DepthOutputKinds kinds{false, false, false, false, false, true};
   const std::vector<std::string> names{"disparity", "depth", "confidence", "cloud", "picture"};
   bool* const fields[] = {&kinds.disparity, &kinds.depth, &kinds.confidence, &kinds.cloud,
                           &kinds.picture};
@@ -54,8 +54,12 @@ DepthOutputKinds DepthOutputKinds::parse(const std::string& list) {
 
 std::vector<std::string> DepthOutputs::names() const {
   std::vector<std::string> names;
-  if (options_.kinds.disparity) names.insert(names.end(), {"disparity.pfm", "disparity.png"});
-  if (options_.kinds.depth) names.insert(names.end(), {"depth.pfm", "depth.png"});
+  const auto addRaster = [&](const std::string& name) {
+    if (options_.kinds.floats) names.push_back(name + ".pfm");
+    names.push_back(name + ".png");
+  };
+  if (options_.kinds.disparity) addRaster("disparity");
+  if (options_.kinds.depth) addRaster("depth");
   if (options_.kinds.confidence) names.emplace_back("confidence.png");
   if (options_.kinds.cloud) names.emplace_back("cloud.ply");
   if (options_.kinds.picture) names.emplace_back("picture.png");
@@ -78,13 +82,16 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
   const auto rasters = [&] {
     if (options_.kinds.disparity && matched) {
       const auto& disparity_px = measured.disparity.disparity_px;
-      make(prefix, "disparity.pfm", [&](const auto& path) { writePfm(path, disparity_px, force); });
+      if (options_.kinds.floats)
+        make(prefix, "disparity.pfm",
+             [&](const auto& path) { writePfm(path, disparity_px, force); });
       make(prefix, "disparity.png",
            [&](const auto& path) { writeDisparityPng(path, disparity_px, force); });
     }
     if (options_.kinds.depth) {
       const auto& depth_mm = measured.depth.depth_mm;
-      make(prefix, "depth.pfm", [&](const auto& path) { writePfm(path, depth_mm, force); });
+      if (options_.kinds.floats)
+        make(prefix, "depth.pfm", [&](const auto& path) { writePfm(path, depth_mm, force); });
       make(prefix, "depth.png",
            [&](const auto& path) { writeDepthPng(path, depth_mm, kDepthStepMm, force); });
     }
@@ -106,6 +113,20 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
       });
   };
   parallelInvoke(rasters, drawings);
+}
+
+std::vector<std::string> DepthOutputs::told(int frames) const {
+  std::string files;
+  for (const std::string& name : names()) files += name + ", ";
+  std::vector<std::string> lines{options_.folder.string()};
+  if (frames == 1)
+    lines.push_back(files + "summary.json");
+  else
+    lines.push_back(files.substr(0, files.size() - 2) + " of each of " + std::to_string(frames) +
+                    " frames; summary.json");
+  if (frames > 1 && !options_.kinds.floats)
+    lines.emplace_back("--write disparity,depth,confidence,cloud,picture asks for more");
+  return lines;
 }
 
 void DepthOutputs::writeSummary(const std::string& json) const {

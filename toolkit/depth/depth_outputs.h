@@ -15,6 +15,14 @@ namespace softscope {
 /// Which kinds are written.
 struct DepthOutputKinds {
   bool disparity = true, depth = true, confidence = true, cloud = true, picture = true;
+  bool floats = true;  // disparity and depth as PFM too
+
+  /// What is written of several frames unless asked for more: depth.png alone. All kinds take some
+  /// 10 MB per frame of 640 x 480 pixels.
+  static DepthOutputKinds ofSequence() { return {false, true, false, false, false, false}; }
+
+  /// Whether nothing in mm is written, so that no calibration is needed.
+  bool onlyPixels() const { return !depth && !cloud && !picture; }
 
   /// "depth,picture"; empty = all. Throws OptionError with the nearest name.
   static DepthOutputKinds parse(const std::string& list);
@@ -38,6 +46,9 @@ class DepthOutputs {
   /// Files named <prefix>depth.png and so on, each whole or not at all.
   void write(const std::string& prefix, const DepthResult& measured, const DepthRange& range,
              const std::string& title) const;
+
+  /// What was written, for people: the folder, then the files of `frames` frames.
+  std::vector<std::string> told(int frames) const;
 
   void writeSummary(const std::string& json) const;
   void keep() const { new_files_.keep(); }

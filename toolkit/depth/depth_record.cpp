@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/calibrations/one_camera.h"
 #include "toolkit/depth/frame_statistics.h"
 #include "toolkit/record/setting_json.h"
 #include "toolkit/record/version.h"
@@ -14,10 +15,11 @@ namespace {
 using Json = FactSheet::Json;
 
 Json calibrationJson(const StereoCalibration& calibration, const RectifiedRig& rig) {
+  if (isUncalibrated(calibration)) return nullptr;
   return {{"source", calibration.source},
           {"form", calibration.form},
           {"rectified", calibration.rectified},
-          {"baseline_mm", rig.baseline_mm},
+          {"baseline_mm", hasOneCamera(calibration) ? Json() : Json(rig.baseline_mm)},
           {"rectified_focal_px", rig.left.fx_px},
           {"rectified_centre_px", {rig.left.cx_px, rig.left.cy_px}},
           {"disparity_offset_px", rig.disparity_offset_px}};
@@ -48,6 +50,10 @@ void DepthRecord::addFrame(int index, double time_s, const DepthResult& measured
   Json frame{{"frame", index}};
   if (std::isfinite(time_s)) frame["time_s"] = time_s;
   frame.update(frameJson(measured));
+  if (json_["calibration"].is_null()) {  // lengths would mean nothing
+    frame["depth_mm"] = nullptr;
+    frame["median_predicted_error_mm"] = nullptr;
+  }
   frame["elapsed_ms"]["write"] = write_ms;
   frames_.push_back(std::move(frame));
   if (const std::string warning = rowWarning(measured); !warning.empty())
@@ -83,14 +89,19 @@ double DepthRecord::meanTime(const std::string& stage) const {
   return frames_.empty() ? 0 : sum / double(frames_.size());
 }
 
-FactSheet DepthRecord::text(const std::string& folder) const {
+FactSheet DepthRecord::text() const {
   const int count = goodFrames();
-  FactSheet facts("depth of " + std::to_string(count) + (count == 1 ? " pair" : " pairs") + " by " +
-                  json_["method"].get<std::string>());
+  const std::string method = json_["method"].get<std::string>();
+  const bool files = method == "files";
+  const std::string what = files ? " frame" : " pair";
+  FactSheet facts((json_["calibration"].is_null() ? "disparity of " : "depth of ") +
+                  std::to_string(count) + what + (count == 1 ? "" : "s") +
+                  (files ? " from depth files" : " by " + method));
   facts.addLine("coverage", fixed(100 * meanOf("coverage"), 1) + " % of the unmasked pixels");
   if (count == 1) {
     const Json& depth = frames_[0]["depth_mm"];
-    if (depth["median"].is_number() && std::isfinite(depth["median"].get<double>()))
+    if (depth.is_object() && depth["median"].is_number() &&
+        std::isfinite(depth["median"].get<double>()))
       facts.addLine("depth", fixed(depth["p1"], 1) + " to " + fixed(depth["p99"], 1) +
                                  " mm (1st to 99th percentile), median " +
                                  fixed(depth["median"], 1) + " mm");
@@ -99,13 +110,14 @@ FactSheet DepthRecord::text(const std::string& folder) const {
     facts.addLine("rows", "differ by " + fixed(frames_[0]["rows"]["mean_row_difference_px"], 2) +
                               " px on average" +
                               (frames_[0]["rows"]["removed"].get<bool>() ? ", removed" : ""));
-  facts.addLine("time", "rectify " + fixed(meanTime("rectify"), 0) + ", rows " +
-                            fixed(meanTime("rows"), 0) + ", match " +
-                            fixed(meanTime("disparity"), 0) + ", normals and cloud " +
+  const std::string stereo_times = files ? ""
+                                         : "rectify " + fixed(meanTime("rectify"), 0) + ", rows " +
+                                               fixed(meanTime("rows"), 0) + ", match " +
+                                               fixed(meanTime("disparity"), 0) + ", ";
+  facts.addLine("time", stereo_times + "normals and cloud " +
                             fixed(meanTime("normals") + meanTime("cloud"), 0) + ", write " +
-                            fixed(meanTime("write"), 0) + " ms a pair");
+                            fixed(meanTime("write"), 0) + " ms a" + what);
   if (failures() > 0) facts.addLine("failed", std::to_string(failures()) + " frames, see above");
-  facts.addLine("written to", folder);
   return facts;
 }
 

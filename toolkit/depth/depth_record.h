@@ -28,7 +28,7 @@ class DepthRecord {
   int failures() const { return int(failed_.size()); }
   FactSheet::Json json() const;
   /// A few lines for people.
-  FactSheet text(const std::string& folder) const;
+  FactSheet text() const;
 
  private:
   double meanOf(const char* key) const;

@@ -34,9 +34,22 @@ const char* const kFiles[] = {"evaluation.json",
                               "worst_frames.png",
                               "maps.csv",
                               "errors.pvd",
+                              "drawn_view.png",
                               "quality_series.svg",
                               "quality_series.pdf",
                               "quality_series.png"};
+
+/// With a white gap between them.
+ColourImage besideEachOther(const DrawnPair& pair) {
+  const int width_px = pair.image.width_px, height_px = pair.image.height_px;
+  const int gap_px = std::max(4, width_px / 60);
+  ColourImage both(2 * width_px + gap_px, height_px, {255, 255, 255});
+  for (int v = 0; v < height_px; ++v) {
+    std::copy_n(pair.image.row(v), width_px, both.row(v));
+    std::copy_n(pair.model.row(v), width_px, both.row(v) + width_px + gap_px);
+  }
+  return both;
+}
 
 std::string mapName(const ErrorMap& map) { return "errors/" + numberedName(map.frame, ".vtp"); }
 
@@ -111,6 +124,11 @@ void EvaluateOutputs::write(const EvaluationResult& result) const {
 
 void EvaluateOutputs::write(const TruthlessResult& result) const {
   put("frames.csv", truthlessCsv(result));
+  if (!result.last_drawn.image.empty()) {
+    const fs::path png = folder_ / "drawn_view.png";
+    new_files_.make(
+        png, [&] { writePng(png, besideEachOther(result.last_drawn), kDotsPerInch, overwrite_); });
+  }
   const VectorDrawing plots = truthlessPlots(result);
   if (plots.height_pt > 0) putFigure("quality_series", plots);
 }

@@ -81,7 +81,8 @@ Json viewJson(const SurfaceSeries& surface) {
           {"psnr_over_all_pixels_db",
            surface.meanOfView([](V v) { return v.picture.psnr_over_all_pixels_db; })},
           {"ssim", surface.meanOfView([](V v) { return v.picture.ssim; })},
-          {"judged_share", surface.meanOfView([](V v) { return v.picture.judged_share; })}};
+          {"judged_share", surface.meanOfView([](V v) { return v.picture.judged_share; })},
+          {"pixels", kPsnrMask}};
 }
 
 /// The run's own figure: statistics of its frames' means.

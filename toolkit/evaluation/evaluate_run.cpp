@@ -12,6 +12,7 @@
 #include "toolkit/evaluation/evaluate_frames.h"
 #include "toolkit/evaluation/evaluate_plots.h"
 #include "toolkit/evaluation/evaluate_record.h"
+#include "toolkit/export/export_input.h"
 #include "toolkit/run/provenance.h"
 
 namespace softscope {
@@ -65,6 +66,14 @@ FrameFiles modelsFor(const EvaluateOptions& options, const JudgedRun& run) {
                      ": holds no model NNNNNN.ply of a fused frame, but --each asks for them; "
                      "reconstruct with --save-every 1");
   if (options.each_model) return run.countedModels();
+  if (options.frame >= 0) {
+    const std::filesystem::path file = savedModel(options.run, options.frame).file;
+    if (!run.counts(options.frame))
+      throw InputError(say(options.run, ": frame ", options.frame,
+                           " was not fused, so that its model shows an earlier moment; take a "
+                           "frame that frames.csv has as fused"));
+    return {{options.frame, file}};
+  }
   if (run.last_model.empty())
     throw InputError(shown(run.folder / "model.ply") +
                      ": is missing, but it is what a mesh is compared with; reconstruct again");
@@ -186,6 +195,9 @@ void EvaluateOptions::validate() const {
     throw OptionError(
         "--align and --each are for a mesh; a sequence is compared frame by frame, "
         "in its camera's frame, with no alignment");
+  if (frame >= 0 && (kind != ReferenceKind::kMesh || each_model))
+    throw OptionError(
+        "--frame is for a mesh without --each; a sequence is compared frame by frame");
   EvaluationResult empty;
   empty.against_mesh = kind == ReferenceKind::kMesh;
   const bool truthless = kind == ReferenceKind::kSequence;

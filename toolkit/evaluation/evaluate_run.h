@@ -20,6 +20,7 @@ struct EvaluateOptions {
   std::string reference;  // sequence folder, best with groundtruth/, or a mesh file; of maps maps
   MeshAlignment alignment = MeshAlignment::kNone;  // of a mesh
   bool each_model = false;                         // of a mesh: all models, not the last alone
+  int frame = -1;                                  // of a mesh: this frame's model; -1: the last
   double reference_unit_mm = 1;                    // of a mesh file: 1000 for metres
   bool views = true;                               // draw each model for depth, PSNR and SSIM
   std::string map_kind, calibration, confidence;   // of maps alone: DepthMapOptions

@@ -6,18 +6,20 @@
 #include "core/error.h"
 #include "eval/images/pixel_masks.h"
 #include "features/model_view.h"
-#include "io/calibrations/calibration_reader.h"
 #include "io/files/folder.h"
 #include "io/images/image_reader.h"
 #include "io/sequences/sequence_paths.h"
 #include "io/text/message.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/rectification/image_border.h"
+#include "toolkit/run/sequence_calibration.h"
 
 namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr Rgb8 kNothingDrawn{176, 176, 176};
 
 /// Empty for a video, a single picture, or nothing at all.
 std::vector<fs::path> picturesIn(const fs::path& folder) {
@@ -44,7 +46,7 @@ void requireSize(int width_px, int height_px, const PinholeCamera& left, const f
 }  // namespace
 
 ViewJudge::ViewJudge(const SequenceTruth& truth)
-    : rig_(truth.rig), rectifier_(readCalibration(truth.folder)) {
+    : rig_(truth.rig), rectifier_(sequenceCalibration(truth.folder)) {
   const SequencePaths paths = pathsOrNone(truth.folder);
   pictures_ = picturesIn(paths.left);
   masks_ = picturesIn(paths.mask);
@@ -70,15 +72,21 @@ Mask ViewJudge::instruments(int frame) const {
 }
 
 ViewErrors ViewJudge::judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left,
-                            int frame, const Raster<float>& true_depth_mm) {
+                            int frame, const Raster<float>& true_depth_mm, DrawnPair* drawn) {
   const ModelView view = renderModelView(file.model, rig_.left, run_from_left, {});
   const Mask ignore = instruments(frame);
   ViewErrors errors;
   errors.depth = depthErrors(view.depth_mm, true_depth_mm, {{3}}, ignore);
   if (!file.coloured) return errors;
-  if (const auto picture = photograph(frame))
-    errors.picture = pictureErrors(view.colour, *picture, ignoreUnmeasured(view.depth_mm),
-                                   united(ignore, findBlackBorder(*picture)));
+  const auto picture = photograph(frame);
+  if (!picture) return errors;
+  errors.picture = pictureErrors(view.colour, *picture, ignoreUnmeasured(view.depth_mm),
+                                 united(ignore, findBlackBorder(*picture)));
+  if (drawn != nullptr) {
+    *drawn = {*picture, view.colour};
+    for (std::size_t i = 0; i < view.depth_mm.size(); ++i)
+      if (std::isnan(view.depth_mm.values[i])) drawn->model.values[i] = kNothingDrawn;
+  }
   return errors;
 }
 

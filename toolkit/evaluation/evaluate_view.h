@@ -22,15 +22,26 @@ struct ViewErrors {
   PictureErrors picture;
 };
 
+/// The moment's left image, rectified, and the model drawn from the same place; mid-grey where it
+/// shows nothing. Empty where there is no image, or the model has no colours.
+struct DrawnPair {
+  ColourImage image, model;
+};
+
+/// In words: which pixels PSNR and SSIM are of.
+inline constexpr const char* kPsnrMask =
+    "pixels that the model covers, without masks and black borders";
+
 /// Draws models and compares them with the sequence's left pictures. Pixels where the model shows
 /// nothing, and masked ones, aren't judged. Frames must be asked for in rising order.
 class ViewJudge {
  public:
   explicit ViewJudge(const SequenceTruth& truth);
 
-  /// Throws InputError where a picture can't be read or has another size.
+  /// Throws InputError where a picture can't be read or has another size. `drawn`: what was
+  /// compared, unless null.
   ViewErrors judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left, int frame,
-                   const Raster<float>& true_depth_mm);
+                   const Raster<float>& true_depth_mm, DrawnPair* drawn = nullptr);
 
  private:
   std::optional<ColourImage> photograph(int frame);

@@ -6,12 +6,12 @@
 #include <functional>
 
 #include "core/error.h"
-#include "io/calibrations/calibration_reader.h"
 #include "io/sequences/sequence_paths.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/evaluation/evaluate_view.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
+#include "toolkit/run/sequence_calibration.h"
 #include "vtk_views/plots/value_series_plot.h"
 
 namespace softscope {
@@ -68,7 +68,7 @@ void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
                    const std::function<bool()>& after_model, TruthlessResult& result) {
   SequenceTruth pictures;
   pictures.folder = sequence;
-  pictures.rig = Rectifier(readCalibration(sequence)).rig();
+  pictures.rig = Rectifier(sequenceCalibration(sequence)).rig();
   ViewJudge judge(pictures);
   const PinholeCamera& left = pictures.rig.left;
   const Raster<float> no_depth(left.width_px, left.height_px, std::nanf(""));
@@ -76,9 +76,14 @@ void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
     const auto at = std::lower_bound(run.frames.begin(), run.frames.end(), frame);
     if (at == run.frames.end() || *at != frame) continue;
     const auto& pose = run.trajectory[static_cast<std::size_t>(at - run.frames.begin())];
-    const ViewErrors errors = judge.judge(readModel(file), pose.world_from_left, frame, no_depth);
+    DrawnPair drawn;
+    const ViewErrors errors =
+        judge.judge(readModel(file), pose.world_from_left, frame, no_depth, &drawn);
     result.frames[frame].picture = errors.picture;
-    if (std::isfinite(errors.picture.judged_share)) result.drawn.push_back(frame);
+    if (std::isfinite(errors.picture.judged_share)) {
+      result.drawn.push_back(frame);
+      result.last_drawn = std::move(drawn);
+    }
     result.interrupted = !after_model();
     if (result.interrupted) return;
   }
@@ -145,11 +150,23 @@ void addPlot(const TruthlessResult& result, const char* label, const Value& valu
 
 Json viewJson(const TruthlessResult& result) {
   const auto mean = [&](const Value& value) { return overFrames(result, value).mean; };
-  return {{"psnr_db", mean(kPsnr)},
-          {"psnr_over_all_pixels_db", mean(kPsnrOverAll)},
-          {"ssim", mean(kSsim)},
-          {"judged_share", mean(kJudged)},
-          {"models_judged", result.drawn.size()}};
+  return {{"psnr_db", mean(kPsnr)}, {"psnr_over_all_pixels_db", mean(kPsnrOverAll)},
+          {"ssim", mean(kSsim)},    {"judged_share", mean(kJudged)},
+          {"pixels", kPsnrMask},    {"models_judged", result.drawn.size()}};
+}
+
+/// The picture drawn_view.png: which moment, how much of the tissue the model covers, and how many
+/// frames of the run came after it.
+Json drawnViewJson(const TruthlessResult& result) {
+  if (result.drawn.empty()) return nullptr;
+  const int frame = result.drawn.back();
+  const auto at = result.frames.find(frame);
+  const auto later = std::distance(result.frames.upper_bound(frame), result.frames.end());
+  return {{"frame", frame},
+          {"time_s", at->second.time_s},
+          {"covers_share", at->second.picture.judged_share},
+          {"psnr_db", at->second.picture.psnr_db},
+          {"age_frames", later}};
 }
 
 Json framesJson(const TruthlessResult& result) {
@@ -196,6 +213,7 @@ Json truthlessJson(const TruthlessResult& result) {
             {"outcomes", result.outcomes.json()},
             {"missing", kMissing},
             {"view", viewJson(result)},
+            {"drawn_view", drawnViewJson(result)},
             {"backprojection", statisticsJson(overFrames(result, kBackProjection), "_mm")},
             {"coverage",
              {{"mean_share", overFrames(result, kCoverage).mean},

@@ -10,6 +10,7 @@
 
 #include "eval/images/picture_errors.h"
 #include "eval/statistics/statistics.h"
+#include "toolkit/evaluation/evaluate_view.h"
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/run/run_reader.h"
 #include "vtk_views/drawing/vector_drawing.h"
@@ -32,6 +33,7 @@ struct TruthlessResult {
   FrameOutcomes outcomes;                 // of the run
   std::map<int, TruthlessFrame> frames;   // every frame with a pose
   std::vector<int> drawn;                 // those with a saved model and a picture
+  DrawnPair last_drawn;                   // of the last of them
   double moved_mm = Statistics::kNone;    // from the first to the last pose: drift of a still scope
   double turned_deg = Statistics::kNone;  // the same of its direction
   double jitter_rms_mm = Statistics::kNone;  // root mean square of the second differences

@@ -60,9 +60,10 @@ MatchMoment momentOf(const JudgedRun& run, const std::vector<int>& wanted) {
                      ": has no models of single frames; reconstruct with --save-every 1");
   MatchMoment moment;
   if (wanted.empty()) {
-    for (const auto& [frame, file] : run.models)
-      if (std::binary_search(run.frames.begin(), run.frames.end(), frame + 1))
-        moment.frame = frame + 1;
+    for (const auto& [frame, file] : run.models) {
+      const auto next = std::upper_bound(run.frames.begin(), run.frames.end(), frame);
+      if (next != run.frames.end()) moment.frame = *next;
+    }
   } else {
     moment.frame = wanted[0];
   }

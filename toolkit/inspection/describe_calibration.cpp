@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/calibrations/calibration_reader.h"
+#include "io/calibrations/one_camera.h"
 #include "toolkit/inspection/describe_file.h"
 
 namespace softscope {
@@ -39,6 +40,7 @@ void addCalibration(const StereoCalibration& calibration, const std::string& key
                     FactSheet& facts) {
   const std::string at = key.empty() ? "" : key + ".";
   const PinholeCamera& left = calibration.left.pinhole;
+  const bool one = hasOneCamera(calibration);
   const double turn_deg =
       Eigen::AngleAxisd(calibration.right_from_left.rotation()).angle() * 180 / M_PI;
   const double step_mm =
@@ -56,7 +58,14 @@ void addCalibration(const StereoCalibration& calibration, const std::string& key
   } else {
     facts.missing("the picture size that the calibration holds for");
   }
-  facts.add("left camera", cameraText(calibration.left), at + "left", cameraJson(calibration.left));
+  facts.add(one ? "camera" : "left camera", cameraText(calibration.left), at + "left",
+            cameraJson(calibration.left));
+  if (one) {
+    facts.add("depth files", fixed(calibration.depth_unit_mm, 5) + " mm a step of 16-bit files",
+              at + "depth_unit_mm", calibration.depth_unit_mm);
+    for (const std::string& warning : calibration.warnings) facts.warn(warning);
+    return;
+  }
   facts.add("right camera", cameraText(calibration.right), at + "right",
             cameraJson(calibration.right));
   facts.add("baseline", fixed(calibration.baseline_mm(), 3) + " mm", at + "baseline_mm",
@@ -71,7 +80,8 @@ void addCalibration(const StereoCalibration& calibration, const std::string& key
 
 FactSheet describeCalibration(const std::string& path) {
   const StereoCalibration calibration = readCalibration(path);
-  FactSheet facts(path + ": a stereo calibration");
+  FactSheet facts(path + (hasOneCamera(calibration) ? ": a calibration of one camera"
+                                                    : ": a stereo calibration"));
   facts.addQuietly("kind", "calibration");
   addCalibration(calibration, "", facts);
   return facts;

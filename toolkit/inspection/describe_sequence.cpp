@@ -14,6 +14,7 @@
 #include "stereo/rectification/rectifier.h"
 #include "stereo/rectification/row_alignment.h"
 #include "toolkit/inspection/describe_file.h"
+#include "toolkit/run/stereo_sync.h"
 
 namespace softscope {
 namespace {
@@ -23,9 +24,11 @@ constexpr double kSlowestRate = 0.2;  // frames a second, before the unit of tim
 
 std::string layoutOf(const SequencePaths& paths) {
   if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
+  if (paths.left.empty()) return "depth alone, in " + paths.depth.filename().string();
   const std::string left = paths.left.filename().string();
   if (!paths.form.empty()) return left + " and " + paths.right.filename().string();
-  if (paths.right.empty()) return "left view alone, in " + left;
+  if (paths.right.empty())
+    return "images and depth of one camera, in " + left + " and " + paths.depth.filename().string();
   return fs::is_directory(paths.left)
              ? "pictures in left/ and right/"
              : "videos " + left + " and " + paths.right.filename().string();
@@ -105,7 +108,7 @@ void addRows(const Frame& frame, const StereoCalibration& calibration, FactSheet
 void checkFrames(SequenceReader& reader, FactSheet& facts) {
   int bad = 0;
   while (const auto result = reader.next()) {
-    if (result->ok()) continue;
+    if (result->ok() || result->unpaired) continue;
     facts.warn("frame " + std::to_string(result->index) + ": " + result->error);
     ++bad;
   }
@@ -127,8 +130,11 @@ void addView(const fs::path& view, const std::string& key, FactSheet& facts) {
 
 void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool check_all,
                    FactSheet& facts) {
-  SequenceReader reader(paths, {});
-  const auto first = reader.next();
+  SequenceOptions options;
+  const std::string shifted = settleRightOffset(paths, options, StereoOptions().disparity_max_px);
+  SequenceReader reader(paths, options);
+  auto first = reader.next();
+  while (first && first->unpaired) first = reader.next();
   if (!first || !first->ok())
     throw InputError(first ? first->error : folder + ": has not one frame");
   const ColourImage& left = first->frame.pair.left;
@@ -136,6 +142,8 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
   facts.add("size", std::to_string(left.width_px) + " x " + std::to_string(left.height_px) + " px",
             "width_px", left.width_px);
   facts.addQuietly("height_px", left.height_px);
+  if (!paths.right.empty()) facts.addQuietly("right_offset", options.rightOffset());
+  if (!shifted.empty()) facts.warn(shifted);
   addCalibration(reader.calibration(), "calibration", facts);
   addRows(first->frame, reader.calibration(), facts);
   if (check_all) checkFrames(reader, facts);

@@ -80,16 +80,23 @@ std::vector<fs::path> mapFiles(const fs::path& folder, ReportCase::Kind kind) {
 
 constexpr std::uintmax_t kPictureLimitBytes = std::uintmax_t{64} << 20;
 
+/// Throws InputError where the file is no PNG.
+std::string readPng(const fs::path& file) {
+  std::string png = readBytes(file, kPictureLimitBytes);
+  if (png.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0)
+    throw InputError(shown(file) +
+                     ": is no PNG picture, but would be shown; make it again or move it away");
+  return png;
+}
+
 void readPictures(const fs::path& folder, ReportCase& result) {
+  if (result.kind == ReportCase::Kind::kPictures && isThere(folder / "drawn_view.png"))
+    result.drawn_view = readPng(folder / "drawn_view.png");
   for (const auto& [name, caption] :
        {std::pair{"four_panels.png", "Axial, coronal, sagittal and 3-D view"},
         std::pair{"figure.png", "Figure"}}) {
     if (!isThere(folder / name)) continue;
-    std::string png = readBytes(folder / name, kPictureLimitBytes);
-    if (png.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0)
-      throw InputError(shown(folder / name) +
-                       ": is no PNG picture, but would be shown; make it again or move it away");
-    result.pictures.emplace_back(caption, std::move(png));
+    result.pictures.emplace_back(caption, readPng(folder / name));
   }
 }
 

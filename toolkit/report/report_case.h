@@ -26,7 +26,8 @@ struct ReportCase {
   FactSheet::Json record;      // evaluation.json or comparison.json, as it was written
   std::vector<ErrorMap> maps;  // of a series one a moment; may be empty
   std::vector<std::pair<std::string, std::string>> pictures;  // caption, PNG
-  std::vector<std::pair<std::string, std::string>> hashes;    // what, SHA-256
+  std::string drawn_view;  // PNG: the image beside the model drawn from its place; may be empty
+  std::vector<std::pair<std::string, std::string>> hashes;  // what, SHA-256
 
   bool hasTruth() const { return kind != Kind::kPictures; }
   /// Where distances of the model stand in the record, or else what there is.

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "io/files/file_hash.h"
 #include "toolkit/record/version.h"
 #include "toolkit/report/report_alignment.h"
+#include "toolkit/report/report_checklist.h"
 #include "toolkit/report/report_cohort.h"
 #include "toolkit/report/report_privacy.h"
 #include "toolkit/report/report_truthless.h"
@@ -91,14 +93,24 @@ std::optional<VectorDrawing> mapFigure(const std::vector<ReportMap>& maps, doubl
   }
 }
 
+/// Headings with nothing below them.
+void removeEmpty(std::vector<ReportSection>& sections) {
+  sections.erase(std::remove_if(sections.begin(), sections.end(),
+                                [](const ReportSection& section) { return section.parts.empty(); }),
+                 sections.end());
+}
+
 std::vector<ReportSection> caseSections(const ReportRequest& request, double limit_mm) {
   const ReportCase& c = request.cases.front();
   std::vector<ReportSection> sections;
+  if (!c.drawn_view.empty())
+    sections.push_back(
+        {"view", "The model beside the image", {ReportPicture{c.drawn_view, drawnViewCaption(c)}}});
   sections.push_back({"compared", "What was compared", {comparedTable(c, request.choices)}});
   append(alignmentParts(c), sections.back().parts);
   sections.push_back({"result", "Result, and how sure it is", {}});
   if (hasOutcomes(request)) sections.back().parts.push_back(outcomesTable(request));
-  append(resultParts(c, request.choices), sections.back().parts);
+  append(resultParts(c), sections.back().parts);
   sections.push_back({"pictures", "Pictures", {}});
   if (!c.maps.empty()) sections.back().parts.emplace_back(mapPlace(request.cases, limit_mm));
   append(plotParts(c), sections.back().parts);
@@ -106,6 +118,7 @@ std::vector<ReportSection> caseSections(const ReportRequest& request, double lim
   sections.push_back({"limits", "Limits", {limitsList(c, request.choices)}});
   sections.push_back({"methods", "Methods", {methodsList(c)}});
   sections.push_back({"provenance", "Provenance", {provenanceTable(c, request.choices)}});
+  removeEmpty(sections);
   return sections;
 }
 
@@ -156,6 +169,8 @@ std::vector<ReportSection> cohortSections(const ReportRequest& request, double l
   for (const ReportCase& c : request.cases) {
     reviewed.cases.push_back(c.name);
     append(caseTables(c), each.parts);
+    if (!c.drawn_view.empty())
+      each.parts.emplace_back(ReportPicture{c.drawn_view, drawnViewCaption(c)});
     append(plotParts(c), each.parts);
     append(pictureParts(c), each.parts);
     addLimits(c, choices, limits);
@@ -169,6 +184,7 @@ std::vector<ReportSection> cohortSections(const ReportRequest& request, double l
   sections.push_back({"limits", "Limits", {limits}});
   sections.push_back({"methods", "Methods", {methodsOf(request)}});
   sections.push_back(std::move(provenance));
+  removeEmpty(sections);
   return sections;
 }
 
@@ -189,6 +205,9 @@ Json metricsOf(const ReportRequest& request, double limit_mm) {
   }
   if (request.cases.size() > 1)
     metrics["cohort"] = cohortJson(request.cases, request.versus, request.choices);
+  // Of all above: a saved review names the report that it is of.
+  metrics["content_sha256"] =
+      sha256OfBytes(metrics.dump(-1, ' ', false, Json::error_handler_t::replace));
   return metrics;
 }
 
@@ -215,6 +234,8 @@ ReportDocument makeReport(ReportRequest request) {
                                             : std::to_string(request.cases.size()) + " cases";
   page.sections = request.cases.size() == 1 ? caseSections(request, page.limit_mm)
                                             : cohortSections(request, page.limit_mm);
+  if (const std::string& checklist = request.choices.checklist; !checklist.empty())
+    page.sections.push_back({"checklist", "Reporting checklist", {checklistTable(checklist)}});
   document.metrics = metricsOf(request, page.limit_mm);
   page.metrics_json = document.metrics.dump(1, ' ', false, Json::error_handler_t::replace);
   document.facts = FactSheet(page.title + ", " + page.subtitle);

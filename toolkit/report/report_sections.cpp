@@ -169,20 +169,14 @@ ReportTiles tiles(const ReportCase& c) {
   return tiles;
 }
 
-ReportParagraph confidence(const ReportCase& c, const ReportChoices& choices) {
-  const std::vector<double> means = c.hasTruth() ? c.overFrames("mean_mm") : drawnPsnrs(c);
-  const Interval ci = bootstrapMean(means, choices.seed);
+ReportParagraph confidence(const ReportCase& c) {
   if (c.kind == Kind::kPair)
     return {
         "How sure: this is one comparison, so it has no confidence interval; the spread over "
         "the surface is in the table."};
-  if (!std::isfinite(ci.low))
-    return {"How sure: fewer than three moments were judged, too few for a confidence interval."};
-  return {"How sure: over the " + std::to_string(means.size()) + " judged moments the mean " +
-          (c.hasTruth() ? "distance" : "PSNR") + " has a 95 % confidence interval of " +
-          intervalText(ci) + (c.hasTruth() ? " mm" : " dB") +
-          " (bootstrap). Moments of one video resemble each other, so that another video may "
-          "differ by more."};
+  return {
+      "How sure: this is one video. Its moments resemble each other, so that an interval over them "
+      "would be too narrow; a report of several videos has one, with each video counted once."};
 }
 
 ReportTable thresholdsTable(const ReportCase& c) {
@@ -211,12 +205,12 @@ ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices) {
   return table;
 }
 
-std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices) {
+std::vector<ReportPart> resultParts(const ReportCase& c) {
   std::vector<ReportPart> parts;
   addFrames(c, parts);
   parts.emplace_back(headline(c));
   parts.emplace_back(tiles(c));
-  parts.emplace_back(confidence(c, choices));
+  parts.emplace_back(confidence(c));
   addTable(thresholdsTable(c), parts);
   if (!c.hasTruth()) {
     for (ReportTable& table : truthlessTables(c)) addTable(std::move(table), parts);
@@ -300,8 +294,7 @@ ReportList methodsList(const ReportCase& c) {
   if (c.kind != Kind::kPair)
     list.items.push_back(
         "Series: points pooled from all judged moments, at most 20 000 of each, so that every "
-        "moment counts the same. Drift: Theil-Sen slope of the moments' means. The confidence "
-        "interval is a percentile bootstrap of these means, 2000 resamples, seeded.");
+        "moment counts the same. Drift: Theil-Sen slope of the moments' means.");
   if (c.kind == Kind::kSequence)
     list.items.push_back(
         "Observed: the closest true tissue is in the left camera's view at that moment. "

@@ -14,12 +14,13 @@ namespace softscope {
 struct ReportChoices {
   bool with_paths = false;  // else files and folders stay out
   std::uint64_t seed = 1;   // of resampling
+  std::string checklist;    // of a reporting guideline; empty: none
 };
 
 /// What was compared and how it was aligned, as rows of a table.
 ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices);
 /// The sentence, the large numbers, the tables; what the numbers rest on.
-std::vector<ReportPart> resultParts(const ReportCase& c, const ReportChoices& choices);
+std::vector<ReportPart> resultParts(const ReportCase& c);
 /// Mean, SD and so on of every part that was measured.
 ReportTable distancesTable(const ReportCase& c, const std::string& caption);
 /// Error over time, histogram.

@@ -62,11 +62,24 @@ std::string missingText(const ReportCase& c) {
 
 }  // namespace
 
-std::vector<double> drawnPsnrs(const ReportCase& c) {
-  std::vector<double> psnrs;
-  for (const auto& [x, psnr_db] : framesOf(c).series("view_psnr_db"))
-    if (std::isfinite(psnr_db)) psnrs.push_back(psnr_db);
-  return psnrs;
+std::string drawnViewCaption(const ReportCase& c) {
+  const auto value = [&](const char* key) {
+    return numberAt(c.record, std::string("drawn_view.") + key);
+  };
+  const auto whole = [](double number) { return std::to_string(std::llround(number)); };
+  std::string text = "Left: the video's image";
+  if (std::isfinite(value("frame"))) text += " of frame " + whole(value("frame"));
+  text +=
+      ". Right: the model, drawn from the pose that the run estimated; grey where it shows "
+      "nothing.";
+  if (std::isfinite(value("covers_share")))
+    text += " It covers " + percentText(value("covers_share")) + " of the tissue in sight.";
+  const double age = value("age_frames");
+  if (age == 0) text += " It is of the run's last frame.";
+  if (age > 0)
+    text += " It is " + whole(age) + (age == 1 ? " frame" : " frames") +
+            " old: of what the run saw later no model was fused or saved.";
+  return text;
 }
 
 ReportParagraph truthlessHeadline(const ReportCase& c) {
@@ -142,8 +155,7 @@ std::vector<std::string> truthlessMethods() {
       "differences shared out over the whole picture, the higher the less is covered. SSIM: "
       "windows of 11 x 11, sigma 1.5.",
       kBackProjectionMeaning,
-      "Jitter: root mean square of the second differences of the scope's positions. The confidence "
-      "interval is a percentile bootstrap of the drawn models' PSNR, 2000 resamples, seeded."};
+      "Jitter: root mean square of the second differences of the scope's positions."};
 }
 
 }  // namespace softscope

@@ -9,6 +9,8 @@
 
 namespace softscope {
 
+/// Which moment drawn_view.png shows, how much the model covers, how old it is.
+std::string drawnViewCaption(const ReportCase& c);
 /// That nothing is known of the distance from the tissue; then what is known.
 ReportParagraph truthlessHeadline(const ReportCase& c);
 /// The same in a few words.
@@ -18,8 +20,6 @@ ReportTiles truthlessTiles(const ReportCase& c);
 std::vector<ReportTable> truthlessTables(const ReportCase& c);
 /// PSNR, SSIM, back-projection and the scope's steps over time.
 std::vector<CaptionedFigure> truthlessFigures(const ReportCase& c);
-/// PSNR of every drawn model.
-std::vector<double> drawnPsnrs(const ReportCase& c);
 std::vector<std::string> truthlessLimits(const ReportCase& c);
 std::vector<std::string> truthlessMethods();
 

@@ -7,6 +7,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/new_files.h"
 #include "io/text/message.h"
+#include "toolkit/report/report_checklist.h"
 #include "vtk_views/report/report_html.h"
 #include "vtk_views/report/report_pdf.h"
 
@@ -41,6 +42,7 @@ std::vector<ReportCase> readCases(const ReportOptions& options) {
 void ReportOptions::validate() const {
   require(limit_mm >= 0 && std::isfinite(limit_mm), "--limit-mm", limit_mm, "must be above 0");
   require(seed >= 0, "--seed", seed, "must be 0 or more");
+  requireChecklist(checklist);
   requireWritable(html, overwrite);
   if (!pdf.empty()) requireWritable(pdf, overwrite);
   if (html == pdf) throw OptionError("--out and --pdf name the same file; give two");
@@ -53,7 +55,8 @@ ReportDocument writeReport(const ReportOptions& options) {
   request.versus = readVersus(options);
   request.title = options.title;
   request.limit_mm = options.limit_mm;
-  request.choices = {options.with_paths, static_cast<std::uint64_t>(options.seed)};
+  request.choices = {options.with_paths, static_cast<std::uint64_t>(options.seed),
+                     options.checklist};
   for (const ReportCase& c : request.cases)
     request.outcomes.push_back(checkThresholds(options.thresholds, c.record, c.mainPart()));
   ReportDocument document = makeReport(std::move(request));

@@ -38,6 +38,7 @@ FusionOutcome outcomeOf(FrameStatus status) {
     case FrameStatus::kSkippedResidual:
     case FrameStatus::kUnconfirmed:
     case FrameStatus::kUnreadable:
+    case FrameStatus::kUnpaired:
       return FusionOutcome::kSkipped;
   }
   return FusionOutcome::kSkipped;

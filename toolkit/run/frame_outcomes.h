@@ -11,7 +11,7 @@
 namespace softscope {
 
 /// Fused: the model learned from the frame. Lost: the model was not found in it. Skipped: the
-/// others that changed nothing (too little depth, no warp, unconfirmed, unreadable).
+/// others that changed nothing (too little depth, no warp, unconfirmed, unreadable, unpaired).
 FusionOutcome outcomeOf(FrameStatus status);
 
 /// By frame number. Empty where the run's frames.csv has no column `status`.

@@ -39,7 +39,9 @@ void requireApart(const fs::path& out, const SequencePaths& sequence) {
 
 void requireOutside(const fs::path& out, const SequencePaths& sequence) {
   requireApart(out, sequence);
-  const fs::path& view = sequence.left.empty() ? sequence.stereo : sequence.left;
+  const fs::path& view = !sequence.left.empty()     ? sequence.left
+                         : !sequence.stereo.empty() ? sequence.stereo
+                                                    : sequence.depth;
   if (settled(out) == settled(view).parent_path())
     refuseInput(out, "is the folder of the sequence, whose own files would be replaced");
 }

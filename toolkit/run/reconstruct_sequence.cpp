@@ -1,6 +1,8 @@
 // toolkit/run/reconstruct_sequence.cpp: frame by frame, with checkpoints.
 #include "toolkit/run/reconstruct_sequence.h"
 
+#include <array>
+#include <ctime>
 #include <optional>
 
 #include "core/error.h"
@@ -14,6 +16,8 @@
 #include "pipeline/reconstructor.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/run/out_folder.h"
+#include "toolkit/run/repeated_warnings.h"
+#include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_record.h"
 #include "toolkit/run/run_tables.h"
@@ -28,15 +32,17 @@ constexpr const char* kOutcomes = "outcomes";  // where a bare metric is looked 
 
 /// Whether images that the run began with are there no longer.
 bool isGone(const SequencePaths& sequence) {
-  for (const std::filesystem::path& view : {sequence.left, sequence.right, sequence.stereo})
+  for (const std::filesystem::path& view :
+       {sequence.left, sequence.right, sequence.stereo, sequence.depth})
     if (!view.empty() && !isThere(view)) return true;
   return false;
 }
 
 /// Everything that decides the result; a run goes on only with the same.
 std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& settings,
-                     const std::filesystem::path& tracks) {
+                     const std::filesystem::path& tracks, int frame_step) {
   std::string all;
+  if (frame_step != 1) all += "frame_step=" + std::to_string(frame_step) + "\n";
   for (const SettingInfo& setting : settings)
     all += setting.key + "=" + setting.current_text + "\n";
   for (const auto& [part, input] : inputs.items())
@@ -53,10 +59,22 @@ std::vector<TrackSeed> seedsOf(const std::filesystem::path& tracks) {
   return seeds;
 }
 
+/// ISO 8601, universal time.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 16> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d", &parts);
+  return text.data();
+}
+
 class SequenceRun {
  public:
   SequenceRun(ReconstructOptions options, const WorkListener& listener)
-      : options_(std::move(options)), listener_(listener) {}
+      : options_(std::move(options)),
+        listener_(listener),
+        rejections_([&listener](const std::string& text) { listener.warn(text); }) {}
 
   ReconstructedRun run();
 
@@ -71,6 +89,7 @@ class SequenceRun {
 
   ReconstructOptions options_;
   const WorkListener& listener_;
+  RepeatedWarnings rejections_;  // of frames, by status
   bool interrupted_ = false, all_done_ = false, input_gone_ = false;
   std::string failure_;  // of the back end in the middle of the run
 };
@@ -103,7 +122,7 @@ std::unique_ptr<ReconstructionBackend> SequenceRun::backendOf(
 /// Where no frame is left, the run was stopped between its last one and its record.
 void SequenceRun::skipDone(const Checkpoint& earlier) {
   SequenceOptions& sequence = options_.settings.sequence;
-  const int done = earlier.next_frame - sequence.frames.begin;
+  const int done = (earlier.next_frame - sequence.frames.begin) / sequence.frames.step;
   all_done_ = done >= SequenceReader(options_.sequence, sequence).frameCount();
   if (!all_done_) sequence.frames.begin = earlier.next_frame;
 }
@@ -112,9 +131,10 @@ ReconstructedRun SequenceRun::run() {
   options_.validate();
   const std::vector<TrackSeed> tracked = seedsOf(options_.tracks);
   requireOutside(options_.out, options_.sequence);
-  RunFolder folder({options_.out, options_.save_every, !tracked.empty(), options_.overwrite},
-                   options_.resume);
   SequenceOptions& sequence = options_.settings.sequence;
+  RunFolder folder({options_.out, options_.save_every, sequence.frames.step, !tracked.empty(),
+                    options_.overwrite},
+                   options_.resume);
   const ReconstructionOptions& method = options_.settings.method;
   if (method.depth.source == "stereo" || options_.sequence.depth.empty())
     if (const std::string warning =
@@ -123,8 +143,9 @@ ReconstructedRun SequenceRun::run() {
       listener_.warn(warning);
   const Json inputs = inputsJson(options_.sequence);
   const SettingsBinder binder = settingsOf(options_.settings);
-  Checkpoint checkpoint{
-      digestOf(inputs, binder.list(), options_.tracks), sequence.frames.begin, {}};
+  Checkpoint checkpoint{digestOf(inputs, binder.list(), options_.tracks, sequence.frames.step),
+                        sequence.frames.begin,
+                        {}};
   const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);
   if (earlier) {
     checkpoint.next_frame = earlier->next_frame;
@@ -162,18 +183,21 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     FrameRecord frame;
     try {
       frame = result->ok() ? reconstructor.process(result->frame, frames.following())
-                           : reconstructor.skip(result->index, result->error, result->time_s);
+                           : reconstructor.skip(result->index, result->error, result->time_s,
+                                                result->unpaired ? FrameStatus::kUnpaired
+                                                                 : FrameStatus::kUnreadable);
     } catch (const BackendError& error) {
       failure_ = error.what();
       break;
     }
     if (!frame.reason.empty())
-      listener_.warn(say("frame ", frame.frame, ": ", toString(frame.status), ": ", frame.reason));
-    folder.add(frame);
+      rejections_.add(toString(frame.status), frame.frame,
+                      say(toString(frame.status), ": ", frame.reason));
+    folder.add(frame, result->names);
     record.add(asTabled(frame));
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
       folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
-    checkpoint.next_frame = frame.frame + 1;
+    checkpoint.next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
     if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {
       checkpoint.state = reconstructor.state();
@@ -182,6 +206,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     }
     wanted = goesOn(listener_.progress, processed, frame_count);
   }
+  rejections_.conclude("frames.csv has the reason of each");
   interrupted_ = (!wanted || input_gone_ || !failure_.empty()) && !at_end;
   if (interrupted_ && !input_gone_ && failure_.empty())
     listener_.warn("interrupted: what is finished stays; --resume goes on");
@@ -201,6 +226,7 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
   const Json written = options_.paths.applyTo(all);
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
+  if (!nothing) folder.writeCrate(jsonText(roCrate(options_.out, written, today())));
   if (!failure_.empty())
     throw BackendError(failure_ + (nothing ? ". --backend cpu needs no GPU"
                                            : ". What is finished stays; go on with --resume, "

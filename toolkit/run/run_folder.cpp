@@ -14,6 +14,7 @@
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
+#include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_tables.h"
 #include "vtk_views/files/point_cloud_vtp.h"
 
@@ -28,8 +29,12 @@ constexpr const char* kModels = "models";
 constexpr const char* kNodes = "nodes";
 constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
 
-const char* const kFiles[] = {"model.ply",  "frames.csv", "trajectory.txt", "tracks.csv",
-                              "models.pvd", kRecord,      kCheckpoint};
+constexpr const char* kImages = "images.csv";
+constexpr const char* kKitti = "trajectory_kitti.txt";
+
+const char* const kFiles[] = {"model.ply", "frames.csv", "trajectory.txt", kKitti,
+                              kImages,     "tracks.csv", "models.pvd",     kRecord,
+                              kCheckpoint, kCrateFile};
 
 /// Of a model, or of its nodes.
 bool isSavedModel(const fs::path& file) {
@@ -156,6 +161,7 @@ void RunFolder::takeOver(int next_frame) {
   hold();
   frames_csv_ = linesBefore(file("frames.csv"), next_frame);
   tracks_csv_ = linesBefore(file("tracks.csv"), next_frame);
+  images_csv_ = linesBefore(file(kImages), next_frame);
   trajectory_ = readTrajectory(file("trajectory.txt"));
   const auto frames = static_cast<std::size_t>(countLines(frames_csv_));
   if (trajectory_.size() < frames)
@@ -193,8 +199,9 @@ void RunFolder::begin() {
   }
 }
 
-void RunFolder::add(const FrameRecord& record) {
+void RunFolder::add(const FrameRecord& record, const FrameNames& names) {
   last_frame_ = record.frame;
+  if (!names.left.empty()) images_csv_ += imagesCsvLine(record.frame, names);
   frames_csv_ += framesCsvLine(record);
   tracks_csv_ += tracksCsvLines(record);
   const double time_s = std::isfinite(record.time_s) ? record.time_s : record.frame;
@@ -219,7 +226,9 @@ void RunFolder::writeTables(const ModelState& state) {
   begin();
   writeFile(file("frames.csv"), framesCsvHeading() + "\n" + frames_csv_, true);
   if (options_.tracks) writeFile(file("tracks.csv"), tracksCsvHeading() + "\n" + tracks_csv_, true);
+  if (!images_csv_.empty()) writeFile(file(kImages), imagesCsvHeading() + "\n" + images_csv_, true);
   if (!trajectory_.empty()) writeTrajectory(file("trajectory.txt"), trajectory_, true);
+  if (!trajectory_.empty()) writeFile(file(kKitti), kittiText(trajectory_), true);
   writePly(file("model.ply"), cloudOf(state), {"world", ""}, true);
   if (options_.save_every == 0) return;
   std::string pvd =
@@ -247,5 +256,7 @@ void RunFolder::writeRecord(const std::string& json, bool complete) {
   if (complete) fs::remove(file(kCheckpoint));
   fs::remove(file(kRunLock));
 }
+
+void RunFolder::writeCrate(const std::string& json) { writeFile(file(kCrateFile), json, true); }
 
 }  // namespace softscope

@@ -10,6 +10,7 @@
 #include "core/point_cloud.h"
 #include "core/trajectory.h"
 #include "io/files/file_lock.h"
+#include "io/sequences/frame_names.h"
 #include "pipeline/checkpoint.h"
 #include "pipeline/frame_record.h"
 
@@ -21,6 +22,7 @@ inline constexpr const char* kRunLock = "writing.lock";
 struct RunFolderOptions {
   std::filesystem::path folder;
   int save_every = 10;  // frames between models/NNNNNN.ply; 0: none
+  int frame_step = 1;   // between the frames that are reconstructed
   bool tracks = false;
   bool overwrite = false;
 };
@@ -43,10 +45,11 @@ class RunFolder {
   /// What takeOver() found in frames.csv, as readFramesCsvLine() has it.
   std::vector<FrameRecord> earlierFrames() const;
 
-  void add(const FrameRecord& record);
+  /// `names` without a left one: the images came from no files.
+  void add(const FrameRecord& record, const FrameNames& names = {});
   /// Whether it is this frame's turn to have its model saved.
   bool savesModel(int frame) const {
-    return options_.save_every > 0 && frame % options_.save_every == 0;
+    return options_.save_every > 0 && frame / options_.frame_step % options_.save_every == 0;
   }
   /// Which camera models say that they were seen by.
   void tellCamera(const PinholeCamera& left) { left_ = left; }
@@ -58,6 +61,8 @@ class RunFolder {
   void saveLastModel(const ModelState& state);
   /// run.json. `complete`: nothing is left to resume, so the checkpoint goes.
   void writeRecord(const std::string& json, bool complete);
+  /// What data repositories read of the folder; after everything else.
+  void writeCrate(const std::string& json);
 
  private:
   struct SavedModel {
@@ -72,7 +77,7 @@ class RunFolder {
   RunFolderOptions options_;
   bool begun_ = false;
   int last_frame_ = -1;  // that was added
-  std::string frames_csv_, tracks_csv_;
+  std::string frames_csv_, tracks_csv_, images_csv_;
   Trajectory trajectory_;
   PinholeCamera left_;
   std::vector<SavedModel> saved_;

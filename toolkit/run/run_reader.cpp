@@ -6,12 +6,12 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "io/calibrations/calibration_reader.h"
 #include "io/files/folder.h"
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/run/frame_clock.h"
+#include "toolkit/run/sequence_calibration.h"
 #include "toolkit/run/table_reader.h"
 
 namespace softscope {
@@ -132,7 +132,7 @@ SequenceTruth openSequenceTruth(const fs::path& sequence) {
   truth.meshes = numberedFiles(truth_folder / "mesh", ".ply");
   truth.depths = numberedFiles(truth_folder / "depth", ".png");
   truth.tracks = fileOrNone(truth_folder / "tracks.csv");
-  const StereoCalibration calibration = readCalibration(sequence);
+  const StereoCalibration calibration = sequenceCalibration(sequence);
   truth.rig = Rectifier(calibration).rig();
   truth.rectified = calibration.rectified;
   truth.depth_unit_mm = calibration.depth_unit_mm;

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "eval/statistics/statistics.h"
+#include "io/calibrations/one_camera.h"
 #include "io/files/file_hash.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/setting_json.h"
@@ -26,12 +27,12 @@ Json machineJson(const ReconstructionBackend& backend) {
           {"threads", threadCount()}};
 }
 
-Json rigJson(const RectifiedRig& rig) {
+Json rigJson(const RectifiedRig& rig, bool one_camera) {
   return {{"width_px", rig.left.width_px},
           {"height_px", rig.left.height_px},
           {"focal_px", rig.left.fx_px},
           {"centre_px", {rig.left.cx_px, rig.left.cy_px}},
-          {"baseline_mm", rig.baseline_mm}};
+          {"baseline_mm", one_camera ? Json() : Json(rig.baseline_mm)}};
 }
 
 constexpr double kDoubtful = 0.5;   // confidence of a frame
@@ -63,7 +64,7 @@ RunRecord::RunRecord(const Json& inputs, const StereoCalibration& calibration,
   json_["command"] = "reconstruct";
   json_["machine"] = machineJson(backend);
   json_["inputs"] = inputs;
-  json_["rectified_rig"] = rigJson(backend.rig());
+  json_["rectified_rig"] = rigJson(backend.rig(), hasOneCamera(calibration));
   for (const SettingInfo& setting : settings)
     json_["configuration"][setting.key] = valueOf(setting);
   for (const std::string& warning : calibration.warnings) addWarning(warning);

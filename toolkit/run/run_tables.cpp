@@ -110,6 +110,17 @@ std::string framesCsvHeading() {
 
 std::string tracksCsvHeading() { return "frame,id,x_mm,y_mm,z_mm,visible"; }
 
+std::string imagesCsvHeading() { return "frame,number,left,right"; }
+
+std::string imagesCsvLine(int frame, const FrameNames& names) {
+  Line line;
+  line.add(frame);
+  line.addText(std::to_string(names.number));
+  line.addText(quoted(names.left));
+  line.addText(names.right.empty() ? "" : quoted(names.right));
+  return line.ended();
+}
+
 std::string framesCsvLine(const FrameRecord& record) {
   Line line;
   line.add(record.frame);

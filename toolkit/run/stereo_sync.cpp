@@ -33,7 +33,10 @@ void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter&
 
 ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options,
                       int disparity_max_px) {
-  SequenceReader reader(paths, options);
+  SequenceOptions successive = options;  // as many frames for every command and every range
+  successive.frames.end = -1;
+  successive.frames.step = 1;
+  SequenceReader reader(paths, successive);
   const int step = std::max(1, std::min(reader.frameCount(), kFrames) / kMoments);
   const Rectifier rectifier(reader.calibration());
   SynchronyMeter meter(disparity_max_px);
@@ -54,7 +57,7 @@ ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options
 
 std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& options,
                               int disparity_max_px) {
-  if (options.right_offset != "auto" || paths.right.empty()) return "";
+  if (options.right_offset != "auto" || paths.right.empty() || isPicture(paths.left)) return "";
   const ViewSynchrony found = measure(paths, options, disparity_max_px);
   options.right_offset = std::to_string(found.right_offset);
   if (found.right_offset == 0) return "";

@@ -8,8 +8,9 @@
 
 namespace softscope {
 
-/// Where sequence.right_offset is auto and there are two views to compare, finds it from the first
-/// frames asked for, and writes it into `options`. Returns a warning where it isn't 0, else
+/// Where sequence.right_offset is auto and there are two views to compare, finds it from the frames
+/// that follow the first one asked for, whatever the range's end and step are, and writes it into
+/// `options`. Returns a warning where it isn't 0, else
 /// nothing. What can't be read or matched changes nothing: who reconstructs will report it. Throws
 /// InputError as the reader does.
 std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& options,

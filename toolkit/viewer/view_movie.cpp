@@ -36,7 +36,7 @@ std::vector<int> movieMoments(const ViewSource& source, const ViewMovieOptions& 
 
 int writeMovie(ViewSource& source, const ViewMovieOptions& options, const Progress& progress) {
   const std::vector<int> moments = movieMoments(source, options);
-  ViewPicture picture(source, options.width_px, options.height_px);
+  ViewPicture picture(source, options.width_px, options.height_px, options.clean);
   VideoWriter video(options.file, options.width_px, options.height_px, options.frames_per_second,
                     options.overwrite);
   const auto count = static_cast<int>(moments.size());

@@ -17,6 +17,7 @@ struct ViewMovieOptions {
   double seconds = 0;   // how long the video is; 0: as long as the clip at that speed
   double turn_deg = 0;  // by which the camera turns about the model, all in all
   ViewState state;
+  bool clean = false;  // without slider and words
   bool overwrite = false;
 };
 

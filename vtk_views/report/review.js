@@ -55,8 +55,14 @@ class Review {
     this.show();
   }
 
+  // The hash is of the report's content, so that a review belongs to one report for good.
   text() {
-    return JSON.stringify({schema_version: 1, kind: "softscope_review", grades: this.cases}, null, 2);
+    const value = name => this.root.querySelector(`[name=${name}]`).value.trim() || null;
+    const metrics = JSON.parse(document.getElementById("metrics").textContent);
+    return JSON.stringify({schema_version: 1, kind: "softscope_review",
+                           report_sha256: metrics.content_sha256, reviewer: value("reviewer"),
+                           decision: value("decision"), saved: new Date().toISOString(),
+                           grades: this.cases}, null, 2);
   }
 
   save() {

@@ -1,6 +1,9 @@
 // vtk_views/viewer/view_picture.cpp: drawn twice as fine, then averaged, over the foot.
 #include "vtk_views/viewer/view_picture.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "vtk_views/scenes/offscreen_window.h"
 #include "vtk_views/scenes/window_pixels.h"
@@ -10,7 +13,14 @@ namespace softscope {
 namespace {
 
 constexpr int kFiner = 2;
+constexpr double kUsualWidth = 960, kUsualHeight = 720;
 constexpr int kLeastWidth = 320, kLeastHeight = 240, kMost = 4096;
+
+/// Letters keep their share of a large picture. In eighths, so that the foot has whole pixels.
+double footScale(int width_px, int height_px) {
+  const double larger = std::min(width_px / kUsualWidth, height_px / kUsualHeight);
+  return std::max(1.0, std::floor(8 * larger) / 8);
+}
 
 }  // namespace
 
@@ -21,10 +31,11 @@ void requireViewSize(int width_px, int height_px) {
           "must be 240 to 4096 pixels high");
 }
 
-ViewPicture::ViewPicture(ViewSource& source, int width_px, int height_px)
+ViewPicture::ViewPicture(ViewSource& source, int width_px, int height_px, bool clean)
     : source_(source),
+      foot_scale_(clean ? 0 : footScale(width_px, height_px)),
       width_px_(width_px),
-      height_px_(height_px - kViewFootPx),
+      height_px_(height_px - static_cast<int>(std::lround(kViewFootPx * foot_scale_))),
       scene_(source.world()) {
   requireViewSize(width_px, height_px);
   window_ = makeOffscreenWindow(kFiner * width_px_, kFiner * height_px_);
@@ -41,10 +52,12 @@ ColourImage ViewPicture::draw(const Playback& playback, const ViewState& state, 
   scene_.sizeFor(kFiner * height_px_, state.dot_scale, kFiner);
   window_->Render();
   const ColourImage view = readPixels(window_, width_px_, height_px_, kFiner);
+  if (foot_scale_ == 0) return view;
   const ViewFoot foot =
       footOf(source_, *moment, playback, state, scene_.widthShownMm(aspect), /*of_window=*/false);
   const ColourImage card = state.help ? drawViewHelp() : ColourImage();
-  return composeView(view, drawViewFoot(foot, width_px_), state.help ? &card : nullptr);
+  return composeView(view, drawViewFoot(foot, width_px_, foot_scale_),
+                     state.help ? &card : nullptr);
 }
 
 }  // namespace softscope

@@ -14,14 +14,15 @@ namespace softscope {
 class ViewPicture {
  public:
   /// The source must outlive it. Throws OptionError below 320 x 240 or above 4096 pixels, and
-  /// BackendError where nothing renders.
-  ViewPicture(ViewSource& source, int width_px, int height_px);
+  /// BackendError where nothing renders. `clean`: the view alone, without slider and words.
+  ViewPicture(ViewSource& source, int width_px, int height_px, bool clean = false);
 
   /// `turn_deg`: further about what is looked at. Throws InputError where the moment can't be read.
   ColourImage draw(const Playback& playback, const ViewState& state, double turn_deg);
 
  private:
   ViewSource& source_;
+  double foot_scale_;         // 0: there is none
   int width_px_, height_px_;  // of the part above the foot
   ViewScene scene_;
   vtkSmartPointer<vtkRenderWindow> window_;

@@ -167,14 +167,14 @@ ViewFoot footOf(const ViewSource& source, const ViewMoment& moment, const Playba
   return foot;
 }
 
-ColourImage drawViewFoot(const ViewFoot& foot, int width_px) {
+ColourImage drawViewFoot(const ViewFoot& foot, int width_px, double scale) {
   VectorDrawing sheet;
-  sheet.width_pt = width_px;
+  sheet.width_pt = width_px / scale;
   sheet.height_pt = kViewFootPx;
   drawSlider(foot, sheet);
   drawWords(foot, sheet);
   drawBars(foot, sheet);
-  return rasterise(sheet, kPixelsPerInch);
+  return rasterise(sheet, kPixelsPerInch * scale);
 }
 
 double sliderPlace(int x_px, int width_px) {

@@ -34,8 +34,9 @@ struct ViewFoot {
 ViewFoot footOf(const ViewSource& source, const ViewMoment& moment, const Playback& playback,
                 const ViewState& state, double width_mm, bool of_window);
 
-/// kViewFootPx high.
-ColourImage drawViewFoot(const ViewFoot& foot, int width_px);
+/// kViewFootPx high; of a picture that is larger than a window `scale` times as high, with its
+/// letters and lines.
+ColourImage drawViewFoot(const ViewFoot& foot, int width_px, double scale = 1);
 /// Where on the slider a pixel's column lies, 0 to 1.
 double sliderPlace(int x_px, int width_px);
 /// The moment nearest to a place on the slider.

@@ -30,6 +30,12 @@ struct NamedText {
 /// that OpenCV's sample writes (intrinsics, extrinsics). SCARED's files are of this form as well.
 CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const std::string& name);
 
+/// Few numbers: f (or fx and fy), cx, cy, and baseline where the images are a rectified pair;
+/// without it they are one camera's, as is a file with M1 alone.
+CalibrationDraft draftFromFewNumbers(const std::vector<Document>& documents,
+                                     const std::string& name);
+bool holdsFewNumbers(const std::vector<Document>& documents);
+
 /// ROS camera_info of both cameras. `rectified`: the pictures are image_rect, so the projection
 /// matrices count.
 CalibrationDraft draftFromRos(const Document& left, const Document& right, const std::string& name,

@@ -66,6 +66,7 @@ CalibrationDraft draftFromDocument(const Document& document, const std::string& 
                      ": one camera's camera_info, but those of both are expected. Give the "
                      "left one with the right one beside it.");
   const Document* scared = document.find("camera-calibration");
+  if (!scared && holdsFewNumbers({document})) return draftFromFewNumbers({document}, name);
   CalibrationDraft draft = draftFromOpenCv({scared ? *scared : document}, name);
   if (scared || isScaredName(name)) draft.calibration.form = "SCARED";
   return draft;

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "io/calibrations/calibration_forms.h"
 #include "io/calibrations/calibration_parts.h"
+#include "io/calibrations/one_camera.h"
 #include "io/documents/number_tree.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
@@ -53,6 +54,14 @@ const Aliases kRightDistortion = {"D2",
                                   "rightdistortioncoeffs"};
 const Aliases kRotation = {"R", "rotation_matrix", "rotation", "R_left_to_right"};
 const Aliases kTranslation = {"T", "translation_vector", "translation", "t_left_to_right"};
+const Aliases kOneMatrix = {"M1", "K", "M", "camera_matrix", "cameraMatrix", "K1"};
+const Aliases kOneDistortion = {"D1", "D", "distortion_coefficients", "distCoeffs"};
+const Aliases kFocal = {"f", "fx", "focal", "focal_px", "f_px"};
+const Aliases kFocalDown = {"fy"};
+const Aliases kCentreU = {"cx", "cx_px"};
+const Aliases kCentreV = {"cy", "cy_px"};
+const Aliases kCentreURight = {"cx_right"};
+const Aliases kBaseline = {"baseline", "baseline_mm"};
 const Aliases kWidth = {"image_width", "imageWidth", "width"};
 const Aliases kHeight = {"image_height", "imageHeight", "height"};
 const Aliases kSize = {"image_size", "imageSize", "img_size"};
@@ -124,6 +133,31 @@ void setFlags(const Members& members, CalibrationDraft& draft) {
     draft.calibration.depth_unit_mm = singleNumber(members, {"depth_unit_mm"});
 }
 
+/// Asks for what is missing by the names of the short form.
+double shortNumber(const Members& members, const Aliases& names) {
+  if (!members.find(names))
+    throw InputError(
+        say(members.label(names),
+            " is missing, but a short calibration has f (or fx and fy), cx and cy, and "
+            "baseline for a rectified pair. `softscope calibration-template` writes "
+            "one of each kind."));
+  return singleNumber(members, names);
+}
+
+void setOneCamera(const Members& members, RawCamera& camera) {
+  if (members.find(kFocal)) {
+    camera.pinhole.fx_px = shortNumber(members, kFocal);
+    camera.pinhole.fy_px =
+        members.find(kFocalDown) ? shortNumber(members, kFocalDown) : camera.pinhole.fx_px;
+    camera.pinhole.cx_px = shortNumber(members, kCentreU);
+    camera.pinhole.cy_px = shortNumber(members, kCentreV);
+    return;
+  }
+  setCameraMatrix(camera.pinhole, members.numbers(kOneMatrix), members.label(kOneMatrix));
+  camera.distortion =
+      distortionFrom(members.numbersIfAny(kOneDistortion), members.label(kOneDistortion));
+}
+
 /// Pinholes of one focal length and row, side by side: resampling would only blur.
 bool isRectified(const StereoCalibration& pair) {
   const PinholeCamera &left = pair.left.pinhole, &right = pair.right.pinhole;
@@ -135,6 +169,49 @@ bool isRectified(const StereoCalibration& pair) {
 }
 
 }  // namespace
+
+bool holdsFewNumbers(const std::vector<Document>& documents) {
+  const Members members(documents, "");
+  if (members.find(kRightMatrix) || members.find(kRotation) || members.find(kTranslation))
+    return false;
+  return members.find(kFocal) || members.find(kOneMatrix);
+}
+
+CalibrationDraft draftFromFewNumbers(const std::vector<Document>& documents,
+                                     const std::string& name) {
+  const Members members(documents, name);
+  CalibrationDraft draft;
+  StereoCalibration& out = draft.calibration;
+  setOneCamera(members, out.left);
+  out.right = out.left;
+  const bool pair = members.find(kBaseline) != nullptr;
+  out.form = pair ? "rectified pair" : kOneCameraForm;
+  out.rectified = out.left.distortion.isZero();
+  setFlags(members, draft);
+  setSize(members, out);
+  if (members.find(kCentreURight)) out.right.pinhole.cx_px = singleNumber(members, kCentreURight);
+  double baseline = kAssumedBaselineMm;
+  if (pair) baseline = shortNumber(members, kBaseline);
+  if (!pair || members.find({"baseline_mm"})) draft.unit = "mm";
+  out.right_from_left.translation().x() = -baseline;
+  return draft;
+}
+
+StereoCalibration uncalibrated(int width_px, int height_px) {
+  StereoCalibration out;
+  PinholeCamera& camera = out.left.pinhole;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.fx_px = camera.fy_px = width_px;
+  camera.cx_px = 0.5 * (width_px - 1);
+  camera.cy_px = 0.5 * (height_px - 1);
+  out.right = out.left;
+  out.right_from_left.translation().x() = -kAssumedBaselineMm;
+  out.rectified = true;
+  out.form = kUncalibratedForm;
+  out.source = "no calibration";
+  return out;
+}
 
 CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const std::string& name) {
   const Members members(documents, name);

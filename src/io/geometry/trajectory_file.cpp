@@ -88,6 +88,21 @@ std::string trajectoryText(const Trajectory& trajectory) {
   return out;
 }
 
+std::string kittiText(const Trajectory& trajectory) {
+  if (trajectory.empty()) return {};
+  std::string out;
+  std::array<char, 32> number{};
+  for (const TimedPose& pose : parseTrajectory(trajectoryText(trajectory), "trajectory"))
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) {
+        std::snprintf(number.data(), number.size(), "%.9g",
+                      pose.world_from_left.matrix()(row, column));
+        out += number.data();
+        out += row == 2 && column == 3 ? '\n' : ' ';
+      }
+  return out;
+}
+
 void writeTrajectory(const std::filesystem::path& file, const Trajectory& trajectory,
                      bool overwrite) {
   requireWritable(file, overwrite);

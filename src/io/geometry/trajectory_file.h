@@ -18,6 +18,10 @@ Trajectory parseTrajectory(std::string_view text, const std::string& name);
 /// Times with 6 digits after the point, mm with 6, quaternions with 9.
 std::string trajectoryText(const Trajectory& trajectory);
 
+/// KITTI's form: a line per pose, the 3 x 4 matrix world_from_left row by row, mm. The poses are
+/// those that trajectoryText() gives back when it is read.
+std::string kittiText(const Trajectory& trajectory);
+
 /// Throws OptionError where the file exists and `overwrite` is false, Error where it can't be
 /// written or a number isn't finite.
 void writeTrajectory(const std::filesystem::path& file, const Trajectory& trajectory,

@@ -5,7 +5,10 @@
 
 #include "core/error.h"
 #include "io/calibrations/calibration_check.h"
+#include "io/calibrations/one_camera.h"
+#include "io/files/folder.h"
 #include "io/geometry/depth_files.h"
+#include "io/geometry/depth_relief.h"
 #include "io/images/image_reader.h"
 #include "io/sequences/frame_pairing.h"
 #include "io/sequences/timestamps_file.h"
@@ -16,12 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void requireSequence(const SequencePaths& paths) {
-  if (paths.left.empty() == paths.stereo.empty())
+void requireSequence(const SequencePaths& paths, bool uncalibrated) {
+  const bool depth_alone = paths.left.empty() && paths.stereo.empty() && !paths.depth.empty();
+  if (paths.left.empty() == paths.stereo.empty() && !depth_alone)
     throw OptionError("a sequence needs left and right, or stereo, and not both.");
   if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
     throw OptionError("a sequence needs right pictures or depth beside the left ones.");
-  if (paths.calibration.empty())
+  if (paths.calibration.empty() && !uncalibrated)
     throw OptionError("a sequence needs a calibration. Give it with --calibration.");
 }
 
@@ -50,13 +54,17 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     : options_(options), right_offset_(options.rightOffset()) {
   if (options_.layout == "auto" && !paths.layout.empty()) options_.layout = paths.layout;
   options.validate();
-  requireSequence(paths);
+  requireSequence(paths, options.uncalibrated);
   is_packed_ = !paths.stereo.empty();
   if (is_packed_ && right_offset_ != 0)
     throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
                           shown(paths.stereo), " are in the same pictures. Leave it at auto."));
-  const fs::path& first = is_packed_ ? paths.stereo : paths.left;
-  left_ = openPictures(first);
+  const bool depth_alone = !is_packed_ && paths.left.empty();
+  if (depth_alone) setCalibration(paths);  // says what a step of the files is worth
+  const fs::path& first = is_packed_ ? paths.stereo : depth_alone ? paths.depth : paths.left;
+  left_path_ = first;
+  right_path_ = paths.right;
+  left_ = depth_alone ? openDepthRelief(first, calibration_.depth_unit_mm) : openPictures(first);
   count_ = left_->count();
   const ViewFiles view{first, left_->files(), count_};
   if (!paths.right.empty()) {
@@ -72,7 +80,21 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     times_s_ = readTimestamps(paths.timestamps);
     requireCount(times_s_.size(), count_, paths.timestamps, "times");
   }
-  calibration_ = readCalibration(paths.calibration, options.calibration);
+  if (!depth_alone) setCalibration(paths);
+}
+
+void FrameLoader::setCalibration(const SequencePaths& paths) {
+  if (paths.calibration.empty()) {
+    calibration_ = uncalibrated(0, 0);
+    return;
+  }
+  calibration_ = readCalibration(paths.calibration, options_.calibration);
+  if (hasOneCamera(calibration_) && paths.depth.empty())
+    throw InputError(
+        say(calibration_.source,
+            ": is one camera's, but there is no depth/ to go with it. Add depth files, "
+            "or for a rectified pair the baseline (`softscope calibration-template "
+            "rectified`)."));
 }
 
 int FrameLoader::firstWithPartner() const { return right_ ? std::max(0, -right_offset_) : 0; }
@@ -115,9 +137,28 @@ StereoPair FrameLoader::readPair(int index) {
   return unpack(packed, packing_, left_->nameOf(index));
 }
 
-void FrameLoader::requirePartner(int index) const {
+bool FrameLoader::hasPartner(int index) const {
   const int partner = index + right_offset_;
-  if (right_ && (partner < 0 || partner >= count_))
+  return !right_ || (partner >= 0 && partner < count_);
+}
+
+FrameNames FrameLoader::namesOf(int index) const {
+  const auto nameIn = [](const PictureSource& view, const fs::path& path, int i) {
+    const std::vector<fs::path> files = view.files();
+    return (files.empty() ? path : files.at(static_cast<std::size_t>(i))).filename();
+  };
+  const fs::path left = nameIn(*left_, left_path_, index);
+  const bool is_file = !left_->files().empty();
+  FrameNames names;
+  names.number = (is_file ? frameNumber(left) : std::nullopt).value_or(index);
+  names.left = left.string();
+  if (right_ && hasPartner(index))
+    names.right = nameIn(*right_, right_path_, index + right_offset_).string();
+  return names;
+}
+
+void FrameLoader::requirePartner(int index) const {
+  if (!hasPartner(index))
     throw InputError(say(left_->nameOf(index), ": the right view has no picture of this moment ",
                          "(sequence.right_offset is ", options_.right_offset, ")"));
 }
@@ -126,6 +167,10 @@ void FrameLoader::settleSize(const ColourImage& left, const std::string& name) {
   is_settled_ = true;
   PinholeCamera& camera = calibration_.left.pinhole;
   if (camera.width_px != 0 && camera.height_px != 0) return;
+  if (isUncalibrated(calibration_)) {
+    calibration_ = uncalibrated(left.width_px, left.height_px);
+    return;
+  }
   camera.width_px = calibration_.right.pinhole.width_px = left.width_px;
   camera.height_px = calibration_.right.pinhole.height_px = left.height_px;
   calibration_.warnings.push_back(

@@ -8,6 +8,7 @@
 
 #include "core/frame.h"
 #include "core/stereo_rig.h"
+#include "io/sequences/frame_names.h"
 #include "io/sequences/picture_source.h"
 #include "io/sequences/sequence_options.h"
 #include "io/sequences/sequence_paths.h"
@@ -35,10 +36,15 @@ class FrameLoader {
   /// where the calibration left it out.
   Frame load(int index);
 
+  FrameNames namesOf(int index) const;
+  /// Whether the other view has an image of this moment.
+  bool hasPartner(int index) const;
+
   /// Of its timestamp, or its place in a video; NaN where neither is known.
   double timeOf(int index) const;
 
  private:
+  void setCalibration(const SequencePaths& paths);
   StereoPair readPair(int index);
   void requirePartner(int index) const;
   void settleSize(const ColourImage& left, const std::string& name);
@@ -46,6 +52,7 @@ class FrameLoader {
 
   SequenceOptions options_;
   int right_offset_;
+  std::filesystem::path left_path_, right_path_;  // left_path_: or of both views
   StereoCalibration calibration_;
   std::unique_ptr<PictureSource> left_, right_;  // left_ alone where both views are packed in it
   bool is_packed_ = false;

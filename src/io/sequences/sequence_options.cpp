@@ -14,20 +14,27 @@ int frameOf(std::string_view word, int otherwise, const std::string& text) {
   if (word.empty()) return otherwise;
   const auto value = numberOf(word);
   if (!value || *value < 0 || *value > 1e9 || *value != std::floor(*value))
-    throw OptionError(
-        say("--frames ", excerpt(text), ": A:B is expected, frames A up to, not with, B."));
+    throw OptionError(say("--frames ", excerpt(text),
+                          ": A:B or A:B:STEP is expected, frames A up to, not ",
+                          "with, B, every STEP-th of them."));
   return static_cast<int>(*value);
 }
 
 }  // namespace
 
 FrameRange parseFrameRange(const std::string& text) {
-  const std::size_t colon = text.find(':');
   const std::string_view view = text;
+  const std::size_t colon = view.find(':');
   if (colon == std::string::npos) frameOf("?", 0, text);
+  const std::string_view rest = view.substr(colon + 1);
+  const std::size_t second = rest.find(':');
   FrameRange out;
   out.begin = frameOf(trimmed(view.substr(0, colon)), 0, text);
-  out.end = frameOf(trimmed(view.substr(colon + 1)), -1, text);
+  out.end = frameOf(trimmed(rest.substr(0, second)), -1, text);
+  if (second != std::string_view::npos)
+    out.step = frameOf(trimmed(rest.substr(second + 1)), 1, text);
+  if (out.step == 0)
+    throw OptionError(say("--frames ", excerpt(text), ": STEP is 0, but must be 1 or more."));
   if (out.end >= 0 && out.end <= out.begin)
     throw OptionError(say("--frames ", excerpt(text), ": names no frame; B must be above A."));
   return out;
@@ -45,6 +52,7 @@ void SequenceOptions::validate() const {
   requireAllowed(*this);
   rightOffset();
   require(frames.begin >= 0, "--frames", frames.begin, "can't be negative");
+  require(frames.step >= 1, "--frames", frames.step, "must have a step of 1 or more");
 }
 
 }  // namespace softscope

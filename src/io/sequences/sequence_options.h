@@ -7,13 +7,18 @@
 
 namespace softscope {
 
-/// Frames begin, begin + 1, …, end - 1.
+/// Frames begin, begin + step, …, below end.
 struct FrameRange {
   int begin = 0;
   int end = -1;  // -1 = to the last
+  int step = 1;
+
+  /// How many frames; `end` must be known.
+  int count() const { return (end - begin + step - 1) / step; }
 };
 
-/// "A:B" is A up to, not with, B; either may be left out ("10:", ":20"). Throws OptionError.
+/// "A:B" is A up to, not with, B; "A:B:STEP" every STEP-th of them. Each may be left out ("10:",
+/// ":20", "::5"). Throws OptionError.
 FrameRange parseFrameRange(const std::string& text);
 
 struct SequenceOptions {
@@ -25,6 +30,7 @@ struct SequenceOptions {
   std::string right_offset = "auto";
   int read_ahead = 4;  // frames kept ready
   CalibrationHints calibration;
+  bool uncalibrated = false;  // where no calibration is named, the pair is taken to be rectified
 
   int rightOffset() const;
 

@@ -68,11 +68,11 @@ SequencePaths findSequence(const fs::path& folder) {
       return shipped;
     }
   }
-  if (paths.left.empty() && paths.stereo.empty())
+  if (paths.left.empty() && paths.stereo.empty() && (paths.depth.empty() || !paths.right.empty()))
     throw InputError(
         say(shown(folder), ": holds ", paths.right.empty() ? "no left view" : "a right view alone",
             ", but left/ and right/ with pictures, left.mp4 and right.mp4, or stereo.mp4 "
-            "are expected."));
+            "or depth/ are expected."));
   if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
     throw InputError(shown(folder) +
                      ": holds a left view, but neither a right one nor depth/. Add one.");

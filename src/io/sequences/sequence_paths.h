@@ -7,7 +7,7 @@
 namespace softscope {
 
 /// left and right: each a picture, a folder of pictures or a video. Or stereo: the same, with both
-/// views in one picture. right may be empty where depth is given.
+/// views in one picture. right may be empty where depth is given, and all three may then be.
 struct SequencePaths {
   std::filesystem::path left, right;
   std::filesystem::path stereo;

@@ -20,6 +20,14 @@ FrameRange rangeWithin(FrameRange range, int count) {
   return range;
 }
 
+/// The first frame of the range from `first` on; of an empty rest the sequence's own `first`.
+int firstFrom(const FrameRange& range, int first) {
+  if (first <= range.begin) return range.begin;
+  const int steps = (first - range.begin + range.step - 1) / range.step;
+  const int index = range.begin + steps * range.step;
+  return index < range.end ? index : first;
+}
+
 }  // namespace
 
 class SequenceReader::Impl {
@@ -28,8 +36,9 @@ class SequenceReader::Impl {
       : loader_(paths, options),
         range_(rangeWithin(options.frames, loader_.count())),
         queue_(static_cast<std::size_t>(options.read_ahead)) {
-    first_.index = std::max(range_.begin, loader_.firstWithPartner());
+    first_.index = firstFrom(range_, loader_.firstWithPartner());
     first_.time_s = loader_.timeOf(first_.index);
+    first_.names = loader_.namesOf(first_.index);
     first_.frame = loader_.load(first_.index);  // throws: what is wrong with it is wrong with all
     calibration_ = loader_.calibration();
     thread_ = std::thread([this] { readAhead(); });
@@ -40,7 +49,7 @@ class SequenceReader::Impl {
   }
 
   const StereoCalibration& calibration() const { return calibration_; }
-  int frameCount() const { return range_.end - range_.begin; }
+  int frameCount() const { return range_.count(); }
   int totalCount() const { return loader_.count(); }
 
   std::optional<FrameResult> next() {
@@ -54,7 +63,7 @@ class SequenceReader::Impl {
   void readAhead() {
     try {
       bool go_on = true;
-      for (int index = range_.begin; index < range_.end && go_on; ++index) {
+      for (int index = range_.begin; index < range_.end && go_on; index += range_.step) {
         FrameResult result = index == first_.index ? std::move(first_) : load(index);
         go_on = result.ok() || index < first_.index || loader_.survivesErrors();
         go_on = queue_.push(std::move(result)) && go_on;
@@ -69,6 +78,8 @@ class SequenceReader::Impl {
     FrameResult result;
     result.index = index;
     result.time_s = loader_.timeOf(index);
+    result.names = loader_.namesOf(index);
+    result.unpaired = !loader_.hasPartner(index);
     try {
       result.frame = loader_.load(index);
     } catch (const InputError& error) {

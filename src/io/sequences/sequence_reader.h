@@ -8,6 +8,7 @@
 
 #include "core/frame.h"
 #include "core/stereo_rig.h"
+#include "io/sequences/frame_names.h"
 #include "io/sequences/sequence_options.h"
 #include "io/sequences/sequence_paths.h"
 
@@ -15,10 +16,12 @@ namespace softscope {
 
 /// One frame, or why it couldn't be read.
 struct FrameResult {
-  int index = 0;      // position in the sequence, from 0
-  Frame frame;        // empty where error isn't
-  double time_s = 0;  // of the frame, also where it can't be read
-  std::string error;  // one line; empty where all is well
+  int index = 0;          // position in the sequence, from 0
+  Frame frame;            // empty where error isn't
+  double time_s = 0;      // of the frame, also where it can't be read
+  FrameNames names;       // also where it can't be read
+  bool unpaired = false;  // nothing is wrong with it, but the other view has no image of its moment
+  std::string error;      // one line; empty where all is well
 
   bool ok() const { return error.empty(); }
 };

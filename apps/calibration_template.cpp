@@ -1,0 +1,57 @@
+// apps/calibration_template.cpp: `softscope calibration-template`: a calibration to fill in.
+#include "toolkit/calibration/calibration_template.h"
+
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+
+#include "apps/command.h"
+#include "apps/exit_codes.h"
+#include "io/files/atomic_file.h"
+
+namespace softscope {
+namespace {
+
+class CalibrationTemplateCommand : public Command {
+ public:
+  std::string name() const override { return "calibration-template"; }
+  std::string summary() const override { return "a commented calibration file to fill in"; }
+  std::string details() const override {
+    return "KIND is\n"
+           "  stereo      raw images: M1 D1 M2 D2 R T, as OpenCV's stereoCalibrate names them\n"
+           "  rectified   rectified images: f, cx, cy and baseline\n"
+           "  rgb-d       one camera, for depth files with or without colour images: fx fy cx cy\n"
+           "Printed, or written to --out. `softscope info FILE` checks what was filled in.";
+  }
+  std::string example() const override {
+    return "softscope calibration-template rectified --out calibration.yaml";
+  }
+  void declare(ArgumentList& arguments) override {
+    arguments.positional("KIND", kind_, "stereo, rectified or rgb-d", true);
+    arguments.option("--out", "FILE", out_, "where to (default: stdout)");
+    arguments.flag("--force", force_, "overwrite what is there");
+  }
+
+  int run() override {
+    const std::string text = calibrationTemplate(kind_);
+    if (out_.empty()) {
+      std::cout << text << std::flush;
+      return kDone;
+    }
+    writeFile(out_, text, force_);
+    spdlog::info("written: {}", out_);
+    return kDone;
+  }
+
+ private:
+  std::string kind_, out_;
+  bool force_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> makeCalibrationTemplateCommand() {
+  return std::make_unique<CalibrationTemplateCommand>();
+}
+
+}  // namespace softscope
