@@ -23,7 +23,7 @@ struct SplatDisc {
 /// Rows first_row … first_row + rows - 1 of the picture that is being drawn. Pointers stand at
 /// column 0 of the first row; kSplatMargin columns beyond either end may be written.
 constexpr int kSplatMargin = 48;
-constexpr int kLargestDiscPx = 12;
+constexpr int kLargestDiscPx = 3;
 struct SplatBand {
   float* front;  // largest inverse depth seen so far, 0 = nothing
   float* weight;

@@ -6,19 +6,27 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fusion/cell_table.h"
+#include "fusion/point_spacing.h"
 
 namespace softscope {
 namespace {
 
-/// Cells of all points; kNoCell for those that can't stay.
-std::vector<CellKey> cellsOf(const PointModel& model, float cell_mm) {
+constexpr int kWidthBit = 60;  // of a key; cells less than 2^18 from the origin leave it free
+
+/// Cells of all points; kNoCell for those that can't stay. Cells of different widths have
+/// different keys.
+std::vector<CellKey> cellsOf(const PointModel& model, const PosedCamera& camera, float cell_mm) {
   std::vector<CellKey> keys(model.size());
-  const Eigen::Vector3f cell = Eigen::Vector3f::Constant(cell_mm);
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const float length = model.normals[i].squaredNorm();
       const bool stays = model.weights[i] > 0 && length > 0.25f && length < 4;
-      keys[i] = stays ? cellKey(model.positions_mm[i], cell) : kNoCell;
+      const int halvings =
+          halvingsAt(camera.toLeft(model.positions_mm[i]).z(), camera.fx_px, cell_mm);
+      keys[i] = stays ? cellKey(model.positions_mm[i],
+                                Eigen::Vector3f::Constant(std::ldexp(cell_mm, -halvings)))
+                      : kNoCell;
+      if (keys[i] != kNoCell) keys[i] ^= static_cast<CellKey>(halvings) << kWidthBit;
     }
   });
   return keys;
@@ -101,10 +109,10 @@ IndexMap indexMap(std::vector<std::int32_t> heir, std::vector<std::int32_t>* old
 
 }  // namespace
 
-IndexMap keepDensity(const DensityOptions& options, PointModel* model) {
+IndexMap keepDensity(const DensityOptions& options, const PosedCamera& camera, PointModel* model) {
   require(options.cell_mm >= 0.01, "fusion.point_spacing_mm", options.cell_mm,
           "must be 0.01 or more");
-  const std::vector<CellKey> keys = cellsOf(*model, static_cast<float>(options.cell_mm));
+  const std::vector<CellKey> keys = cellsOf(*model, camera, static_cast<float>(options.cell_mm));
   const float cosine = static_cast<float>(std::cos(options.kMaxAngleDeg * M_PI / 180));
   std::vector<std::int32_t> old_of_new;
   IndexMap map = indexMap(mergeCells(keys, cosine, model), &old_of_new);

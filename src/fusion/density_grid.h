@@ -6,6 +6,7 @@
 
 #include "core/point_model.h"
 #include "fusion/fusion_options.h"
+#include "fusion/posed_camera.h"
 
 namespace softscope {
 
@@ -21,7 +22,8 @@ struct IndexMap {
 /// Leaves one point a cell and side of the surface: docs/fusion.md (F17), (F18). The heaviest
 /// stays, so that material points don't slide, and takes part of the others' height over the
 /// surface. Points without weight, and those without a finite position or a normal, are removed.
-/// The others keep their order. Throws OptionError for bad options.
-IndexMap keepDensity(const DensityOptions& options, PointModel* model);
+/// The others keep their order. Cells are smaller for what is near to the camera. Throws
+/// OptionError for bad options.
+IndexMap keepDensity(const DensityOptions& options, const PosedCamera& camera, PointModel* model);
 
 }  // namespace softscope

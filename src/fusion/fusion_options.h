@@ -71,7 +71,9 @@ struct ColourOptions {
 
 /// Where new points come from: docs/fusion.md (F14) to (F16).
 struct InsertionOptions {
-  double spacing_mm = 0.2;    // between new points, and from them to old ones
+  double spacing_mm = 0.2;  // between new points, and from them to old ones, …
+  // … but no more than this in the image: near tissue and fine images get more points
+  static constexpr double kMostSpacingPx = 2.4;
   double max_sigma_mm = 0.5;  // less sure depths make no points
   double band_mm = 2.0;       // a model point this near in depth explains a pixel
   bool confirm = true;        // wait until two frames in a row say the same
@@ -81,7 +83,7 @@ struct InsertionOptions {
 
 /// How dense the model stays: docs/fusion.md (F17), (F18).
 struct DensityOptions {
-  double cell_mm = 0.2;
+  double cell_mm = 0.2;  // halved until it is no wider than InsertionOptions::kMostSpacingPx
   // between normals of points that are merged: two sides stay two
   static constexpr double kMaxAngleDeg = 60.0;
 };

@@ -13,7 +13,8 @@ ModelUpdateSummary updateModel(const Observation& observation, const Raster<Pixe
       fusePoints(graph, observation, visibility, options.points, options.colour, model);
   summary.insertion =
       insertPoints(observation, states, visibility, summary.points.gain, options, memory, model);
-  summary.index_map = keepDensity(options.density, model);
+  summary.index_map = keepDensity(
+      options.density, posedCamera(observation.left, observation.world_from_left), model);
   return summary;
 }
 

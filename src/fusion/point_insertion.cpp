@@ -11,6 +11,7 @@
 #include "fusion/colour_levels.h"
 #include "fusion/fusion_weights.h"
 #include "fusion/nearest_surface.h"
+#include "fusion/point_spacing.h"
 
 namespace softscope {
 namespace {
@@ -20,7 +21,7 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// Pixels nearer to a point than this get no new one: (F14).
 int footprintPx(float depth_mm, float focal_px, float spacing_mm) {
-  const float spacing_px = spacing_mm * focal_px / depth_mm;
+  const float spacing_px = spacingAt(depth_mm, focal_px, spacing_mm) * focal_px / depth_mm;
   return std::clamp(static_cast<int>(std::lround(std::min(spacing_px, 100.0f))), 1, kMostFootprint);
 }
 
@@ -94,14 +95,16 @@ std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
   for (std::size_t i = 0; i < unexplained_mm.size(); ++i)
     if (allowed[i] != 0) candidates.push_back(static_cast<std::int32_t>(i));
   const float spacing_mm = static_cast<float>(options.spacing_mm);
-  const Eigen::Vector3f cell_mm(spacing_mm, spacing_mm, static_cast<float>(options.band_mm));
+  const float band_mm = static_cast<float>(options.band_mm);
   std::vector<CellKey> keys(candidates.size());
   parallelRanges(static_cast<int>(candidates.size()), kPointsATask, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const std::int32_t i = candidates[k];
       const Eigen::Vector3f ray =
           camera.ray(i % unexplained_mm.width_px, i / unexplained_mm.width_px);
-      keys[k] = cellKey(ray * unexplained_mm.values[i], cell_mm);
+      const float depth_mm = unexplained_mm.values[i];
+      const float side_mm = spacingAt(depth_mm, camera.fx_px, spacing_mm);
+      keys[k] = cellKey(ray * depth_mm, {side_mm, side_mm, band_mm});
     }
   });
   std::vector<std::int32_t> chosen;

@@ -73,7 +73,7 @@ void measure(int width_px, int height_px, int points) {
   fusePoints(graph, observation, visibility, options.points, options.colour, &work);
   const PointModel fused = work;
   const double density =
-      fastestMs([&] { work = fused; }, [&] { keepDensity(options.density, &work); });
+      fastestMs([&] { work = fused; }, [&] { keepDensity(options.density, {}, &work); });
   const double error = fastestMs(nothing, [&] { backProjectionError(model, observation, states); });
   const auto seen = visibility.seen().size();
   std::printf("| %dx%d | %zu | %zu | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f |\n", width_px,

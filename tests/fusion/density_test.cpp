@@ -37,7 +37,7 @@ TEST(CellKeys, TellNeighboursApartAndRefuseTheRest) {
 
 TEST(KeepDensity, LeavesOnePointACell) {
   PointModel model = cloud(20000, 1, 5);
-  keepDensity({}, &model);
+  keepDensity({}, {}, &model);
   const Eigen::Vector3f cell = Eigen::Vector3f::Constant(0.2f);
   std::vector<CellKey> keys;
   for (const Eigen::Vector3f& p : model.positions_mm) keys.push_back(cellKey(p, cell));
@@ -51,7 +51,7 @@ TEST(KeepDensity, LeavesOnePointACell) {
 TEST(KeepDensity, MapsEveryOldPointToTheOneThatStandsForIt) {
   const PointModel before = cloud(20000, 2, 5);
   PointModel model = before;
-  const IndexMap map = keepDensity({}, &model);
+  const IndexMap map = keepDensity({}, {}, &model);
   ASSERT_EQ(map.new_of_old.size(), before.size());
   ASSERT_EQ(static_cast<std::size_t>(map.new_count), model.size());
   EXPECT_EQ(model.normals.size(), model.size());
@@ -75,7 +75,7 @@ TEST(KeepDensity, KeepsTheOrder) {
   for (int i = 0; i < 200; ++i)  // every third on top of its predecessor
     model.add({0.5f * static_cast<float>(i - (i % 3 == 2)), 0.1f, 55.1f}, kUp,
               {static_cast<std::uint8_t>(i), 0, 0}, i % 3 == 2 ? 2.0f : 1.0f);
-  const IndexMap map = keepDensity({}, &model);
+  const IndexMap map = keepDensity({}, {}, &model);
   ASSERT_EQ(model.size(), 134u);
   for (std::size_t k = 1; k < model.size(); ++k)
     EXPECT_GT(model.colours[k].red, model.colours[k - 1].red);
@@ -87,7 +87,7 @@ TEST(KeepDensity, MergesHeightByWeightAndKeepsThePlace) {
   model.add({0.02f, 0.1f, 55.02f}, kUp, {10, 10, 10}, 1);
   model.add({0.18f, 0.1f, 55.18f}, kUp, {90, 90, 90}, 3);
   model.bindings[0] = {7, {1, 0, 0, 0}};
-  const IndexMap map = keepDensity({}, &model);
+  const IndexMap map = keepDensity({}, {}, &model);
   ASSERT_EQ(model.size(), 1u);
   EXPECT_EQ(map.new_of_old, (std::vector<std::int32_t>{0, 0}));
   EXPECT_FLOAT_EQ(model.positions_mm[0].x(), 0.18f);
@@ -103,7 +103,7 @@ TEST(KeepDensity, LeavesTheTwoSidesOfAFoldAlone) {
   model.add({0.05f, 0.05f, 55.05f}, kUp, {}, 1);
   model.add({0.06f, 0.05f, 55.06f}, -kUp, {}, 1);
   model.add({0.07f, 0.05f, 55.07f}, kUp, {}, 1);
-  EXPECT_EQ(keepDensity({}, &model).new_of_old, (std::vector<std::int32_t>{0, 1, 0}));
+  EXPECT_EQ(keepDensity({}, {}, &model).new_of_old, (std::vector<std::int32_t>{0, 1, 0}));
 }
 
 TEST(KeepDensity, RemovesWhatHasNoWeightNoPlaceOrNoNormal) {
@@ -118,31 +118,43 @@ TEST(KeepDensity, RemovesWhatHasNoWeightNoPlaceOrNoNormal) {
   model.add({6, 0, 55}, {nan, 0, 0}, {}, 1);
   model.add({7, 0, 55}, {0, 0, 0}, {}, 1);
   model.add({8, 0, 55}, kUp, {}, 1);
-  EXPECT_EQ(keepDensity({}, &model).new_of_old,
+  EXPECT_EQ(keepDensity({}, {}, &model).new_of_old,
             (std::vector<std::int32_t>{-1, -1, -1, -1, -1, -1, -1, -1, 0}));
   EXPECT_FLOAT_EQ(model.positions_mm.at(0).x(), 8);
 }
 
 TEST(KeepDensity, ChangesNothingTheSecondTime) {
   PointModel model = cloud(20000, 3, 5);
-  keepDensity({}, &model);
+  keepDensity({}, {}, &model);
   const PointModel once = model;
-  const IndexMap map = keepDensity({}, &model);
+  const IndexMap map = keepDensity({}, {}, &model);
   EXPECT_TRUE(map.identity());
   EXPECT_TRUE(sameModel(once, model));
 }
 
+// Cells of 0.2 mm are 10 px wide at 20 mm, and 2.4 px are enough: three halvings.
+TEST(KeepDensity, LeavesMorePointsWhereTissueIsNear) {
+  PosedCamera camera;
+  camera.fx_px = 1000;
+  for (const auto& [depth_mm, left] : {std::pair(20.0f, 4), std::pair(100.0f, 1)}) {
+    PointModel model;
+    for (int i = 0; i < 4; ++i) model.add({0.01f + 0.05f * i, 0.01f, depth_mm}, kUp, {}, 1);
+    keepDensity({}, camera, &model);
+    EXPECT_EQ(model.size(), static_cast<std::size_t>(left)) << depth_mm << " mm";
+  }
+}
+
 TEST(KeepDensity, AcceptsTheEmptyModelAndRefusesBadOptions) {
   PointModel model;
-  EXPECT_TRUE(keepDensity({}, &model).identity());
-  EXPECT_THROW(keepDensity({0.0}, &model), OptionError);
+  EXPECT_TRUE(keepDensity({}, {}, &model).identity());
+  EXPECT_THROW(keepDensity({0.0}, {}, &model), OptionError);
 }
 
 TEST(KeepDensity, IsTheSameForAnyNumberOfThreads) {
   PointModel many = cloud(50000, 4, 8), alone = many;
-  keepDensity({}, &many);
+  keepDensity({}, {}, &many);
   const ThreadLimit one(1);
-  keepDensity({}, &alone);
+  keepDensity({}, {}, &alone);
   EXPECT_TRUE(sameModel(many, alone));
 }
 
@@ -154,7 +166,7 @@ TEST(KeepDensity, SurvivesACrowd) {
   for (int i = 0; i < 100000; ++i)
     model.add({0.1f, 0.1f, 55.1f},
               Eigen::Vector3f(any(random), any(random), any(random)).normalized(), {}, 1);
-  keepDensity({}, &model);
+  keepDensity({}, {}, &model);
   EXPECT_LT(model.size(), 40u);  // directions 60 degrees apart: no more fit on a sphere
 }
 

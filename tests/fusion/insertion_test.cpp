@@ -29,6 +29,20 @@ TEST(Insertion, TakesTheFirstFrameAtTheRightDensity) {
   }
 }
 
+// At 20 mm a pixel is 0.036 mm: points 0.2 mm apart leave holes and blur the model view.
+TEST(Insertion, NearTissueGetsAPointEvery2Point4Pixels) {
+  const Shot shot = takeShot(plane(20), smallCamera());
+  PointModel model;
+  InsertionMemory memory;
+  update(shot, {}, &memory, &model);
+  const double in_image =
+      96 * 72 / (InsertionOptions::kMostSpacingPx * InsertionOptions::kMostSpacingPx);
+  EXPECT_NEAR(model.size(), in_image, 0.1 * in_image);
+  const std::size_t before = model.size();
+  update(shot, {}, &memory, &model);
+  EXPECT_EQ(model.size(), before);
+}
+
 // A layer of noise is one layer: cells are as deep as the band, not as wide as they are.
 TEST(Insertion, NoiseDoesNotDoubleTheLayer) {
   Shot shot = takeShot(plane(55), smallCamera());
