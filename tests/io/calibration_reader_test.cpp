@@ -68,6 +68,14 @@ TEST(CalibrationReader, ARectifiedPairNeedsFourNumbers) {
       {"In metres?"});
 }
 
+TEST(CalibrationReader, FewNumbersMustBeFinite) {
+  for (const char* text :
+       {"f: 500\ncx: .nan\ncy: 241\nbaseline: 5\n", "f: 500\ncx: 321\ncy: .inf\n",
+        "f: 500\ncx: 321\ncy: 241\nbaseline: 5\ncx_right: .nan\n",
+        "f: 500\ncx: 321\ncy: 241\nbaseline: .nan\n", "f: 0\ncx: 321\ncy: 241\n"})
+    expectError<InputError>([&] { parseCalibration(text, "c.yaml"); }, {"c.yaml"});
+}
+
 TEST(CalibrationReader, OneCameraIsEnoughForDepth) {
   for (const char* text : {"fx: 500\nfy: 500\ncx: 321\ncy: 241\ndepth_unit_mm: 1\n",
                            "K: [500, 0, 321, 0, 500, 241, 0, 0, 1]\ndepth_unit_mm: 1\n"}) {

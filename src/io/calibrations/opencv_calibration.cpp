@@ -146,11 +146,11 @@ double shortNumber(const Members& members, const Aliases& names) {
 
 void setOneCamera(const Members& members, RawCamera& camera) {
   if (members.find(kFocal)) {
-    camera.pinhole.fx_px = shortNumber(members, kFocal);
-    camera.pinhole.fy_px =
-        members.find(kFocalDown) ? shortNumber(members, kFocalDown) : camera.pinhole.fx_px;
-    camera.pinhole.cx_px = shortNumber(members, kCentreU);
-    camera.pinhole.cy_px = shortNumber(members, kCentreV);
+    const double fx_px = shortNumber(members, kFocal);
+    const double fy_px = members.find(kFocalDown) ? shortNumber(members, kFocalDown) : fx_px;
+    const double cx_px = shortNumber(members, kCentreU), cy_px = shortNumber(members, kCentreV);
+    setCameraMatrix(camera.pinhole, {fx_px, 0, cx_px, 0, fy_px, cy_px, 0, 0, 1},
+                    members.label(kFocal) + ", cx or cy");
     return;
   }
   setCameraMatrix(camera.pinhole, members.numbers(kOneMatrix), members.label(kOneMatrix));
@@ -189,7 +189,13 @@ CalibrationDraft draftFromFewNumbers(const std::vector<Document>& documents,
   out.rectified = out.left.distortion.isZero();
   setFlags(members, draft);
   setSize(members, out);
-  if (members.find(kCentreURight)) out.right.pinhole.cx_px = singleNumber(members, kCentreURight);
+  if (members.find(kCentreURight)) {
+    const PinholeCamera& left = out.left.pinhole;
+    setCameraMatrix(
+        out.right.pinhole,
+        {left.fx_px, 0, singleNumber(members, kCentreURight), 0, left.fy_px, left.cy_px, 0, 0, 1},
+        members.label(kCentreURight));
+  }
   double baseline = kAssumedBaselineMm;
   if (pair) baseline = shortNumber(members, kBaseline);
   if (!pair || members.find({"baseline_mm"})) draft.unit = "mm";
