@@ -30,6 +30,11 @@ struct GraphEdge {
   std::int32_t first = 0;
   std::int32_t second = 0;
   double weight = 1;  // alpha of docs/energy.md (6)
+  // Offset of the other node, mm, in the frame of the first and of the second node: mean over the
+  // last frames, docs/energy.md (6b).
+  Eigen::Vector3d from_first_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d from_second_mm = Eigen::Vector3d::Zero();
+  double frames = 0;  // in the mean; 0: the edge is new
 };
 
 /// The nodes that carry some points together: ascending ids. Where there are fewer than four, the
@@ -42,6 +47,7 @@ struct WarpGraph {
   std::vector<Eigen::Vector3d> positions_mm;  // of the nodes, world frame, before the warp
   std::vector<NodeTransform> transforms;      // one a node
   std::vector<Eigen::Vector3d> moved_mm;      // of each node since the reference shape, world
+  std::vector<Eigen::Matrix3d> turned;        // of each node since it was laid, world from node
   std::vector<GraphEdge> edges;               // ascending by (first, second)
   std::vector<NodeStencil> stencils;          // what PointBinding::stencil counts
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "deform/shape_memory.h"
 #include "deform/warp.h"
 
 namespace softscope {
@@ -146,6 +147,7 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
     ++set->matches;
   }
   set->stiffness.assign(graph.edges.size(), 1);
+  expectShape(graph, 0, set);
   listActive(set);
 }
 

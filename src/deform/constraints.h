@@ -52,6 +52,11 @@ struct StencilRows {
   int rows() const { return 3 * matches + points; }
 };
 
+/// Where the nodes of an edge expect each other before they turn, world, mm.
+struct ExpectedOffsets {
+  Eigen::Vector3d from_first_mm, from_second_mm;
+};
+
 struct ConstraintSet {
   std::vector<PlaneConstraint> rows;  // with gaps between stencils
   std::vector<StencilRows> stencils;  // one a stencil of the graph
@@ -59,8 +64,9 @@ struct ConstraintSet {
   int matches = 0;
   int matches_dropped = 0;  // not finite, or their model point unbound
   int points = 0;
-  std::vector<double> stiffness;  // one an edge of the graph, 1 = as stiff as unseen tissue
-  std::vector<double> hidden;     // one a node: the share of its points that is out of sight
+  std::vector<double> stiffness;          // one an edge of the graph, 1 = as stiff as unseen tissue
+  std::vector<ExpectedOffsets> expected;  // one an edge
+  std::vector<double> hidden;  // one a node: the share of its points that is out of sight
 };
 
 /// Room for all candidates, and the matches' rows; all edges stiff. Renews *constraints, whose

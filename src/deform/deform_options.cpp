@@ -19,6 +19,7 @@ DeformOptions DeformOptions::paper() {
   options.rotation_weight = 1e3;
   options.regularisation_weight = 1e4;
   options.seen_stiffness = 1;
+  options.shape_memory = 0;
   options.rest_weight = 0;
   options.data_weight = 1;
   options.correspondence_weight = 1;

@@ -64,6 +64,7 @@ struct DeformOptions {
   double rotation_weight = 40.0;        // w_rot; has no effect on rigid nodes
   double regularisation_weight = 30.0;  // w_reg
   double seen_stiffness = 0.2;          // of it, between nodes whose every point is in sight
+  double shape_memory = 0.2;            // share of the remembered shape in what edges expect
   double rest_weight = 0.01;            // w_rest, for what hides
   double data_weight = 3.0;             // w_data
   double correspondence_weight = 60.0;  // w_corr

@@ -37,6 +37,8 @@ void describe(Visitor& v, DeformOptions& o) {
   v("deform.regularisation_weight", o.regularisation_weight, atLeast(0), "w_reg");
   v("deform.seen_stiffness", o.seen_stiffness, aboveUpTo(0, 1),
     "factor of w_reg between nodes in sight");
+  v("deform.shape_memory", o.shape_memory, between(0, 1),
+    "share of the shape of the last 100 frames in what nodes expect of each other");
   v("deform.rest_weight", o.rest_weight, atLeast(0), "w_rest, for nodes out of sight");
   v("deform.data_weight", o.data_weight, atLeast(0), "w_data");
   v("deform.correspondence_weight", o.correspondence_weight, atLeast(0), "w_corr");

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "deform/graph_edges.h"
 #include "deform/node_reach.h"
+#include "deform/shape_memory.h"
 #include "deform/surface_cells.h"
 
 namespace softscope {
@@ -138,7 +140,11 @@ class Growth {
     bindPoints();
     result_.structure_changed =
         result_.nodes_added > 0 || graph_.stencils != stencils_before || graph_.edges.empty();
-    if (result_.structure_changed) graph_.edges = makeEdges(graph_, options_);
+    if (result_.structure_changed) {
+      const std::vector<GraphEdge> before =
+          std::exchange(graph_.edges, makeEdges(graph_, options_));
+      keepMemory(before, &graph_.edges);
+    }
     return result_;
   }
 

@@ -13,6 +13,7 @@
 #include "deform/node_sight.h"
 #include "deform/node_terms.h"
 #include "deform/normal_equations.h"
+#include "deform/shape_memory.h"
 
 namespace softscope {
 namespace {
@@ -80,6 +81,7 @@ class Solver : public DeformSolver {
     makeConstraints(model, graph, candidates_, seen.matches, options_.correspondence_weight,
                     &constraints_);
     judgeSight(model, graph, candidates_, options_.seen_stiffness, &constraints_);
+    expectShape(graph, options_.shape_memory, &constraints_);
     summary->matches = constraints_.matches;
     summary->matches_dropped = constraints_.matches_dropped;
     lever_mm_ = meanEdgeLength(graph);

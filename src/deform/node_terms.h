@@ -71,13 +71,14 @@ struct AffineNode {
   }
 };
 
-/// How far `other` is from where `own` expects it, mm: docs/energy.md (6).
+/// How far `other` is from where `own` expects it, mm: docs/energy.md (6). `expected_mm`: the
+/// offset that `own` expects before it turns.
 SOFTSCOPE_HD inline Eigen::Vector3d edgeResidual(const Eigen::Vector3d& own_mm,
                                                  const NodeTransform& own,
                                                  const Eigen::Vector3d& other_mm,
-                                                 const NodeTransform& other) {
-  const Eigen::Vector3d offset = other_mm - own_mm;
-  return own.linear * offset - offset + own.translation_mm - other.translation_mm;
+                                                 const NodeTransform& other,
+                                                 const Eigen::Vector3d& expected_mm) {
+  return own.linear * expected_mm - (other_mm - own_mm) + own.translation_mm - other.translation_mm;
 }
 
 /// How far A is from a rotation: three products of columns, three squared lengths less one:

@@ -23,25 +23,27 @@ struct EdgeSystem {
   Block<kUnknowns> first, cross, second;  // cross: rows of second, columns of first
   Eigen::Matrix<double, kUnknowns, 1> first_gradient, second_gradient;
 
-  EdgeSystem(const WarpGraph& graph, const GraphEdge& edge, double weight) {
+  EdgeSystem(const WarpGraph& graph, const GraphEdge& edge, const ExpectedOffsets& expected,
+             double weight) {
     first.setZero(), cross.setZero(), second.setZero();
     first_gradient.setZero(), second_gradient.setZero();
     const double w = weight * edge.weight;
-    addDirection(graph, edge.first, edge.second, w, &first, &first_gradient, &second,
-                 &second_gradient, /*cross_transposed=*/false);
-    addDirection(graph, edge.second, edge.first, w, &second, &second_gradient, &first,
-                 &first_gradient, /*cross_transposed=*/true);
+    addDirection(graph, edge.first, edge.second, expected.from_first_mm, w, &first, &first_gradient,
+                 &second, &second_gradient, /*cross_transposed=*/false);
+    addDirection(graph, edge.second, edge.first, expected.from_second_mm, w, &second,
+                 &second_gradient, &first, &first_gradient, /*cross_transposed=*/true);
   }
 
  private:
-  void addDirection(const WarpGraph& graph, int own, int other, double weight,
-                    Block<kUnknowns>* own_block, Eigen::Matrix<double, kUnknowns, 1>* own_gradient,
+  void addDirection(const WarpGraph& graph, int own, int other, const Eigen::Vector3d& expected_mm,
+                    double weight, Block<kUnknowns>* own_block,
+                    Eigen::Matrix<double, kUnknowns, 1>* own_gradient,
                     Block<kUnknowns>* other_block,
                     Eigen::Matrix<double, kUnknowns, 1>* other_gradient, bool cross_transposed) {
     const auto& g = graph.positions_mm;
     const auto& m = graph.transforms;
-    const Eigen::Vector3d residual = edgeResidual(g[own], m[own], g[other], m[other]);
-    const typename Node::Jacobian j = Node::leverJacobian(m[own], g[other] - g[own]);
+    const Eigen::Vector3d residual = edgeResidual(g[own], m[own], g[other], m[other], expected_mm);
+    const typename Node::Jacobian j = Node::leverJacobian(m[own], expected_mm);
     own_block->noalias() += weight * j.transpose() * j;
     own_gradient->noalias() += weight * j.transpose() * residual;
     // The other node's Jacobian is -I in its translation, zero elsewhere.
@@ -109,7 +111,7 @@ template <class Node>
 void NormalEquations<Node>::assemble(const WarpGraph& graph, const ConstraintSet& constraints,
                                      const EnergyValue& value, const DeformOptions& options) {
   assembleStencils(graph, constraints, value);
-  assembleEdges(graph, constraints.stiffness, options.regularisation_weight);
+  assembleEdges(graph, constraints, options.regularisation_weight);
   if constexpr (hasRotationTerm(kUnknowns)) assembleRotations(graph, options.rotation_weight);
   gather(constraints);
   addRest(graph, constraints.hidden, options.rest_weight);
@@ -134,13 +136,14 @@ void NormalEquations<Node>::assembleStencils(const WarpGraph& graph,
 }
 
 template <class Node>
-void NormalEquations<Node>::assembleEdges(const WarpGraph& graph,
-                                          const std::vector<double>& stiffness, double weight) {
+void NormalEquations<Node>::assembleEdges(const WarpGraph& graph, const ConstraintSet& constraints,
+                                          double weight) {
   const std::size_t first_block = static_cast<std::size_t>(stencils_) * kStencilBlocks;
   const std::size_t first_gradient = static_cast<std::size_t>(stencils_) * kNodesPerPoint;
   parallelRanges(edges_, 64, [&](int begin, int end) {
     for (int e = begin; e < end; ++e) {
-      const EdgeSystem<Node> system(graph, graph.edges[e], weight * stiffness[e]);
+      const EdgeSystem<Node> system(graph, graph.edges[e], constraints.expected[e],
+                                    weight * constraints.stiffness[e]);
       double* blocks = part_blocks_.data() + (first_block + e * std::size_t{kEdgeBlocks}) * kBlock;
       std::copy_n(system.first.data(), kBlock, blocks);
       std::copy_n(system.cross.data(), kBlock, blocks + kBlock);

@@ -46,7 +46,7 @@ class NormalEquations {
   GatherList makeList(int targets, const std::vector<std::pair<int, int>>& target_and_part) const;
   void assembleStencils(const WarpGraph& graph, const ConstraintSet& constraints,
                         const EnergyValue& value);
-  void assembleEdges(const WarpGraph& graph, const std::vector<double>& stiffness, double weight);
+  void assembleEdges(const WarpGraph& graph, const ConstraintSet& constraints, double weight);
   void assembleRotations(const WarpGraph& graph, double weight);
   void gather(const ConstraintSet& constraints);
   void addRest(const WarpGraph& graph, const std::vector<double>& hidden, double weight);

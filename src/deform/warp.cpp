@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
+#include "deform/shape_memory.h"
 
 namespace softscope {
 
@@ -62,11 +63,15 @@ Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,
 
 void rebase(WarpGraph* graph) {
   graph->moved_mm.resize(graph->size(), Eigen::Vector3d::Zero());
+  graph->turned.resize(graph->size(), Eigen::Matrix3d::Identity());
   for (std::size_t j = 0; j < graph->size(); ++j) {
     graph->positions_mm[j] += graph->transforms[j].translation_mm;
     graph->moved_mm[j] += graph->transforms[j].translation_mm;
+    const Eigen::Quaterniond turned(graph->transforms[j].linear * graph->turned[j]);
+    graph->turned[j] = turned.normalized().toRotationMatrix();
     graph->transforms[j] = NodeTransform();
   }
+  rememberShape(graph);
 }
 
 }  // namespace softscope

@@ -28,7 +28,8 @@ Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,
                           const Eigen::Vector3d& point_mm);
 
 /// Nodes move to where they were warped and their transforms become the identity, so that the
-/// next frame's warp starts from the live shape. Bindings stay: the tissue is the same.
+/// next frame's warp starts from the live shape. Bindings stay: the tissue is the same. Edges
+/// remember the shape (shape_memory.h).
 void rebase(WarpGraph* graph);
 
 }  // namespace softscope

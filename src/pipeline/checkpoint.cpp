@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 5\n";
+constexpr std::string_view kMagic = "softscope checkpoint 6\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -106,6 +106,7 @@ void visitGraph(Archive& archive, Graph& graph) {
   archive.array(graph.positions_mm);
   archive.array(graph.transforms);
   archive.array(graph.moved_mm);
+  archive.array(graph.turned);
   archive.array(graph.edges);
   archive.array(graph.stencils);
 }

@@ -80,6 +80,7 @@ TEST(Energy, OfHiddenNodesThatMoveByHand) {
   scene.graph.transforms[1].translation_mm = {0, 0, 3};
   ConstraintSet constraints;
   constraints.stiffness = {0};
+  constraints.expected.resize(1);
   constraints.hidden = {0.5, 1};
   DeformOptions options = unitWeights(NodeModel::kRigid);
   options.rest_weight = 2;
@@ -164,6 +165,10 @@ struct BentHill {
       constraints.hidden[j] = 1 / (1.0 + static_cast<double>(j % 3));
     for (std::size_t e = 0; e < constraints.stiffness.size(); ++e)
       constraints.stiffness[e] = 1 / (1.0 + static_cast<double>(e % 5));
+    for (ExpectedOffsets& expected : constraints.expected) {
+      expected.from_first_mm *= 1.1;
+      expected.from_second_mm *= 0.8;
+    }
     evaluateEnergy(graph, constraints, options, &value);
   }
 };
@@ -282,11 +287,12 @@ Eigen::MatrixXd denseSystem(const BentHill& scene, const DeformOptions& options)
     const GraphEdge& edge = graph.edges[e];
     const double weight =
         options.regularisation_weight * scene.constraints.stiffness[e] * edge.weight;
-    for (const auto& [own, other] :
-         {std::pair{edge.first, edge.second}, std::pair{edge.second, edge.first}}) {
+    const ExpectedOffsets& expected = scene.constraints.expected[e];
+    for (const auto& [own, other, expected_mm] :
+         {std::tuple{edge.first, edge.second, expected.from_first_mm},
+          std::tuple{edge.second, edge.first, expected.from_second_mm}}) {
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, size);
-      rows.middleCols<n>(own * n) = Node::leverJacobian(
-          graph.transforms[own], graph.positions_mm[other] - graph.positions_mm[own]);
+      rows.middleCols<n>(own * n) = Node::leverJacobian(graph.transforms[own], expected_mm);
       rows.middleCols<3>(other * n + n - 3) = -Eigen::Matrix3d::Identity();
       sum += weight * rows.transpose() * rows;
     }
