@@ -1,5 +1,5 @@
-// src/io/geometry/depth_relief.cpp: depth minus its smooth part, scaled to grey levels.
-#include "io/geometry/depth_relief.h"
+// src/io/sequences/depth_relief.cpp: depth minus its smooth part, scaled to grey levels.
+#include "io/sequences/depth_relief.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// src/io/geometry/depth_relief.h: images of a sequence that has depth alone.
+// src/io/sequences/depth_relief.h: images of a sequence that has depth alone.
 #pragma once
 
 #include <filesystem>
