@@ -50,7 +50,8 @@ FactSheet describePoints(const std::string& bytes, const std::string& file) {
     addBox<Eigen::Vector3d>(points.box_mm.min(), points.box_mm.max(), facts);
   if (points.count == 0) facts.warn("not one point");
   if (points.invalid > 0)
-    facts.warn(std::to_string(points.invalid) + " points have coordinates that are no numbers within 10 km");
+    facts.warn(std::to_string(points.invalid) +
+               " points have coordinates that are no numbers within 10 km");
   return facts;
 }
 
