@@ -19,11 +19,6 @@ void describe(Visitor& v, AssociationOptions& o) {
     "depth of this sigma has weight 1; 0: all depths have");
 }
 
-template <class Visitor>
-void describe(Visitor& v, SolverOptions& o) {
-  v("deform.max_iterations", o.max_iterations, atLeast(1), "accepted steps of Levenberg-Marquardt");
-}
-
 inline ChoiceRule<RobustLoss> robustLosses() {
   return {{{"none", RobustLoss::kNone}, {"huber", RobustLoss::kHuber}}};
 }
@@ -46,7 +41,6 @@ void describe(Visitor& v, DeformOptions& o) {
   v("deform.correspondence_loss", o.correspondence_robust.loss, robustLosses(),
     "robust loss of E_corr");
   describe(v, o.association);
-  describe(v, o.solver);
 }
 
 }  // namespace softscope

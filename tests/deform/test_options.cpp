@@ -40,9 +40,6 @@ TEST(DeformOptions, NamesWhatIsWrong) {
   options = {};
   options.regularisation_weight = std::numeric_limits<double>::quiet_NaN();
   expectRefused(options, "deform.regularisation_weight");
-  options = {};
-  options.solver.max_iterations = 0;
-  expectRefused(options, "deform.max_iterations");
 }
 
 TEST(DeformSolver, SaysWhichNodesItSolvesFor) {

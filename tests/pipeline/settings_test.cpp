@@ -141,16 +141,15 @@ TEST(SettingsList, EveryFieldOfEveryStructIsDescribed) {
   EXPECT_EQ(fieldCount<RefinePoseOptions>() - 1, settingCount<RefinePoseOptions>());  // tests
   EXPECT_EQ(fieldCount<GraphOptions>() - 1, settingCount<GraphOptions>());  // node spacing
   EXPECT_EQ(fieldCount<AssociationOptions>() - 1, settingCount<AssociationOptions>());  // tests
-  EXPECT_EQ(fieldCount<SolverOptions>() - 2, settingCount<SolverOptions>());            // tests
   EXPECT_EQ(fieldCount<DeformOptions>() - 2,
-            (ownSettingCount<DeformOptions, AssociationOptions, SolverOptions>()));
+            (ownSettingCount<DeformOptions, AssociationOptions>()));
   EXPECT_EQ(fieldCount<PixelOptions>(), settingCount<PixelOptions>());
   EXPECT_EQ(fieldCount<PointFusionOptions>() - 2,  // node spacing, tests
             settingCount<PointFusionOptions>());
   EXPECT_EQ(fieldCount<ColourOptions>(), settingCount<ColourOptions>());
   EXPECT_EQ(fieldCount<InsertionOptions>() - 2, settingCount<InsertionOptions>());  // scaled
   EXPECT_EQ(fieldCount<CalibrationHints>(), settingCount<CalibrationHints>());
-  EXPECT_EQ(fieldCount<SequenceOptions>() - 3,  // --frames is an argument; frames read ahead
+  EXPECT_EQ(fieldCount<SequenceOptions>() - 4,  // arguments: --frames, in pixels; frames read ahead
             (ownSettingCount<SequenceOptions, CalibrationHints>()));
   EXPECT_EQ(fieldCount<TissueMaskOptions>(), settingCount<TissueMaskOptions>());
   EXPECT_EQ(fieldCount<GateOptions>(), settingCount<GateOptions>());
