@@ -1,11 +1,12 @@
-// src/io/calibrations/projection_calibration.cpp: SERV-CT's projection matrices of rectified cameras.
+// src/io/calibrations/projection_calibration.cpp: SERV-CT's projection matrices of rectified
+// cameras.
 #include <cmath>
 
 #include "core/error.h"
 #include "io/calibrations/calibration_forms.h"
 #include "io/calibrations/calibration_parts.h"
-#include "io/text/message.h"
 #include "io/documents/number_tree.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {

@@ -1,4 +1,5 @@
-// src/io/calibrations/shipped_calibrations.h: calibrations in the forms of data sets, for simulated clips.
+// src/io/calibrations/shipped_calibrations.h: calibrations in the forms of data sets, for simulated
+// clips.
 #pragma once
 
 #include <string>

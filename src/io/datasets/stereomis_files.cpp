@@ -4,9 +4,9 @@
 
 #include "core/error.h"
 #include "io/files/file_bytes.h"
+#include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
-#include "io/geometry/trajectory_file.h"
 
 namespace softscope {
 namespace {

@@ -6,8 +6,8 @@
 #include "core/error.h"
 #include "io/calibrations/calibration_reader.h"
 #include "io/files/folder.h"
-#include "io/text/message.h"
 #include "io/sequences/picture_source.h"
+#include "io/text/message.h"
 #include "io/text/text_lines.h"
 
 namespace softscope {

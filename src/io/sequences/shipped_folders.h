@@ -1,4 +1,5 @@
-// src/io/sequences/shipped_folders.h: data sets that ship folders of images or a film with tables beside it.
+// src/io/sequences/shipped_folders.h: data sets that ship folders of images or a film with tables
+// beside it.
 #pragma once
 
 #include <filesystem>
