@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/frame_range.h"
 #include "core/trajectory.h"
-#include "io/sequences/sequence_options.h"
 
 namespace softscope {
 
