@@ -1,5 +1,7 @@
 // apps/benchmark.cpp: `softscope benchmark`: a data set's clips to its official table.
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
@@ -8,11 +10,25 @@
 #include "apps/work_progress.h"
 #include "core/error.h"
 #include "io/files/folder.h"
+#include "toolkit/benchmark/depth_benchmark.h"
+#include "toolkit/benchmark/end_point_benchmark.h"
+#include "toolkit/benchmark/path_benchmark.h"
 #include "toolkit/benchmark/stir_benchmark.h"
+#include "toolkit/benchmark/surgt_benchmark.h"
 #include "toolkit/record/child_process.h"
+#include "toolkit/record/machine.h"
 
 namespace softscope {
 namespace {
+
+const char* const kDetails =
+    "NAME: stir2026, stir, surgt, scared, servct or stereomis. DATA: a clip as it is shipped, or a "
+    "folder of clips.\n"
+    "Each clip is run by a process of its own; a clip that is done is not run again, one that "
+    "fails\n"
+    "is excluded and named. Prints the official table with its control (nothing moves, no depth),\n"
+    "protocol, exclusions, coverage, 95 % intervals and latency; writes DIR/benchmark.json,\n"
+    "DIR/preds.json (for STIR's board) and DIR/clips/NAME with run and log (docs/datasets.md).";
 
 class BenchmarkCommand : public Command {
  public:
@@ -20,53 +36,76 @@ class BenchmarkCommand : public Command {
   std::string summary() const override {
     return "clips of a data set to its official scores and submission file";
   }
-  std::string details() const override {
-    return "NAME: stir2026. DATA: one clip as it is shipped, or a folder of clips.\n"
-           "Each clip is reconstructed by a process of its own; a clip that is done is not run "
-           "again,\n"
-           "one that fails is excluded and named. Prints the official table with the control\n"
-           "`nothing moves`; writes DIR/benchmark.json, DIR/preds.json (for the board) and\n"
-           "DIR/clips/NAME with run and log (docs/datasets.md).";
-  }
+  std::string details() const override { return kDetails; }
   std::string example() const override {
     return "softscope benchmark stir2026 STIR2026/val --out stir_val";
   }
   void declare(ArgumentList& arguments) override {
-    arguments.positional("NAME", benchmark_, "stir2026", true);
+    arguments.positional("NAME", benchmark_, "stir2026, stir, surgt, scared, servct or stereomis",
+                         true);
     arguments.positional("DATA", data_, "a clip, or a folder of clips", true);
     arguments.option("--out", "DIR", out_, "folder for runs and results", true);
     arguments.option("--set", "KEY=VALUE", settings_,
-                     "a setting of `reconstruct`; repeatable (`softscope settings`)");
-    arguments.flag("--force", force_, "reconstruct clips again that are done");
+                     "a setting of what is run; repeatable (`softscope settings`)");
+    arguments.option("--jobs", "N", jobs_,
+                     "clips at the same time, which share --threads (1, the default, for latencies "
+                     "that count)");
+    arguments.flag("--force", force_, "run clips again that are done");
   }
   int run() override;
 
  private:
+  std::optional<FactSheet> table(const BenchmarkOptions& options, const InterruptGuard& interrupt);
+
   std::string benchmark_, data_, out_;
   std::vector<std::string> settings_;
+  int jobs_ = 1;
   bool force_ = false;
 };
 
-int BenchmarkCommand::run() {
-  require(benchmark_ == "stir2026", "NAME", benchmark_, "only stir2026 can be run");
-  if (isThere(out_) && !isFolder(out_))
-    throw OptionError("--out " + out_ + ": is a file, but must be a folder, there or not yet");
-  InterruptGuard interrupt;
-  const StirBenchmarkOptions options{data_, out_, settings_, force_};
-  const auto run_softscope = [&](std::vector<std::string> words, const std::filesystem::path& log) {
+/// Nothing where it was interrupted.
+std::optional<FactSheet> BenchmarkCommand::table(const BenchmarkOptions& options,
+                                                 const InterruptGuard& interrupt) {
+  const int cores = common.threads > 0 ? common.threads : describeMachine().cores;
+  const int threads = std::max(1, cores / jobs_);
+  const RunSoftscope run_softscope = [&](std::vector<std::string> words,
+                                         const std::filesystem::path& log) {
     words.insert(words.begin(), ownExecutable().string());
-    words.insert(words.end(), {"--threads", std::to_string(common.threads)});
+    words.insert(words.end(), {"--threads", std::to_string(threads)});
     return runToEnd(ChildProcess(words, log), [&] { return interrupt.requested(); });
   };
-  StirBenchmarkResult result;
-  {
-    WorkProgress progress("benchmark", progressStyle(common.quiet), interrupt);
-    result = benchmarkStir(options, run_softscope, progress.callback());
-  }
-  if (result.stopped) return kInterrupted;
-  FactSheet facts = stirBenchmarkFacts(result);
-  facts.addLine("written", out_ + "/benchmark.json, " + out_ + "/preds.json");
-  printFacts(facts, common.json);
+  WorkProgress progress("benchmark", progressStyle(common.quiet), interrupt);
+  const auto facts = [](const auto& result, FactSheet (*const of)(decltype(result))) {
+    return result.stopped ? std::nullopt : std::optional<FactSheet>(of(result));
+  };
+  if (benchmark_ == "surgt")
+    return facts(benchmarkSurgt(options, run_softscope, progress.callback()), surgtBenchmarkFacts);
+  if (benchmark_ == "servct")
+    return facts(benchmarkServCt(options, run_softscope, progress.callback()), depthBenchmarkFacts);
+  if (benchmark_ == "stir")
+    return facts(benchmarkStirEnds(options, run_softscope, progress.callback()), endPointFacts);
+  if (benchmark_ == "stereomis")
+    return facts(benchmarkStereoMis(options, run_softscope, progress.callback()),
+                 pathBenchmarkFacts);
+  if (benchmark_ == "scared")
+    return facts(benchmarkScared(options, run_softscope, progress.callback()), depthBenchmarkFacts);
+  return facts(benchmarkStir(options, run_softscope, progress.callback()), stirBenchmarkFacts);
+}
+
+int BenchmarkCommand::run() {
+  const std::vector<std::string> known{"stir2026", "stir",   "surgt",
+                                       "scared",   "servct", "stereomis"};
+  require(std::find(known.begin(), known.end(), benchmark_) != known.end(), "NAME", benchmark_,
+          "must be stir2026, stir, surgt, scared, servct or stereomis");
+  require(jobs_ >= 1, "--jobs", jobs_, "must be 1 or more");
+  if (isThere(out_) && !isFolder(out_))
+    throw OptionError("--out " + out_ + ": is a file, but must be a folder, there or not yet");
+  const InterruptGuard interrupt;
+  std::optional<FactSheet> facts = table({data_, out_, settings_, force_, jobs_}, interrupt);
+  if (!facts) return kInterrupted;
+  facts->addLine("written", out_ + "/benchmark.json" +
+                                (benchmark_ == "stir2026" ? ", " + out_ + "/preds.json" : ""));
+  printFacts(*facts, common.json);
   return kDone;
 }
 

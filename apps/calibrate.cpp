@@ -14,8 +14,10 @@
 #include "io/files/folder.h"
 #include "io/files/new_files.h"
 #include "io/images/image_writer.h"
+#include "io/sequences/sequence_paths.h"
 #include "io/text/text_lines.h"
 #include "toolkit/calibration/calibration_result.h"
+#include "toolkit/calibration/refine_calibration.h"
 
 namespace softscope {
 namespace {
@@ -31,7 +33,15 @@ const char* const kDetails =
     "calibration with its quality, and an image of where the board was seen, beside it.\n"
     "More examples:\n"
     "  softscope calibrate stereo.mp4 --layout top-bottom --board 9x6 --square 3 --out c.yaml\n"
-    "  softscope calibrate left/ right/ --board 8x6 --square 4 --marker 3 --out c.yaml   (ChArUco)";
+    "  softscope calibrate left/ right/ --board 8x6 --square 4 --marker 3 --out c.yaml   "
+    "(ChArUco)\n"
+    "--refine CALIBRATION takes a clip of tissue instead of a board (or a sequence folder as "
+    "LEFT):\n"
+    "row error, roll and offset between the views by that calibration, whether its focal length "
+    "is\n"
+    "plausible; pitch and roll of the right camera are corrected in the calibration that is "
+    "written.\n"
+    "  softscope calibrate clip --refine calibration.yaml --out refined.yaml";
 
 class CalibrateCommand : public Command {
  public:
@@ -50,8 +60,10 @@ class CalibrateCommand : public Command {
   BoardFilmOptions filmOptions() const;
   std::vector<double> distances() const;
   void write(const CalibrationReport& report) const;
+  int refine(const InterruptGuard& interrupt) const;
+  SequencePaths clip() const;
 
-  std::string left_, right_, out_, board_, square_, marker_, coverage_;
+  std::string left_, right_, out_, board_, square_, marker_, coverage_, refine_;
   std::string dictionary_ = "4X4_50", layout_ = "auto", distances_ = "50,80,120";
   int every_ = 0, lens_ = 5;
   bool right_first_ = false, force_ = false;
@@ -63,8 +75,10 @@ void CalibrateCommand::declare(ArgumentList& arguments) {
   arguments.positional("RIGHT", right_, "the same moments by the right camera", false);
   arguments.option("--out", "FILE", out_, "calibration to write (YAML)", true);
   arguments.option("--board", "CxR", board_,
-                   "inner corners of a checkerboard, squares of a ChArUco board", true);
-  arguments.option("--square", "MM", square_, "side of a square", true);
+                   "inner corners of a checkerboard, squares of a ChArUco board");
+  arguments.option("--square", "MM", square_, "side of a square");
+  arguments.option("--refine", "CALIBRATION", refine_,
+                   "calibration to judge and correct by a clip of tissue; without a board");
   arguments.option("--marker", "MM", marker_, "side of a marker: the board is a ChArUco board");
   arguments.option("--dictionary", "NAME", dictionary_, "of the markers (default 4X4_50)");
   arguments.option("--layout", "NAME", layout_,
@@ -128,8 +142,50 @@ void CalibrateCommand::write(const CalibrationReport& report) const {
   files.keep();
 }
 
+/// As `depth` takes its input, with the calibration that is judged.
+SequencePaths CalibrateCommand::clip() const {
+  SequencePaths paths;
+  if (right_.empty() && isFolder(left_))
+    paths = findSequence(left_);
+  else if (right_.empty())
+    paths.stereo = left_;
+  else
+    paths.left = left_;
+  if (!right_.empty()) paths.right = right_;
+  paths.calibration = refine_;
+  return paths;
+}
+
+int CalibrateCommand::refine(const InterruptGuard& interrupt) const {
+  require(board_.empty() && square_.empty() && marker_.empty(), "--refine", refine_,
+          "takes a clip of tissue; leave --board, --square and --marker out");
+  if (isThere(out_) && !force_)
+    throw OptionError(out_ + ": is there already; give another name, or --force to replace it");
+  SequenceOptions sequence;
+  sequence.layout = layout_;
+  sequence.right_first = right_first_;
+  RefinedCalibration refined;
+  {
+    WorkProgress progress("refine", progressStyle(common.quiet), interrupt);
+    refined = refineCalibration(clip(), sequence, RefineOptions{}, progress.callback());
+  }
+  if (refined.stopped) return kInterrupted;
+  NewFiles files;
+  const fs::path out = out_;
+  if (!out.parent_path().empty()) files.makeFolder(out.parent_path());
+  files.make(out, [&] { writeFile(out, refinedCalibrationText(refined), force_); });
+  files.keep();
+  FactSheet facts = refinedCalibrationFacts(refined);
+  facts.add("calibration", "calibration", out_);
+  printFacts(facts, common.json);
+  return kDone;
+}
+
 int CalibrateCommand::run() {
   InterruptGuard interrupt;
+  if (!refine_.empty()) return refine(interrupt);
+  require(!board_.empty() && !square_.empty(), "--board", board_,
+          "--board and --square are needed, or --refine with a clip of tissue");
   const BoardFilmOptions film_options = filmOptions();
   SolveOptions options;
   options.bundle.lens_coefficients = lens_;

@@ -95,13 +95,13 @@ class InfoCommand : public Command {
     if (hasEnding(path_, {".toml"})) return describeSettings(path_);
     if (hasEnding(path_, {".ply", ".stl", ".obj"})) return describeMesh(path_);
     if (looksLikeVolume(path_)) return describeVolume(path_, volumeOptions());
-    if (hasEnding(path_, {".yaml", ".yml", ".xml", ".json", ".txt", ".npy"}))
+    if (hasEnding(path_, {".yaml", ".yml", ".xml", ".json", ".txt", ".ini", ".npy"}))
       return describeCalibration(path_);
     throw InputError(
         path_ +
         ": unknown kind of file. Accepted: a sequence folder; pictures (png, jpg, "
         "bmp, tif, pgm, ppm), pfm, videos; meshes (ply, stl, obj); volumes (nii, nii.gz, "
-        "nrrd, mha, DICOM); calibrations (yaml, xml, json, txt, npy); settings (toml)");
+        "nrrd, mha, DICOM); calibrations (yaml, xml, json, txt, ini, npy); settings (toml)");
   }
 
   VolumeOptions volumeOptions() const {

@@ -63,8 +63,10 @@ void SimulateCommand::declare(ArgumentList& arguments) {
   arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
   arguments.option("--truth", "LIST", truth_,
                    "some of mesh,depth,trajectory,tracks (the default), normals,flow; or none");
-  arguments.option("--layout", "NAME", layout_,
-                   "one clip as a data set ships it: stir2026, surgt or scared");
+  arguments.option(
+      "--layout", "NAME", layout_,
+      "one clip as a data set ships it: stir2026, surgt, scared, servct, stereomis, d4d, "
+      "stir, hamlyn or c3vd");
   arguments.flag("--force", force_, "overwrite an earlier simulation");
 }
 

@@ -1,7 +1,8 @@
-// tests/fuzz/dataset_fuzz.cpp: files of known data sets: STIR 2026, SurgT, SCARED.
+// tests/fuzz/dataset_fuzz.cpp: files of known data sets: STIR 2026, SurgT, SCARED, StereoMIS.
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"
+#include "io/datasets/stereomis_files.h"
 #include "io/datasets/stir_files.h"
 #include "io/datasets/surgt_files.h"
 #include "io/geometry/xyz_files.h"
@@ -42,6 +43,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     mustBeSound(*found);
   if (const auto found = answerOf([&] { return parseSurgtInfo(text, "fuzz"); }))
     mustHold(found->width_px > 0 && found->video.find('/') == std::string::npos);
+  if (const auto found = answerOf([&] { return parseStereoMisSplit(text, "fuzz"); }))
+    for (const FrameRange& range : *found) mustHold(range.begin >= 0 && range.end > range.begin);
+  if (const auto found = answerOf([&] { return parseStereoMisPath(text, "fuzz"); }))
+    mustHold(!found->empty() && found->begin()->first >= 0);
   if (const auto found = answerOf([&] { return parsePointRaster(text, "fuzz"); }))
     for (const Eigen::Vector3f& p : found->values) mustHold(p.allFinite() || std::isnan(p.z()));
   return 0;

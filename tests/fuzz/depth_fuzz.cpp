@@ -1,4 +1,4 @@
-// tests/fuzz/depth_fuzz.cpp: depth and disparity from PFM, 16-bit PNG and float TIFF.
+// tests/fuzz/depth_fuzz.cpp: depth and disparity from PFM, 16-bit PNG, float TIFF and NumPy arrays.
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"

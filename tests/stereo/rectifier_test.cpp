@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "stereo/depth/depth_from_disparity.h"
 #include "stereo/matching/stereo_matcher.h"
+#include "stereo/rectification/valid_rectification.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -163,6 +164,31 @@ TEST(Rectifier, MarksWhatTheLeftCameraDidNotSee) {
   EXPECT_EQ(rectified.values.size(), mask.values.size());
   EXPECT_GT(std::count(rectified.values.begin(), rectified.values.end(), 255), 0);
   EXPECT_EQ(rectifier.outside().values.size(), mask.values.size());
+}
+
+TEST(ValidRectification, LeavesNoPixelWithoutAnImageAndLeadsBackToTheRawOne) {
+  const StereoCalibration calibration = rawRig();
+  const ValidRectification valid(calibration);
+  const PinholeCamera& left = valid.rig().left;
+  EXPECT_GT(std::abs(left.fx_px - Rectifier(calibration).rig().left.fx_px), 1);  // another scale
+  for (const auto& [u, v] : {std::pair{0, 0}, {319, 0}, {0, 239}, {319, 239}, {160, 120}}) {
+    const Eigen::Vector2d raw = valid.rawLeftPixel({u, v});
+    EXPECT_TRUE(raw.x() > -1 && raw.y() > -1 && raw.x() < 320 && raw.y() < 240) << raw.transpose();
+  }
+  // A point of the raw left camera, by OpenCV's model and by the rectified one.
+  const Eigen::Vector3d point_mm(4, -3, 60);
+  const Eigen::Vector2d rectified =
+      projectPoint(left, Eigen::Vector3d(valid.rig().rectified_from_raw_left * point_mm));
+  EXPECT_LT((valid.rawLeftPixel(rectified) - seenBy(calibration.left, point_mm)).norm(), 1e-9);
+}
+
+TEST(ValidRectification, RectifiedImagesPassUnchanged) {
+  StereoCalibration calibration = rawRig();
+  calibration.rectified = true;
+  const ValidRectification valid(calibration);
+  EXPECT_EQ(valid.rig().left.fx_px, 300);
+  EXPECT_EQ(valid.rig().disparity_offset_px, 155 - 162);
+  EXPECT_EQ(valid.rawLeftPixel({7, 9}), Eigen::Vector2d(7, 9));
 }
 
 }  // namespace

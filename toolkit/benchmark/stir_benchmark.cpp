@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 
@@ -16,8 +15,6 @@
 #include "io/text/text_lines.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/record/json_text.h"
-#include "toolkit/run/run_reader.h"
-#include "toolkit/run/table_reader.h"
 
 namespace softscope {
 namespace {
@@ -57,33 +54,12 @@ ClipCameras camerasOf(const fs::path& clip) {
   return cameras;
 }
 
-/// Positions in the raw left camera's frame, by frame and query; NaN where the run has none.
-struct RunTracks {
-  std::vector<std::vector<Eigen::Vector3d>> positions_mm;
-  std::vector<std::vector<bool>> visible;
-};
-
-RunTracks tracksOf(const fs::path& run_folder, const ClipCameras& cameras, std::size_t queries,
+/// Of the run, turned into the raw left camera's frame.
+RunTracks tracksOf(const fs::path& run, const ClipCameras& cameras, std::size_t queries,
                    int frames) {
-  const JudgedRun run = openJudgedRun(run_folder);
-  const Eigen::Vector3d nowhere =
-      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  RunTracks tracks;
-  tracks.positions_mm.assign(static_cast<std::size_t>(frames),
-                             std::vector<Eigen::Vector3d>(queries, nowhere));
-  tracks.visible.assign(static_cast<std::size_t>(frames), std::vector<bool>(queries, false));
-  std::map<int, Eigen::Isometry3d> left_from_world;
-  for (std::size_t i = 0; i < run.frames.size(); ++i)
-    left_from_world[run.frames[i]] = run.trajectory[i].world_from_left.inverse();
-  for (const TrackSample& sample : readTracks(run.tracks)) {
-    const auto pose = left_from_world.find(sample.frame);
-    if (pose == left_from_world.end() || sample.frame >= frames || sample.id < 0 ||
-        sample.id >= static_cast<int>(queries) || !sample.position_mm.allFinite())
-      continue;
-    const auto f = static_cast<std::size_t>(sample.frame), q = static_cast<std::size_t>(sample.id);
-    tracks.positions_mm[f][q] = cameras.raw_from_rectified * (pose->second * sample.position_mm);
-    tracks.visible[f][q] = sample.visible;
-  }
+  RunTracks tracks = readRunTracks(run, queries, frames);
+  for (auto& positions : tracks.positions_mm)
+    for (Eigen::Vector3d& position : positions) position = cameras.raw_from_rectified * position;
   return tracks;
 }
 
@@ -140,17 +116,6 @@ void judge(const StirAnnotations& truth, const ClipCameras& cameras, const RunTr
   }
 }
 
-std::vector<double> latenciesOf(const fs::path& run) {
-  const fs::path file = run / "frames.csv";
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
-  const NumberTable table(text, shown(file), {"frame", "total_ms"}, {});
-  std::vector<double> all;
-  for (std::size_t row = 0; row < table.rows(); ++row) all.push_back(table.at(row, 1));
-  return all;
-}
-
 std::string pointsCsv(const std::vector<Eigen::Vector2d>& queries) {
   std::string text = "id,u_px,v_px\n";
   for (std::size_t i = 0; i < queries.size(); ++i)
@@ -158,136 +123,94 @@ std::string pointsCsv(const std::vector<Eigen::Vector2d>& queries) {
   return text;
 }
 
-std::string lastLineOf(const fs::path& log) {
-  std::ifstream file(log);
-  std::string last;
-  for (std::string line; std::getline(file, line);)
-    if (!line.empty()) last = line;
-  return last;
+StirAnnotations truthOf(const fs::path& clip) {
+  StirAnnotations truth = readStirAnnotations(clip / "annotations.json");
+  if (truth.begin()->first != 0)
+    throw InputError(shown(clip) + ": annotations.json has no frame 0, where tracks begin.");
+  return truth;
 }
 
-bool isComplete(const fs::path& run) {
-  return isFile(run / "run.json") && !isFile(run / "checkpoint.bin") && isFile(run / "tracks.csv");
-}
-
-class StirRunner {
- public:
-  explicit StirRunner(const StirBenchmarkOptions& options) : options_(options) {}
-
-  template <class RunSoftscope>
-  StirClipResult run(const fs::path& clip, const RunSoftscope& run_softscope) {
-    StirClipResult result;
-    result.name = clip.filename().string();
-    try {
-      runClip(clip, run_softscope, &result);
-    } catch (const InputError& problem) {
-      result.excluded = problem.what();
+void addErrors(const StirAnnotations& truth, const ClipCameras& cameras, const RunTracks& tracks,
+               StirClipResult* result) {
+  for (const auto& [frame, points] : truth)
+    for (std::size_t q = 0; q < points.size(); ++q) {
+      const Eigen::Vector3d& found = tracks.positions_mm[static_cast<std::size_t>(frame)][q];
+      if (found.allFinite()) result->error_mm.push_back((found - cameras.lift(points[q])).norm());
     }
-    return result;
+}
+
+/// One clip's folder of results, before and after its run.
+class StirClip {
+ public:
+  StirClip(BenchmarkClip clip, const fs::path& out)
+      : clip_(std::move(clip)), home_(out / "clips" / clip_.name) {
+    result.name = clip_.name;
   }
 
-  std::string predictions() const { return stirPredictionsJson(predictions_); }
+  BenchmarkRun prepare(const BenchmarkOptions& options) const {
+    const StirAnnotations truth = truthOf(clip_.folder);
+    const std::vector<Eigen::Vector2d> queries = readStirQueries(clip_.folder / "queries.json");
+    if (queries.size() != truth.begin()->second.size())
+      throw InputError(say(shown(clip_.folder), ": queries.json has ", queries.size(),
+                           " points, but annotations.json ", truth.begin()->second.size(), "."));
+    fs::create_directories(home_);
+    writeFile(home_ / "points.csv", pointsCsv(queries), true);
+    return reconstruction(clip_.folder, home_ / "run", {"--track", (home_ / "points.csv").string()},
+                          options);
+  }
+
+  void score(std::map<int, StirPrediction>* predictions) {
+    const StirAnnotations truth = truthOf(clip_.folder);
+    const std::vector<Eigen::Vector2d> queries = readStirQueries(clip_.folder / "queries.json");
+    const ClipCameras cameras = camerasOf(clip_.folder);
+    RunTracks tracks = tracksOf(home_ / "run", cameras, queries.size(), truth.rbegin()->first + 1);
+    addErrors(truth, cameras, tracks, &result);
+    result.extrapolated = extrapolate(queries, cameras, &tracks);
+    judge(truth, cameras, tracks, &result);
+    const std::vector<double> latency_ms = readLatencies(home_ / "run");
+    for (std::size_t f = kStirWarmUpFrames + 1; f < latency_ms.size(); ++f)
+      result.latency_ms.push_back(latency_ms[f]);
+    for (std::size_t f = 0; f < tracks.positions_mm.size(); ++f)
+      (*predictions)[static_cast<int>(f)] = {tracks.positions_mm[f], tracks.visible[f],
+                                             f < latency_ms.size() ? latency_ms[f] : 0};
+  }
+
+  StirClipResult result;
 
  private:
-  template <class RunSoftscope>
-  void runClip(const fs::path& clip, const RunSoftscope& run_softscope, StirClipResult* result) {
-    const StirAnnotations truth = readStirAnnotations(clip / "annotations.json");
-    if (truth.begin()->first != 0)
-      throw InputError(shown(clip) + ": annotations.json has no frame 0, where tracks begin.");
-    const std::vector<Eigen::Vector2d> queries = readStirQueries(clip / "queries.json");
-    if (queries.size() != truth.begin()->second.size())
-      throw InputError(say(shown(clip), ": queries.json has ", queries.size(),
-                           " points, but annotations.json ", truth.begin()->second.size(), "."));
-    const fs::path home = options_.out / "clips" / result->name, run = home / "run";
-    fs::create_directories(home);
-    writeFile(home / "points.csv", pointsCsv(queries), true);
-    if (options_.force || !isComplete(run)) reconstruct(clip, home, run_softscope);
-    const ClipCameras cameras = camerasOf(clip);
-    RunTracks tracks = tracksOf(run, cameras, queries.size(), truth.rbegin()->first + 1);
-    addErrors(truth, cameras, tracks, result);
-    result->extrapolated = extrapolate(queries, cameras, &tracks);
-    judge(truth, cameras, tracks, result);
-    const std::vector<double> latency_ms = latenciesOf(run);
-    for (std::size_t f = kStirWarmUpFrames + 1; f < latency_ms.size(); ++f)
-      result->latency_ms.push_back(latency_ms[f]);
-    for (std::size_t f = 0; f < tracks.positions_mm.size(); ++f)
-      predictions_[result->name][static_cast<int>(f)] = {tracks.positions_mm[f], tracks.visible[f],
-                                                         f < latency_ms.size() ? latency_ms[f] : 0};
-  }
-
-  static void addErrors(const StirAnnotations& truth, const ClipCameras& cameras,
-                        const RunTracks& tracks, StirClipResult* result) {
-    for (const auto& [frame, points] : truth)
-      for (std::size_t q = 0; q < points.size(); ++q) {
-        const Eigen::Vector3d& found = tracks.positions_mm[static_cast<std::size_t>(frame)][q];
-        if (found.allFinite()) result->error_mm.push_back((found - cameras.lift(points[q])).norm());
-      }
-  }
-
-  template <class RunSoftscope>
-  void reconstruct(const fs::path& clip, const fs::path& home, const RunSoftscope& run_softscope) {
-    const fs::path run = home / "run";
-    std::vector<std::string> words{
-        "reconstruct", clip.string(), "--track", (home / "points.csv").string(),
-        "--out",       run.string(),  "--quiet"};
-    if (isFolder(run)) words.emplace_back("--force");
-    for (const std::string& setting : options_.settings) {
-      words.emplace_back("--set");
-      words.push_back(setting);
-    }
-    const fs::path log = home / "log.txt";
-    const int code = run_softscope(words, log);
-    if (code != 0)
-      throw InputError(say("reconstruct ended with exit code ", code, ": ", lastLineOf(log)));
-  }
-
-  const StirBenchmarkOptions& options_;
-  std::map<std::string, std::map<int, StirPrediction>> predictions_;
+  BenchmarkClip clip_;
+  fs::path home_;
 };
 
 }  // namespace
 
-std::vector<fs::path> findStirClips(const fs::path& data) {
-  requireFolder(data);
-  if (isStirClip(data)) return {data.has_filename() ? data : data.parent_path()};
-  std::vector<fs::path> clips;
-  for (const auto& entry : fs::directory_iterator(data))
-    if (isFolder(entry.path()) && isStirClip(entry.path())) clips.push_back(entry.path());
-  if (clips.empty())
-    throw InputError(shown(data) +
-                     ": holds no clip of STIR 2026; a folder with calib.json, "
-                     "annotations.json, queries.json and videos, or a folder of such "
-                     "folders, is expected.");
-  std::sort(clips.begin(), clips.end(), [](const fs::path& a, const fs::path& b) {
-    return naturallyBefore(a.filename().string(), b.filename().string());
-  });
-  return clips;
-}
-
-StirBenchmarkResult benchmarkStir(
-    const StirBenchmarkOptions& options,
-    const std::function<int(const std::vector<std::string>&, const fs::path&)>& run_softscope,
-    const Progress& progress) {
-  const std::vector<fs::path> clips = findStirClips(options.data);
-  const int total = static_cast<int>(clips.size());
+StirBenchmarkResult benchmarkStir(const BenchmarkOptions& options,
+                                  const RunSoftscope& run_softscope, const Progress& progress) {
+  std::vector<StirClip> clips;
+  for (const BenchmarkClip& clip :
+       findClips(options.data, isStirClip,
+                 "STIR 2026; a folder with calib.json, annotations.json, queries.json and videos, "
+                 "or a folder of such folders, is expected."))
+    clips.emplace_back(clip, options.out);
+  std::vector<BenchmarkRun> runs(clips.size());
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    runs[i].done = true;  // unless there is something to run
+    excludeOnError(&clips[i].result.excluded, [&] { runs[i] = clips[i].prepare(options); });
+  }
   StirBenchmarkResult result;
-  StirRunner runner(options);
-  for (int i = 0; i < total; ++i) {
-    if (!goesOn(progress, i, total)) {
-      result.stopped = true;
-      return result;
-    }
-    result.clips.push_back(runner.run(clips[static_cast<std::size_t>(i)], run_softscope));
+  result.stopped = !runAll(&runs, options.jobs, run_softscope, progress);
+  if (result.stopped) return result;
+  std::map<std::string, std::map<int, StirPrediction>> predictions;
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    if (clips[i].result.excluded.empty()) clips[i].result.excluded = runs[i].failure;
+    if (clips[i].result.excluded.empty())
+      excludeOnError(&clips[i].result.excluded,
+                     [&] { clips[i].score(&predictions[clips[i].result.name]); });
+    if (!clips[i].result.excluded.empty()) predictions.erase(clips[i].result.name);
+    result.clips.push_back(clips[i].result);
   }
-  if (!goesOn(progress, total, total)) {
-    result.stopped = true;
-    return result;
-  }
-  if (std::all_of(result.clips.begin(), result.clips.end(),
-                  [](const StirClipResult& clip) { return !clip.excluded.empty(); }))
-    throw InputError(say(shown(options.data), ": not one of ", total,
-                         " clips could be judged; the first: ", result.clips[0].excluded));
-  writeFile(options.out / "preds.json", runner.predictions(), true);
+  requireOneJudged(result.clips, options.data);
+  writeFile(options.out / "preds.json", stirPredictionsJson(predictions), true);
   writeFile(options.out / "benchmark.json", jsonText(stirBenchmarkFacts(result).json()), true);
   return result;
 }

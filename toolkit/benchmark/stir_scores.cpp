@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "eval/statistics/cohort.h"
+#include "toolkit/benchmark/benchmark_runs.h"
 
 namespace softscope {
 namespace {
 
 using Json = FactSheet::Json;
-
-constexpr std::uint64_t kBootstrapSeed = 2026;
 
 struct Pool {
   std::vector<JudgedPoint> points_mm, control_mm, points_px, control_px;
@@ -39,8 +38,6 @@ Pool poolOf(const StirBenchmarkResult& result) {
   return pool;
 }
 
-Json orNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 void addRow(const std::string& label, const std::string& key,
             const std::vector<JudgedPoint>& points, const std::vector<double>& thresholds,
             FactSheet* facts) {
@@ -64,8 +61,8 @@ Json intervalJson(const Interval& interval) {
 }
 
 void addIntervals(const Pool& pool, FactSheet* facts) {
-  const CohortSummary clips = summariseCohort(pool.clip_aj, kBootstrapSeed);
-  const CohortSummary gain = summariseCohort(pool.clip_gain, kBootstrapSeed);
+  const CohortSummary clips = summariseCohort(pool.clip_aj, kBenchmarkSeed);
+  const CohortSummary gain = summariseCohort(pool.clip_gain, kBenchmarkSeed);
   facts->addQuietly("clip_aj_3d", Json{{"mean", orNull(clips.mean)},
                                        {"ci_95", intervalJson(clips.mean_ci)},
                                        {"over_control", orNull(gain.mean)},
@@ -85,20 +82,15 @@ void addIntervals(const Pool& pool, FactSheet* facts) {
 FactSheet stirBenchmarkFacts(const StirBenchmarkResult& result) {
   const Pool pool = poolOf(result);
   FactSheet facts("STIR 2026");
-  Json names = Json::array(), excluded = Json::array();
+  std::vector<std::string> judged;
+  std::vector<ExcludedClip> excluded;
   for (const StirClipResult& clip : result.clips) {
-    if (clip.excluded.empty()) {
-      names.push_back(clip.name);
-    } else {
-      excluded.push_back({{"clip", clip.name}, {"why", clip.excluded}});
-      facts.warn("excluded: " + clip.name + ": " + clip.excluded);
-    }
+    if (clip.excluded.empty())
+      judged.push_back(clip.name);
+    else
+      excluded.push_back({clip.name, clip.excluded});
   }
-  facts.add(
-      "clips",
-      std::to_string(names.size()) + " judged, " + std::to_string(excluded.size()) + " excluded",
-      "clips", names);
-  facts.addQuietly("excluded", excluded);
+  addClips(judged, excluded, &facts);
   facts.add(
       "protocol", "protocol",
       std::string("all points of all frames but the first in one pool, truth from "
@@ -116,15 +108,8 @@ FactSheet stirBenchmarkFacts(const StirBenchmarkResult& result) {
   facts.addQuietly("measured_error.median_mm", orNull(error.median));
   facts.addQuietly("measured_error.count", error.count);
   facts.add("extrapolated", "extrapolated_points", static_cast<int>(pool.extrapolated));
-  const std::vector<double> latency = percentiles(pool.latency_ms, {50, 95, 99});
-  if (!pool.latency_ms.empty())
-    facts.addLine("latency", "p50 " + fixed(latency[0], 0) + ", p95 " + fixed(latency[1], 0) +
-                                 ", p99 " + fixed(latency[2], 0) + " ms, without the first " +
-                                 std::to_string(kStirWarmUpFrames) + " frames");
-  facts.addQuietly("latency_ms", Json{{"p50", orNull(latency[0])},
-                                      {"p95", orNull(latency[1])},
-                                      {"p99", orNull(latency[2])},
-                                      {"frames", pool.latency_ms.size()}});
+  addLatency(pool.latency_ms, "without the first " + std::to_string(kStirWarmUpFrames) + " frames",
+             &facts);
   return facts;
 }
 

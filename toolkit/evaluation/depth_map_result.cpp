@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
 
-const std::vector<std::string_view> kMapFiles{".pfm", ".tif", ".tiff", ".png"};
+const std::vector<std::string_view> kMapFiles{".pfm", ".tif", ".tiff", ".png", ".npy"};
 
 bool isMapName(const fs::path& file) {
   std::string extension = file.extension().string();

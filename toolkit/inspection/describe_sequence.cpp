@@ -26,6 +26,7 @@ std::string layoutOf(const SequencePaths& paths) {
   if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
   if (paths.left.empty()) return "depth alone, in " + paths.depth.filename().string();
   const std::string left = paths.left.filename().string();
+  if (!paths.depth_files.empty()) return "images with depth in " + left;
   if (!paths.form.empty()) return left + " and " + paths.right.filename().string();
   if (paths.right.empty())
     return "images and depth of one camera, in " + left + " and " + paths.depth.filename().string();
@@ -76,9 +77,11 @@ void addExtras(const std::string& folder, const SequencePaths& paths, FactSheet&
   const fs::path truth = fs::path(folder) / "groundtruth";
   if (paths.mask.empty()) facts.missing("mask/: instruments are not masked");
   addCount(paths.mask, "masks", "masks", {".png", ".bmp", ".jpg", ".tif"}, facts);
-  addCount(paths.depth, "depth files", "depth_files", {".png", ".pfm", ".tif", ".tiff"}, facts);
+  addCount(paths.depth, "depth files", "depth_files", {".png", ".pfm", ".tif", ".tiff", ".npy"},
+           facts);
   addCount(truth / "mesh", "true meshes", "groundtruth.meshes", {".ply"}, facts);
-  addCount(truth / "depth", "true depth", "groundtruth.depth_files", {".png", ".pfm"}, facts);
+  addCount(truth / "depth", "true depth", "groundtruth.depth_files",
+           {".png", ".pfm", ".tif", ".tiff", ".npy"}, facts);
   for (const char* name : {"trajectory.txt", "tracks.csv"})
     if (fs::exists(truth / name))
       facts.add(std::string("true ") + name, "present",

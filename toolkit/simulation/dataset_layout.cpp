@@ -16,6 +16,8 @@
 #include "io/images/video_writer.h"
 #include "io/text/message.h"
 #include "io/text/nearest_name.h"
+#include "toolkit/simulation/layout_folder.h"
+#include "toolkit/simulation/shipped_layouts.h"
 
 namespace softscope {
 namespace {
@@ -24,59 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr int kSurgtTargets = 3;
 constexpr double kSurgtTargetMm = 6;  // side of the square of tissue that a box bounds
-
-/// The folder, which must be new or empty, and what is written into it.
-class LayoutFolder {
- public:
-  explicit LayoutFolder(fs::path folder) : folder_(std::move(folder)) {
-    std::error_code ignored;
-    if (fs::exists(folder_) && !fs::is_directory(folder_))
-      throw OptionError("--out: " + shown(folder_) + " is a file, but must be a folder");
-    if (fs::exists(folder_) && !fs::is_empty(folder_, ignored))
-      throw OptionError("--out: " + shown(folder_) +
-                        " is not empty; with --layout choose a new folder");
-    files_.makeFolder(folder_);
-  }
-
-  fs::path operator/(const std::string& name) const { return folder_ / name; }
-
-  template <class Write>
-  void make(const std::string& name, const Write& write) {
-    const fs::path file = folder_ / name;
-    files_.make(file, [&] { write(file); });
-  }
-  void put(const std::string& name, const std::string& bytes) {
-    make(name, [&](const fs::path& file) { writeFile(file, bytes, false); });
-  }
-  void keep() { files_.keep(); }
-
- private:
-  fs::path folder_;
-  NewFiles files_;
-};
-
-/// A tracked point in both rectified images.
-struct SeenPoint {
-  Eigen::Vector2d left_px;
-  double disparity_px = 0;
-  double depth_mm = 0;
-  bool in_left = false, in_right = false;
-};
-
-std::vector<SeenPoint> seenPoints(const SimulatedFrame& frame, const RectifiedRig& rig) {
-  const Eigen::Isometry3d left_from_world = frame.pose.world_from_left.inverse();
-  std::vector<SeenPoint> points;
-  for (std::size_t i = 0; i < frame.tracks_world_mm.size(); ++i) {
-    const Eigen::Vector3d p = left_from_world * frame.tracks_world_mm[i];
-    if (!(p.z() > 0))
-      throw InputError(say("tracked point ", i,
-                           " is behind the camera, where no image shows it; this form can't hold "
-                           "such a clip: use a camera path that withdraws less."));
-    points.push_back({projectPoint(rig.left, p), rig.disparityPx(p.z()), p.z(),
-                      frame.tracks_visible[i], frame.tracks_visible_right[i]});
-  }
-  return points;
-}
 
 void requirePinhole(const std::string& name, const SimulateOptions& options) {
   require(options.simulation.scope.lens().distortion.isZero(), "--layout", name,
@@ -126,10 +75,7 @@ class SurgtLayout : public DatasetLayout {
       : folder_(folder), rate_(options.simulation.frames_per_second) {}
 
   void addFrame(int /*index*/, const SimulatedFrame& frame, const Simulator& simulator) override {
-    const ColourImage &left = frame.pictures.left, &right = frame.pictures.right;
-    ColourImage both(left.width_px, 2 * left.height_px);
-    std::copy(left.values.begin(), left.values.end(), both.values.begin());
-    std::copy(right.values.begin(), right.values.end(), both.row(left.height_px));
+    const ColourImage both = stackedViews(frame.pictures);
     if (video_.empty())
       video_.emplace_back(folder_ / "video.mp4", both.width_px, both.height_px, rate_, false);
     video_[0].add(both);
@@ -224,19 +170,23 @@ class ScaredLayout : public DatasetLayout {
 
 }  // namespace
 
-std::vector<std::string> datasetLayoutNames() { return {"stir2026", "surgt", "scared"}; }
+std::vector<std::string> datasetLayoutNames() {
+  return {"stir2026", "surgt", "scared", "servct", "stereomis", "d4d", "stir", "hamlyn", "c3vd"};
+}
 
 std::unique_ptr<DatasetLayout> makeDatasetLayout(const std::string& name, const fs::path& folder,
                                                  const SimulateOptions& options) {
   const std::vector<std::string> names = datasetLayoutNames();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     const std::string nearest = nearestName(name, names);
-    throw OptionError("--layout: `" + name + "` is no known form" +
-                      (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
-                      ". Give stir2026, surgt or scared");
+    throw OptionError(
+        "--layout: `" + name + "` is no known form" +
+        (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
+        ". Give stir2026, surgt, scared, servct, stereomis, d4d, stir, hamlyn or c3vd");
   }
   if (name == "scared") return std::make_unique<ScaredLayout>(folder, options);
   requirePinhole(name, options);
+  if (auto shipped = makeShippedLayout(name, folder, options)) return shipped;
   if (name == "stir2026") return std::make_unique<StirLayout>(folder, options);
   return std::make_unique<SurgtLayout>(folder, options);
 }

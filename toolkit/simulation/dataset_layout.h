@@ -23,7 +23,7 @@ class DatasetLayout {
   virtual void finish(const Simulator& simulator) = 0;
 };
 
-/// "stir2026", "surgt", "scared".
+/// "stir2026", "surgt", "scared", …: every name of --layout.
 std::vector<std::string> datasetLayoutNames();
 
 /// `folder`: of the clip (of SCARED: of the keyframe, whose images are those of the first frame).

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "io/calibrations/calibration_forms.h"
 #include "io/documents/document.h"
 #include "io/files/file_bytes.h"
 #include "io/files/folder.h"
@@ -94,7 +95,7 @@ bool looksStructured(const fs::path& file) {
 
 CalibrationFiles aroundStructured(const fs::path& file) {
   const Document document = parseDocument(readBytes(file, kCalibrationLimitBytes), shown(file));
-  if (document.find("projection_matrix")) return rosPair(file);
+  if (isCameraInfo(document)) return rosPair(file);
   const bool has_pose = document.find("R") && document.find("T");
   const bool has_cameras = document.find("M1") || document.find("K1");
   if (has_pose != has_cameras) return openCvTwo(file, has_cameras);
@@ -133,10 +134,10 @@ Found openCasOne(const Files& texts) {
 }
 
 Found namedIn(const fs::path& folder) {
-  for (const char* name :
-       {"calibration.yaml", "calibration.yml", "calibration.xml", "calibration.json",
-        "endoscope_calibration.yaml", "frame_data.json", "calib.json", "intrinsics.yml",
-        "intrinsics.yaml", "intrinsics.xml", "left.yaml", "left.yml"})
+  for (const char* name : {"calibration.yaml", "calibration.yml", "calibration.xml",
+                           "calibration.json", "endoscope_calibration.yaml", "frame_data.json",
+                           "calib.json", "intrinsics.yml", "intrinsics.yaml", "intrinsics.xml",
+                           "left.yaml", "left.yml", "left_rect.yaml", "StereoCalibration.ini"})
     if (isFile(folder / name)) return aroundFile(folder / name);
   return std::nullopt;
 }

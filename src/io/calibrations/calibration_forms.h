@@ -36,6 +36,9 @@ CalibrationDraft draftFromFewNumbers(const std::vector<Document>& documents,
                                      const std::string& name);
 bool holdsFewNumbers(const std::vector<Document>& documents);
 
+/// Whether it is one camera's camera_info of ROS.
+bool isCameraInfo(const Document& document);
+
 /// ROS camera_info of both cameras. `rectified`: the pictures are image_rect, so the projection
 /// matrices count.
 CalibrationDraft draftFromRos(const Document& left, const Document& right, const std::string& name,
@@ -48,6 +51,13 @@ struct OpenCasFiles {
   NamedText left_intrinsics, left_distortion, right_intrinsics, right_distortion, left_to_right;
 };
 CalibrationDraft draftFromOpenCas(const OpenCasFiles& files);
+
+/// SERV-CT: the projection matrices P1 and P2 of rectified cameras, mm.
+CalibrationDraft draftFromProjections(const Document& document, const std::string& name);
+
+/// StereoMIS: [StereoLeft] and [StereoRight] with fc_x fc_y cc_x cc_y kc_0 … and, of the right one,
+/// R_0 … R_8, T_0 … T_2 (mm). Any INI of that form.
+CalibrationDraft draftFromIni(std::string_view text, const std::string& name);
 
 struct HamlynFiles {
   NamedText left, right, extrinsics;

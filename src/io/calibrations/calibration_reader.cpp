@@ -61,10 +61,12 @@ bool isScaredName(const std::string& name) {
 }
 
 CalibrationDraft draftFromDocument(const Document& document, const std::string& name) {
-  if (document.find("projection_matrix"))
+  if (isCameraInfo(document))
     throw InputError(name +
                      ": one camera's camera_info, but those of both are expected. Give the "
                      "left one with the right one beside it.");
+  if (document.find("P1") && document.find("P2") && !document.find("M1") && !document.find("R"))
+    return draftFromProjections(document, name);
   const Document* scared = document.find("camera-calibration");
   if (!scared && holdsFewNumbers({document})) return draftFromFewNumbers({document}, name);
   CalibrationDraft draft = draftFromOpenCv({scared ? *scared : document}, name);
@@ -87,6 +89,8 @@ CalibrationDraft draftFromBytes(std::string_view bytes, const std::string& name)
   const std::string_view content = trimmed(bytes);
   if (content.empty()) throw InputError(name + ": the file is empty. Copy or export it again.");
   if (content.substr(0, 3) == "RAT") return draftFromOpenCas(NamedText{name, bytes});
+  if (content[0] != '{' && content.find("[StereoLeft]") != std::string_view::npos)
+    return draftFromIni(bytes, name);
   if (isBareNumbers(bytes)) return draftFromHamlyn(NamedText{name, bytes});
   return draftFromDocument(parseDocument(bytes, name), name);
 }

@@ -1,4 +1,5 @@
 // src/io/calibrations/ros_calibration.cpp: a pair of ROS camera_info, in metres.
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -18,8 +19,25 @@ struct CameraInfo {
   double fx_baseline = 0;              // P(0,3): -fx * distance to the left camera
 };
 
+/// The key of camera_calibration's files, or the message's own of ROS 1 (K) and 2 (k).
+const Document* findEither(const Document& info, std::string_view key) {
+  constexpr std::array<std::array<std::string_view, 3>, 6> kNames{
+      {{"camera_matrix", "K", "k"},
+       {"distortion_coefficients", "D", "d"},
+       {"rectification_matrix", "R", "r"},
+       {"projection_matrix", "P", "p"},
+       {"image_width", "width", "width"},
+       {"image_height", "height", "height"}}};
+  for (const auto& names : kNames) {
+    if (names[0] != key) continue;
+    for (const std::string_view name : names)
+      if (const Document* found = info.find(name)) return found;
+  }
+  return nullptr;
+}
+
 const Document& member(const Document& info, std::string_view key, const std::string& name) {
-  const Document* found = info.find(key);
+  const Document* found = findEither(info, key);
   if (!found)
     throw InputError(say(name, ": ", key,
                          " is missing, but ROS camera_info has it. Calibrate with ",
@@ -84,6 +102,10 @@ double shiftOf(const CameraInfo& right, const std::string& name) {
 }
 
 }  // namespace
+
+bool isCameraInfo(const Document& document) {
+  return findEither(document, "projection_matrix") && findEither(document, "camera_matrix");
+}
 
 CalibrationDraft draftFromRos(const Document& left, const Document& right, const std::string& name,
                               bool rectified) {

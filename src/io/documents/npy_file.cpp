@@ -66,6 +66,21 @@ void copyValues(std::string_view data, std::vector<double>& out) {
 
 }  // namespace
 
+std::string npyBytes(const Raster<float>& values) {
+  std::string header = say("{'descr': '<f4', 'fortran_order': False, 'shape': (", values.height_px,
+                           ", ", values.width_px, "), }");
+  constexpr std::size_t kBegin = 10, kAlignment = 64;  // of magic, version and length; of the data
+  header.append(kAlignment - 1 - (kBegin + header.size()) % kAlignment, ' ');
+  header += '\n';
+  std::string bytes(kMagic);
+  bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff),
+            static_cast<char>(header.size() >> 8)};
+  bytes += header;
+  bytes.append(reinterpret_cast<const char*>(values.values.data()),
+               values.values.size() * sizeof(float));
+  return bytes;
+}
+
 bool isNpy(std::string_view bytes) { return bytes.substr(0, kMagic.size()) == kMagic; }
 
 NpyArray parseNpy(std::string_view bytes, const std::string& name) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/raster.h"
+
 namespace softscope {
 
 struct NpyArray {
@@ -17,5 +19,8 @@ bool isNpy(std::string_view bytes);
 
 /// Reads a two-dimensional array of <f4 or <f8 in C order. Throws InputError on anything else.
 NpyArray parseNpy(std::string_view bytes, const std::string& name);
+
+/// As <f4 in C order.
+std::string npyBytes(const Raster<float>& values);
 
 }  // namespace softscope

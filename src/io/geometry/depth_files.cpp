@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.h"
+#include "io/documents/npy_file.h"
 #include "io/files/atomic_file.h"
 #include "io/files/file_bytes.h"
 #include "io/geometry/pfm_file.h"
@@ -60,12 +61,20 @@ Raster<std::uint16_t> toSteps(const Raster<float>& values, double unit) {
   return out;
 }
 
+Raster<float> fromMetres(const NpyArray& metres) {
+  Raster<float> depth_mm(static_cast<int>(metres.columns), static_cast<int>(metres.rows), kNone);
+  for (std::size_t i = 0; i < depth_mm.size(); ++i)
+    depth_mm.values[i] = static_cast<float>(1000 * metres.values[i]);
+  return depth_mm;
+}
+
 }  // namespace
 
 Raster<float> parseDepth(std::string_view bytes, const std::string& name, double unit_mm) {
-  Raster<float> depth_mm = parseMap(bytes, name, unit_mm);
+  Raster<float> depth_mm =
+      isNpy(bytes) ? fromMetres(parseNpy(bytes, name)) : parseMap(bytes, name, unit_mm);
   for (float& value : depth_mm.values)
-    if (!(value > 0)) value = kNone;
+    if (!(value > 0 && std::isfinite(value))) value = kNone;
   return depth_mm;
 }
 
@@ -85,12 +94,24 @@ void writeDepthPng(const fs::path& file, const Raster<float>& depth_mm, double u
   require(unit_mm > 0, "depth_unit_mm", unit_mm, "must be above 0");
   writePng(file, toSteps(depth_mm, unit_mm), overwrite);
 }
+void writeDepthTiff(const fs::path& file, const Raster<float>& depth_mm, double unit_mm,
+                    bool overwrite) {
+  require(unit_mm > 0, "depth_unit_mm", unit_mm, "must be above 0");
+  requireWritable(file, overwrite);
+  writeFile(file, encodeImage(".tif", matrixView(toSteps(depth_mm, unit_mm), CV_16U)), overwrite);
+}
 void writeDisparityPng(const fs::path& file, const Raster<float>& disparity_px, bool overwrite) {
   writePng(file, toSteps(disparity_px, kDisparityStepPx), overwrite);
 }
 void writePfm(const fs::path& file, const Raster<float>& raster, bool overwrite) {
   requireWritable(file, overwrite);
   writeFile(file, pfmBytes(raster), overwrite);
+}
+void writeDepthNpy(const fs::path& file, const Raster<float>& depth_mm, bool overwrite) {
+  requireWritable(file, overwrite);
+  Raster<float> metres = depth_mm;
+  for (float& value : metres.values) value /= 1000;
+  writeFile(file, npyBytes(metres), overwrite);
 }
 void writeFloatTiff(const fs::path& file, const Raster<float>& raster, bool overwrite) {
   requireWritable(file, overwrite);

@@ -13,7 +13,8 @@ namespace softscope {
 inline constexpr double kDisparityStepPx = 1.0 / 256;
 
 /// Depth in mm from a 16-bit PNG or TIFF (one step = `unit_mm`, 0 = none), a PFM or a 32-bit float
-/// TIFF (both mm). What isn't positive and finite becomes NaN. Throws InputError.
+/// TIFF (both mm), or a NumPy array of floats (.npy, metres). What isn't positive and finite
+/// becomes NaN. Throws InputError.
 Raster<float> readDepth(const std::filesystem::path& file, double unit_mm = 0.01);
 Raster<float> parseDepth(std::string_view bytes, const std::string& name, double unit_mm = 0.01);
 
@@ -27,12 +28,17 @@ Raster<float> parseDisparity(std::string_view bytes, const std::string& name);
 // written as 0, which says "none".
 void writeDepthPng(const std::filesystem::path& file, const Raster<float>& depth_mm,
                    double unit_mm = 0.01, bool overwrite = false);
+/// As PNG.
+void writeDepthTiff(const std::filesystem::path& file, const Raster<float>& depth_mm,
+                    double unit_mm, bool overwrite = false);
 void writeDisparityPng(const std::filesystem::path& file, const Raster<float>& disparity_px,
                        bool overwrite = false);
 
 /// 32-bit floats as they are, NaN included: depth in mm, disparity in px, or whatever else.
 void writePfm(const std::filesystem::path& file, const Raster<float>& raster,
               bool overwrite = false);
+void writeDepthNpy(const std::filesystem::path& file, const Raster<float>& depth_mm,
+                   bool overwrite = false);  // in metres
 void writeFloatTiff(const std::filesystem::path& file, const Raster<float>& raster,
                     bool overwrite = false);
 

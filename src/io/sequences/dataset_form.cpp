@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "io/datasets/surgt_files.h"
 #include "io/files/folder.h"
+#include "io/sequences/shipped_folders.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
 
@@ -87,6 +88,8 @@ std::optional<DatasetClip> recogniseDataset(const fs::path& folder) {
     clip = surgt(folder);
   else if (isFile(folder / "Left_Image.png"))
     clip = scared(folder);
+  else
+    clip = recogniseShippedFolder(folder);
   if (clip) clip->paths.form = clip->form;
   return clip;
 }

@@ -12,7 +12,7 @@ namespace softscope {
 
 /// A folder that is no sequence folder of docs/formats.md, but one clip of a known data set.
 struct DatasetClip {
-  std::string form;                          // "STIR 2026", "SurgT", "SCARED"
+  std::string form;                          // "STIR 2026", "SurgT", "SCARED", …
   SequencePaths paths;                       // with the layout of both views in one image
   std::vector<std::filesystem::path> truth;  // files of ground truth that are there
 };

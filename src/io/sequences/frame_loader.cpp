@@ -35,6 +35,15 @@ void requireCount(std::size_t found, int expected, const fs::path& path, const c
                        " frames; one a frame is expected."));
 }
 
+std::unique_ptr<PictureSource> openView(const fs::path& path, const std::vector<fs::path>& files) {
+  return files.empty() ? openPictures(path) : openPictures(files);
+}
+
+CalibrationHints hintsFor(const SequencePaths& paths, CalibrationHints hints) {
+  hints.rectified = hints.rectified || paths.rectified;
+  return hints;
+}
+
 constexpr float kNearestMm = 2;  // no scope sees sharply before that
 
 /// Depth that all lies nearer: metres, read as millimetres.
@@ -64,18 +73,24 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   const fs::path& first = is_packed_ ? paths.stereo : depth_alone ? paths.depth : paths.left;
   left_path_ = first;
   right_path_ = paths.right;
-  left_ = depth_alone ? openDepthRelief(first, calibration_.depth_unit_mm) : openPictures(first);
+  left_ = depth_alone ? openDepthRelief(first, calibration_.depth_unit_mm)
+                      : openView(first, paths.left_files);
   count_ = left_->count();
   const ViewFiles view{first, left_->files(), count_};
   if (!paths.right.empty()) {
-    right_ = openPictures(paths.right);
-    requirePartners(view, {paths.right, right_->files(), right_->count()});
+    right_ = openView(paths.right, paths.right_files);
+    if (paths.right_files.empty())
+      requirePartners(view, {paths.right, right_->files(), right_->count()});
     if (std::abs(right_offset_) >= count_)
       throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but there are ",
                             count_, " pictures: no two would belong together."));
   }
   if (!paths.mask.empty()) masks_ = partnersIn(paths.mask, kMaskKinds, view);
-  if (!paths.depth.empty()) depths_ = partnersIn(paths.depth, kDepthKinds, view);
+  if (!paths.depth_files.empty())
+    depths_ = paths.depth_files;
+  else if (!paths.depth.empty())
+    depths_ = partnersIn(paths.depth, kDepthKinds, view);
+  times_s_ = paths.times_s;
   if (!paths.timestamps.empty()) {
     times_s_ = readTimestamps(paths.timestamps);
     requireCount(times_s_.size(), count_, paths.timestamps, "times");
@@ -88,7 +103,8 @@ void FrameLoader::setCalibration(const SequencePaths& paths) {
     calibration_ = uncalibrated(0, 0);
     return;
   }
-  calibration_ = readCalibration(paths.calibration, options_.calibration);
+  calibration_ = readCalibration(paths.calibration, hintsFor(paths, options_.calibration));
+  if (paths.depth_unit_mm > 0) calibration_.depth_unit_mm = paths.depth_unit_mm;
   if (hasOneCamera(calibration_) && paths.depth.empty())
     throw InputError(
         say(calibration_.source,

@@ -16,7 +16,7 @@ struct ViewFiles {
 
 inline const std::vector<std::string_view> kMaskKinds = {".png", ".bmp",  ".jpg", ".jpeg",
                                                          ".tif", ".tiff", ".pgm"};
-inline const std::vector<std::string_view> kDepthKinds = {".png", ".pfm", ".tif", ".tiff"};
+inline const std::vector<std::string_view> kDepthKinds = {".png", ".pfm", ".tif", ".tiff", ".npy"};
 
 /// Throws InputError where the counts differ, naming the first picture without a partner, or where
 /// the k-th files of both carry different numbers.

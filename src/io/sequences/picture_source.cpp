@@ -33,6 +33,10 @@ class PictureFiles : public PictureSource {
 
 }  // namespace
 
+std::unique_ptr<PictureSource> openPictures(std::vector<fs::path> files) {
+  return std::make_unique<PictureFiles>(std::move(files));
+}
+
 std::unique_ptr<PictureSource> openPictures(const fs::path& path) {
   std::error_code code;
   if (fs::is_directory(path, code)) {

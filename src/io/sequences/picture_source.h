@@ -40,5 +40,7 @@ class PictureSource {
 
 /// A folder of pictures, one picture, or a video. Throws InputError.
 std::unique_ptr<PictureSource> openPictures(const std::filesystem::path& path);
+/// These files, one a picture.
+std::unique_ptr<PictureSource> openPictures(std::vector<std::filesystem::path> files);
 
 }  // namespace softscope

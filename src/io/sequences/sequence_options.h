@@ -3,19 +3,10 @@
 
 #include <string>
 
+#include "core/frame_range.h"
 #include "io/calibrations/calibration_reader.h"
 
 namespace softscope {
-
-/// Frames begin, begin + step, …, below end.
-struct FrameRange {
-  int begin = 0;
-  int end = -1;  // -1 = to the last
-  int step = 1;
-
-  /// How many frames; `end` must be known.
-  int count() const { return (end - begin + step - 1) / step; }
-};
 
 /// "A:B" is A up to, not with, B; "A:B:STEP" every STEP-th of them. Each may be left out ("10:",
 /// ":20", "::5"). Throws OptionError.

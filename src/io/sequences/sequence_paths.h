@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace softscope {
 
@@ -15,7 +16,14 @@ struct SequencePaths {
   std::filesystem::path mask;         // a folder or a picture; empty = none
   std::filesystem::path depth;        // a folder or a file; empty = none
   std::filesystem::path timestamps;   // a file; empty = none
-  std::string form;    // of the data set, where it is one: "SurgT"; empty = docs/formats.md
+  // Of a data set whose folder holds more than the view's images, or views that lack images: those
+  // that belong together, as many of each. Where they are given, left, right and depth are the
+  // folders that messages name.
+  std::vector<std::filesystem::path> left_files, right_files, depth_files;
+  std::vector<double> times_s;  // likewise; empty = none
+  std::string form;          // of the data set, where it is one: "SurgT"; empty = docs/formats.md
+  double depth_unit_mm = 0;  // one step of 16-bit depth; 0: as the calibration says
+  bool rectified = false;    // the images are, whatever the calibration says
   std::string layout;  // of `stereo`, where the folder says it; an option that isn't auto wins
 };
 

@@ -1,0 +1,25 @@
+// src/stereo/rectification/valid_rectification.h: the rectification that leaves no pixel without an
+// image.
+#pragma once
+
+#include "core/stereo_rig.h"
+
+namespace softscope {
+
+/// stereoRectify with alpha = 0: enlarged until both rectified images are filled, as SurgT's truth
+/// has it. Images that are rectified already pass unchanged. `Rectifier` keeps the scale instead.
+class ValidRectification {
+ public:
+  explicit ValidRectification(const StereoCalibration& calibration);
+
+  const RectifiedRig& rig() const { return rig_; }
+  /// Where a pixel of the rectified left image lies in the raw one.
+  Eigen::Vector2d rawLeftPixel(const Eigen::Vector2d& rectified_px) const;
+
+ private:
+  RectifiedRig rig_;
+  RawCamera left_;
+  bool rectified_;
+};
+
+}  // namespace softscope
