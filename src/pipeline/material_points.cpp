@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "deform/warp.h"
+#include "fusion/fusion_options.h"
 
 namespace softscope {
 namespace {
@@ -101,7 +102,7 @@ void MaterialPoints::renumber(const IndexMap& map, const PointModel& model) {
   }
 }
 
-void MaterialPoints::settle(const PointModel& model) {
+void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm) {
   std::unordered_map<std::int64_t, std::vector<int>> points_of_cell;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].model_point < 0) continue;
@@ -131,8 +132,13 @@ void MaterialPoints::settle(const PointModel& model) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (pieces[k].weight <= 0 || pieces[k].normal.norm() <= 0) continue;
     const double height = pieces[k].height_mm / pieces[k].weight;
-    if (std::abs(height) < kMaxSettleMm)
-      points[k].position_mm += height * pieces[k].normal.normalized();
+    if (!(std::abs(height) < kMaxSettleMm)) continue;
+    const Eigen::Vector3d normal = pieces[k].normal.normalized();
+    const Eigen::Vector3d ray = (points[k].position_mm - scope_mm).normalized();
+    const double cosine = normal.dot(ray);
+    points[k].position_mm += std::abs(cosine) < PixelOptions::kMinCosine
+                                 ? Eigen::Vector3d(height * normal)
+                                 : Eigen::Vector3d(height / cosine * ray);
   }
 }
 

@@ -48,8 +48,9 @@ class MaterialPoints {
   void warp(const WarpGraph& graph, const PointModel& model);
   /// Model points have new numbers.
   void renumber(const IndexMap& map, const PointModel& model);
-  /// Lays them onto the surface that the model's points around them make.
-  void settle(const PointModel& model);
+  /// Lays them onto the surface that the model's points around them make, along the rays of the
+  /// scope at `scope_mm`, as fusion moves the model's points: docs/fusion.md (F8).
+  void settle(const PointModel& model, const Eigen::Vector3d& scope_mm);
 
   std::vector<Point> points;
 };
