@@ -47,6 +47,9 @@ class Solver : public DeformSolver {
   explicit Solver(const DeformOptions& options) : options_(options) {}
 
   NodeModel nodeModel() const override { return options_.node_model; }
+  void prepare(const WarpGraph& graph) override {
+    if (!graph.empty() && !structure_.sameAs(graph)) analyse(graph);
+  }
 
   DeformSummary solve(const PointModel& model, const DeformObservation& seen,
                       WarpGraph* graph) override {
@@ -73,7 +76,7 @@ class Solver : public DeformSolver {
   void prepare(const PointModel& model, const DeformObservation& seen, const WarpGraph& graph,
                DeformSummary* summary) {
     const Stopwatch watch(&summary->times.prepare_ms);
-    if (!structure_.sameAs(graph)) analyse(graph);
+    prepare(graph);
     if (seen.surface != nullptr && options_.data_weight > 0)
       collectCandidates(model, graph, seen.visible, options_.association.max_points, &candidates_);
     else

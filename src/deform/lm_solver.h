@@ -67,6 +67,8 @@ class DeformSolver {
  public:
   virtual ~DeformSolver() = default;
   virtual NodeModel nodeModel() const = 0;
+  /// May do ahead what needs the graph's structure alone. Results don't depend on it.
+  virtual void prepare(const WarpGraph& /*graph*/) {}
   /// Starts from graph->transforms (the identity after rebase()) and changes nothing else.
   virtual DeformSummary solve(const PointModel& model, const DeformObservation& seen,
                               WarpGraph* graph) = 0;
