@@ -49,15 +49,6 @@ bool usable(const PointModel& model, const WarpGraph& graph, const KeyPointMatch
          match.target_mm.allFinite() && match.sqrt_information.allFinite();
 }
 
-void listActive(ConstraintSet* constraints) {
-  constraints->active.clear();
-  constraints->points = 0;
-  for (std::size_t s = 0; s < constraints->stencils.size(); ++s) {
-    if (constraints->stencils[s].rows() > 0) constraints->active.push_back(static_cast<int>(s));
-    constraints->points += constraints->stencils[s].points;
-  }
-}
-
 /// What one thread needs to ask for the targets of one stencil's candidates.
 struct Inquiry {
   std::vector<Eigen::Vector3f> warped_mm, warped_normals;
@@ -117,6 +108,12 @@ void collectCandidates(const PointModel& model, const WarpGraph& graph,
   });
 }
 
+CandidatePoints noCandidates(const WarpGraph& graph) {
+  CandidatePoints none;
+  none.stencil_start.assign(graph.stencils.size() + 1, 0);
+  return none;
+}
+
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
                      const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
                      double match_weight, ConstraintSet* set) {
@@ -149,6 +146,15 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
   set->stiffness.assign(graph.edges.size(), 1);
   expectShape(graph, 0, set);
   listActive(set);
+}
+
+void listActive(ConstraintSet* constraints) {
+  constraints->active.clear();
+  constraints->points = 0;
+  for (std::size_t s = 0; s < constraints->stencils.size(); ++s) {
+    if (constraints->stencils[s].rows() > 0) constraints->active.push_back(static_cast<int>(s));
+    constraints->points += constraints->stencils[s].points;
+  }
 }
 
 void associate(const WarpGraph& graph, const CandidatePoints& candidates,
