@@ -96,15 +96,19 @@ void collectCandidates(const PointModel& model, const WarpGraph& graph,
   start.assign(graph.stencils.size() + 1, 0);
   forUsablePoints(model, graph, visible, stride, [&](int, int s) { ++start[s + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
-  candidates->positions_mm.resize(static_cast<std::size_t>(start.back()));
-  candidates->normals.resize(static_cast<std::size_t>(start.back()));
-  candidates->bindings.resize(static_cast<std::size_t>(start.back()));
-  std::vector<int> next = start;
-  forUsablePoints(model, graph, visible, stride, [&](int point, int s) {
-    const int at = next[s]++;
-    candidates->positions_mm[at] = model.positions_mm[point];
-    candidates->normals[at] = model.normals[point];
-    candidates->bindings[at] = model.bindings[point];
+  std::vector<int> sorted(static_cast<std::size_t>(start.back())), next = start;
+  forUsablePoints(model, graph, visible, stride,
+                  [&](int point, int s) { sorted[next[s]++] = point; });
+  candidates->positions_mm.resize(sorted.size());
+  candidates->normals.resize(sorted.size());
+  candidates->bindings.resize(sorted.size());
+  parallelRanges(start.back(), 4096, [&](int begin, int end) {
+    for (int at = begin; at < end; ++at) {
+      const int point = sorted[at];
+      candidates->positions_mm[at] = model.positions_mm[point];
+      candidates->normals[at] = model.normals[point];
+      candidates->bindings[at] = model.bindings[point];
+    }
   });
 }
 
