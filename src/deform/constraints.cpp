@@ -49,15 +49,6 @@ bool usable(const PointModel& model, const WarpGraph& graph, const KeyPointMatch
          match.target_mm.allFinite() && match.sqrt_information.allFinite();
 }
 
-void listActive(ConstraintSet* constraints) {
-  constraints->active.clear();
-  constraints->points = 0;
-  for (std::size_t s = 0; s < constraints->stencils.size(); ++s) {
-    if (constraints->stencils[s].rows() > 0) constraints->active.push_back(static_cast<int>(s));
-    constraints->points += constraints->stencils[s].points;
-  }
-}
-
 /// What one thread needs to ask for the targets of one stencil's candidates.
 struct Inquiry {
   std::vector<Eigen::Vector3f> warped_mm, warped_normals;
@@ -105,16 +96,26 @@ void collectCandidates(const PointModel& model, const WarpGraph& graph,
   start.assign(graph.stencils.size() + 1, 0);
   forUsablePoints(model, graph, visible, stride, [&](int, int s) { ++start[s + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
-  candidates->positions_mm.resize(static_cast<std::size_t>(start.back()));
-  candidates->normals.resize(static_cast<std::size_t>(start.back()));
-  candidates->bindings.resize(static_cast<std::size_t>(start.back()));
-  std::vector<int> next = start;
-  forUsablePoints(model, graph, visible, stride, [&](int point, int s) {
-    const int at = next[s]++;
-    candidates->positions_mm[at] = model.positions_mm[point];
-    candidates->normals[at] = model.normals[point];
-    candidates->bindings[at] = model.bindings[point];
+  std::vector<int> sorted(static_cast<std::size_t>(start.back())), next = start;
+  forUsablePoints(model, graph, visible, stride,
+                  [&](int point, int s) { sorted[next[s]++] = point; });
+  candidates->positions_mm.resize(sorted.size());
+  candidates->normals.resize(sorted.size());
+  candidates->bindings.resize(sorted.size());
+  parallelRanges(start.back(), 4096, [&](int begin, int end) {
+    for (int at = begin; at < end; ++at) {
+      const int point = sorted[at];
+      candidates->positions_mm[at] = model.positions_mm[point];
+      candidates->normals[at] = model.normals[point];
+      candidates->bindings[at] = model.bindings[point];
+    }
   });
+}
+
+CandidatePoints noCandidates(const WarpGraph& graph) {
+  CandidatePoints none;
+  none.stencil_start.assign(graph.stencils.size() + 1, 0);
+  return none;
 }
 
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
@@ -149,6 +150,15 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
   set->stiffness.assign(graph.edges.size(), 1);
   expectShape(graph, 0, set);
   listActive(set);
+}
+
+void listActive(ConstraintSet* constraints) {
+  constraints->active.clear();
+  constraints->points = 0;
+  for (std::size_t s = 0; s < constraints->stencils.size(); ++s) {
+    if (constraints->stencils[s].rows() > 0) constraints->active.push_back(static_cast<int>(s));
+    constraints->points += constraints->stencils[s].points;
+  }
 }
 
 void associate(const WarpGraph& graph, const CandidatePoints& candidates,

@@ -8,6 +8,7 @@
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "deform/deform_options.h"
+#include "deform/edge_system.h"
 #include "deform/kernels.h"
 #include "deform/surface_target.h"
 
@@ -43,6 +44,9 @@ void collectCandidates(const PointModel& model, const WarpGraph& graph,
                        const std::vector<int>* visible, int max_points,
                        CandidatePoints* candidates);
 
+/// None, for this graph.
+CandidatePoints noCandidates(const WarpGraph& graph);
+
 /// Rows of one stencil: three a match, then one a point that the surface pulls.
 struct StencilRows {
   int first = 0;  // into ConstraintSet::rows
@@ -50,11 +54,6 @@ struct StencilRows {
   int points = 0;
 
   int rows() const { return 3 * matches + points; }
-};
-
-/// Where the nodes of an edge expect each other before they turn, world, mm.
-struct ExpectedOffsets {
-  Eigen::Vector3d from_first_mm, from_second_mm;
 };
 
 struct ConstraintSet {
@@ -74,6 +73,9 @@ struct ConstraintSet {
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
                      const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
                      double match_weight, ConstraintSet* constraints);
+
+/// Counts rows and points anew.
+void listActive(ConstraintSet* constraints);
 
 /// Warps the candidates by the graph's transforms and asks the surface (nullptr: nothing) for
 /// their targets; replaces the rows of points.

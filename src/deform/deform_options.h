@@ -50,6 +50,7 @@ struct SolverOptions {
   static constexpr int kIterationsPerAssociation = 1;
   static constexpr int kMaxRejections = 8;  // in a row, before we say that there is no better step
   static constexpr double kInitialDamping = 1e-7;  // lambda, relative to the block diagonal
+  static constexpr double kDiagonalFloor = 1e-10;  // added, relative to its largest entry
   static constexpr double kMinDamping = 1e-10;
   static constexpr double kMaxDamping = 1e6;
   double step_tolerance_mm = 2e-3;  // converged when no node moves further in one step

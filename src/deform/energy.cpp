@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "deform/edge_system.h"
 #include "deform/node_terms.h"
 #include "deform/robust_loss.h"
 
@@ -85,17 +86,13 @@ void evaluateConstraints(const WarpGraph& graph, const ConstraintSet& constraint
   }
 }
 
-double edgeEnergy(const WarpGraph& graph, const ConstraintSet& constraints) {
+double edgesEnergy(const WarpGraph& graph, const ConstraintSet& constraints) {
   double sum = 0;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const GraphEdge& edge = graph.edges[e];
-    const auto& g = graph.positions_mm;
-    const auto& m = graph.transforms;
-    const int j = edge.first, k = edge.second;
-    const ExpectedOffsets& expected = constraints.expected[e];
     sum += constraints.stiffness[e] * edge.weight *
-           (edgeResidual(g[j], m[j], g[k], m[k], expected.from_first_mm).squaredNorm() +
-            edgeResidual(g[k], m[k], g[j], m[j], expected.from_second_mm).squaredNorm());
+           edgeEnergy(placedNode(graph, edge.first), placedNode(graph, edge.second),
+                      constraints.expected[e]);
   }
   return sum;
 }
@@ -135,7 +132,7 @@ void evaluateEnergy(const WarpGraph& graph, const ConstraintSet& constraints,
   value->terms = EnergyTerms();
   value->data_abs_sum_mm = 0;
   evaluateConstraints(graph, constraints, options, value);
-  value->terms.regularisation = options.regularisation_weight * edgeEnergy(graph, constraints);
+  value->terms.regularisation = options.regularisation_weight * edgesEnergy(graph, constraints);
   value->terms.rest = options.rest_weight * restEnergy(graph, constraints.hidden);
   if (options.node_model == NodeModel::kAffine)
     value->terms.rotation = options.rotation_weight * rotationEnergy(graph);

@@ -20,12 +20,16 @@ struct EnergyTerms {
   double total() const { return rotation + regularisation + rest + data + correspondence; }
 };
 
-/// The energy of one set of transforms, and what the normal equations need of it.
-struct EnergyValue {
+/// The energy of one set of transforms.
+struct EnergySums {
   EnergyTerms terms;
+  double data_abs_sum_mm = 0;  // sum of |residual| over points, unweighted
+};
+
+/// The same, and what the normal equations need of it.
+struct EnergyValue : EnergySums {
   std::vector<double> residuals;  // one a row of the constraints
   std::vector<double> weights;    // base and robust weight of each row
-  double data_abs_sum_mm = 0;     // sum of |residual| over points, unweighted
 };
 
 /// Sums in a fixed order, whatever the number of threads.

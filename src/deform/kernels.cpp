@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "deform/plane_term.h"
+#include "deform/warp_formulas.h"
 
 #define SOFTSCOPE_NAME_(set) deformKernels_##set
 #define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
@@ -263,46 +264,16 @@ void multiplyTransposedSubtract(const double* a, int leading, int rows, int colu
 
 inline Float4 loadFloat4(const float* p) { return loadVector<Float4>(p); }
 inline Float4 splatFloat(float x) { return Float4{x, x, x, x}; }
-inline Vec3<float> firstThree(const Float4& x) { return {x[0], x[1], x[2]}; }
 
-/// The blended displacement of one point: columns of A - I, then the offset.
-struct Blend {
-  Float4 columns[4];
-};
-
-inline Blend blendNodes(const PackedNode* nodes, const std::int32_t* ids, const float* weights) {
-  Blend blend = {};
+inline Blend<Float4> blendNodes(const PackedNode* nodes, const std::int32_t* ids,
+                                const float* weights) {
+  Blend<Float4> blend = {};
   for (int k = 0; k < 4; ++k) {
     const float* values = nodes[ids[k]].values;
     const Float4 weight = splatFloat(weights[k]);
     for (int c = 0; c < 4; ++c) blend.columns[c] += weight * loadFloat4(values + 4 * c);
   }
   return blend;
-}
-
-inline void warpPosition(const Blend& blend, const float* in, float* out) {
-  const Float4 p = blend.columns[0] * splatFloat(in[0]) + blend.columns[1] * splatFloat(in[1]) +
-                   blend.columns[2] * splatFloat(in[2]) + blend.columns[3];
-  const float moved[3] = {in[0] + p[0], in[1] + p[1], in[2] + p[2]};
-  for (int i = 0; i < 3; ++i) out[i] = moved[i];
-}
-
-/// By the inverse transposed, up to a factor: the matrix of cofactors.
-inline void warpNormal(const Blend& blend, const float* in, float* out) {
-  const Float4 one = {1, 0, 0, 0}, two = {0, 1, 0, 0}, three = {0, 0, 1, 0};
-  const Vec3<float> c0 = firstThree(blend.columns[0] + one),
-                    c1 = firstThree(blend.columns[1] + two),
-                    c2 = firstThree(blend.columns[2] + three);
-  const Vec3<float> k0 = cross(c1, c2), k1 = cross(c2, c0), k2 = cross(c0, c1);
-  const float x = k0.x * in[0] + k1.x * in[1] + k2.x * in[2];
-  const float y = k0.y * in[0] + k1.y * in[1] + k2.y * in[2];
-  const float z = k0.z * in[0] + k1.z * in[1] + k2.z * in[2];
-  const float squared = x * x + y * y + z * z;
-  const bool usable = squared > 1e-20f && squared < 1e20f;
-  const float factor = usable ? 1 / __builtin_sqrtf(squared) : 0.0f;
-  out[0] = usable ? x * factor : in[0];
-  out[1] = usable ? y * factor : in[1];
-  out[2] = usable ? z * factor : in[2];
 }
 
 void warpPoints(const PackedNode* nodes, const std::int32_t* stencils, const void* bindings,
@@ -319,9 +290,12 @@ void warpPoints(const PackedNode* nodes, const std::int32_t* stencils, const voi
       }
       continue;
     }
-    const Blend blend = blendNodes(nodes, stencils + 4 * stencil, weights);
-    warpPosition(blend, positions + 3 * i, out_positions + 3 * i);
-    warpNormal(blend, normals + 3 * i, out_normals + 3 * i);
+    const Blend<Float4> blend = blendNodes(nodes, stencils + 4 * stencil, weights);
+    const float* in = positions + 3 * i;
+    warpPosition(blend, splatFloat(in[0]), splatFloat(in[1]), splatFloat(in[2]), in,
+                 out_positions + 3 * i);
+    warpNormal(blend, normals + 3 * i, out_normals + 3 * i,
+               [](float x) { return __builtin_sqrtf(x); });
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
+
 namespace softscope {
 namespace {
 
@@ -16,10 +18,16 @@ void addShares(const WarpGraph& graph, const PointBinding& binding, double each,
 std::vector<double> hiddenShares(const PointModel& model, const WarpGraph& graph,
                                  const CandidatePoints& candidates) {
   std::vector<double> all(graph.size(), 0), seen(graph.size(), 0);
-  for (const PointBinding& binding : model.bindings)
-    if (binding.bound()) addShares(graph, binding, 1, &all);
-  for (const PointBinding& binding : candidates.bindings)
-    addShares(graph, binding, candidates.points_each, &seen);
+  // Neither needs the other.
+  parallelInvoke(
+      [&] {
+        for (const PointBinding& binding : model.bindings)
+          if (binding.bound()) addShares(graph, binding, 1, &all);
+      },
+      [&] {
+        for (const PointBinding& binding : candidates.bindings)
+          addShares(graph, binding, candidates.points_each, &seen);
+      });
   std::vector<double> hidden(graph.size(), 1);
   for (std::size_t j = 0; j < hidden.size(); ++j)
     if (all[j] > 0) hidden[j] = std::max(1 - seen[j] / all[j], 0.0);

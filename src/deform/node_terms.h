@@ -8,6 +8,7 @@
 
 #include "core/hd.h"
 #include "core/warp_graph.h"
+#include "deform/kernels.h"
 
 namespace softscope {
 
@@ -105,6 +106,18 @@ SOFTSCOPE_HD inline Eigen::Matrix<double, 6, 12> rotationJacobian(const Eigen::M
   j.block<1, 3>(4, 3) = 2 * b;
   j.block<1, 3>(5, 6) = 2 * c;
   return j;
+}
+
+/// The float copy by which points are warped: docs/energy.md (2).
+SOFTSCOPE_HD inline PackedNode packNode(const Eigen::Vector3d& rest_mm,
+                                        const NodeTransform& transform) {
+  PackedNode packed;
+  Eigen::Map<Eigen::Matrix4f> columns(packed.values);
+  columns.setZero();
+  columns.topLeftCorner<3, 3>() = (transform.linear - Eigen::Matrix3d::Identity()).cast<float>();
+  columns.topRightCorner<3, 1>() =
+      (rest_mm + transform.translation_mm - transform.linear * rest_mm).cast<float>();
+  return packed;
 }
 
 /// alpha of an edge: docs/energy.md (7). Strain counts, not length: (spacing / length)^2, at

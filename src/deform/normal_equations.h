@@ -10,6 +10,7 @@
 #include "deform/constraints.h"
 #include "deform/deform_options.h"
 #include "deform/energy.h"
+#include "deform/part_lists.h"
 
 namespace softscope {
 
@@ -38,12 +39,6 @@ class NormalEquations {
   double diagonalProduct(const Eigen::VectorXd& step) const;
 
  private:
-  /// For each target, the numbers of its parts: targets + 1 starts.
-  struct GatherList {
-    std::vector<int> start;
-    std::vector<int> parts;
-  };
-  GatherList makeList(int targets, const std::vector<std::pair<int, int>>& target_and_part) const;
   void assembleStencils(const WarpGraph& graph, const ConstraintSet& constraints,
                         const EnergyValue& value);
   void assembleEdges(const WarpGraph& graph, const ConstraintSet& constraints, double weight);
@@ -53,7 +48,7 @@ class NormalEquations {
 
   BlockPattern pattern_;
   int stencils_ = 0, edges_ = 0;
-  GatherList block_parts_, gradient_parts_;
+  PartLists parts_;
   std::vector<double> part_blocks_;     // of stencils (10 each), edges (3), nodes (1 if affine)
   std::vector<double> part_gradients_;  // of stencils (4 each), edges (2), nodes (1 if affine)
   std::vector<double> blocks_;

@@ -7,15 +7,9 @@
 #include "core/camera.h"
 #include "core/depth_map.h"
 #include "deform/deform_options.h"
+#include "deform/depth_look_up.h"
 
 namespace softscope {
-
-/// A piece of the live surface, world frame.
-struct PlaneTarget {
-  Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  float reliability = 0;  // weighs the squared residual; 0: the surface says nothing here
-};
 
 /// The live surface, however it was measured.
 class SurfaceTarget {
@@ -39,27 +33,11 @@ class DepthTarget : public SurfaceTarget {
   void lookUp(const Eigen::Vector3f* points_mm, const Eigen::Vector3f* normals, int count,
               PlaneTarget* targets) const override;
 
- private:
-  Eigen::Vector3f toLeft(const Eigen::Vector3f& point_mm) const {
-    return left_from_world_rotation_ * point_mm + left_from_world_translation_mm_;
-  }
-  int pixelOf(const Eigen::Vector3f& point_left) const;
-  PlaneTarget targetAt(int pixel, const Eigen::Vector3f& point_left,
-                       const Eigen::Vector3f& normal) const;
-  float reliabilityAt(int pixel, const Eigen::Vector3f& lifted_left,
-                      const Eigen::Vector3f& normal_left) const;
+  /// Valid as long as depth and normals are.
+  const DepthLookUp& formula() const { return look_up_; }
 
-  const DepthMap& depth_;
-  const NormalMap& normals_;
-  int width_px_, height_px_;
-  float fx_px_, fy_px_, cx_px_, cy_px_;
-  Eigen::Matrix3f left_from_world_rotation_;
-  Eigen::Vector3f left_from_world_translation_mm_;
-  float squared_distance_limit_;
-  float cosine_limit_;
-  bool use_sigma_;
-  float reference_sigma_mm_;
-  float max_reliability_;
+ private:
+  DepthLookUp look_up_;
 };
 
 }  // namespace softscope

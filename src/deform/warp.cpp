@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/parallel.h"
+#include "deform/node_terms.h"
 #include "deform/shape_memory.h"
 
 namespace softscope {
@@ -14,15 +15,8 @@ static_assert(sizeof(PointBinding) == sizeof(std::int32_t) + 4 * sizeof(float),
 
 std::vector<PackedNode> packNodes(const WarpGraph& graph) {
   std::vector<PackedNode> packed(graph.size());
-  for (std::size_t j = 0; j < graph.size(); ++j) {
-    const NodeTransform& transform = graph.transforms[j];
-    const Eigen::Vector3d& g = graph.positions_mm[j];
-    Eigen::Map<Eigen::Matrix4f> columns(packed[j].values);
-    columns.setZero();
-    columns.topLeftCorner<3, 3>() = (transform.linear - Eigen::Matrix3d::Identity()).cast<float>();
-    columns.topRightCorner<3, 1>() =
-        (g + transform.translation_mm - transform.linear * g).cast<float>();
-  }
+  for (std::size_t j = 0; j < graph.size(); ++j)
+    packed[j] = packNode(graph.positions_mm[j], graph.transforms[j]);
   return packed;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/parallel.h"
 #include "fusion/sight.h"
 #include "fusion/visibility.h"
 
@@ -35,8 +36,9 @@ BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observat
   observation.validate();
   requireStates(states, observation);
   const PosedCamera& camera = drawn.camera();
-  std::vector<float> differences_mm;
-  for (int v = 0; v < states.height_px; ++v)
+  std::vector<std::vector<float>> rows(static_cast<std::size_t>(states.height_px));
+  parallelRows(states.height_px, [&](int v) {
+    std::vector<float>& differences_mm = rows[static_cast<std::size_t>(v)];
     for (int u = 0; u < states.width_px; ++u) {
       if (states.at(u, v) != PixelState::kSure) continue;
       const int index = drawn.pointAt(u, v);
@@ -46,7 +48,11 @@ BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observat
       const float measured_mm = measuredDepth(left, lifted, observation.normals.at(u, v));
       if (std::isfinite(measured_mm)) differences_mm.push_back(left.z() - measured_mm);
     }
-  return summarise(std::move(differences_mm));
+  });
+  std::vector<float> all_mm;  // by rows, so that sums don't depend on threads
+  all_mm.reserve(states.size());
+  for (const std::vector<float>& row : rows) all_mm.insert(all_mm.end(), row.begin(), row.end());
+  return summarise(std::move(all_mm));
 }
 
 BackProjectionError backProjectionError(const PointModel& model, const Observation& observation,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "fusion/fusion_weights.h"
 
 namespace softscope {
@@ -78,17 +79,22 @@ InnovationField::InnovationField(const PointModel& model, const WarpGraph& graph
   const std::vector<Difference> all =
       differences(model, graph, observation.depth, visibility, options);
   if (all.empty()) return;
-  const std::vector<double> away_mm =
-      nodeMeans(all, graph.size(), [](const Difference& one) { return one.away_mm; });
-  const std::vector<double> square_mm2 = nodeMeans(all, graph.size(), [&](const Difference& one) {
-    double around_mm = 0;
-    for (int k = 0; k < kNodesPerPoint; ++k)
-      around_mm += one.binding->weights[k] * away_mm[static_cast<std::size_t>((*one.stencil)[k])];
-    const double counted_mm = std::min(one.away_mm, kLargest * kGaussian * around_mm);
-    return counted_mm * counted_mm;
+  std::vector<double> square_mm2, expected_mm2;
+  const auto findSquares = [&] {
+    const std::vector<double> away_mm =
+        nodeMeans(all, graph.size(), [](const Difference& one) { return one.away_mm; });
+    square_mm2 = nodeMeans(all, graph.size(), [&](const Difference& one) {
+      double around_mm = 0;
+      for (int k = 0; k < kNodesPerPoint; ++k)
+        around_mm += one.binding->weights[k] * away_mm[static_cast<std::size_t>((*one.stencil)[k])];
+      const double counted_mm = std::min(one.away_mm, kLargest * kGaussian * around_mm);
+      return counted_mm * counted_mm;
+    });
+  };
+  parallelInvoke(findSquares, [&] {
+    expected_mm2 = nodeMeans(all, graph.size(),
+                             [](const Difference& one) { return one.sigma_mm * one.sigma_mm; });
   });
-  const std::vector<double> expected_mm2 = nodeMeans(
-      all, graph.size(), [](const Difference& one) { return one.sigma_mm * one.sigma_mm; });
   for (std::size_t n = 0; n < graph.size(); ++n)
     nodes_.push_back({static_cast<float>(square_mm2[n]),
                       static_cast<float>(std::max(0.0, square_mm2[n] - expected_mm2[n]))});

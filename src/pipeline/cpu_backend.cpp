@@ -288,7 +288,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   before_ = {};
   const ModelUpdateSummary update = updateModel(observation, frame_.states, state_.graph,
                                                 frame_.fusion, &state_.memory, &state_.model);
-  if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph);
+  if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");

@@ -7,11 +7,12 @@
 namespace softscope {
 
 void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
-                         const WarpGraph& graph) {
+                         const WarpGraph& graph, DeformSolver* solver) {
   drop();
-  result_ = std::async(std::launch::async, [options, &model, &graph] {
+  result_ = std::async(std::launch::async, [options, &model, &graph, solver] {
     Grown grown{model, graph};
     growGraph(options, &grown.model, &grown.graph);
+    solver->prepare(grown.graph);
     return grown;
   });
 }

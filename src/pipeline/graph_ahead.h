@@ -6,14 +6,17 @@
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "deform/deform_options.h"
+#include "deform/lm_solver.h"
 
 namespace softscope {
 
 /// growGraph() with at most one growth under way on a thread of its own. Same results.
 class GraphAhead {
  public:
-  /// Begins, on copies. Model and graph must live and stay as they are until grow() or drop().
-  void prepare(const GraphOptions& options, const PointModel& model, const WarpGraph& graph);
+  /// Begins, on copies, and prepares the solver for the result. Model and graph must live and stay
+  /// as they are, and the solver must not be used, until grow() or drop().
+  void prepare(const GraphOptions& options, const PointModel& model, const WarpGraph& graph,
+               DeformSolver* solver);
   /// Takes over what was begun for this model and graph, or grows them now.
   void grow(const GraphOptions& options, PointModel* model, WarpGraph* graph);
   /// Waits for what was begun and forgets it.

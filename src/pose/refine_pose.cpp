@@ -18,6 +18,7 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+constexpr int kPairsATask = 256;
 constexpr double kConvergedMm = 1e-4;
 constexpr double kTypicalDepthMm = 50;  // turns a rotation into a shift, to judge convergence
 constexpr double kCostScaleSq = 9;      // three standard errors
@@ -222,12 +223,15 @@ class Pairs {
   }
 
   std::vector<Residual> residualsAt(const Eigen::Isometry3d& left_from_world) const {
-    std::vector<Residual> residuals;
-    residuals.reserve(pairs_.size());
-    for (const PosePair& pair : pairs_) {
-      const Residual residual = residualAt(pair, left_from_world);
-      if (residual.usable) residuals.push_back(residual);
-    }
+    std::vector<Residual> residuals(pairs_.size());
+    parallelRanges(static_cast<int>(pairs_.size()), kPairsATask, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) {
+        const std::size_t i = static_cast<std::size_t>(k);
+        residuals[i] = residualAt(pairs_[i], left_from_world);
+      }
+    });
+    const auto unusable = [](const Residual& residual) { return !residual.usable; };
+    residuals.erase(std::remove_if(residuals.begin(), residuals.end(), unusable), residuals.end());
     return residuals;
   }
 

@@ -1,0 +1,13 @@
+// cuda/warp.h: the warp's least-squares problem on the GPU.
+#pragma once
+
+#include <memory>
+
+#include "deform/warp_device.h"
+
+namespace softscope::cuda {
+
+/// On the first GPU. Throws BackendError without a device that runs this build.
+std::unique_ptr<WarpDevice> makeWarpDevice(const WarpWeights& weights);
+
+}  // namespace softscope::cuda

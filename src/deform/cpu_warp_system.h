@@ -1,0 +1,13 @@
+// src/deform/cpu_warp_system.h: the least-squares problem of one frame on the processor's cores.
+#pragma once
+
+#include <memory>
+
+#include "deform/deform_options.h"
+#include "deform/warp_system.h"
+
+namespace softscope {
+
+std::unique_ptr<WarpSystem> makeCpuWarpSystem(const DeformOptions& options);
+
+}  // namespace softscope

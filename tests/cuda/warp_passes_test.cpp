@@ -1,0 +1,106 @@
+// tests/cuda/warp_passes_test.cpp: the kernels of the warp, run on the host in shuffled orders,
+// find the CPU's warp.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/error.h"
+#include "cuda/host_executor.h"
+#include "cuda/warp_run.h"
+#include "deform/block_pattern.h"
+#include "deform/dissection.h"
+#include "host_memory.h"
+#include "same_search.h"
+#include "warp_cases.h"
+
+namespace softscope {
+namespace {
+
+/// Memory and copies of the host in place of a device.
+class HostMachine {
+ public:
+  using Executor = cuda::HostExecutor;
+  class Memory {
+   public:
+    Memory() = default;
+    Memory(std::size_t bytes, const char*)
+        : memory_(std::make_unique<test::HostMemory>(bytes)), bytes_(bytes) {}
+    void* data() const { return memory_ ? memory_->data() : nullptr; }
+    std::size_t bytes() const { return bytes_; }
+
+   private:
+    std::unique_ptr<test::HostMemory> memory_;
+    std::size_t bytes_ = 0;
+  };
+
+  explicit HostMachine(unsigned seed) : executor_(seed) {}
+  Executor& executor() { return executor_; }
+  void toDevice(void* to, const void* from, std::size_t bytes) const {
+    std::memcpy(to, from, bytes);
+  }
+  void fromDevice(void* to, const void* from, std::size_t bytes) const {
+    std::memcpy(to, from, bytes);
+  }
+  void wait() const {}
+
+ private:
+  Executor executor_;
+};
+
+std::unique_ptr<DeformSolver> solverOnTheHost(const test::WarpScene& scene, unsigned seed) {
+  auto device = std::make_unique<cuda::WarpRun<HostMachine>>(scene.weights(), seed);
+  return makeDeformSolver(scene.options(),
+                          makeDeviceWarpSystem(scene.options(), std::move(device)));
+}
+
+class WarpPasses : public testing::TestWithParam<test::WarpCase> {};
+
+TEST_P(WarpPasses, FindTheCpusWarpInAnyOrderOfThreads) {
+  const test::WarpScene scene(GetParam()), other(test::warpCases().front());
+  const test::WarpScene::Found expected = scene.solve(makeDeformSolver(scene.options()).get());
+  const auto solver = solverOnTheHost(scene, 1), shuffled = solverOnTheHost(scene, 77);
+  other.solve(shuffled.get());  // nothing is left of another frame
+  const test::WarpScene::Found found = scene.solve(solver.get());
+  test::expectSameSearch(found.summary, expected.summary);
+  EXPECT_LT(test::furthestApart(found.graph, expected.graph), 1e-6);
+  EXPECT_EQ(test::furthestApart(found.graph, scene.solve(shuffled.get()).graph), 0);
+  EXPECT_EQ(test::furthestApart(found.graph, scene.solve(solver.get()).graph), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cuda, WarpPasses, testing::ValuesIn(test::warpCases()),
+                         [](const auto& each) { return each.param.name; });
+
+TEST(WarpPassesEdge, AffineNodesAreRefused) {
+  const test::WarpScene scene(test::warpCases().back());
+  DeformOptions affine = scene.options();
+  affine.node_model = NodeModel::kAffine;
+  EXPECT_THROW(makeDeviceWarpSystem(
+                   affine, std::make_unique<cuda::WarpRun<HostMachine>>(scene.weights(), 1U)),
+               OptionError);
+}
+
+/// Each node is eliminated once, and whatever it touches then lies in its front.
+TEST(Dissection, FrontsHoldAllThatTheirPivotsTouch) {
+  PointModel model = scenes::makeHill(60, 40, 0.7);
+  const BlockPattern pattern = makeBlockPattern(scenes::bindGraph(&model, 3));
+  const EliminationTree tree = dissect(pattern, 5);
+  std::vector<int> eliminated(static_cast<std::size_t>(pattern.nodes()), 0);
+  for (const Supernode& front : tree.supernodes) {
+    for (int c = 0; c < front.columns; ++c) ++eliminated[tree.order[front.first + c]];
+    EXPECT_EQ(front.rows.empty(), front.parent < 0);
+    EXPECT_LE(front.columns, 5);
+  }
+  for (const int times : eliminated) EXPECT_EQ(times, 1);
+  for (int j = 0; j < pattern.nodes(); ++j)
+    for (int b = pattern.column_start[j] + 1; b < pattern.column_start[j + 1]; ++b) {
+      const int low = std::min(tree.position[j], tree.position[pattern.row[b]]);
+      const int high = std::max(tree.position[j], tree.position[pattern.row[b]]);
+      const Supernode& front = tree.supernodes[tree.supernode_of[low]];
+      EXPECT_TRUE(high < front.first + front.columns ||
+                  std::binary_search(front.rows.begin(), front.rows.end(), high));
+    }
+  EXPECT_GT(tree.supernodes.size(), 20U);
+}
+
+}  // namespace
+}  // namespace softscope
