@@ -35,7 +35,7 @@ std::vector<FrameRecord> run(Reconstructor& reconstructor, std::size_t begin, st
 }
 
 std::string modelOf(const Reconstructor& reconstructor) {
-  return bytesOf(reconstructor.state().model.model);
+  return bytesOf(reconstructor.model().model);
 }
 
 const std::string& modelOfTheCpu() {

@@ -196,7 +196,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     folder.add(frame, result->names);
     record.add(asTabled(frame));
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
-      folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
+      folder.saveModel(frame.frame, frame.time_s, reconstructor.model());
     checkpoint.next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
     if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {
