@@ -1,5 +1,5 @@
 # Debian packages by CPack, one for each component of what is installed.
-set(contact "softscope authors <softscope@users.noreply.github.com>")
+set(contact "softscope authors <unknown@softscope.invalid>")
 if(DEFINED ENV{DEBEMAIL} AND DEFINED ENV{DEBFULLNAME})  # as Debian's own tools take them
   set(contact "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 endif()
