@@ -175,7 +175,7 @@ TEST(MakeBackend, CudaIsNotReplacedInSilence) {
       ADD_FAILURE() << "no GPU, and no error";
     } catch (const BackendError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(why));
-      EXPECT_THAT(error.what(), testing::HasSubstr("--backend cpu"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("`backend=` cpu"));
     }
 }
 

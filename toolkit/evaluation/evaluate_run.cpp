@@ -62,9 +62,10 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
 
 FrameFiles modelsFor(const EvaluateOptions& options, const JudgedRun& run) {
   if (options.each_model && run.countedModels().empty())
-    throw InputError(shown(run.folder / "models") +
-                     ": holds no model NNNNNN.ply of a fused frame, but --each asks for them; "
-                     "reconstruct with --save-every 1");
+    throw InputError(
+        shown(run.folder / "models") +
+        ": holds no model NNNNNN.ply of a fused frame, but `each_model=` asks for them; "
+        "reconstruct with `save_every=` 1");
   if (options.each_model) return run.countedModels();
   if (options.frame >= 0) {
     const std::filesystem::path file = savedModel(options.run, options.frame).file;
@@ -172,7 +173,8 @@ RunEvaluation withTruth(const EvaluateOptions& options, EvaluationResult result)
 
 void validateMaps(const EvaluateOptions& options) {
   if (options.alignment != MeshAlignment::kNone || options.each_model)
-    throw OptionError("--align and --each are for a mesh; maps are compared pixel by pixel");
+    throw OptionError(
+        "`align=` and `each_model=` are for a mesh; maps are compared pixel by pixel");
   checkThresholds(options.thresholds, depthMapJson({}), mapPart(mapOptionsOf(options)));
 }
 
@@ -189,15 +191,15 @@ void EvaluateOptions::validate() const {
   const ReferenceKind kind = kindOf(*this);
   if (kind == ReferenceKind::kMaps) return validateMaps(*this);
   if (!map_kind.empty() || !calibration.empty() || !confidence.empty())
-    throw OptionError("--map, --calibration and --confidence are of depth maps, but " + run +
-                      " is none and no folder of them");
+    throw OptionError("`map_kind=`, `calibration=` and `confidence=` are of depth maps, but " +
+                      run + " is none and no folder of them");
   if (kind != ReferenceKind::kMesh && (alignment != MeshAlignment::kNone || each_model))
     throw OptionError(
-        "--align and --each are for a mesh; a sequence is compared frame by frame, "
+        "`align=` and `each_model=` are for a mesh; a sequence is compared frame by frame, "
         "in its camera's frame, with no alignment");
   if (frame >= 0 && (kind != ReferenceKind::kMesh || each_model))
     throw OptionError(
-        "--frame is for a mesh without --each; a sequence is compared frame by frame");
+        "`frame=` is for a mesh without `each_model=`; a sequence is compared frame by frame");
   EvaluationResult empty;
   empty.against_mesh = kind == ReferenceKind::kMesh;
   const bool truthless = kind == ReferenceKind::kSequence;

@@ -31,10 +31,10 @@ class LayoutFolder {
   explicit LayoutFolder(fs::path folder) : folder_(std::move(folder)) {
     std::error_code ignored;
     if (fs::exists(folder_) && !fs::is_directory(folder_))
-      throw OptionError("--out: " + shown(folder_) + " is a file, but must be a folder");
+      throw OptionError("`out=`: " + shown(folder_) + " is a file, but must be a folder");
     if (fs::exists(folder_) && !fs::is_empty(folder_, ignored))
-      throw OptionError("--out: " + shown(folder_) +
-                        " is not empty; with --layout choose a new folder");
+      throw OptionError("`out=`: " + shown(folder_) +
+                        " is not empty; with `layout=` choose a new folder");
     files_.makeFolder(folder_);
   }
 
@@ -79,7 +79,7 @@ std::vector<SeenPoint> seenPoints(const SimulatedFrame& frame, const RectifiedRi
 }
 
 void requirePinhole(const std::string& name, const SimulateOptions& options) {
-  require(options.simulation.scope.lens().distortion.isZero(), "--layout", name,
+  require(options.simulation.scope.lens().distortion.isZero(), "`layout=`", name,
           "its truth lies on rectified images; leave scope.k1 … p2 at 0");
 }
 
@@ -231,7 +231,7 @@ std::unique_ptr<DatasetLayout> makeDatasetLayout(const std::string& name, const 
   const std::vector<std::string> names = datasetLayoutNames();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     const std::string nearest = nearestName(name, names);
-    throw OptionError("--layout: `" + name + "` is no known form" +
+    throw OptionError("`layout=`: `" + name + "` is no known form" +
                       (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
                       ". Give stir2026, surgt or scared");
   }
