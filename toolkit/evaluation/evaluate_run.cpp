@@ -109,23 +109,36 @@ Json hashesOf(const EvaluateOptions& options) {
   return hashes;
 }
 
+RunEvaluation interrupted() {
+  RunEvaluation evaluation;
+  evaluation.interrupted = true;
+  return evaluation;
+}
+
+/// The record with its thresholds, of which bare metrics are looked for in `part`, and `details`.
+template <class Result>
+RunEvaluation finished(const EvaluateOptions& options, const char* part, Json record,
+                       const Json& details, const FactSheet& facts, Result result) {
+  RunEvaluation evaluation;
+  evaluation.outcomes = checkThresholds(options.thresholds, record, part);
+  record["thresholds"] = thresholdsJson(evaluation.outcomes);
+  record.update(details);
+  evaluation.record = options.paths.applyTo(record);
+  evaluation.facts = facts;
+  evaluation.result = std::move(result);
+  return evaluation;
+}
+
 RunEvaluation withoutTruth(const EvaluateOptions& options, const JudgedRun& run,
                            const Progress& progress) {
   TruthlessResult result = judgeWithoutTruth(run, options.reference, options.views,
                                              counting(progress, run.countedModels().size()));
-  RunEvaluation evaluation;
-  evaluation.interrupted = result.interrupted;
-  if (result.interrupted) return evaluation;
+  if (result.interrupted) return interrupted();
   result.run = options.run;
   result.sequence = options.reference;
-  Json record = truthlessJson(result);
-  evaluation.outcomes = checkThresholds(options.thresholds, record, kView);
-  record["thresholds"] = thresholdsJson(evaluation.outcomes);
-  record["inputs_sha256"] = hashesOf(options);
-  evaluation.record = options.paths.applyTo(record);
-  evaluation.facts = truthlessFacts(result);
-  evaluation.result = std::move(result);
-  return evaluation;
+  const Json record = truthlessJson(result), details{{"inputs_sha256", hashesOf(options)}};
+  const FactSheet facts = truthlessFacts(result);
+  return finished(options, kView, record, details, facts, std::move(result));
 }
 
 DepthMapOptions mapOptionsOf(const EvaluateOptions& options) {
@@ -141,34 +154,22 @@ const char* mapPart(const DepthMapOptions& options) {
 RunEvaluation ofMaps(const EvaluateOptions& options, const Progress& progress) {
   const DepthMapOptions maps = mapOptionsOf(options);
   DepthMapResult result = judgeDepthMaps(maps, progress);
-  RunEvaluation evaluation;
-  evaluation.interrupted = result.interrupted;
-  if (result.interrupted) return evaluation;
-  Json record = depthMapJson(result);
-  evaluation.outcomes = checkThresholds(options.thresholds, record, mapPart(maps));
-  record["thresholds"] = thresholdsJson(evaluation.outcomes);
-  evaluation.record = options.paths.applyTo(record);
-  evaluation.facts = depthMapFacts(result);
-  evaluation.result = std::move(result);
-  return evaluation;
+  if (result.interrupted) return interrupted();
+  const Json record = depthMapJson(result);
+  const FactSheet facts = depthMapFacts(result);
+  return finished(options, mapPart(maps), record, Json::object(), facts, std::move(result));
 }
 
 RunEvaluation withTruth(const EvaluateOptions& options, EvaluationResult result) {
-  RunEvaluation evaluation;
-  evaluation.interrupted = result.surface.interrupted;
-  if (evaluation.interrupted) return evaluation;
+  if (result.surface.interrupted) return interrupted();
   result.run = options.run;
   result.reference = options.reference;
-  Json record = evaluationJson(result);
-  evaluation.outcomes = checkThresholds(options.thresholds, record, kSurface);
-  record["thresholds"] = thresholdsJson(evaluation.outcomes);
-  record["error_histogram"] = histogramJson(result.surface.pool.all_mm());
-  record["frames"] = frameTable(result).json();
-  record["inputs_sha256"] = hashesOf(options);
-  evaluation.record = options.paths.applyTo(record);
-  evaluation.facts = evaluationFacts(result);
-  evaluation.result = std::move(result);
-  return evaluation;
+  const Json record = evaluationJson(result);
+  const FactSheet facts = evaluationFacts(result);
+  const Json details{{"error_histogram", histogramJson(result.surface.pool.all_mm())},
+                     {"frames", frameTable(result).json()},
+                     {"inputs_sha256", hashesOf(options)}};
+  return finished(options, kSurface, record, details, facts, std::move(result));
 }
 
 void validateMaps(const EvaluateOptions& options) {
