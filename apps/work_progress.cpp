@@ -25,7 +25,8 @@ bool WorkProgress::tell(int done, int total) {
 
 WorkListener listenerOf(WorkProgress& progress) {
   return {progress.callback(), [](const std::string& text) { spdlog::warn("{}", text); },
-          [](const std::string& text) { spdlog::info("{}", text); }};
+          [](const std::string& text) { spdlog::info("{}", text); },
+          [](const std::string& text) { spdlog::error("{}", text); }};
 }
 
 }  // namespace softscope
