@@ -111,7 +111,7 @@ void SliceRequest::validate() const {
   if (ct.empty() && reference.empty() && surfaces.empty() && scans.empty())
     throw OptionError("there is nothing to slice; give a VOLUME, `reference=` or `surfaces=`");
   if (!positions.empty() && planes.size() != 1)
-    throw OptionError("`positions=` needs one of `planes=`");
+    throw OptionError("`positions=` is for one plane; give one by `planes=`");
   if (!positions.empty()) parsePositions(positions);
   for (const std::string& name : planes) planeNamed(*this, name, Eigen::Vector3d::Zero());
 }
