@@ -41,7 +41,7 @@ check_format() {
     say "not checked: clang-format 14 is not installed, and others disagree in places"
     return
   fi
-  find src eval vtk_views toolkit include python apps cuda tests cmake \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0 |
+  find src eval vtk_views toolkit include python apps packaging cuda tests cmake \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' \) -print0 |
     xargs -0 clang-format --dry-run -Werror ||
     fail "some sources are not formatted; run clang-format -i on the files named above"
   say "as .clang-format says"

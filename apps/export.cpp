@@ -1,27 +1,15 @@
 // apps/export.cpp: `softscope export`: models, and what becomes of them elsewhere.
-#include <cctype>
-#include <filesystem>
-#include <iostream>
+#include <spdlog/spdlog.h>
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
-#include "apps/progress_bar.h"
 #include "apps/result_output.h"
-#include "core/error.h"
-#include "io/files/atomic_file.h"
-#include "io/files/new_files.h"
-#include "io/text/message.h"
-#include "toolkit/export/export_dicom.h"
-#include "toolkit/export/export_files.h"
-#include "toolkit/export/export_input.h"
-#include "toolkit/export/export_surface.h"
+#include "apps/work_progress.h"
+#include "toolkit/export/export_model.h"
 
 namespace softscope {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = FactSheet::Json;
 
 const char* const kDetails =
     "MODEL is a folder that `reconstruct` wrote (its last model, or that of --frame), a PLY of\n"
@@ -54,160 +42,43 @@ class ExportCommand : public Command {
   int run() override;
 
  private:
-  void requireFit() const;
-  void exportModel();
-  void exportSeries();
-  void exportDicom();
-  ModelSurface surfaceOf(const fs::path& file, FactSheet& facts) const;
-  void tell(const FactSheet& facts) const;
-
-  std::string input_, out_, unit_;
-  SurfaceOptions surface_;
-  DicomTexts dicom_;
-  int frame_ = -1, every_ = 1;
-  double input_unit_mm_ = 1;
-  bool points_ = false, force_ = false;
+  ExportRequest request_;
 };
 
 void ExportCommand::declare(ArgumentList& arguments) {
-  arguments.positional("MODEL", input_, "a run, points or a mesh; for .dcm a PDF or a picture",
-                       true);
-  arguments.option("--out", "FILE", out_, "what to write; its ending is the format", true);
-  arguments.option("--frame", "N", frame_, "of a run: the model that was saved at this frame");
-  arguments.option("--every", "N", every_, "for .pvd: each N-th saved model (default 1)");
-  arguments.flag("--points", points_, "write the points, no triangles");
-  arguments.option("--unit", "UNIT", unit_, "of the file: mm (default), cm or m; glTF: always m");
-  arguments.option("--input-unit-mm", "N", input_unit_mm_,
+  arguments.positional("MODEL", request_.input,
+                       "a run, points or a mesh; for .dcm a PDF or a picture", true);
+  arguments.option("--out", "FILE", request_.out, "what to write; its ending is the format", true);
+  arguments.option("--frame", "N", request_.frame,
+                   "of a run: the model that was saved at this frame");
+  arguments.option("--every", "N", request_.every, "for .pvd: each N-th saved model (default 1)");
+  arguments.flag("--points", request_.points, "write the points, no triangles");
+  arguments.option("--unit", "UNIT", request_.unit,
+                   "of the file: mm (default), cm or m; glTF: always m");
+  arguments.option("--input-unit-mm", "N", request_.input_unit_mm,
                    "what one unit of MODEL measures: 1000 for metres (default 1)");
-  arguments.option("--gap-mm", "N", surface_.gap_mm,
+  arguments.option("--gap-mm", "N", request_.surface.gap_mm,
                    "wider gaps between points are holes (default: 5 point spacings)");
-  arguments.option("--island-mm2", "N", surface_.least_island_mm2,
+  arguments.option("--island-mm2", "N", request_.surface.least_island_mm2,
                    "smaller pieces are dropped (default 10)");
-  arguments.option("--patient-name", "TEXT", dicom_.patient_name, "for .dcm: Family^Given");
-  arguments.option("--patient-id", "TEXT", dicom_.patient_id, "for .dcm");
-  arguments.option("--title", "TEXT", dicom_.title, "for .dcm: of the document or the series");
-  arguments.flag("--force", force_, "overwrite what is there");
-}
-
-std::string lowerEnding(const std::string& file) {
-  std::string ending = fs::path(file).extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
-void ExportCommand::requireFit() const {
-  const std::string ending = lowerEnding(out_);
-  const bool run = fs::is_directory(input_);
-  surface_.validate();
-  require(frame_ >= -1, "--frame", frame_, "must be 0 or more");
-  if (frame_ >= 0 && !run) throw OptionError("--frame needs a run, but MODEL is a file");
-  if (ending == ".dcm") {
-    if (!canBecomeDicom(input_))
-      throw OptionError(
-          "--out is a DICOM file, which takes a PDF (of `report --pdf`) or a picture "
-          "as MODEL; for a model draw one with `softscope figure` first");
-    return;
-  }
-  if (!dicom_.patient_name.empty() || !dicom_.patient_id.empty() || !dicom_.title.empty())
-    throw OptionError("--patient-name, --patient-id and --title belong to .dcm files; this is `" +
-                      shown(out_) + "`");
-  if (ending == ".pvd" && (!run || frame_ >= 0))
-    throw OptionError("--out is a series (.pvd), which takes a run as MODEL and no --frame");
-  if (every_ != 1 && ending != ".pvd") throw OptionError("--every belongs to .pvd files");
-  const ModelFormat format = ending == ".pvd" ? ModelFormat::kVtp : formatOf(out_);
-  unitOf(unit_, format);
-  if (points_ && !holdsPoints(format))
-    throw OptionError("--points takes .ply, .vtp, .glb, .gltf or .pvd, because " + ending +
-                      " holds triangles alone");
-}
-
-ModelSurface ExportCommand::surfaceOf(const fs::path& file, FactSheet& facts) const {
-  ModelSurface model = readModelSurface(file, input_unit_mm_);
-  if (points_) model.triangles.clear();
-  if (!points_ && model.triangles.empty()) model = makeSurface(model, surface_, shown(file), facts);
-  return model;
-}
-
-void ExportCommand::tell(const FactSheet& facts) const { printFacts(facts, common.json); }
-
-void ExportCommand::exportModel() {
-  requireWritable(out_, force_);
-  const ModelFormat format = formatOf(out_);
-  const LengthUnit unit = unitOf(unit_, format);
-  const fs::path file =
-      fs::is_directory(input_) ? savedModel(input_, frame_).file : fs::path(input_);
-  FactSheet facts(shown(file));
-  facts.addQuietly("input", file.string());
-  const ModelSurface model = surfaceOf(file, facts);
-  writeFile(out_, modelBytes(model, format, unit), force_);
-  addModelFacts(model, facts);
-  facts.add("unit", "unit", unit.name);
-  const std::string colours = colourKeeping(format);
-  if (model.vertices.colours.empty() || colours.empty())
-    facts.add("colours", "colours", std::string("none"));
-  else
-    facts.add("colours", "colours", colours);
-  facts.add("written to", "out", out_);
-  tell(facts);
-}
-
-void ExportCommand::exportSeries() {
-  requireWritable(out_, force_);
-  const std::vector<SavedModel> models = savedModels(input_, every_);
-  const LengthUnit unit = unitOf(unit_, ModelFormat::kVtp);
-  const fs::path folder = fs::path(out_).replace_extension();
-  for (const SavedModel& model : models)
-    requireWritable(folder / (model.file.stem().string() + ".vtp"), force_);
-  NewFiles files;
-  files.makeFolder(folder);
-  ProgressBar progress("export", int(models.size()), progressStyle(common.quiet), std::cerr);
-  Json frames = Json::array();
-  std::string list;
-  for (const SavedModel& model : models) {
-    FactSheet facts(shown(model.file));
-    const ModelSurface surface = surfaceOf(model.file, facts);
-    const fs::path file = folder / (model.file.stem().string() + ".vtp");
-    const std::string bytes = modelBytes(surface, ModelFormat::kVtp, unit);
-    files.make(file, [&] { writeFile(file, bytes, force_); });
-    list += pvdLine(model.time_s, fs::path(folder.filename()) / file.filename());
-    addModelFacts(surface, facts);
-    facts.addQuietly("frame", model.frame);
-    facts.addQuietly("time_s", model.time_s);
-    facts.addQuietly("out", file.string());
-    frames.push_back(facts.json());
-    progress.advance();
-  }
-  files.make(out_, [&] { writeFile(out_, pvdFile(list), force_); });
-  files.keep();
-  FactSheet facts(shown(input_));
-  facts.add("models", "models", int(models.size()));
-  facts.add("unit", "unit", unit.name);
-  facts.addQuietly("frames", frames);
-  facts.add("written to", "out", out_);
-  facts.addLine("", shown(folder) + " (one .vtp a model)");
-  tell(facts);
-}
-
-void ExportCommand::exportDicom() {
-  const InterruptGuard interrupt;
-  writeDicom(input_, out_, dicom_, force_, [&] { return interrupt.requested(); });
-  FactSheet facts(shown(input_));
-  facts.add("patient",
-            dicom_.patient_name.empty() && dicom_.patient_id.empty() ? "not named" : "as given",
-            "anonymous", dicom_.patient_name.empty() && dicom_.patient_id.empty());
-  facts.add("written to", "out", out_);
-  tell(facts);
+  arguments.option("--patient-name", "TEXT", request_.dicom.patient_name, "for .dcm: Family^Given");
+  arguments.option("--patient-id", "TEXT", request_.dicom.patient_id, "for .dcm");
+  arguments.option("--title", "TEXT", request_.dicom.title,
+                   "for .dcm: of the document or the series");
+  arguments.flag("--force", request_.overwrite, "overwrite what is there");
 }
 
 int ExportCommand::run() {
-  requireFit();
-  const std::string ending = lowerEnding(out_);
-  if (ending == ".dcm")
-    exportDicom();
-  else if (ending == ".pvd")
-    exportSeries();
-  else
-    exportModel();
+  const InterruptGuard interrupt;
+  WorkProgress progress(
+      "export", request_.isSeries() ? progressStyle(common.quiet) : ProgressBar::Style::kSilent,
+      interrupt);
+  const ExportResult result = exportModel(request_, progress.callback());
+  if (result.interrupted) {
+    spdlog::warn("interrupted: nothing is written");
+    return kInterrupted;
+  }
+  printFacts(result.facts, common.json);
   return kDone;
 }
 

@@ -8,18 +8,21 @@
 
 #include <cstdlib>
 
+#include "apps/option_names.h"
 #include "io/images/quiet_libraries.h"
 #include "io/text/message.h"
 
 namespace softscope {
 namespace {
 
-/// The text of a message; names of files and texts from them can't command the terminal.
+/// The text of a message, with options for settings; names of files and texts from them can't
+/// command the terminal.
 class PrintableText : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
               spdlog::memory_buf_t& out) override {
-    const std::string text = printable({message.payload.data(), message.payload.size()});
+    const std::string text =
+        printable(withOptions({message.payload.data(), message.payload.size()}));
     out.append(text.data(), text.data() + text.size());
   }
   std::unique_ptr<custom_flag_formatter> clone() const override {

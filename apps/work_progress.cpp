@@ -23,9 +23,17 @@ bool WorkProgress::tell(int done, int total) {
   return !interrupted();
 }
 
+WorkListener logListener() {
+  return {{},
+          [](const std::string& text) { spdlog::warn("{}", text); },
+          [](const std::string& text) { spdlog::info("{}", text); },
+          [](const std::string& text) { spdlog::error("{}", text); }};
+}
+
 WorkListener listenerOf(WorkProgress& progress) {
-  return {progress.callback(), [](const std::string& text) { spdlog::warn("{}", text); },
-          [](const std::string& text) { spdlog::info("{}", text); }};
+  WorkListener listener = logListener();
+  listener.progress = progress.callback();
+  return listener;
 }
 
 }  // namespace softscope

@@ -31,7 +31,9 @@ class WorkProgress {
   bool ended_ = false;
 };
 
-/// Warnings and notes go to the log.
+/// Warnings, notes and failures go to the log.
+WorkListener logListener();
+/// The same, with the bar and Ctrl-C.
 WorkListener listenerOf(WorkProgress& progress);
 
 }  // namespace softscope

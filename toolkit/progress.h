@@ -18,10 +18,14 @@ inline bool goesOn(const Progress& progress, int done, int total) {
 /// What long work tells while it runs. Each callback may be empty.
 struct WorkListener {
   Progress progress;
-  std::function<void(const std::string&)> warning, note;  // one line each
+  std::function<void(const std::string&)> warning, note, failure;  // one line each
 
   void warn(const std::string& text) const {
     if (warning) warning(text);
+  }
+  /// Of a part of the work; the rest goes on.
+  void fail(const std::string& text) const {
+    if (failure) failure(text);
   }
   void tell(const std::string& text) const {
     if (note) note(text);

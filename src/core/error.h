@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// Any failure that softscope reports; the text says where, what was found, what was expected and
-/// what to do. Libraries throw, only apps print and choose an exit code.
+/// Any failure that softscope reports: where, what was found, what was expected, what to do; names
+/// settings as a program gives them (`save_every=`). Libraries throw, only apps print and exit.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/mask_morphology.h"
 #include "core/parallel.h"
-#include "features/mask_morphology.h"
 
 namespace softscope {
 
@@ -26,7 +26,7 @@ Mask highlightMask(const ColourImage& image) {
       mask.at(u, v) = most >= kHighlightBrightness && 256 * (most - least) <= saturation_q8 * most;
     }
   });
-  return grown(mask, kHighlightHaloPx);
+  return dilated(mask, kHighlightHaloPx);
 }
 
 }  // namespace softscope

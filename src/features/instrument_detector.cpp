@@ -2,8 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "core/mask_morphology.h"
 #include "core/parallel.h"
-#include "features/mask_morphology.h"
 
 namespace softscope {
 namespace {
@@ -68,9 +68,9 @@ Mask largeFromBorder(const Mask& mask) {
 Mask detectInstruments(const ColourImage& image) {
   if (image.empty()) return Mask();
   const Mask colourless = colourlessPixels(softened(image));
-  const Mask opened = grown(shrunk(colourless, kInstrumentOpenPx), kInstrumentOpenPx);
-  const Mask closed = shrunk(grown(opened, kInstrumentClosePx), kInstrumentClosePx);
-  return grown(largeFromBorder(closed), kInstrumentRimPx);
+  const Mask opened = dilated(eroded(colourless, kInstrumentOpenPx), kInstrumentOpenPx);
+  const Mask closed = eroded(dilated(opened, kInstrumentClosePx), kInstrumentClosePx);
+  return dilated(largeFromBorder(closed), kInstrumentRimPx);
 }
 
 }  // namespace softscope

@@ -10,9 +10,9 @@ namespace softscope {
 namespace {
 
 /// Indices of the matches in squares of the model picture.
-class Squares {
+class MatchSquares {
  public:
-  Squares(const std::vector<PixelMatch>& matches, float side_px) : side_px_(side_px) {
+  MatchSquares(const std::vector<PixelMatch>& matches, float side_px) : side_px_(side_px) {
     for (const PixelMatch& match : matches) {
       columns_ = std::max(columns_, column(match) + 1);
       rows_ = std::max(rows_, row(match) + 1);
@@ -49,7 +49,7 @@ std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
                                        const ConsistencyOptions& options) {
   if (options.kMinShare <= 0) return matches;
   const ConsistencyRules rules = consistencyRules(options);
-  const Squares squares(matches, static_cast<float>(options.kReachPx));
+  const MatchSquares squares(matches, static_cast<float>(options.kReachPx));
   std::vector<std::uint8_t> kept(matches.size(), 0);
   parallelRanges(static_cast<int>(matches.size()), 256, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/mask_morphology.h"
 #include "core/median.h"
 #include "features/descriptor_matching.h"
 #include "features/feature_settings.h"
 #include "features/kernels.h"
-#include "features/mask_morphology.h"
 #include "features/match_consistency.h"
 #include "features/match_formulas.h"
 #include "features/match_pyramid.h"
@@ -131,7 +131,7 @@ MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& opti
   Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
   for (std::size_t i = 0; i < dark.size(); ++i)
     dark.values[i] = isDark(picture.gray.values[i], options.kDarkestGray);
-  MatchPicture out{picture.gray, grown(dark, options.kDarkMarginPx), picture.anchor};
+  MatchPicture out{picture.gray, dilated(dark, options.kDarkMarginPx), picture.anchor};
   for (std::size_t i = 0; i < picture.ignore.size(); ++i)
     if (picture.ignore.values[i] != 0) out.ignore.values[i] = 1;
   return out;

@@ -55,7 +55,7 @@ auto choose(const std::string& name, const FrameDepthOptions& depth, const std::
   if (name == "cpu") return {makeOnCpu(), "cpu", ""};
   if (name == "cuda") {
     if (const std::string why = whyNoCuda(); !why.empty())
-      throw BackendError("--backend cuda: " + why + ". --backend cpu or auto needs no GPU");
+      throw BackendError("`backend=` cuda: " + why + ". `backend=` cpu or auto needs no GPU");
     return {makeOnGpu(), "cuda", ""};
   }
   std::string why = whyNotOnGpu(depth);
@@ -78,7 +78,7 @@ std::string whyNoCuda() {
 
 void requireBackendName(const std::string& name) {
   if (name != "auto" && name != "cpu" && name != "cuda")
-    throw OptionError("--backend is `" + name + "`, but must be auto, cpu or cuda");
+    throw OptionError("`backend=` is `" + name + "`, but must be auto, cpu or cuda");
 }
 
 Chosen<std::unique_ptr<ReconstructionBackend>> makeBackend(const std::string& name,

@@ -78,7 +78,7 @@ class Reader {
 
  private:
   [[noreturn]] void fail() const {
-    throw InputError(name_ + ": the checkpoint is damaged. Start the run again without --resume");
+    throw InputError(name_ + ": the checkpoint is damaged. Start the run again without `resume=`");
   }
   void raw(void* data, std::size_t size) {
     if (size > bytes_.size()) fail();
@@ -168,10 +168,10 @@ Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name) {
   std::uint64_t checksum = 0;
   const std::size_t head = kMagic.size() + sizeof checksum;
   if (bytes.size() < head || bytes.substr(0, kMagic.size()) != kMagic)
-    throw InputError(name + ": is no checkpoint of this version. Start again without --resume");
+    throw InputError(name + ": is no checkpoint of this version. Start again without `resume=`");
   std::memcpy(&checksum, bytes.data() + kMagic.size(), sizeof checksum);
   if (checksumOf(bytes.substr(head)) != checksum)
-    throw InputError(name + ": the checkpoint is damaged. Start the run again without --resume");
+    throw InputError(name + ": the checkpoint is damaged. Start the run again without `resume=`");
   Reader reader(bytes.substr(head), name);
   Checkpoint checkpoint;
   visit(reader, checkpoint);

@@ -42,7 +42,7 @@ class CpuBackend : public ReconstructionBackend {
   std::string device() const override { return device_; }
   const RectifiedRig& rig() const override { return frames_.depth().rig(); }
   bool empty() const override { return state_.model.empty(); }
-  ModelState state() const override { return state_; }
+  const ModelState& state() const override { return state_; }
   void restore(ModelState state) override {
     growth_.drop();
     state_ = std::move(state);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mask_morphology.h"
 #include "features/highlight_mask.h"
 #include "features/instrument_detector.h"
-#include "features/mask_morphology.h"
 
 namespace softscope {
 namespace {
@@ -30,7 +30,7 @@ Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options) {
   for (std::size_t i = 0; i < frame.border.size(); ++i)
     if (frame.border.values[i] != 0) mask.values[i] = 0;
   if (options.detect_instruments) addTo(mask, detectInstruments(frame.left));
-  if (options.margin_px > 0) mask = grown(mask, options.margin_px);
+  if (options.margin_px > 0) mask = dilated(mask, options.margin_px);
   addTo(mask, frame.border);  // without a margin: no matching window reached it
   return mask;
 }

@@ -138,7 +138,8 @@ class ReconstructionBackend {
   virtual bool empty() const = 0;
   /// Follows these tissue points; they lie in the first frame that is fused.
   virtual void track(const std::vector<TrackSeed>& seeds) = 0;
-  virtual ModelState state() const = 0;
+  /// Valid until the next call that changes the model.
+  virtual const ModelState& state() const = 0;
   virtual void restore(ModelState state) = 0;
 };
 

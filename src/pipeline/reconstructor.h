@@ -41,6 +41,9 @@ class Reconstructor {
   void track(const std::vector<TrackSeed>& seeds) { backend_->track(seeds); }
 
   const ReconstructionBackend& backend() const { return *backend_; }
+  /// Valid until the next frame is processed.
+  const ModelState& model() const { return backend_->state(); }
+  /// A copy of everything that the next frame needs.
   ReconstructionState state() const;
   void restore(ReconstructionState state);
 

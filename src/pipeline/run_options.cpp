@@ -11,7 +11,7 @@ RunOptions RunOptions::ofPreset(const std::string& preset) {
   if (preset == "paper")
     options.method = ReconstructionOptions::paper();
   else
-    require(preset == "default", "--preset", "`" + preset + "`", "must be default or paper");
+    require(preset == "default", "`preset=`", "`" + preset + "`", "must be default or paper");
   return options;
 }
 

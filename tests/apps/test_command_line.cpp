@@ -1,6 +1,7 @@
 // tests/apps/test_command_line.cpp: help, misspelt words, exit codes.
 #include <gmock/gmock.h>
 
+#include "apps/option_names.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
@@ -100,6 +101,24 @@ TEST(CommandLine, AnOptionOutOfItsRangeIsNamed) {
   const Outcome outcome = run({"depth", "a", "--out", "x", "--set", "stereo.method=magic"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("--set: stereo.method is magic, expected elas or sgbm"));
+}
+
+TEST(CommandLine, SettingsInErrorsBecomeOptions) {
+  for (const auto& [message, told] : std::vector<std::pair<std::string, std::string>>{
+           {"`save_every=` is -1, but can't be negative",
+            "--save-every is -1, but can't be negative"},
+           {"a: exists. Choose another name or give `overwrite=`",
+            "a: exists. Choose another name or give --force"},
+           {"`each_model=` and `dots_per_inch=`: 2", "--each and --dpi: 2"},
+           {"`kind=` is `frames`, but must be four", "--kind is `frames`, but must be four"},
+           {"a.csv: has no column `frame`", "a.csv: has no column `frame`"},
+           {"`stereo.method=sgbm`, `elsewhere=`, one ` alone, `frame=",
+            "`stereo.method=sgbm`, `elsewhere=`, one ` alone, `frame="},
+           {"", ""}})
+    EXPECT_EQ(withOptions(message), told);
+  const Outcome outcome = run({"export", "/absent", "--out", "a.ply", "--unit", "inch"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--unit is `inch`, but must be mm, cm or m"));
 }
 
 TEST(CommandLine, SettingsAreListedWithRangeUnitAndMeaning) {

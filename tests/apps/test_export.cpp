@@ -14,6 +14,7 @@
 #include "mesh/mesh_reader.h"
 #include "tests/apps/made_run.h"
 #include "tests/apps/run_softscope.h"
+#include "toolkit/export/export_model.h"
 #include "toolkit/run/model_file.h"
 
 namespace softscope::test {
@@ -104,6 +105,26 @@ TEST_F(Export, TakesRunsTheirFramesAndTheirSeries) {
   EXPECT_THAT(list, HasSubstr("file=\"all/000002.vtp\""));
   EXPECT_THAT(run({"export", at("run"), "--frame", "9", "--out", at("c.ply")}).err,
               HasSubstr("saved are the frames 0, 1, 2, 3"));
+}
+
+TEST_F(Export, ASeriesThatIsStoppedLeavesNothing) {
+  makeWallRun(at("run"), 4);
+  ExportRequest request;
+  request.input = at("run");
+  request.out = at("all.pvd");
+  request.points = true;
+  std::vector<int> told;
+  const auto stopAfterTwo = [&](int done, int total) {
+    EXPECT_EQ(total, 4);
+    told.push_back(done);
+    return done < 2;
+  };
+  EXPECT_TRUE(exportModel(request, stopAfterTwo).interrupted);
+  EXPECT_EQ(told, (std::vector<int>{0, 1, 2}));
+  EXPECT_FALSE(fs::exists(at("all.pvd")));
+  EXPECT_FALSE(fs::exists(at("all")));
+  EXPECT_FALSE(exportModel(request).interrupted);
+  EXPECT_TRUE(fs::exists(at("all/000003.vtp")));
 }
 
 TEST_F(Export, OverwritesNothingUnlessAskedTo) {

@@ -33,7 +33,7 @@ TEST_F(Interrupt, FinishedFramesAndTheirSummaryStay) {
   const pid_t child = fork();
   if (child == 0) {
     execl(executable().c_str(), "softscope", "depth", sequence.c_str(), "--out", out.c_str(),
-          "--quiet", nullptr);
+          "--write", "disparity,depth,confidence,cloud,picture", "--quiet", nullptr);
     _exit(127);
   }
   waitFor(out + "/000001_picture.png");

@@ -65,7 +65,7 @@ std::string modelAfterThreeFrames(const BackendParts& parts) {
     }
     EXPECT_TRUE(reconstructor.process(frame).fused());
   }
-  return bytesOf(reconstructor.state().model.model);
+  return bytesOf(reconstructor.model().model);
 }
 
 TEST(HostBackend, KernelsGiveTheModelOfTheCpu) {

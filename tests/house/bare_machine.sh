@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
-# tests/house/bare_machine.sh: README's two commands on a bare Debian 12, in a chroot made for them.
+# tests/house/bare_machine.sh: README's two commands, or the packages, on a bare Debian 12 in a chroot.
 set -euo pipefail
 
 usage() {
   cat <<'EOT'
-usage: tests/house/bare_machine.sh [--keep] FOLDER [COMMAND…]
+usage: tests/house/bare_machine.sh [--keep] [--packages DIR] FOLDER [COMMAND…]
   Builds Debian 12 without anything beyond its base in FOLDER, which must not exist, from the mirror
   that this machine's apt uses; puts a clean checkout of the last commit in, and runs there each
   COMMAND (./demo.sh and ./test.sh unless others are named). Ends with the time that each took, on
   the clock and of the processor; exits with 1 where one failed. To be run by hand, as root;
   needs debootstrap, git and 10 GB.
-  --keep   leaves FOLDER as it is in the end
+  --keep          leaves FOLDER as it is in the end
+  --packages DIR  copies the .deb files of DIR to /packages there; the command is then
+                  tests/house/try_packages.sh /packages unless others are named
 EOT
 }
 
@@ -20,21 +22,27 @@ fail() {
 }
 
 keep=no
-if [ "${1:-}" = --keep ]; then
-  keep=yes
-  shift
-fi
-case ${1:-} in
-  --help | -h) usage; exit 0 ;;
-  '' | -*) usage >&2; exit 2 ;;
-esac
+packages=
+while :; do
+  case ${1:-} in
+    --keep) keep=yes; shift ;;
+    --packages) packages=${2:-}; shift 2 || break ;;
+    --help | -h) usage; exit 0 ;;
+    '' | -*) usage >&2; exit 2 ;;
+    *) break ;;
+  esac
+done
 folder=$1
 shift
 commands=("$@")
-if [ "${#commands[@]}" -eq 0 ]; then commands=(./demo.sh ./test.sh); fi
+if [ "${#commands[@]}" -eq 0 ]; then
+  commands=(./demo.sh ./test.sh)
+  if [ -n "$packages" ]; then commands=("tests/house/try_packages.sh /packages"); fi
+fi
 checkout=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
 [ "$(id -u)" -eq 0 ] || fail "this is not root, who alone may build a chroot"
+[ -z "$packages" ] || ls "$packages"/*.deb >/dev/null 2>&1 || fail "$packages holds no .deb file"
 [ ! -e "$folder" ] || fail "$folder exists; name a folder that doesn't"
 for tool in debootstrap git; do
   command -v "$tool" >/dev/null || fail "$tool is not installed"
@@ -68,6 +76,10 @@ mount -t tmpfs tmpfs "$folder/dev/shm"
 
 echo "Checkout of $(git -C "$checkout" log -1 --format='%h %s')"
 git clone --quiet "$checkout" "$folder/softscope"
+if [ -n "$packages" ]; then
+  mkdir "$folder/packages"
+  cp "$packages"/*.deb "$folder/packages"
+fi
 
 # run_bare COMMAND: as a newcomer would, with nothing of this machine's environment.
 run_bare() {

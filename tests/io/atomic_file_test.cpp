@@ -36,7 +36,7 @@ TEST(AtomicFile, RefusesToOverwriteUnlessTold) {
   TemporaryFolder folder;
   writeFile(folder / "a.txt", "first", false);
   expectError<OptionError>([&] { writeFile(folder / "a.txt", "second", false); },
-                           {"a.txt", "exists", "--force"});
+                           {"a.txt", "exists", "`overwrite=`"});
   EXPECT_EQ(get(folder / "a.txt"), "first");
   writeFile(folder / "a.txt", "second", true);
   EXPECT_EQ(get(folder / "a.txt"), "second");
@@ -47,7 +47,7 @@ TEST(AtomicFile, RefusesWhatAppearedMeanwhile) {
   AtomicFile file(folder / "a.txt", false);
   file.write("ours");
   put(folder / "a.txt", "theirs");
-  expectError<OptionError>([&] { file.commit(); }, {"a.txt", "--force"});
+  expectError<OptionError>([&] { file.commit(); }, {"a.txt", "`overwrite=`"});
   EXPECT_EQ(get(folder / "a.txt"), "theirs");
 }
 

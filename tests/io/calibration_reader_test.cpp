@@ -305,7 +305,7 @@ TEST(CalibrationReader, WritesWhatOpenCvReads) {
   EXPECT_DOUBLE_EQ(t.at<double>(0), -5);
   expectError<OptionError>(
       [&] { writeCalibration(folder / "c.yaml", parseCalibration(openCas(), "c")); },
-      {"c.yaml", "--force"});
+      {"c.yaml", "`overwrite=`"});
 }
 
 TEST(CalibrationReader, AFolderWithoutCalibrationSaysWhatToAdd) {

@@ -154,7 +154,7 @@ TEST(ImageWriter, WritesPngJpegAndSixteenBits) {
             54321);
   writeJpeg(folder / "j.jpg", image);
   EXPECT_LT(meanDifference(readColourImage(folder / "j.jpg"), image), 4);
-  expectError<OptionError>([&] { writePng(folder / "c.png", image); }, {"c.png", "--force"});
+  expectError<OptionError>([&] { writePng(folder / "c.png", image); }, {"c.png", "`overwrite=`"});
   writePng(folder / "c.png", makeTexture(7, 7), true);
   EXPECT_EQ(readColourImage(folder / "c.png").width_px, 7);
   expectError<OptionError>([&] { writeJpeg(folder / "k.jpg", image, 0); }, {"quality"});

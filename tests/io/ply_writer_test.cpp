@@ -55,7 +55,7 @@ TEST(PlyWriter, RefusesUnequalCountsAndOverwriting) {
   TemporaryFolder folder;
   PointCloud cloud = twoPoints();
   writePly(folder / "c.ply", cloud, {});
-  expectError<OptionError>([&] { writePly(folder / "c.ply", cloud, {}); }, {"--force"});
+  expectError<OptionError>([&] { writePly(folder / "c.ply", cloud, {}); }, {"`overwrite=`"});
   cloud.normals.pop_back();
   expectError<Error>([&] { plyBytes(cloud, {}); }, {"1 normals", "2 points"});
 }

@@ -102,7 +102,7 @@ TEST(SequenceReader, ReadsARange) {
   EXPECT_EQ(frames[0].index, 3);
   options.frames = parseFrameRange("6:9");
   expectError<OptionError>([&] { SequenceReader(folder.path(), options); },
-                           {"--frames 6:9", "8 frames"});
+                           {"`frames=` 6:9", "8 frames"});
 }
 
 TEST(SequenceReader, FrameRangesAreHalfOpen) {
@@ -112,7 +112,7 @@ TEST(SequenceReader, FrameRangesAreHalfOpen) {
   EXPECT_EQ(parseFrameRange(":").begin, 0);
   for (const char* text :
        {"", "5", "5:5", "7:3", "-1:4", "a:b", "1:2:3:4", "1:5:0", "1:5:-2", "1:5:a", "1.5:2"})
-    expectError<OptionError>([&] { parseFrameRange(text); }, {"--frames"});
+    expectError<OptionError>([&] { parseFrameRange(text); }, {"`frames=`"});
 }
 
 TEST(SequenceReader, ReadsEveryStepthFrameUnderItsOwnNumber) {
@@ -311,7 +311,7 @@ TEST(SequenceReader, TakesAUsersOwnLayout) {
   SequenceReader reader(paths, {});
   EXPECT_EQ(expectTestPairs(reader, 0).size(), 1U);
   paths.calibration.clear();
-  expectError<OptionError>([&] { SequenceReader(paths, {}); }, {"--calibration"});
+  expectError<OptionError>([&] { SequenceReader(paths, {}); }, {"`calibration=`"});
 }
 
 TEST(SequenceReader, KeepsFewFramesReadyAndStopsWhenLeft) {

@@ -57,7 +57,7 @@ TEST(Settings, KeysAndBracketsNestOnlySoDeep) {
   expectError<InputError>([&] { parseSettings("[" + key + "b]", "s.toml"); }, {"s.toml:1"});
   expectError<InputError>([&] { parseSettings("x = " + brackets, "s.toml"); }, {"s.toml:1"});
   Settings settings;
-  expectError<InputError>([&] { addAssignment(settings, "x=" + brackets); }, {"--set x"});
+  expectError<InputError>([&] { addAssignment(settings, "x=" + brackets); }, {"`set=` x"});
   const std::string dots(200, '.');
   EXPECT_EQ(parseSettings("x = \"" + dots + "\\\"" + dots + "\" # " + dots + "\ny = '" + dots + "'",
                           "s.toml")

@@ -146,8 +146,8 @@ TEST(VideoSource, FramesThatChangeSizeAreAnErrorFromThereOn) {
   ASSERT_EQ(video->count(), 4);
   EXPECT_NEAR(video->read(0).at(5, 5).red, 50, 3);
   EXPECT_NEAR(video->read(1).at(5, 5).red, 100, 3);
-  expectError<InputError>([&] { video->read(2); },
-                          {"v.avi", "96 x 80 to 128 x 96 px at frame 2", "--frames 0:2", "ffmpeg"});
+  expectError<InputError>([&] { video->read(2); }, {"v.avi", "96 x 80 to 128 x 96 px at frame 2",
+                                                    "`frames=` 0:2", "ffmpeg"});
 }
 
 TEST(VideoSource, FramesOfOneSizeAreRead) {

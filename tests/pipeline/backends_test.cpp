@@ -35,7 +35,7 @@ std::vector<FrameRecord> run(Reconstructor& reconstructor, std::size_t begin, st
 }
 
 std::string modelOf(const Reconstructor& reconstructor) {
-  return bytesOf(reconstructor.state().model.model);
+  return bytesOf(reconstructor.model().model);
 }
 
 const std::string& modelOfTheCpu() {
@@ -175,7 +175,7 @@ TEST(MakeBackend, CudaIsNotReplacedInSilence) {
       ADD_FAILURE() << "no GPU, and no error";
     } catch (const BackendError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(why));
-      EXPECT_THAT(error.what(), testing::HasSubstr("--backend cpu"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("`backend=` cpu"));
     }
 }
 

@@ -61,7 +61,7 @@ TEST(Reconstructor, GivesTheSameBytesOnAnyNumberOfThreads) {
     const ThreadLimit limit(threads);
     Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
     for (int i = 0; i < 3; ++i) reconstructor.process(clip.frames[static_cast<std::size_t>(i)]);
-    const std::string bytes = bytesOf(reconstructor.state().model.model);
+    const std::string bytes = bytesOf(reconstructor.model().model);
     ASSERT_FALSE(bytes.empty());
     if (first.empty()) first = bytes;
     EXPECT_TRUE(first == bytes);
@@ -91,7 +91,7 @@ TEST_P(Resumed, GoesOnAsIfItHadNotStopped) {
     a = whole.process(clip.frames[static_cast<std::size_t>(i)]);
     b = after.process(clip.frames[static_cast<std::size_t>(i)]);
   }
-  EXPECT_TRUE(bytesOf(whole.state().model.model) == bytesOf(after.state().model.model));
+  EXPECT_TRUE(bytesOf(whole.model().model) == bytesOf(after.model().model));
   EXPECT_EQ(a.world_from_left.matrix(), b.world_from_left.matrix());
   ASSERT_EQ(a.tracked.size(), b.tracked.size());
   for (std::size_t i = 0; i < a.tracked.size(); ++i) {
@@ -109,12 +109,12 @@ TEST_P(UselessFrame, IsSkippedAndLeavesTheModelAlone) {
   const ShortClip& clip = shortClip();
   Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
   for (int i = 0; i < 2; ++i) reconstructor.process(clip.frames[static_cast<std::size_t>(i)]);
-  const std::string before = bytesOf(reconstructor.state().model.model);
+  const std::string before = bytesOf(reconstructor.model().model);
   const FrameRecord bad =
       reconstructor.process(flatFrame(clip, 2, static_cast<std::uint8_t>(GetParam())));
   EXPECT_EQ(bad.status, FrameStatus::kSkippedDepth);
   EXPECT_FALSE(bad.reason.empty());
-  EXPECT_TRUE(before == bytesOf(reconstructor.state().model.model));
+  EXPECT_TRUE(before == bytesOf(reconstructor.model().model));
   const FrameRecord next = reconstructor.process(clip.frames[2]);
   EXPECT_TRUE(next.fused()) << next.reason;
 }
@@ -130,13 +130,13 @@ TEST(Reconstructor, UndoesWhatTheFrameDoesNotConfirm) {
   Reconstructor reconstructor = reconstructorOf(clip, options);
   reconstructor.track(clip.seeds);
   reconstructor.process(clip.frames[0]);
-  const std::string before = bytesOf(reconstructor.state().model.model);
+  const std::string before = bytesOf(reconstructor.model().model);
   const FrameRecord record = reconstructor.process(clip.frames[1]);
   ASSERT_EQ(record.status, FrameStatus::kUnconfirmed) << record.reason;
   EXPECT_GT(record.evidence.view.confidence(), 0.5);  // it was right
   EXPECT_NE(record.reason.find("% of the blocks"), std::string::npos) << record.reason;
   EXPECT_TRUE(record.world_from_left.isApprox(Eigen::Isometry3d::Identity()));
-  PointModel after = reconstructor.state().model.model;
+  PointModel after = reconstructor.model().model;
   for (PointBinding& binding : after.bindings) binding = {};  // the graph may grow
   EXPECT_TRUE(before == bytesOf(after));
   EXPECT_EQ(reconstructor.process(clip.frames[2]).status, FrameStatus::kUnconfirmed);
@@ -230,7 +230,7 @@ TEST(Reconstructor, KeepsInstrumentsOutOfTheModel) {
         for (int u = 90; u < 150; ++u) picture->at(u, v) = {0, 255, 0};
     reconstructor.process(frame);
   }
-  const PointModel model = reconstructor.state().model.model;
+  const PointModel model = reconstructor.model().model;
   ASSERT_GT(model.size(), 1000u);
   for (const Rgb8& colour : model.colours)
     EXPECT_FALSE(colour.green > 200 && colour.red < 60 && colour.blue < 60);

@@ -165,6 +165,10 @@ class Refuses(Clip):
             softscope.evaluate(self.made, self.clip, align="somehow")
         with self.assertRaises(softscope.OptionError):
             softscope.Reconstructor(self.calibration).finish()
+        with self.assertRaisesRegex(softscope.OptionError, "^`kind=` is pie, but must be four"):
+            softscope.figure([str(self.root / "a.png")], kind="pie")
+        with self.assertRaisesRegex(softscope.OptionError, "give `overwrite=`"):
+            softscope.simulate(self.made.folder, {"frames": 1})
         self.assertTrue(issubclass(softscope.InputError, softscope.Error))
         self.assertTrue(issubclass(softscope.Error, RuntimeError))
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "core/mask_morphology.h"
 #include "stereo/matching/stereo_matcher.h"
 #include "stereo/rectification/image_border.h"
 #include "stereo/rectification/row_alignment.h"

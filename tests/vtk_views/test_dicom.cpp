@@ -192,7 +192,7 @@ TEST_P(DicomTags, AreAnErrorThatNamesTheTagAndNeverAGuess) {
 
 TEST_P(DicomTags, OfOneSliceAreAnErrorUnlessSlicesMayMiss) {
   writeSeries(GetParam().tag, GetParam().value, /*only_slice=*/2);
-  EXPECT_THAT(errorOf({}), AllOf(HasSubstr("1 of 6 slices"), HasSubstr("--allow-missing-slices")));
+  EXPECT_THAT(errorOf({}), AllOf(HasSubstr("1 of 6 slices"), HasSubstr("`allow_missing_slices=`")));
   VolumeOptions options;
   options.allow_missing_slices = true;
   const Volume volume = readVolume(folder, options);

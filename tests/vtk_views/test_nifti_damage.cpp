@@ -86,7 +86,7 @@ TEST_F(DamagedNifti, WithoutSidesOfItsVoxelsAsksForThem) {
   set<std::int16_t>(252, 1);
   set<float>(80, 0);
   const std::string file = write("q.nii", head + voxels);
-  EXPECT_THAT(errorOf(file), testing::AllOf(HasSubstr("pixdim[1]"), HasSubstr("--spacing X,Y,Z")));
+  EXPECT_THAT(errorOf(file), testing::AllOf(HasSubstr("pixdim[1]"), HasSubstr("`spacing=` X,Y,Z")));
   EXPECT_EQ(readVolume(file, stated).facts.spacing_mm, (std::array<double, 3>{2, 2, 3}));
   set<float>(80, 2);
   EXPECT_THAT(errorWith<float>(268, std::numeric_limits<float>::quiet_NaN()), HasSubstr("qoffset"));

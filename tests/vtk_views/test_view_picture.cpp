@@ -136,8 +136,8 @@ TEST(ViewDisplay, WithoutADisplayTheErrorTellsWhatWorks) {
     connectToDisplay();
     FAIL() << "there is none";
   } catch (const BackendError& error) {
-    EXPECT_NE(std::string(error.what()).find("--screenshot"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("--movie"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("`screenshot=`"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("`movie=`"), std::string::npos);
   }
   setenv("DISPLAY", ":4999", 1);
   EXPECT_THROW(connectToDisplay(), BackendError);

@@ -24,7 +24,7 @@ TEST_F(DamagedVolume, WithoutSpacingAsksForItAndTakesWhatIsStated) {
         write("zero.mha", replaced(mha, "= 2 2 3", "= 0 2 3") + voxels),
         write("minus.mha", replaced(mha, "= 2 2 3", "= 2 -2 3") + voxels),
         write("nan.mha", replaced(mha, "= 2 2 3", "= 2 nan 3") + voxels)}) {
-    EXPECT_THAT(errorOf(file), HasSubstr("--spacing X,Y,Z"));
+    EXPECT_THAT(errorOf(file), HasSubstr("`spacing=` X,Y,Z"));
     const Volume volume = readVolume(file, stated);
     EXPECT_EQ(volume.facts.spacing_mm, (std::array<double, 3>{2, 2, 3})) << file;
   }

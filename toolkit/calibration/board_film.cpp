@@ -105,7 +105,7 @@ void requireSightings(const BoardFilm& film, const BoardFilmOptions& options) {
       " show the board in the left view, ", film.in_right, " in the right one and none in both, ",
       "but a board of ", board.columns, " x ", board.rows,
       board.hasMarkers() ? " squares with markers" : " inner corners",
-      " is expected. Is --board right (inner corners of a checkerboard: one fewer than squares; "
+      " is expected. Is `board=` right (inner corners of a checkerboard: one fewer than squares; "
       "squares of a ChArUco board), and the whole board in the image?"));
 }
 
@@ -113,8 +113,8 @@ void requireSightings(const BoardFilm& film, const BoardFilmOptions& options) {
 
 void BoardFilmOptions::validate() const {
   board.validate();
-  require(every >= 0, "--every", every, "can't be negative");
-  require(layout == "auto" || right.empty(), "--layout", layout,
+  require(every >= 0, "`every=`", every, "can't be negative");
+  require(layout == "auto" || right.empty(), "`layout=`", layout,
           "is for one film with both views; leave RIGHT out");
 }
 

@@ -57,14 +57,14 @@ void readSurfaces(const CompareOptions& options, const std::string& test,
 }  // namespace
 
 void CompareOptions::validate() const {
-  require(observed_reach_mm > 0 && std::isfinite(observed_reach_mm), "--observed-within-mm",
+  require(observed_reach_mm > 0 && std::isfinite(observed_reach_mm), "`observed_within_mm=`",
           observed_reach_mm, "must be above 0");
   if (frame >= 0 && !isFolder(test))
-    throw OptionError("--frame is for a run, but --test " + test + " is no folder of one");
+    throw OptionError("`frame=` is for a run, but `test=` " + test + " is no folder of one");
   if (!fit.transform.empty() && !fit.landmarks.empty())
-    throw OptionError("--transform and --landmarks exclude each other; give one");
+    throw OptionError("`transform=` and `landmarks=` exclude each other; give one");
   for (const double tau_mm : taus_mm)
-    require(tau_mm > 0 && std::isfinite(tau_mm), "--tau", tau_mm, "must be above 0");
+    require(tau_mm > 0 && std::isfinite(tau_mm), "`taus_mm=`", tau_mm, "must be above 0");
   checkThresholds(thresholds, comparisonJson({}), kAccuracy);
 }
 

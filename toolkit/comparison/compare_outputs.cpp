@@ -39,7 +39,7 @@ VertexErrors vertexErrors(const TriangleMesh& test, const SurfaceComparison& com
 CompareOutputs::CompareOutputs(fs::path folder, bool overwrite)
     : folder_(std::move(folder)), overwrite_(overwrite) {
   if (fs::exists(folder_) && !fs::is_directory(folder_))
-    throw OptionError("--out " + shown(folder_) +
+    throw OptionError("`out=` " + shown(folder_) +
                       ": is a file, but must be a folder, there or not yet");
   removeAbandoned(folder_);
   for (const char* name : {"comparison.json", "metrics.csv", "errors.vtp", "error_map.vtp",

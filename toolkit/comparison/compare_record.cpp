@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "toolkit/record/metric_lists.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
 
@@ -29,15 +30,6 @@ Json scoresJson(const std::vector<ThresholdScores>& scores) {
   return list;
 }
 
-Json hausdorffJson(const HausdorffDistances& d) {
-  return {{"hd95_max_of_directed_mm", d.hd95_max_of_directed_mm},
-          {"hd95_pooled_mm", d.hd95_pooled_mm},
-          {"hd95_mean_of_directed_mm", d.hd95_mean_of_directed_mm},
-          {"hd_mm", d.hd_mm},
-          {"assd_mm", d.assd_mm},
-          {"masd_mm", d.masd_mm}};
-}
-
 Json observedJson(const ObservedSplit& split) {
   return {{"reach_mm", split.reach_mm},
           {"reference_share", split.reference_share},
@@ -47,7 +39,7 @@ Json observedJson(const ObservedSplit& split) {
           {"predicted", statisticsJson(split.predicted_mm, "_mm")},
           {"completeness", statisticsJson(split.completeness_mm, "_mm")},
           {"not_reconstructed_share", split.not_reconstructed_share},
-          {"hausdorff", hausdorffJson(split.hausdorff)}};
+          {"hausdorff", metricsJson(hausdorffMetrics(), split.hausdorff)}};
 }
 
 void addObservedFacts(const ObservedSplit& split, FactSheet& facts) {
@@ -78,7 +70,7 @@ Json comparisonJson(const ComparisonResult& result) {
   json["completeness"] = directedJson(c.completeness);
   json["signed"] = statisticsJson(c.signed_mm, "_mm");
   json["signed"]["border_vertices"] = c.signed_mm.nan_count;
-  json["hausdorff"] = hausdorffJson(c.hausdorff);
+  json["hausdorff"] = metricsJson(hausdorffMetrics(), c.hausdorff);
   json["scores"] = scoresJson(c.scores);
   if (result.observed) json["observed"] = observedJson(*result.observed);
   json["warnings"] = result.warnings;

@@ -14,12 +14,12 @@ namespace softscope {
 
 SurfaceFitOptions parseFit(const std::string& align, const std::string& landmarks,
                            const std::string& landmarks_option) {
-  require(align.empty() || align == "none" || align == "landmarks" || align == "icp", "--align",
+  require(align.empty() || align == "none" || align == "landmarks" || align == "icp", "`align=`",
           align, "must be none, landmarks or icp");
   if (align == "landmarks" && landmarks.empty())
-    throw OptionError("--align landmarks needs " + landmarks_option + " FILE");
+    throw OptionError("`align=` landmarks needs " + landmarks_option + " FILE");
   if (align == "none" && !landmarks.empty())
-    throw OptionError("--align none and " + landmarks_option + " exclude each other; give one");
+    throw OptionError("`align=` none and " + landmarks_option + " exclude each other; give one");
   return {landmarks, align == "icp", ""};
 }
 

@@ -43,7 +43,7 @@ DepthOutputKinds DepthOutputKinds::parse(const std::string& list) {
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {
       const std::string nearest = nearestName(word, names);
-      throw OptionError("--write: `" + word + "` is no kind of output" +
+      throw OptionError("`write=`: `" + word + "` is no kind of output" +
                         (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
                         ". Give some of disparity,depth,confidence,cloud,picture");
     }

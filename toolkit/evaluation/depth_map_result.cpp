@@ -208,7 +208,7 @@ MapKind DepthMapOptions::mapKind() const {
   const bool disparity = kind.empty() ? named("disparity") : kind == "disparity";
   const bool depth = kind.empty() ? named("depth") : kind == "depth";
   if (disparity != depth) return disparity ? MapKind::kDisparity : MapKind::kDepth;
-  throw OptionError("--map is `" + kind + "`, but must be disparity (px) or depth (mm): " +
+  throw OptionError("`map_kind=` is `" + kind + "`, but must be disparity (px) or depth (mm): " +
                     (disparity ? "names in " + shown(measured) + " say both"
                                : shown(measured) + " doesn't say it in its name"));
 }
@@ -228,7 +228,7 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
   result.kind = options.mapKind();
   const bool of_depth = result.kind == MapKind::kDepth;
   if (of_depth && !options.confidence.empty())
-    throw OptionError("--confidence is of disparities; give it with a disparity map");
+    throw OptionError("`confidence=` is of disparities; give it with a disparity map");
   const std::string part = of_depth ? "depth" : "disparity";
   const auto measured = depthMapsIn(options.measured, part),
              truth = depthMapsIn(options.reference, part);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "toolkit/record/metric_lists.h"
 #include "toolkit/record/statistics_json.h"
 
 namespace softscope {
@@ -27,78 +28,76 @@ struct FrameFacts {
 };
 
 struct Column {
-  const char* heading;
+  std::string heading;
   std::function<double(const FrameFacts&)> value;
 };
 
-Column ofModel(const char* heading, std::function<double(const ModelErrors&)> value) {
-  return {heading, [value = std::move(value)](const FrameFacts& facts) {
+Column ofModel(std::string heading, std::function<double(const ModelErrors&)> value) {
+  return {std::move(heading), [value = std::move(value)](const FrameFacts& facts) {
             return facts.model == nullptr ? kNone : value(*facts.model);
           }};
 }
 
 std::vector<Column> surfaceColumns() {
   using E = const ModelErrors&;
-  return {ofModel("points", [](E e) { return static_cast<double>(e.distance_mm.count); }),
-          ofModel("mean_mm", [](E e) { return e.distance_mm.mean; }),
-          ofModel("sd_mm", [](E e) { return e.distance_mm.sd; }),
-          ofModel("rmse_mm", [](E e) { return e.distance_mm.rmse; }),
-          ofModel("median_mm", [](E e) { return e.distance_mm.median; }),
-          ofModel("p95_mm", [](E e) { return e.distance_mm.p95; }),
-          ofModel("max_mm", [](E e) { return e.distance_mm.max; }),
-          ofModel("signed_mean_mm", [](E e) { return e.signed_mm.mean; }),
-          ofModel("signed_median_mm", [](E e) { return e.signed_mm.median; }),
-          ofModel("border_points", [](E e) { return static_cast<double>(e.border_count); }),
-          ofModel("beyond_border_points", [](E e) { return static_cast<double>(e.beyond_count); })};
+  std::vector<Column> columns{
+      ofModel("points", [](E e) { return static_cast<double>(e.distance_mm.count); })};
+  for (const Metric<Statistics>& m : statisticsMetrics())
+    columns.push_back(
+        ofModel(m.key + std::string("_mm"), [m](E e) { return m.of(e.distance_mm); }));
+  columns.push_back(ofModel("signed_mean_mm", [](E e) { return e.signed_mm.mean; }));
+  columns.push_back(ofModel("signed_median_mm", [](E e) { return e.signed_mm.median; }));
+  columns.push_back(
+      ofModel("border_points", [](E e) { return static_cast<double>(e.border_count); }));
+  columns.push_back(
+      ofModel("beyond_border_points", [](E e) { return static_cast<double>(e.beyond_count); }));
+  return columns;
 }
 
 std::vector<Column> viewColumns() {
   using E = const ModelErrors&;
-  return {ofModel("observed_share", [](E e) { return e.observed_share; }),
-          ofModel("observed_mean_mm", [](E e) { return e.observed_mm.mean; }),
-          ofModel("observed_median_mm", [](E e) { return e.observed_mm.median; }),
-          ofModel("observed_p95_mm", [](E e) { return e.observed_mm.p95; }),
-          ofModel("predicted_mean_mm", [](E e) { return e.predicted_mm.mean; }),
-          ofModel("predicted_median_mm", [](E e) { return e.predicted_mm.median; }),
-          ofModel("predicted_p95_mm", [](E e) { return e.predicted_mm.p95; }),
-          ofModel("completeness_1mm", [](E e) { return e.both.share; }),
-          ofModel("left_completeness_1mm", [](E e) { return e.left.share; }),
-          ofModel("not_reconstructed_share", [](E e) { return 1 - e.both.share; }),
-          ofModel("tissue_to_model_mean_mm", [](E e) { return e.both.distance_mm.mean; }),
-          ofModel("tissue_to_model_p95_mm", [](E e) { return e.both.distance_mm.p95; })};
+  std::vector<Column> columns{
+      ofModel("observed_share", [](E e) { return e.observed_share; }),
+      ofModel("observed_mean_mm", [](E e) { return e.observed_mm.mean; }),
+      ofModel("observed_median_mm", [](E e) { return e.observed_mm.median; }),
+      ofModel("observed_p95_mm", [](E e) { return e.observed_mm.p95; }),
+      ofModel("predicted_mean_mm", [](E e) { return e.predicted_mm.mean; }),
+      ofModel("predicted_median_mm", [](E e) { return e.predicted_mm.median; }),
+      ofModel("predicted_p95_mm", [](E e) { return e.predicted_mm.p95; })};
+  for (const Metric<ModelErrors>& m : completenessMetrics())
+    columns.push_back(ofModel(m.key, m.of));
+  columns.push_back(
+      ofModel("tissue_to_model_mean_mm", [](E e) { return e.both.distance_mm.mean; }));
+  columns.push_back(ofModel("tissue_to_model_p95_mm", [](E e) { return e.both.distance_mm.p95; }));
+  return columns;
 }
 
-Column ofView(const char* heading, std::function<double(const ViewErrors&)> value) {
-  return {heading, [value = std::move(value)](const FrameFacts& facts) {
+Column ofView(std::string heading, std::function<double(const ViewErrors&)> value) {
+  return {std::move(heading), [value = std::move(value)](const FrameFacts& facts) {
             return facts.view == nullptr ? kNone : value(*facts.view);
           }};
 }
 
 std::vector<Column> drawnColumns() {
   using V = const ViewErrors&;
-  return {
-      ofView("depth_mean_mm", [](V v) { return v.depth.absolute_mm.mean; }),
-      ofView("depth_median_mm", [](V v) { return v.depth.absolute_mm.median; }),
-      ofView("depth_rmse_mm", [](V v) { return v.depth.absolute_mm.rmse; }),
-      ofView("depth_bad_3mm_percent", [](V v) { return v.depth.bad_percent[0]; }),
-      ofView("depth_coverage_percent", [](V v) { return v.depth.coverage_percent; }),
-      ofView("view_psnr_db", [](V v) { return v.picture.psnr_db; }),
-      ofView("view_psnr_over_all_pixels_db", [](V v) { return v.picture.psnr_over_all_pixels_db; }),
-      ofView("view_ssim", [](V v) { return v.picture.ssim; }),
-      ofView("view_judged_share", [](V v) { return v.picture.judged_share; }),
-      {"backprojection_mean_mm", [](const FrameFacts& f) { return f.backprojection_mm; }}};
+  std::vector<Column> columns;
+  for (const Metric<DepthErrors>& m : drawnDepthMetrics())
+    columns.push_back(ofView("depth_" + std::string(m.key), [m](V v) { return m.of(v.depth); }));
+  for (const Metric<PictureErrors>& m : drawnViewMetrics())
+    columns.push_back(ofView("view_" + std::string(m.key), [m](V v) { return m.of(v.picture); }));
+  columns.push_back(
+      {"backprojection_mean_mm", [](const FrameFacts& f) { return f.backprojection_mm; }});
+  return columns;
 }
 
 std::vector<Column> hausdorffColumns() {
   using E = const ModelErrors&;
-  return {
-      ofModel("hd95_max_of_directed_mm", [](E e) { return e.hausdorff.hd95_max_of_directed_mm; }),
-      ofModel("hd95_pooled_mm", [](E e) { return e.hausdorff.hd95_pooled_mm; }),
-      ofModel("hd95_mean_of_directed_mm", [](E e) { return e.hausdorff.hd95_mean_of_directed_mm; }),
-      ofModel("hd_mm", [](E e) { return e.hausdorff.hd_mm; }),
-      ofModel("assd_mm", [](E e) { return e.hausdorff.assd_mm; }),
-      ofModel("masd_mm", [](E e) { return e.hausdorff.masd_mm; }),
-      {"second_difference_mm", [](const FrameFacts& f) { return f.second_difference_mm; }}};
+  std::vector<Column> columns;
+  for (const Metric<HausdorffDistances>& m : hausdorffMetrics())
+    columns.push_back(ofModel(m.key, [m](E e) { return m.of(e.hausdorff); }));
+  columns.push_back(
+      {"second_difference_mm", [](const FrameFacts& f) { return f.second_difference_mm; }});
+  return columns;
 }
 
 std::vector<Column> cameraAndTrackColumns() {

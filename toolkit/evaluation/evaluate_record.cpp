@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "toolkit/record/metric_lists.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
 
@@ -21,9 +22,8 @@ Json poseErrorsJson(const PoseErrors& errors) {
 /// Means over the models of what is defined per model.
 void addViewMeans(const SurfaceSeries& surface, Json& json) {
   using E = const ModelErrors&;
-  json["completeness_1mm"] = surface.meanOf([](E e) { return e.both.share; });
-  json["left_completeness_1mm"] = surface.meanOf([](E e) { return e.left.share; });
-  json["not_reconstructed_share"] = surface.meanOf([](E e) { return 1 - e.both.share; });
+  for (const Metric<ModelErrors>& metric : completenessMetrics())
+    json[metric.key] = surface.meanOf(metric.of);
   json["observed_share"] = surface.meanOf([](E e) { return e.observed_share; });
   json["observed"] = statisticsJson(surface.observed_mm, "_mm");
   json["predicted"] = statisticsJson(surface.predicted_mm, "_mm");
@@ -31,15 +31,9 @@ void addViewMeans(const SurfaceSeries& surface, Json& json) {
       {"mean_mm", surface.meanOf([](E e) { return e.both.distance_mm.mean; })},
       {"median_mm", surface.meanOf([](E e) { return e.both.distance_mm.median; })},
       {"p95_mm", surface.meanOf([](E e) { return e.both.distance_mm.p95; })}};
-  json["hausdorff"] = {
-      {"hd95_max_of_directed_mm",
-       surface.meanOf([](E e) { return e.hausdorff.hd95_max_of_directed_mm; })},
-      {"hd95_pooled_mm", surface.meanOf([](E e) { return e.hausdorff.hd95_pooled_mm; })},
-      {"hd95_mean_of_directed_mm",
-       surface.meanOf([](E e) { return e.hausdorff.hd95_mean_of_directed_mm; })},
-      {"hd_mm", surface.meanOf([](E e) { return e.hausdorff.hd_mm; })},
-      {"assd_mm", surface.meanOf([](E e) { return e.hausdorff.assd_mm; })},
-      {"masd_mm", surface.meanOf([](E e) { return e.hausdorff.masd_mm; })}};
+  json["hausdorff"] = metricsJson(hausdorffMetrics(), [&](const Metric<HausdorffDistances>& m) {
+    return surface.meanOf([&](E e) { return m.of(e.hausdorff); });
+  });
 }
 
 const JudgedModel* worstOf(const SurfaceSeries& surface) {
@@ -67,22 +61,17 @@ Json surfaceJson(const EvaluationResult& result) {
 }
 
 Json drawnDepthJson(const SurfaceSeries& surface) {
-  using V = const ViewErrors&;
-  return {{"mean_mm", surface.meanOfView([](V v) { return v.depth.absolute_mm.mean; })},
-          {"median_mm", surface.meanOfView([](V v) { return v.depth.absolute_mm.median; })},
-          {"rmse_mm", surface.meanOfView([](V v) { return v.depth.absolute_mm.rmse; })},
-          {"bad_3mm_percent", surface.meanOfView([](V v) { return v.depth.bad_percent[0]; })},
-          {"coverage_percent", surface.meanOfView([](V v) { return v.depth.coverage_percent; })}};
+  return metricsJson(drawnDepthMetrics(), [&](const Metric<DepthErrors>& m) {
+    return surface.meanOfView([&](const ViewErrors& v) { return m.of(v.depth); });
+  });
 }
 
 Json viewJson(const SurfaceSeries& surface) {
-  using V = const ViewErrors&;
-  return {{"psnr_db", surface.meanOfView([](V v) { return v.picture.psnr_db; })},
-          {"psnr_over_all_pixels_db",
-           surface.meanOfView([](V v) { return v.picture.psnr_over_all_pixels_db; })},
-          {"ssim", surface.meanOfView([](V v) { return v.picture.ssim; })},
-          {"judged_share", surface.meanOfView([](V v) { return v.picture.judged_share; })},
-          {"pixels", kPsnrMask}};
+  Json json = metricsJson(drawnViewMetrics(), [&](const Metric<PictureErrors>& m) {
+    return surface.meanOfView([&](const ViewErrors& v) { return m.of(v.picture); });
+  });
+  json["pixels"] = kPsnrMask;
+  return json;
 }
 
 /// The run's own figure: statistics of its frames' means.

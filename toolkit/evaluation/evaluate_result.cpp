@@ -55,7 +55,7 @@ std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth
   if (!tracks.empty() && errors.without_truth == tracks.size())
     throw InputError(say(shown(run.tracks), ": has no frame and id in common with ",
                          shown(truth.tracks),
-                         "; tracks of other points? Give --track the "
+                         "; tracks of other points? Give `track=` the "
                          "sequence's track_points.csv"));
   return errors;
 }

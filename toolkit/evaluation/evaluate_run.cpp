@@ -62,9 +62,10 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
 
 FrameFiles modelsFor(const EvaluateOptions& options, const JudgedRun& run) {
   if (options.each_model && run.countedModels().empty())
-    throw InputError(shown(run.folder / "models") +
-                     ": holds no model NNNNNN.ply of a fused frame, but --each asks for them; "
-                     "reconstruct with --save-every 1");
+    throw InputError(
+        shown(run.folder / "models") +
+        ": holds no model NNNNNN.ply of a fused frame, but `each_model=` asks for them; "
+        "reconstruct with `save_every=` 1");
   if (options.each_model) return run.countedModels();
   if (options.frame >= 0) {
     const std::filesystem::path file = savedModel(options.run, options.frame).file;
@@ -108,23 +109,36 @@ Json hashesOf(const EvaluateOptions& options) {
   return hashes;
 }
 
+RunEvaluation interrupted() {
+  RunEvaluation evaluation;
+  evaluation.interrupted = true;
+  return evaluation;
+}
+
+/// The record with its thresholds, of which bare metrics are looked for in `part`, and `details`.
+template <class Result>
+RunEvaluation finished(const EvaluateOptions& options, const char* part, Json record,
+                       const Json& details, const FactSheet& facts, Result result) {
+  RunEvaluation evaluation;
+  evaluation.outcomes = checkThresholds(options.thresholds, record, part);
+  record["thresholds"] = thresholdsJson(evaluation.outcomes);
+  record.update(details);
+  evaluation.record = options.paths.applyTo(record);
+  evaluation.facts = facts;
+  evaluation.result = std::move(result);
+  return evaluation;
+}
+
 RunEvaluation withoutTruth(const EvaluateOptions& options, const JudgedRun& run,
                            const Progress& progress) {
   TruthlessResult result = judgeWithoutTruth(run, options.reference, options.views,
                                              counting(progress, run.countedModels().size()));
-  RunEvaluation evaluation;
-  evaluation.interrupted = result.interrupted;
-  if (result.interrupted) return evaluation;
+  if (result.interrupted) return interrupted();
   result.run = options.run;
   result.sequence = options.reference;
-  Json record = truthlessJson(result);
-  evaluation.outcomes = checkThresholds(options.thresholds, record, kView);
-  record["thresholds"] = thresholdsJson(evaluation.outcomes);
-  record["inputs_sha256"] = hashesOf(options);
-  evaluation.record = options.paths.applyTo(record);
-  evaluation.facts = truthlessFacts(result);
-  evaluation.result = std::move(result);
-  return evaluation;
+  const Json record = truthlessJson(result), details{{"inputs_sha256", hashesOf(options)}};
+  const FactSheet facts = truthlessFacts(result);
+  return finished(options, kView, record, details, facts, std::move(result));
 }
 
 DepthMapOptions mapOptionsOf(const EvaluateOptions& options) {
@@ -140,39 +154,28 @@ const char* mapPart(const DepthMapOptions& options) {
 RunEvaluation ofMaps(const EvaluateOptions& options, const Progress& progress) {
   const DepthMapOptions maps = mapOptionsOf(options);
   DepthMapResult result = judgeDepthMaps(maps, progress);
-  RunEvaluation evaluation;
-  evaluation.interrupted = result.interrupted;
-  if (result.interrupted) return evaluation;
-  Json record = depthMapJson(result);
-  evaluation.outcomes = checkThresholds(options.thresholds, record, mapPart(maps));
-  record["thresholds"] = thresholdsJson(evaluation.outcomes);
-  evaluation.record = options.paths.applyTo(record);
-  evaluation.facts = depthMapFacts(result);
-  evaluation.result = std::move(result);
-  return evaluation;
+  if (result.interrupted) return interrupted();
+  const Json record = depthMapJson(result);
+  const FactSheet facts = depthMapFacts(result);
+  return finished(options, mapPart(maps), record, Json::object(), facts, std::move(result));
 }
 
 RunEvaluation withTruth(const EvaluateOptions& options, EvaluationResult result) {
-  RunEvaluation evaluation;
-  evaluation.interrupted = result.surface.interrupted;
-  if (evaluation.interrupted) return evaluation;
+  if (result.surface.interrupted) return interrupted();
   result.run = options.run;
   result.reference = options.reference;
-  Json record = evaluationJson(result);
-  evaluation.outcomes = checkThresholds(options.thresholds, record, kSurface);
-  record["thresholds"] = thresholdsJson(evaluation.outcomes);
-  record["error_histogram"] = histogramJson(result.surface.pool.all_mm());
-  record["frames"] = frameTable(result).json();
-  record["inputs_sha256"] = hashesOf(options);
-  evaluation.record = options.paths.applyTo(record);
-  evaluation.facts = evaluationFacts(result);
-  evaluation.result = std::move(result);
-  return evaluation;
+  const Json record = evaluationJson(result);
+  const FactSheet facts = evaluationFacts(result);
+  const Json details{{"error_histogram", histogramJson(result.surface.pool.all_mm())},
+                     {"frames", frameTable(result).json()},
+                     {"inputs_sha256", hashesOf(options)}};
+  return finished(options, kSurface, record, details, facts, std::move(result));
 }
 
 void validateMaps(const EvaluateOptions& options) {
   if (options.alignment != MeshAlignment::kNone || options.each_model)
-    throw OptionError("--align and --each are for a mesh; maps are compared pixel by pixel");
+    throw OptionError(
+        "`align=` and `each_model=` are for a mesh; maps are compared pixel by pixel");
   checkThresholds(options.thresholds, depthMapJson({}), mapPart(mapOptionsOf(options)));
 }
 
@@ -189,15 +192,15 @@ void EvaluateOptions::validate() const {
   const ReferenceKind kind = kindOf(*this);
   if (kind == ReferenceKind::kMaps) return validateMaps(*this);
   if (!map_kind.empty() || !calibration.empty() || !confidence.empty())
-    throw OptionError("--map, --calibration and --confidence are of depth maps, but " + run +
-                      " is none and no folder of them");
+    throw OptionError("`map_kind=`, `calibration=` and `confidence=` are of depth maps, but " +
+                      run + " is none and no folder of them");
   if (kind != ReferenceKind::kMesh && (alignment != MeshAlignment::kNone || each_model))
     throw OptionError(
-        "--align and --each are for a mesh; a sequence is compared frame by frame, "
+        "`align=` and `each_model=` are for a mesh; a sequence is compared frame by frame, "
         "in its camera's frame, with no alignment");
   if (frame >= 0 && (kind != ReferenceKind::kMesh || each_model))
     throw OptionError(
-        "--frame is for a mesh without --each; a sequence is compared frame by frame");
+        "`frame=` is for a mesh without `each_model=`; a sequence is compared frame by frame");
   EvaluationResult empty;
   empty.against_mesh = kind == ReferenceKind::kMesh;
   const bool truthless = kind == ReferenceKind::kSequence;

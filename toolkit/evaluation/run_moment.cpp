@@ -81,7 +81,7 @@ JudgedPair::JudgedPair(const std::string& run_folder, const std::string& sequenc
   if (frames().empty())
     throw InputError(shown(run.folder) +
                      ": no frame has both a model of a fused frame and a true mesh; reconstruct "
-                     "with --save-every 1");
+                     "with `save_every=` 1");
 }
 
 std::vector<int> JudgedPair::frames() const { return framesToJudge(run, truth); }
@@ -93,7 +93,7 @@ int JudgedPair::chooseFrame(int wanted) const {
   std::string some;
   for (std::size_t i = 0; i < std::min<std::size_t>(there.size(), 8); ++i)
     some += std::to_string(there[i]) + ", ";
-  throw OptionError(say("--frame is ", wanted,
+  throw OptionError(say("`frame=` is ", wanted,
                         ", but fused, with a model and a true mesh, are the frames ", some,
                         "up to ", there.back()));
 }

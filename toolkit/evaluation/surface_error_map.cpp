@@ -11,9 +11,9 @@
 namespace softscope {
 
 void ErrorColourOptions::validate() const {
-  require(kind == "absolute" || kind == "signed" || kind == "none", "--errors", kind,
+  require(kind == "absolute" || kind == "signed" || kind == "none", "`errors=`", kind,
           "must be absolute, signed or none");
-  require(range_mm >= 0 && std::isfinite(range_mm), "--range-mm", range_mm, "must be above 0");
+  require(range_mm >= 0 && std::isfinite(range_mm), "`range_mm=`", range_mm, "must be above 0");
 }
 
 SurfaceErrorMap colourErrors(const std::vector<double>& distance_mm,

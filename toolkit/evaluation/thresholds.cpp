@@ -37,8 +37,8 @@ bool endsWithPart(const std::string& path, const std::string& part) {
   for (const auto& [path, value] : metrics) names.push_back(path);
   const std::string nearest = nearestName(name, names);
   throw OptionError(
-      "--fail-if: `" + name + "` is no metric of this evaluation" +
-      (nearest.empty() ? "; --json shows what there is" : " (did you mean `" + nearest + "`?)"));
+      "`fail_if=`: `" + name + "` is no metric of this evaluation" +
+      (nearest.empty() ? "; `json=` shows what there is" : " (did you mean `" + nearest + "`?)"));
 }
 
 const std::pair<std::string, double>& find(const std::string& name, const Metrics& metrics,
@@ -51,7 +51,7 @@ const std::pair<std::string, double>& find(const std::string& name, const Metric
   if (first == metrics.end()) failUnknown(name, metrics);
   const auto second = std::find_if(first + 1, metrics.end(), matches);
   if (second != metrics.end())
-    throw OptionError("--fail-if: `" + name + "` may be " + first->first + " or " + second->first +
+    throw OptionError("`fail_if=`: `" + name + "` may be " + first->first + " or " + second->first +
                       "; write it in full");
   return *first;
 }
@@ -94,7 +94,7 @@ Threshold parseThreshold(const std::string& text) {
     if (known && named && std::isfinite(threshold.limit)) return threshold;
   }
   throw OptionError(
-      "--fail-if is `" + text +
+      "`fail_if=` is `" + text +
       "`, but must be a metric, one of > >= < <=, and a number, or for a share per cent: "
       "p95_mm>2, lost>10%");
 }

@@ -9,6 +9,7 @@
 #include "io/sequences/sequence_paths.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/evaluation/evaluate_view.h"
+#include "toolkit/record/metric_lists.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
 #include "toolkit/run/sequence_calibration.h"
@@ -101,9 +102,6 @@ Statistics overFrames(const TruthlessResult& result, const Value& value) {
 }
 
 const Value kPsnr = [](const TruthlessFrame& f) { return f.picture.psnr_db; };
-const Value kPsnrOverAll = [](const TruthlessFrame& f) {
-  return f.picture.psnr_over_all_pixels_db;
-};
 const Value kSsim = [](const TruthlessFrame& f) { return f.picture.ssim; };
 const Value kJudged = [](const TruthlessFrame& f) { return f.picture.judged_share; };
 const Value kBackProjection = [](const TruthlessFrame& f) { return f.backprojection_mm; };
@@ -113,19 +111,22 @@ const Value kStepDeg = [](const TruthlessFrame& f) { return f.step_deg; };
 const Value kSecondDifference = [](const TruthlessFrame& f) { return f.second_difference_mm; };
 
 struct TruthlessColumn {
-  const char* heading;
-  const Value& value;
+  std::string heading;
+  Value value;
 };
 
-const TruthlessColumn kTruthlessColumns[] = {{"view_psnr_db", kPsnr},
-                                             {"view_psnr_over_all_pixels_db", kPsnrOverAll},
-                                             {"view_ssim", kSsim},
-                                             {"view_judged_share", kJudged},
-                                             {"backprojection_mean_mm", kBackProjection},
-                                             {"coverage", kCoverage},
-                                             {"step_mm", kStep},
-                                             {"step_deg", kStepDeg},
-                                             {"second_difference_mm", kSecondDifference}};
+std::vector<TruthlessColumn> truthlessColumns() {
+  std::vector<TruthlessColumn> columns;
+  for (const Metric<PictureErrors>& m : drawnViewMetrics())
+    columns.push_back(
+        {"view_" + std::string(m.key), [m](const TruthlessFrame& f) { return m.of(f.picture); }});
+  columns.insert(columns.end(), {{"backprojection_mean_mm", kBackProjection},
+                                 {"coverage", kCoverage},
+                                 {"step_mm", kStep},
+                                 {"step_deg", kStepDeg},
+                                 {"second_difference_mm", kSecondDifference}});
+  return columns;
+}
 
 /// Times of a clip without timestamps are NaN.
 bool hasTimes(const TruthlessResult& result) {
@@ -149,10 +150,12 @@ void addPlot(const TruthlessResult& result, const char* label, const Value& valu
 }
 
 Json viewJson(const TruthlessResult& result) {
-  const auto mean = [&](const Value& value) { return overFrames(result, value).mean; };
-  return {{"psnr_db", mean(kPsnr)}, {"psnr_over_all_pixels_db", mean(kPsnrOverAll)},
-          {"ssim", mean(kSsim)},    {"judged_share", mean(kJudged)},
-          {"pixels", kPsnrMask},    {"models_judged", result.drawn.size()}};
+  Json json = metricsJson(drawnViewMetrics(), [&](const Metric<PictureErrors>& m) {
+    return overFrames(result, [&](const TruthlessFrame& f) { return m.of(f.picture); }).mean;
+  });
+  json["pixels"] = kPsnrMask;
+  json["models_judged"] = result.drawn.size();
+  return json;
 }
 
 /// The picture drawn_view.png: which moment, how much of the tissue the model covers, and how many
@@ -170,13 +173,13 @@ Json drawnViewJson(const TruthlessResult& result) {
 }
 
 Json framesJson(const TruthlessResult& result) {
+  const std::vector<TruthlessColumn> columns = truthlessColumns();
   Json frames = Json::array();
   for (const auto& [number, frame] : result.frames) {
     Json row{{"frame", number}, {"time_s", frame.time_s}};
     if (const auto at = result.outcomes.each().find(number); at != result.outcomes.each().end())
       row["outcome"] = toString(at->second);
-    for (const TruthlessColumn& column : kTruthlessColumns)
-      row[column.heading] = column.value(frame);
+    for (const TruthlessColumn& column : columns) row[column.heading] = column.value(frame);
     frames.push_back(std::move(row));
   }
   return frames;
@@ -258,14 +261,14 @@ FactSheet truthlessFacts(const TruthlessResult& result) {
 
 std::string truthlessCsv(const TruthlessResult& result) {
   std::string text = "frame,time_s,outcome";
-  for (const TruthlessColumn& column : kTruthlessColumns) text += std::string(",") + column.heading;
+  const std::vector<TruthlessColumn> columns = truthlessColumns();
+  for (const TruthlessColumn& column : columns) text += "," + column.heading;
   text += "\n";
   for (const auto& [number, frame] : result.frames) {
     const auto outcome = result.outcomes.each().find(number);
     text += std::to_string(number) + "," + csvCell(frame.time_s) + "," +
             (outcome == result.outcomes.each().end() ? "" : toString(outcome->second));
-    for (const TruthlessColumn& column : kTruthlessColumns)
-      text += "," + csvCell(column.value(frame));
+    for (const TruthlessColumn& column : columns) text += "," + csvCell(column.value(frame));
     text += "\n";
   }
   return text;

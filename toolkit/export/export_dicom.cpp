@@ -137,9 +137,9 @@ void requireText(const std::string& text, const char* option) {
 }  // namespace
 
 void DicomTexts::validate() const {
-  requireText(patient_name, "--patient-name");
-  requireText(patient_id, "--patient-id");
-  requireText(title, "--title");
+  requireText(patient_name, "`patient_name=`");
+  requireText(patient_id, "`patient_id=`");
+  requireText(title, "`title=`");
 }
 
 bool canBecomeDicom(const fs::path& file) {

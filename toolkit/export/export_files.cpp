@@ -22,7 +22,7 @@ ModelFormat formatOf(const std::filesystem::path& file) {
                  [](unsigned char c) { return char(std::tolower(c)); });
   const auto found = kFormats.find(ending);
   if (found != kFormats.end()) return found->second;
-  throw OptionError("--out is `" + shown(file) +
+  throw OptionError("`out=` is `" + shown(file) +
                     "`, but must end in .ply, .vtp, .obj, .stl, .glb or .gltf; .pvd for all saved "
                     "models of a run, .dcm for a report or a picture");
 }
@@ -53,9 +53,10 @@ LengthUnit unitOf(const std::string& name, ModelFormat format) {
       {"mm", {"mm", 1}}, {"cm", {"cm", 10}}, {"m", {"m", 1000}}};
   const bool gltf = format == ModelFormat::kGlb || format == ModelFormat::kGltf;
   const auto found = kUnits.find(name.empty() ? (gltf ? "m" : "mm") : name);
-  if (found == kUnits.end()) throw OptionError("--unit is `" + name + "`, but must be mm, cm or m");
+  if (found == kUnits.end())
+    throw OptionError("`unit=` is `" + name + "`, but must be mm, cm or m");
   if (gltf && found->first != "m")
-    throw OptionError("--unit is " + name +
+    throw OptionError("`unit=` is " + name +
                       ", but glTF is in metres by its standard; leave it out");
   return found->second;
 }

@@ -72,11 +72,11 @@ double timeOrNumber(const JudgedRun& run, int frame) {
 }  // namespace
 
 std::vector<SavedModel> savedModels(const fs::path& folder, int every) {
-  require(every >= 1, "--every", every, "must be 1 (each saved model) or more");
+  require(every >= 1, "`every=`", every, "must be 1 (each saved model) or more");
   const JudgedRun run = openJudgedRun(folder);
   if (run.models.empty())
     throw InputError(shown(folder / "models") +
-                     ": no saved models; reconstruct with --save-every N, or export the last one");
+                     ": no saved models; reconstruct with `save_every=` N, or export the last one");
   std::vector<SavedModel> models;
   int count = 0;
   for (const auto& [frame, file] : run.models)
@@ -97,7 +97,7 @@ SavedModel savedModel(const fs::path& folder, int frame) {
     if (model.frame == frame) return model;
     known += (known.empty() ? "" : ", ") + std::to_string(model.frame);
   }
-  throw OptionError("--frame is " + std::to_string(frame) + ", but saved are the frames " + known);
+  throw OptionError("`frame=` is " + std::to_string(frame) + ", but saved are the frames " + known);
 }
 
 ModelSurface readModelSurface(const fs::path& file, double unit_mm) {

@@ -51,7 +51,7 @@ struct Reconstructor::Impl {
     folder->add(frame);
     record->add(asTabled(frame));
     if (folder->savesModel(frame.frame) && !loop.backend().empty())
-      folder->saveModel(frame.frame, frame.time_s, loop.state().model);
+      folder->saveModel(frame.frame, frame.time_s, loop.model());
   }
 };
 
@@ -83,7 +83,7 @@ FrameReport Reconstructor::process(const FrameView& view) {
 }
 
 Model Reconstructor::model() const {
-  const PointCloud cloud = cloudOf(impl_->loop.state().model);
+  const PointCloud cloud = cloudOf(impl_->loop.model());
   return modelOf(cloud.points_mm, cloud.normals, cloud.colours, cloud.weights);
 }
 

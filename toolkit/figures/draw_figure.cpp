@@ -179,31 +179,32 @@ std::string listed(const std::vector<int>& frames) {
 void validateKind(const FigureRequest& r) {
   const bool known = r.kind == "four" || r.kind == "frames" || r.kind == "series" ||
                      r.kind == "compare" || r.kind == "matches";
-  require(known, "--kind", r.kind, "must be four, frames, series, compare or matches");
+  require(known, "`kind=`", r.kind, "must be four, frames, series, compare or matches");
   const std::size_t frames = r.frames.size();
-  require(r.frame < 0 || frames == 0, "--frame", r.frame, "excludes --frames; give one");
-  require((r.kind != "compare" && r.kind != "matches") || frames < 2, "--frames",
-          "`" + listed(r.frames) + "`", "of --kind " + r.kind + " must be one frame");
+  require(r.frame < 0 || frames == 0, "`frame=`", r.frame, "excludes `frames=`; give one");
+  require((r.kind != "compare" && r.kind != "matches") || frames < 2, "`frames=`",
+          "`" + listed(r.frames) + "`", "of `kind=` " + r.kind + " must be one frame");
   if (r.kind == "four") {
-    require(r.frames.empty(), "--frames", listed(r.frames),
-            "needs --kind frames, series or compare");
-    require(r.other.empty(), "--other", r.other, "needs --kind compare");
-    require(r.names.empty(), "--name", r.names.empty() ? "" : r.names[0], "needs --kind compare");
+    require(r.frames.empty(), "`frames=`", listed(r.frames),
+            "needs `kind=` frames, series or compare");
+    require(r.other.empty(), "`other=`", r.other, "needs `kind=` compare");
+    require(r.names.empty(), "`names=`", r.names.empty() ? "" : r.names[0],
+            "needs `kind=` compare");
     return;
   }
-  if (r.run.empty()) throw OptionError("--kind " + r.kind + " needs a RUN");
+  if (r.run.empty()) throw OptionError("`kind=` " + r.kind + " needs a RUN");
   if (r.kind == "series" && r.reference.empty())
-    throw OptionError("--kind series needs --reference SEQUENCE, with its ground truth");
+    throw OptionError("`kind=` series needs `reference=` SEQUENCE, with its ground truth");
   if (r.kind == "matches" && r.reference.empty())
-    throw OptionError("--kind matches needs --reference SEQUENCE, with the run's pictures");
-  require(r.names.empty() || (r.kind == "compare" && r.names.size() == 2), "--name",
-          r.names.empty() ? "" : r.names[0], "belongs to --kind compare, which takes two");
-  require((r.kind == "compare") == !r.other.empty(), "--other",
-          r.other.empty() ? "missing" : r.other, "belongs to --kind compare, which needs it");
+    throw OptionError("`kind=` matches needs `reference=` SEQUENCE, with the run's pictures");
+  require(r.names.empty() || (r.kind == "compare" && r.names.size() == 2), "`names=`",
+          r.names.empty() ? "" : r.names[0], "belongs to `kind=` compare, which takes two");
+  require((r.kind == "compare") == !r.other.empty(), "`other=`",
+          r.other.empty() ? "missing" : r.other, "belongs to `kind=` compare, which needs it");
   if (!r.ct.empty() || !r.test.empty() || !r.surfaces.empty() || !r.scans.empty())
-    throw OptionError("--kind " + r.kind +
-                      " shows runs alone; leave --ct, --test, --surface and "
-                      "--scan out");
+    throw OptionError("`kind=` " + r.kind +
+                      " shows runs alone; leave `ct=`, `test=`, `surfaces=` and "
+                      "`scans=` out");
 }
 
 }  // namespace
@@ -211,27 +212,27 @@ void validateKind(const FigureRequest& r) {
 void FigureRequest::validate() const {
   page.validate();
   errors.validate();
-  require(columns == 0 || columns == 1 || columns == 2 || columns == 4, "--columns", columns,
+  require(columns == 0 || columns == 1 || columns == 2 || columns == 4, "`columns=`", columns,
           "must be 1, 2 or 4");
-  require(frame >= -1, "--frame", frame, "must be 0 or more");
-  if (eye && eye->norm() == 0) throw OptionError("--eye is `0,0,0`, but must be a direction");
+  require(frame >= -1, "`frame=`", frame, "must be 0 or more");
+  if (eye && eye->norm() == 0) throw OptionError("`eye=` is `0,0,0`, but must be a direction");
   validateKind(*this);
   if (fit.moves() && (!run.empty() || test.empty() || reference.empty()))
-    throw OptionError("--align moves --test to --reference; give both, and no RUN");
+    throw OptionError("`align=` moves `test=` to `reference=`; give both, and no RUN");
   if (kind != "four") return;
   if (run.empty()) {
-    require(frame < 0, "--frame", frame, "needs a RUN");
-    require(!observed_only, "--observed", "given", "needs a RUN, whose scope sees a part");
+    require(frame < 0, "`frame=`", frame, "needs a RUN");
+    require(!observed_only, "`observed_only=`", "given", "needs a RUN, whose scope sees a part");
     if (ct.empty() && reference.empty() && test.empty() && surfaces.empty() && scans.empty())
-      throw OptionError("there is nothing to show; give --ct, --reference, --test or a RUN");
+      throw OptionError("there is nothing to show; give `ct=`, `reference=`, `test=` or a RUN");
     return;
   }
   if (reference.empty())
-    throw OptionError("a RUN needs --reference SEQUENCE, the sequence with its ground truth");
+    throw OptionError("a RUN needs `reference=` SEQUENCE, the sequence with its ground truth");
   if (!ct.empty() || !test.empty())
     throw OptionError(
-        "a RUN excludes --ct and --test: it lies in its scope's frame. Give "
-        "--test RUN/model.ply to show it on CT");
+        "a RUN excludes `ct=` and `test=`: it lies in its scope's frame. Give "
+        "`test=` RUN/model.ply to show it on CT");
 }
 
 DrawnFigure drawFigure(const FigureRequest& request) {

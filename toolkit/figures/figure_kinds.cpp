@@ -56,7 +56,7 @@ std::string unfusedText(const JudgedRun& run, int frame) {
 std::vector<int> framesFor(const RunFigureOptions& options, const std::vector<int>& there) {
   for (const int frame : options.frames)
     if (!std::binary_search(there.begin(), there.end(), frame))
-      throw OptionError(say("--frames names ", frame, ", but ", options.run,
+      throw OptionError(say("`frames=` names ", frame, ", but ", options.run,
                             " has no model to show there; its last one is of frame ",
                             there.back()));
   return options.frames.empty() ? spread(there) : options.frames;
@@ -74,7 +74,7 @@ RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   if (there.empty() || !options.frames.empty()) there = keysOf(run.models);
   if (there.empty())
     throw InputError(options.run +
-                     ": has no models of single frames; reconstruct with --save-every N");
+                     ": has no models of single frames; reconstruct with `save_every=` N");
   std::list<Scene> scenes;
   std::vector<ScenePanel> panels;
   const std::vector<int> frames = framesFor(options, there);
@@ -209,12 +209,12 @@ int frameOfBoth(const RunFigureOptions& options, const std::vector<int>& first,
                         std::back_inserter(both));
   if (both.empty())
     throw InputError(options.run + " and " + options.other +
-                     ": have no frame in common; reconstruct with --save-every 1");
+                     ": have no frame in common; reconstruct with `save_every=` 1");
   if (options.frames.empty()) return both.back();
   const int frame = options.frames[0];
   if (!std::binary_search(both.begin(), both.end(), frame))
-    throw OptionError(say("--frame is ", frame, ", but the last one that both runs have is ",
-                          both.back(), "; reconstruct with --save-every 1 for all"));
+    throw OptionError(say("`frame=` is ", frame, ", but the last one that both runs have is ",
+                          both.back(), "; reconstruct with `save_every=` 1 for all"));
   return frame;
 }
 

@@ -57,7 +57,7 @@ struct MatchMoment {
 MatchMoment momentOf(const JudgedRun& run, const std::vector<int>& wanted) {
   if (run.models.empty())
     throw InputError(shown(run.folder) +
-                     ": has no models of single frames; reconstruct with --save-every 1");
+                     ": has no models of single frames; reconstruct with `save_every=` 1");
   MatchMoment moment;
   if (wanted.empty()) {
     for (const auto& [frame, file] : run.models) {
@@ -70,7 +70,7 @@ MatchMoment momentOf(const JudgedRun& run, const std::vector<int>& wanted) {
   const auto after = run.models.lower_bound(moment.frame);
   if (after == run.models.begin() ||
       !std::binary_search(run.frames.begin(), run.frames.end(), moment.frame))
-    throw OptionError(say("--frame is ", moment.frame, ", but must be one of the run's, after ",
+    throw OptionError(say("`frame=` is ", moment.frame, ", but must be one of the run's, after ",
                           run.models.begin()->first, ", whose model is the first that was saved"));
   moment.model_frame = std::prev(after)->first;
   const auto before = std::lower_bound(run.frames.begin(), run.frames.end(), moment.frame) - 1;

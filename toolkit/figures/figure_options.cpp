@@ -24,7 +24,7 @@ constexpr const char* kModel = "model";
 void requireEnding(const std::string& file) {
   const std::string ending = fs::path(file).extension().string();
   if (ending != ".png" && ending != ".pdf" && ending != ".svg")
-    throw OptionError("--out is `" + file + "`, but must end in .png, .pdf or .svg");
+    throw OptionError("`out=` is `" + file + "`, but must end in .png, .pdf or .svg");
 }
 
 }  // namespace
@@ -49,17 +49,17 @@ void FigureOptions::validate() const {
     requireEnding(file);
     requireWritable(file, force);
     if (!files.insert(std::filesystem::path(file).lexically_normal()).second)
-      throw OptionError("--out names " + file + " twice; name each file once");
+      throw OptionError("`out=` names " + file + " twice; name each file once");
   }
   requireWritable(recordFile(), force);
   const auto positive = [](const char* name, double value) {
     require(value == 0 || (value > 0 && std::isfinite(value)), name, value, "must be above 0");
   };
-  positive("--field-mm", field_mm);
-  require(dot_reach_mm > 0, "--dots-within-mm", dot_reach_mm, "must be above 0");
-  require(width_mm == 0 || (width_mm >= 40 && width_mm <= 1000), "--width-mm", width_mm,
+  positive("`field_mm=`", field_mm);
+  require(dot_reach_mm > 0, "`dots_within_mm=`", dot_reach_mm, "must be above 0");
+  require(width_mm == 0 || (width_mm >= 40 && width_mm <= 1000), "`width_mm=`", width_mm,
           "must be 40 to 1000");
-  require(dots_per_inch == 0 || (dots_per_inch >= 30 && dots_per_inch <= 2400), "--dpi",
+  require(dots_per_inch == 0 || (dots_per_inch >= 30 && dots_per_inch <= 2400), "`dots_per_inch=`",
           dots_per_inch, "must be 30 to 2400");
   figureStyle();
   namedPlace();
@@ -74,22 +74,22 @@ FigureStyle FigureOptions::figureStyle() const {
 }
 
 std::optional<Eigen::Vector3d> FigureOptions::namedPlace() const {
-  require(landmarks.empty() || !at.empty(), "--landmarks", landmarks,
-          "needs --at NAME, one of them");
+  require(landmarks.empty() || !at.empty(), "`landmarks=`", landmarks,
+          "needs `at=` NAME, one of them");
   if (at.empty() || at == kModel) return std::nullopt;
-  if (landmarks.empty()) return parseVector(at, "--at");
+  if (landmarks.empty()) return parseVector(at, "`at=`");
   const LandmarkPlaces places = readLandmarkPlaces(landmarks);
   if (const auto found = places.find(at); found != places.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, place_mm] : places) names.push_back(name);
   const std::string nearest = nearestName(at, names);
-  throw OptionError("--at `" + at + "`: " + shown(landmarks) + " has no such landmark" +
+  throw OptionError("`at=` `" + at + "`: " + shown(landmarks) + " has no such landmark" +
                     (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)"));
 }
 
 Eigen::Vector3d FigureOptions::centreIn(const Scene& scene, const SceneSurface* model) const {
   if (at != kModel) return namedPlace().value_or(sceneCentre(scene));
-  if (model == nullptr) throw OptionError("--at model: there is no model; give one, or X,Y,Z");
+  if (model == nullptr) throw OptionError("`at=` model: there is no model; give one, or X,Y,Z");
   return middleOf({*model}).median_mm;
 }
 

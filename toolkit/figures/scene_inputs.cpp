@@ -121,7 +121,7 @@ void SceneInputs::checkPlaces() {
       const double unit_mm = checkMesh(mesh).likely_unit_mm;
       if (unit_mm != 1)
         warn(say(surface_paths_[i], ": its box is ", boxOf({scene_.surfaces[i]}).sizes().maxCoeff(),
-                 " mm long. In another unit? Then give --unit-mm ", unit_mm));
+                 " mm long. In another unit? Then give `unit_mm=` ", unit_mm));
     }
     if (!scene_.volume) continue;
     const auto volume = boxOf(*scene_.volume), surface = boxOf({scene_.surfaces[i]});

@@ -50,7 +50,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const fs::path
   id_ = fork();
   if (id_ == 0) become(pointers.data(), file, parent);
   close(file);
-  if (id_ < 0) throw Error("no further process can be started; fewer --jobs need fewer");
+  if (id_ < 0) throw Error("no further process can be started; fewer `jobs=` need fewer");
 }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept

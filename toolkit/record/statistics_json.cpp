@@ -4,13 +4,16 @@
 #include <cmath>
 #include <cstdio>
 
+#include "toolkit/record/metric_lists.h"
+
 namespace softscope {
 
 FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit) {
-  return {{"mean" + unit, s.mean}, {"sd" + unit, s.sd},
-          {"rmse" + unit, s.rmse}, {"median" + unit, s.median},
-          {"p95" + unit, s.p95},   {"max" + unit, s.max},
-          {"n", s.count}};
+  FactSheet::Json json = FactSheet::Json::object();
+  for (const Metric<Statistics>& metric : statisticsMetrics())
+    json[metric.key + unit] = metric.of(s);
+  json["n"] = s.count;
+  return json;
 }
 
 FactSheet::Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }

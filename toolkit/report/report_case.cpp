@@ -31,11 +31,11 @@ fs::path recordIn(const fs::path& path) {
     if (isThere(path / name)) return path / name;
   if (isThere(path / "trajectory.txt"))
     throw InputError(shown(path) +
-                     ": is a run that has not been judged yet; run `softscope evaluate " +
-                     shown(path) + " --reference … --out DIR` and report DIR");
+                     ": is a run that has not been judged yet; run softscope evaluate on it, with "
+                     "`reference=` and `out=`, and report what that wrote");
   throw InputError(shown(path) +
                    ": holds no evaluation.json and no comparison.json; give a folder that "
-                   "softscope evaluate --out or compare --out wrote");
+                   "softscope evaluate or compare wrote with `out=`");
 }
 
 ReportCase::Kind kindOf(const Json& record) {

@@ -63,7 +63,7 @@ const ChecklistItem kClaim[] = {
 }  // namespace
 
 void requireChecklist(const std::string& name) {
-  require(name.empty() || name == "claim", "--checklist", name, "must be claim");
+  require(name.empty() || name == "claim", "`checklist=`", name, "must be claim");
 }
 
 ReportTable checklistTable(const std::string& name) {

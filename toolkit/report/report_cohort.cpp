@@ -14,29 +14,6 @@ namespace {
 using Json = FactSheet::Json;
 using Cases = std::vector<ReportCase>;
 
-/// One number of a case, wherever its kind of record has it.
-struct CohortMetric {
-  const char* key;   // in JSON
-  const char* name;  // with its unit
-  const char* of_run;
-  const char* of_pair;
-};
-
-constexpr CohortMetric kMetrics[] = {
-    {"fused_share", "frames fused [share]", "outcomes.fused_share", ""},
-    {"mean_mm", "mean distance [mm]", "surface.mean_mm", "accuracy.mean_mm"},
-    {"median_mm", "median [mm]", "surface.median_mm", "accuracy.median_mm"},
-    {"p95_mm", "P95 [mm]", "surface.p95_mm", "accuracy.p95_mm"},
-    {"max_mm", "largest [mm]", "surface.max_mm", "accuracy.max_mm"},
-    {"signed_mean_mm", "signed mean [mm]", "surface.signed.mean_mm", "signed.mean_mm"},
-    {"hd95_max_of_directed_mm", "HD95, larger of both [mm]",
-     "surface.hausdorff.hd95_max_of_directed_mm", "hausdorff.hd95_max_of_directed_mm"},
-    {"completeness_1mm", "reconstructed [share]", "surface.completeness_1mm", ""},
-    {"track_mean_mm", "material points, mean [mm]", "tracks.mean_mm", ""},
-    {"backprojection_mean_mm", "back-projection, mean [mm]", "backprojection.mean_mm", ""},
-    {"psnr_db", "PSNR of the drawn view [dB]", "view.psnr_db", ""},
-    {"ssim", "SSIM of the drawn view", "view.ssim", ""}};
-
 double valueOf(const ReportCase& c, const CohortMetric& metric) {
   return numberAt(c.record, c.kind == ReportCase::Kind::kPair ? metric.of_pair : metric.of_run);
 }
@@ -63,7 +40,7 @@ std::string quartiles(const CohortSummary& s) {
 ReportTable casesTable(const Cases& cases) {
   ReportTable table{"Case by case", {"case"}, {}, /*words=*/false};
   for (const ReportCase& c : cases) table.rows.push_back({c.name});
-  for (const CohortMetric& metric : kMetrics) {
+  for (const CohortMetric& metric : cohortMetrics()) {
     const std::vector<double> values = valuesOf(cases, metric);
     if (!measured(values)) continue;
     table.headings.emplace_back(metric.name);
@@ -77,7 +54,7 @@ ReportTable summaryTable(const Cases& cases, const ReportChoices& choices) {
                     {"", "mean \xC2\xB1 SD", "median [quartiles]", "95 % CI of the mean", "n"},
                     {},
                     /*words=*/false};
-  for (const CohortMetric& metric : kMetrics) {
+  for (const CohortMetric& metric : cohortMetrics()) {
     const std::vector<double> values = valuesOf(cases, metric);
     if (!measured(values)) continue;
     const CohortSummary s = summariseCohort(values, choices.seed);
@@ -115,7 +92,7 @@ void addAgreement(AgreementData data, const std::string& caption, const std::str
 }
 
 const CohortMetric& metricNamed(const std::string& key) {
-  return *std::find_if(std::begin(kMetrics), std::end(kMetrics),
+  return *std::find_if(cohortMetrics().begin(), cohortMetrics().end(),
                        [&](const CohortMetric& m) { return key == m.key; });
 }
 
@@ -168,6 +145,24 @@ const ReportCase* worstOf(const Cases& cases) {
 }
 
 }  // namespace
+
+const std::vector<CohortMetric>& cohortMetrics() {
+  static const std::vector<CohortMetric> metrics{
+      {"fused_share", "frames fused [share]", "outcomes.fused_share", ""},
+      {"mean_mm", "mean distance [mm]", "surface.mean_mm", "accuracy.mean_mm"},
+      {"median_mm", "median [mm]", "surface.median_mm", "accuracy.median_mm"},
+      {"p95_mm", "P95 [mm]", "surface.p95_mm", "accuracy.p95_mm"},
+      {"max_mm", "largest [mm]", "surface.max_mm", "accuracy.max_mm"},
+      {"signed_mean_mm", "signed mean [mm]", "surface.signed.mean_mm", "signed.mean_mm"},
+      {"hd95_max_of_directed_mm", "HD95, larger of both [mm]",
+       "surface.hausdorff.hd95_max_of_directed_mm", "hausdorff.hd95_max_of_directed_mm"},
+      {"completeness_1mm", "reconstructed [share]", "surface.completeness_1mm", ""},
+      {"track_mean_mm", "material points, mean [mm]", "tracks.mean_mm", ""},
+      {"backprojection_mean_mm", "back-projection, mean [mm]", "backprojection.mean_mm", ""},
+      {"psnr_db", "PSNR of the drawn view [dB]", "view.psnr_db", ""},
+      {"ssim", "SSIM of the drawn view", "view.ssim", ""}};
+  return metrics;
+}
 
 ReportTable cohortComparedTable(const Cases& cases) {
   ReportTable table{"", {"case", "tested", "reference", "alignment"}, {}, /*words=*/true};
@@ -238,7 +233,7 @@ std::vector<ReportPart> pairedParts(const Cases& cases, const Cases& versus,
                     {"", "these", "versus", "difference", "95 % CI", "signed-rank p"},
                     {},
                     /*words=*/false};
-  for (const CohortMetric& metric : kMetrics) {
+  for (const CohortMetric& metric : cohortMetrics()) {
     const std::vector<double> differences = differencesOf(cases, versus, metric);
     if (!measured(differences)) continue;
     const CohortSummary d = summariseCohort(differences, choices.seed);
@@ -282,7 +277,7 @@ ReportList cohortMethods(bool paired) {
 
 Json cohortJson(const Cases& cases, const Cases& versus, const ReportChoices& choices) {
   Json json = Json::object();
-  for (const CohortMetric& metric : kMetrics) {
+  for (const CohortMetric& metric : cohortMetrics()) {
     const std::vector<double> values = valuesOf(cases, metric);
     if (!measured(values)) continue;
     const CohortSummary s = summariseCohort(values, choices.seed);

@@ -9,6 +9,16 @@
 
 namespace softscope {
 
+/// One number of a case, wherever its kind of record has it.
+struct CohortMetric {
+  const char* key;      // in JSON
+  const char* name;     // with its unit
+  const char* of_run;   // its place in evaluation.json
+  const char* of_pair;  // in comparison.json; empty where that has none
+};
+
+const std::vector<CohortMetric>& cohortMetrics();
+
 /// Whether any case was measured against something that is known.
 bool anyTruth(const std::vector<ReportCase>& cases);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "toolkit/record/metric_lists.h"
 #include "toolkit/record/version.h"
 #include "toolkit/report/report_alignment.h"
 #include "toolkit/report/report_plots.h"
@@ -69,13 +70,10 @@ std::vector<NamedPart> distanceParts(const ReportCase& c) {
 
 ReportTable bothWaysTable(const ReportCase& c) {
   const std::string at = c.kind == Kind::kPair ? "hausdorff." : "surface.hausdorff.";
-  return valueTable("Both ways", "mm", c.record,
-                    {{"HD95, larger of both directions", at + "hd95_max_of_directed_mm"},
-                     {"HD95, both directions pooled", at + "hd95_pooled_mm"},
-                     {"HD95, mean of both directions", at + "hd95_mean_of_directed_mm"},
-                     {"Hausdorff distance (largest of all)", at + "hd_mm"},
-                     {"ASSD", at + "assd_mm"},
-                     {"MASD", at + "masd_mm"}});
+  std::vector<NamedPart> parts;
+  for (const Metric<HausdorffDistances>& metric : hausdorffMetrics())
+    parts.push_back({metric.name, at + metric.key});
+  return valueTable("Both ways", "mm", c.record, parts);
 }
 
 ReportTable motionTable(const ReportCase& c) {

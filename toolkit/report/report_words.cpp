@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "toolkit/record/metric_lists.h"
+
 namespace softscope {
 namespace {
 
@@ -41,14 +43,18 @@ std::string intervalText(const Interval& interval) {
 
 ReportTable statisticsTable(const std::string& caption, const FactSheet::Json& record,
                             const std::vector<NamedPart>& parts) {
-  ReportTable table{
-      caption, {"", "mean", "SD", "RMSE", "median", "P95", "max", "n"}, {}, /*words=*/false};
+  ReportTable table{caption, {""}, {}, /*words=*/false};
+  for (const Metric<Statistics>& metric : statisticsMetrics())
+    table.headings.push_back(metric.name);
+  table.headings.push_back("n");
   for (const NamedPart& part : parts) {
-    const auto value = [&](const char* key) { return numberAt(record, part.path + "." + key); };
+    const auto value = [&](const std::string& key) {
+      return numberAt(record, part.path + "." + key);
+    };
     if (!std::isfinite(value("mean_mm"))) continue;
     std::vector<std::string> row{part.name};
-    for (const char* key : {"mean_mm", "sd_mm", "rmse_mm", "median_mm", "p95_mm", "max_mm"})
-      row.push_back(numberText(value(key)));
+    for (const Metric<Statistics>& metric : statisticsMetrics())
+      row.push_back(numberText(value(metric.key + std::string("_mm"))));
     row.push_back(countText(value("n")));
     table.rows.push_back(std::move(row));
   }

@@ -17,9 +17,9 @@ namespace {
 std::vector<ReportCase> readVersus(const ReportOptions& options) {
   if (options.versus.empty()) return {};
   if (options.versus.size() != options.cases.size() || options.cases.size() < 2)
-    throw OptionError(say("--versus is given ", options.versus.size(), " times, but there are ",
+    throw OptionError(say("`versus=` is given ", options.versus.size(), " times, but there are ",
                           options.cases.size(),
-                          " cases; it takes two cases or more, and one --versus for each"));
+                          " cases; it takes two cases or more, and one `versus=` for each"));
   std::vector<ReportCase> cases;
   for (const std::string& folder : options.versus) cases.push_back(readReportCase(folder));
   return cases;
@@ -27,7 +27,7 @@ std::vector<ReportCase> readVersus(const ReportOptions& options) {
 
 std::vector<ReportCase> readCases(const ReportOptions& options) {
   if (!options.names.empty() && options.names.size() != options.cases.size())
-    throw OptionError(say("--name is given ", options.names.size(), " times, but there are ",
+    throw OptionError(say("`names=` is given ", options.names.size(), " times, but there are ",
                           options.cases.size(), " cases; name all or none"));
   std::vector<ReportCase> cases;
   for (std::size_t i = 0; i < options.cases.size(); ++i) {
@@ -40,12 +40,12 @@ std::vector<ReportCase> readCases(const ReportOptions& options) {
 }  // namespace
 
 void ReportOptions::validate() const {
-  require(limit_mm >= 0 && std::isfinite(limit_mm), "--limit-mm", limit_mm, "must be above 0");
-  require(seed >= 0, "--seed", seed, "must be 0 or more");
+  require(limit_mm >= 0 && std::isfinite(limit_mm), "`limit_mm=`", limit_mm, "must be above 0");
+  require(seed >= 0, "`seed=`", seed, "must be 0 or more");
   requireChecklist(checklist);
   requireWritable(html, overwrite);
   if (!pdf.empty()) requireWritable(pdf, overwrite);
-  if (html == pdf) throw OptionError("--out and --pdf name the same file; give two");
+  if (html == pdf) throw OptionError("`out=` and `pdf=` name the same file; give two");
 }
 
 ReportDocument writeReport(const ReportOptions& options) {

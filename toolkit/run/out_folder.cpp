@@ -23,7 +23,7 @@ bool liesIn(const fs::path& path, const fs::path& folder) {
 }
 
 [[noreturn]] void refuseInput(const fs::path& out, const char* what) {
-  throw OptionError("--out " + out.string() + ": " + what +
+  throw OptionError("`out=` " + out.string() + ": " + what +
                     "; choose a folder of its own for the results");
 }
 

@@ -101,14 +101,15 @@ std::optional<Checkpoint> SequenceRun::earlierState(const RunFolder& folder,
   const std::string out = options_.out.string();
   std::optional<Checkpoint> earlier = folder.readCheckpoint();
   if (!earlier && !folder.wasKilled())
-    throw OptionError("--resume: " + out + " holds no interrupted run; start it without --resume");
+    throw OptionError("`resume=`: " + out +
+                      " holds no interrupted run; start it without `resume=`");
   if (!earlier)
     listener_.warn("the run in " + out + " was killed before its first checkpoint: it starts anew");
   if (earlier && earlier->settings != settings)
     throw OptionError(
-        "--resume: the run in " + out +
+        "`resume=`: the run in " + out +
         " was begun with other settings, pictures, calibration or tracked pixels; give the "
-        "same, or start again without --resume");
+        "same, or start again without `resume=`");
   return earlier;
 }
 
@@ -196,7 +197,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     folder.add(frame, result->names);
     record.add(asTabled(frame));
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
-      folder.saveModel(frame.frame, frame.time_s, reconstructor.state().model);
+      folder.saveModel(frame.frame, frame.time_s, reconstructor.model());
     checkpoint.next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
     if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {
@@ -209,7 +210,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
   rejections_.conclude("frames.csv has the reason of each");
   interrupted_ = (!wanted || input_gone_ || !failure_.empty()) && !at_end;
   if (interrupted_ && !input_gone_ && failure_.empty())
-    listener_.warn("interrupted: what is finished stays; --resume goes on");
+    listener_.warn("interrupted: what is finished stays; `resume=` goes on");
   if (reconstructor.backend().empty()) return;
   checkpoint.state = reconstructor.state();
   if (!interrupted_) folder.saveLastModel(checkpoint.state.model);
@@ -228,13 +229,13 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
   if (!nothing) folder.writeCrate(jsonText(roCrate(options_.out, written, today())));
   if (!failure_.empty())
-    throw BackendError(failure_ + (nothing ? ". --backend cpu needs no GPU"
-                                           : ". What is finished stays; go on with --resume, "
-                                             "without the GPU with --resume --backend cpu"));
+    throw BackendError(failure_ + (nothing ? ". `backend=` cpu needs no GPU"
+                                           : ". What is finished stays; go on with `resume=`, "
+                                             "without the GPU with `resume=` and `backend=` cpu"));
   if (input_gone_)
     throw InputError(options_.name +
                      ": was removed while it was read, or its disk; what is finished "
-                     "stays. Put it back and go on with --resume");
+                     "stays. Put it back and go on with `resume=`");
   return {written, record.text(options_.out.string()), outcomes, interrupted_};
 }
 
@@ -242,7 +243,7 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
 
 void ReconstructOptions::validate() const {
   settings.validate();
-  require(checkpoint_every >= 1, "--checkpoint-every", checkpoint_every, "must be 1 or more");
+  require(checkpoint_every >= 1, "`checkpoint_every=`", checkpoint_every, "must be 1 or more");
   requireBackendName(backend);
 }
 

@@ -50,7 +50,7 @@ bool holdsRun(const fs::path& folder) {
 }
 
 [[noreturn]] void refuseBusy(const fs::path& folder) {
-  throw OptionError("--out " + shown(folder) +
+  throw OptionError("`out=` " + shown(folder) +
                     ": another softscope reconstruct is writing to it; wait until it has ended, "
                     "or choose another folder");
 }
@@ -59,17 +59,17 @@ void requireUsable(const RunFolderOptions& options, bool resume) {
   const fs::path& folder = options.folder;
   if (!fs::exists(folder)) {
     if (resume)
-      throw OptionError("--resume: there is no " + shown(folder) +
-                        "; start the run without --resume");
+      throw OptionError("`resume=`: there is no " + shown(folder) +
+                        "; start the run without `resume=`");
     return;
   }
   if (!fs::is_directory(folder))
-    throw OptionError("--out " + shown(folder) + ": is a file, but must be a folder");
+    throw OptionError("`out=` " + shown(folder) + ": is a file, but must be a folder");
   if (isHeld(folder / kRunLock)) refuseBusy(folder);
   if (!resume && !options.overwrite && holdsRun(folder))
-    throw OptionError("--out " + shown(folder) + ": holds a run already; choose another folder, " +
-                      (fs::exists(folder / kCheckpoint) ? "go on with --resume, " : "") +
-                      "or replace it with --force");
+    throw OptionError("`out=` " + shown(folder) + ": holds a run already; choose another folder, " +
+                      (fs::exists(folder / kCheckpoint) ? "go on with `resume=`, " : "") +
+                      "or replace it with `overwrite=`");
 }
 
 /// Lines of a CSV whose first cell is a frame before `next_frame`.
@@ -129,7 +129,7 @@ PointCloud cloudOf(const ModelState& state) {
 }
 
 RunFolder::RunFolder(RunFolderOptions options, bool resume) : options_(std::move(options)) {
-  require(options_.save_every >= 0, "--save-every", options_.save_every, "can't be negative");
+  require(options_.save_every >= 0, "`save_every=`", options_.save_every, "can't be negative");
   requireUsable(options_, resume);
 }
 
@@ -167,7 +167,7 @@ void RunFolder::takeOver(int next_frame) {
   if (trajectory_.size() < frames)
     throw InputError(shown(options_.folder) + ": frames.csv has " + std::to_string(frames) +
                      " frames, trajectory.txt " + std::to_string(trajectory_.size()) +
-                     "; they don't belong together. Start again without --resume");
+                     "; they don't belong together. Start again without `resume=`");
   trajectory_.resize(frames);
   std::size_t line = 0;
   for (const std::string_view text : linesOf(frames_csv_)) {
@@ -186,7 +186,7 @@ void RunFolder::begin() {
   std::error_code failure;
   fs::create_directories(options_.folder, failure);
   if (failure)
-    throw InputError("--out " + shown(options_.folder) + ": can't be made: " + failure.message() +
+    throw InputError("`out=` " + shown(options_.folder) + ": can't be made: " + failure.message() +
                      ". Choose a folder that you may write to");
   hold();
   for (const char* name : kFiles) fs::remove(file(name));

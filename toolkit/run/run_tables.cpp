@@ -72,7 +72,7 @@ double numberIn(const std::string& cell) {
 
 FrameStatus statusNamed(const std::string& name, const std::string& file) {
   if (const auto status = frameStatusNamed(name)) return *status;
-  throw InputError(file + ": a frame has an unknown status; start again without --resume");
+  throw InputError(file + ": a frame has an unknown status; start again without `resume=`");
 }
 
 double timeOf(const FrameRecord& record, const std::string& stage) {
@@ -169,7 +169,7 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
   if (cells.size() != heading.size())
     throw InputError(name + ": a line has " + std::to_string(cells.size()) + " cells, but " +
                      std::to_string(heading.size()) +
-                     " are expected; start again without --resume");
+                     " are expected; start again without `resume=`");
   const auto cell = [&](const std::string& column) -> const std::string& {
     return cells[std::size_t(std::find(heading.begin(), heading.end(), column) - heading.begin())];
   };

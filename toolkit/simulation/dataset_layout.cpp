@@ -28,7 +28,7 @@ constexpr int kSurgtTargets = 3;
 constexpr double kSurgtTargetMm = 6;  // side of the square of tissue that a box bounds
 
 void requirePinhole(const std::string& name, const SimulateOptions& options) {
-  require(options.simulation.scope.lens().distortion.isZero(), "--layout", name,
+  require(options.simulation.scope.lens().distortion.isZero(), "`layout=`", name,
           "its truth lies on rectified images; leave scope.k1 … p2 at 0");
 }
 
@@ -180,7 +180,7 @@ std::unique_ptr<DatasetLayout> makeDatasetLayout(const std::string& name, const 
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     const std::string nearest = nearestName(name, names);
     throw OptionError(
-        "--layout: `" + name + "` is no known form" +
+        "`layout=`: `" + name + "` is no known form" +
         (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
         ". Give stir2026, surgt, scared, servct, stereomis, d4d, stir, hamlyn or c3vd");
   }

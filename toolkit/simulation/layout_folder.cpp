@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 LayoutFolder::LayoutFolder(fs::path folder) : folder_(std::move(folder)) {
   std::error_code ignored;
   if (fs::exists(folder_) && !fs::is_directory(folder_))
-    throw OptionError("--out: " + shown(folder_) + " is a file, but must be a folder");
+    throw OptionError("`out=`: " + shown(folder_) + " is a file, but must be a folder");
   if (fs::exists(folder_) && !fs::is_empty(folder_, ignored))
-    throw OptionError("--out: " + shown(folder_) +
-                      " is not empty; with --layout choose a new folder");
+    throw OptionError("`out=`: " + shown(folder_) +
+                      " is not empty; with `layout=` choose a new folder");
   files_.makeFolder(folder_);
 }
 

@@ -45,7 +45,7 @@ void setPictureSize(const std::string& text, ScopeOptions& scope) {
   const auto height = cross == std::string::npos ? std::nullopt : numberOf(text.substr(cross + 1));
   const auto fits = [](double n) { return n >= 32 && n <= 8192 && n == static_cast<int>(n); };
   if (!width || !height || !fits(*width) || !fits(*height))
-    throw OptionError("--size is `" + text +
+    throw OptionError("`size=` is `" + text +
                       "`, but must be WIDTHxHEIGHT, each 32 to 8192 px, e.g. 640x480");
   scope.width_px = static_cast<int>(*width);
   scope.height_px = static_cast<int>(*height);
@@ -63,7 +63,7 @@ TruthKinds TruthKinds::parse(const std::string& list) {
     const auto found = std::find(names.begin(), names.end(), word);
     if (found == names.end()) {
       const std::string nearest = nearestName(word, names);
-      throw OptionError("--truth: `" + word + "` is no kind of truth" +
+      throw OptionError("`truth=`: `" + word + "` is no kind of truth" +
                         (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
                         ". Give some of mesh,depth,trajectory,tracks,normals,flow, or none");
     }

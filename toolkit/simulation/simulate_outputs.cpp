@@ -64,18 +64,18 @@ bool holdsFile(const fs::path& folder) {
 void requireUsableFolder(const fs::path& folder, bool overwrite) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
-    throw OptionError("--out: " + shown(folder) + " is a file, but must be a folder");
+    throw OptionError("`out=`: " + shown(folder) + " is a file, but must be a folder");
   removeAbandoned(folder);
   for (const char* name : kFrameFolders) removeAbandoned(folder / name);
   removeAbandoned(folder / "groundtruth");
   if (!holdsFile(folder)) return;
   if (!overwrite)
-    throw OptionError("--out: " + shown(folder) +
-                      " is not empty; choose another folder, or give --force");
+    throw OptionError("`out=`: " + shown(folder) +
+                      " is not empty; choose another folder, or give `overwrite=`");
   if (!fs::exists(folder / kRecord))
     throw OptionError(
-        "--out: " + shown(folder) + " holds no " + kRecord +
-        ", so it is no simulation, and --force won't touch it; choose another folder");
+        "`out=`: " + shown(folder) + " holds no " + kRecord +
+        ", so it is no simulation, and `overwrite=` won't touch it; choose another folder");
 }
 
 template <class Value>

@@ -235,11 +235,11 @@ Json CaseRunner::run() {
 void StudyFolder::requireUsable() const {
   if (!fs::exists(root)) return;
   if (!fs::is_directory(root))
-    throw OptionError("--out: " + shown(root) + " is a file, but must be a folder");
+    throw OptionError("`out=`: " + shown(root) + " is a file, but must be a folder");
   if (fs::exists(marker())) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(root))
     if (entry.path().filename() != "cases")  // workflows make it before us
-      throw OptionError("--out: " + shown(root) + " holds " + shown(entry.path().filename()) +
+      throw OptionError("`out=`: " + shown(root) + " holds " + shown(entry.path().filename()) +
                         ", but is no folder of a study; choose another one");
 }
 

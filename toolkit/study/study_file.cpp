@@ -319,8 +319,8 @@ const StudyCase& Study::caseNamed(const std::string& name) const {
   }
   const std::string nearest = nearestName(name, names);
   throw OptionError(
-      "--case `" + name + "`: " + shown(file) + " has no such case" +
-      (nearest.empty() ? "; --list names them all" : " (did you mean `" + nearest + "`?)"));
+      "`case=` `" + name + "`: " + shown(file) + " has no such case" +
+      (nearest.empty() ? "; `list=` names them all" : " (did you mean `" + nearest + "`?)"));
 }
 
 Study readStudy(const fs::path& file) {

@@ -19,17 +19,6 @@ using Json = FactSheet::Json;
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastFusedShare = 0.5;
 
-const std::vector<StudyMetric> kUsualColumns{
-    {"run.fused_share", "frames fused [share]", 2},
-    {"evaluation.tracks.mean_mm", "material points mean [mm]", 3},
-    {"evaluation.tracks.p95_mm", "material points P95 [mm]", 3},
-    {"evaluation.tracks.no_motion_control_mm", "had nothing been tracked [mm]", 2},
-    {"evaluation.surface.mean_mm", "surface mean [mm]", 3},
-    {"evaluation.surface.p95_mm", "surface P95 [mm]", 3},
-    {"evaluation.surface.completeness_1mm", "completeness [share]", 3},
-    {"evaluation.camera.pose.rmse_mm", "scope [mm]", 2},
-    {"run.mean_backprojection_mm", "back-projection [mm]", 3}};
-
 /// "0.30000000000000004" is 0.3.
 std::string shortest(double value) {
   std::ostringstream text;
@@ -152,6 +141,20 @@ void addLevel(const StudyCase& one, const Json& record, const StudyPlot& plot,
 
 }  // namespace
 
+const std::vector<StudyMetric>& usualColumns() {
+  static const std::vector<StudyMetric> columns{
+      {"run.fused_share", "frames fused [share]", 2},
+      {"evaluation.tracks.mean_mm", "material points mean [mm]", 3},
+      {"evaluation.tracks.p95_mm", "material points P95 [mm]", 3},
+      {"evaluation.tracks.no_motion_control_mm", "had nothing been tracked [mm]", 2},
+      {"evaluation.surface.mean_mm", "surface mean [mm]", 3},
+      {"evaluation.surface.p95_mm", "surface P95 [mm]", 3},
+      {"evaluation.surface.completeness_1mm", "completeness [share]", 3},
+      {"evaluation.camera.pose.rmse_mm", "scope [mm]", 2},
+      {"run.mean_backprojection_mm", "back-projection [mm]", 3}};
+  return columns;
+}
+
 double valueAt(const Json& record, const std::string& path) {
   const Json* at = &record;
   std::istringstream parts(path);
@@ -216,7 +219,7 @@ StudyTable studyTable(const Study& study, const std::vector<Json>& records) {
   table.headings = {"case"};
   const std::vector<std::string> beside = besideHeadings(study);
   table.headings.insert(table.headings.end(), beside.begin(), beside.end());
-  std::vector<StudyMetric> columns = study.columns.empty() ? kUsualColumns : study.columns;
+  std::vector<StudyMetric> columns = study.columns.empty() ? usualColumns() : study.columns;
   columns.erase(std::remove_if(columns.begin(), columns.end(),
                                [&](const StudyMetric& c) { return !anyValue(records, c.path); }),
                 columns.end());

@@ -22,6 +22,9 @@ struct StudyBreak {
 FactSheet::Json studyJson(const Study& study, const std::vector<FactSheet::Json>& records,
                           const std::string& command);
 
+/// Of a study that names none.
+const std::vector<StudyMetric>& usualColumns();
+
 /// Number at a dotted path of a case's record; NaN where there is none.
 double valueAt(const FactSheet::Json& record, const std::string& path);
 

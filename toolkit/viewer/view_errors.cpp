@@ -88,8 +88,8 @@ class Evaluated : public MomentErrors {
         if (const auto number = frameNumber(file)) files_[int(*number)] = file;
     if (files_.empty())
       throw InputError(shown(folder) +
-                       ": holds no errors/NNNNNN.vtp; give a folder that softscope evaluate --out "
-                       "wrote of this run");
+                       ": holds no errors/NNNNNN.vtp; give a folder that softscope evaluate "
+                       "wrote of this run with `out=`");
   }
 
   std::shared_ptr<const TriangleMesh> reference(const ViewMoment&) override { return nullptr; }

@@ -69,9 +69,10 @@ Eigen::Isometry3d readMotion(const fs::path& file) {
                      (turn * turn.transpose()).isIdentity(1e-4) && turn.determinant() > 0 &&
                      matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-6);
   if (!rigid)
-    throw InputError(shown(file) +
-                     ": holds no rigid motion; give four rows of four numbers (mm), or the "
-                     "evaluation.json of softscope evaluate RUN --reference MESH --align rigid");
+    throw InputError(
+        shown(file) +
+        ": holds no rigid motion; give four rows of four numbers (mm), or the "
+        "evaluation.json of softscope evaluate with a mesh as `reference=` and `align=` rigid");
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.matrix() = matrix;
   return motion;
@@ -82,7 +83,7 @@ RunSource::RunSource(const ViewRunOptions& options) : options_(options), run_(op
   if (models_.empty())
     throw InputError(shown(run_) +
                      ": holds no model (models/NNNNNN.ply or model.ply); give a folder that "
-                     "softscope reconstruct wrote, or --wait for the first one");
+                     "softscope reconstruct wrote, or `wait=` for the first one");
   describeModels();
   const ViewMoment last = read(count() - 1, false);  // the first one has no nodes yet
   world_.has_nodes = !last.nodes_mm.empty();
@@ -126,7 +127,7 @@ void RunSource::addVolume() {
     if (!boxOf(*world_.volume).intersects(boxOf({model})))
       warnings_.push_back(options_.ct +
                           ": the model lies beside it; a run has its scope's frame, so give "
-                          "--ct-from-run FILE, the motion that brings it into the CT");
+                          "`ct_from_run=` FILE, the motion that brings it into the CT");
   }
   kept_.clear();
   describeModels();

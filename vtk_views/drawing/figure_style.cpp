@@ -28,7 +28,7 @@ FigureStyle figureStyle(const std::string& name) {
     if (style.name == name) return style;
   std::string known;
   for (const FigureStyle& style : styles()) known += (known.empty() ? "" : ", ") + style.name;
-  throw OptionError("--style is `" + name + "`, but must be one of " + known);
+  throw OptionError("`style=` is `" + name + "`, but must be one of " + known);
 }
 
 }  // namespace softscope

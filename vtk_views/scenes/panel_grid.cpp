@@ -84,7 +84,7 @@ PanelGrid layOutPanels(std::size_t count, int columns, const FigureStyle& style,
   PanelGrid grid;
   grid.width_pt = style.width_mm * kPtPerMm;
   const double side_pt = (grid.width_pt - (across - 1) * gap_pt) / across;
-  require(side_pt >= kLeastPanelMm * kPtPerMm, "--columns", across,
+  require(side_pt >= kLeastPanelMm * kPtPerMm, "`columns=`", across,
           "panels must be 10 mm wide or more; give fewer columns or a wider figure");
   for (int i = 0; i < static_cast<int>(count); ++i)
     grid.panels.push_back(

@@ -25,9 +25,9 @@ double footScale(int width_px, int height_px) {
 }  // namespace
 
 void requireViewSize(int width_px, int height_px) {
-  require(width_px >= kLeastWidth && width_px <= kMost, "--size", width_px,
+  require(width_px >= kLeastWidth && width_px <= kMost, "`size=`", width_px,
           "must be 320 to 4096 pixels wide");
-  require(height_px >= kLeastHeight && height_px <= kMost, "--size", height_px,
+  require(height_px >= kLeastHeight && height_px <= kMost, "`size=`", height_px,
           "must be 240 to 4096 pixels high");
 }
 

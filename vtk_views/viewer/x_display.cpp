@@ -15,7 +15,7 @@ namespace softscope {
 std::shared_ptr<void> connectToDisplay() {
   const char* name = std::getenv("DISPLAY");
   const std::string instead =
-      "Without a display, --screenshot FILE.png and --movie FILE.mp4 work all the same";
+      "Without a display, `screenshot=` FILE.png and `movie=` FILE.mp4 work all the same";
   if (name == nullptr || *name == '\0')
     throw BackendError("a window needs a display, but DISPLAY is not set. " + instead);
   const std::shared_ptr<Display> display(XOpenDisplay(name), [](Display* opened) {

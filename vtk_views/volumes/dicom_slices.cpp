@@ -163,7 +163,7 @@ void removeFaulty(std::vector<DicomSlice>& slices, bool allowed,
     throw InputError(split->fault + (slices.size() > 1 ? " (" + count + " are so)" : ""));
   if (!allowed)
     throw InputError(split->fault + " (" + count +
-                     " don't fit; --allow-missing-slices leaves such slices out)");
+                     " don't fit; `allow_missing_slices=` leaves such slices out)");
   warnings.push_back(count + " were left out; the first: " + split->fault);
   slices.erase(split, slices.end());
 }
@@ -235,7 +235,7 @@ void checkMissing(const std::string& path, int missing, double step_mm, bool all
   if (!allowed)
     throw InputError(path + ": " + found +
                      ". Copy the series again, or leave their place empty with "
-                     "--allow-missing-slices");
+                     "`allow_missing_slices=`");
   warnings.push_back(found + "; their place is empty");
 }
 

@@ -43,7 +43,7 @@ GreyWindow parseWindow(const std::string& text, const Volume& volume) {
   for (const GreyWindow& preset : presets()) {
     if (text != preset.name) continue;
     if (!volume.inHounsfield())
-      throw OptionError("--window " + text +
+      throw OptionError("`window=` " + text +
                         " is in Hounsfield units, but the volume's values aren't; give auto or "
                         "WIDTH,LEVEL");
     return preset;
@@ -55,7 +55,7 @@ GreyWindow parseWindow(const std::string& text, const Volume& volume) {
       !std::isfinite(window.level)) {
     std::string names;
     for (const std::string& name : windowNames()) names += name + ", ";
-    throw OptionError("--window is `" + text + "`, but must be " + names +
+    throw OptionError("`window=` is `" + text + "`, but must be " + names +
                       "or WIDTH,LEVEL with a width above 0");
   }
   return window;

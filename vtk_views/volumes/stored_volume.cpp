@@ -46,7 +46,7 @@ std::string lengthsText(const Eigen::Vector3d& lengths) {
 
 }  // namespace
 
-const char* const kStateSpacing = "state it with --spacing X,Y,Z in mm, along i, j, k";
+const char* const kStateSpacing = "state it with `spacing=` X,Y,Z in mm, along i, j, k";
 
 void checkAxes(const std::string& path, const std::string& what,
                const Eigen::Matrix4d& space_from_voxel) {

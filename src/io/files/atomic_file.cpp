@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 [[noreturn]] void refuse(const fs::path& target) {
   throw OptionError(
       shown(target) +
-      ": exists already and is not overwritten. Choose another name or give --force.");
+      ": exists already and is not overwritten. Choose another name or give `overwrite=`.");
 }
 
 /// Unique among the threads of this process and among processes.

@@ -26,7 +26,7 @@ void requireSequence(const SequencePaths& paths, bool uncalibrated) {
   if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
     throw OptionError("a sequence needs right pictures or depth beside the left ones.");
   if (paths.calibration.empty() && !uncalibrated)
-    throw OptionError("a sequence needs a calibration. Give it with --calibration.");
+    throw OptionError("a sequence needs a calibration. Give it with `calibration=`.");
 }
 
 void requireCount(std::size_t found, int expected, const fs::path& path, const char* what) {

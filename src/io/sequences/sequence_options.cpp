@@ -14,7 +14,7 @@ int frameOf(std::string_view word, int otherwise, const std::string& text) {
   if (word.empty()) return otherwise;
   const auto value = numberOf(word);
   if (!value || *value < 0 || *value > 1e9 || *value != std::floor(*value))
-    throw OptionError(say("--frames ", excerpt(text),
+    throw OptionError(say("`frames=` ", excerpt(text),
                           ": A:B or A:B:STEP is expected, frames A up to, not ",
                           "with, B, every STEP-th of them."));
   return static_cast<int>(*value);
@@ -34,9 +34,9 @@ FrameRange parseFrameRange(const std::string& text) {
   if (second != std::string_view::npos)
     out.step = frameOf(trimmed(rest.substr(second + 1)), 1, text);
   if (out.step == 0)
-    throw OptionError(say("--frames ", excerpt(text), ": STEP is 0, but must be 1 or more."));
+    throw OptionError(say("`frames=` ", excerpt(text), ": STEP is 0, but must be 1 or more."));
   if (out.end >= 0 && out.end <= out.begin)
-    throw OptionError(say("--frames ", excerpt(text), ": names no frame; B must be above A."));
+    throw OptionError(say("`frames=` ", excerpt(text), ": names no frame; B must be above A."));
   return out;
 }
 
@@ -51,8 +51,8 @@ int SequenceOptions::rightOffset() const {
 void SequenceOptions::validate() const {
   requireAllowed(*this);
   rightOffset();
-  require(frames.begin >= 0, "--frames", frames.begin, "can't be negative");
-  require(frames.step >= 1, "--frames", frames.step, "must have a step of 1 or more");
+  require(frames.begin >= 0, "`frames=`", frames.begin, "can't be negative");
+  require(frames.step >= 1, "`frames=`", frames.step, "must have a step of 1 or more");
 }
 
 }  // namespace softscope

@@ -15,7 +15,7 @@ namespace {
 FrameRange rangeWithin(FrameRange range, int count) {
   if (range.end < 0) range.end = count;
   if (range.begin >= count || range.end > count || range.begin >= range.end)
-    throw OptionError(say("--frames ", range.begin, ":", range.end, ", but the sequence has ",
+    throw OptionError(say("`frames=` ", range.begin, ":", range.end, ", but the sequence has ",
                           count, " frames, 0:", count, "."));
   return range;
 }

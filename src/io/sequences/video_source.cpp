@@ -63,7 +63,7 @@ class SizeWatch {
         name, ": the frames change size in mid-stream, from ", first_->width_px, " x ",
         first_->height_px, " to ", changed_->width_px, " x ", changed_->height_px, " px at frame ",
         next_ - 1, ". Convert the video to one size (ffmpeg -i IN -vf scale=", first_->width_px,
-        ":", first_->height_px, " OUT.mp4)", sound > 0 ? say(", or use --frames 0:", sound) : "",
+        ":", first_->height_px, " OUT.mp4)", sound > 0 ? say(", or use `frames=` 0:", sound) : "",
         "."));
   }
 
@@ -132,7 +132,7 @@ class Video : public PictureSource {
     throw InputError(say(name_, ": frame ", next_, " can't be decoded, but the header promises ",
                          count_,
                          " frames. The video is truncated or damaged: copy it again, or use ",
-                         "--frames 0:", next_, "."));
+                         "`frames=` 0:", next_, "."));
   }
 
   std::string name_;

@@ -48,17 +48,17 @@ void flatten(const toml::table& table, const std::string& head, const std::strin
 
 /// The value as TOML reads it, or a text where it wouldn't.
 Setting valueOf(const std::string& key, const std::string& value) {
-  requireShallowToml(value, "--set " + printable(key));
+  requireShallowToml(value, "`set=` " + printable(key));
   try {
     const toml::table table = toml::parse("x = " + value);
     if (table.size() == 1) {
-      Setting out = settingOf(*table.get("x"), key, "--set");
+      Setting out = settingOf(*table.get("x"), key, kAssigned);
       if (!std::holds_alternative<std::string>(out.value)) out.text = value;
       return out;
     }
   } catch (const toml::parse_error&) {
   }
-  return {value, value, "--set"};
+  return {value, value, kAssigned};
 }
 
 }  // namespace
@@ -83,8 +83,8 @@ void addAssignment(Settings& settings, std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   const std::string key(trimmed(assignment.substr(0, equals)));
   if (equals == std::string_view::npos || key.empty())
-    throw OptionError(
-        say("--set ", excerpt(assignment), ": key=value is expected, such as stereo.method=sgbm."));
+    throw OptionError(say("`set=` ", excerpt(assignment),
+                          ": key=value is expected, such as stereo.method=sgbm."));
   settings[key] = valueOf(key, std::string(trimmed(assignment.substr(equals + 1))));
 }
 

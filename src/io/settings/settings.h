@@ -13,8 +13,11 @@ namespace softscope {
 struct Setting {
   std::variant<bool, std::int64_t, double, std::string> value;
   std::string text;    // as it was written, without the quotes of a text
-  std::string origin;  // "settings.toml:3" or "--set", for messages
+  std::string origin;  // "settings.toml:3" or kAssigned, for messages
 };
+
+/// The origin of a setting that addAssignment() added.
+inline constexpr const char* kAssigned = "`set=`";
 
 /// Dotted key ("stereo.disparity_max_px") to value; later ones win.
 using Settings = std::map<std::string, Setting>;

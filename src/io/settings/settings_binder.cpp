@@ -52,7 +52,7 @@ bool isOneLine(const std::string& text) {
 
 /// On the command line a text needs no quotes, even if it looks like a number.
 std::string textValueOf(const std::string& key, const Setting& setting) {
-  if (!std::holds_alternative<std::string>(setting.value) && setting.origin != "--set")
+  if (!std::holds_alternative<std::string>(setting.value) && setting.origin != kAssigned)
     failType(key, setting, "a text in quotes");
   if (!isOneLine(setting.text)) failType(key, setting, "a text of one line");
   return setting.text;

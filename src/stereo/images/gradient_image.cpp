@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/mask_morphology.h"
 #include "core/parallel.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/kernels/kernel_sets.h"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "stereo/images/spread.h"
 
 namespace softscope {
 namespace {
@@ -60,13 +59,6 @@ Mask united(const Mask& one, const Mask& other) {
   Mask both = one;
   for (std::size_t i = 0; i < other.size(); ++i) both.values[i] |= other.values[i];
   return both;
-}
-
-Mask dilated(const Mask& mask, int radius_px) {
-  if (mask.empty()) return {};
-  Mask marks = mask;
-  for (std::uint8_t& value : marks.values) value = value != 0;
-  return spread(marks, radius_px);
 }
 
 void dropMasked(const Mask& mask, Raster<float>* raster) {

@@ -14,9 +14,6 @@ struct ViewMasks {
 /// Masked in either; each may be empty.
 Mask united(const Mask& one, const Mask& other);
 
-/// Masked pixels widened by `radius_px` rows and columns, as 0 or 1; empty stays empty.
-Mask dilated(const Mask& mask, int radius_px);
-
 /// NaN under the mask; unchanged where that is empty or has another shape.
 void dropMasked(const Mask& mask, Raster<float>* raster);
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
+#include "core/mask_morphology.h"
 #include "stereo/images/opencv_view.h"
 #include "stereo/matching/stage_clock.h"
 #include "stereo/refinement/disparity_filter.h"

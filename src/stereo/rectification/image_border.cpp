@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/mask_morphology.h"
 #include "core/parallel.h"
-#include "stereo/images/spread.h"
 
 namespace softscope {
 namespace {
@@ -73,11 +73,11 @@ std::size_t countOf(const Mask& mask) {
 
 Mask findBlackBorder(const ColourImage& image) {
   // 1 where the whole square is black; pixels beyond the image count as black.
-  Raster<std::uint8_t> core = spread(signal(image), kReachPx);
+  Raster<std::uint8_t> core = dilated(signal(image), kReachPx);
   for (std::uint8_t& value : core.values) value = value == 0;
   core = connectedToEdge(core);
   if (countOf(core) == 0 || countOf(core) > core.size() * 3 / 4) return {};
-  const Raster<std::uint8_t> beside = spread(core, kReachPx + kBesidePx);
+  const Raster<std::uint8_t> beside = dilated(core, kReachPx + kBesidePx);
   Raster<std::uint8_t> dark = above(image, kDark);
   for (std::size_t i = 0; i < dark.size(); ++i)
     dark.values[i] = core.values[i] != 0 || (dark.values[i] == 0 && beside.values[i] != 0);

@@ -1,5 +1,6 @@
 #include "stereo/rectification/row_alignment.h"
 
+#include "core/mask_morphology.h"
 #include "stereo/rectification/row_meter.h"
 #include "stereo/rectification/row_resampling.h"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "core/mask_morphology.h"
 #include "core/parallel.h"
-#include "stereo/images/spread.h"
 #include "stereo/kernels/filter_formulas.h"
 
 namespace softscope {
@@ -38,7 +38,7 @@ Raster<std::uint8_t> nearDepthSteps(const Raster<float>& disparity_px, int radiu
     for (int u = begin; u < end; ++u)
       markLine(d + u, mark.values.data() + u, height, width, widest, step_px, slope);
   });
-  return spread(mark, radius_px);
+  return dilated(mark, radius_px);
 }
 
 }  // namespace softscope

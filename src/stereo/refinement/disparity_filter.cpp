@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/mask_morphology.h"
 #include "core/parallel.h"
-#include "stereo/images/spread.h"
 #include "stereo/kernels/filter_formulas.h"
 
 namespace softscope {
@@ -136,7 +136,7 @@ void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_
   parallelRows(left.height_px, [&](int v) {
     for (int u = 0; u < left.width_px; ++u) dark.at(u, v) = left.at(u, v) < darkest_gray;
   });
-  const Raster<std::uint8_t> near_dark = spread(dark, margin_px);
+  const Raster<std::uint8_t> near_dark = dilated(dark, margin_px);
   for (std::size_t i = 0; i < disparity_px.size(); ++i)
     if (near_dark.values[i] != 0) disparity_px.values[i] = kNaN;
 }
