@@ -34,7 +34,7 @@ struct BenchmarkPair {
 Raster<float> measuredDepth(const fs::path& run) {
   for (const char* name : {"depth.pfm", "000000_depth.pfm"})
     if (isFile(run / name)) return readDepth(run / name);
-  throw InputError(shown(run) + ": holds no depth.pfm. Run again with --force.");
+  throw InputError(shown(run) + ": holds no depth.pfm. Run again with `overwrite=`.");
 }
 
 /// Of a pair, all that `depth` does but writing.

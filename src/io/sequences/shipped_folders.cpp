@@ -57,7 +57,7 @@ fs::path oneCalibration(const fs::path& folder) {
         std::abs(other.baseline_mm() - first.baseline_mm()) > 1e-6)
       throw InputError(say(shown(file), ": differs from ", shown(files[0].filename()),
                            ", but a sequence has one calibration. Give its pairs one by one: LEFT "
-                           "RIGHT --calibration NNN.json."));
+                           "RIGHT with NNN.json as `calibration=`."));
   }
   return files[0];
 }
