@@ -56,7 +56,6 @@ NumberRule atLeast(double bound) {
 NumberRule between(double least, double most) { return {least, most, true, true}; }
 NumberRule aboveUpTo(double bound, double most) { return {bound, most, false, true}; }
 NumberRule fromToBelow(double least, double bound) { return {least, bound, true, false}; }
-NumberRule inside(double below, double above) { return {below, above, false, false}; }
 
 bool TextRule::allows(const std::string& value) const {
   return std::find(names.begin(), names.end(), value) != names.end();

@@ -33,7 +33,6 @@ NumberRule atLeast(double bound);
 NumberRule between(double least, double most);       // both allowed
 NumberRule aboveUpTo(double bound, double most);     // above, at most
 NumberRule fromToBelow(double least, double bound);  // at least, below
-NumberRule inside(double below, double above);       // neither bound allowed
 
 /// The texts that a setting may be.
 struct TextRule {

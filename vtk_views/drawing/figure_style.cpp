@@ -2,6 +2,8 @@
 // them.
 #include "vtk_views/drawing/figure_style.h"
 
+#include <vector>
+
 #include "core/error.h"
 
 namespace softscope {
@@ -16,12 +18,6 @@ const std::vector<FigureStyle>& styles() {
 }
 
 }  // namespace
-
-std::vector<std::string> figureStyleNames() {
-  std::vector<std::string> names;
-  for (const FigureStyle& style : styles()) names.push_back(style.name);
-  return names;
-}
 
 FigureStyle figureStyle(const std::string& name) {
   for (const FigureStyle& style : styles())

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace softscope {
 
@@ -14,10 +13,7 @@ struct FigureStyle {
   double dots_per_inch = 600;
 };
 
-/// ieee, nature, elsevier (one column each), slides.
-std::vector<std::string> figureStyleNames();
-
-/// Throws OptionError for a name that isn't one of these.
+/// ieee, nature, elsevier (one column each) or slides. Throws OptionError for another name.
 FigureStyle figureStyle(const std::string& name);
 
 }  // namespace softscope
