@@ -8,134 +8,144 @@ namespace softscope::cuda {
 
 constexpr int kMostColumns = kMostPivots * kUnknowns;
 
-/// A block per front of a level: its pivot columns, six at a time, left-looking. The right-hand
-/// side is the last row.
+/// A thread per row and node of a front's pivots: the matrix's entries, damped, and the children's
+/// updates. The right-hand side is the last row.
+struct AssembleFrontsKernel {
+  static constexpr int kThreads = 128, kPhases = 1;
+  using Shared = Nothing;
+  using Local = Nothing;
+  WarpStructureLayout graph;
+  int first_front;
+  double damping, floor;
+
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
+    const FrontShape front = graph.fronts[first_front + at.y];
+    const int rows = front.blocks * kUnknowns + 1, i = at.x * kThreads + at.thread;
+    const int node = i / rows, r = i % rows;
+    if (node >= front.pivots || r < node * kUnknowns) return;
+    double row[kUnknowns];
+    addMatrix(front, r, node, row);
+    for (int c = front.child_begin; c < front.child_end; ++c)
+      addChild(front, graph.children[c], r, node, row);
+    double* to = graph.factor + front.factor + r +
+                 static_cast<std::ptrdiff_t>(node * kUnknowns) * front.factor_leading;
+    for (int j = 0; j < kUnknowns; ++j)
+      to[static_cast<std::ptrdiff_t>(j) * front.factor_leading] = row[j];
+  }
+
+ private:
+  SOFTSCOPE_HD void addMatrix(const FrontShape& front, int r, int block_column,
+                              double (&row)[kUnknowns]) const {
+    const int block_row = r / kUnknowns, i = r % kUnknowns;
+    if (block_row == front.blocks) {
+      const int node = graph.front_nodes[front.nodes + block_column];
+      for (int j = 0; j < kUnknowns; ++j) row[j] = graph.gradient[node * kUnknowns + j];
+      return;
+    }
+    const int entry = graph.look_up[front.look_up + block_column * front.blocks + block_row];
+    const int number = entry > 0 ? entry - 1 : entry < 0 ? -entry - 1 : 0;
+    const double* block = graph.matrix + number * std::ptrdiff_t{kBlockEntries};
+    for (int j = 0; j < kUnknowns; ++j) {
+      const double value = block[entry > 0 ? i + kUnknowns * j : j + kUnknowns * i];
+      row[j] = entry == 0 ? 0 : value;
+    }
+    if (block_row == block_column)
+      for (int j = 0; j < kUnknowns; ++j) row[j] = row[j] * (1 + damping) + (i == j ? floor : 0);
+  }
+  SOFTSCOPE_HD void addChild(const FrontShape& front, const FrontChild& link, int r,
+                             int block_column, double (&row)[kUnknowns]) const {
+    const FrontShape child = graph.fronts[link.front];
+    const int block_row = r / kUnknowns;
+    const int from_column = graph.maps[link.map + block_column];
+    const int from_row =
+        block_row == front.blocks ? child.blocks - child.pivots : graph.maps[link.map + block_row];
+    if (from_column < 0 || from_row < 0) return;
+    const double* update =
+        graph.updates + child.update + from_row * kUnknowns + r % kUnknowns +
+        static_cast<std::ptrdiff_t>(from_column * kUnknowns) * child.update_leading;
+    for (int j = 0; j < kUnknowns; ++j)
+      row[j] += update[static_cast<std::ptrdiff_t>(j) * child.update_leading];
+  }
+};
+
+/// A block per front of a level: its pivot columns, six at a time, left-looking.
 struct FactorFrontsKernel {
-  static constexpr int kThreads = 256, kPhases = 3;
+  static constexpr int kThreads = 512, kPhases = 3;
   struct Shared {
     double others[kMostColumns][kUnknowns];  // rows of the corner, left of it
     double corner[kUnknowns][kUnknowns];
   };
   struct Local {
-    double row[kUnknowns];  // the thread's first
+    double own[kMostColumns];  // the thread's first row
   };
   WarpStructureLayout graph;
   int first_front;
-  double damping, floor;
 
-  /// The first one assembles.
   SOFTSCOPE_HD int repeats(const Place& at) const {
-    return graph.fronts[first_front + at.x].pivots + 1;
+    return graph.fronts[first_front + at.x].pivots;
   }
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
     const FrontShape front = graph.fronts[first_front + at.x];
-    const int last = front.blocks * kUnknowns;
-    if (at.repeat == 0) {
-      if constexpr (kPhase == 0) assemble(front, at.thread);
-      return;
-    }
-    const int column = (at.repeat - 1) * kUnknowns;
+    const int column = at.repeat * kUnknowns, rows = front.blocks * kUnknowns + 1;
+    double* base = graph.factor + front.factor;
+    const std::ptrdiff_t leading = front.factor_leading;
     if constexpr (kPhase == 0) {
       for (int i = at.thread; i < column * kUnknowns; i += kThreads)
         shared.others[i / kUnknowns][i % kUnknowns] =
-            at_(front, column + i % kUnknowns, i / kUnknowns);
+            base[column + i % kUnknowns + i / kUnknowns * leading];
     } else if constexpr (kPhase == 1) {
-      for (int r = column + at.thread; r <= last; r += kThreads) {
+      for (int r = at.thread; r < rows; r += kThreads) {
+        if (r < column) continue;
         double row[kUnknowns];
-        for (int j = 0; j < kUnknowns; ++j) row[j] = at_(front, r, column + j);
-        subtractColumns(front, r, column, shared, row);
+        for (int j = 0; j < kUnknowns; ++j) row[j] = base[r + (column + j) * leading];
+        if (r == at.thread)
+          subtractColumns(
+              column, shared, [&](int k) { return local.own[k]; }, row);
+        else
+          subtractColumns(
+              column, shared, [&](int k) { return base[r + k * leading]; }, row);
         if (r < column + kUnknowns)
           for (int j = 0; j < kUnknowns; ++j) shared.corner[r - column][j] = row[j];
-        if (r == column + at.thread)
-          for (int j = 0; j < kUnknowns; ++j) local.row[j] = row[j];
+        if (r == at.thread)
+          for (int j = 0; j < kUnknowns; ++j) local.own[column + j] = row[j];
         else
-          for (int j = 0; j < kUnknowns; ++j) at_(front, r, column + j) = row[j];
+          for (int j = 0; j < kUnknowns; ++j) base[r + (column + j) * leading] = row[j];
       }
     } else {
+      if (at.thread >= rows) return;
       double corner[kUnknowns][kUnknowns], inverse[kUnknowns];
       factorCorner(shared, corner, inverse);
-      if (at.thread < kUnknowns)  // 0 for a pivot that is not above 0
-        graph.inverse_pivots[front.first * kUnknowns + column + at.thread] =
-            inverseAt(inverse, at.thread);
-      for (int r = column + at.thread; r <= last; r += kThreads) {
+      if (at.thread == 0)  // 0 for a pivot that is not above 0
+        for (int j = 0; j < kUnknowns; ++j)
+          graph.inverse_pivots[front.first * kUnknowns + column + j] = inverse[j];
+      for (int r = at.thread; r < rows; r += kThreads) {
+        if (r < column) continue;
         double row[kUnknowns];
-        if (r == column + at.thread)
-          for (int j = 0; j < kUnknowns; ++j) row[j] = local.row[j];
-        else
-          for (int j = 0; j < kUnknowns; ++j) row[j] = at_(front, r, column + j);
+        for (int j = 0; j < kUnknowns; ++j)
+          row[j] = r == at.thread ? local.own[column + j] : base[r + (column + j) * leading];
         for (int j = 0; j < kUnknowns; ++j) {
           for (int k = 0; k < j; ++k) row[j] -= row[k] * corner[j][k];
           row[j] *= inverse[j];
         }
-        for (int j = 0; j < kUnknowns; ++j) at_(front, r, column + j) = row[j];
+        for (int j = 0; j < kUnknowns; ++j) base[r + (column + j) * leading] = row[j];
+        if (r == at.thread)
+          for (int j = 0; j < kUnknowns; ++j) local.own[column + j] = row[j];
       }
     }
   }
 
  private:
-  SOFTSCOPE_HD double& at_(const FrontShape& front, int row, int column) const {
-    return graph
-        .factor[front.factor + row + static_cast<std::ptrdiff_t>(column) * front.factor_leading];
-  }
-  SOFTSCOPE_HD static double inverseAt(const double (&inverse)[kUnknowns], int i) {
-    double value = inverse[0];
-    for (int j = 1; j < kUnknowns; ++j) value = i == j ? inverse[j] : value;
-    return value;
-  }
-
-  /// A thread per row and block of pivots.
-  SOFTSCOPE_HD void assemble(const FrontShape& front, int thread) const {
-    const int rows = front.blocks * kUnknowns + 1;
-    for (int i = thread; i < rows * front.pivots; i += kThreads) {
-      const int block_column = i / rows, r = i % rows;
-      if (r < block_column * kUnknowns) continue;
-      double row[kUnknowns];
-      start(front, r, block_column, row);
-      for (int j = 0; j < kUnknowns; ++j) at_(front, r, block_column * kUnknowns + j) = row[j];
-    }
-  }
-
-  /// The matrix's entries, damped, and the children's updates.
-  SOFTSCOPE_HD void start(const FrontShape& front, int r, int block_column,
-                          double (&row)[kUnknowns]) const {
-    const int block_row = r / kUnknowns, i = r % kUnknowns;
-    const bool is_right_side = block_row == front.blocks;
-    if (is_right_side) {
-      const int node = graph.front_nodes[front.nodes + block_column];
-      for (int j = 0; j < kUnknowns; ++j) row[j] = graph.gradient[node * kUnknowns + j];
-    } else {
-      const int entry = graph.look_up[front.look_up + block_column * front.blocks + block_row];
-      const double* block =
-          graph.matrix + (entry > 0 ? entry - 1 : -entry - 1) * std::ptrdiff_t{kBlockEntries};
-      for (int j = 0; j < kUnknowns; ++j)
-        row[j] = entry == 0 ? 0 : entry > 0 ? block[i + kUnknowns * j] : block[j + kUnknowns * i];
-      if (block_row == block_column)
-        for (int j = 0; j < kUnknowns; ++j) row[j] = row[j] * (1 + damping) + (i == j ? floor : 0);
-    }
-    for (int c = front.child_begin; c < front.child_end; ++c) {
-      const FrontShape& child = graph.fronts[graph.children[c].front];
-      const int* map = graph.maps + graph.children[c].map;
-      const int from_column = map[block_column];
-      const int from_row = is_right_side ? child.blocks - child.pivots : map[block_row];
-      if (from_column < 0 || from_row < 0) continue;
-      const double* update =
-          graph.updates + child.update + from_row * kUnknowns + i +
-          static_cast<std::ptrdiff_t>(from_column * kUnknowns) * child.update_leading;
-      for (int j = 0; j < kUnknowns; ++j)
-        row[j] += update[static_cast<std::ptrdiff_t>(j) * child.update_leading];
-    }
-  }
-
-  SOFTSCOPE_HD void subtractColumns(const FrontShape& front, int r, int column,
-                                    const Shared& shared, double (&row)[kUnknowns]) const {
-    const double* base = graph.factor + front.factor + r;
-    const std::ptrdiff_t leading = front.factor_leading;
-    SOFTSCOPE_UNROLL(12)
-    for (int k = 0; k < column; ++k) {
-      const double own = base[k * leading];
-      for (int j = 0; j < kUnknowns; ++j) row[j] -= own * shared.others[k][j];
-    }
+  /// `own(k)`: the row's entry in column k.
+  template <class Own>
+  SOFTSCOPE_HD static void subtractColumns(int column, const Shared& shared, const Own& own,
+                                           double (&row)[kUnknowns]) {
+    for (int first = 0; first < column; first += kUnknowns)
+      for (int k = first; k < first + kUnknowns; ++k) {
+        const double value = own(k);
+        for (int j = 0; j < kUnknowns; ++j) row[j] -= value * shared.others[k][j];
+      }
   }
 
   SOFTSCOPE_HD static void factorCorner(const Shared& shared,
@@ -146,7 +156,7 @@ struct FactorFrontsKernel {
     for (int j = 0; j < kUnknowns; ++j) {
       double pivot = corner[j][j];
       for (int k = 0; k < j; ++k) pivot -= corner[j][k] * corner[j][k];
-      inverse[j] = pivot > 0 ? 1 / std::sqrt(pivot) : 0;
+      inverse[j] = pivot > 0 ? inverseRoot(pivot) : 0;
       for (int i = j + 1; i < kUnknowns; ++i) {
         double value = corner[i][j];
         for (int k = 0; k < j; ++k) value -= corner[i][k] * corner[j][k];
@@ -158,7 +168,7 @@ struct FactorFrontsKernel {
 
 /// A block per tile of an update: the children's updates less L L^T of the border's rows.
 struct UpdateFrontsKernel {
-  static constexpr int kThreads = 256, kPhases = 2, kColumns = 24, kSide = 16, kEach = 3;
+  static constexpr int kThreads = 256, kPhases = 2, kColumns = 36, kSide = 16, kEach = 3;
   static_assert(kSide * kSide == kThreads && kSide * kEach == kUpdateTile);
   struct Shared {
     double rows[kColumns][kUpdateTile], columns[kColumns][kUpdateTile];
@@ -296,11 +306,16 @@ struct SolveFrontsKernel {
     if constexpr (kPhase == 0) {
       solveCorner(column, shared, local.x);
     } else if constexpr (kPhase == 1) {
-      if (at.thread == 0)
-        for (int j = 0; j < kUnknowns; ++j) unknown(front, column + j) = local.x[j];
-      for (int k = at.thread; k < column; k += kThreads)
+      if (at.thread == kThreads - 1)
+        for (int j = 0; j < kUnknowns; ++j) shared.x[column + j] = local.x[j];
+      for (int k = at.thread; k < column; k += kThreads) {
+        double value = shared.x[k];
         for (int j = 0; j < kUnknowns; ++j)
-          shared.x[k] -= shared.corner[cornerAt(column + j, k)] * local.x[j];
+          value -= shared.corner[cornerAt(column + j, k)] * local.x[j];
+        shared.x[k] = value;
+      }
+    } else if (column == 0) {
+      for (int k = at.thread; k < pivots; k += kThreads) unknown(front, k) = shared.x[k];
     }
   }
 
@@ -316,10 +331,10 @@ struct SolveFrontsKernel {
   }
   SOFTSCOPE_HD void stage(const FrontShape& front, int thread, Shared& shared) const {
     const int pivots = front.pivots * kUnknowns, border = front.blocks * kUnknowns - pivots;
-    for (int i = thread; i < pivots * pivots; i += kThreads) {
-      const int row = i % pivots, column = i / pivots;
-      if (row >= column) shared.corner[cornerAt(row, column)] = entry(front, row, column);
-    }
+    constexpr int kLanes = 32;
+    for (int column = thread / kLanes; column < pivots; column += kThreads / kLanes)
+      for (int row = column + thread % kLanes; row < pivots; row += kLanes)
+        shared.corner[cornerAt(row, column)] = entry(front, row, column);
     for (int i = thread; i < pivots; i += kThreads)
       shared.inverse[i] = graph.inverse_pivots[front.first * kUnknowns + i];
     for (int i = thread; i < border && i < kStagedBorder; i += kThreads)

@@ -98,21 +98,19 @@ struct WarpStructureLayout {
   WarpSums* sums;
 };
 
-/// Depends on the numbers of points and rows of matches.
-struct WarpFrameLayout {
-  WarpFrameLayout() = default;
-  WarpFrameLayout(Arena& arena, std::size_t points, std::size_t match_rows) {
-    positions_mm = arena.array<Eigen::Vector3f>(points);
-    normals = arena.array<Eigen::Vector3f>(points);
-    bindings = arena.array<PointBinding>(points);
-    targets = arena.array<PointTarget>(points);
-    matches = arena.array<PlaneConstraint>(match_rows);
+/// The points of a frame, and their targets.
+struct WarpPointLayout {
+  WarpPointLayout() = default;
+  WarpPointLayout(Arena& arena, std::size_t count) {
+    positions_mm = arena.array<Eigen::Vector3f>(count);
+    normals = arena.array<Eigen::Vector3f>(count);
+    bindings = arena.array<PointBinding>(count);
+    targets = arena.array<PointTarget>(count);
   }
 
   Eigen::Vector3f *positions_mm = nullptr, *normals = nullptr;
   PointBinding* bindings = nullptr;
   PointTarget* targets = nullptr;
-  PlaneConstraint* matches = nullptr;
 };
 
 /// The depth map of a frame.

@@ -66,37 +66,49 @@ class WarpRun final : public WarpDevice {
     machine_.wait();
   }
 
-  void setFrame(const WarpFrame& from) override {
-    const auto points = static_cast<std::size_t>(from.points);
-    const auto rows = static_cast<std::size_t>(from.match_rows);
+  void setPoints(const WarpPoints& points) override {
+    const auto count = static_cast<std::size_t>(points.count);
     Arena counting;
-    WarpFrameLayout planned(counting, points, rows);
-    reserve(counting.bytes(), &frame_memory_);
-    Arena arena(frame_memory_.data());
-    frame_ = WarpFrameLayout(arena, points, rows);
-    send(frame_.positions_mm, from.positions_mm, points);
-    send(frame_.normals, from.normals, points);
-    send(frame_.bindings, from.bindings, points);
-    send(frame_.matches, from.matches, rows);
+    WarpPointLayout planned(counting, count);
+    reserve(counting.bytes(), &point_memory_);
+    Arena arena(point_memory_.data());
+    points_ = WarpPointLayout(arena, count);
+    send(points_.positions_mm, points.positions_mm, count);
+    send(points_.normals, points.normals, count);
+    send(points_.bindings, points.bindings, count);
+    send(graph_.point_start, points.start, static_cast<std::size_t>(graph_.stencils) + 1);
+    inputs_.points = points.count;
+    inputs_.points_each = points.points_each;
+    machine_.wait();
+  }
+
+  void setMatches(const WarpMatches& matches) override {
+    const auto rows = static_cast<std::size_t>(matches.rows);
+    Arena counting;
+    counting.array<PlaneConstraint>(rows);
+    reserve(counting.bytes(), &match_memory_);
+    Arena arena(match_memory_.data());
+    matches_ = arena.array<PlaneConstraint>(rows);
+    send(matches_, matches.constraints, rows);
+    send(graph_.match_start, matches.start, static_cast<std::size_t>(graph_.stencils) + 1);
+    machine_.wait();
+  }
+
+  void setNodes(const WarpNodes& from) override {
     const auto nodes = static_cast<std::size_t>(graph_.nodes);
     const auto edges = static_cast<std::size_t>(graph_.edges);
-    const auto stencils = static_cast<std::size_t>(graph_.stencils);
     accepted_ = 0;
     send(graph_.rest_mm, from.rest_mm, nodes);
     send(graph_.transforms[accepted_], from.transforms, nodes);
     send(graph_.hidden, from.hidden, nodes);
     send(graph_.edge_weights, from.edge_weights, edges);
     send(graph_.expected, from.expected, edges);
-    send(graph_.point_start, from.point_start, stencils + 1);
-    send(graph_.match_start, from.match_start, stencils + 1);
-    inputs_.points = from.points;
-    inputs_.points_each = from.points_each;
     inputs_.lever_mm = from.lever_mm;
     machine_.wait();
   }
 
   WarpSums linearise() override {
-    passes_.linearise(graph_, frame_, inputs_, accepted());
+    passes_.linearise(graph_, points_, matches_, inputs_, accepted());
     const WarpSums sums = fetchSums();
     floor_ = SolverOptions::kDiagonalFloor * sums.largest_diagonal;
     return sums;
@@ -111,7 +123,7 @@ class WarpRun final : public WarpDevice {
   }
   WarpSums tryStep(double damping) override {
     passes_.factor(graph_, fronts_, {damping, floor_});
-    passes_.step(graph_, fronts_, frame_, inputs_, damping, accepted(), trial());
+    passes_.step(graph_, fronts_, points_, matches_, inputs_, damping, accepted(), trial());
     return fetchSums();
   }
   void acceptStep() override { accepted_ = 1 - accepted_; }
@@ -148,12 +160,13 @@ class WarpRun final : public WarpDevice {
     return sums;
   }
 
-  Memory structure_memory_, surface_memory_, frame_memory_;
+  Memory structure_memory_, surface_memory_, point_memory_, match_memory_;
   Machine machine_;
   WarpPasses<typename Machine::Executor> passes_;
   FrontTables fronts_;
   WarpStructureLayout graph_;
-  WarpFrameLayout frame_;
+  WarpPointLayout points_;
+  PlaneConstraint* matches_ = nullptr;
   WarpInputs inputs_;
   int accepted_ = 0;
   double floor_ = 0;

@@ -46,18 +46,18 @@ struct AssociateKernel {
   using Shared = Nothing;
   using Local = Nothing;
   WarpStructureLayout graph;
-  WarpFrameLayout frame;
+  WarpPointLayout points;
   DepthLookUp surface;
-  int points;
+  int count;
   float points_each;
   double data_weight;
 
-  Grid blocks() const { return {blocksFor(points, kThreads), 1, 1}; }
+  Grid blocks() const { return {blocksFor(count, kThreads), 1, 1}; }
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
     const int i = at.x * kThreads + at.thread;
-    if (i >= points) return;
-    const PointBinding& binding = frame.bindings[i];
+    if (i >= count) return;
+    const PointBinding& binding = points.bindings[i];
     const NodeStencil& nodes = graph.stencil_nodes[binding.stencil];
     Blend<Lanes> blend = {};
     for (int k = 0; k < kNodesPerPoint; ++k) {
@@ -67,11 +67,12 @@ struct AssociateKernel {
                                                   Lanes{{values[4 * c], values[4 * c + 1],
                                                          values[4 * c + 2], values[4 * c + 3]}};
     }
-    const float* in = frame.positions_mm[i].data();
+    const float* in = points.positions_mm[i].data();
     Eigen::Vector3f warped, normal;
     warpPosition(blend, lanesOf(in[0]), lanesOf(in[1]), lanesOf(in[2]), in, warped.data());
-    warpNormal(blend, frame.normals[i].data(), normal.data(), [](float x) { return std::sqrt(x); });
-    frame.targets[i] = targetOf(warped, normal);
+    warpNormal(blend, points.normals[i].data(), normal.data(),
+               [](float x) { return std::sqrt(x); });
+    points.targets[i] = targetOf(warped, normal);
   }
 
  private:
@@ -114,7 +115,8 @@ struct StencilKernel {
     StencilSums sums;
   };
   WarpStructureLayout graph;
-  WarpFrameLayout frame;
+  WarpPointLayout points;
+  const PlaneConstraint* matches;
   const NodeTransform* transforms;
   RobustOptions data_robust, correspondence_robust;
 
@@ -177,14 +179,14 @@ struct StencilKernel {
     Vec3<double> point, normal, target;
     double weight;
     if (row < match_rows) {
-      const PlaneConstraint& match = frame.matches[graph.match_start[at.x] + row];
+      const PlaneConstraint& match = matches[graph.match_start[at.x] + row];
       point = vectorOf(match.point), normal = vectorOf(match.normal);
       target = vectorOf(match.target), weight = match.node_weights[k];
     } else {
       const int i = graph.point_start[at.x] + row - match_rows;
-      const PointTarget& plane = frame.targets[i];
-      point = vectorOf(frame.positions_mm[i].data()), normal = vectorOf(plane.normal);
-      target = vectorOf(plane.target), weight = frame.bindings[i].weights[k];
+      const PointTarget& plane = points.targets[i];
+      point = vectorOf(points.positions_mm[i].data()), normal = vectorOf(plane.normal);
+      target = vectorOf(plane.target), weight = points.bindings[i].weights[k];
     }
     const int node = graph.stencil_nodes[at.x][static_cast<std::size_t>(k)];
     const NodeTransform& transform = transforms[node];
@@ -207,7 +209,7 @@ struct StencilKernel {
     const int slot = at.thread, row = first + slot, match_rows = matchRows(at.x);
     const double own = shared.residuals[slot];
     if (row >= match_rows) {
-      const double base = frame.targets[graph.point_start[at.x] + row - match_rows].weight;
+      const double base = points.targets[graph.point_start[at.x] + row - match_rows].weight;
       const RobustValue value = robustValue(data_robust, own * own);
       setWeight(slot, base * value.weight, shared);
       if (!(base > 0)) return;
@@ -217,7 +219,7 @@ struct StencilKernel {
       return;
     }
     const double* r = shared.residuals + slot / 3 * 3;
-    const double base = frame.matches[graph.match_start[at.x] + row].weight;
+    const double base = matches[graph.match_start[at.x] + row].weight;
     const RobustValue value =
         robustValue(correspondence_robust, r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
     setWeight(slot, base * value.weight, shared);

@@ -29,10 +29,14 @@ class DeviceWarpSystem final : public WarpSystem {
     times_ = DeformTimes();
     const Stopwatch watch(&times_.prepare_ms);
     analyse(graph);
+    graph_ = graph;
     // Neither needs the other.
     parallelInvoke([&] { device_->setSurface(surfaceOf(seen)); },
-                   [&] { collect(model, seen, graph); });
-    device_->setFrame(frameOf(graph));
+                   [&] {
+                     parallelInvoke([&] { takePoints(model, seen); },
+                                    [&] { takeMatches(model, seen); });
+                   });
+    takeNodes(model);
     return {constraints_.matches, constraints_.matches_dropped};
   }
 
@@ -75,49 +79,40 @@ class DeviceWarpSystem final : public WarpSystem {
     return depth->formula();
   }
 
-  void collect(const PointModel& model, const DeformObservation& seen, const WarpGraph& graph) {
-    parallelInvoke(
-        [&] {
-          if (seen.surface != nullptr && options_.data_weight > 0)
-            collectCandidates(model, graph, seen.visible, options_.association.max_points,
-                              &candidates_);
-          else
-            candidates_ = noCandidates(graph);
-        },
-        [&] {
-          graph_ = graph;
-          // Rows of matches alone: the device makes those of points.
-          makeConstraints(model, graph, noCandidates(graph), seen.matches,
-                          options_.correspondence_weight, &constraints_);
-          expectShape(graph, options_.shape_memory, &constraints_);
-        });
-    judgeSight(model, graph, candidates_, options_.seen_stiffness, &constraints_);
+  void takePoints(const PointModel& model, const DeformObservation& seen) {
+    if (seen.surface != nullptr && options_.data_weight > 0)
+      collectCandidates(model, graph_, seen.visible, options_.association.max_points, &candidates_);
+    else
+      candidates_ = noCandidates(graph_);
+    WarpPoints points;
+    points.count = static_cast<int>(candidates_.bindings.size());
+    points.positions_mm = candidates_.positions_mm.data();
+    points.normals = candidates_.normals.data();
+    points.bindings = candidates_.bindings.data();
+    points.start = candidates_.stencil_start.data();
+    points.points_each = candidates_.points_each;
+    device_->setPoints(points);
   }
 
-  WarpFrame frameOf(const WarpGraph& graph) {
-    edge_weights_.clear();
-    for (std::size_t e = 0; e < graph.edges.size(); ++e)
-      edge_weights_.push_back(constraints_.stiffness[e] * graph.edges[e].weight);
-    match_start_.clear();
-    for (const StencilRows& rows : constraints_.stencils) match_start_.push_back(rows.first);
-    match_start_.push_back(3 * constraints_.matches);
-    WarpFrame frame;
-    frame.rest_mm = graph.positions_mm.data();
-    frame.transforms = graph.transforms.data();
-    frame.hidden = constraints_.hidden.data();
-    frame.edge_weights = edge_weights_.data();
-    frame.expected = constraints_.expected.data();
-    frame.points = static_cast<int>(candidates_.bindings.size());
-    frame.positions_mm = candidates_.positions_mm.data();
-    frame.normals = candidates_.normals.data();
-    frame.bindings = candidates_.bindings.data();
-    frame.point_start = candidates_.stencil_start.data();
-    frame.points_each = candidates_.points_each;
-    frame.match_rows = match_start_.back();
-    frame.matches = constraints_.rows.data();
-    frame.match_start = match_start_.data();
-    frame.lever_mm = meanEdgeLength(graph);
-    return frame;
+  /// The constraints hold no rows of points: the device makes those.
+  void takeMatches(const PointModel& model, const DeformObservation& seen) {
+    makeConstraints(model, graph_, noCandidates(graph_), seen.matches,
+                    options_.correspondence_weight, &constraints_);
+    std::vector<int> start;
+    for (const StencilRows& rows : constraints_.stencils) start.push_back(rows.first);
+    start.push_back(3 * constraints_.matches);
+    device_->setMatches({start.back(), constraints_.rows.data(), start.data()});
+    expectShape(graph_, options_.shape_memory, &constraints_);
+  }
+
+  void takeNodes(const PointModel& model) {
+    judgeSight(model, graph_, candidates_, options_.seen_stiffness, &constraints_);
+    std::vector<double> edge_weights;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+      edge_weights.push_back(constraints_.stiffness[e] * graph_.edges[e].weight);
+    device_->setNodes({graph_.positions_mm.data(), graph_.transforms.data(),
+                       constraints_.hidden.data(), edge_weights.data(),
+                       constraints_.expected.data(), meanEdgeLength(graph_)});
   }
 
   EnergySums energyOf(const WarpSums& sums) const {
@@ -136,8 +131,6 @@ class DeviceWarpSystem final : public WarpSystem {
   WarpGraph graph_;
   CandidatePoints candidates_;
   ConstraintSet constraints_;  // matches, and what holds edges and nodes
-  std::vector<double> edge_weights_;
-  std::vector<int> match_start_;
   double largest_diagonal_ = 0, pivot_ratio_ = 1;
   DeformTimes times_;
 };

@@ -37,8 +37,12 @@ class FrontPlanner {
       if (level_[s] == static_cast<int>(tables_.level_start.size())) {
         tables_.level_start.push_back(static_cast<int>(f));
         tables_.level_tiles.push_back(0);
+        tables_.level_rows.push_back(0);
       }
+      const int pivots = tree_.supernodes[s].columns;
       tables_.level_tiles.back() = std::max(tables_.level_tiles.back(), updateTiles(border));
+      tables_.level_rows.back() =
+          std::max(tables_.level_rows.back(), pivots * ((pivots + border) * kRigidUnknowns + 1));
     }
     tables_.level_start.push_back(static_cast<int>(by_level_.size()));
   }

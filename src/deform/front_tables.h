@@ -38,7 +38,9 @@ struct FrontChild {
 struct FrontTables {
   std::vector<FrontShape> fronts;
   std::vector<int> level_start;  // levels + 1 entries
-  std::vector<int> level_tiles;  // the most tiles of an update of the level
+  // Of the level's fronts the most tiles of an update, and the most rows, one per node of the
+  // pivots.
+  std::vector<int> level_tiles, level_rows;
   std::vector<int> nodes;
   /// Per front, for each of its pivots a column of entries, one a block: 0 = the matrix has none,
   /// b + 1 = block b of the pattern, -(b + 1) = its transposed.

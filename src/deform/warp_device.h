@@ -25,22 +25,30 @@ inline WarpWeights warpWeights(const DeformOptions& options) {
           options.data_robust, options.correspondence_robust};
 }
 
-/// Points and matches lie stencil by stencil. The memory is the caller's.
-struct WarpFrame {
-  const Eigen::Vector3d* rest_mm = nullptr;  // per node
+/// Model points that the surface may pull, stencil by stencil.
+struct WarpPoints {
+  int count = 0;
+  const Eigen::Vector3f* positions_mm = nullptr;
+  const Eigen::Vector3f* normals = nullptr;
+  const PointBinding* bindings = nullptr;
+  const int* start = nullptr;  // stencils + 1 entries
+  float points_each = 1;
+};
+
+/// Rows of matches, three each, stencil by stencil.
+struct WarpMatches {
+  int rows = 0;
+  const PlaneConstraint* constraints = nullptr;
+  const int* start = nullptr;  // rows; stencils + 1 entries
+};
+
+/// Nodes, and what holds them together.
+struct WarpNodes {
+  const Eigen::Vector3d* rest_mm = nullptr;
   const NodeTransform* transforms = nullptr;
   const double* hidden = nullptr;
   const double* edge_weights = nullptr;  // stiffness times weight
   const ExpectedOffsets* expected = nullptr;
-  int points = 0;
-  const Eigen::Vector3f* positions_mm = nullptr;
-  const Eigen::Vector3f* normals = nullptr;
-  const PointBinding* bindings = nullptr;
-  const int* point_start = nullptr;  // stencils + 1 entries
-  float points_each = 1;
-  int match_rows = 0;  // three a match
-  const PlaneConstraint* matches = nullptr;
-  const int* match_start = nullptr;  // rows; stencils + 1 entries
   double lever_mm = 1;
 };
 
@@ -59,10 +67,12 @@ class WarpDevice {
  public:
   virtual ~WarpDevice() = default;
   virtual void setStructure(const WarpStructure& structure) = 0;
-  /// `surface`: pointers to the host's memory; no depth: points get no targets.
+  // A frame, for the last structure; all four may be called at the same time. The host's memory may
+  // change when they return. A surface without depth gives no targets.
   virtual void setSurface(const DepthLookUp& surface) = 0;
-  /// For the last structure. The memory may change when it returns.
-  virtual void setFrame(const WarpFrame& frame) = 0;
+  virtual void setPoints(const WarpPoints& points) = 0;
+  virtual void setMatches(const WarpMatches& matches) = 0;
+  virtual void setNodes(const WarpNodes& nodes) = 0;
   /// New targets and normal equations at the accepted transforms; their energy and the largest
   /// diagonal entry.
   virtual WarpSums linearise() = 0;
