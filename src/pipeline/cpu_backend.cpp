@@ -34,7 +34,7 @@ class CpuBackend : public ReconstructionBackend {
         frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo),
                 options),
         matching_(parts.makeMatching(options, rig())),
-        solver_(makeDeformSolver(options.deform)) {
+        solver_(parts.makeSolver(options.deform)) {
     options.validate();
   }
 

@@ -1,10 +1,12 @@
 // src/pipeline/cpu_backend.h: every stage on the processor's cores.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "core/stereo_rig.h"
+#include "deform/lm_solver.h"
 #include "pipeline/match_stage.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
@@ -17,6 +19,8 @@ struct BackendParts {
   std::string name = "cpu", device = "processor";
   StereoStageFactory makeStereo = makeCpuStereoStage;
   MatchStageFactory makeMatching = makeCpuMatchStage;
+  std::function<std::unique_ptr<DeformSolver>(const DeformOptions&)> makeSolver =
+      [](const DeformOptions& options) { return makeDeformSolver(options); };
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp. On two, the processor's own stereo and those
   /// stages only take turns (docs/benchmarks.md).

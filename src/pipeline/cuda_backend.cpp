@@ -5,6 +5,8 @@
 #include "cuda/device_info.h"
 #include "cuda/locate.h"
 #include "cuda/stereo.h"
+#include "cuda/warp.h"
+#include "deform/device_warp_system.h"
 #include "pipeline/cpu_backend.h"
 #include "stereo/matching/host_prior.h"
 #include "stereo/matching/stage_clock.h"
@@ -88,6 +90,13 @@ std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& opti
   return std::make_unique<CudaMatchStage>(options, rig);
 }
 
+/// Affine nodes have no kernels.
+std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options) {
+  if (options.node_model != NodeModel::kRigid) return makeDeformSolver(options);
+  return makeDeformSolver(
+      options, makeDeviceWarpSystem(options, cuda::makeWarpDevice(warpWeights(options))));
+}
+
 }  // namespace
 
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
@@ -101,6 +110,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.name = "cuda";
   parts.makeStereo = makeCudaStereoStage;
   parts.makeMatching = makeCudaMatchStage;
+  parts.makeSolver = makeCudaSolver;
   parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;
