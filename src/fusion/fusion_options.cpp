@@ -19,7 +19,7 @@ FusionOptions FusionOptions::paper() {
   options.points.follow_innovation = false;
   options.colour.compensate_gain = false;
   options.colour.max_weight = 0;
-  options.colour.anchor_weight = 0;
+  options.colour.hold_anchors = false;
   options.colour.highlight_level = 256;
   options.colour.brightening_limit = 256;
   options.insertion.confirm = false;

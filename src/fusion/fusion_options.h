@@ -62,9 +62,11 @@ struct PointFusionOptions {
 struct ColourOptions {
   bool compensate_gain = true;  // of the frame against the model, a factor per channel
   double max_weight = 4.0;      // new colours count at least 1 / (1 + max_weight)
-  double anchor_weight = 40.0;  // and, for what matches hold on to, about 1 / this
-  int highlight_level = 225;    // brighter in all channels = specular, not the tissue
-  int brightening_limit = 50;   // so much brighter than the point in every channel: too
+  // what matches hold on to stays where the image agrees with it; false: it is the colour
+  bool hold_anchors = true;
+  static constexpr double kAnchorWeight = 40.0;  // elsewhere new looks count about 1 / this
+  int highlight_level = 225;   // brighter in all channels = specular, not the tissue
+  int brightening_limit = 50;  // so much brighter than the point in every channel: too
 
   void validate() const;
 };

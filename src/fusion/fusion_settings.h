@@ -36,8 +36,8 @@ template <class Visitor>
 void describe(Visitor& v, ColourOptions& o) {
   v("colour.compensate_gain", o.compensate_gain, "of the frame against the model, per channel");
   v("colour.max_weight", o.max_weight, atLeast(0), "new colours have at least 1 / (1 + this)");
-  v("colour.anchor_weight", o.anchor_weight, atLeast(0),
-    "the same for the reference intensity of matches");
+  v("colour.hold_anchors", o.hold_anchors,
+    "keep the reference intensity of matches where the image agrees with it");
   v("colour.highlight_level", o.highlight_level, between(1, 256),
     "brighter in all channels is a specular highlight; 256: none");
   v("colour.brightening_limit", o.brightening_limit, between(1, 256),

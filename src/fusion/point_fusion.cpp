@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "fusion/anchor_agreement.h"
 #include "fusion/colour_levels.h"
 #include "fusion/fusion_weights.h"
 #include "fusion/innovation.h"
@@ -29,13 +30,14 @@ class Fuser {
  public:
   Fuser(const WarpGraph& graph, const Observation& observation, const PointFusionOptions& options,
         const ColourOptions& colour_options, const ColourGain& gain,
-        const InnovationField& innovation, PointModel* model)
+        const InnovationField& innovation, const AnchorAgreement& anchored, PointModel* model)
       : graph_(graph),
         observation_(observation),
         options_(options),
         colour_options_(colour_options),
         gain_(gain),
         innovation_(innovation),
+        anchored_(anchored),
         model_(*model),
         camera_(posedCamera(observation.left, observation.world_from_left)),
         truncation_mm_(static_cast<float>(options.truncation_mm)),
@@ -150,9 +152,18 @@ class Fuser {
     const float gain = averagingGain(old, measured);
     known = {averaged(known.red, fresh.red, gain), averaged(known.green, fresh.green, gain),
              averaged(known.blue, fresh.blue, gain)};
-    model_.anchors[i] = averaged(  // docs/fusion.md (F24)
-        model_.anchors[i], toGray(fresh),
-        averagingGain(static_cast<float>(colour_options_.anchor_weight), measured));
+    updateAnchor(i, pixel, toGray(fresh), measured, gain);
+  }
+
+  /// docs/fusion.md (F24).
+  void updateAnchor(std::size_t i, std::int32_t pixel, std::uint8_t fresh, float measured,
+                    float colour_gain) const {
+    if (anchored_.at(pixel)) return;
+    const float gain =
+        colour_options_.hold_anchors
+            ? averagingGain(static_cast<float>(colour_options_.kAnchorWeight), measured)
+            : colour_gain;
+    model_.anchors[i] = averaged(model_.anchors[i], fresh, gain);
   }
 
   static std::uint8_t averaged(std::uint8_t known, std::uint8_t fresh, float gain) {
@@ -166,6 +177,7 @@ class Fuser {
   const ColourOptions& colour_options_;
   const ColourGain gain_;
   const InnovationField& innovation_;
+  const AnchorAgreement& anchored_;
   PointModel& model_;
   const PosedCamera camera_;
   const float truncation_mm_, reference_mm_, confirmed_weight_, unseen_mm_, buried_mm_;
@@ -186,7 +198,11 @@ PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observa
   const InnovationField innovation =
       options.follow_innovation ? InnovationField(*model, graph, observation, visibility, options)
                                 : InnovationField();
-  const Fuser fuser(graph, observation, options, colour_options, summary.gain, innovation, model);
+  const AnchorAgreement anchored = colour_options.hold_anchors
+                                       ? AnchorAgreement(*model, observation, visibility)
+                                       : AnchorAgreement();
+  const Fuser fuser(graph, observation, options, colour_options, summary.gain, innovation, anchored,
+                    model);
   std::atomic<int> fused{0}, contradicted{0};
   parallelRanges(static_cast<int>(model->size()), kPointsATask, [&](int begin, int end) {
     int fused_here = 0, contradicted_here = 0;
