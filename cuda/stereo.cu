@@ -38,7 +38,7 @@ class Stereo::Device {
         layout_(arena_, options, width_px, height_px),
         rig_(rig),
         pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
-        staging_(2 * pixels_ * sizeof(Rgb8), "pinned memory for images"),
+        staging_(4 * pixels_, "pinned memory for images"),
         exchange_memory_(sizeof(Exchange), "pinned memory"),
         points_memory_(pointBytes(full()), "pinned memory for support points"),
         results_memory_(pixels_ * (kRasters * sizeof(float) + sizeof(NormalPixel)),
@@ -66,27 +66,18 @@ class Stereo::Device {
     cudaEventDestroy(level_done_);
   }
 
-  void upload(const GrayImage& left, const GrayImage& right) {
-    requireShape(left);
-    requireShape(right);
+  void upload(const MatchableViews& views) {
+    requireShape(views.left);
+    requireShape(views.right);
     auto* staged = static_cast<std::uint8_t*>(stage());
-    const GrayImage* images[] = {&left, &right};
+    const GrayImage* images[] = {&views.left, &views.right};
     for (int view = 0; view < 2; ++view) {
       std::memcpy(staged + view * pixels_, images[view]->values.data(), pixels_);
       stream_.toDevice(full().gray[view].data, staged + view * pixels_, pixels_);
     }
-  }
-  void upload(const ColourImage& left, const ColourImage& right) {
-    requireShape(left);
-    requireShape(right);
-    auto* staged = static_cast<Rgb8*>(stage());
-    const ColourImage* images[] = {&left, &right};
-    for (int view = 0; view < 2; ++view) {
-      std::memcpy(static_cast<void*>(staged + view * pixels_), images[view]->values.data(),
-                  pixels_ * sizeof(Rgb8));
-      stream_.toDevice(layout_.colour[view].data, staged + view * pixels_, pixels_ * sizeof(Rgb8));
-    }
-    passes_.toGray();
+    const bool ignores = !views.ignored.left.empty() || !views.ignored.right.empty();
+    if (ignores || has_ignored_) uploadIgnored(views.ignored, staged + 2 * pixels_);
+    has_ignored_ = ignores;
   }
   void setMask(const Mask& mask) {
     wait();
@@ -168,6 +159,20 @@ class Stereo::Device {
     throw InputError("the image has " + std::to_string(image.width_px) + " x " +
                      std::to_string(image.height_px) + " pixels, but the GPU was prepared for " +
                      std::to_string(full().width) + " x " + std::to_string(full().height));
+  }
+  void uploadIgnored(const ViewMasks& ignored, std::uint8_t* staged) {
+    const Mask* masks[] = {&ignored.left, &ignored.right};
+    for (int view = 0; view < 2; ++view) {
+      const Mask& mask = *masks[view];
+      std::uint8_t* to = staged + static_cast<std::size_t>(view) * pixels_;
+      if (mask.empty()) {
+        std::fill_n(to, pixels_, std::uint8_t{0});
+      } else {
+        requireShape(mask);
+        std::transform(mask.values.begin(), mask.values.end(), to, ignoredBits);
+      }
+      stream_.toDevice(full().ignored[view].data, to, pixels_);
+    }
   }
   /// The staging memory, free again.
   void* stage() {
@@ -274,7 +279,7 @@ class Stereo::Device {
   std::vector<Graph> levels_, level_ends_, shares_, ascents_;
   Graph finish_;
   cudaEvent_t share_read_ = nullptr, level_done_ = nullptr;
-  bool is_enqueued_ = false, is_timed_ = false;
+  bool is_enqueued_ = false, is_timed_ = false, has_ignored_ = false;
   int levels_run_ = 0;
   std::vector<std::pair<std::string, double>> stage_times_;
 };
@@ -284,10 +289,7 @@ Stereo::Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_
     : device_(std::make_unique<Device>(options, rig, width_px, height_px, std::move(host_prior))) {}
 Stereo::~Stereo() = default;
 
-void Stereo::upload(const GrayImage& left, const GrayImage& right) { device_->upload(left, right); }
-void Stereo::upload(const ColourImage& left, const ColourImage& right) {
-  device_->upload(left, right);
-}
+void Stereo::upload(const MatchableViews& views) { device_->upload(views); }
 void Stereo::setMask(const Mask& mask) { device_->setMask(mask); }
 void Stereo::compute(double roll_rad) { device_->compute(roll_rad); }
 void Stereo::wait() { device_->wait(); }

@@ -10,6 +10,7 @@
 #include "core/depth_map.h"
 #include "core/image.h"
 #include "core/rectified_rig.h"
+#include "stereo/images/view_masks.h"
 #include "stereo/matching/host_prior.h"
 #include "stereo/options/stereo_options.h"
 
@@ -38,10 +39,9 @@ class Stereo {
   Stereo(const Stereo&) = delete;
   Stereo& operator=(const Stereo&) = delete;
 
-  /// Rectified, rows aligned. Throws InputError for another shape.
-  void upload(const GrayImage& left, const GrayImage& right);
-  void upload(const ColourImage& left, const ColourImage& right);
-  /// Empty: none. Holds for the frames that follow.
+  /// Rectified, rows aligned (matchableViews()). Throws InputError for another shape.
+  void upload(const MatchableViews& views);
+  /// Dropped from what was found. Empty: none. Holds for the frames that follow.
   void setMask(const Mask& mask);
 
   /// Returns when everything is enqueued; with the prior by rows that is mostly before it is done.

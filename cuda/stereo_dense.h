@@ -57,7 +57,8 @@ struct DenseKernel {
   static constexpr int kEverywhere = 0x8000;
   GradientPlane image[2];
   View<const std::int16_t> prior[2];  // 1/8 px
-  View<std::int16_t> disparity[2];    // -1: none
+  View<const std::uint8_t> ignored[2];
+  View<std::int16_t> disparity[2];  // -1: none
   TileBits bits;
   const int* point_count;
   PriorCost cost;
@@ -211,8 +212,10 @@ struct DenseKernel {
       if (!disparity[at.z].contains(u + i % 2, v + i / 2)) continue;
       const std::uint32_t other = shared.best[i][at.thread];
       const std::uint32_t best = local.best[i] < other ? local.best[i] : other;
+      const bool none =
+          best >> 16 == 0xFFFFu || (ignored[at.z].at(u + i % 2, v + i / 2) & Ignored::kDense) != 0;
       disparity[at.z].at(u + i % 2, v + i / 2) =
-          static_cast<std::int16_t>(best >> 16 == 0xFFFFu ? -1 : static_cast<int>(best & 0xFFFFu));
+          static_cast<std::int16_t>(none ? -1 : static_cast<int>(best & 0xFFFFu));
     }
   }
 };

@@ -4,6 +4,7 @@
 
 #include "core/image.h"
 #include "cuda/kernel.h"
+#include "cuda/stereo_ignored.h"
 #include "stereo/kernels/filter_formulas.h"
 
 namespace softscope::cuda {
@@ -25,14 +26,6 @@ struct FillKernel {
       const int i = (at.x * kEach + k) * kThreads + at.thread;
       if (i < count) values[i] = value;
     }
-  }
-};
-
-struct GrayBody {
-  View<const Rgb8> colour[2];
-  View<std::uint8_t> gray[2];
-  SOFTSCOPE_HD void operator()(int u, int v, int view) const {
-    gray[view].at(u, v) = toGray(colour[view].at(u, v));
   }
 };
 
@@ -95,14 +88,15 @@ struct LeftRightBody {
   }
 };
 
-/// A copy without what is dark; the level keeps what it found.
+/// A copy without what is dark or ignored; the level keeps what it found.
 struct DropDarkBody {
   View<const float> disparity_in, sigma_in;
-  View<const std::uint8_t> dark_rows;
+  View<const std::uint8_t> dark_rows, ignored;
   View<float> disparity, sigma;
   int dark_reach;
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
-    const bool dark = isMarkedInColumn(dark_rows, u, v, dark_reach);
+    const bool dark =
+        (ignored.at(u, v) & Ignored::kMasked) != 0 || isMarkedInColumn(dark_rows, u, v, dark_reach);
     disparity.at(u, v) = dark ? quietNan() : disparity_in.at(u, v);
     sigma.at(u, v) = sigma_in.at(u, v);
   }
@@ -258,10 +252,12 @@ struct DropIslandsBody {
 
 // --- gaps ----------------------------------------------------------------------------------------
 
-/// Fills gaps of up to `widest` pixels along one axis, where both sides differ by at most `step`.
+/// Fills gaps of up to `widest` pixels along one axis, where both sides differ by at most `step`;
+/// along columns, the second time, drops what is ignored.
 struct FillGapsBody {
   View<const float> in;
   View<float> out;
+  View<const std::uint8_t> ignored;
   int widest;
   float step;
   bool along_rows;
@@ -269,6 +265,7 @@ struct FillGapsBody {
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     float value = in.at(u, v);
     if (!isNumber(value)) value = between(u, v, value);
+    if (!along_rows && (ignored.at(u, v) & Ignored::kMasked) != 0) value = quietNan();
     out.at(u, v) = value;
   }
 
@@ -331,7 +328,7 @@ struct OpenShareKernel {
   };
   using Local = Nothing;
   const float* disparity_px;
-  View<const std::uint8_t> gray;
+  View<const std::uint8_t> gray, ignored;
   int darkest_gray;
   OpenShare* share;
 
@@ -345,7 +342,8 @@ struct OpenShareKernel {
       int matchable = 0, unmatched = 0;
       for (int k = 0; k < kEach; ++k) {
         const int i = (at.x * kEach + k) * kThreads + at.thread;
-        if (i >= gray.width * gray.height || i % gray.width < first || gray.data[i] < darkest_gray)
+        if (i >= gray.width * gray.height || i % gray.width < first ||
+            gray.data[i] < darkest_gray || (ignored.data[i] & Ignored::kMasked) != 0)
           continue;
         ++matchable;
         unmatched += !isNumber(disparity_px[i]);

@@ -8,6 +8,7 @@
 #include "cuda/arena.h"
 #include "cuda/stereo_dense.h"
 #include "cuda/stereo_filter.h"
+#include "cuda/stereo_ignored.h"
 #include "cuda/stereo_mixed.h"
 #include "cuda/stereo_prior.h"
 #include "cuda/stereo_refinement.h"
@@ -52,6 +53,8 @@ struct StereoLevel {
     const auto count = static_cast<std::size_t>(grid.count());
     for (int view = 0; view < 2; ++view) {
       gray[view] = arena.image<std::uint8_t>(width, height);
+      ignored[view] = arena.image<std::uint8_t>(width, height);
+      ignored_rows[view] = arena.image<std::uint8_t>(width, height);
       gradient[view] = planGradient(arena);
       prior[view] = arena.image<std::int16_t>(width, height);
       whole[view] = arena.image<std::int16_t>(width, height);
@@ -99,6 +102,7 @@ struct StereoLevel {
   int width, height;
   SupportGrid grid;
   View<std::uint8_t> gray[2];
+  View<std::uint8_t> ignored[2], ignored_rows[2];  // Ignored; of the first pass, along rows
   GradientPlane gradient[2];
   std::uint8_t* gradient_bytes[2] = {nullptr, nullptr};  // with margins
   int gradient_byte_count = 0;
@@ -146,7 +150,6 @@ struct StereoLayout {
       height /= 2;
     }
     const StereoLevel& full = levels.front();
-    for (View<Rgb8>& image : colour) image = arena.image<Rgb8>(full.width, full.height);
     mask = arena.image<std::uint8_t>(full.width, full.height);
     if (options.smoothing.reach_blocks > 0) {
       smoothing = smoothingRules(options.smoothing, options.refinement, full.width, full.height);
@@ -166,7 +169,6 @@ struct StereoLayout {
   }
 
   std::vector<StereoLevel> levels;
-  View<Rgb8> colour[2];
   View<std::uint8_t> mask;
   SmoothingRules smoothing{};
   SmoothingBlock* means = nullptr;

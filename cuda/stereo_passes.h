@@ -31,16 +31,11 @@ class StereoPasses {
                                             GradientPlane::kFlatByte};
         executor_.launch("flat margins", fill, fill.blocks());
       }
+      for (const View<std::uint8_t>& ignored : level.ignored) {
+        const FillKernel<std::uint8_t> fill{ignored.data, ignored.width * ignored.height, 0};
+        executor_.launch("nothing ignored", fill, fill.blocks());
+      }
     }
-  }
-
-  void toGray() {
-    const StereoLevel& level = layout_.levels.front();
-    perPixel("gray",
-             GrayBody{{readOnly(layout_.colour[0]), readOnly(layout_.colour[1])},
-                      {level.gray[0], level.gray[1]}},
-             level, 2);
-    executor_.mark("gray");
   }
 
   /// The first part of a level, up to confirmed support points; by rows, the prior too.
@@ -63,8 +58,8 @@ class StereoPasses {
     const float* disparity = refined(level).data;
     const NearestKernel nearest{disparity, level.width * level.height, share};
     executor_.launch("nearest", nearest, nearest.blocks());
-    const OpenShareKernel open{disparity, readOnly(level.gray[0]), level.options.darkest_gray,
-                               share};
+    const OpenShareKernel open{disparity, readOnly(level.gray[0]), readOnly(level.ignored[0]),
+                               level.options.darkest_gray, share};
     executor_.launch("open share", open, open.blocks());
     executor_.mark("share");
   }
@@ -74,6 +69,10 @@ class StereoPasses {
         "halve",
         HalveBody{{readOnly(whole.gray[0]), readOnly(whole.gray[1])}, {half.gray[0], half.gray[1]}},
         half, 2);
+    perPixel("halve ignored",
+             HalveIgnoredBody{{readOnly(whole.ignored[0]), readOnly(whole.ignored[1])},
+                              {half.ignored[0], half.ignored[1]}},
+             half, 2);
   }
   void fillFromHalf(const StereoLevel& half, const StereoLevel& whole) {
     perPixel("fill from half",
@@ -88,11 +87,11 @@ class StereoPasses {
   void finish(const RectifiedRig& rig) {
     const StereoLevel& level = layout_.levels.front();
     const StereoOptions& options = level.options;
-    perPixel(
-        "dark",
-        DropDarkBody{readOnly(refined(level)), readOnly(level.sigma), readOnly(level.dark_rows),
-                     layout_.smoothed, layout_.smoothed_sigma, options.dark_margin_px},
-        level);
+    perPixel("dark",
+             DropDarkBody{readOnly(refined(level)), readOnly(level.sigma),
+                          readOnly(level.dark_rows), readOnly(level.ignored[0]), layout_.smoothed,
+                          layout_.smoothed_sigma, options.dark_margin_px},
+             level);
     if (options.smoothing.reach_blocks > 0) smooth(level);
     executor_.mark("smooth");
     perPixel("depth",
@@ -140,6 +139,14 @@ class StereoPasses {
     reset.add(level.marks.data, words(pixels), 0);
     reset.add(level.counters, words(sizeof(LevelCounters)), 0);
     executor_.launch("reset", reset, reset.blocks());
+    perPixel("ignored rows",
+             IgnoredRowBody{{readOnly(level.ignored[0]), readOnly(level.ignored[1])},
+                            {level.ignored_rows[0], level.ignored_rows[1]}},
+             level, 2);
+    perPixel("ignored columns",
+             IgnoredColumnBody{{readOnly(level.ignored_rows[0]), readOnly(level.ignored_rows[1])},
+                               {level.ignored[0], level.ignored[1]}},
+             level, 2);
     perPixel("gradient",
              GradientBody{{readOnly(level.gray[0]), readOnly(level.gray[1])},
                           {level.gradient[0], level.gradient[1]},
@@ -162,7 +169,10 @@ class StereoPasses {
     const SupportCostKernel costs{level.grid, pass, level.gradient[0], level.gradient[1],
                                   level.costs};
     executor_.launch("support costs", costs, costs.blocks());
-    const SupportTestKernel test{level.grid, pass, level.gradient[0], level.costs, level.support};
+    const SupportTestKernel test{
+        level.grid,        pass,
+        level.gradient[0], {readOnly(level.ignored[0]), readOnly(level.ignored[1])},
+        level.costs,       level.support};
     executor_.launch("support tests", test, test.blocks());
   }
 
@@ -178,6 +188,7 @@ class StereoPasses {
   void matchDense(const StereoLevel& level) {
     const DenseKernel dense{{level.gradient[0], level.gradient[1]},
                             {readOnly(level.prior[0]), readOnly(level.prior[1])},
+                            {readOnly(level.ignored[0]), readOnly(level.ignored[1])},
                             {level.whole[0], level.whole[1]},
                             level.bits,
                             &level.counters->point_count,
@@ -211,8 +222,8 @@ class StereoPasses {
     for (const bool along_rows : {true, false})
       perPixel("gaps",
                FillGapsBody{readOnly(level.disparity[along_rows ? 0 : 1]),
-                            level.disparity[along_rows ? 1 : 0], elas.gap_width_px, gap_step,
-                            along_rows},
+                            level.disparity[along_rows ? 1 : 0], readOnly(level.ignored[0]),
+                            elas.gap_width_px, gap_step, along_rows},
                level);
     executor_.mark("filter");
   }

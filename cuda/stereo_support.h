@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cuda/kernel.h"
+#include "cuda/stereo_ignored.h"
 #include "stereo/kernels/matching_formulas.h"
 
 namespace softscope::cuda {
@@ -205,6 +206,7 @@ struct SupportTestKernel {
   SupportGrid grid;
   SupportPass pass;
   GradientPlane left;
+  View<const std::uint8_t> ignored[2];
   SupportCosts costs;
   float* disparity_px;  // rows x columns
 
@@ -251,12 +253,17 @@ struct SupportTestKernel {
     return supportTexture(
         *left.at(u + supportOffset(lane % kSupportSide), v + supportOffset(lane / kSupportSide)));
   }
+  SOFTSCOPE_HD bool isBlocked(int view, int u, int v) const {
+    return ignored[view].contains(u, v) && (ignored[view].at(u, v) & Ignored::kSupport) != 0;
+  }
   SOFTSCOPE_HD float tested(int u, int r, std::uint32_t key, int disparity, int second, int texture,
                             const DisparityRange& range, int count,
                             const std::uint16_t* volume) const {
     const int cost = static_cast<int>(key >> 16);
     if (u < kSupportMargin || u >= grid.width - kSupportMargin || cost == 0xFFFF) return kNoSupport;
     if (static_cast<double>(texture) / kCostDifferences < grid.texture) return kNoSupport;
+    if (isBlocked(0, u, r * grid.step) || isBlocked(1, u - disparity, r * grid.step))
+      return kNoSupport;
     const int returned = static_cast<int>(
         costs.best_right[static_cast<std::ptrdiff_t>(r) * grid.width + u - disparity] & 0xFFFFu);
     const int apart = returned - disparity;

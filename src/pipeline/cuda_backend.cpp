@@ -8,6 +8,7 @@
 #include "cuda/warp.h"
 #include "deform/device_warp_system.h"
 #include "pipeline/cpu_backend.h"
+#include "stereo/images/view_masks.h"
 #include "stereo/matching/host_prior.h"
 #include "stereo/matching/stage_clock.h"
 
@@ -18,24 +19,24 @@ class CudaStereoStage final : public StereoStage {
  public:
   CudaStereoStage(const StereoOptions& options, const RectifiedRig& rig)
       : device_(options, rig, rig.left.width_px, rig.left.height_px, planePrior),
-        cpu_(makeCpuStereoStage(options, rig)) {}
-  std::string name() const override { return cpu_->name(); }
+        method_(options.method) {}
+  std::string name() const override { return method_; }
   StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override;
 
  private:
   cuda::Stereo device_;
-  std::unique_ptr<StereoStage> cpu_;
+  std::string method_;
   bool is_masked_ = false;
 };
 
 StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Mask& mask) {
-  // No kernel keeps its windows off masked pixels yet.
-  if (!aligned.ignored.left.empty() || !aligned.ignored.right.empty())
-    return cpu_->measure(aligned, mask);
   StageClock clock;
+  const MatchableViews views =
+      matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
+  clock.lap("masks");
   if (is_masked_ || !mask.empty()) device_.setMask(mask);
   is_masked_ = !mask.empty();
-  device_.upload(aligned.pair.left, aligned.pair.right);
+  device_.upload(views);
   device_.compute(aligned.roll_rad);
   cuda::StereoDepth found = device_.download();
   clock.lap("disparity");

@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "deform/warp.h"
-#include "fusion/fusion_options.h"
 
 namespace softscope {
 namespace {
@@ -136,9 +135,11 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
     const Eigen::Vector3d normal = pieces[k].normal.normalized();
     const Eigen::Vector3d ray = (points[k].position_mm - scope_mm).normalized();
     const double cosine = normal.dot(ray);
-    points[k].position_mm += std::abs(cosine) < PixelOptions::kMinCosine
-                                 ? Eigen::Vector3d(height * normal)
-                                 : Eigen::Vector3d(height / cosine * ray);
+    const double along_ray_mm = height / cosine;
+    // Seen at a grazing angle, the ray meets the surface far away.
+    points[k].position_mm += std::abs(along_ray_mm) < kMaxSettleMm
+                                 ? Eigen::Vector3d(along_ray_mm * ray)
+                                 : Eigen::Vector3d(height * normal);
   }
 }
 

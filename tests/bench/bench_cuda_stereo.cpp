@@ -58,11 +58,11 @@ bool compare(const cuda::StereoDepth& found, const GrayImage& left, const GrayIm
   return std::all_of(std::begin(differences), std::end(differences), [](long n) { return n == 0; });
 }
 
-void time(cuda::Stereo& stereo, const GrayImage& left, const GrayImage& right, int repeats) {
+void time(cuda::Stereo& stereo, const MatchableViews& views, int repeats) {
   std::vector<double> compute_ms, frame_ms, download_ms;
   for (int i = 0; i < repeats + 20; ++i) {
     const double start = nowMs();
-    stereo.upload(left, right);
+    stereo.upload(views);
     stereo.wait();
     const double uploaded = nowMs();
     stereo.compute();
@@ -92,11 +92,12 @@ int run(const std::vector<std::string>& files, const StereoOptions& options, int
     cuda::Stereo stereo(options, rig, left.width_px, left.height_px, planePrior);
     std::printf("%s: %d x %d, %.1f MB on the device\n", files[i].c_str(), left.width_px,
                 left.height_px, static_cast<double>(stereo.deviceBytes()) / 1e6);
-    stereo.upload(left, right);
+    const MatchableViews views = matchableViews(left, right, {});
+    stereo.upload(views);
     stereo.compute();
     all_equal = compare(stereo.download(), left, right, rig, options) && all_equal;
     if (!check_only) {
-      time(stereo, left, right, repeats);
+      time(stereo, views, repeats);
       all_equal = compare(stereo.download(), left, right, rig, options) && all_equal;
     }
     std::fflush(stdout);

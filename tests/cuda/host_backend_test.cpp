@@ -16,8 +16,9 @@ class StereoOnTheHost : public StereoStage {
       : stereo_(options, rig.left.width_px, rig.left.height_px, 5), rig_(rig) {}
   std::string name() const override { return "elas"; }
   StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override {
-    stereo_.compute(toGray(aligned.pair.left), toGray(aligned.pair.right), rig_, aligned.roll_rad,
-                    mask);
+    stereo_.compute(
+        matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored),
+        rig_, aligned.roll_rad, mask);
     const cuda::StereoLayout& found = stereo_.layout();
     StereoSurface surface;
     surface.disparity = {rasterOf(found.disparity), rasterOf(found.sigma)};

@@ -9,6 +9,7 @@
 #include "cuda/host_executor.h"
 #include "cuda/stereo_passes.h"
 #include "host_memory.h"
+#include "stereo/images/view_masks.h"
 #include "stereo/matching/host_prior.h"
 
 namespace softscope::test {
@@ -25,11 +26,11 @@ class HostStereo {
   }
 
   /// All levels, then depth and normals.
-  void compute(const GrayImage& left, const GrayImage& right, const RectifiedRig& rig,
-               double roll_rad = 0, const Mask& mask = {}) {
+  void compute(const MatchableViews& views, const RectifiedRig& rig, double roll_rad = 0,
+               const Mask& mask = {}) {
     const cuda::StereoLevel& full = layout_.levels.front();
-    std::copy(left.values.begin(), left.values.end(), full.gray[0].data);
-    std::copy(right.values.begin(), right.values.end(), full.gray[1].data);
+    copy(views.left, views.ignored.left, full, 0);
+    copy(views.right, views.ignored.right, full, 1);
     std::copy(mask.values.begin(), mask.values.end(), layout_.mask.data);
     const auto level = [&](int k) -> const cuda::StereoLevel& {
       return layout_.levels[static_cast<std::size_t>(k)];
@@ -50,6 +51,13 @@ class HostStereo {
   int levelsRun() const { return levels_run_; }
 
  private:
+  static void copy(const GrayImage& gray, const Mask& ignored, const cuda::StereoLevel& level,
+                   int view) {
+    std::copy(gray.values.begin(), gray.values.end(), level.gray[view].data);
+    std::fill_n(level.ignored[view].data, gray.size(), std::uint8_t{0});
+    std::transform(ignored.values.begin(), ignored.values.end(), level.ignored[view].data,
+                   cuda::ignoredBits);
+  }
   void matchLevel(const cuda::StereoLevel& level) {
     passes_.startLevel(level);
     if (level.options.elas.prior == PriorMethod::kPlanes) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stereo/depth/depth_from_disparity.h"
+#include "stereo/images/view_masks.h"
 #include "stereo/matching/elas_matcher.h"
 #include "stereo/rectification/row_alignment.h"
 #include "support/scene.h"
@@ -71,7 +72,7 @@ struct StereoCase {
   int width, height;
   StereoOptions options;
   double roll_rad;
-  bool masked;
+  bool masked, bordered;
 };
 
 inline StereoOptions optionsTo(int disparity_max_px) {
@@ -94,10 +95,10 @@ inline std::vector<StereoCase> stereoCases() {
   StereoOptions one_level = optionsTo(40);
   one_level.smoothing.reach_blocks = 0;
   one_level.elas.coarser_levels = 0;
-  return {{"defaults", 240, 180, optionsTo(255), 0, false},
-          {"rowPrior", 240, 180, rows, 0, false},
-          {"otherOptions", 171, 131, odd, 0.01, true},
-          {"oneLevel", 96, 80, one_level, 0, false}};
+  return {{"defaults", 240, 180, optionsTo(255), 0, false, false},
+          {"rowPrior", 240, 180, rows, 0, false, true},
+          {"otherOptions", 171, 131, odd, 0.01, true, true},
+          {"oneLevel", 96, 80, one_level, 0, false, false}};
 }
 
 inline Mask maskOf(const StereoCase& of) {
@@ -108,10 +109,25 @@ inline Mask maskOf(const StereoCase& of) {
   return mask;
 }
 
+/// Corners outside the tissue, another in each view.
+inline ViewMasks bordersOf(const StereoCase& of) {
+  if (!of.bordered) return {};
+  ViewMasks borders{Mask(of.width, of.height, 0), Mask(of.width, of.height, 0)};
+  for (int v = 0; v < of.height / 3; ++v)
+    for (int u = 0; u < of.width / 3 - v; ++u) {
+      borders.left.at(of.width - 1 - u, v) = 255;
+      borders.right.at(u, of.height - 1 - v) = 1;
+    }
+  return borders;
+}
+inline MatchableViews viewsOf(const Scene& scene, const StereoCase& of) {
+  return matchableViews(scene.left, scene.right, bordersOf(of));
+}
+
 /// What the CPU gives.
 struct CpuDepth {
   CpuDepth(const Scene& scene, const StereoCase& of, const Mask& mask)
-      : disparity(ElasMatcher(of.options).match(scene.left, scene.right)) {
+      : disparity(ElasMatcher(of.options).match(scene.left, scene.right, bordersOf(of))) {
     removeRoll(of.roll_rad, &disparity.disparity_px);
     depth = depthFromDisparity(disparity, scene.rig);
     for (std::size_t i = 0; i < mask.size(); ++i)

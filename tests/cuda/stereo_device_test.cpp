@@ -59,31 +59,12 @@ TEST_P(StereoOnDevice, GivesTheCpusDepthFrameAfterFrame) {
   for (int frame = 0; frame < 3; ++frame) {
     const test::CpuDepth cpu(scene, of, mask);
     stereo.timeStages(frame == 2);  // launched one by one, not as graphs
-    stereo.upload(scene.left, scene.right);
+    stereo.upload(test::viewsOf(scene, of));
     stereo.compute(of.roll_rad);
     expectEqual(stereo.download(), cpu);
     std::swap(scene.left, scene.right);  // another frame: little can be matched
   }
   EXPECT_FALSE(stereo.stageTimes().empty());
-}
-
-TEST_P(StereoOnDevice, TakesColour) {
-  const test::StereoCase& of = GetParam();
-  test::Scene scene = test::steppedScene(of.width, of.height);
-  ColourImage left(of.width, of.height), right(of.width, of.height);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    left.values[i] = {scene.left.values[i], static_cast<std::uint8_t>(i), 90};
-    right.values[i] = {scene.right.values[i], static_cast<std::uint8_t>(i), 90};
-  }
-  cuda::Stereo stereo(of.options, scene.rig, of.width, of.height, planePrior);
-  stereo.upload(left, right);
-  stereo.compute();
-  const cuda::StereoDepth found = stereo.download();
-  scene.left = toGray(left);
-  scene.right = toGray(right);
-  test::StereoCase plain = of;
-  plain.roll_rad = 0;
-  expectEqual(found, test::CpuDepth(scene, plain, Mask()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Cuda, StereoOnDevice, testing::ValuesIn(test::stereoCases()),
@@ -93,7 +74,7 @@ TEST(StereoOnDeviceErrors, AnotherShapeIsRefused) {
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (info.devices.empty()) GTEST_SKIP() << info.why_none;
   cuda::Stereo stereo(StereoOptions(), test::endoscope(), 96, 80, planePrior);
-  EXPECT_THROW(stereo.upload(GrayImage(95, 80), GrayImage(95, 80)), InputError);
+  EXPECT_THROW(stereo.upload({GrayImage(95, 80), GrayImage(95, 80), {}}), InputError);
 }
 
 TEST(StereoOnDeviceErrors, WithoutADeviceTheReasonIsGiven) {

@@ -18,21 +18,25 @@ class StereoPasses : public testing::TestWithParam<test::StereoCase> {
  protected:
   StereoPasses()
       : scene_(test::steppedScene(GetParam().width, GetParam().height)),
+        views_(test::viewsOf(scene_, GetParam())),
         mask_(test::maskOf(GetParam())),
         host_(GetParam().options, GetParam().width, GetParam().height, 1) {
-    host_.compute(scene_.left, scene_.right, scene_.rig, GetParam().roll_rad, mask_);
+    host_.compute(views_, scene_.rig, GetParam().roll_rad, mask_);
   }
   const cuda::StereoLevel& full() const { return host_.layout().levels.front(); }
 
   test::Scene scene_;
+  MatchableViews views_;
   Mask mask_;
   test::HostStereo host_;
 };
 
 TEST_P(StereoPasses, FindTheCpusSupportAndPrior) {
   const StereoOptions& options = GetParam().options;
-  const GradientImage left(scene_.left, options.elas.gradient_gain, options.disparity_max_px),
-      right(scene_.right, options.elas.gradient_gain, options.disparity_max_px);
+  const GradientImage left(views_.left, options.elas.gradient_gain, options.disparity_max_px,
+                           views_.ignored.left),
+      right(views_.right, options.elas.gradient_gain, options.disparity_max_px,
+            views_.ignored.right);
   const auto points = findSupportPoints(left, right, options);
   Raster<float> expected(full().grid.columns, full().grid.rows, kNoSupport);
   for (const SupportPoint& p : points)
@@ -76,7 +80,7 @@ TEST_P(StereoPasses, GiveTheCpusDepthAndNormals) {
 TEST_P(StereoPasses, GiveTheSameInAnyOrderOfThreads) {
   test::HostStereo other(GetParam().options, GetParam().width, GetParam().height, 77);
   for (int frame = 0; frame < 2; ++frame)  // nothing is left of the frame before
-    other.compute(frame == 0 ? scene_.right : scene_.left, scene_.right, scene_.rig,
+    other.compute(frame == 0 ? MatchableViews{scene_.right, scene_.right, {}} : views_, scene_.rig,
                   GetParam().roll_rad, mask_);
   EXPECT_EQ(other.levelsRun(), host_.levelsRun());
   EXPECT_EQ(
@@ -92,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Cuda, StereoPasses, testing::ValuesIn(test::stereoCases
 TEST(StereoPassesEdge, AnImageWithoutTextureHasNoDepth) {
   const GrayImage flat(96, 80, 100);
   test::HostStereo host(test::optionsTo(64), 96, 80, 1);
-  host.compute(flat, flat, test::endoscope());
+  host.compute({flat, flat, {}}, test::endoscope());
   EXPECT_EQ(measuredOf(test::rasterOf(host.layout().disparity)), 0);
 }
 

@@ -43,10 +43,7 @@ GradientImage::GradientImage(const GrayImage& image, double gain, int margin_px,
   });
 }
 
-Mask GradientImage::blocked(int reach_px) const {
-  constexpr int kSobelReach = 1;
-  return dilated(mask_, reach_px + kSobelReach);
-}
+Mask GradientImage::blocked(int reach_px) const { return dilated(mask_, reach_px + kSobelReach); }
 
 GradientView GradientImage::view(int first_row) const {
   const auto shift = static_cast<std::ptrdiff_t>(first_row) * stride_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace softscope {
 namespace {
@@ -85,6 +86,14 @@ GrayImage fillMasked(const GrayImage& image, const Mask& mask) {
   for (std::size_t i = 0; i < image.size(); ++i)
     filled.values[i] = static_cast<std::uint8_t>(std::lround(levels[0].mean.values[i]));
   return filled;
+}
+
+MatchableViews matchableViews(const GrayImage& left, const GrayImage& right,
+                              const ViewMasks& ignored) {
+  MatchableViews views{{}, {}, ignored};
+  parallelInvoke([&] { views.left = fillMasked(left, ignored.left); },
+                 [&] { views.right = fillMasked(right, ignored.right); });
+  return views;
 }
 
 }  // namespace softscope

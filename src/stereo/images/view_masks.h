@@ -22,4 +22,12 @@ void dropMasked(const Mask& mask, Raster<float>* raster);
 /// is empty or covers everything.
 GrayImage fillMasked(const GrayImage& image, const Mask& mask);
 
+/// A pair as it is matched: gray, filled where ignored.
+struct MatchableViews {
+  GrayImage left, right;
+  ViewMasks ignored;
+};
+MatchableViews matchableViews(const GrayImage& left, const GrayImage& right,
+                              const ViewMasks& ignored);
+
 }  // namespace softscope

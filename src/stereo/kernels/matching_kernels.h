@@ -13,7 +13,9 @@ namespace softscope {
 /// Tile of the dense matcher; also the cell in which support disparities are shared.
 constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
-constexpr int kSupportMargin = 4;      // reach of the support window
+constexpr int kSupportMargin = 4;     // reach of the support window
+constexpr int kDenseWindowReach = 2;  // of the dense matcher
+constexpr int kSobelReach = 1;
 constexpr int kSupportScratch = 64;    // margins and the rest of a register
 constexpr int kSupportNarrowest = 32;  // columns that the pictures must share at a disparity
 constexpr int kLargestPriorSlope = 65535 / (15 * 15);

@@ -13,13 +13,12 @@
 namespace softscope {
 namespace {
 
-constexpr int kWindowReach = 2;
 constexpr int kMaxDisparities = StereoOptions::kLargestDisparityPx + 1;
 using DisparitySet = std::bitset<kMaxDisparities>;
 
 /// No disparity where the window reaches a masked pixel.
 void dropBlocked(const GradientImage& reference, Raster<std::int16_t>& disparity) {
-  const Mask blocked = reference.blocked(kWindowReach);
+  const Mask blocked = reference.blocked(kDenseWindowReach);
   for (std::size_t i = 0; i < blocked.size(); ++i)
     if (blocked.values[i] != 0) disparity.values[i] = -1;
 }

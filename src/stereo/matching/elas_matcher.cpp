@@ -95,12 +95,11 @@ DisparityMap ElasMatcher::match(const GrayImage& left_image, const GrayImage& ri
                                 const ViewMasks& ignored) {
   requireRectifiedPair(left_image, right_image);
   StageClock clock;
-  const GrayImage left = fillMasked(left_image, ignored.left);
-  const GrayImage right = fillMasked(right_image, ignored.right);
-  DisparityMap map = matchPyramid(left, right, ignored, options_, options_.elas.coarser_levels,
-                                  kEverything, clock);
+  const MatchableViews views = matchableViews(left_image, right_image, ignored);
+  DisparityMap map = matchPyramid(views.left, views.right, ignored, options_,
+                                  options_.elas.coarser_levels, kEverything, clock);
   dropMasked(ignored.left, &map.disparity_px);
-  removeDark(map.disparity_px, left, options_.darkest_gray, options_.dark_margin_px);
+  removeDark(map.disparity_px, views.left, options_.darkest_gray, options_.dark_margin_px);
   clock.lap("dark");
   smoothByPatches(options_.smoothing, options_.refinement, map);
   clock.lap("smooth");

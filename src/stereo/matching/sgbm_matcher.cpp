@@ -5,6 +5,7 @@
 
 #include "core/mask_morphology.h"
 #include "stereo/images/opencv_view.h"
+#include "stereo/kernels/matching_kernels.h"
 #include "stereo/matching/stage_clock.h"
 #include "stereo/refinement/disparity_filter.h"
 
@@ -12,7 +13,6 @@ namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr int kSobelReach = 1;            // its costs use gradients
 constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §7
 
 }  // namespace
@@ -20,8 +20,7 @@ constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/s
 DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& right_image,
                                 const ViewMasks& ignored) {
   requireRectifiedPair(left_image, right_image);
-  const GrayImage left = fillMasked(left_image, ignored.left);
-  const GrayImage right = fillMasked(right_image, ignored.right);
+  const auto [left, right, masks] = matchableViews(left_image, right_image, ignored);
   StageClock clock;
   const int count = (options_.disparity_max_px - options_.disparity_min_px + 16) / 16 * 16;
   const int block = options_.sgbm_block_px, area = block * block;
@@ -32,8 +31,8 @@ DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& ri
   clock.lap("match");
   DisparityMap map{Raster<float>(left.width_px, left.height_px, kNaN),
                    Raster<float>(left.width_px, left.height_px, kNaN)};
-  const Mask left_blocked = dilated(ignored.left, options_.sgbm_block_px / 2 + kSobelReach);
-  const Mask right_blocked = dilated(ignored.right, options_.sgbm_block_px / 2 + kSobelReach);
+  const Mask left_blocked = dilated(masks.left, options_.sgbm_block_px / 2 + kSobelReach);
+  const Mask right_blocked = dilated(masks.right, options_.sgbm_block_px / 2 + kSobelReach);
   const auto is_blocked = [](const Mask& blocked, int u, int v) {
     return blocked.contains(u, v) && blocked.at(u, v) != 0;
   };
