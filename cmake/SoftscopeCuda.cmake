@@ -34,8 +34,8 @@ elseif(SOFTSCOPE_CUDA_VERSION VERSION_LESS 12)
     "${CMAKE_CUDA_COMPILER} is CUDA ${SOFTSCOPE_CUDA_VERSION}, but 12 or newer is needed")
 else()
   # Machine code for each generation from Turing on, so that no GPU waits for its driver to
-  # translate; the PTX of 90 serves those that come later.
-  if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+  # translate; the PTX of 90 serves those that come later. CMake takes others from CUDAARCHS.
+  if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
     set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 90)
     if(SOFTSCOPE_CUDA_VERSION VERSION_GREATER_EQUAL 12.8)
       list(APPEND CMAKE_CUDA_ARCHITECTURES 100-real 120-real)
