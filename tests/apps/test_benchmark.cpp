@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 class Benchmark : public InFolder {
  protected:
@@ -65,10 +66,12 @@ TEST_F(Benchmark, SurgtStartsTrackersEvery50FramesAndFollowsAsInOurOwnForm) {
   for (const char* name : {"left.mp4", "right.mp4"}) fs::remove(at("own/") + name);
   fs::copy_file(at("data/case/1/video.mp4"), at("own/stereo.mp4"));
   ASSERT_EQ(run({"reconstruct", at("own"), "--track", at("b/clips/case_1/000000/points.csv"),
-                 "--out", at("run"), "--quiet"})
+                 "--out", at("run"), "--frames", ":16", "--quiet"})
                 .exit_code,
             0);
-  EXPECT_EQ(textOf(at("run/tracks.csv")), textOf(at("b/clips/case_1/000000/run/tracks.csv")));
+  const std::string first_frames = textOf(at("run/tracks.csv"));
+  EXPECT_GT(first_frames.size(), 1000U);
+  EXPECT_THAT(textOf(at("b/clips/case_1/000000/run/tracks.csv")), StartsWith(first_frames));
 
   // Nothing is run again; truth that is broken excludes its video.
   const auto before = fs::last_write_time(at("b/clips/case_1/000050/run/run.json"));
