@@ -1,4 +1,4 @@
-// eval/surfaces/error_pool.cpp: every so-manyth point.
+// eval/surfaces/error_pool.cpp: one point in n, at equal distances in the list.
 #include "eval/surfaces/error_pool.h"
 
 #include <algorithm>
