@@ -37,10 +37,11 @@ TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>&
     } else if (found == truth.end() || move == moves.end()) {
       ++errors.without_truth;
     } else {
+      const Eigen::Vector3d offset_mm = move->second * sample.position_mm - found->second;
       errors.each.push_back(
-          {sample.frame, sample.id, (move->second * sample.position_mm - found->second).norm(),
+          {sample.frame, sample.id, offset_mm.norm(),
            start == truth.end() ? Statistics::kNone : (found->second - start->second).norm(),
-           sample.visible, unseen.count({sample.frame, sample.id}) > 0});
+           sample.visible, unseen.count({sample.frame, sample.id}) > 0, offset_mm});
     }
   }
   if (!truth.empty())

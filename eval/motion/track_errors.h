@@ -28,6 +28,7 @@ struct TrackError {
   double control_mm = 0;  // of an estimate that never moves: |truth now - truth at the start|
   bool visible = true;    // as the estimate says
   bool unseen = false;    // as truth says
+  Eigen::Vector3d offset_mm = Eigen::Vector3d::Zero();  // from the truth, in its world
 };
 
 struct TrackErrors {

@@ -24,6 +24,7 @@ struct FrameFacts {
   double second_difference_mm = kNone;
   double pose_mm = kNone, pose_deg = kNone, ate_mm = kNone, ate_deg = kNone;
   double rpe_mm = kNone, rpe_deg = kNone, backprojection_mm = kNone;
+  double confidence = kNone, jump_mm = kNone, wrong = kNone;
   Statistics track_mm, control_mm;
 };
 
@@ -112,7 +113,10 @@ std::vector<Column> cameraAndTrackColumns() {
           {"track_mean_mm", [](F f) { return f.track_mm.mean; }},
           {"track_median_mm", [](F f) { return f.track_mm.median; }},
           {"track_p95_mm", [](F f) { return f.track_mm.p95; }},
-          {"no_motion_mean_mm", [](F f) { return f.control_mm.mean; }}};
+          {"no_motion_mean_mm", [](F f) { return f.control_mm.mean; }},
+          {"largest_jump_mm", [](F f) { return f.jump_mm; }},
+          {"confidence", [](F f) { return f.confidence; }},
+          {"wrong", [](F f) { return f.wrong; }}};
 }
 
 std::vector<Column> columnsFor(const EvaluationResult& result) {
@@ -175,6 +179,11 @@ FactsByFrame gather(const EvaluationResult& result) {
   if (result.tracks) addTracks(*result.tracks, facts);
   for (const auto& [frame, mean_mm] : result.backprojection_mm)
     facts[frame].backprojection_mm = mean_mm;
+  for (const JudgedFrame& judged : result.judged_frames) {
+    facts[judged.frame].confidence = judged.confidence;
+    facts[judged.frame].jump_mm = judged.jump_mm;
+    facts[judged.frame].wrong = isWrong(judged);
+  }
   for (auto& [number, frame] : facts) frame.frame = number;
   return facts;
 }

@@ -114,6 +114,25 @@ Json revisitsJson(const Revisits& revisits) {
           {"growth_mm", revisits.growth_mm}};
 }
 
+std::vector<int> silentlyWrong(const EvaluationResult& result) {
+  std::vector<int> frames;
+  for (const JudgedFrame& judged : result.judged_frames)
+    if (isSilentlyWrong(judged)) frames.push_back(judged.frame);
+  return frames;
+}
+
+std::size_t countWrong(const EvaluationResult& result) {
+  return static_cast<std::size_t>(
+      std::count_if(result.judged_frames.begin(), result.judged_frames.end(), isWrong));
+}
+
+Json wrongJson(const EvaluationResult& result) {
+  const std::vector<int> silent = silentlyWrong(result);
+  return {{"frames", countWrong(result)},
+          {"silent_frames", silent.size()},
+          {"silent_frame_numbers", silent}};
+}
+
 Json alignmentJson(const SurfaceAlignment& alignment) {
   return {{"mesh_from_run", matrixJson(alignment.surface_from_points)},
           {"stop", stopText(alignment.stop)},
@@ -196,6 +215,15 @@ void addTrackFacts(const TrackErrors& tracks, FactSheet& facts) {
   facts.addLine("  no motion", spreadText(tracks.control_mm) + ", had nothing been tracked");
 }
 
+void addWrongFacts(const EvaluationResult& result, FactSheet& facts) {
+  std::string silent;
+  for (const int frame : silentlyWrong(result)) silent += " " + std::to_string(frame);
+  facts.addLine("wrong", std::to_string(countWrong(result)) + " of " +
+                             std::to_string(result.judged_frames.size()) + " fused frames; " +
+                             (silent.empty() ? "none" : "frames" + silent) +
+                             " with a confidence above one half");
+}
+
 void addRevisitFacts(const RevisitResult& revisits, FactSheet& facts) {
   const auto add = [&](const char* label, const Revisits& of) {
     if (of.count > 0)
@@ -256,6 +284,7 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
     json["tracks"] = tracksJson(result.tracks.value_or(TrackErrors()));
     json["revisit"] = {{"surface", revisitsJson(result.revisits.surface)},
                        {"tracks", revisitsJson(result.revisits.tracks)}};
+    json["wrong"] = wrongJson(result);
     json["depth"] = drawnDepthJson(result.surface);
     json["view"] = viewJson(result.surface);
     json["backprojection"] = statisticsJson(backprojectionOf(result), "_mm");
@@ -272,6 +301,7 @@ FactSheet evaluationFacts(const EvaluationResult& result) {
   addSurfaceFacts(result, facts);
   if (result.camera) addCameraFacts(*result.camera, facts);
   if (result.tracks) addTrackFacts(*result.tracks, facts);
+  if (!result.against_mesh) addWrongFacts(result, facts);
   addRevisitFacts(result.revisits, facts);
   if (!result.against_mesh) addDrawnFacts(result, facts);
   for (const std::string& warning : result.warnings) facts.warn(warning);

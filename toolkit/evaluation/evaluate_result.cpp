@@ -12,6 +12,24 @@ namespace {
 
 constexpr double kForeignMm = 20;  // a model this far off shows no tissue of this sequence
 
+double valueOf(const std::map<int, double>& values, int frame) {
+  const auto found = values.find(frame);
+  return found == values.end() ? Statistics::kNone : found->second;
+}
+
+TrueTracks positionsOf(const std::vector<TrackSample>& samples) {
+  TrueTracks positions_mm;
+  for (const TrackSample& sample : samples)
+    if (sample.position_mm.allFinite())
+      positions_mm[{sample.frame, sample.id}] = sample.position_mm;
+  return positions_mm;
+}
+
+/// Whether the true tracks show tissue that never moves; false without tracks.
+bool showsRigidTissue(const SequenceTruth& truth) {
+  return !truth.tracks.empty() && isRigid(positionsOf(readTracks(truth.tracks)));
+}
+
 }  // namespace
 
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
@@ -37,13 +55,11 @@ CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
 
 std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth) {
   if (run.tracks.empty() || truth.tracks.empty()) return std::nullopt;
-  TrueTracks true_tracks;
+  const std::vector<TrackSample> true_samples = readTracks(truth.tracks);
+  const TrueTracks true_tracks = positionsOf(true_samples);
   UnseenTracks unseen;
-  for (const TrackSample& sample : readTracks(truth.tracks)) {
-    if (!sample.position_mm.allFinite()) continue;
-    true_tracks[{sample.frame, sample.id}] = sample.position_mm;
+  for (const TrackSample& sample : true_samples)
     if (!sample.visible) unseen.insert({sample.frame, sample.id});
-  }
   std::vector<TrackSample> tracks = readTracks(run.tracks);
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [&](const TrackSample& sample) { return !run.counts(sample.frame); }),
@@ -77,6 +93,26 @@ RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
     of_surface.push_back(model == surface_mm.end() ? Statistics::kNone : model->second);
   }
   return {revisits(poses, of_surface, {}), revisits(poses, of_tracks, {})};
+}
+
+std::vector<JudgedFrame> judgeClaims(const JudgedRun& run, const SequenceTruth& truth,
+                                     const EvaluationResult& result) {
+  std::map<int, double> surface_mm, jump_mm, pose_mm, pose_deg;
+  for (const JudgedModel& model : result.surface.models)
+    surface_mm[model.frame] = model.errors.observed_mm.mean;
+  if (result.tracks) jump_mm = largestJumps(*result.tracks);
+  if (result.camera && showsRigidTissue(truth))
+    for (std::size_t k = 0; k < result.camera->frames.size(); ++k) {
+      pose_mm[result.camera->frames[k]] = result.camera->errors.unaligned.each_mm[k];
+      pose_deg[result.camera->frames[k]] = result.camera->errors.unaligned.each_deg[k];
+    }
+  std::vector<JudgedFrame> judged;
+  for (const int frame : run.frames)
+    if (run.counts(frame))
+      judged.push_back({frame, valueOf(run.confidence, frame), valueOf(surface_mm, frame),
+                        valueOf(pose_mm, frame), valueOf(pose_deg, frame),
+                        valueOf(jump_mm, frame)});
+  return judged;
 }
 
 std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTruth& truth,

@@ -9,6 +9,7 @@
 #include "eval/motion/revisit.h"
 #include "eval/motion/track_errors.h"
 #include "eval/motion/trajectory_errors.h"
+#include "eval/motion/wrong_frames.h"
 #include "toolkit/evaluation/evaluate_series.h"
 
 namespace softscope {
@@ -33,6 +34,7 @@ struct EvaluationResult {
   std::optional<CameraResult> camera;
   std::optional<TrackErrors> tracks;
   RevisitResult revisits;
+  std::vector<JudgedFrame> judged_frames;   // those that were fused
   FrameOutcomes outcomes;                   // of the run
   std::map<int, double> times_s;            // of all frames of the run; NaN without timestamps
   std::map<int, double> backprojection_mm;  // by frame, as the run itself measured it
@@ -50,6 +52,11 @@ std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth
 /// Of a result that holds surface and tracks already.
 RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
                             const EvaluationResult& result);
+
+/// Of a result that holds surface, camera and tracks already: what the run claims of each fused
+/// frame.
+std::vector<JudgedFrame> judgeClaims(const JudgedRun& run, const SequenceTruth& truth,
+                                     const EvaluationResult& result);
 
 /// What a reader of the result should know: frames without a model, parts that lack, a model that
 /// is suspiciously far away. Nothing of it keeps the rest from being right.

@@ -53,6 +53,7 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
   const auto frames = framesToJudge(run, truth);
   result.surface = judgeSeries(run, truth, options.views, counting(progress, frames.size()));
   result.revisits = judgeRevisits(run, truth, result);
+  result.judged_frames = judgeClaims(run, truth, result);
   result.warnings = run.warnings();
   for (std::string& warning : sequenceWarnings(run, truth, result))
     result.warnings.push_back(std::move(warning));

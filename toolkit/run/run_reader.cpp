@@ -110,6 +110,8 @@ JudgedRun openJudgedRun(const fs::path& folder) {
       run.backprojection_mm[rows.frames[k]] = rows.backprojection_mm[k];
   for (std::size_t k = 0; k < rows.coverage.size(); ++k)
     if (std::isfinite(rows.coverage[k])) run.coverage[rows.frames[k]] = rows.coverage[k];
+  for (std::size_t k = 0; k < rows.confidence.size(); ++k)
+    if (std::isfinite(rows.confidence[k])) run.confidence[rows.frames[k]] = rows.confidence[k];
   run.stopped = isThere(folder / "checkpoint.bin") || isThere(folder / "writing.lock");
   run.models = numberedFiles(folder / "models", ".ply");
   run.last_model = fileOrNone(folder / "model.ply");

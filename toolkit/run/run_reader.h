@@ -24,6 +24,7 @@ struct JudgedRun {
   std::map<int, double> backprojection_mm;  // of frames that were fused into the model, not the
                                             // first one, whose value is zero by construction
   std::map<int, double> coverage;           // share of the tissue that has depth, of all frames
+  std::map<int, double> confidence;         // of pose and warp, as the run says
   FrameFiles models;                        // models/NNNNNN.ply
   bool stopped = false;                     // before its end: the clip's last frames lack
   std::filesystem::path last_model;         // model.ply; empty where it is missing

@@ -51,11 +51,11 @@ class NumberTable {
 /// frame,id,x_mm,y_mm,z_mm[,visible]; positions that were lost are NaN.
 std::vector<TrackSample> readTracks(const std::filesystem::path& file);
 
-/// Of frames.csv: `frame`, rising; backprojection_mean_mm and coverage, NaN where they lack;
-/// status, empty without that column.
+/// Of frames.csv: `frame`, rising; backprojection_mean_mm, coverage, confidence, NaN where they
+/// lack; status, empty without that column.
 struct FrameRows {
   std::vector<int> frames;
-  std::vector<double> backprojection_mm, coverage;
+  std::vector<double> backprojection_mm, coverage, confidence;
   std::vector<FrameStatus> statuses;
 };
 
