@@ -23,10 +23,8 @@ constexpr double kConvergedMm = 1e-4;
 constexpr double kTypicalDepthMm = 50;  // turns a rotation into a shift, to judge convergence
 constexpr double kCostScaleSq = 9;      // three standard errors
 
-// Of the matches that the present shape explains, the reference shape explains this share of a
-// scene that has not bent; and this one of a scene whose errors alone bent it, while the scope
-// moved too slowly to be seen in a single frame.
-constexpr double kRigidShare = 0.9, kSlowShare = 2.0 / 3;
+// Tissue has its reference shape as long as that explains this share of the matches.
+constexpr double kRigidShare = 2.0 / 3;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kSeenSigmas =
@@ -292,20 +290,20 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   const Eigen::Isometry3d best = now.search(fitted.inverse(), old);
   const Eigen::Isometry3d best_since = since.search(best, before);
   const bool moved_now = now.differs(best, old), moved_since = since.differs(best_since, before);
-  const double share_now = now.explainedBy(best);
-  const double kept_share = share_now > 0 ? since.explainedBy(best_since) / share_now : 0;
-  const bool slow = !moved_now && moved_since && kept_share >= kSlowShare;
-  const bool rigid = slow || kept_share >= kRigidShare;
+  const bool rigid = since.explainedBy(best_since) >= kRigidShare;
+  const bool moves = options.scope == "moving" || moved_now || (rigid && moved_since);
   const Eigen::Isometry3d& measured = rigid ? best_since : best;
   const Matrix6d covariance = (rigid ? since : now).covarianceAt(measured);
   RefinedPose refined;
   refined.moved_mm = (measured.inverse().translation() - reference.translation()).norm();
   refined.sigma_mm = std::sqrt(covariance.diagonal().tail<3>().sum());
   refined.sigma_deg = 180 / M_PI * std::sqrt(covariance.diagonal().head<3>().sum());
-  const bool moves = options.scope == "moving" || moved_now || slow;
   refined.scope_static = options.scope == "static" || !moves;
   refined.keeps_shape = refined.scope_static || rigid;
-  refined.world_from_left = refined.scope_static ? reference : measured.inverse();
+  if (options.scope == "static")
+    refined.world_from_left = reference;
+  else
+    refined.world_from_left = rigid || moves ? measured.inverse() : last;
   return refined;
 }
 

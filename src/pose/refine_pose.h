@@ -50,9 +50,11 @@ struct RefinedPose {
 /// The scope moved if a new pose explains the pairs significantly better than the old one, judged
 /// by the mean gain of image regions, because tissue that moves pulls whole regions alike: (29).
 /// Two motions are tested: since the last fused frame, and, because a slow motion is never
-/// significant in one frame, since `reference` and the tissue's places then. Without a significant
-/// motion the pose is `reference`. Pairs that are not finite or behind the camera have no weight;
-/// fewer than three are not refined. Throws OptionError on bad options.
+/// significant in one frame, since `reference` and the tissue's places then. As long as most of the
+/// tissue has its reference shape, the pose is measured in that shape, significant or not; of
+/// tissue that has bent, a motion that is not significant is the tissue's, and the pose is `last`.
+/// Pairs that are not finite or behind the camera have no weight; fewer than three are not refined.
+/// Throws OptionError on bad options.
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
                        const Eigen::Isometry3d& reference, const RefinePoseOptions& options);

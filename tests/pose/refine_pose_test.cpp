@@ -152,6 +152,14 @@ TEST(RefinePose, FindsASlowMotionOnceItHasAddedUp) {
   EXPECT_NEAR(found.moved_mm, frame * kStepMm, 0.05);
 }
 
+// Below the error of a single match, but not below that of all of them.
+TEST(RefinePose, MeasuresAMotionOverRigidTissueThatNoSinglePairSees) {
+  const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  const RefinedPose found = refined(creepingPairs(4, 0.02, 0.18), start, start);
+  EXPECT_TRUE(found.scope_static);
+  EXPECT_NEAR(found.world_from_left.translation().x(), 0.08, 0.02);
+}
+
 // A model that each frame's error has turned a little: the reference shape has none of it.
 TEST(RefinePose, MeasuresARigidSceneInItsReferenceShape) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5}), drift = poseOf(0.002, {0.05, 0, 0});
@@ -162,16 +170,18 @@ TEST(RefinePose, MeasuresARigidSceneInItsReferenceShape) {
   expectNear(found.world_from_left, truth, 0.02, 4e-4);
 }
 
-// Pulled aside by 6 mm and bent over many frames, before a scope at rest.
+// Pulled aside by 6 mm and bent over many frames, before a scope at rest: it stays where it was
+// last.
 TEST(RefinePose, TissuePulledAsAWholeIsNoSlowMotionOfTheScope) {
-  std::vector<PosePair> pairs = seenFrom(Eigen::Isometry3d::Identity(), nothing, 0.02);
+  const Eigen::Isometry3d last = poseOf(1e-4, {0.01, 0, 0.02});
+  std::vector<PosePair> pairs = seenFrom(last, nothing, 0.02);
   for (PosePair& pair : pairs)
     pair.reference_world_mm += Eigen::Vector3d(6 + 0.8 * std::sin(0.3 * pair.model_world_mm.y()), 0,
                                                std::cos(0.3 * pair.model_world_mm.x()));
   const RefinedPose found =
-      refined(pairs, Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity());
+      refinePose(pairs, someRig(), last, last, Eigen::Isometry3d::Identity(), {});
   EXPECT_TRUE(found.scope_static);
-  EXPECT_EQ(found.world_from_left.matrix(), Eigen::Matrix4d::Identity());
+  EXPECT_EQ(found.world_from_left.matrix(), last.matrix());
 }
 
 TEST(RefinePose, TakesThePresentShapeOfTissueThatHasBent) {
