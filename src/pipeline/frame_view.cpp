@@ -14,9 +14,10 @@ namespace {
 /// largest sigma of a new point, 0.5 mm, is twice the 0.1 px that stereo errs by.
 constexpr double kNearMmPerPx = 2.5;
 
-/// Weights compare a depth with the typical one of its frame: where all depths are worse, because
-/// the tissue is far or the images are poor, they still pull the model together. Limits in mm are
-/// those of near tissue and grow with what a pixel of disparity is worth.
+/// Limits in mm are those of near tissue and grow with what a pixel of disparity is worth. Fusion
+/// compares a depth with the typical one of its frame: where all depths are worse, because the
+/// tissue is far or the images are poor, they still make a model. The warp does not: tissue far
+/// away bends no further than near tissue, so unsure depth bends it less.
 void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
   view->association = options.deform.association;
   view->fusion = options.fusion;
@@ -26,10 +27,9 @@ void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
         &view->fusion.insertion.band_mm, &view->fusion.insertion.max_sigma_mm,
         &view->fusion.pixels.max_sigma_mm, &view->pose.threshold_mm})
     *limit_mm *= view->summary.limit_scale;
-  if (!std::isfinite(view->summary.median_sigma_mm)) return;
-  for (double* sigma_mm :
-       {&view->association.reference_sigma_mm, &view->fusion.points.reference_sigma_mm})
-    if (*sigma_mm > 0) *sigma_mm = std::max(*sigma_mm, view->summary.median_sigma_mm);
+  double& sigma_mm = view->fusion.points.reference_sigma_mm;
+  if (sigma_mm > 0 && std::isfinite(view->summary.median_sigma_mm))
+    sigma_mm = std::max(sigma_mm, view->summary.median_sigma_mm);
 }
 
 DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
