@@ -129,6 +129,11 @@ SOFTSCOPE_FORMULA V planeDisparity(const V (&m)[9], V before, float farthest_ste
   return holds ? before + relaxation * step : nan;
 }
 
+/// Squared slope of the right image's noise over the squared noise of both images' difference:
+/// half of that is the right one's, its central difference keeps half, and the 3 x 3 filter, by
+/// which pixels two apart have a sixth of their noise in common, five sixths.
+constexpr float kSlopeNoise = 0.5f * 0.5f * 5.0f / 6.0f;
+
 /// Variance of planeDisparity() from the moments and residual_sq and weight, and whether the fit
 /// can be trusted, given difference_sq and energy.
 template <class V, class Mask>
@@ -139,10 +144,11 @@ SOFTSCOPE_FORMULA V planeVariance(const V (&m)[9], const V (&evidence_sums)[4], 
   const V a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
   const V c00 = d * f - e * e;
   const V determinant = a * c00 + b * (c * e - b * f) + c * (b * e - c * d);
-  // The matched disparity steadies the fit but is no evidence: it doesn't lower the error.
-  const V weight = evidence_sums[1], raw = 1.0f - prior_weight * weight / a;
+  // Neither what steadies the fit, the matched disparity, nor the slope that noise has is evidence:
+  // they don't lower the error.
+  const V weight = evidence_sums[1], noise_sq = evidence_sums[0] / weight + noise_floor_sq;
+  const V raw = 1.0f - (prior_weight + kSlopeNoise * noise_sq) * weight / a;
   const V evidence = raw > 1e-3f ? raw : V{} + 1e-3f;
-  const V noise_sq = evidence_sums[0] / weight + noise_floor_sq;
   const V variance = noise_sq * (c00 / determinant) / (evidence * evidence * independent_pixels) +
                      model_variance_px2;
   *holds = (disparity == disparity) & (variance <= max_variance_px2) &
