@@ -296,7 +296,8 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   parallelInvoke(
       [&] {
         state_.tracked.renumber(update.index_map, state_.model);
-        state_.tracked.settle(state_.model, world_from_left.translation());
+        state_.tracked.settle(state_.model, world_from_left.translation(),
+                              frame_.summary.limit_scale);
       },
       [&] { fused_.corrected = backProjectionError(state_.model, observation, frame_.states); });
   fused_.points = static_cast<int>(state_.model.size());

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSearchPx = 6;          // a seed without depth takes it from pixels this near
 constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
-constexpr double kMaxSettleMm = 0.5;  // further off is another surface
+constexpr double kMaxSettleMm = 0.5;  // of near tissue; further off is another surface
 
 /// Depth at the pixel: a plane fitted to the inverse depth of the 5 x 5 pixels around; where none
 /// of them is measured, the nearest one that is. NaN where there is none.
@@ -101,7 +101,9 @@ void MaterialPoints::renumber(const IndexMap& map, const PointModel& model) {
   }
 }
 
-void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm) {
+void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm,
+                            double limit_scale) {
+  const double limit_mm = kMaxSettleMm * limit_scale;
   std::unordered_map<std::int64_t, std::vector<int>> points_of_cell;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].model_point < 0) continue;
@@ -131,15 +133,14 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (pieces[k].weight <= 0 || pieces[k].normal.norm() <= 0) continue;
     const double height = pieces[k].height_mm / pieces[k].weight;
-    if (!(std::abs(height) < kMaxSettleMm)) continue;
+    if (!(std::abs(height) < limit_mm)) continue;
     const Eigen::Vector3d normal = pieces[k].normal.normalized();
     const Eigen::Vector3d ray = (points[k].position_mm - scope_mm).normalized();
     const double cosine = normal.dot(ray);
     const double along_ray_mm = height / cosine;
     // Seen at a grazing angle, the ray meets the surface far away.
-    points[k].position_mm += std::abs(along_ray_mm) < kMaxSettleMm
-                                 ? Eigen::Vector3d(along_ray_mm * ray)
-                                 : Eigen::Vector3d(height * normal);
+    points[k].position_mm += std::abs(along_ray_mm) < limit_mm ? Eigen::Vector3d(along_ray_mm * ray)
+                                                               : Eigen::Vector3d(height * normal);
   }
 }
 

@@ -49,8 +49,9 @@ class MaterialPoints {
   /// Model points have new numbers.
   void renumber(const IndexMap& map, const PointModel& model);
   /// Lays them onto the surface that the model's points around them make, along the rays of the
-  /// scope at `scope_mm`, as fusion moves the model's points: docs/fusion.md (F8).
-  void settle(const PointModel& model, const Eigen::Vector3d& scope_mm);
+  /// scope at `scope_mm`, as fusion moves the model's points: docs/fusion.md (F8). `limit_scale`:
+  /// DepthSummary::limit_scale of the frame.
+  void settle(const PointModel& model, const Eigen::Vector3d& scope_mm, double limit_scale);
 
   std::vector<Point> points;
 };

@@ -37,7 +37,7 @@ TEST(MaterialPoints, TakeDepthFromNearbyOrStayUnknown) {
   EXPECT_FALSE(tracked.points[1].position_mm.allFinite());
   PointModel model = flatModel();
   tracked.anchor(model);  // and nothing that follows minds
-  tracked.settle(model, Eigen::Vector3d::Zero());
+  tracked.settle(model, Eigen::Vector3d::Zero(), 1);
   EXPECT_EQ(tracked.points[1].model_point, -1);
 }
 
@@ -59,10 +59,21 @@ TEST(MaterialPoints, LieOnTheModelsSurface) {
     MaterialPoints tracked;
     tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
     tracked.anchor(flatModel());
-    tracked.settle(flatModel(shift_mm), Eigen::Vector3d::Zero());
+    tracked.settle(flatModel(shift_mm), Eigen::Vector3d::Zero(), 1);
     EXPECT_NEAR(tracked.points[0].position_mm.z(), expected_mm, 1e-5);
     EXPECT_NEAR(tracked.points[0].position_mm.x(), 0, 1e-5) << "slid along the surface";
   }
+}
+
+// Where a pixel of disparity is worth three times as much, so are the errors of depth.
+TEST(MaterialPoints, FollowASurfaceFartherAwayByMore) {
+  MaterialPoints tracked;
+  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
+  tracked.anchor(flatModel());
+  tracked.settle(flatModel(0.6f), Eigen::Vector3d::Zero(), 1);
+  EXPECT_NEAR(tracked.points[0].position_mm.z(), 50, 1e-5);
+  tracked.settle(flatModel(0.6f), Eigen::Vector3d::Zero(), 3);
+  EXPECT_NEAR(tracked.points[0].position_mm.z(), 50.6, 1e-5);
 }
 
 // Fusion moves the model's points along their rays; along the normal the point would lie 0.02 mm
@@ -72,7 +83,7 @@ TEST(MaterialPoints, StayOnTheirRay) {
   tracked.add(0, {60, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
   tracked.anchor(flatModel());
   const Eigen::Vector3d before_mm = tracked.points[0].position_mm;
-  tracked.settle(flatModel(0.2f), Eigen::Vector3d::Zero());
+  tracked.settle(flatModel(0.2f), Eigen::Vector3d::Zero(), 1);
   EXPECT_LT((tracked.points[0].position_mm - 1.004 * before_mm).norm(), 1e-5);
 }
 
@@ -81,7 +92,7 @@ TEST(MaterialPoints, DoNotSlideAlongAGrazingRay) {
   MaterialPoints tracked;
   tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
   tracked.anchor(flatModel());
-  tracked.settle(flatModel(0.2f), Eigen::Vector3d(-50, 0, 45));
+  tracked.settle(flatModel(0.2f), Eigen::Vector3d(-50, 0, 45), 1);
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(0, 0, 50.2)).norm(), 1e-5);
 }
 
