@@ -34,6 +34,7 @@ class CpuBackend : public ReconstructionBackend {
         frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo),
                 options),
         matching_(parts.makeMatching(options, rig())),
+        pose_search_(parts.makePoseSearch()),
         solver_(parts.makeSolver(options.deform)) {
     options.validate();
   }
@@ -84,6 +85,7 @@ class CpuBackend : public ReconstructionBackend {
   int ahead_from_threads_;
   FrameAhead frames_;
   std::unique_ptr<MatchStage> matching_;
+  std::unique_ptr<PoseSearch> pose_search_;
   std::unique_ptr<DeformSolver> solver_;
 
   ModelState state_;
@@ -181,7 +183,7 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
   RefinePoseOptions refine = options_.refine_pose;
   if (!maybe_static && refine.scope == "auto") refine.scope = "moving";
   const RefinedPose best =
-      refinePose(pairs, rig, pose_.target_from_source, last, reference, refine);
+      refinePose(pairs, rig, pose_.target_from_source, last, reference, refine, pose_search_.get());
   summary->world_from_left = best.world_from_left;
   summary->scope_static = best.scope_static;
   summary->keeps_shape = best.keeps_shape;
