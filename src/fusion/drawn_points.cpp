@@ -25,7 +25,10 @@ DrawnPoints::DrawnPoints(const PointModel& model, const PosedCamera& camera)
       camera_(camera),
       surface_(camera.width_px, camera.height_px, kCellPx),
       nearest_(static_cast<std::size_t>(camera.width_px) * camera.height_px) {
-  for (auto& pixel : nearest_) pixel.store(kNoPoint, std::memory_order_relaxed);
+  parallelRows(camera.height_px, [&](int v) {
+    auto* row = nearest_.data() + static_cast<std::size_t>(v) * camera.width_px;
+    for (int u = 0; u < camera.width_px; ++u) row[u].store(kNoPoint, std::memory_order_relaxed);
+  });
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) draw(i);
   });

@@ -194,13 +194,17 @@ PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observa
   observation.validate();
   requireVisibility(visibility, *model);
   PointFusionSummary summary;
-  summary.gain = estimateGain(*model, observation, visibility, colour_options);
-  const InnovationField innovation =
-      options.follow_innovation ? InnovationField(*model, graph, observation, visibility, options)
-                                : InnovationField();
-  const AnchorAgreement anchored = colour_options.hold_anchors
-                                       ? AnchorAgreement(*model, observation, visibility)
-                                       : AnchorAgreement();
+  InnovationField innovation;
+  AnchorAgreement anchored;
+  const auto findGainAndAnchors = [&] {
+    summary.gain = estimateGain(*model, observation, visibility, colour_options);
+    if (colour_options.hold_anchors) anchored = AnchorAgreement(*model, observation, visibility);
+  };
+  // Neither needs the other.
+  parallelInvoke(findGainAndAnchors, [&] {
+    if (options.follow_innovation)
+      innovation = InnovationField(*model, graph, observation, visibility, options);
+  });
   const Fuser fuser(graph, observation, options, colour_options, summary.gain, innovation, anchored,
                     model);
   std::atomic<int> fused{0}, contradicted{0};

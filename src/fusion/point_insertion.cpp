@@ -1,6 +1,7 @@
 #include "fusion/point_insertion.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -86,14 +87,37 @@ bool confirmed(const Eigen::Vector3f& point_world, const PosedCamera& last_camer
   return false;
 }
 
+/// Those that are allowed, in the picture's order.
+std::vector<std::int32_t> candidatePixels(const Raster<float>& unexplained_mm,
+                                          const std::vector<std::uint8_t>& allowed) {
+  const int width = unexplained_mm.width_px;
+  std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(unexplained_mm.height_px));
+  parallelRows(unexplained_mm.height_px, [&](int v) {
+    for (std::int32_t i = v * width; i < (v + 1) * width; ++i)
+      if (allowed[static_cast<std::size_t>(i)] != 0) rows[static_cast<std::size_t>(v)].push_back(i);
+  });
+  std::vector<std::int32_t> candidates;
+  for (const std::vector<std::int32_t>& row : rows)
+    candidates.insert(candidates.end(), row.begin(), row.end());
+  return candidates;
+}
+
+int countAboveZero(const Raster<float>& depth_mm) {
+  std::atomic<int> count{0};
+  parallelRows(depth_mm.height_px, [&](int v) {
+    const float* row = depth_mm.row(v);
+    count += static_cast<int>(
+        std::count_if(row, row + depth_mm.width_px, [](float depth) { return depth > 0; }));
+  });
+  return count;
+}
+
 /// The pixels that become points, in the picture's order: (F16), the first of every cell.
 std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
                                        const PosedCamera& camera,
                                        const std::vector<std::uint8_t>& allowed,
                                        const InsertionOptions& options) {
-  std::vector<std::int32_t> candidates;
-  for (std::size_t i = 0; i < unexplained_mm.size(); ++i)
-    if (allowed[i] != 0) candidates.push_back(static_cast<std::int32_t>(i));
+  const std::vector<std::int32_t> candidates = candidatePixels(unexplained_mm, allowed);
   const float spacing_mm = static_cast<float>(options.spacing_mm);
   const float band_mm = static_cast<float>(options.band_mm);
   std::vector<CellKey> keys(candidates.size());
@@ -185,7 +209,7 @@ InsertionSummary insertPoints(const Observation& observation, const Raster<Pixel
     addPoint(pixel, observation, camera, gain, options, model);
   InsertionSummary summary;
   summary.inserted = static_cast<int>(chosen.size());
-  for (const float depth_mm : unexplained_mm.values) summary.unexplained_px += depth_mm > 0;
+  summary.unexplained_px = countAboveZero(unexplained_mm);
   *memory = {std::move(unexplained_mm), observation.left, observation.world_from_left};
   return summary;
 }
