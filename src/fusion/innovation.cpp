@@ -81,13 +81,16 @@ std::vector<double> nodeMeans(const std::vector<Difference>& all, std::size_t no
   };
   parallelInvoke(addFrame, [&] {
     parallelRanges(static_cast<int>(nodes), kNodesATask, [&](int begin, int end) {
-      for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const NodeStencil& stencil = *all[i].stencil;  // ascending
+        if (stencil.back() < begin || stencil.front() >= end) continue;
         for (int k = 0; k < kNodesPerPoint; ++k) {
-          const std::int32_t node = (*all[i].stencil)[k];
+          const std::int32_t node = stencil[k];
           if (node < begin || node >= end) continue;
           const double share = all[i].weight * all[i].binding->weights[k];
           weights[node] += share, totals[node] += share * values[i];
         }
+      }
     });
   });
   const double prior = kPriorPoints * frame_total / frame_weight;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -103,6 +104,7 @@ class CpuBackend : public ReconstructionBackend {
   FrameView frame_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
+  std::optional<ModelComparison> comparison_;  // with the warped model
   FusionSummary fused_;
   StageClock clock_;
 };
@@ -110,6 +112,7 @@ class CpuBackend : public ReconstructionBackend {
 DepthSummary CpuBackend::measure(const Frame& frame) {
   clock_ = StageClock();
   matches_.clear();
+  comparison_.reset();
   pose_ = RigidPose();
   frame_ = frames_.measure(frame, &clock_);
   return frame_.summary;
@@ -260,19 +263,27 @@ void CpuBackend::acceptWarp(bool is_reference) {
 
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
-  const DrawnPoints drawn(state_.model, posedCamera(left(), world_from_left));
   EvidenceSummary evidence;
-  parallelInvoke(
-      [&] { evidence.predicted = backProjectionError(drawn, observation, frame_.states); },
-      [&] {
-        evidence.view = viewEvidence(drawn, observation, frame_.states, frame_.fusion.pixels);
-      });
+  const auto draw = [&] {
+    const DrawnPoints drawn(state_.model, posedCamera(left(), world_from_left));
+    parallelInvoke(
+        [&] { evidence.predicted = backProjectionError(drawn, observation, frame_.states); },
+        [&] {
+          evidence.view = viewEvidence(drawn, observation, frame_.states, frame_.fusion.pixels);
+        });
+  };
+  // Nearly every frame is confirmed: what fusion asks first is found beside the evidence.
+  parallelInvoke(draw, [&] {
+    comparison_ =
+        compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
+  });
   clock_.lap("check");
   return evidence;
 }
 
 void CpuBackend::rejectWarp() {
   growth_.drop();
+  comparison_.reset();
   if (!before_.positions_mm.empty()) {
     state_.model.positions_mm = std::move(before_.positions_mm);
     state_.model.normals = std::move(before_.normals);
@@ -288,8 +299,13 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
   if (empty()) seedTracks(world_from_left);
   before_ = {};
-  const ModelUpdateSummary update = updateModel(observation, frame_.states, state_.graph,
-                                                frame_.fusion, &state_.memory, &state_.model);
+  if (!comparison_)
+    comparison_ =
+        compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
+  const ModelUpdateSummary update =
+      updateModel(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
+                  &state_.memory, &state_.model);
+  comparison_.reset();
   if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
