@@ -82,8 +82,9 @@ std::vector<Finding> examineCuda(Json& json) {
       info.driver_version.empty() ? "" : ", driver for " + info.driver_version;
   json["cuda"] = {{"built_with", info.runtime_version}, {"driver", info.driver_version}};
   Json& devices = json["cuda"]["devices"] = Json::array();
-  const std::string use =
-      whyNoCuda().empty() ? ": the first GPU does stereo, matching and the warp's solver" : "";
+  const std::string use = whyNoCuda().empty()
+                              ? ": the first GPU does stereo, matching, pose and the warp's solver"
+                              : "";
   std::vector<Finding> findings{{"CUDA", !info.devices.empty(), built + driver + use,
                                  info.why_none + ". The CPU does all work"}};
   for (const cuda::Device& device : info.devices)

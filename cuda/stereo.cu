@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <future>
 #include <limits>
 #include <optional>
 
@@ -111,9 +112,6 @@ class Stereo::Device {
     wait();
     StereoDepth found;
     const int width = full().width, height = full().height;
-    found.disparity = {Raster<float>(width, height), Raster<float>(width, height)};
-    found.depth = {Raster<float>(width, height), Raster<float>(width, height)};
-    found.normals = NormalMap(width, height, Eigen::Vector3f::Zero());
     auto* arrived = static_cast<float*>(results_memory_.data());
     const View<float> rasters[] = {layout_.disparity, layout_.sigma, layout_.depth,
                                    layout_.depth_sigma};
@@ -124,12 +122,18 @@ class Stereo::Device {
     Raster<float>* places[] = {&found.disparity.disparity_px, &found.disparity.sigma_px,
                                &found.depth.depth_mm, &found.depth.sigma_mm};
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();  // one of many, as on the CPU
+    std::future<void> copies[kRasters];
     for (int i = 0; i < kRasters; ++i)
-      std::transform(arrived + i * pixels_, arrived + (i + 1) * pixels_, places[i]->values.data(),
-                     [](float value) { return value == value ? value : kNan; });
+      copies[i] = std::async(std::launch::async, [&, i] {
+        *places[i] = Raster<float>(width, height);
+        std::transform(arrived + i * pixels_, arrived + (i + 1) * pixels_, places[i]->values.data(),
+                       [](float value) { return value == value ? value : kNan; });
+      });
+    found.normals = NormalMap(width, height, Eigen::Vector3f::Zero());
     static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
     std::memcpy(static_cast<void*>(found.normals.values.data()), normals,
                 pixels_ * sizeof(NormalPixel));
+    for (std::future<void>& copy : copies) copy.get();
     found.levels = levels_run_;
     return found;
   }

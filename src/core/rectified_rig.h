@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "core/camera.h"
+#include "core/hd.h"
 
 namespace softscope {
 
@@ -17,10 +18,10 @@ struct RectifiedRig {
   /// p_rectified = rectified_from_raw_left * p_raw: rotation between the left frames.
   Eigen::Matrix3d rectified_from_raw_left = Eigen::Matrix3d::Identity();
 
-  double depthMm(double disparity_px) const {
+  SOFTSCOPE_HD double depthMm(double disparity_px) const {
     return left.fx_px * baseline_mm / (disparity_px + disparity_offset_px);
   }
-  double disparityPx(double depth_mm) const {
+  SOFTSCOPE_HD double disparityPx(double depth_mm) const {
     return left.fx_px * baseline_mm / depth_mm - disparity_offset_px;
   }
 };

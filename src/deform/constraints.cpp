@@ -1,7 +1,8 @@
 #include "deform/constraints.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstddef>
+#include <utility>
 
 #include "core/parallel.h"
 #include "deform/shape_memory.h"
@@ -16,17 +17,54 @@ bool usable(const PointModel& model, const WarpGraph& graph, int point) {
          model.positions_mm[point].allFinite() && model.normals[point].allFinite();
 }
 
-/// Calls use(point, stencil) for every `stride`-th usable point of `visible`, or of the model.
-template <class Use>
-void forUsablePoints(const PointModel& model, const WarpGraph& graph,
-                     const std::vector<int>* visible, int stride, const Use& use) {
-  const int points = static_cast<int>(model.size());
-  const int count = visible ? static_cast<int>(visible->size()) : points;
-  for (int i = 0; i < count; i += stride) {
-    const int point = visible ? (*visible)[i] : i;
-    if (point >= 0 && point < points && usable(model, graph, point))
-      use(point, model.bindings[point].stencil);
+/// Every `stride`-th usable point of `visible`, or of the model, and their stencils: in parts, so
+/// that several threads can sort them.
+struct UsablePoints {
+  std::vector<std::vector<std::pair<int, std::int32_t>>> parts;  // point, stencil; in order
+
+  UsablePoints(const PointModel& model, const WarpGraph& graph, const std::vector<int>* visible,
+               int stride) {
+    const int points = static_cast<int>(model.size());
+    const int all = visible ? static_cast<int>(visible->size()) : points;
+    const int count = (all + stride - 1) / stride;
+    parts.resize(static_cast<std::size_t>((count + kPointsATask - 1) / kPointsATask));
+    parallelRanges(static_cast<int>(parts.size()), 1, [&](int begin, int end) {
+      for (int part = begin; part < end; ++part) {
+        auto& own = parts[static_cast<std::size_t>(part)];
+        own.reserve(kPointsATask);
+        for (int k = part * kPointsATask; k < std::min(count, (part + 1) * kPointsATask); ++k) {
+          const int point = visible ? (*visible)[k * stride] : k * stride;
+          if (point >= 0 && point < points && usable(model, graph, point))
+            own.emplace_back(point, model.bindings[point].stencil);
+        }
+      }
+    });
   }
+};
+
+/// A stable counting sort by stencil; `start` has a place for every stencil and the end.
+std::vector<int> sortedByStencil(const UsablePoints& points, std::vector<int>* start) {
+  const std::size_t stencils = start->size() - 1;
+  std::vector<std::vector<int>> next(points.parts.size());  // of every part, where it goes on
+  const int parts = static_cast<int>(next.size());
+  parallelRanges(parts, 1, [&](int begin, int end) {
+    for (int part = begin; part < end; ++part) {
+      next[part].assign(stencils, 0);
+      for (const auto& [point, stencil] : points.parts[part]) ++next[part][stencil];
+    }
+  });
+  int total = 0;
+  for (std::size_t s = 0; s < stencils; ++s) {
+    (*start)[s] = total;
+    for (std::vector<int>& counts : next) total += std::exchange(counts[s], total);
+  }
+  start->back() = total;
+  std::vector<int> sorted(static_cast<std::size_t>(total));
+  parallelRanges(parts, 1, [&](int begin, int end) {
+    for (int part = begin; part < end; ++part)
+      for (const auto& [point, stencil] : points.parts[part]) sorted[next[part][stencil]++] = point;
+  });
+  return sorted;
 }
 
 PlaneConstraint makeRow(const PointBinding& binding, const Eigen::Vector3f& point_mm,
@@ -92,13 +130,10 @@ void collectCandidates(const PointModel& model, const WarpGraph& graph,
   const int stride =
       max_points > 0 && count > limit ? static_cast<int>((count + limit - 1) / limit) : 1;
   candidates->points_each = static_cast<float>(stride);
-  std::vector<int>& start = candidates->stencil_start;  // a stable counting sort
+  std::vector<int>& start = candidates->stencil_start;
   start.assign(graph.stencils.size() + 1, 0);
-  forUsablePoints(model, graph, visible, stride, [&](int, int s) { ++start[s + 1]; });
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<int> sorted(static_cast<std::size_t>(start.back())), next = start;
-  forUsablePoints(model, graph, visible, stride,
-                  [&](int point, int s) { sorted[next[s]++] = point; });
+  const std::vector<int> sorted =
+      sortedByStencil(UsablePoints(model, graph, visible, stride), &start);
   candidates->positions_mm.resize(sorted.size());
   candidates->normals.resize(sorted.size());
   candidates->bindings.resize(sorted.size());

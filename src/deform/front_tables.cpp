@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/parallel.h"
 #include "deform/dissection.h"
 
 namespace softscope {
@@ -103,8 +104,14 @@ class FrontPlanner {
 
 WarpStructure makeWarpStructure(const WarpGraph& graph) {
   const BlockPattern pattern = makeBlockPattern(graph);
-  const EliminationTree tree = dissect(pattern, kMostPivots);
   WarpStructure structure;
+  // Neither needs the other.
+  parallelInvoke(
+      [&] {
+        const EliminationTree tree = dissect(pattern, kMostPivots);
+        structure.fronts = FrontPlanner(pattern, tree).plan();
+      },
+      [&] { structure.parts = makePartLists(graph, pattern, /*has_node_terms=*/false); });
   structure.nodes = static_cast<int>(graph.size());
   structure.stencils = graph.stencils;
   for (const GraphEdge& edge : graph.edges) {
@@ -113,8 +120,6 @@ WarpStructure makeWarpStructure(const WarpGraph& graph) {
   }
   structure.diagonal_of.assign(static_cast<std::size_t>(pattern.blocks()), -1);
   for (int j = 0; j < pattern.nodes(); ++j) structure.diagonal_of[pattern.column_start[j]] = j;
-  structure.parts = makePartLists(graph, pattern, /*has_node_terms=*/false);
-  structure.fronts = FrontPlanner(pattern, tree).plan();
   return structure;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/parallel.h"
 #include "deform/graph_edges.h"
 #include "deform/node_reach.h"
 #include "deform/shape_memory.h"
@@ -14,21 +15,24 @@
 namespace softscope {
 namespace {
 
-std::vector<int> unboundPoints(const PointModel& model) {
+using Positions = std::vector<Eigen::Vector3f>;
+using Bindings = std::vector<PointBinding>;
+
+std::vector<int> unboundPoints(const Bindings& bindings) {
   std::vector<int> points;
-  for (int i = 0; i < static_cast<int>(model.size()); ++i)
-    if (!model.bindings[i].bound()) points.push_back(i);
+  for (std::size_t i = 0; i < bindings.size(); ++i)
+    if (!bindings[i].bound()) points.push_back(static_cast<int>(i));
   return points;
 }
 
 /// Cubes of one reach around unbound points: beyond two of them nothing can change.
-CellNumbering changingRegion(const PointModel& model, const std::vector<int>& unbound,
+CellNumbering changingRegion(const Positions& positions_mm, const std::vector<int>& unbound,
                              double reach_mm) {
   constexpr int kAround = 2;
   CellNumbering centres(reach_mm), region(reach_mm);
   std::uint64_t key = 0;
   for (const int point : unbound)
-    if (region.keyOf(model.positions_mm[point], &key)) centres.findOrAdd(key);
+    if (region.keyOf(positions_mm[point], &key)) centres.findOrAdd(key);
   for (int c = 0; c < centres.size(); ++c)
     for (int dz = -kAround; dz <= kAround; ++dz)
       for (int dy = -kAround; dy <= kAround; ++dy)
@@ -41,11 +45,17 @@ bool inside(const CellNumbering& region, const Eigen::Vector3f& position_mm) {
   return CellFinder(region).find(position_mm) >= 0;
 }
 
-std::vector<int> pointsInside(const PointModel& model, const CellNumbering& region) {
+std::vector<int> pointsInside(const Positions& positions_mm, const CellNumbering& region) {
+  std::vector<char> is_inside(positions_mm.size());
+  const int count = static_cast<int>(positions_mm.size());
+  parallelRanges(count, kPointsATask, [&](int begin, int end) {
+    CellFinder finder(region);
+    for (int i = begin; i < end; ++i) is_inside[i] = finder.find(positions_mm[i]) >= 0;
+  });
   std::vector<int> points;
-  CellFinder finder(region);
-  for (int i = 0; i < static_cast<int>(model.size()); ++i)
-    if (finder.find(model.positions_mm[i]) >= 0) points.push_back(i);
+  points.reserve(is_inside.size());
+  for (int i = 0; i < count; ++i)
+    if (is_inside[i]) points.push_back(i);
   return points;
 }
 
@@ -96,9 +106,9 @@ class StencilBook {
     return at->second;
   }
 
-  void dropUnused(PointModel* model) {
+  void dropUnused(Bindings* bindings) {
     std::vector<std::int32_t> renumbered(stencils_->size(), -1);
-    for (const PointBinding& binding : model->bindings)
+    for (const PointBinding& binding : *bindings)
       if (binding.bound()) renumbered[binding.stencil] = 0;
     std::int32_t next = 0;
     for (std::size_t s = 0; s < stencils_->size(); ++s) {
@@ -106,8 +116,9 @@ class StencilBook {
       (*stencils_)[next] = (*stencils_)[s];
       renumbered[s] = next++;
     }
+    if (next == static_cast<std::int32_t>(renumbered.size())) return;
     stencils_->resize(static_cast<std::size_t>(next));
-    for (PointBinding& binding : model->bindings)
+    for (PointBinding& binding : *bindings)
       if (binding.bound()) binding.stencil = renumbered[binding.stencil];
   }
 
@@ -119,23 +130,26 @@ class StencilBook {
 /// One growth of the graph over the region around unbound points.
 class Growth {
  public:
-  Growth(const GraphOptions& options, const std::vector<int>& unbound, PointModel* model,
-         WarpGraph* graph)
+  Growth(const GraphOptions& options, const Positions& positions_mm,
+         const std::vector<int>& unbound, Bindings* bindings, WarpGraph* graph)
       : options_(options),
-        model_(*model),
+        positions_mm_(positions_mm),
+        bindings_(*bindings),
         graph_(*graph),
-        region_(changingRegion(*model, unbound, NodeReach::reachMm(options))),
-        points_(pointsInside(*model, region_)),
-        cells_(model->positions_mm, points_, options.cell_mm),
+        region_(changingRegion(positions_mm, unbound, NodeReach::reachMm(options))),
+        points_(pointsInside(positions_mm, region_)),
+        cells_(positions_mm, points_, options.cell_mm),
         reach_(cells_, options),
         near_new_node_(static_cast<std::size_t>(cells_.size()), 0) {}
 
   GraphGrowth run() {
     const std::vector<NodeStencil> stencils_before = graph_.stencils;
+    std::vector<NodeReach::Start> starts;
     for (std::size_t j = 0; j < graph_.size(); ++j) {
       const Eigen::Vector3f position_mm = graph_.positions_mm[j].cast<float>();
-      if (inside(region_, position_mm)) reach_.spread(static_cast<int>(j), position_mm);
+      if (inside(region_, position_mm)) starts.push_back({static_cast<int>(j), position_mm});
     }
+    reach_.spreadAll(starts);
     addNodes();
     bindPoints();
     result_.structure_changed =
@@ -167,9 +181,9 @@ class Growth {
     graph_.moved_mm.resize(graph_.size(), Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const int cell = cells_.cellOf(static_cast<int>(i));
-      if (cell < 0 || model_.bindings[points_[i]].bound() || reach_.covered(cell)) continue;
+      if (cell < 0 || bindings_[points_[i]].bound() || reach_.covered(cell)) continue;
       const int node = static_cast<int>(graph_.size());
-      const Eigen::Vector3f position_mm = model_.positions_mm[cells_.representative(cell)];
+      const Eigen::Vector3f position_mm = positions_mm_[cells_.representative(cell)];
       graph_.moved_mm.push_back(movedNear(position_mm.cast<double>()));
       graph_.positions_mm.push_back(position_mm.cast<double>());
       graph_.transforms.emplace_back();
@@ -182,19 +196,20 @@ class Growth {
     StencilBook book(&graph_.stencils);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const int cell = cells_.cellOf(static_cast<int>(i));
-      PointBinding& binding = model_.bindings[points_[i]];
+      PointBinding& binding = bindings_[points_[i]];
       if (cell < 0 || (binding.bound() && !near_new_node_[cell])) continue;
-      const Carriers carriers = findCarriers(reach_.near(cell), model_.positions_mm[points_[i]],
-                                             graph_, options_.node_spacing_mm);
+      const Carriers carriers = findCarriers(reach_.near(cell), positions_mm_[points_[i]], graph_,
+                                             options_.node_spacing_mm);
       ++(binding.bound() ? result_.points_rebound : result_.points_bound);
       binding.stencil = book.numberOf(carriers.stencil);
       binding.weights = carriers.weights;
     }
-    book.dropUnused(&model_);
+    book.dropUnused(&bindings_);
   }
 
   GraphOptions options_;
-  PointModel& model_;
+  const Positions& positions_mm_;
+  Bindings& bindings_;
   WarpGraph& graph_;
   CellNumbering region_;
   std::vector<int> points_;
@@ -206,11 +221,16 @@ class Growth {
 
 }  // namespace
 
-GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph* graph) {
+GraphGrowth growGraph(const GraphOptions& options, const std::vector<Eigen::Vector3f>& positions_mm,
+                      std::vector<PointBinding>* bindings, WarpGraph* graph) {
   options.validate();
-  const std::vector<int> unbound = unboundPoints(*model);
+  const std::vector<int> unbound = unboundPoints(*bindings);
   if (unbound.empty()) return GraphGrowth();
-  return Growth(options, unbound, model, graph).run();
+  return Growth(options, positions_mm, unbound, bindings, graph).run();
+}
+
+GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph* graph) {
+  return growGraph(options, model->positions_mm, &model->bindings, graph);
 }
 
 }  // namespace softscope

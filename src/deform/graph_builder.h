@@ -1,6 +1,9 @@
 // src/deform/graph_builder.h: lays nodes over the model and ties points to them.
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "deform/deform_options.h"
@@ -25,5 +28,8 @@ struct GraphGrowth {
 /// no surface connects are joined by edges alone, so that what is unseen follows the rest.
 /// Call it between frames, when the transforms are the identity (after rebase()).
 GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph* graph);
+/// The same for a model's positions and bindings, one of each a point.
+GraphGrowth growGraph(const GraphOptions& options, const std::vector<Eigen::Vector3f>& positions_mm,
+                      std::vector<PointBinding>* bindings, WarpGraph* graph);
 
 }  // namespace softscope

@@ -3,21 +3,54 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace softscope {
+namespace {
+
+constexpr int kWalksATask = 8;
+
+}  // namespace
 
 NodeReach::NodeReach(const SurfaceCells& cells, const GraphOptions& options)
     : cells_(cells),
       options_(options),
       near_(static_cast<std::size_t>(cells.size())),
-      visited_(static_cast<std::size_t>(cells.size()), 0) {}
+      visits_(cells.size()) {}
+
+/// Walks need nothing of each other; a cell's list takes its nodes in their order.
+void NodeReach::spreadAll(const std::vector<Start>& starts) {
+  std::vector<std::vector<Reached>> walks(starts.size());
+  parallelRanges(static_cast<int>(starts.size()), kWalksATask, [&](int begin, int end) {
+    Visits visits(cells_.size());
+    for (int i = begin; i < end; ++i) walks[i] = walk(starts[i].position_mm, &visits);
+  });
+  parallelRanges(cells_.size(), kCellsATask, [&](int begin, int end) {
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      for (const Reached& reached : walks[i])
+        if (reached.cell >= begin && reached.cell < end)
+          enter(starts[i].node, reached.distance_mm, &near_[reached.cell]);
+  });
+}
 
 std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm) {
   std::vector<int> entered;
+  for (const Reached& reached : walk(position_mm, &visits_))
+    if (enter(node, reached.distance_mm, &near_[reached.cell]) <= kNodesPerPoint)
+      entered.push_back(reached.cell);
+  return entered;
+}
+
+std::vector<NodeReach::Reached> NodeReach::walk(const Eigen::Vector3f& position_mm,
+                                                Visits* visits) const {
+  std::vector<Reached> reached;
   const int start = cells_.cellNear(position_mm);
-  if (start < 0) return entered;
-  ++walk_;
-  visited_[start] = walk_;
-  std::vector<int> ring{start}, next;
+  if (start < 0) return reached;
+  std::vector<int>& visited = visits->last_walk;
+  const int walk = ++visits->walk;
+  visited[start] = walk;
+  std::vector<int>&ring = visits->ring, &next = visits->next;
+  ring.assign(1, start);
   const double reach_mm = reachMm(options_);
   for (int steps = 0; !ring.empty(); ++steps, ring.swap(next)) {
     next.clear();
@@ -25,18 +58,17 @@ std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm)
       const float straight_mm = (cells_.centre(cell) - position_mm).norm();
       if (straight_mm > reach_mm) continue;
       // On an even surface a walk takes about one step a cell of straight line, never many more.
-      const bool direct = steps <= 2 + options_.kDetourRatio * straight_mm / cells_.cellMm();
-      if (direct && enter(node, straight_mm, &near_[cell]) <= kNodesPerPoint)
-        entered.push_back(cell);
+      if (steps <= 2 + options_.kDetourRatio * straight_mm / cells_.cellMm())
+        reached.push_back({cell, straight_mm});
       for (int i = cells_.neighboursBegin(cell); i < cells_.neighboursEnd(cell); ++i) {
         const int other = cells_.neighbour(i);
-        if (visited_[other] == walk_) continue;
-        visited_[other] = walk_;
+        if (visited[other] == walk) continue;
+        visited[other] = walk;
         next.push_back(other);
       }
     }
   }
-  return entered;
+  return reached;
 }
 
 /// Insertion into a short sorted list; equal distances keep the lower node first. Returns where.

@@ -28,6 +28,14 @@ class NodeReach {
   /// How far a node may carry points, mm.
   static double reachMm(const GraphOptions& options) { return 2.5 * options.node_spacing_mm; }
 
+  /// A node, and where its walk begins.
+  struct Start {
+    int node = 0;
+    Eigen::Vector3f position_mm;
+  };
+
+  /// spread() from each, in order, on all cores.
+  void spreadAll(const std::vector<Start>& starts);
   /// Walks from the node over touching cells and enters it where it is among the closest.
   /// Returns the cells where it is one of the few that decide how a point is carried.
   std::vector<int> spread(int node, const Eigen::Vector3f& position_mm);
@@ -37,13 +45,24 @@ class NodeReach {
   bool covered(int cell) const;
 
  private:
+  struct Reached {
+    int cell = 0;
+    float distance_mm = 0;
+  };
+  /// The cells that a walk visited last, so that each walk starts afresh without clearing.
+  struct Visits {
+    explicit Visits(int cells) : last_walk(static_cast<std::size_t>(cells), 0) {}
+    std::vector<int> last_walk, ring, next;
+    int walk = 0;
+  };
+
+  std::vector<Reached> walk(const Eigen::Vector3f& position_mm, Visits* visits) const;
   int enter(int node, float distance_mm, Near* near) const;
 
   const SurfaceCells& cells_;
   GraphOptions options_;
   std::vector<Near> near_;
-  std::vector<int> visited_;  // the last walk that came by
-  int walk_ = 0;
+  Visits visits_;
 };
 
 }  // namespace softscope

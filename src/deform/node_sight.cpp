@@ -7,27 +7,32 @@
 namespace softscope {
 namespace {
 
-void addShares(const WarpGraph& graph, const PointBinding& binding, double each,
-               std::vector<double>* sums) {
-  const NodeStencil& nodes = graph.stencils[static_cast<std::size_t>(binding.stencil)];
-  for (int k = 0; k < kNodesPerPoint; ++k)
-    (*sums)[static_cast<std::size_t>(nodes[k])] += each * binding.weights[k];
+constexpr int kNodesATask = 96;
+
+/// Sums over bound points, per node. Every task looks at all points and adds up those of its own
+/// nodes, in order.
+std::vector<double> sumsOf(const std::vector<PointBinding>& bindings, const WarpGraph& graph,
+                           double each) {
+  std::vector<double> sums(graph.size(), 0);
+  parallelRanges(static_cast<int>(sums.size()), kNodesATask, [&](int begin, int end) {
+    for (const PointBinding& binding : bindings) {
+      if (!binding.bound()) continue;
+      const NodeStencil& nodes = graph.stencils[static_cast<std::size_t>(binding.stencil)];
+      for (int k = 0; k < kNodesPerPoint; ++k)
+        if (nodes[k] >= begin && nodes[k] < end)
+          sums[static_cast<std::size_t>(nodes[k])] += each * binding.weights[k];
+    }
+  });
+  return sums;
 }
 
 /// Of the points that each node carries, the share that is hidden.
 std::vector<double> hiddenShares(const PointModel& model, const WarpGraph& graph,
                                  const CandidatePoints& candidates) {
-  std::vector<double> all(graph.size(), 0), seen(graph.size(), 0);
+  std::vector<double> all, seen;
   // Neither needs the other.
-  parallelInvoke(
-      [&] {
-        for (const PointBinding& binding : model.bindings)
-          if (binding.bound()) addShares(graph, binding, 1, &all);
-      },
-      [&] {
-        for (const PointBinding& binding : candidates.bindings)
-          addShares(graph, binding, candidates.points_each, &seen);
-      });
+  parallelInvoke([&] { all = sumsOf(model.bindings, graph, 1); },
+                 [&] { seen = sumsOf(candidates.bindings, graph, candidates.points_each); });
   std::vector<double> hidden(graph.size(), 1);
   for (std::size_t j = 0; j < hidden.size(); ++j)
     if (all[j] > 0) hidden[j] = std::max(1 - seen[j] / all[j], 0.0);

@@ -1,11 +1,15 @@
 #include "deform/surface_cells.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "core/parallel.h"
 
 namespace softscope {
 namespace {
 
+constexpr std::uint64_t kNoCube = ~std::uint64_t{0};  // cubes' keys take 63 bits
 constexpr int kBits = 21;
 constexpr std::int64_t kOrigin = std::int64_t{1} << (kBits - 1);
 constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
@@ -67,51 +71,69 @@ void CellNumbering::grow() {
 SurfaceCells::SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm,
                            const std::vector<int>& points, double cell_mm)
     : cell_mm_(cell_mm), table_(cell_mm, static_cast<int>(points.size() / 16)) {
+  const int count = static_cast<int>(points.size());
+  std::vector<std::uint64_t> keys(points.size());
+  parallelRanges(count, kPointsATask, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i)
+      if (!table_.keyOf(positions_mm[points[i]], &keys[i])) keys[i] = kNoCube;
+  });
   cell_of_.assign(points.size(), -1);
-  std::uint64_t key = 0, last_key = ~std::uint64_t{0};
+  std::uint64_t last_key = kNoCube;
   int cell = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!table_.keyOf(positions_mm[points[i]], &key)) continue;
-    if (key != last_key) cell = table_.findOrAdd(key);  // neighbours in the list share cubes
-    last_key = key;
+    if (keys[i] == kNoCube) continue;
+    if (keys[i] != last_key) cell = table_.findOrAdd(keys[i]);  // neighbours share cubes
+    last_key = keys[i];
     cell_of_[i] = cell;
   }
   findCentres(positions_mm, points);
   findNeighbours();
 }
 
+/// Every task looks at all points and takes those of its own cells, in the points' order.
 void SurfaceCells::findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
                                const std::vector<int>& points) {
   const std::size_t cells = static_cast<std::size_t>(size());
   centres_.assign(cells, Eigen::Vector3f::Zero());
-  std::vector<int> counts(cells, 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (cell_of_[i] < 0) continue;
-    centres_[cell_of_[i]] += positions_mm[points[i]];
-    ++counts[cell_of_[i]];
-  }
-  for (std::size_t c = 0; c < cells; ++c) centres_[c] /= static_cast<float>(counts[c]);
   representatives_.assign(cells, -1);
+  std::vector<int> counts(cells, 0);
   std::vector<float> closest(cells, std::numeric_limits<float>::max());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int cell = cell_of_[i];
-    if (cell < 0) continue;
-    const float distance = (positions_mm[points[i]] - centres_[cell]).squaredNorm();
-    if (distance >= closest[cell]) continue;
-    closest[cell] = distance;
-    representatives_[cell] = points[i];
-  }
+  parallelRanges(size(), kCellsATask, [&](int begin, int end) {
+    const auto is_own = [&](int cell) { return cell >= begin && cell < end; };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!is_own(cell_of_[i])) continue;
+      centres_[cell_of_[i]] += positions_mm[points[i]];
+      ++counts[cell_of_[i]];
+    }
+    for (int c = begin; c < end; ++c) centres_[c] /= static_cast<float>(counts[c]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int cell = cell_of_[i];
+      if (!is_own(cell)) continue;
+      const float distance = (positions_mm[points[i]] - centres_[cell]).squaredNorm();
+      if (distance >= closest[cell]) continue;
+      closest[cell] = distance;
+      representatives_[cell] = points[i];
+    }
+  });
 }
 
 void SurfaceCells::findNeighbours() {
+  constexpr int kMost = 26;
+  std::vector<std::array<int, kMost>> found(static_cast<std::size_t>(size()));
+  std::vector<int> counts(found.size(), 0);
+  parallelRanges(size(), kCellsATask, [&](int begin, int end) {
+    for (int cell = begin; cell < end; ++cell)
+      for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) {
+            const int other = table_.find(CellNumbering::shifted(table_.key(cell), dx, dy, dz));
+            if (other >= 0 && other != cell) found[cell][counts[cell]++] = other;
+          }
+  });
   neighbour_start_.assign(1, 0);
-  for (int cell = 0; cell < size(); ++cell) {
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int other = table_.find(CellNumbering::shifted(table_.key(cell), dx, dy, dz));
-          if (other >= 0 && other != cell) neighbours_.push_back(other);
-        }
+  neighbour_start_.reserve(found.size() + 1);
+  for (std::size_t cell = 0; cell < found.size(); ++cell) {
+    neighbours_.insert(neighbours_.end(), found[cell].begin(), found[cell].begin() + counts[cell]);
     neighbour_start_.push_back(static_cast<int>(neighbours_.size()));
   }
 }

@@ -7,6 +7,9 @@
 
 namespace softscope {
 
+/// A grain for loops over cells.
+inline constexpr int kCellsATask = 512;
+
 /// From cubes of a regular grid to numbers 0, 1, 2 … in order of first use.
 class CellNumbering {
  public:

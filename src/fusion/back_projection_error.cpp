@@ -1,31 +1,37 @@
 #include "fusion/back_projection_error.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/value_of_rank.h"
 #include "fusion/sight.h"
 #include "fusion/visibility.h"
 
 namespace softscope {
 namespace {
 
-BackProjectionError summarise(std::vector<float> differences_mm) {
+/// By rows of the picture.
+using Rows = std::vector<std::vector<float>>;
+
+/// Sums go row by row, so that they don't depend on threads.
+BackProjectionError summarise(const Rows& rows) {
   BackProjectionError error;
-  error.compared_px = static_cast<int>(differences_mm.size());
-  if (differences_mm.empty()) return error;
+  std::size_t count = 0;
+  for (const std::vector<float>& row : rows) count += row.size();
+  error.compared_px = static_cast<int>(count);
+  if (count == 0) return error;
   double sum = 0, absolute_sum = 0;
-  for (float& difference : differences_mm) {
-    sum += difference;
-    difference = std::abs(difference);
-    absolute_sum += difference;
-  }
-  const std::size_t rank = (differences_mm.size() - 1) * 95 / 100;
-  std::nth_element(differences_mm.begin(), differences_mm.begin() + rank, differences_mm.end());
+  const auto addUp = [&] {
+    for (const std::vector<float>& row : rows)
+      for (const float difference_mm : row) {
+        sum += difference_mm;
+        absolute_sum += std::abs(difference_mm);
+      }
+  };
+  parallelInvoke(addUp, [&] { error.p95_mm = absoluteOfRank(rows, (count - 1) * 95 / 100); });
   error.mean_mm = absolute_sum / error.compared_px;
   error.bias_mm = sum / error.compared_px;
-  error.p95_mm = differences_mm[rank];
   return error;
 }
 
@@ -36,7 +42,7 @@ BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observat
   observation.validate();
   requireStates(states, observation);
   const PosedCamera& camera = drawn.camera();
-  std::vector<std::vector<float>> rows(static_cast<std::size_t>(states.height_px));
+  Rows rows(static_cast<std::size_t>(states.height_px));
   parallelRows(states.height_px, [&](int v) {
     std::vector<float>& differences_mm = rows[static_cast<std::size_t>(v)];
     for (int u = 0; u < states.width_px; ++u) {
@@ -49,10 +55,7 @@ BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observat
       if (std::isfinite(measured_mm)) differences_mm.push_back(left.z() - measured_mm);
     }
   });
-  std::vector<float> all_mm;  // by rows, so that sums don't depend on threads
-  all_mm.reserve(states.size());
-  for (const std::vector<float>& row : rows) all_mm.insert(all_mm.end(), row.begin(), row.end());
-  return summarise(std::move(all_mm));
+  return summarise(rows);
 }
 
 BackProjectionError backProjectionError(const PointModel& model, const Observation& observation,

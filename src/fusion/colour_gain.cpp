@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 
+#include "core/parallel.h"
 #include "fusion/colour_levels.h"
 
 namespace softscope {
@@ -27,6 +29,11 @@ struct RatioHistogram {
     ++total;
   }
 
+  void operator+=(const RatioHistogram& other) {
+    for (std::size_t bin = 0; bin < counts.size(); ++bin) counts[bin] += other.counts[bin];
+    total += other.total;
+  }
+
   float median() const {
     if (total < kFewestPoints) return 1;
     int bin = 0;
@@ -47,17 +54,25 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
                         const Visibility& visibility, const ColourOptions& options) {
   if (!options.compensate_gain || observation.colour.empty()) return {};
   const std::size_t stride = 1 + model.size() / kMostPoints;
+  const int count = static_cast<int>((model.size() + stride - 1) / stride);
   RatioHistogram red, green, blue;
-  for (std::size_t i = 0; i < model.size(); i += stride) {
-    const PointSight& point = visibility.points[i];
-    if (point.sight != Sight::kSeen) continue;
-    const Rgb8 seen = observation.colour.values[static_cast<std::size_t>(point.pixel)];
-    const Rgb8 known = model.colours[i];
-    if (!usable(seen, options) || !usable(known, options)) continue;
-    red.add(static_cast<float>(seen.red) / known.red);
-    green.add(static_cast<float>(seen.green) / known.green);
-    blue.add(static_cast<float>(seen.blue) / known.blue);
-  }
+  std::mutex adding;
+  parallelRanges(count, kPointsATask / 2, [&](int begin, int end) {
+    RatioHistogram own_red, own_green, own_blue;
+    for (int k = begin; k < end; ++k) {
+      const std::size_t i = static_cast<std::size_t>(k) * stride;
+      const PointSight& point = visibility.points[i];
+      if (point.sight != Sight::kSeen) continue;
+      const Rgb8 seen = observation.colour.values[static_cast<std::size_t>(point.pixel)];
+      const Rgb8 known = model.colours[i];
+      if (!usable(seen, options) || !usable(known, options)) continue;
+      own_red.add(static_cast<float>(seen.red) / known.red);
+      own_green.add(static_cast<float>(seen.green) / known.green);
+      own_blue.add(static_cast<float>(seen.blue) / known.blue);
+    }
+    const std::lock_guard<std::mutex> lock(adding);  // whole numbers: in any order
+    red += own_red, green += own_green, blue += own_blue;
+  });
   return {red.median(), green.median(), blue.median()};
 }
 

@@ -11,6 +11,7 @@
 namespace softscope {
 namespace {
 
+constexpr int kMostParts = 8;  // every one looks at all points
 constexpr int kWidthBit = 60;  // of a key; cells less than 2^18 from the origin leave it free
 
 /// Cells of all points; kNoCell for those that can't stay. Cells of different widths have
@@ -45,15 +46,22 @@ void mergeInto(PointModel* model, std::int32_t survivor, std::int32_t other) {
   if (!model->bindings[survivor].bound()) model->bindings[survivor] = model->bindings[other];
 }
 
-/// Merges within cells. Afterwards heir[i] is i, or who took i's place (perhaps merged in turn).
-std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cosine,
-                                     PointModel* model) {
-  std::vector<std::int32_t> heir(keys.size());
-  CellHashTable table(keys.size());
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    const std::int32_t i = static_cast<std::int32_t>(k);
-    heir[k] = keys[k] == kNoCell ? IndexMap::kRemoved : i;
-    if (keys[k] == kNoCell) continue;
+/// Which of `parts` takes care of a cell.
+unsigned partOf(CellKey key, unsigned parts) {
+  return static_cast<unsigned>((key * 0x9E3779B97F4A7C15ULL) >> 40) % parts;
+}
+
+/// Merges within the cells of one part of them.
+void mergePart(unsigned part, unsigned parts, const std::vector<CellKey>& keys, float cosine,
+               PointModel* model, std::vector<std::int32_t>* heirs) {
+  std::vector<std::int32_t>& heir = *heirs;
+  std::vector<std::int32_t> own;
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (keys[k] != kNoCell && partOf(keys[k], parts) == part)
+      own.push_back(static_cast<std::int32_t>(k));
+  CellHashTable table(own.size());
+  for (const std::int32_t i : own) {
+    const std::size_t k = static_cast<std::size_t>(i);
     std::int32_t& held = table.find(keys[k], [&](std::int32_t j) {
       return keys[j] == keys[k] && model->normals[j].dot(model->normals[i]) > cosine;
     });
@@ -68,6 +76,21 @@ std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cos
       heir[k] = held;
     }
   }
+}
+
+/// Merges within cells. Afterwards heir[i] is i, or who took i's place (perhaps merged in turn).
+/// Cells need nothing of each other.
+std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cosine,
+                                     PointModel* model) {
+  std::vector<std::int32_t> heir(keys.size());
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    heir[k] = keys[k] == kNoCell ? IndexMap::kRemoved : static_cast<std::int32_t>(k);
+  const int parts = std::min(kMostParts, threadCount());
+  parallelRanges(parts, 1, [&](int begin, int end) {
+    for (int part = begin; part < end; ++part)
+      mergePart(static_cast<unsigned>(part), static_cast<unsigned>(parts), keys, cosine, model,
+                &heir);
+  });
   return heir;
 }
 
@@ -78,14 +101,17 @@ void keepAt(std::vector<T>* values, const std::vector<std::int32_t>& old_of_new)
 }
 
 void compact(PointModel* model, const std::vector<std::int32_t>& old_of_new) {
-  parallelInvoke([&] { keepAt(&model->bindings, old_of_new); },
-                 [&] {
-                   keepAt(&model->positions_mm, old_of_new);
-                   keepAt(&model->normals, old_of_new);
-                   keepAt(&model->colours, old_of_new);
-                   keepAt(&model->anchors, old_of_new);
-                   keepAt(&model->weights, old_of_new);
-                 });
+  const auto keepShapes = [&] {
+    parallelInvoke([&] { keepAt(&model->positions_mm, old_of_new); },
+                   [&] { keepAt(&model->normals, old_of_new); });
+  };
+  const auto keepRest = [&] {
+    keepAt(&model->colours, old_of_new);
+    keepAt(&model->anchors, old_of_new);
+    keepAt(&model->weights, old_of_new);
+  };
+  parallelInvoke(keepShapes,
+                 [&] { parallelInvoke([&] { keepAt(&model->bindings, old_of_new); }, keepRest); });
 }
 
 /// Turns heirs into new indices; lists who stays.

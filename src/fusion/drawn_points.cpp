@@ -24,18 +24,25 @@ DrawnPoints::DrawnPoints(const PointModel& model, const PosedCamera& camera)
     : model_(model),
       camera_(camera),
       surface_(camera.width_px, camera.height_px, kCellPx),
-      nearest_(static_cast<std::size_t>(camera.width_px) * camera.height_px) {
-  for (auto& pixel : nearest_) pixel.store(kNoPoint, std::memory_order_relaxed);
+      nearest_(static_cast<std::size_t>(camera.width_px) * camera.height_px),
+      shown_(camera.width_px, camera.height_px) {
+  parallelRows(camera.height_px, [&](int v) {
+    auto* row = nearest_.data() + static_cast<std::size_t>(v) * camera.width_px;
+    for (int u = 0; u < camera.width_px; ++u) row[u].store(kNoPoint, std::memory_order_relaxed);
+  });
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) draw(i);
   });
+  parallelRows(camera.height_px, [&](int v) {
+    for (int u = 0; u < camera.width_px; ++u) shown_.at(u, v) = findShown(u, v);
+  });
 }
 
-int DrawnPoints::pointAt(int u, int v) const {
+std::int32_t DrawnPoints::findShown(int u, int v) const {
   const std::uint64_t held =
       nearest_[static_cast<std::size_t>(v) * camera_.width_px + u].load(std::memory_order_relaxed);
   if (held == kNoPoint) return -1;
-  const int index = static_cast<int>(held & 0xFFFFFFFFu);
+  const std::int32_t index = static_cast<std::int32_t>(held & 0xFFFFFFFFu);
   const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[index]);
   const float cosine = -(camera_.left_from_world * model_.normals[index]).dot(left) / left.norm();
   const bool hidden = surface_.hides(u, v, left.z(), cosine, camera_.fx_px, kHideMm);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/point_model.h"
+#include "core/raster.h"
 #include "fusion/nearest_surface.h"
 #include "fusion/posed_camera.h"
 
@@ -21,15 +22,17 @@ class DrawnPoints {
   const PosedCamera& camera() const { return camera_; }
 
   /// The point that pixel (u, v) shows; below 0 where there is none.
-  int pointAt(int u, int v) const;
+  int pointAt(int u, int v) const { return shown_.at(u, v); }
 
  private:
   void draw(int i);
+  std::int32_t findShown(int u, int v) const;
 
   const PointModel& model_;
   PosedCamera camera_;
   NearestSurface surface_;
   std::vector<std::atomic<std::uint64_t>> nearest_;
+  Raster<std::int32_t> shown_;
 };
 
 }  // namespace softscope

@@ -12,6 +12,8 @@ namespace {
 /// A node that few points speak for is believed to be like the whole frame: that counts as so many.
 constexpr double kPriorPoints = 5;
 
+constexpr int kNodesATask = 48;
+
 /// A difference counts as no more than so many standard deviations of those around it: single wrong
 /// depths say nothing about the tissue.
 constexpr double kLargest = 3;
@@ -30,40 +32,67 @@ struct Difference {
   double sigma_mm;  // of the depth
 };
 
+/// In the points' order.
 std::vector<Difference> differences(const PointModel& model, const WarpGraph& graph,
                                     const DepthMap& depth, const Visibility& visibility,
                                     const PointFusionOptions& options) {
   const float reference_mm = static_cast<float>(options.reference_sigma_mm),
               largest = static_cast<float>(options.max_measurement_weight);
-  std::vector<Difference> found;
-  found.reserve(model.size());
-  for (std::size_t i = 0; i < model.size(); ++i) {
+  const auto seenOf = [&](std::size_t i, std::vector<Difference>* found) {
     const PointSight& point = visibility.points[i];
     const PointBinding& binding = model.bindings[i];
-    if (point.sight != Sight::kSeen || !carries(graph, binding)) continue;
+    if (point.sight != Sight::kSeen || !carries(graph, binding)) return;
     const float sigma_mm = depth.sigma_mm.values[static_cast<std::size_t>(point.pixel)];
-    found.push_back({&graph.stencils[static_cast<std::size_t>(binding.stencil)], &binding,
-                     depthWeight(sigma_mm, reference_mm, largest), std::abs(point.ahead_mm),
-                     sigma_mm});
-  }
+    found->push_back({&graph.stencils[static_cast<std::size_t>(binding.stencil)], &binding,
+                      depthWeight(sigma_mm, reference_mm, largest), std::abs(point.ahead_mm),
+                      sigma_mm});
+  };
+  const std::size_t grain = kPointsATask, tasks = (model.size() + grain - 1) / grain;
+  std::vector<std::vector<Difference>> parts(tasks);
+  parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
+    for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
+         ++task) {
+      parts[task].reserve(grain);
+      for (std::size_t i = task * grain; i < std::min(model.size(), (task + 1) * grain); ++i)
+        seenOf(i, &parts[task]);
+    }
+  });
+  std::vector<Difference> found;
+  found.reserve(model.size());
+  for (const std::vector<Difference>& part : parts)
+    found.insert(found.end(), part.begin(), part.end());
   return found;
 }
 
-/// The mean of some quantity around each node.
+/// The mean of some quantity around each node. Every task looks at all differences and adds up
+/// those of its own nodes, in order.
 template <class Quantity>
 std::vector<double> nodeMeans(const std::vector<Difference>& all, std::size_t nodes,
                               const Quantity& quantity) {
+  std::vector<double> values(all.size()), weights(nodes), totals(nodes);
+  parallelRanges(static_cast<int>(all.size()), kPointsATask, [&](int begin, int end) {
+    for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      values[i] = quantity(all[i]);
+  });
   double frame_weight = 0, frame_total = 0;
-  std::vector<double> weights(nodes), totals(nodes);
-  for (const Difference& one : all) {
-    const double value = quantity(one);
-    frame_weight += one.weight, frame_total += one.weight * value;
-    for (int k = 0; k < kNodesPerPoint; ++k) {
-      const std::size_t node = static_cast<std::size_t>((*one.stencil)[k]);
-      const double share = one.weight * one.binding->weights[k];
-      weights[node] += share, totals[node] += share * value;
-    }
-  }
+  const auto addFrame = [&] {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      frame_weight += all[i].weight, frame_total += all[i].weight * values[i];
+  };
+  parallelInvoke(addFrame, [&] {
+    parallelRanges(static_cast<int>(nodes), kNodesATask, [&](int begin, int end) {
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const NodeStencil& stencil = *all[i].stencil;  // ascending
+        if (stencil.back() < begin || stencil.front() >= end) continue;
+        for (int k = 0; k < kNodesPerPoint; ++k) {
+          const std::int32_t node = stencil[k];
+          if (node < begin || node >= end) continue;
+          const double share = all[i].weight * all[i].binding->weights[k];
+          weights[node] += share, totals[node] += share * values[i];
+        }
+      }
+    });
+  });
   const double prior = kPriorPoints * frame_total / frame_weight;
   for (std::size_t n = 0; n < nodes; ++n)
     totals[n] = (totals[n] + prior) / (weights[n] + kPriorPoints);

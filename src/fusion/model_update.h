@@ -26,5 +26,10 @@ struct ModelUpdateSummary {
 ModelUpdateSummary updateModel(const Observation& observation, const Raster<PixelState>& states,
                                const WarpGraph& graph, const FusionOptions& options,
                                InsertionMemory* memory, PointModel* model);
+/// The same, where compareModel() was called with these.
+ModelUpdateSummary updateModel(const Observation& observation, const Raster<PixelState>& states,
+                               const WarpGraph& graph, const FusionOptions& options,
+                               const ModelComparison& comparison, InsertionMemory* memory,
+                               PointModel* model);
 
 }  // namespace softscope

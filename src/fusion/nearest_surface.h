@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/parallel.h"
 #include "fusion/observation.h"
 
 namespace softscope {
@@ -21,7 +22,10 @@ class NearestSurface {
       : cell_px_(cell_px),
         columns_((width_px + cell_px - 1) / cell_px),
         bits_(static_cast<std::size_t>(columns_) * ((height_px + cell_px - 1) / cell_px)) {
-    for (auto& bits : bits_) bits.store(kFar, std::memory_order_relaxed);
+    parallelRanges(static_cast<int>(bits_.size()), kCellsATask, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i)
+        bits_[static_cast<std::size_t>(i)].store(kFar, std::memory_order_relaxed);
+    });
   }
 
   void add(int u, int v, float depth_mm) {
@@ -51,6 +55,7 @@ class NearestSurface {
   }
 
  private:
+  static constexpr int kCellsATask = 1 << 15;
   static constexpr std::uint32_t kFar = 0x7F800000;  // infinity
   static constexpr float kLeastCosine = 0.1f;
 

@@ -184,7 +184,34 @@ class Fuser {
   float warp_noise_ = 0;
 };
 
+/// `visibility` is there already.
+void compareSeen(const PointModel& model, const WarpGraph& graph, const Observation& observation,
+                 const PointFusionOptions& options, const ColourOptions& colour_options,
+                 ModelComparison* comparison) {
+  const Visibility& visibility = comparison->visibility;
+  const auto findGainAndAnchors = [&] {
+    comparison->gain = estimateGain(model, observation, visibility, colour_options);
+    if (colour_options.hold_anchors)
+      comparison->anchored = AnchorAgreement(model, observation, visibility);
+  };
+  // Neither needs the other.
+  parallelInvoke(findGainAndAnchors, [&] {
+    if (options.follow_innovation)
+      comparison->innovation = InnovationField(model, graph, observation, visibility, options);
+  });
+}
+
 }  // namespace
+
+ModelComparison compareModel(const PointModel& model, const WarpGraph& graph,
+                             const Observation& observation, const Raster<PixelState>& states,
+                             const FusionOptions& options) {
+  options.validate();
+  ModelComparison comparison;
+  comparison.visibility = findVisible(model, observation, states, options.visibility);
+  compareSeen(model, graph, observation, options.points, options.colour, &comparison);
+  return comparison;
+}
 
 PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observation,
                               const Visibility& visibility, const PointFusionOptions& options,
@@ -193,16 +220,24 @@ PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observa
   colour_options.validate();
   observation.validate();
   requireVisibility(visibility, *model);
+  ModelComparison comparison;
+  comparison.visibility = visibility;
+  compareSeen(*model, graph, observation, options, colour_options, &comparison);
+  return fusePoints(graph, observation, comparison, options, colour_options, model);
+}
+
+PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observation,
+                              const ModelComparison& comparison, const PointFusionOptions& options,
+                              const ColourOptions& colour_options, PointModel* model) {
+  options.validate();
+  colour_options.validate();
+  observation.validate();
+  const Visibility& visibility = comparison.visibility;
+  requireVisibility(visibility, *model);
   PointFusionSummary summary;
-  summary.gain = estimateGain(*model, observation, visibility, colour_options);
-  const InnovationField innovation =
-      options.follow_innovation ? InnovationField(*model, graph, observation, visibility, options)
-                                : InnovationField();
-  const AnchorAgreement anchored = colour_options.hold_anchors
-                                       ? AnchorAgreement(*model, observation, visibility)
-                                       : AnchorAgreement();
-  const Fuser fuser(graph, observation, options, colour_options, summary.gain, innovation, anchored,
-                    model);
+  summary.gain = comparison.gain;
+  const Fuser fuser(graph, observation, options, colour_options, summary.gain,
+                    comparison.innovation, comparison.anchored, model);
   std::atomic<int> fused{0}, contradicted{0};
   parallelRanges(static_cast<int>(model->size()), kPointsATask, [&](int begin, int end) {
     int fused_here = 0, contradicted_here = 0;

@@ -3,12 +3,28 @@
 
 #include "core/point_model.h"
 #include "core/warp_graph.h"
+#include "fusion/anchor_agreement.h"
 #include "fusion/colour_gain.h"
 #include "fusion/fusion_options.h"
+#include "fusion/innovation.h"
 #include "fusion/observation.h"
 #include "fusion/visibility.h"
 
 namespace softscope {
+
+/// What a frame says of the model as it is, before any point changes.
+struct ModelComparison {
+  Visibility visibility;
+  ColourGain gain;
+  InnovationField innovation;
+  AnchorAgreement anchored;
+};
+
+/// `graph` has live positions, `states` are the observation's judgePixels().
+/// Throws OptionError for bad options and for arguments that don't fit together.
+ModelComparison compareModel(const PointModel& model, const WarpGraph& graph,
+                             const Observation& observation, const Raster<PixelState>& states,
+                             const FusionOptions& options);
 
 /// What became of the points.
 struct PointFusionSummary {
@@ -22,6 +38,10 @@ struct PointFusionSummary {
 /// the next keepDensity() removes it. `graph` tells how far points are from their nodes (live
 /// positions); points that it doesn't carry count as lying on a node. Throws OptionError for bad
 /// options and for arguments that don't fit together.
+PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observation,
+                              const ModelComparison& comparison, const PointFusionOptions& options,
+                              const ColourOptions& colour_options, PointModel* model);
+/// Makes the comparison first, but for the visibility.
 PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observation,
                               const Visibility& visibility, const PointFusionOptions& options,
                               const ColourOptions& colour_options, PointModel* model);

@@ -1,6 +1,8 @@
 #include "fusion/point_insertion.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -22,7 +24,9 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 /// Pixels nearer to a point than this get no new one: (F14).
 int footprintPx(float depth_mm, float focal_px, float spacing_mm) {
   const float spacing_px = spacingAt(depth_mm, focal_px, spacing_mm) * focal_px / depth_mm;
-  return std::clamp(static_cast<int>(std::lround(std::min(spacing_px, 100.0f))), 1, kMostFootprint);
+  // In double precision, the sum is exact: truncation rounds.
+  const int rounded = static_cast<int>(static_cast<double>(std::min(spacing_px, 100.0f)) + 0.5);
+  return std::clamp(rounded, 1, kMostFootprint);
 }
 
 /// The model's nearest depth in every pixel.
@@ -40,39 +44,100 @@ NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
   return drawn;
 }
 
-/// Whether the model has a point within reach of the pixel that is not behind its band: (F14).
-bool explained(const NearestSurface& drawn, int u0, int v0, int reach, float farthest_mm,
-               const PosedCamera& camera) {
-  if (drawn.depthAt(u0, v0) < farthest_mm) return true;
-  const int u1 = std::min(camera.width_px - 1, u0 + reach);
-  const int v1 = std::min(camera.height_px - 1, v0 + reach);
-  for (int v = std::max(0, v0 - reach); v <= v1; ++v)
-    for (int u = std::max(0, u0 - reach); u <= u1; ++u)
-      if (drawn.depthAt(u, v) < farthest_mm) return true;
-  return false;
-}
+/// The model's depths in and around some rows of the picture.
+class DepthsAround {
+ public:
+  DepthsAround(const NearestSurface& drawn, const PosedCamera& camera, int begin, int end)
+      : width_(camera.width_px),
+        top_(std::max(0, begin - kMostFootprint)),
+        depths_mm_(width_, std::min(camera.height_px, end + kMostFootprint) - top_) {
+    for (int v = 0; v < depths_mm_.height_px; ++v)
+      for (int u = 0; u < width_; ++u) depths_mm_.at(u, v) = drawn.depthAt(u, v + top_);
+  }
 
-/// Depths that are sure enough to make points, and unexplained; NaN elsewhere.
-Raster<float> unexplainedDepths(const Observation& observation, const Raster<PixelState>& states,
-                                const NearestSurface& drawn, const PosedCamera& camera,
-                                const InsertionOptions& options) {
-  const DepthMap& depth = observation.depth;
-  const float max_sigma_mm = static_cast<float>(options.max_sigma_mm);
-  const float band_mm = static_cast<float>(options.band_mm);
-  const float spacing_mm = static_cast<float>(options.spacing_mm);
-  Raster<float> unexplained(states.width_px, states.height_px, kNaN);
-  parallelRows(states.height_px, [&](int v) {
-    for (int u = 0; u < states.width_px; ++u) {
-      if (states.at(u, v) != PixelState::kSure) continue;
-      if (!depth.sigma_mm.empty() && !(depth.sigma_mm.at(u, v) <= max_sigma_mm)) continue;
-      const float depth_mm = depth.depth_mm.at(u, v);
-      const int reach = footprintPx(depth_mm, camera.fx_px, spacing_mm);
-      if (!explained(drawn, u, v, reach, depth_mm + band_mm, camera))
-        unexplained.at(u, v) = depth_mm;
+  float at(int u, int v) const { return depths_mm_.at(u, v - top_); }
+
+  /// least_mm[u]: within `reach` of pixel (u, v).
+  void leastWithin(int v, int reach, std::vector<float>* least_mm) const {
+    std::vector<float> column(static_cast<std::size_t>(width_ + 2 * reach), kFar);
+    const int last = std::min(depths_mm_.height_px - 1, v - top_ + reach);
+    for (int y = std::max(0, v - top_ - reach); y <= last; ++y)
+      takeLess(depths_mm_.row(y), column.data() + reach);
+    least_mm->assign(static_cast<std::size_t>(width_), kFar);
+    for (int k = 0; k <= 2 * reach; ++k) takeLess(column.data() + k, least_mm->data());
+  }
+
+ private:
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+
+  void takeLess(const float* from, float* to) const {
+    for (int u = 0; u < width_; ++u) to[u] = from[u] < to[u] ? from[u] : to[u];
+  }
+
+  int width_, top_;
+  Raster<float> depths_mm_;
+};
+
+/// Depths that are sure enough to make points, and unexplained: the model has no point within reach
+/// that is not behind their band: (F14). NaN elsewhere.
+class UnexplainedDepths {
+ public:
+  UnexplainedDepths(const Observation& observation, const Raster<PixelState>& states,
+                    const NearestSurface& drawn, const PosedCamera& camera,
+                    const InsertionOptions& options)
+      : depth_(observation.depth),
+        states_(states),
+        drawn_(drawn),
+        camera_(camera),
+        max_sigma_mm_(static_cast<float>(options.max_sigma_mm)),
+        band_mm_(static_cast<float>(options.band_mm)),
+        spacing_mm_(static_cast<float>(options.spacing_mm)) {}
+
+  Raster<float> find() const {
+    Raster<float> unexplained(states_.width_px, states_.height_px, kNaN);
+    parallelRanges(states_.height_px, 16, [&](int begin, int end) {
+      const DepthsAround around(drawn_, camera_, begin, end);
+      for (int v = begin; v < end; ++v) findRow(around, v, unexplained.row(v));
+    });
+    return unexplained;
+  }
+
+ private:
+  void findRow(const DepthsAround& around, int v, float* unexplained) const {
+    std::vector<int> reaches(static_cast<std::size_t>(states_.width_px), 0);
+    std::array<bool, kMostFootprint + 1> is_asked{};
+    for (int u = 0; u < states_.width_px; ++u) {
+      if (!isSure(u, v)) continue;
+      const float depth_mm = depth_.depth_mm.at(u, v);
+      if (around.at(u, v) < depth_mm + band_mm_) continue;
+      const int reach = footprintPx(depth_mm, camera_.fx_px, spacing_mm_);
+      reaches[static_cast<std::size_t>(u)] = reach;
+      is_asked[static_cast<std::size_t>(reach)] = true;
     }
-  });
-  return unexplained;
-}
+    std::vector<float> least_mm;
+    for (int reach = 1; reach <= kMostFootprint; ++reach) {
+      if (!is_asked[static_cast<std::size_t>(reach)]) continue;
+      around.leastWithin(v, reach, &least_mm);
+      for (int u = 0; u < states_.width_px; ++u) {
+        const float depth_mm = depth_.depth_mm.at(u, v);
+        if (reaches[static_cast<std::size_t>(u)] == reach &&
+            !(least_mm[static_cast<std::size_t>(u)] < depth_mm + band_mm_))
+          unexplained[u] = depth_mm;
+      }
+    }
+  }
+
+  bool isSure(int u, int v) const {
+    return states_.at(u, v) == PixelState::kSure &&
+           (depth_.sigma_mm.empty() || depth_.sigma_mm.at(u, v) <= max_sigma_mm_);
+  }
+
+  const DepthMap& depth_;
+  const Raster<PixelState>& states_;
+  const NearestSurface& drawn_;
+  const PosedCamera& camera_;
+  const float max_sigma_mm_, band_mm_, spacing_mm_;
+};
 
 /// Whether the last frame saw something unexplained there as well: (F15).
 bool confirmed(const Eigen::Vector3f& point_world, const PosedCamera& last_camera,
@@ -86,14 +151,37 @@ bool confirmed(const Eigen::Vector3f& point_world, const PosedCamera& last_camer
   return false;
 }
 
+/// Those that are allowed, in the picture's order.
+std::vector<std::int32_t> candidatePixels(const Raster<float>& unexplained_mm,
+                                          const std::vector<std::uint8_t>& allowed) {
+  const int width = unexplained_mm.width_px;
+  std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(unexplained_mm.height_px));
+  parallelRows(unexplained_mm.height_px, [&](int v) {
+    for (std::int32_t i = v * width; i < (v + 1) * width; ++i)
+      if (allowed[static_cast<std::size_t>(i)] != 0) rows[static_cast<std::size_t>(v)].push_back(i);
+  });
+  std::vector<std::int32_t> candidates;
+  for (const std::vector<std::int32_t>& row : rows)
+    candidates.insert(candidates.end(), row.begin(), row.end());
+  return candidates;
+}
+
+int countAboveZero(const Raster<float>& depth_mm) {
+  std::atomic<int> count{0};
+  parallelRows(depth_mm.height_px, [&](int v) {
+    const float* row = depth_mm.row(v);
+    count += static_cast<int>(
+        std::count_if(row, row + depth_mm.width_px, [](float depth) { return depth > 0; }));
+  });
+  return count;
+}
+
 /// The pixels that become points, in the picture's order: (F16), the first of every cell.
 std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
                                        const PosedCamera& camera,
                                        const std::vector<std::uint8_t>& allowed,
                                        const InsertionOptions& options) {
-  std::vector<std::int32_t> candidates;
-  for (std::size_t i = 0; i < unexplained_mm.size(); ++i)
-    if (allowed[i] != 0) candidates.push_back(static_cast<std::int32_t>(i));
+  const std::vector<std::int32_t> candidates = candidatePixels(unexplained_mm, allowed);
   const float spacing_mm = static_cast<float>(options.spacing_mm);
   const float band_mm = static_cast<float>(options.band_mm);
   std::vector<CellKey> keys(candidates.size());
@@ -174,7 +262,7 @@ InsertionSummary insertPoints(const Observation& observation, const Raster<Pixel
   const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
   const NearestSurface drawn = drawModel(*model, visibility, camera);
   Raster<float> unexplained_mm =
-      unexplainedDepths(observation, states, drawn, camera, options.insertion);
+      UnexplainedDepths(observation, states, drawn, camera, options.insertion).find();
   const bool at_once = !options.insertion.confirm || model->empty();
   const std::vector<std::uint8_t> allowed = allowedPixels(
       unexplained_mm, camera, *memory, at_once, static_cast<float>(options.insertion.band_mm));
@@ -185,7 +273,7 @@ InsertionSummary insertPoints(const Observation& observation, const Raster<Pixel
     addPoint(pixel, observation, camera, gain, options, model);
   InsertionSummary summary;
   summary.inserted = static_cast<int>(chosen.size());
-  for (const float depth_mm : unexplained_mm.values) summary.unexplained_px += depth_mm > 0;
+  summary.unexplained_px = countAboveZero(unexplained_mm);
   *memory = {std::move(unexplained_mm), observation.left, observation.world_from_left};
   return summary;
 }

@@ -59,6 +59,7 @@ void hideBehindModel(const PointModel& model, const PosedCamera& camera,
 
 std::vector<std::int32_t> Visibility::seen() const {
   std::vector<std::int32_t> indices;
+  indices.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].sight == Sight::kSeen) indices.push_back(static_cast<std::int32_t>(i));
   return indices;

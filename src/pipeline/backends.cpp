@@ -85,7 +85,7 @@ Chosen<std::unique_ptr<ReconstructionBackend>> makeBackend(const std::string& na
                                                            const StereoCalibration& calibration,
                                                            const ReconstructionOptions& options) {
   return choose(
-      name, options.depth, "stereo, matching and the warp's solver",
+      name, options.depth, "stereo, matching, pose and the warp's solver",
       [&] { return makeCpuBackend(calibration, options); },
       [&] { return makeCudaBackend(calibration, options); });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -34,6 +35,7 @@ class CpuBackend : public ReconstructionBackend {
         frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo),
                 options),
         matching_(parts.makeMatching(options, rig())),
+        pose_search_(parts.makePoseSearch()),
         solver_(parts.makeSolver(options.deform)) {
     options.validate();
   }
@@ -84,6 +86,7 @@ class CpuBackend : public ReconstructionBackend {
   int ahead_from_threads_;
   FrameAhead frames_;
   std::unique_ptr<MatchStage> matching_;
+  std::unique_ptr<PoseSearch> pose_search_;
   std::unique_ptr<DeformSolver> solver_;
 
   ModelState state_;
@@ -101,6 +104,7 @@ class CpuBackend : public ReconstructionBackend {
   FrameView frame_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
+  std::optional<ModelComparison> comparison_;  // with the warped model
   FusionSummary fused_;
   StageClock clock_;
 };
@@ -108,6 +112,7 @@ class CpuBackend : public ReconstructionBackend {
 DepthSummary CpuBackend::measure(const Frame& frame) {
   clock_ = StageClock();
   matches_.clear();
+  comparison_.reset();
   pose_ = RigidPose();
   frame_ = frames_.measure(frame, &clock_);
   return frame_.summary;
@@ -181,7 +186,7 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
   RefinePoseOptions refine = options_.refine_pose;
   if (!maybe_static && refine.scope == "auto") refine.scope = "moving";
   const RefinedPose best =
-      refinePose(pairs, rig, pose_.target_from_source, last, reference, refine);
+      refinePose(pairs, rig, pose_.target_from_source, last, reference, refine, pose_search_.get());
   summary->world_from_left = best.world_from_left;
   summary->scope_static = best.scope_static;
   summary->keeps_shape = best.keeps_shape;
@@ -258,19 +263,27 @@ void CpuBackend::acceptWarp(bool is_reference) {
 
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
-  const DrawnPoints drawn(state_.model, posedCamera(left(), world_from_left));
   EvidenceSummary evidence;
-  parallelInvoke(
-      [&] { evidence.predicted = backProjectionError(drawn, observation, frame_.states); },
-      [&] {
-        evidence.view = viewEvidence(drawn, observation, frame_.states, frame_.fusion.pixels);
-      });
+  const auto draw = [&] {
+    const DrawnPoints drawn(state_.model, posedCamera(left(), world_from_left));
+    parallelInvoke(
+        [&] { evidence.predicted = backProjectionError(drawn, observation, frame_.states); },
+        [&] {
+          evidence.view = viewEvidence(drawn, observation, frame_.states, frame_.fusion.pixels);
+        });
+  };
+  // Nearly every frame is confirmed: what fusion asks first is found beside the evidence.
+  parallelInvoke(draw, [&] {
+    comparison_ =
+        compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
+  });
   clock_.lap("check");
   return evidence;
 }
 
 void CpuBackend::rejectWarp() {
   growth_.drop();
+  comparison_.reset();
   if (!before_.positions_mm.empty()) {
     state_.model.positions_mm = std::move(before_.positions_mm);
     state_.model.normals = std::move(before_.normals);
@@ -286,8 +299,13 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
   if (empty()) seedTracks(world_from_left);
   before_ = {};
-  const ModelUpdateSummary update = updateModel(observation, frame_.states, state_.graph,
-                                                frame_.fusion, &state_.memory, &state_.model);
+  if (!comparison_)
+    comparison_ =
+        compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
+  const ModelUpdateSummary update =
+      updateModel(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
+                  &state_.memory, &state_.model);
+  comparison_.reset();
   if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};

@@ -11,6 +11,7 @@
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
 #include "pipeline/stereo_stage.h"
+#include "pose/pose_search.h"
 
 namespace softscope {
 
@@ -21,6 +22,9 @@ struct BackendParts {
   MatchStageFactory makeMatching = makeCpuMatchStage;
   std::function<std::unique_ptr<DeformSolver>(const DeformOptions&)> makeSolver =
       [](const DeformOptions& options) { return makeDeformSolver(options); };
+  std::function<std::unique_ptr<PoseSearch>()> makePoseSearch = [] {
+    return std::make_unique<CpuPoseSearch>();
+  };
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp. On two, the processor's own stereo and those
   /// stages only take turns (docs/benchmarks.md).

@@ -4,6 +4,7 @@
 
 #include "cuda/device_info.h"
 #include "cuda/locate.h"
+#include "cuda/pose.h"
 #include "cuda/stereo.h"
 #include "cuda/warp.h"
 #include "deform/device_warp_system.h"
@@ -111,6 +112,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.name = "cuda";
   parts.makeStereo = makeCudaStereoStage;
   parts.makeMatching = makeCudaMatchStage;
+  parts.makePoseSearch = cuda::makePoseSearch;
   parts.makeSolver = makeCudaSolver;
   parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();

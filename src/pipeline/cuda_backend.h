@@ -1,5 +1,5 @@
-// src/pipeline/cuda_backend.h: stereo, model view, matching and the warp's solver on the GPU, every
-// other stage on the processor's cores.
+// src/pipeline/cuda_backend.h: stereo, model view, matching, the pose's refinement and the warp's
+// solver on the GPU, every other stage on the processor's cores.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ namespace softscope {
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
                                                  const RectifiedRig& rig);
 
-/// The model of makeCpuBackend() up to the rounding of the warp; the same run gives the same bytes.
-/// Affine nodes are left to the processor. The next frame's depth is measured while the
+/// The model of makeCpuBackend() up to the rounding of pose and warp; the same run gives the same
+/// bytes. Affine nodes are left to the processor. The next frame's depth is measured while the
 /// processor works on this one. Throws as both do.
 std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& calibration,
                                                        const ReconstructionOptions& options);

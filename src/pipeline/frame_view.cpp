@@ -1,11 +1,14 @@
 #include "pipeline/frame_view.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
-#include "core/median.h"
+#include "core/parallel.h"
+#include "core/value_of_rank.h"
 
 namespace softscope {
 namespace {
@@ -32,20 +35,44 @@ void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
     sigma_mm = std::max(sigma_mm, view->summary.median_sigma_mm);
 }
 
+using Rows = std::vector<std::vector<float>>;
+
+std::size_t countOf(const Rows& rows) {
+  std::size_t count = 0;
+  for (const std::vector<float>& row : rows) count += row.size();
+  return count;
+}
+
+/// Of numbers above 0; the upper of two middle ones, NaN of none.
+double medianOf(const Rows& rows) {
+  const std::size_t count = countOf(rows);
+  return count > 0 ? absoluteOfRank(rows, count / 2) : std::numeric_limits<double>::quiet_NaN();
+}
+
 DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
                        const RectifiedRig& rig) {
   DepthSummary summary;
-  std::vector<float> sigmas, depths_mm;
-  for (std::size_t i = 0; i < not_tissue.size(); ++i) {
-    if (not_tissue.values[i] != 0) continue;
-    ++summary.tissue_px;
-    if (!std::isfinite(measured.depth.depth_mm.values[i])) continue;
-    ++summary.measured_px;
-    depths_mm.push_back(measured.depth.depth_mm.values[i]);
-    if (!measured.depth.sigma_mm.empty()) sigmas.push_back(measured.depth.sigma_mm.values[i]);
-  }
-  summary.median_sigma_mm = medianOf(std::move(sigmas));
-  const double depth_mm = medianOf(std::move(depths_mm));
+  const Raster<float>&all_mm = measured.depth.depth_mm, &all_sigmas_mm = measured.depth.sigma_mm;
+  Rows sigmas_mm(static_cast<std::size_t>(not_tissue.height_px)), depths_mm(sigmas_mm.size());
+  std::atomic<int> tissue_px{0};
+  parallelRows(not_tissue.height_px, [&](int v) {
+    const std::size_t row = static_cast<std::size_t>(v);
+    depths_mm[row].reserve(static_cast<std::size_t>(not_tissue.width_px));
+    sigmas_mm[row].reserve(depths_mm[row].capacity());
+    int tissue = 0;
+    for (int u = 0; u < not_tissue.width_px; ++u) {
+      if (not_tissue.at(u, v) != 0) continue;
+      ++tissue;
+      if (!std::isfinite(all_mm.at(u, v))) continue;
+      depths_mm[row].push_back(all_mm.at(u, v));
+      if (!all_sigmas_mm.empty()) sigmas_mm[row].push_back(all_sigmas_mm.at(u, v));
+    }
+    tissue_px += tissue;
+  });
+  summary.tissue_px = tissue_px;
+  summary.measured_px = static_cast<int>(countOf(depths_mm));
+  summary.median_sigma_mm = medianOf(sigmas_mm);
+  const double depth_mm = medianOf(depths_mm);
   const double mm_per_px = depth_mm * depth_mm / (rig.left.fx_px * rig.baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   if (measured.rows.known()) summary.row_difference_px = measured.rows.mean_row_difference_px;

@@ -10,8 +10,8 @@ void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
                          const WarpGraph& graph, DeformSolver* solver) {
   drop();
   result_ = std::async(std::launch::async, [options, &model, &graph, solver] {
-    Grown grown{model, graph};
-    growGraph(options, &grown.model, &grown.graph);
+    Grown grown{model.bindings, graph};
+    growGraph(options, model.positions_mm, &grown.bindings, &grown.graph);
     solver->prepare(grown.graph);
     return grown;
   });
@@ -23,7 +23,7 @@ void GraphAhead::grow(const GraphOptions& options, PointModel* model, WarpGraph*
     return;
   }
   Grown grown = result_.get();
-  model->bindings = std::move(grown.model.bindings);
+  model->bindings = std::move(grown.bindings);
   *graph = std::move(grown.graph);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <future>
+#include <vector>
 
 #include "core/point_model.h"
 #include "core/warp_graph.h"
@@ -24,7 +25,7 @@ class GraphAhead {
 
  private:
   struct Grown {
-    PointModel model;
+    std::vector<PointBinding> bindings;
     WarpGraph graph;
   };
   std::future<Grown> result_;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
+#include "core/parallel.h"
 #include "deform/warp.h"
 
 namespace softscope {
@@ -46,6 +48,28 @@ std::int64_t cellOf(const Eigen::Vector3d& position_mm) {
   return (static_cast<std::int64_t>(cell.x()) + kBias) << 42 |
          (static_cast<std::int64_t>(cell.y()) + kBias) << 21 |
          (static_cast<std::int64_t>(cell.z()) + kBias);
+}
+
+/// Tracked points in and beside a cell.
+using PointsOfCells = std::unordered_map<std::int64_t, std::vector<int>>;
+
+/// Model points that lie in those cells, in their order, and who is near.
+std::vector<std::pair<std::size_t, const std::vector<int>*>> modelPointsNear(
+    const PointsOfCells& points_of_cell, const PointModel& model) {
+  std::vector<std::pair<std::size_t, const std::vector<int>*>> all;
+  if (points_of_cell.empty()) return all;
+  const std::size_t grain = kPointsATask, tasks = (model.size() + grain - 1) / grain;
+  std::vector<std::vector<std::pair<std::size_t, const std::vector<int>*>>> parts(tasks);
+  parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
+    for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
+         ++task)
+      for (std::size_t i = task * grain; i < std::min(model.size(), (task + 1) * grain); ++i) {
+        const auto found = points_of_cell.find(cellOf(model.positions_mm[i].cast<double>()));
+        if (found != points_of_cell.end()) parts[task].emplace_back(i, &found->second);
+      }
+  });
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 /// What the model says around one tracked point.
@@ -104,7 +128,7 @@ void MaterialPoints::renumber(const IndexMap& map, const PointModel& model) {
 void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm,
                             double limit_scale) {
   const double limit_mm = kMaxSettleMm * limit_scale;
-  std::unordered_map<std::int64_t, std::vector<int>> points_of_cell;
+  PointsOfCells points_of_cell;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].model_point < 0) continue;
     for (int cell = 0; cell < 27; ++cell) {
@@ -114,11 +138,9 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
     }
   }
   std::vector<SurfacePiece> pieces(points.size());
-  for (std::size_t i = 0; i < model.size() && !points_of_cell.empty(); ++i) {
+  for (const auto& [i, near] : modelPointsNear(points_of_cell, model)) {
     const Eigen::Vector3d position = model.positions_mm[i].cast<double>();
-    const auto found = points_of_cell.find(cellOf(position));
-    if (found == points_of_cell.end()) continue;
-    for (const int k : found->second) {
+    for (const int k : *near) {
       const Eigen::Vector3d away = position - points[static_cast<std::size_t>(k)].position_mm;
       const double share = 1 - away.squaredNorm() / (kSurfaceMm * kSurfaceMm);
       if (share <= 0) continue;

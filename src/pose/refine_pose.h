@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/stereo_rig.h"
+#include "pose/pose_search.h"
 
 namespace softscope {
 
@@ -54,9 +55,16 @@ struct RefinedPose {
 /// tissue has its reference shape, the pose is measured in that shape, significant or not; of
 /// tissue that has bent, a motion that is not significant is the tissue's, and the pose is `last`.
 /// Pairs that are not finite or behind the camera have no weight; fewer than three are not refined.
+/// `search` looks for the poses; by default, the processor.
 /// Throws OptionError on bad options.
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
-                       const Eigen::Isometry3d& reference, const RefinePoseOptions& options);
+                       const Eigen::Isometry3d& reference, const RefinePoseOptions& options,
+                       PoseSearch* search = nullptr);
+
+/// What refinePose() asks its search.
+PoseQuestion poseQuestion(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
+                          const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
+                          const Eigen::Isometry3d& reference, const RefinePoseOptions& options);
 
 }  // namespace softscope

@@ -2,53 +2,19 @@
 // find the CPU's warp.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "core/error.h"
-#include "cuda/host_executor.h"
 #include "cuda/warp_run.h"
 #include "deform/block_pattern.h"
 #include "deform/dissection.h"
-#include "host_memory.h"
+#include "host_machine.h"
 #include "same_search.h"
 #include "warp_cases.h"
 
 namespace softscope {
 namespace {
 
-/// Memory and copies of the host in place of a device.
-class HostMachine {
- public:
-  using Executor = cuda::HostExecutor;
-  class Memory {
-   public:
-    Memory() = default;
-    Memory(std::size_t bytes, const char*)
-        : memory_(std::make_unique<test::HostMemory>(bytes)), bytes_(bytes) {}
-    void* data() const { return memory_ ? memory_->data() : nullptr; }
-    std::size_t bytes() const { return bytes_; }
-
-   private:
-    std::unique_ptr<test::HostMemory> memory_;
-    std::size_t bytes_ = 0;
-  };
-
-  explicit HostMachine(unsigned seed) : executor_(seed) {}
-  Executor& executor() { return executor_; }
-  void toDevice(void* to, const void* from, std::size_t bytes) const {
-    std::memcpy(to, from, bytes);
-  }
-  void fromDevice(void* to, const void* from, std::size_t bytes) const {
-    std::memcpy(to, from, bytes);
-  }
-  void wait() const {}
-
- private:
-  Executor executor_;
-};
-
 std::unique_ptr<DeformSolver> solverOnTheHost(const test::WarpScene& scene, unsigned seed) {
-  auto device = std::make_unique<cuda::WarpRun<HostMachine>>(scene.weights(), seed);
+  auto device = std::make_unique<cuda::WarpRun<test::HostMachine>>(scene.weights(), seed);
   return makeDeformSolver(scene.options(),
                           makeDeviceWarpSystem(scene.options(), std::move(device)));
 }
@@ -75,7 +41,7 @@ TEST(WarpPassesEdge, AffineNodesAreRefused) {
   DeformOptions affine = scene.options();
   affine.node_model = NodeModel::kAffine;
   EXPECT_THROW(makeDeviceWarpSystem(
-                   affine, std::make_unique<cuda::WarpRun<HostMachine>>(scene.weights(), 1U)),
+                   affine, std::make_unique<cuda::WarpRun<test::HostMachine>>(scene.weights(), 1U)),
                OptionError);
 }
 

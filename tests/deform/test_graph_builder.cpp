@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "scenes.h"
 
 namespace softscope {
@@ -143,6 +144,31 @@ TEST(GraphBuilder, IsTheSameTwice) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t j = 0; j < a.size(); ++j) EXPECT_EQ(a.positions_mm[j], b.positions_mm[j]);
   EXPECT_EQ(a.stencils, b.stencils);
+}
+
+TEST(GraphBuilder, IsTheSameOnAnyNumberOfThreads) {
+  const auto grownTwice = [](int threads) {
+    const ThreadLimit limit(threads);
+    PointModel model = scenes::makeHill(70, 60, 0.4);
+    WarpGraph graph = scenes::bindGraph(&model);
+    for (std::size_t i = 0; i < model.size(); i += 3) model.bindings[i] = PointBinding();
+    const PointModel wider = scenes::makeHill(80, 60, 0.4);
+    for (std::size_t i = 0; i < wider.size(); ++i)
+      if (std::abs(wider.positions_mm[i].x()) > 36)
+        model.add(wider.positions_mm[i], wider.normals[i], wider.colours[i], 1);
+    EXPECT_GT(growGraph(GraphOptions(), &model, &graph).nodes_added, 0);
+    return std::make_pair(model, graph);
+  };
+  const auto [one_model, one_graph] = grownTwice(1);
+  const auto [four_model, four_graph] = grownTwice(4);
+  ASSERT_EQ(one_graph.size(), four_graph.size());
+  for (std::size_t j = 0; j < one_graph.size(); ++j)
+    EXPECT_EQ(one_graph.positions_mm[j], four_graph.positions_mm[j]);
+  EXPECT_EQ(one_graph.stencils, four_graph.stencils);
+  for (std::size_t i = 0; i < one_model.size(); ++i) {
+    ASSERT_EQ(one_model.bindings[i].stencil, four_model.bindings[i].stencil) << i;
+    ASSERT_EQ(one_model.bindings[i].weights, four_model.bindings[i].weights) << i;
+  }
 }
 
 TEST(GraphBuilder, TakesTheEmptyTheSingleAndTheBroken) {

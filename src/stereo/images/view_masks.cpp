@@ -19,13 +19,16 @@ struct FillLevel {
 FillLevel coarser(const FillLevel& fine) {
   const int width = (fine.mean.width_px + 1) / 2, height = (fine.mean.height_px + 1) / 2;
   FillLevel level{Raster<float>(width, height, 0), Raster<float>(width, height, 0)};
-  for (int v = 0; v < fine.mean.height_px; ++v)
-    for (int u = 0; u < fine.mean.width_px; ++u) {
-      level.mean.at(u / 2, v / 2) += fine.count.at(u, v) * fine.mean.at(u, v);
-      level.count.at(u / 2, v / 2) += fine.count.at(u, v);
-    }
-  for (std::size_t i = 0; i < level.mean.size(); ++i)
-    if (level.count.values[i] > 0) level.mean.values[i] /= level.count.values[i];
+  parallelRows(height, [&](int coarse_v) {
+    float *mean = level.mean.row(coarse_v), *count = level.count.row(coarse_v);
+    for (int v = 2 * coarse_v; v < std::min(2 * coarse_v + 2, fine.mean.height_px); ++v)
+      for (int u = 0; u < fine.mean.width_px; ++u) {
+        mean[u / 2] += fine.count.at(u, v) * fine.mean.at(u, v);
+        count[u / 2] += fine.count.at(u, v);
+      }
+    for (int u = 0; u < width; ++u)
+      if (count[u] > 0) mean[u] /= count[u];
+  });
   return level;
 }
 
@@ -46,9 +49,10 @@ float interpolate(const Raster<float>& coarse, int u, int v) {
 }
 
 void fillFrom(const Raster<float>& coarse, FillLevel& fine) {
-  for (int v = 0; v < fine.mean.height_px; ++v)
+  parallelRows(fine.mean.height_px, [&](int v) {
     for (int u = 0; u < fine.mean.width_px; ++u)
       if (fine.count.at(u, v) == 0) fine.mean.at(u, v) = interpolate(coarse, u, v);
+  });
 }
 
 }  // namespace
@@ -73,18 +77,23 @@ GrayImage fillMasked(const GrayImage& image, const Mask& mask) {
   std::vector<FillLevel> levels(1);
   levels[0] = {Raster<float>(image.width_px, image.height_px),
                Raster<float>(image.width_px, image.height_px)};
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    levels[0].mean.values[i] = image.values[i];
-    levels[0].count.values[i] = mask.values[i] == 0 ? 1.0f : 0.0f;
-  }
+  parallelRows(image.height_px, [&](int v) {
+    for (int u = 0; u < image.width_px; ++u) {
+      levels[0].mean.at(u, v) = image.at(u, v);
+      levels[0].count.at(u, v) = mask.at(u, v) == 0 ? 1.0f : 0.0f;
+    }
+  });
   while (!isFull(levels.back())) {
     if (levels.back().mean.size() == 1) return image;
     levels.push_back(coarser(levels.back()));
   }
   for (std::size_t k = levels.size() - 1; k > 0; --k) fillFrom(levels[k].mean, levels[k - 1]);
-  GrayImage filled(image.width_px, image.height_px);
-  for (std::size_t i = 0; i < image.size(); ++i)
-    filled.values[i] = static_cast<std::uint8_t>(std::lround(levels[0].mean.values[i]));
+  GrayImage filled = image;
+  parallelRows(image.height_px, [&](int v) {
+    for (int u = 0; u < image.width_px; ++u)
+      if (mask.at(u, v) != 0)
+        filled.at(u, v) = static_cast<std::uint8_t>(std::lround(levels[0].mean.at(u, v)));
+  });
   return filled;
 }
 

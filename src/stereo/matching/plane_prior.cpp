@@ -2,13 +2,17 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/parallel.h"
 #include "stereo/matching/delaunay.h"
 
 namespace softscope {
 namespace {
+
+constexpr int kRowsATask = 64;
 
 const SupportPoint& nearestTo(const std::vector<SupportPoint>& points, int u, int v) {
   const auto distance = [&](const SupportPoint& p) {
@@ -82,9 +86,17 @@ class Side {
   double slope_;
 };
 
-/// Fills the pixels of one triangle; every pixel inside or on its edges.
+/// Rows from `begin` to, not with, `end`.
+struct RowBand {
+  int begin, end;
+};
+
+/// Fills the pixels of one triangle in some rows; every pixel inside or on its edges.
 void fillTriangle(const SupportPoint& a, const SupportPoint& b, const SupportPoint& c,
-                  Raster<std::int16_t>& prior) {
+                  const RowBand& band, Raster<std::int16_t>& prior) {
+  const int top = std::max(std::min({a.v_px, b.v_px, c.v_px}), band.begin);
+  const int bottom = std::min(std::max({a.v_px, b.v_px, c.v_px}), band.end - 1);
+  if (top > bottom) return;
   const double bu = b.u_px - a.u_px, bv = b.v_px - a.v_px;
   const double cu = c.u_px - a.u_px, cv = c.v_px - a.v_px;
   const double area = bu * cv - bv * cu;
@@ -92,8 +104,6 @@ void fillTriangle(const SupportPoint& a, const SupportPoint& b, const SupportPoi
   const double db = b.disparity_px - a.disparity_px, dc = c.disparity_px - a.disparity_px;
   const double slope_u = 8 * (db * cv - dc * bv) / area, slope_v = 8 * (dc * bu - db * cu) / area;
   const Side sides[] = {{&a, &b}, {&b, &c}, {&c, &a}};
-  const int top = std::max(std::min({a.v_px, b.v_px, c.v_px}), 0);
-  const int bottom = std::min(std::max({a.v_px, b.v_px, c.v_px}), prior.height_px - 1);
   for (int v = top; v <= bottom; ++v) {
     Span span;
     for (const Side& side : sides) side.widen(v, span);
@@ -119,9 +129,12 @@ Raster<std::int16_t> interpolatePlanes(std::vector<SupportPoint> points, int wid
   std::vector<Eigen::Vector2i> positions;
   for (const SupportPoint& p : points) positions.emplace_back(p.u_px, p.v_px);
   // In order: a pixel on a shared edge takes the later triangle, whatever the number of threads.
-  for (const auto& [i, j, k] : delaunay(positions))
-    fillTriangle(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(j)],
-                 points[static_cast<std::size_t>(k)], prior);
+  const std::vector<std::array<int, 3>> triangles = delaunay(positions);
+  parallelRanges(height_px, kRowsATask, [&](int begin, int end) {
+    for (const auto& [i, j, k] : triangles)
+      fillTriangle(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(j)],
+                   points[static_cast<std::size_t>(k)], {begin, end}, prior);
+  });
   return prior;
 }
 

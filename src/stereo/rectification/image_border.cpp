@@ -90,8 +90,8 @@ ViewMasks pixelsToIgnore(const StereoPair& rectified, const Rectifier& rectifier
   ViewMasks ignored{dilated(rectifier.outside(), kCubicReach),
                     dilated(rectifier.outsideRight(), kCubicReach)};
   if (!find_border) return ignored;
-  ignored.left = united(ignored.left, findBlackBorder(rectified.left));
-  ignored.right = united(ignored.right, findBlackBorder(rectified.right));
+  parallelInvoke([&] { ignored.left = united(ignored.left, findBlackBorder(rectified.left)); },
+                 [&] { ignored.right = united(ignored.right, findBlackBorder(rectified.right)); });
   return ignored;
 }
 

@@ -6,12 +6,14 @@
 #include <map>
 #include <optional>
 
+#include "core/parallel.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/support_points.h"
 
 namespace softscope {
 namespace {
 
+constexpr int kPointsOfATask = 64;
 constexpr int kGridPx = 12;
 constexpr int kReach = 4;                // of the window, every second pixel
 constexpr int kRowReach = 2;             // rows tried around a support point's
@@ -103,13 +105,17 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right_image, const Mask& 
 std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_offset) {
   const auto points = findSupportPoints(left_, right, options_, row_offset);
   const int top = kReach + kRowReach, bottom = left_.height_px() - top;
+  std::vector<std::optional<RowMatch>> found(points.size());
+  parallelRanges(static_cast<int>(points.size()), kPointsOfATask, [&](int begin, int end) {
+    for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      if (points[i].v_px + row_offset >= top && points[i].v_px + row_offset < bottom)
+        found[i] = matchRow(left_.view(), right.view(), points[i], row_offset);
+  });
   std::vector<RowMatch> matches;
   std::vector<float> disparities_px;
-  for (const SupportPoint& p : points) {
-    disparities_px.push_back(p.disparity_px);
-    if (p.v_px + row_offset < top || p.v_px + row_offset >= bottom) continue;
-    if (const auto match = matchRow(left_.view(), right.view(), p, row_offset))
-      matches.push_back(*match);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    disparities_px.push_back(points[i].disparity_px);
+    if (found[i]) matches.push_back(*found[i]);
   }
   // What comes next is seen in the same range; wrong rows have no range.
   if (disparities_px.size() >= kMany) options_ = narrowedTo(disparities_px, options_);

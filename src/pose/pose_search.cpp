@@ -1,0 +1,164 @@
+#include "pose/pose_search.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/median.h"
+#include "core/parallel.h"
+#include "pose/refine_pose.h"
+
+namespace softscope {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr int kPairsATask = 256;
+
+struct Residual {
+  Eigen::Vector3d value;
+  Eigen::Matrix<double, 3, 6> slope;
+  bool usable = false;
+};
+
+PoseRows rowsOf(const Eigen::Isometry3d& left_from_world) {
+  PoseRows rows;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) rows.at[i][j] = left_from_world(i, j);
+  return rows;
+}
+
+Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6d& twist) {
+  const Eigen::Vector3d turn = twist.head<3>();
+  Eigen::Isometry3d by = Eigen::Isometry3d::Identity();
+  if (turn.norm() > 0) by.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
+  by.translation() = twist.tail<3>();
+  return by * pose;
+}
+
+/// The pairs, seen from any pose.
+class Pairs {
+ public:
+  Pairs(const PoseQuestion& question, PairPlace place) : question_(question), place_(place) {}
+
+  /// The best end of the searches that begin at both poses.
+  Eigen::Isometry3d search(const Eigen::Isometry3d& left_from_world,
+                           const Eigen::Isometry3d& other_left_from_world) const {
+    Eigen::Isometry3d one, other;
+    parallelInvoke([&] { one = searchFrom(left_from_world); },
+                   [&] { other = searchFrom(other_left_from_world); });
+    return costAt(other) < costAt(one) ? other : one;
+  }
+
+  PoseFindings findingsAt(const Eigen::Isometry3d& best, const Eigen::Isometry3d& old) const {
+    PoseFindings found;
+    found.best = best;
+    found.scores.fill(Vector6d::Zero());
+    const PoseRows here_rows = rowsOf(best), there_rows = rowsOf(old);
+    std::vector<double> shifts, lengths, old_lengths;
+    for (const SeenPair& pair : question_.pairs) {
+      const Residual here = residualAt(pair, here_rows);
+      if (!here.usable) continue;
+      found.explained += here.value.squaredNorm() < kCostScaleSq;
+      const auto region = static_cast<std::size_t>(question_.regions.of(pair.live_px));
+      const double weight = pairWeight(here.value.squaredNorm(), kCostScaleSq);
+      found.normal += weight * here.slope.transpose() * here.slope;
+      found.scores[region] += weight * here.slope.transpose() * here.value;
+      ++found.score_counts[region];
+      const Residual there = residualAt(pair, there_rows);
+      if (!there.usable) continue;
+      shifts.push_back((here.value - there.value).norm());
+      lengths.push_back(here.value.norm());
+      old_lengths.push_back(there.value.norm());
+      found.gains[region] +=
+          pairCost(there.value.squaredNorm()) - pairCost(here.value.squaredNorm());
+      ++found.counts[region];
+    }
+    found.shift = medianOf(std::move(shifts));
+    found.length = medianOf(std::move(lengths));
+    found.old_length = medianOf(std::move(old_lengths));
+    return found;
+  }
+
+ private:
+  Residual residualAt(const SeenPair& pair, const PoseRows& left_from_world) const {
+    const PairResidual plain = pairResidual(pair, place_, question_.rig, left_from_world);
+    Residual residual;
+    residual.usable = plain.usable;
+    residual.value = Eigen::Map<const Eigen::Vector3d>(plain.value);
+    residual.slope =
+        Eigen::Map<const Eigen::Matrix<double, 3, 6, Eigen::RowMajor>>(&plain.slope[0][0]);
+    return residual;
+  }
+
+  std::vector<Residual> residualsAt(const Eigen::Isometry3d& left_from_world) const {
+    const PoseRows rows = rowsOf(left_from_world);
+    std::vector<Residual> residuals(question_.pairs.size());
+    parallelRanges(static_cast<int>(residuals.size()), kPairsATask, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) {
+        const std::size_t i = static_cast<std::size_t>(k);
+        residuals[i] = residualAt(question_.pairs[i], rows);
+      }
+    });
+    const auto unusable = [](const Residual& residual) { return !residual.usable; };
+    residuals.erase(std::remove_if(residuals.begin(), residuals.end(), unusable), residuals.end());
+    return residuals;
+  }
+
+  /// Mean robust cost of a pair, 0 to 1: docs/energy.md (28).
+  double costAt(const Eigen::Isometry3d& left_from_world) const {
+    const std::vector<Residual> residuals = residualsAt(left_from_world);
+    double sum = 0;
+    for (const Residual& residual : residuals) sum += pairCost(residual.value.squaredNorm());
+    return residuals.empty() ? 1 : sum / static_cast<double>(residuals.size());
+  }
+
+  Eigen::Isometry3d searchFrom(Eigen::Isometry3d left_from_world) const {
+    for (int i = 0; i < question_.iterations; ++i) {
+      const Vector6d twist = stepFrom(left_from_world);
+      left_from_world = moved(left_from_world, twist);
+      if (twist.tail<3>().norm() + PoseSearch::kTypicalDepthMm * twist.head<3>().norm() <
+          PoseSearch::kConvergedMm)
+        break;
+    }
+    return left_from_world;
+  }
+
+  /// docs/energy.md (27): the scale follows the median, so that half of the pairs always count.
+  Vector6d stepFrom(const Eigen::Isometry3d& left_from_world) const {
+    const std::vector<Residual> residuals = residualsAt(left_from_world);
+    if (residuals.size() < 3) return Vector6d::Zero();
+    std::vector<double> squares;
+    for (const Residual& residual : residuals) squares.push_back(residual.value.squaredNorm());
+    const double scale_sq =
+        std::max(1.0, std::pow(RefinePoseOptions::kRobustScale, 2) * medianOf(squares));
+    Matrix6d normal = Matrix6d::Zero();
+    Vector6d right = Vector6d::Zero();
+    for (const Residual& residual : residuals) {
+      const double weight = pairWeight(residual.value.squaredNorm(), scale_sq);
+      normal += weight * residual.slope.transpose() * residual.slope;
+      right -= weight * residual.slope.transpose() * residual.value;
+    }
+    const Vector6d twist = normal.ldlt().solve(right);
+    return twist.allFinite() ? twist : Vector6d(Vector6d::Zero());
+  }
+
+  const PoseQuestion& question_;
+  const PairPlace place_;
+};
+
+}  // namespace
+
+PoseAnswer CpuPoseSearch::answer(const PoseQuestion& question) {
+  const Pairs now(question, PairPlace::kNow), since(question, PairPlace::kSince);
+  const Eigen::Isometry3d best = now.search(question.fitted, question.old);
+  const Eigen::Isometry3d best_since = since.search(best, question.before);
+  PoseAnswer answer;
+  parallelInvoke([&] { answer.now = now.findingsAt(best, question.old); },
+                 [&] { answer.since = since.findingsAt(best_since, question.before); });
+  return answer;
+}
+
+}  // namespace softscope
