@@ -112,7 +112,7 @@ function(softscope_compile_unoptimised target)
   target_compile_options(${target} PRIVATE $<$<BOOL:${SOFTSCOPE_SANITIZE}>:-O0>)
 endfunction()
 
-# softscope_test_shards(<folder> [count])
+# softscope_test_shards(<folder> [count]): programs in several parts take longest and start first.
 function(softscope_test_shards name)
   set(count 1)
   if(ARGC GREATER 1)
@@ -125,7 +125,7 @@ function(softscope_test_shards name)
     endif()
     math(EXPR index "${number} - 1")
     add_test(NAME ${entry} COMMAND test_${name})
-    set_tests_properties(${entry} PROPERTIES TIMEOUT 1200 LABELS ${name}
+    set_tests_properties(${entry} PROPERTIES TIMEOUT 1200 LABELS ${name} COST ${count}0
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index}")
   endforeach()
 endfunction()
