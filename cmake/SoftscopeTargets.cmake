@@ -63,11 +63,12 @@ function(softscope_cover name)
   endif()
 endfunction()
 
-# softscope_test(<folder> SOURCES … LINKS … [SHARDS <count>]): one test program a folder, one ctest
-# entry a test; under sanitizers, which start slowly, one entry a program, or as many as SHARDS says
-# where one would keep the others waiting. Label: the folder.
+# softscope_test(<folder> SOURCES … LINKS … [SINGLY <suite>…] [SHARDS <count>]): one test program a
+# folder, one ctest entry a test suite, or a test in the suites of SINGLY, which take minutes; under
+# sanitizers, which start slowly, one entry a program, or as many as SHARDS says where one would keep
+# the others waiting. Label: the folder.
 function(softscope_test name)
-  cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LINKS;SINGLY" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   softscope_join(test_${name})
   softscope_compile_quickly(test_${name})
@@ -76,9 +77,26 @@ function(softscope_test name)
   if(SOFTSCOPE_SANITIZE)
     softscope_test_shards(${name} ${ARG_SHARDS})
   else()
-    gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
-      PROPERTIES TIMEOUT 600 LABELS ${name})
+    softscope_test_suites(${name} ${ARG_SINGLY})
   endif()
+endfunction()
+
+# softscope_test_suites(<folder> [suite…]): the program itself tells its suites once it is linked.
+function(softscope_test_suites name)
+  set(entries ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_suites.cmake)
+  add_custom_command(TARGET test_${name} POST_BUILD BYPRODUCTS ${entries}
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:test_${name}> -D FOLDER=${name}
+      -D "SINGLY=${ARGN}" -D FILE=${entries}
+      -P ${SOFTSCOPE_ROOT}/cmake/SoftscopeSuites.cmake VERBATIM)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake @ONLY CONTENT
+    "if(EXISTS \"${entries}\")
+  include(\"${entries}\")
+else()
+  add_test(test_${name}_is_not_built test_${name}_is_not_built)
+endif()
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES
+    ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake)
 endfunction()
 
 # softscope_compile_quickly(<target>): for code that tests alone run. What it tests keeps -O3; -O1
@@ -87,7 +105,14 @@ function(softscope_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# softscope_test_shards(<folder> [count])
+# softscope_compile_unoptimised(<target>): for tests of texts and files, under sanitizers: a third of
+# the time to compile. Not for tests that compute, as the linker takes inline functions of the first
+# object that has them: tests of deform ran 12 times as long, `depth` within test_apps 3 times.
+function(softscope_compile_unoptimised target)
+  target_compile_options(${target} PRIVATE $<$<BOOL:${SOFTSCOPE_SANITIZE}>:-O0>)
+endfunction()
+
+# softscope_test_shards(<folder> [count]): programs in several parts take longest and start first.
 function(softscope_test_shards name)
   set(count 1)
   if(ARGC GREATER 1)
@@ -100,7 +125,7 @@ function(softscope_test_shards name)
     endif()
     math(EXPR index "${number} - 1")
     add_test(NAME ${entry} COMMAND test_${name})
-    set_tests_properties(${entry} PROPERTIES TIMEOUT 1200 LABELS ${name}
+    set_tests_properties(${entry} PROPERTIES TIMEOUT 1200 LABELS ${name} COST ${count}0
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index}")
   endforeach()
 endfunction()

@@ -24,6 +24,9 @@ TEST_STATUS = re.compile(
 MESSAGE = re.compile(r": Failure$|runtime error: |ERROR: |^Traceback |^(?:FAIL|ERROR): |^error: |"
                      r"terminate called|: Assertion `")
 FAILED_WITHIN = re.compile(r"^\[  FAILED  \] ([\w./]+)(?:, where .*)? \(\d+ ms\)$", re.MULTILINE)
+BEGUN_WITHIN = re.compile(r"^\[ RUN      \] ([\w./]+)$", re.MULTILINE)
+DONE_WITHIN = re.compile(r"^\[(       OK|  SKIPPED |  FAILED  ) ?\] .* \(\d+ ms\)$", re.MULTILINE)
+OUTPUT_BYTES = 10_000_000  # of an entry: ctest would cut what tells the tests within
 
 
 def duration(seconds):
@@ -173,21 +176,44 @@ def message_of(output):
     return rest[:min(end, LINES_OF_A_MESSAGE)]
 
 
+def failed_within(output):
+    """Names of the tests that failed inside an entry, the one that ended the program among them."""
+    names = FAILED_WITHIN.findall(output)
+    begun = BEGUN_WITHIN.findall(output)
+    if len(begun) > len(DONE_WITHIN.findall(output)):
+        names.append(begun[-1])
+    return names
+
+
 def failures(preset, name, output):
     """Of a failed entry each test that failed: its name, its message, the command that runs it alone."""
-    entry = re.sub(r"([][.^$*+?()|\\])", r"\\\1", name)
-    alone = f"ctest --preset {preset} -R {shlex.quote(f'^{entry}$')}"
-    is_program = re.fullmatch(r"\w+(\.\d+)?", name) is not None
-    within = [found[1] for found in FAILED_WITHIN.finditer(output)] if is_program else []
+    within = failed_within(output)
     if not within:
+        entry = re.sub(r"([][.^$*+?()|\\])", r"\\\1", name)
+        alone = f"ctest --preset {preset} -R {shlex.quote(f'^{entry}$')}"
         return [(name, message_of(output), alone)]
     found = []
+    folder = name.partition(".")[0]
     for inner in within:
         begin = output.find(f"[ RUN      ] {inner}\n")
-        alone = (f"GTEST_FILTER={shlex.quote(inner)} ctest --preset {preset} "
-                 f"-L '^{name.partition('.')[0]}$'")
-        found.append((f"{name}, {inner}", message_of(output[max(begin, 0):]), alone))
+        alone = f"build/{preset}/tests/{folder}/test_{folder} --gtest_filter={inner}"
+        found.append((f"{folder}.{inner}", message_of(output[max(begin, 0):]), alone))
     return found
+
+
+def counts(case):
+    """How many tests of this entry passed, failed and were skipped."""
+    why = why_not_run(case)
+    output = case.findtext("system-out") or ""
+    if why is not None:
+        return (0, 0, 1) if why.startswith("SKIP_") else (0, 1, 0)
+    outcomes = DONE_WITHIN.findall(output)
+    failed = len(failed_within(output))
+    if case.get("status") == "fail":
+        failed = max(failed, 1)
+    elif not outcomes:
+        return (1, 0, 0)
+    return (outcomes.count("       OK"), failed, outcomes.count("  SKIPPED "))
 
 
 def why_not_run(case):
@@ -198,11 +224,11 @@ def why_not_run(case):
 
 def report(preset, cases):
     """The last lines of a run: what failed, what it said, how to run it alone."""
-    skipped = [case for case in cases if (why_not_run(case) or "").startswith("SKIP_")]
-    failed = [case for case in cases if case not in skipped
-              and (case.get("status") == "fail" or why_not_run(case) is not None)]
-    lines = [f"{len(cases)} tests: {len(cases) - len(failed) - len(skipped)} passed, "
-             f"{len(failed)} failed, {len(skipped)} skipped"]
+    passed, not_passed, skipped = (
+        sum(column) for column in zip((0, 0, 0), *map(counts, cases)))
+    failed = [case for case in cases if counts(case)[1] > 0]
+    lines = [f"{passed + not_passed + skipped} tests: {passed} passed, {not_passed} failed, "
+             f"{skipped} skipped"]
     for case in failed:
         output = why_not_run(case) or case.findtext("system-out") or ""
         for name, message, alone in failures(preset, case.get("name"), output):
@@ -216,7 +242,8 @@ def test(preset, options):
     results = folder / "Testing" / "results.xml"
     results.unlink(missing_ok=True)
     command = ["ctest", "--preset", preset, "--parallel", str(len(os.sched_getaffinity(0))),
-               "--no-label-summary", "--output-junit", str(results.absolute()), *options]
+               "--no-label-summary", "--test-output-size-passed", str(OUTPUT_BYTES),
+               "--test-output-size-failed", str(OUTPUT_BYTES), "--output-junit", str(results.absolute()), *options]
     progress = Progress()
     weights = TestWeights(folder / "Testing" / "Temporary" / "CTestCostData.txt")
     status = follow_tests(lines_of(command), progress, weights)

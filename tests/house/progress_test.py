@@ -133,7 +133,7 @@ class Report(unittest.TestCase):
         self.assertEqual(lines[0], "2 tests: 1 passed, 1 failed, 0 skipped")
         self.assertIn("apps.Depth.IsFound failed:", lines)
         self.assertIn("  tests/apps/test_depth.cpp:249: Failure", lines)
-        self.assertEqual(lines[-1], "  alone: ctest --preset release -R '^apps\\.Depth\\.IsFound$'")
+        self.assertEqual(lines[-1], "  alone: build/release/tests/apps/test_apps --gtest_filter=Depth.IsFound")
 
     def test_a_program_that_is_not_there_is_a_failure(self):
         lines = progress.report("release", [not_run("io.A", "Unable to find executable")])
@@ -143,12 +143,28 @@ class Report(unittest.TestCase):
     def test_of_a_program_that_is_one_entry_it_names_each_test(self):
         other = FAILED_TEST.replace("Depth.IsFound", "Made/Info.Says/0").replace(":249", ":17")
         lines = progress.report("sanitize", [case("apps.2", "fail", other + FAILED_TEST)])
-        self.assertIn("apps.2, Made/Info.Says/0 failed:", lines)
+        self.assertEqual(lines[0], "2 tests: 0 passed, 2 failed, 0 skipped")
+        self.assertIn("apps.Made/Info.Says/0 failed:", lines)
         self.assertIn("  tests/apps/test_depth.cpp:17: Failure", lines)
-        self.assertIn("apps.2, Depth.IsFound failed:", lines)
+        self.assertIn("apps.Depth.IsFound failed:", lines)
         self.assertEqual(
             lines[-1],
-            "  alone: GTEST_FILTER=Depth.IsFound ctest --preset sanitize -L '^apps$'")
+            "  alone: build/sanitize/tests/apps/test_apps --gtest_filter=Depth.IsFound")
+
+    def test_each_test_of_an_entry_counts(self):
+        output = ("[ RUN      ] A.B\n[       OK ] A.B (3 ms)\n"
+                  "[ RUN      ] A.C/0\n[  SKIPPED ] A.C/0 (0 ms)\n")
+        lines = progress.report("release", [case("io.A", "run", output), case("house.D", "run")])
+        self.assertEqual(lines, ["3 tests: 2 passed, 0 failed, 1 skipped"])
+
+    def test_the_test_that_ended_its_program_is_named(self):
+        output = ("[ RUN      ] A.B\n[       OK ] A.B (3 ms)\n"
+                  "[ RUN      ] A.C\n==7==ERROR: AddressSanitizer: heap-buffer-overflow\n")
+        lines = progress.report("sanitize", [case("io", "fail", output)])
+        self.assertEqual(lines[0], "2 tests: 1 passed, 1 failed, 0 skipped")
+        self.assertIn("io.A.C failed:", lines)
+        self.assertIn("  ==7==ERROR: AddressSanitizer: heap-buffer-overflow", lines)
+        self.assertEqual(lines[-1], "  alone: build/sanitize/tests/io/test_io --gtest_filter=A.C")
 
     def test_names_are_no_patterns(self):
         lines = progress.report("release", [case("io.A/B.C/0x1 (+)", "fail", "")])
