@@ -88,6 +88,9 @@ void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
     result.interrupted = !after_model();
     if (result.interrupted) return;
   }
+  result.held_out = judgeHeldOut(run, pictures);
+  for (std::string& warning : heldOutWarnings(result.held_out))
+    result.warnings.push_back(std::move(warning));
   if (run.models.empty())
     result.warnings.push_back(
         "the run has no models of single frames, so no drawn view; reconstruct with --save-every "
@@ -223,6 +226,7 @@ Json truthlessJson(const TruthlessResult& result) {
               {"n", overFrames(result, kCoverage).count}}},
             {"camera", camera},
             {"warnings", result.warnings}};
+  if (result.held_out.every > 0) json["held_out"] = heldOutJson(result.held_out);
   json["frames"] = framesJson(result);
   return json;
 }
@@ -240,6 +244,7 @@ FactSheet truthlessFacts(const TruthlessResult& result) {
                                     fixed(100 * overFrames(result, kJudged).mean, 1) +
                                     " % of the tissue (without masks and black borders), of " +
                                     std::to_string(result.drawn.size()) + " models");
+  addHeldOutFacts(result.held_out, facts);
   const Statistics backprojection = overFrames(result, kBackProjection);
   if (backprojection.count > 0)
     facts.addLine("back-projection", spreadText(backprojection) + " over " +
