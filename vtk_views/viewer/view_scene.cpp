@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "vtk_views/scenes/four_panels.h"
-#include "vtk_views/scenes/point_spacing.h"
+#include "vtk_views/scenes/point_splats.h"
 #include "vtk_views/scenes/surface_actor.h"
 #include "vtk_views/scenes/view_camera.h"
 #include "vtk_views/viewer/view_props.h"
@@ -72,16 +72,14 @@ SceneSurface ViewScene::shownPoints(const ViewMoment& moment, const ViewState& s
 }
 
 void ViewScene::showPoints(const ViewMoment& moment, const ViewState& state) {
-  const SceneSurface surface = shownPoints(moment, state);
-  const std::size_t count = surface.mesh.vertices_mm.size();
-  if (count < dots_measured_ * 9 / 10 || count > dots_measured_ * 11 / 10) {
-    dot_mm_ = dotSizeMm(surface.mesh.vertices_mm);
-    dots_measured_ = count;
-  }
+  Eigen::Vector3d eye_mm = centre_mm_ - kEyeAway * width_mm_ * Eigen::Vector3d::UnitZ();
+  if (moment.world_from_left) eye_mm = moment.world_from_left->translation();
+  const SceneSurface surface =
+      splatsOf(shownPoints(moment, state), state.dot_scale, eye_mm.cast<float>());
   ErrorColours colours = world_.errors;
   if (state.colour == ViewColour::kWeights) colours = {false, world_.largest_weight};
   SurfaceRole role;
-  role.point_size_px = points_ ? points_->GetProperty()->GetPointSize() : 1;
+  role.unlit = true;
   if (points_) return redressSurface(surface, colours, role, points_);
   points_ = surfaceActor(surface, colours, role);
   addActor(points_);
@@ -226,9 +224,7 @@ void ViewScene::turn(double angle_deg) {
   renderer_->ResetCameraClippingRange();
 }
 
-void ViewScene::sizeFor(double height_px, double dot_scale, double line_scale) {
-  const double dot_px = dot_scale * dot_mm_ * pixelsPerMm(renderer_, height_px);
-  if (points_) points_->GetProperty()->SetPointSize(float(std::clamp(dot_px, 1.0, 64.0)));
+void ViewScene::sizeFor(double line_scale) {
   if (nodes_) nodes_->GetProperty()->SetPointSize(float(kNodeDotsPx * line_scale));
   for (const auto& lines : {scope_, path_, arrows_})
     if (lines) lines->GetProperty()->SetLineWidth(float(1.6 * line_scale));

@@ -28,8 +28,8 @@ class ViewScene {
   void look(const ViewMoment& moment, Look look, double aspect);
   /// Turns about what is looked at, from where it was looked at.
   void turn(double angle_deg);
-  /// Gives dots and lines their size in a picture that is `height_px` high.
-  void sizeFor(double height_px, double dot_scale, double line_scale);
+  /// Gives lines and the dots of nodes their size.
+  void sizeFor(double line_scale);
   /// What a picture of that width shows, mm; NaN where near is larger than far.
   double widthShownMm(double aspect) const;
 
@@ -53,8 +53,6 @@ class ViewScene {
   std::shared_ptr<const TriangleMesh> reference_shown_;
   Eigen::Vector3d centre_mm_ = Eigen::Vector3d::Zero();
   double width_mm_ = 0;  // 0: not measured yet
-  double dot_mm_ = 0.3;
-  std::size_t dots_measured_ = 0;  // of how many points
   double aspect_ = 1;
 };
 

@@ -14,6 +14,7 @@
 
 #include "vtk_views/scenes/view_camera.h"
 #include "vtk_views/scenes/window_pixels.h"
+#include "vtk_views/viewer/moment_between.h"
 #include "vtk_views/viewer/view_picture.h"
 #include "vtk_views/viewer/view_scene.h"
 #include "vtk_views/viewer/view_sheet.h"
@@ -238,7 +239,7 @@ void ViewWindow::Parts::layOut() {
 void ViewWindow::Parts::beforeRender() {
   if (!moment_) return;
   layOut();
-  scene_.sizeFor(height() - kViewFootPx, state.dot_scale, 1);
+  scene_.sizeFor(1);
   const ViewFoot foot =
       footOf(source, *moment_, playback, state, scene_.widthShownMm(aspect()), /*of_window=*/true);
   foot_.show(drawViewFoot(foot, width()));
@@ -248,7 +249,7 @@ void ViewWindow::Parts::render() { interactor_->Render(); }
 
 void ViewWindow::Parts::showMoment() {
   const auto start = Clock::now();
-  moment_ = source.moment(playback.index(), state.colour == ViewColour::kErrors);
+  moment_ = shownMoment(source, playback, state.colour == ViewColour::kErrors);
   scene_.show(*moment_, state);
   render();
   ++pace.pictures;
@@ -307,7 +308,8 @@ void ViewWindow::Parts::tick() {
     last_tick_ = Clock::now();
     if (options.closes()) return interactor_->TerminateApp();
     lookForMore();
-    if (playback.pass(passed_s)) showMoment();
+    const double before = playback.share();
+    if (playback.pass(passed_s) || (playback.playing && playback.share() != before)) showMoment();
   });
 }
 
