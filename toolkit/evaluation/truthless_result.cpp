@@ -138,7 +138,7 @@ bool hasTimes(const TruthlessResult& result) {
 }
 
 void addPlot(const TruthlessResult& result, const char* label, const Value& value,
-             const PlotStyle& style, VectorDrawing& drawing) {
+             const PlotStyle& style, char* letter, VectorDrawing& drawing) {
   const bool over_time = hasTimes(result);
   ValueSeriesData data{over_time ? "time [s]" : "frame", label, {}, {}};
   for (const auto& [number, frame] : result.frames) {
@@ -149,7 +149,13 @@ void addPlot(const TruthlessResult& result, const char* label, const Value& valu
     data.y.push_back(result.outcomes.fused(number) ? value(frame) : Statistics::kNone);
   }
   if (statistics(data.y).count == 0) return;
-  appendBelow(drawValueSeries(data, style), 0, drawing);
+  VectorDrawing plot = drawValueSeries(data, style);
+  DrawnText panel;
+  panel.at = {0.3 * style.font_pt, 1.4 * style.font_pt};
+  panel.text = std::string("(") + (*letter)++ + ")";
+  panel.size_pt = style.font_pt;
+  plot.parts.emplace_back(std::move(panel));
+  appendBelow(plot, 0, drawing);
 }
 
 Json viewJson(const TruthlessResult& result) {
@@ -292,10 +298,11 @@ VectorDrawing truthlessPlots(const TruthlessResult& result) {
     strip.outcomes.push_back(outcome);
   }
   if (!strip.x.empty()) appendBelow(drawOutcomeStrip(strip, style), 0, drawing);
-  addPlot(result, "PSNR [dB]", kPsnr, style, drawing);
-  addPlot(result, "SSIM", kSsim, style, drawing);
-  addPlot(result, "back-projection [mm]", kBackProjection, style, drawing);
-  addPlot(result, "scope's step [mm]", kStep, style, drawing);
+  char letter = 'a';
+  addPlot(result, "PSNR [dB]", kPsnr, style, &letter, drawing);
+  addPlot(result, "SSIM", kSsim, style, &letter, drawing);
+  addPlot(result, "back-projection [mm]", kBackProjection, style, &letter, drawing);
+  addPlot(result, "scope's step [mm]", kStep, style, &letter, drawing);
   return drawing;
 }
 

@@ -36,6 +36,8 @@ int writeMovie(ViewSource& source, const ViewMovieOptions& options, const Progre
   VideoWriter video(options.file, options.width_px, options.height_px, options.frames_per_second,
                     options.overwrite);
   const auto count = static_cast<int>(times.size());
+  ViewState state = options.state;
+  state.turning = options.turn_deg != 0;
   Playback playback(source);
   playback.playing = true;  // as the foot says
   playback.speed = options.speed;
@@ -43,7 +45,7 @@ int writeMovie(ViewSource& source, const ViewMovieOptions& options, const Progre
     if (!goesOn(progress, static_cast<int>(k), count)) return 0;
     playback.goToTime(times[k]);
     const double turned_deg = options.turn_deg * double(k) / double(times.size());
-    video.add(picture.draw(playback, options.state, turned_deg));
+    video.add(picture.draw(playback, state, turned_deg));
   }
   goesOn(progress, count, count);
   video.finish();

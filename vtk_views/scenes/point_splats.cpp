@@ -24,9 +24,9 @@ constexpr float kApex = 0.05f;                 // height of the cone, of its rad
 constexpr float kMixing = 0.5f;                // of the spacing: how far a colour reaches
 
 /// Points by the cells of a grid, sorted.
-class PointGrid {
+class SplatGrid {
  public:
-  PointGrid(const std::vector<Eigen::Vector3f>& points_mm, float cell_mm)
+  SplatGrid(const std::vector<Eigen::Vector3f>& points_mm, float cell_mm)
       : points_mm_(points_mm), cell_mm_(cell_mm) {
     for (std::size_t i = 0; i < points_mm.size(); ++i)
       cells_.emplace_back(keyOf(cellOf(points_mm[i])), static_cast<std::int32_t>(i));
@@ -180,7 +180,7 @@ class SplatMaker {
   const std::vector<Eigen::Vector3f>& places_;
   float scale_, spacing_mm_;
   Eigen::Vector3f eye_mm_;
-  PointGrid grid_;
+  SplatGrid grid_;
   bool coloured_ = false, judged_ = false;
 };
 

@@ -25,6 +25,7 @@ struct ViewState {
   Look look = Look::kFree;
   bool nodes = false, motion = false, scope = true, ct = true, reference = true, help = false;
   double dot_scale = 1;
+  bool turning = false;  // about the model, all the way round: nothing may leave the window
 };
 
 /// Goes through the moments by the clip's own clock.

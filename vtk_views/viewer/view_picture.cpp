@@ -48,7 +48,7 @@ ColourImage ViewPicture::draw(const Playback& playback, const ViewState& state, 
   const double aspect = double(width_px_) / height_px_;
   if (!first_) first_ = moment;
   scene_.show(*moment, state);
-  scene_.look(state.look == Look::kScope ? *moment : *first_, state.look, aspect);
+  scene_.look(state.look == Look::kScope ? *moment : *first_, state, aspect);
   if (state.look != Look::kScope) scene_.turn(turn_deg);
   scene_.sizeFor(kFiner);
   window_->Render();

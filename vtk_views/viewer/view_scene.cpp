@@ -6,6 +6,7 @@
 #include <vtkProperty.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vtk_views/scenes/four_panels.h"
@@ -19,6 +20,8 @@ namespace {
 
 constexpr double kScopeDepth = 0.22;  // of the way to the tissue
 constexpr double kEyeAway = 4;        // in widths of the picture
+constexpr double kRoomAround = 1.08;  // of what is seen
+constexpr double kStrays = 0.002;     // share of the points at each side that may be cut
 constexpr double kArrowTimes = 4, kLeastMotion_mm = 0.05;
 constexpr double kNodeDotsPx = 5;
 constexpr double kSliceBehind = 0.7;   // slices behind the middle, in widths of the model
@@ -108,7 +111,8 @@ void ViewScene::showScope(const ViewMoment& moment, const ViewState& state) {
   for (const auto& [frame, place] : world_.path_mm)
     if (frame <= moment.frame) path.push_back(place);
   const LineSet way = pathLines(path, kPathColour);
-  LineSet scope;
+  LineSet& scope = scope_lines_;
+  scope = {};
   if (moment.world_from_left && world_.left.width_px > 0) {
     const Eigen::Vector3d eye = moment.world_from_left->translation();
     scope =
@@ -194,7 +198,7 @@ void ViewScene::show(const ViewMoment& moment, const ViewState& state) {
   showScope(moment, state);
   showNodes(moment, state);
   showSlices(moment, state);
-  if (state.look == Look::kScope) look(moment, Look::kScope, aspect_);
+  if (state.look == Look::kScope) look(moment, state, aspect_);
   renderer_->ResetCameraClippingRange();
 }
 
@@ -207,7 +211,44 @@ ViewPlane ViewScene::viewFor(Look look) const {
   return cameraView(centre_mm_, of_scope ? kFromTheScope : figure.eye, world_.frame);
 }
 
-void ViewScene::look(const ViewMoment& moment, Look look, double aspect) {
+/// What is seen, in the plane of the view, from its centre. Of the model all but a few strays; of
+/// one that turns all that passes.
+Eigen::AlignedBox2d ViewScene::boxSeen(const ViewMoment& moment, const ViewPlane& plane,
+                                       bool turning) const {
+  const auto place = [&](const Eigen::Vector3f& point_mm) {
+    Eigen::Vector2d at = plane.project(point_mm.cast<double>());
+    const double depth_mm = plane.towardsViewer().dot(point_mm.cast<double>() - plane.centre_mm);
+    if (turning) at.x() = std::hypot(at.x(), depth_mm);
+    return at;
+  };
+  Eigen::AlignedBox2d box;
+  std::array<std::vector<double>, 2> along;
+  for (const Eigen::Vector3f& point_mm : moment.model.vertices_mm) {
+    const Eigen::Vector2d at = place(point_mm);
+    along[0].push_back(at.x());
+    along[1].push_back(at.y());
+  }
+  if (!along[0].empty()) {
+    const auto quantile = [](std::vector<double>& values, double share) {
+      const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+      std::nth_element(values.begin(), at, values.end());
+      return *at;
+    };
+    box.extend(Eigen::Vector2d(quantile(along[0], kStrays), quantile(along[1], kStrays)));
+    box.extend(Eigen::Vector2d(quantile(along[0], 1 - kStrays), quantile(along[1], 1 - kStrays)));
+  }
+  if (scope_ && scope_->GetVisibility())
+    for (const auto& [begin, end] : scope_lines_.lines_mm)
+      box.extend(place(begin)).extend(place(end));
+  if (reference_ && reference_->GetVisibility())
+    for (const Eigen::Vector3f& point_mm : reference_shown_->vertices_mm)
+      box.extend(place(point_mm));
+  if (turning && !box.isEmpty()) box.extend(Eigen::Vector2d(-box.max().x(), box.center().y()));
+  return box;
+}
+
+void ViewScene::look(const ViewMoment& moment, const ViewState& state, double aspect) {
+  const Look look = state.look;
   aspect_ = aspect;
   measure(moment);
   if (look == Look::kScope && moment.world_from_left && world_.left.width_px > 0) {
@@ -215,8 +256,15 @@ void ViewScene::look(const ViewMoment& moment, Look look, double aspect) {
     return aimAsScope(renderer_, world_.left, *moment.world_from_left, std::max(focus_mm, 1.0),
                       aspect);
   }
-  const double height_mm = aspect > 1 ? width_mm_ : width_mm_ / aspect;
-  aimParallel(renderer_, viewFor(look), height_mm, kEyeAway * width_mm_);
+  ViewPlane plane = viewFor(look);
+  const Eigen::AlignedBox2d box = boxSeen(moment, plane, state.turning);
+  double height_mm = aspect > 1 ? width_mm_ : width_mm_ / aspect;
+  if (!box.isEmpty() && box.sizes().maxCoeff() > 0) {
+    height_mm = kRoomAround * std::max(box.sizes().y(), box.sizes().x() / aspect);
+    const Eigen::Vector2d middle = box.center();
+    plane.centre_mm += middle.x() * plane.right + middle.y() * plane.up;
+  }
+  aimParallel(renderer_, plane, height_mm, kEyeAway * std::max(width_mm_, height_mm));
 }
 
 void ViewScene::turn(double angle_deg) {

@@ -186,7 +186,7 @@ ViewWindow::Parts::Parts(ViewSource& the_source, ViewWindowOptions the_options)
   help_.show(card_);
   open();
   showMoment();
-  scene_.look(*moment_, state.look, aspect());
+  scene_.look(*moment_, state, aspect());
   render();
 }
 
@@ -263,7 +263,7 @@ void ViewWindow::Parts::doTask(ViewTask task) {
     if (options.save) options.save(readPixels(window_, width(), height(), 1), moment_->frame);
     return;
   }
-  if (task == ViewTask::kLook) scene_.look(*moment_, state.look, aspect());
+  if (task == ViewTask::kLook) scene_.look(*moment_, state, aspect());
   showMoment();
 }
 
