@@ -50,6 +50,13 @@ TEST_F(Report, TellsAnEvaluationInReadingOrder) {
   EXPECT_THAT(html, Not(HasSubstr("http:")));
 }
 
+TEST_F(Report, OneCaseIsReviewedLikeSeveral) {
+  const std::string html = page({at("result"), "--name", "first"});
+  for (const char* part : {"id=\"review\"", "name=\"reviewer\"", "name=\"decision\"",
+                           "id=\"cases\">[\"first\"]<", "content_sha256"})
+    EXPECT_THAT(html, HasSubstr(part));
+}
+
 TEST_F(Report, PathsStayOutUnlessTheyAreAskedFor) {
   const std::string folder_name = folder.filename();
   EXPECT_THAT(page({at("result")}), Not(HasSubstr(folder_name)));
