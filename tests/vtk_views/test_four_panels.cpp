@@ -249,6 +249,33 @@ TEST(SurfacePicture, DotsCoverTheirSurfaceAndFewStaySmall) {
   EXPECT_GT(white(few, 15, 85), 70 * 30 - 2 * 9) << "no dot of 24 mm";
 }
 
+TEST(SurfacePicture, AModelAloneIsShadedAsASurfaceAndAsPoints) {
+  TriangleMesh dome;  // 40 mm wide, 0.4 mm between its points, its top towards the front
+  for (int k = 0; k <= 100; ++k)
+    for (int i = 0; i <= 100; ++i) {
+      const float x = 0.4f * float(i) - 20, z = 0.4f * float(k) - 20;
+      dome.vertices_mm.emplace_back(x, 0.04f * (x * x + z * z), z);
+    }
+  for (int k = 0; k < 100; ++k)
+    for (int i = 0; i < 100; ++i) {
+      const int a = k * 101 + i;
+      dome.triangles.push_back({a, a + 1, a + 102});
+      dome.triangles.push_back({a, a + 102, a + 101});
+    }
+  SurfacePictureOptions options;
+  options.width_px = options.height_px = 100;
+  options.width_mm = 50;
+  const ViewPlane front = coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological);
+  for (const bool points : {false, true}) {
+    if (points) dome.triangles.clear();
+    const ColourImage picture = drawSurfaces({{"", dome, {200, 120, 60}, {}}}, {}, front, options);
+    EXPECT_GT(picture.at(50, 50).red, picture.at(50, 20).red + 40) << "flat, points: " << points;
+  }
+  dome.colours.assign(dome.vertices_mm.size(), {200, 120, 60});
+  const ColourImage photograph = drawSurfaces({{"", dome, {0, 0, 0}, {}}}, {}, front, options);
+  EXPECT_TRUE(alike(photograph.at(50, 20), {200, 120, 60})) << "it has its light in it";
+}
+
 TEST(SurfacePicture, AReferenceNeitherHidesNorTintsTheErrorsJustBehindIt) {
   TriangleMesh reference = coronalSheet(), test = coronalSheet();
   for (Eigen::Vector3f& p : test.vertices_mm) p.y() = 0.8f;  // behind it, as seen from the front
