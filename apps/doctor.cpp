@@ -105,11 +105,13 @@ Finding examineRendering(Json& json) {
 }
 
 Finding examineFonts(Json& json) {
-  const FontFile font = findFont();
-  json["font"] = {{"wanted", kFontFamily}, {"family", font.family}, {"file", font.path}};
-  return {"font", font.family.find(kFontFamily) != std::string::npos,
+  const FontFile font = findFont(figureFont());
+  json["font"] = {{"wanted", "Arial or Helvetica, else Liberation Sans"},
+                  {"family", font.family},
+                  {"file", font.path}};
+  return {"font", figureFontHasArialsWidths(),
           font.path.empty() ? "no font at all" : font.family + ", " + font.path,
-          "figures want DejaVu Sans: install fonts-dejavu-core"};
+          "figures want Arial, Helvetica or letters as wide: install fonts-liberation"};
 }
 
 class DoctorCommand : public Command {

@@ -21,9 +21,11 @@ const char* const kDetails =
     "  .obj         colours behind the coordinates (MeshLab, Blender, CloudCompare), normals\n"
     "  .stl         triangles alone\n"
     "  .pvd         all saved models of a run, a .vtp each in the folder beside it, for ParaView\n"
-    "  .dcm         MODEL is a PDF or a picture: an encapsulated PDF or a secondary capture; "
-    "needs\n"
-    "               dcmtk. Without --patient-name and --patient-id it names nobody.\n"
+    "  .dcm         by MODEL: a PDF becomes an Encapsulated PDF, the .html of `softscope report` "
+    "a\n"
+    "               Structured Report (TID 1500) with each of its numbers, a picture a Secondary\n"
+    "               Capture, a model an Encapsulated STL; needs dcmtk. Without --patient-name and\n"
+    "               --patient-id it names nobody.\n"
     "docs/export.md tells how the surface is made and what each format keeps.";
 
 class ExportCommand : public Command {
@@ -36,7 +38,8 @@ class ExportCommand : public Command {
   std::string example() const override {
     return "softscope export run --out model.glb\n"
            "  softscope export run --out models.pvd --every 2\n"
-           "  softscope export report.pdf --out report.dcm";
+           "  softscope export report.pdf --out report.dcm\n"
+           "  softscope export report.html --out numbers.dcm";
   }
   void declare(ArgumentList& arguments) override;
   int run() override;
@@ -47,7 +50,7 @@ class ExportCommand : public Command {
 
 void ExportCommand::declare(ArgumentList& arguments) {
   arguments.positional("MODEL", request_.input,
-                       "a run, points or a mesh; for .dcm a PDF or a picture", true);
+                       "a run, points or a mesh; for .dcm also a report or a picture", true);
   arguments.option("--out", "FILE", request_.out, "what to write; its ending is the format", true);
   arguments.option("--frame", "N", request_.frame,
                    "of a run: the model that was saved at this frame");

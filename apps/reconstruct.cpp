@@ -46,6 +46,7 @@ class ReconstructCommand : public Command {
   ReconstructOptions options_;
   std::vector<std::string> fail_if_;
   std::string out_, track_, preset_ = "default", matcher_, scope_;
+  int hold_out_ = 0;
   bool no_correspondence_ = false;
 };
 
@@ -58,6 +59,8 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
   source_.declareOptions(arguments);
   arguments.option("--save-every", "N", options_.save_every,
                    "save the model every N frames (default 10; 0: only the last)");
+  arguments.option("--hold-out", "N", hold_out_,
+                   "leave frames N, 2N, … out; `evaluate` draws the model for each of them");
   arguments.option("--track", "FILE", track_,
                    "follow pixels of the first left picture: CSV id,u_px,v_px");
   arguments.option("--backend", "NAME", options_.backend, "auto (the default), cpu or cuda");
@@ -84,6 +87,7 @@ RunOptions ReconstructCommand::readSettings() const {
   if (no_correspondence_) addAssignment(settings, "deform.use_correspondences=false");
   settingsOf(options).apply(settings);
   source_.applyFrames(options.sequence);
+  options.sequence.frames.hold_out_every = hold_out_;
   return options;
 }
 

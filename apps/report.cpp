@@ -52,7 +52,7 @@ void ReportCommand::declare(ArgumentList& arguments) {
   arguments.option("--fail-if", "LIMIT", fail_if_,
                    "e.g. p95_mm>2: exit code 1 where it holds for a case; repeatable");
   arguments.option("--checklist", "NAME", options_.checklist,
-                   "claim: adds the items of that guideline, where each stands, what is left");
+                   "claim, stard-ai: adds that guideline's items, where each stands, what is left");
   arguments.flag("--with-paths", options_.with_paths,
                  "show the names of inputs, and their paths where the record kept them");
   arguments.flag("--force", options_.overwrite, "overwrite what is there");

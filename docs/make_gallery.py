@@ -179,6 +179,13 @@ def depth_section(softscope, work):
                    [("depth", "depth/picture.png")])
 
 
+def depth_error_section(softscope, work):
+    words = [["evaluate", work / "depth/depth.pfm", "--reference",
+              work / "clip/groundtruth/depth/000000.png", "--out", work / "depth_error"]]
+    return section(softscope, work, "A depth map evaluated, pixel by pixel", words,
+                   [("depth_error", "depth_error/error_map.png")])
+
+
 def section(softscope, work, title, commands, pictures):
     """Runs commands that leave folders of files, and shows some of their pictures."""
     for command in commands:
@@ -211,7 +218,7 @@ def main():
         page += [f"## {title}", "```", f"softscope {command} {drawn[-1]} {name}.png", "```",
                  f"![{title}](images/gallery_{name}.png)", ""]
     for made in (surface_section, comparison_section, evaluation_section, truthless_section,
-                 depth_section):
+                 depth_section, depth_error_section):
         page += made(softscope, work)
     page += ["## A report", "`softscope report error --out report.html` makes a page with a map "
              "that turns ([reports](report.md)).", "![A report](images/report.png)", ""]

@@ -42,10 +42,10 @@ set(about "softscope reconstructs soft tissue from stereo endoscope images: a
 live, deforming, coloured model with the pose of the endoscope. It judges
 the result against ground truth and writes reports and figures. Research
 use only, not for diagnosis.")
-softscope_package(program softscope science "fonts-dejavu-core" "${about}
+softscope_package(program softscope science "fonts-liberation" "${about}
 
 This package holds the program, its manual and its completions.")
-softscope_package(library libsoftscope${soname} libs "fonts-dejavu-core" "${about}
+softscope_package(library libsoftscope${soname} libs "fonts-liberation" "${about}
 
 This package holds the shared library.")
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
@@ -59,7 +59,7 @@ softscope_package(development libsoftscope-dev libdevel "libsoftscope${soname} (
 This package holds the headers and the files for find_package(softscope)
 of CMake.")
 if(SOFTSCOPE_HAS_PYTHON)
-  softscope_package(python python3-softscope python "${SOFTSCOPE_PYTHON_DEPENDS}, fonts-dejavu-core"
+  softscope_package(python python3-softscope python "${SOFTSCOPE_PYTHON_DEPENDS}, fonts-liberation"
     "${about}
 
 This package holds the module softscope for Python 3.")

@@ -3,14 +3,22 @@
 
 namespace softscope {
 
-/// Frames begin, begin + step, …, below end.
+/// Frames begin, begin + step, …, below end, without those that are held out.
 struct FrameRange {
   int begin = 0;
   int end = -1;  // -1 = to the last
   int step = 1;
+  int hold_out_every = 0;  // frames n, 2n, … of the sequence are held out; 0: none
 
+  bool holdsOut(int frame) const {
+    return hold_out_every > 0 && frame > 0 && frame % hold_out_every == 0;
+  }
   /// How many frames; `end` must be known.
-  int count() const { return (end - begin + step - 1) / step; }
+  int count() const {
+    int frames = 0;
+    for (int frame = begin; frame < end; frame += step) frames += !holdsOut(frame);
+    return frames;
+  }
 };
 
 }  // namespace softscope

@@ -38,6 +38,30 @@ TEST(Doctor, EveryLineIsFineOrSaysWhatToDo) {
   EXPECT_GE(fine, 10);  // versions alone are more
 }
 
+class DoctorFonts : public InFolder {
+ protected:
+  /// What doctor says where fontconfig knows these fonts of the machine alone.
+  nlohmann::json fontAmong(const std::string& kind) const {
+    write("fonts.conf",
+          "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\"><fontconfig>"
+          "<dir>/usr/share/fonts/truetype/" +
+              kind + "</dir><cachedir>" + at("cache") + "</cachedir></fontconfig>");
+    setenv("FONTCONFIG_FILE", at("fonts.conf").c_str(), 1);
+    const Outcome outcome = run({"doctor", "--json"});
+    unsetenv("FONTCONFIG_FILE");
+    return outcome.json()["font"];
+  }
+};
+
+TEST_F(DoctorFonts, LiberationSansStandsInForArialAndDejaVuIsTheLastResort) {
+  if (!std::filesystem::exists("/usr/share/fonts/truetype/liberation"))
+    GTEST_SKIP() << "Debian's package fonts-liberation is missing";
+  EXPECT_EQ(fontAmong("liberation")["family"], "Liberation Sans");
+  if (!std::filesystem::exists("/usr/share/fonts/truetype/dejavu"))
+    GTEST_SKIP() << "Debian's package fonts-dejavu-core is missing";
+  EXPECT_EQ(fontAmong("dejavu")["family"], "DejaVu Sans");
+}
+
 TEST(Doctor, CountsTheThreadsThatMayWork) {
   EXPECT_EQ(run({"doctor", "--json", "--threads", "1"}).json()["threads"], 1);
 }

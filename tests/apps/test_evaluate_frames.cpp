@@ -153,6 +153,8 @@ TEST_F(EvaluateWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
   for (const char* name : {"quality_series.svg", "quality_series.pdf", "quality_series.png"})
     EXPECT_TRUE(fs::exists(at(std::string("out/") + name))) << name;
   EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">PSNR [dB]<"));
+  for (const char* letter : {">(a)<", ">(b)<"})
+    EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(letter));
   EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">frame<"))
       << "the clip has no clock";
   const Outcome told = softscope::test::run(line);

@@ -4,6 +4,7 @@
 
 #include "core/raster.h"
 #include "io/geometry/depth_files.h"
+#include "io/images/image_reader.h"
 #include "io/images/image_writer.h"
 #include "tests/apps/evaluate_fixture.h"
 
@@ -47,6 +48,32 @@ TEST_F(EvaluateMaps, ADisparityMapHasItsErrorsCoverageAndBadPixels) {
   EXPECT_NEAR(disparity["bad_2px_percent"], 0, 1e-6);
   EXPECT_NEAR(disparity["coverage_percent"], 90, 1e-6) << "two of twenty rows lack";
   EXPECT_TRUE(outcome.json()["depth"]["mae_mm"].is_null()) << "mm take a calibration";
+}
+
+TEST_F(EvaluateMaps, TheErrorsOfTheWorstMapAreDrawnPixelByPixel) {
+  // The second map is 1 px worse: it is the one that is drawn.
+  Raster<float> worse = readDisparity(at("maps/000005_disparity.pfm"));
+  for (float& value : worse.values) value += 1;
+  writePfm(at("maps/000005_disparity.pfm"), worse, true);
+  ASSERT_EQ(evaluate({at("maps"), "--reference", at("truth"), "--out", at("out")}).exit_code, 0);
+  const std::string svg = textOf(at("out/error_map.svg"));
+  EXPECT_THAT(svg, HasSubstr("000005_disparity.pfm: mean error 1.88 px, the largest of 2 maps"));
+  EXPECT_THAT(svg, HasSubstr("error of disparity [px]"));
+  EXPECT_THAT(svg, HasSubstr("not measured, or no truth"));
+  // 40 x 20 pixels over the whole width: left 2.5 px off, right 1.25, the lowest rows grey.
+  const ColourImage picture = readColourImage(at("out/error_map.png"));
+  const int top = picture.height_px / 4, step = picture.width_px / 4;
+  const Rgb8 left = picture.at(step, top + step / 2), right = picture.at(3 * step, top + step / 2);
+  EXPECT_GT(left.red, 200) << "yellow, the end of viridis";
+  EXPECT_LT(left.blue, 90);
+  EXPECT_LT(right.red, 90) << "its middle";
+  EXPECT_GT(right.green, 110);
+  EXPECT_TRUE(fs::exists(at("out/error_map.pdf")));
+  ASSERT_EQ(evaluate({at("out/../maps/000000_disparity.pfm"), "--reference", at("truth/000000.pfm"),
+                      "--out", at("out"), "--force"})
+                .exit_code,
+            0);
+  EXPECT_THAT(textOf(at("out/error_map.svg")), HasSubstr("000000_disparity.pfm: mean error 0.88"));
 }
 
 TEST_F(EvaluateMaps, WithACalibrationErrorsAreInMillimetresToo) {

@@ -12,6 +12,7 @@
 #include "io/images/image_writer.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
+#include "tests/apps/made_case.h"
 #include "tests/apps/made_run.h"
 #include "tests/apps/run_softscope.h"
 #include "toolkit/export/export_model.h"
@@ -145,7 +146,7 @@ TEST_F(Export, RefusesInOneLineAndLeavesNothing) {
   const int files = countFiles(folder);
   const std::vector<std::pair<std::vector<std::string>, int>> lines{
       {{"bare.ply", "a.ply"}, 3}, {{"no.ply", "a.ply"}, 3},   {{"missing.ply", "a.ply"}, 3},
-      {{"wave.ply", "a.xyz"}, 2}, {{"wave.ply", "a.dcm"}, 2}, {{"wave.ply", "a.pvd"}, 2}};
+      {{"wave.ply", "a.xyz"}, 2}, {{"bare.ply", "a.dcm"}, 3}, {{"wave.ply", "a.pvd"}, 2}};
   for (const auto& [names, code] : lines) {
     const Outcome outcome = run({"export", at(names[0]), "--out", at(names[1])});
     EXPECT_EQ(outcome.exit_code, code) << outcome.err;
@@ -158,6 +159,8 @@ TEST_F(Export, RefusesInOneLineAndLeavesNothing) {
     EXPECT_EQ(run(words).exit_code, 2) << wrong[0];
   }
   EXPECT_EQ(run({"export", good, "--out", at("a.glb"), "--unit", "mm"}).exit_code, 2);
+  EXPECT_EQ(run({"export", good, "--out", at("a.dcm"), "--unit", "m"}).exit_code, 2);
+  EXPECT_EQ(run({"export", good, "--out", at("a.dcm"), "--points"}).exit_code, 2);
   EXPECT_EQ(countFiles(folder), files);
 }
 
@@ -177,15 +180,23 @@ class ExportDicom : public Export {
  protected:
   void SetUp() override {
     Export::SetUp();
-    if (!hasTool("pdf2dcm") || !hasTool("img2dcm") || !hasTool("dcmdump"))
-      GTEST_SKIP() << "dcmtk isn't installed (Debian's package dcmtk)";
+    for (const char* tool : {"pdf2dcm", "img2dcm", "stl2dcm", "xml2dsr", "dsrdump", "dcmdump"})
+      if (!hasTool(tool))
+        GTEST_SKIP() << tool << " isn't installed (Debian's package dcmtk): no DICOM file was made";
+  }
+  std::string outputOf(const std::string& line) const {
+    EXPECT_EQ(std::system((line + " > '" + at("dump.txt") + "' 2>&1").c_str()), 0);
+    return textOf(at("dump.txt"));
+  }
+  /// A report of one case that is 0.5 mm off.
+  std::string reportPage() const {
+    writeCase(at("result"), 0.5);
+    EXPECT_EQ(run({"report", at("result"), "--out", at("report.html")}).exit_code, 0);
+    return at("report.html");
   }
   /// The value of a tag as dcmdump prints it.
   std::string tag(const std::string& file, const std::string& number) const {
-    const std::string line =
-        "dcmdump -q +P " + number + " '" + at(file) + "' > '" + at("dump.txt") + "' 2>&1";
-    EXPECT_EQ(std::system(line.c_str()), 0);
-    return textOf(at("dump.txt"));
+    return outputOf("dcmdump -q +P " + number + " '" + at(file) + "'");
   }
 };
 
@@ -222,6 +233,90 @@ TEST_F(ExportDicom, WhatIsNoPdfIsRefused) {
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("pdf2dcm refuses it"));
   EXPECT_FALSE(fs::exists(at("b.dcm")));
+}
+
+/// Numbers of a record that were measured, histograms and values per frame left out.
+int numbersIn(const nlohmann::json& part) {
+  int count = 0;
+  for (const auto& [key, value] : part.items()) {
+    if (key == "schema_version" || key == "error_histogram") continue;
+    count += value.is_object() ? numbersIn(value) : value.is_number() ? 1 : 0;
+  }
+  return count;
+}
+
+TEST_F(ExportDicom, EachNumberOfAReportHasItsUnitAndCodeInAStructuredReport) {
+  const std::string page = reportPage();
+  const Outcome outcome = run({"export", page, "--out", at("s.dcm"), "--json", "--patient-name",
+                               "Doe^Jö", "--title", "<made> & up"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(tag("s.dcm", "0008,0016"), HasSubstr("ComprehensiveSRStorage"));
+  EXPECT_THAT(tag("s.dcm", "0040,db00"), HasSubstr("[1500]"));
+  EXPECT_THAT(tag("s.dcm", "0010,0010"), HasSubstr("[Doe^Jö]"));
+  EXPECT_THAT(tag("s.dcm", "0008,103e"), HasSubstr("[<made> & up]"));
+  const std::string tree = outputOf("dsrdump +Pc '" + at("s.dcm") + "'");
+  EXPECT_THAT(tree, HasSubstr("(surface.mean_mm,99SOFTSCOPE,\"surface, mean mm\")=\"0.5\" "
+                              "(mm,UCUM,\"mm\")"));
+  EXPECT_THAT(tree, HasSubstr("(373098007,SCT,\"Mean\")"));
+  EXPECT_THAT(tree, HasSubstr("(surface.signed.n,99SOFTSCOPE"));
+  EXPECT_THAT(tree, HasSubstr("(1,UCUM,\"no units\")"));
+  int items = 0;
+  for (auto at = tree.find("<contains NUM:"); at != tree.npos;
+       at = tree.find("<contains NUM:", at + 1))
+    ++items;
+  const auto record = nlohmann::json::parse(textOf(at("result/evaluation.json")));
+  EXPECT_EQ(items, numbersIn(record));
+  EXPECT_EQ(outcome.json().at("numbers"), items);
+}
+
+TEST_F(ExportDicom, TheStructuredReportOfACohortHasAGroupOfAllCases) {
+  for (const char* name : {"a", "b", "c"}) writeCase(at(name), 0.5);
+  ASSERT_EQ(run({"report", at("a"), at("b"), at("c"), "--out", at("all.html")}).exit_code, 0);
+  ASSERT_EQ(run({"export", at("all.html"), "--out", at("all.dcm")}).exit_code, 0);
+  const std::string tree = outputOf("dsrdump +Pc '" + at("all.dcm") + "'");
+  for (const char* part : {"=\"Case 1\"", "=\"Case 3\"", "=\"All cases\"",
+                           "(mean_mm.sd,99SOFTSCOPE,\"mean mm, sd\")=\"0\" (mm,UCUM,\"mm\")",
+                           "(mean_mm.n,99SOFTSCOPE,\"mean mm, n\")=\"3\" (1,UCUM"})
+    EXPECT_THAT(tree, HasSubstr(part));
+}
+
+TEST_F(ExportDicom, AModelBecomesAnEncapsulatedStlInMillimetres) {
+  const Outcome outcome =
+      run({"export", wavePly(), "--out", at("m.dcm"), "--title", "wave", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json().at("kind"), "Encapsulated STL");
+  EXPECT_THAT(tag("m.dcm", "0008,0016"), HasSubstr("EncapsulatedSTLStorage"));
+  EXPECT_THAT(tag("m.dcm", "0008,0100"), HasSubstr("[mm]"));
+  EXPECT_THAT(tag("m.dcm", "0042,0010"), HasSubstr("[wave]"));
+  ASSERT_EQ(run({"export", at("wave.ply"), "--out", at("m.stl")}).exit_code, 0);
+  EXPECT_THAT(textOf(at("m.dcm")), HasSubstr(textOf(at("m.stl"))));
+  makeWallRun(at("run"), 2);
+  ASSERT_EQ(run({"export", at("run"), "--frame", "1", "--out", at("r.dcm")}).exit_code, 0);
+  EXPECT_THAT(tag("r.dcm", "0008,0016"), HasSubstr("EncapsulatedSTLStorage"));
+}
+
+TEST_F(ExportDicom, DciodvfyFindsNoErrors) {
+  if (!hasTool("dciodvfy"))
+    GTEST_SKIP() << "dciodvfy isn't installed (Debian's package dicom3tools): nothing was checked";
+  writePng(at("p.png"), ColourImage(3, 2));
+  for (const std::string& input :
+       {write("report.pdf", kPdf), at("p.png"), reportPage(), wavePly()}) {
+    ASSERT_EQ(run({"export", input, "--out", at("x.dcm"), "--force"}).exit_code, 0) << input;
+    // It ends with 1 where it found an error.
+    EXPECT_THAT(outputOf("dciodvfy '" + at("x.dcm") + "'"), testing::Not(HasSubstr("Error")))
+        << input;
+  }
+}
+
+TEST_F(ExportDicom, APageWithoutMetricsIsRefused) {
+  for (const char* html :
+       {"<html></html>", "<script type=\"application/json\" id=\"metrics\">{</script>"}) {
+    const Outcome outcome = run({"export", write("page.html", html), "--out", at("b.dcm")});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("page.html: "));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(at("b.dcm")));
+  }
 }
 
 TEST_F(Export, WithoutDcmtkSaysWhatToInstall) {

@@ -50,6 +50,13 @@ TEST_F(Report, TellsAnEvaluationInReadingOrder) {
   EXPECT_THAT(html, Not(HasSubstr("http:")));
 }
 
+TEST_F(Report, OneCaseIsReviewedLikeSeveral) {
+  const std::string html = page({at("result"), "--name", "first"});
+  for (const char* part : {"id=\"review\"", "name=\"reviewer\"", "name=\"decision\"",
+                           "id=\"cases\">[\"first\"]<", "content_sha256"})
+    EXPECT_THAT(html, HasSubstr(part));
+}
+
 TEST_F(Report, PathsStayOutUnlessTheyAreAskedFor) {
   const std::string folder_name = folder.filename();
   EXPECT_THAT(page({at("result")}), Not(HasSubstr(folder_name)));
@@ -170,6 +177,24 @@ TEST_F(Report, AChecklistNamesEachItemAndItsPlace) {
   EXPECT_THAT(html, HasSubstr("<h2>Reporting checklist"));
   for (const char* part : {"definition of the reference standard", ">42<", "left to the author"})
     EXPECT_THAT(html, HasSubstr(part));
+  const std::string stard = page({at("result"), "--checklist", "stard-ai"});
+  // Each row by its number: items 15, 16, 17, 26 and 40 have parts.
+  const auto at_table = stard.find("STARD-AI (2025)");
+  ASSERT_NE(at_table, std::string::npos);
+  for (int item = 1; item <= 40; ++item) {
+    const std::string number = std::to_string(item);
+    std::string parts = "-";
+    if (item == 15) parts = "abcd";
+    if (item == 16) parts = "abc";
+    if (item == 17 || item == 26 || item == 40) parts = "ab";
+    for (const char part : parts)
+      EXPECT_NE(
+          stard.find(">" + number + (part == '-' ? "" : std::string(1, part)) + "<", at_table),
+          std::string::npos)
+          << number << part;
+  }
+  EXPECT_THAT(stard, HasSubstr("ethics approval"));
+  EXPECT_THAT(stard, Not(HasSubstr("CLAIM")));
   EXPECT_THAT(page({at("result")}), Not(HasSubstr("Reporting checklist")));
   EXPECT_EQ(report({at("result"), "--checklist", "clame", "--force"}).exit_code, 2);
 }

@@ -15,7 +15,6 @@
 #include "vtk_views/scenes/four_panels.h"
 #include "vtk_views/scenes/plane_contours.h"
 #include "vtk_views/scenes/slice_panel.h"
-#include "vtk_views/scenes/surface_picture.h"
 
 namespace softscope {
 namespace {
@@ -147,6 +146,14 @@ TEST(FourPanels, StraysOfAModelDontWidenTheField) {
       before_mm, 1e-9);
 }
 
+TEST(SurfacePicture, GivesTheSamePixelsTwice) {
+  const Scene scene = lopsidedScene();
+  const VectorDrawing first = drawFourPanels(scene, optionsFor(scene));
+  const VectorDrawing second = drawFourPanels(scene, optionsFor(scene));
+  EXPECT_EQ(svgBytes(first), svgBytes(second));
+  EXPECT_EQ(pdfBytes(first), pdfBytes(second));
+}
+
 TEST(FourPanels, NothingIsDrawnBeyondTheSheet) {
   Scene scene = lopsidedScene();
   for (const double width_mm : {89.0, 183.0}) {
@@ -190,101 +197,6 @@ TEST(ErrorColours, MeanTheSameInPictureAndBar) {
   EXPECT_EQ(absolute.colour(2), viridis(1));
   EXPECT_EQ(absolute.colour(9), viridis(1));
   EXPECT_EQ(absolute.colour(NAN), kUnmeasuredGrey);
-}
-
-/// A sheet that faces the patient's front, 40 mm wide and 20 mm high, of 1 mm squares.
-TriangleMesh coronalSheet() {
-  TriangleMesh mesh;
-  for (int k = 0; k <= 20; ++k)
-    for (int i = 0; i <= 40; ++i) mesh.vertices_mm.emplace_back(i - 20.0f, 0.0f, k - 10.0f);
-  for (int k = 0; k < 20; ++k)
-    for (int i = 0; i < 40; ++i) {
-      const int a = k * 41 + i;
-      mesh.triangles.push_back({a, a + 1, a + 42});
-      mesh.triangles.push_back({a, a + 42, a + 41});
-    }
-  return mesh;
-}
-
-bool alike(Rgb8 a, Rgb8 b) {  // to two steps: drivers round, the table has 256 colours
-  return std::abs(a.red - b.red) <= 2 && std::abs(a.green - b.green) <= 2 &&
-         std::abs(a.blue - b.blue) <= 2;
-}
-
-TEST(SurfacePicture, ShowsErrorsInTheirColoursOnTheirSide) {
-  std::vector<SceneSurface> surfaces{{"", coronalSheet(), {255, 0, 0}, {}}};
-  for (const Eigen::Vector3f& p : surfaces[0].mesh.vertices_mm)
-    surfaces[0].errors_mm.push_back(p.x() < -15 ? NAN : p.x() / 10);  // most to the left
-  SurfacePictureOptions options;
-  options.width_px = options.height_px = 100;  // of 50 mm
-  options.width_mm = 50;
-  const ViewPlane front = coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological);
-  const ErrorColours colours{true, 2};
-  const ColourImage picture = drawSurfaces(surfaces, colours, front, options);
-  for (const double x_mm : {-10.25, -0.25, 4.75, 14.75})
-    EXPECT_TRUE(alike(picture.at(int(50 + 2 * x_mm), 50), colours.colour(x_mm / 10)))
-        << "unlit: the bar's colour at " << x_mm << " mm";
-  EXPECT_TRUE(alike(picture.at(14, 50), kUnmeasuredGrey)) << "not observed";
-  EXPECT_TRUE(alike(picture.at(50, 28), {255, 255, 255})) << "11 mm up is above the sheet";
-  surfaces[0].errors_mm.pop_back();
-  EXPECT_THROW(drawSurfaces(surfaces, colours, front, options), Error);
-}
-
-TEST(SurfacePicture, DotsCoverTheirSurfaceAndFewStaySmall) {
-  SurfacePictureOptions options;
-  options.width_px = options.height_px = 100;  // of 50 mm
-  options.width_mm = 50;
-  const ViewPlane front = coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological);
-  const auto white = [&](TriangleMesh points, int left, int right) {
-    points.triangles.clear();
-    const ColourImage picture = drawSurfaces({{"", points, {255, 0, 0}, {}}}, {}, front, options);
-    int count = 0;
-    for (int v = 35; v < 65; ++v)
-      for (int u = left; u < right; ++u) count += alike(picture.at(u, v), {255, 255, 255});
-    return count;
-  };
-  EXPECT_EQ(white(coronalSheet(), 15, 85), 0) << "points 1 mm apart, a fiftieth of the width";
-  TriangleMesh few;
-  few.vertices_mm = {{-12, 0, 0}, {12, 0, 0}};
-  EXPECT_GT(white(few, 15, 85), 70 * 30 - 2 * 9) << "no dot of 24 mm";
-}
-
-TEST(SurfacePicture, AReferenceNeitherHidesNorTintsTheErrorsJustBehindIt) {
-  TriangleMesh reference = coronalSheet(), test = coronalSheet();
-  for (Eigen::Vector3f& p : test.vertices_mm) p.y() = 0.8f;  // behind it, as seen from the front
-  std::vector<SceneSurface> surfaces{{"", reference, {240, 165, 0}, {}},
-                                     {"", test, {0, 0, 255}, {}}};
-  surfaces[1].errors_mm.assign(test.vertices_mm.size(), 0.8);
-  SurfacePictureOptions options;
-  options.width_px = options.height_px = 100;
-  options.width_mm = 50;
-  options.see_through = true;
-  const ErrorColours colours{false, 1};
-  const ColourImage picture =
-      drawSurfaces(surfaces, colours,
-                   coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological), options);
-  EXPECT_TRUE(alike(picture.at(50, 50), colours.colour(0.8)));
-}
-
-TEST(SurfacePicture, ShowsTheHeadEndUp) {
-  TriangleMesh mesh = coronalSheet();
-  mesh.triangles.resize(mesh.triangles.size() / 2);  // its lower half
-  SurfacePictureOptions options;
-  options.width_px = options.height_px = 100;
-  options.width_mm = 50;
-  const ColourImage picture =
-      drawSurfaces({{"", mesh, {255, 0, 0}, {}}}, {},
-                   coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological), options);
-  EXPECT_TRUE(alike(picture.at(50, 40), {255, 255, 255}));
-  EXPECT_FALSE(alike(picture.at(50, 60), {255, 255, 255}));
-}
-
-TEST(SurfacePicture, GivesTheSamePixelsTwice) {
-  const Scene scene = lopsidedScene();
-  const VectorDrawing first = drawFourPanels(scene, optionsFor(scene));
-  const VectorDrawing second = drawFourPanels(scene, optionsFor(scene));
-  EXPECT_EQ(svgBytes(first), svgBytes(second));
-  EXPECT_EQ(pdfBytes(first), pdfBytes(second));
 }
 
 /// How the grey values change across a contour: 4 mm inside and outside of each of its points.

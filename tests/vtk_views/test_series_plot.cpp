@@ -202,7 +202,7 @@ TEST(VectorDrawings, SvgKeepsTextAsTextAndEscapesIt) {
 }
 
 TEST(VectorDrawings, PdfCarriesItsFontAndNoTimeOfDay) {
-  if (findFont().path.empty()) GTEST_SKIP() << "no fonts on this machine";
+  if (findFont(figureFont()).path.empty()) GTEST_SKIP() << "no fonts on this machine";
   const std::string pdf = pdfBytes(drawErrorSeries(rising()));
   EXPECT_THAT(pdf, testing::StartsWith("%PDF-1."));
   EXPECT_THAT(pdf, HasSubstr("/FontFile2"));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "made_view.h"
+#include "vtk_views/viewer/moment_between.h"
 #include "vtk_views/viewer/view_controls.h"
 #include "vtk_views/viewer/view_sheet.h"
 
@@ -49,6 +50,44 @@ TEST_F(ViewControls, LoopsAndDoublesItsSpeed) {
   playback.pass(0.1);
   EXPECT_EQ(playback.index(), 0);
   EXPECT_TRUE(playback.playing);
+}
+
+TEST_F(ViewControls, BetweenModelsTimeGoesOnSmoothly) {
+  EXPECT_EQ(playback.share(), 0);
+  press("space");
+  playback.pass(0.1);
+  EXPECT_NEAR(playback.share(), 0.25, 1e-9);
+  const auto shown = shownMoment(source, playback, /*with_errors=*/true);
+  EXPECT_EQ(shown->frame, 0);
+  EXPECT_NEAR(shown->time_s, 0.1, 1e-9);
+  // The patch and its node go 10 mm to the right until the next model: a quarter of that by now.
+  const auto first = source.moment(0, true);
+  ASSERT_EQ(shown->model.vertices_mm.size(), first->model.vertices_mm.size());
+  for (std::size_t i = 0; i < first->model.vertices_mm.size(); i += 999)
+    EXPECT_NEAR(shown->model.vertices_mm[i].x() - first->model.vertices_mm[i].x(), 2.5, 1e-4);
+  EXPECT_NEAR(shown->judged.vertices_mm[0].x() - first->judged.vertices_mm[0].x(), 2.5, 1e-4);
+  EXPECT_NEAR(shown->nodes_mm[0].x(), 2.5, 1e-4);
+  EXPECT_EQ(shown->errors_mm, first->errors_mm) << "nothing is measured between models";
+  press("Right");
+  EXPECT_EQ(playback.share(), 0) << "a step leads to a model itself";
+  playback.goToTime(1.0);
+  EXPECT_EQ(playback.index(), 2);
+  EXPECT_NEAR(playback.share(), 0.5, 1e-9);
+  playback.goToTime(1.9);
+  EXPECT_EQ(playback.share(), 0) << "nothing follows the last model";
+}
+
+TEST(MomentBetween, TheScopeTurnsAndMovesEvenly) {
+  ViewMoment from, to;
+  from.world_from_left = to.world_from_left = Eigen::Isometry3d::Identity();
+  to.world_from_left->linear() =
+      Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  to.world_from_left->translation().z() = 8;
+  from.model.vertices_mm = {{1, 2, 3}};
+  const ViewMoment half = momentBetween(from, to, 0.5);
+  EXPECT_NEAR(Eigen::AngleAxisd(half.world_from_left->linear()).angle(), 0.2, 1e-9);
+  EXPECT_NEAR(half.world_from_left->translation().z(), 4, 1e-9);
+  EXPECT_EQ(half.model.vertices_mm, from.model.vertices_mm) << "no nodes, no motion";
 }
 
 TEST_F(ViewControls, StepsStopAtTheEnds) {

@@ -45,6 +45,35 @@ TEST_F(ViewPictures, ShowsTheTissueInItsOwnColour) {
   EXPECT_GT(countNear(view, kPatchRed, 2), 15000);
 }
 
+TEST_F(ViewPictures, WhatIsSeenFillsTheWindowAndNothingIsCut) {
+  for (const bool turning : {false, true}) {
+    ViewState state;
+    state.turning = turning;
+    ViewPicture picture(source, 640, 480, /*clean=*/true);
+    Playback playback(source);
+    for (const double turn_deg :
+         turning ? std::vector<double>{0, 45, 90} : std::vector<double>{0}) {
+      const ColourImage view = picture.draw(playback, state, turn_deg);
+      int left = view.width_px, right = -1, top = view.height_px, bottom = -1;
+      for (int v = 0; v < view.height_px; ++v)
+        for (int u = 0; u < view.width_px; ++u)
+          if (const Rgb8& c = view.at(u, v); c.red + c.green + c.blue < 740) {
+            left = std::min(left, u), right = std::max(right, u);
+            top = std::min(top, v), bottom = std::max(bottom, v);
+          }
+      EXPECT_GT(left, 0);
+      EXPECT_GT(top, 0);
+      EXPECT_LT(right, view.width_px - 1);
+      EXPECT_LT(bottom, view.height_px - 1);
+      const double filled =
+          std::max(double(right - left) / view.width_px, double(bottom - top) / view.height_px);
+      if (!turning) {
+        EXPECT_GT(filled, 0.85);
+      }
+    }
+  }
+}
+
 TEST_F(ViewPictures, TheFootTellsWhetherMoreMayCome) {
   const auto going = [this] {
     return footOf(source, *source.moment(0, false), Playback(source), {}, 100, false).going;

@@ -6,6 +6,7 @@
 #include "toolkit/record/metric_lists.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
+#include "vtk_views/drawing/fonts.h"
 
 namespace softscope {
 namespace {
@@ -65,6 +66,7 @@ Json comparisonJson(const ComparisonResult& result) {
   json["command"] = "compare";
   json["inputs"] = {{"reference", result.reference}, {"test", result.test}};
   json["space"] = result.space;
+  json["figures"] = {{"font", figureFont()}};
   json["alignment"] = surfaceFitJson(result.fit);
   json["accuracy"] = directedJson(c.accuracy);
   json["completeness"] = directedJson(c.completeness);

@@ -14,6 +14,7 @@
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
+#include "vtk_views/plots/map_error_plot.h"
 
 namespace softscope {
 namespace {
@@ -177,16 +178,27 @@ Json mapMeans(const DepthMapResult& result, const std::vector<MapColumn>& column
   return json;
 }
 
+void keepWorst(const std::string& name, const Raster<float>& measured, const Raster<float>& truth,
+               double mean_error, WorstMap* worst) {
+  if (!(mean_error > worst->mean_error)) return;  // NaN: nothing was judged
+  *worst = {name, mean_error, measured};
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    worst->error.values[i] = std::abs(measured.values[i] - truth.values[i]);
+}
+
 JudgedMap judgeMap(const DepthMapOptions& options, MapKind kind, const fs::path& measured_file,
-                   const fs::path& true_file) {
+                   const fs::path& true_file, WorstMap* worst) {
   JudgedMap judged;
   judged.name = measured_file.filename().string();
   if (kind == MapKind::kDepth) {
-    judged.depth = depthErrors(readDepth(measured_file), readDepth(true_file));
+    const Raster<float> measured_mm = readDepth(measured_file), truth_mm = readDepth(true_file);
+    judged.depth = depthErrors(measured_mm, truth_mm);
+    keepWorst(judged.name, measured_mm, truth_mm, judged.depth->absolute_mm.mean, worst);
     return judged;
   }
   const Raster<float> measured = readDisparity(measured_file), truth = readDisparity(true_file);
   judged.disparity = disparityErrors(measured, truth);
+  keepWorst(judged.name, measured, truth, judged.disparity->absolute_px.mean, worst);
   if (options.calibration.empty()) return judged;
   const RectifiedRig rig = Rectifier(readCalibration(options.calibration)).rig();
   judged.depth = depthErrors(depthOfDisparity(measured, rig), depthOfDisparity(truth, rig));
@@ -240,7 +252,7 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
     if (result.interrupted) return result;
     const fs::path& true_file =
         partnerOfMap(measured[i], i, measured.size(), truth, options.reference);
-    result.maps.push_back(judgeMap(options, result.kind, measured[i], true_file));
+    result.maps.push_back(judgeMap(options, result.kind, measured[i], true_file, &result.worst));
     if (!sure.empty())
       addSigmas(readDisparity(measured[i]), readDisparity(true_file),
                 partnerOfMap(measured[i], i, measured.size(), sure, options.confidence),
@@ -248,6 +260,18 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
   }
   goesOn(progress, count, count);
   return result;
+}
+
+VectorDrawing depthMapFigure(const DepthMapResult& result) {
+  const bool of_depth = result.kind == MapKind::kDepth;
+  MapErrorData data;
+  data.title = result.worst.name + ": mean error " + fixed(result.worst.mean_error, 2) +
+               (of_depth ? " mm" : " px");
+  if (result.maps.size() > 1)
+    data.title += ", the largest of " + std::to_string(result.maps.size()) + " maps";
+  data.error = result.worst.error;
+  data.label = of_depth ? "error of depth [mm]" : "error of disparity [px]";
+  return drawMapErrors(data);
 }
 
 Json depthMapJson(const DepthMapResult& result) {

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "core/raster.h"
 #include "eval/images/depth_errors.h"
 #include "eval/images/disparity_errors.h"
 #include "eval/images/predicted_sigma.h"
 #include "toolkit/progress.h"
 #include "toolkit/record/fact_sheet.h"
+#include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
 
@@ -36,11 +38,19 @@ struct JudgedMap {
   Sparsification sparse;
 };
 
+/// The map with the largest mean error, to be looked at.
+struct WorstMap {
+  std::string name;
+  double mean_error = -1;  // px or mm; below 0: none yet
+  Raster<float> error;     // magnitude, NaN where not judged
+};
+
 /// Means over the maps; a map counts once, however many pixels it has.
 struct DepthMapResult {
   std::string measured, reference;
   MapKind kind = MapKind::kDepth;
   std::vector<JudgedMap> maps;
+  WorstMap worst;
   bool interrupted = false;
 };
 
@@ -53,6 +63,8 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
 
 FactSheet::Json depthMapJson(const DepthMapResult& result);
 FactSheet depthMapFacts(const DepthMapResult& result);
+/// The errors of the worst map, pixel by pixel. Of a result with a map that has errors.
+VectorDrawing depthMapFigure(const DepthMapResult& result);
 /// One line per map.
 std::string depthMapCsv(const DepthMapResult& result);
 

@@ -33,6 +33,9 @@ const char* const kFiles[] = {"evaluation.json",
                               "worst_frames.pdf",
                               "worst_frames.png",
                               "maps.csv",
+                              "error_map.svg",
+                              "error_map.pdf",
+                              "error_map.png",
                               "errors.pvd",
                               "drawn_view.png",
                               "quality_series.svg",
@@ -135,6 +138,7 @@ void EvaluateOutputs::write(const TruthlessResult& result) const {
 
 void EvaluateOutputs::write(const DepthMapResult& result) const {
   put("maps.csv", depthMapCsv(result));
+  if (result.worst.mean_error >= 0) putFigure("error_map", depthMapFigure(result));
 }
 
 }  // namespace softscope

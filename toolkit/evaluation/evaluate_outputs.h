@@ -20,7 +20,7 @@ class EvaluateOutputs {
   /// error_series, error_histogram and worst_frames as SVG, PDF and PNG where a surface was, with
   /// errors/NNNNNN.vtp of some of its moments.
   /// Without truth: evaluation.json, frames.csv, and the figure quality_series.
-  /// Of maps: evaluation.json and maps.csv.
+  /// Of maps: evaluation.json, maps.csv, and error_map of the worst of them.
   void write(const RunEvaluation& evaluation) const;
 
  private:

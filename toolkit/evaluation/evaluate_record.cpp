@@ -252,6 +252,7 @@ void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
                       " over the pixels that the model covers, " +
                       percent(surface.meanOfView([](V v) { return v.picture.judged_share; })) +
                       " of the tissue (without masks and black borders)");
+  addHeldOutFacts(result.held_out, facts);
   const Statistics backprojection = backprojectionOf(result);
   if (backprojection.count > 0)
     facts.addLine("back-projection", "mean " + fixed(backprojection.mean, 3) + " mm over " +
@@ -287,6 +288,7 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
     json["wrong"] = wrongJson(result);
     json["depth"] = drawnDepthJson(result.surface);
     json["view"] = viewJson(result.surface);
+    if (result.held_out.every > 0) json["held_out"] = heldOutJson(result.held_out);
     json["backprojection"] = statisticsJson(backprojectionOf(result), "_mm");
   }
   json["warnings"] = result.warnings;

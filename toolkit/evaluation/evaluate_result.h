@@ -11,6 +11,7 @@
 #include "eval/motion/trajectory_errors.h"
 #include "eval/motion/wrong_frames.h"
 #include "toolkit/evaluation/evaluate_series.h"
+#include "toolkit/evaluation/held_out_views.h"
 
 namespace softscope {
 
@@ -34,7 +35,8 @@ struct EvaluationResult {
   std::optional<CameraResult> camera;
   std::optional<TrackErrors> tracks;
   RevisitResult revisits;
-  std::vector<JudgedFrame> judged_frames;   // those that were fused
+  std::vector<JudgedFrame> judged_frames;  // those that were fused
+  HeldOutResult held_out;
   FrameOutcomes outcomes;                   // of the run
   std::map<int, double> times_s;            // of all frames of the run; NaN without timestamps
   std::map<int, double> backprojection_mm;  // by frame, as the run itself measured it

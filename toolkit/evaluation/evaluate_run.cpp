@@ -14,6 +14,7 @@
 #include "toolkit/evaluation/evaluate_record.h"
 #include "toolkit/export/export_input.h"
 #include "toolkit/run/provenance.h"
+#include "vtk_views/drawing/fonts.h"
 
 namespace softscope {
 namespace {
@@ -54,7 +55,10 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
   result.surface = judgeSeries(run, truth, options.views, counting(progress, frames.size()));
   result.revisits = judgeRevisits(run, truth, result);
   result.judged_frames = judgeClaims(run, truth, result);
+  if (options.views && !result.surface.interrupted) result.held_out = judgeHeldOut(run, truth);
   result.warnings = run.warnings();
+  for (std::string& warning : heldOutWarnings(result.held_out))
+    result.warnings.push_back(std::move(warning));
   for (std::string& warning : sequenceWarnings(run, truth, result))
     result.warnings.push_back(std::move(warning));
   result.warnings.insert(result.warnings.end(), origin.begin(), origin.end());
@@ -123,6 +127,7 @@ RunEvaluation finished(const EvaluateOptions& options, const char* part, Json re
   RunEvaluation evaluation;
   evaluation.outcomes = checkThresholds(options.thresholds, record, part);
   record["thresholds"] = thresholdsJson(evaluation.outcomes);
+  record["figures"] = {{"font", figureFont()}};
   record.update(details);
   evaluation.record = options.paths.applyTo(record);
   evaluation.facts = facts;
@@ -205,7 +210,9 @@ void EvaluateOptions::validate() const {
   EvaluationResult empty;
   empty.against_mesh = kind == ReferenceKind::kMesh;
   const bool truthless = kind == ReferenceKind::kSequence;
-  checkThresholds(thresholds, truthless ? truthlessJson({}) : evaluationJson(empty),
+  TruthlessResult none;
+  none.held_out.every = empty.held_out.every = holdOutEvery(run);
+  checkThresholds(thresholds, truthless ? truthlessJson(none) : evaluationJson(empty),
                   truthless ? kView : kSurface);
 }
 

@@ -90,4 +90,13 @@ ViewErrors ViewJudge::judge(const ModelFile& file, const Eigen::Isometry3d& run_
   return errors;
 }
 
+PictureErrors ViewJudge::judgeImage(const ModelFile& file, const Eigen::Isometry3d& run_from_left,
+                                    int other, int frame) {
+  const auto earlier = photograph(other), picture = photograph(frame);
+  if (!file.coloured || !earlier || !picture) return {};
+  const ModelView view = renderModelView(file.model, rig_.left, run_from_left, {});
+  return pictureErrors(*earlier, *picture, ignoreUnmeasured(view.depth_mm),
+                       united(instruments(frame), findBlackBorder(*picture)));
+}
+
 }  // namespace softscope

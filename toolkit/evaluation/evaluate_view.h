@@ -42,6 +42,10 @@ class ViewJudge {
   /// compared, unless null.
   ViewErrors judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left, int frame,
                    const Raster<float>& true_depth_mm, DrawnPair* drawn = nullptr);
+  /// The same pixels of the image of `other`, an earlier frame, against that of `frame`, which was
+  /// judged last: what a model that shows the earlier frame for good would get.
+  PictureErrors judgeImage(const ModelFile& file, const Eigen::Isometry3d& run_from_left, int other,
+                           int frame);
 
  private:
   std::optional<ColourImage> photograph(int frame);

@@ -88,6 +88,9 @@ void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
     result.interrupted = !after_model();
     if (result.interrupted) return;
   }
+  result.held_out = judgeHeldOut(run, pictures);
+  for (std::string& warning : heldOutWarnings(result.held_out))
+    result.warnings.push_back(std::move(warning));
   if (run.models.empty())
     result.warnings.push_back(
         "the run has no models of single frames, so no drawn view; reconstruct with --save-every "
@@ -135,7 +138,7 @@ bool hasTimes(const TruthlessResult& result) {
 }
 
 void addPlot(const TruthlessResult& result, const char* label, const Value& value,
-             const PlotStyle& style, VectorDrawing& drawing) {
+             const PlotStyle& style, char* letter, VectorDrawing& drawing) {
   const bool over_time = hasTimes(result);
   ValueSeriesData data{over_time ? "time [s]" : "frame", label, {}, {}};
   for (const auto& [number, frame] : result.frames) {
@@ -146,7 +149,13 @@ void addPlot(const TruthlessResult& result, const char* label, const Value& valu
     data.y.push_back(result.outcomes.fused(number) ? value(frame) : Statistics::kNone);
   }
   if (statistics(data.y).count == 0) return;
-  appendBelow(drawValueSeries(data, style), 0, drawing);
+  VectorDrawing plot = drawValueSeries(data, style);
+  DrawnText panel;
+  panel.at = {0.3 * style.font_pt, 1.4 * style.font_pt};
+  panel.text = std::string("(") + (*letter)++ + ")";
+  panel.size_pt = style.font_pt;
+  plot.parts.emplace_back(std::move(panel));
+  appendBelow(plot, 0, drawing);
 }
 
 Json viewJson(const TruthlessResult& result) {
@@ -223,6 +232,7 @@ Json truthlessJson(const TruthlessResult& result) {
               {"n", overFrames(result, kCoverage).count}}},
             {"camera", camera},
             {"warnings", result.warnings}};
+  if (result.held_out.every > 0) json["held_out"] = heldOutJson(result.held_out);
   json["frames"] = framesJson(result);
   return json;
 }
@@ -240,6 +250,7 @@ FactSheet truthlessFacts(const TruthlessResult& result) {
                                     fixed(100 * overFrames(result, kJudged).mean, 1) +
                                     " % of the tissue (without masks and black borders), of " +
                                     std::to_string(result.drawn.size()) + " models");
+  addHeldOutFacts(result.held_out, facts);
   const Statistics backprojection = overFrames(result, kBackProjection);
   if (backprojection.count > 0)
     facts.addLine("back-projection", spreadText(backprojection) + " over " +
@@ -287,10 +298,11 @@ VectorDrawing truthlessPlots(const TruthlessResult& result) {
     strip.outcomes.push_back(outcome);
   }
   if (!strip.x.empty()) appendBelow(drawOutcomeStrip(strip, style), 0, drawing);
-  addPlot(result, "PSNR [dB]", kPsnr, style, drawing);
-  addPlot(result, "SSIM", kSsim, style, drawing);
-  addPlot(result, "back-projection [mm]", kBackProjection, style, drawing);
-  addPlot(result, "scope's step [mm]", kStep, style, drawing);
+  char letter = 'a';
+  addPlot(result, "PSNR [dB]", kPsnr, style, &letter, drawing);
+  addPlot(result, "SSIM", kSsim, style, &letter, drawing);
+  addPlot(result, "back-projection [mm]", kBackProjection, style, &letter, drawing);
+  addPlot(result, "scope's step [mm]", kStep, style, &letter, drawing);
   return drawing;
 }
 

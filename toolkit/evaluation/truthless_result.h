@@ -11,6 +11,7 @@
 #include "eval/images/picture_errors.h"
 #include "eval/statistics/statistics.h"
 #include "toolkit/evaluation/evaluate_view.h"
+#include "toolkit/evaluation/held_out_views.h"
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/run/run_reader.h"
 #include "vtk_views/drawing/vector_drawing.h"
@@ -37,6 +38,7 @@ struct TruthlessResult {
   double moved_mm = Statistics::kNone;    // from the first to the last pose: drift of a still scope
   double turned_deg = Statistics::kNone;  // the same of its direction
   double jitter_rms_mm = Statistics::kNone;  // root mean square of the second differences
+  HeldOutResult held_out;
   bool interrupted = false;
   std::vector<std::string> warnings;
 };

@@ -1,14 +1,9 @@
-// toolkit/export/export_dicom.cpp: pdf2dcm and img2dcm, started without a shell.
+// toolkit/export/export_dicom.cpp: what dcmtk's tools are given for each kind of file.
 #include "toolkit/export/export_dicom.h"
-
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstdlib>
-#include <sstream>
 #include <vector>
 
 #include "core/error.h"
@@ -16,7 +11,9 @@
 #include "io/files/file_bytes.h"
 #include "io/images/image_reader.h"
 #include "io/text/message.h"
-#include "toolkit/record/child_process.h"
+#include "toolkit/export/dicom_tools.h"
+#include "toolkit/export/structured_report.h"
+#include "toolkit/record/version.h"
 
 namespace softscope {
 namespace {
@@ -30,44 +27,6 @@ std::string endingOf(const fs::path& file) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   return ending;
-}
-
-bool isPdf(const fs::path& file) { return endingOf(file) == ".pdf"; }
-
-/// A folder that is gone with its scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string form = (fs::temp_directory_path() / "softscope_dicom_XXXXXX").string();
-    if (mkdtemp(form.data()) == nullptr)
-      throw Error(shown(fs::temp_directory_path()) + ": no folder can be made there");
-    folder_ = form;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  fs::path operator/(const char* name) const { return folder_ / name; }
-
- private:
-  fs::path folder_;
-};
-
-/// Along PATH. Throws BackendError.
-fs::path findTool(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path file = fs::path(folder) / name;
-    struct stat facts {};
-    if (!folder.empty() && stat(file.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) &&
-        access(file.c_str(), X_OK) == 0)
-      return fs::absolute(file);
-  }
-  throw BackendError(name + " isn't there, which makes DICOM files; install the package dcmtk (" +
-                     "Debian: apt install dcmtk)");
 }
 
 void appendNumber(std::string& out, std::uint32_t value, int bytes) {
@@ -102,7 +61,7 @@ std::string bmpBytes(const ColourImage& image) {
   return out;
 }
 
-/// NAME=value words; nothing of them is ever read by a shell.
+/// NAME=value words.
 std::vector<std::string> keysOf(const DicomTexts& texts, const std::string& title_name) {
   std::vector<std::string> words;
   const auto add = [&](const std::string& name, const std::string& value) {
@@ -117,13 +76,29 @@ std::vector<std::string> keysOf(const DicomTexts& texts, const std::string& titl
   return words;
 }
 
-std::string firstComplaint(const fs::path& log) {
-  std::error_code ignored;
-  if (fs::file_size(log, ignored) == 0 || ignored) return "it doesn't say why";
-  const std::string text = readBytes(log, kTextLimitBytes);
-  const auto at = std::min(text.find("E: "), text.find("F: "));
-  const std::string rest = text.substr(at == text.npos ? 0 : at + 3);
-  return excerpt(rest.substr(0, rest.find('\n')));
+void writeMade(const std::string& tool, std::vector<std::string> words, const fs::path& source,
+               const fs::path& name, const DicomTarget& target) {
+  target.texts.validate();
+  requireWritable(target.out, target.overwrite);
+  writeFile(target.out, dicomBytes(tool, std::move(words), source, name, target.interrupted),
+            target.overwrite);
+}
+
+/// The JSON that a report holds for programs. Throws InputError.
+FactSheet::Json metricsOfReport(const fs::path& report) {
+  const std::string begin = "<script type=\"application/json\" id=\"metrics\">";
+  const std::string html = readBytes(report);
+  const auto at = html.find(begin);
+  const auto end = at == html.npos ? at : html.find("</script>", at);
+  if (end == html.npos)
+    throw InputError(shown(report) +
+                     ": this is no report with metrics in it; a DICOM report is made of the page "
+                     "that `softscope report` writes");
+  FactSheet::Json json = FactSheet::Json::parse(
+      html.substr(at + begin.size(), end - at - begin.size()), nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || !json.contains("cases") || !json["cases"].is_array())
+    throw InputError(shown(report) + ": its metrics are damaged; make the report anew");
+  return json;
 }
 
 void requireText(const std::string& text, const char* option) {
@@ -142,37 +117,53 @@ void DicomTexts::validate() const {
   requireText(title, "`title=`");
 }
 
-bool canBecomeDicom(const fs::path& file) {
+DicomKind dicomKindOf(const fs::path& file) {
   const std::string ending = endingOf(file);
-  for (const char* known : {".pdf", ".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"})
-    if (ending == known) return true;
-  return false;
+  if (ending == ".pdf") return DicomKind::kDocument;
+  if (ending == ".html" || ending == ".htm") return DicomKind::kMeasurements;
+  for (const char* known : {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"})
+    if (ending == known) return DicomKind::kPicture;
+  return DicomKind::kModel;
 }
 
-void writeDicom(const fs::path& input, const fs::path& out, const DicomTexts& texts, bool overwrite,
-                const std::function<bool()>& interrupted) {
-  texts.validate();
-  requireWritable(out, overwrite);
-  requireFile(input);
-  const bool pdf = isPdf(input);
-  const std::string tool = pdf ? "pdf2dcm" : "img2dcm";
-  std::vector<std::string> words{findTool(tool).string()};
+void writeDicomDocument(const fs::path& pdf, const DicomTarget& target) {
+  requireFile(pdf);
+  writeMade("pdf2dcm", keysOf(target.texts, "DocumentTitle"), fs::absolute(pdf), pdf, target);
+}
+
+void writeDicomPicture(const fs::path& picture, const DicomTarget& target) {
+  requireFile(picture);
   const TemporaryFolder folder;
-  fs::path source = fs::absolute(input);
-  if (!pdf) {
-    source = folder / "picture.bmp";
-    writeFile(source, bmpBytes(readColourImage(input)), true);
-    words.insert(words.end(), {"-i", "BMP", "-k", "ConversionType=WSD", "-k", "Modality=OT"});
-  }
-  for (std::string& word : keysOf(texts, pdf ? "DocumentTitle" : "SeriesDescription"))
+  const fs::path source = folder / "picture.bmp";
+  writeFile(source, bmpBytes(readColourImage(picture)), true);
+  // Laterality: of an unpaired part of the body it is empty, not absent.
+  std::vector<std::string> words{"-i", "BMP",         "-k", "ConversionType=WSD",
+                                 "-k", "Modality=OT", "-k", "Laterality="};
+  for (std::string& word : keysOf(target.texts, "SeriesDescription"))
     words.push_back(std::move(word));
-  const fs::path made = folder / "made.dcm", log = folder / "log.txt";
-  words.push_back(source.string());
-  words.push_back(made.string());
-  const int code = runToEnd(ChildProcess(words, log), interrupted);
-  if (code != 0 || !fs::exists(made))
-    throw InputError(shown(input) + ": " + tool + " refuses it: " + firstComplaint(log));
-  writeFile(out, readBytes(made, std::uintmax_t{2} << 30), overwrite);
+  writeMade("img2dcm", std::move(words), source, picture, target);
+}
+
+int writeDicomMeasurements(const fs::path& report, const DicomTarget& target) {
+  target.texts.validate();
+  const StructuredReport made = structuredReport(metricsOfReport(report), target.texts);
+  const TemporaryFolder folder;
+  const fs::path source = folder / "report.xml";
+  writeFile(source, made.xml, true);
+  // New UIDs in the place of those that the XML must hold.
+  writeMade("xml2dsr", {"--generate-new-uids", "--overwrite-uids"}, source, report, target);
+  return made.numbers;
+}
+
+void writeDicomModel(const std::string& stl, const fs::path& name, const DicomTarget& target) {
+  const TemporaryFolder folder;
+  const fs::path source = folder / "model.stl";
+  writeFile(source, stl, true);
+  std::vector<std::string> words{"--manufacturer-model", "softscope",  "--device-serial", "none",
+                                 "--software-versions",  versionText()};
+  words.insert(words.end(), {"--measurement-units", "UCUM", "mm", "mm"});  // its default is um
+  for (std::string& word : keysOf(target.texts, "DocumentTitle")) words.push_back(std::move(word));
+  writeMade("stl2dcm", std::move(words), source, name, target);
 }
 
 }  // namespace softscope

@@ -1,5 +1,5 @@
-// toolkit/export/export_dicom.h: reports and pictures for a hospital's archive, by way of dcmtk's
-// tools.
+// toolkit/export/export_dicom.h: reports, their numbers, pictures and models for a hospital's
+// archive, by way of dcmtk's tools.
 #pragma once
 
 #include <filesystem>
@@ -16,13 +16,29 @@ struct DicomTexts {
   void validate() const;
 };
 
-/// True for a PDF or a picture by its ending: what can become a DICOM file.
-bool canBecomeDicom(const std::filesystem::path& file);
+/// What a file becomes, by its ending.
+enum class DicomKind { kDocument, kPicture, kMeasurements, kModel };
+DicomKind dicomKindOf(const std::filesystem::path& file);
 
-/// A PDF becomes an Encapsulated PDF, a picture a Secondary Capture; every file is a study of its
-/// own. The patient's name and ID stay empty unless given. Throws BackendError where dcmtk isn't
-/// installed, InputError for a file that it refuses. `interrupted` stops dcmtk's tool.
-void writeDicom(const std::filesystem::path& input, const std::filesystem::path& out,
-                const DicomTexts& texts, bool overwrite, const std::function<bool()>& interrupted);
+/// Where a DICOM file goes. Every file is a study of its own. The patient's name and ID stay empty
+/// unless given. `interrupted` stops dcmtk's tool.
+struct DicomTarget {
+  std::filesystem::path out;
+  DicomTexts texts;
+  bool overwrite = false;
+  std::function<bool()> interrupted;
+};
+
+/// Each throws BackendError where dcmtk isn't installed, InputError for a file that it refuses.
+/// A PDF becomes an Encapsulated PDF.
+void writeDicomDocument(const std::filesystem::path& pdf, const DicomTarget& target);
+/// A picture becomes a Secondary Capture.
+void writeDicomPicture(const std::filesystem::path& picture, const DicomTarget& target);
+/// The numbers of a report (.html of `softscope report`) become a Structured Report, TID 1500
+/// (toolkit/export/structured_report.h). Returns how many.
+int writeDicomMeasurements(const std::filesystem::path& report, const DicomTarget& target);
+/// A surface becomes an Encapsulated STL in mm. `stl`: a binary STL; `name`: of its file in errors.
+void writeDicomModel(const std::string& stl, const std::filesystem::path& name,
+                     const DicomTarget& target);
 
 }  // namespace softscope

@@ -33,13 +33,17 @@ ModelSurface surfaceOf(const ExportRequest& request, const fs::path& file, FactS
   return model;
 }
 
+/// Of a run the model of its frame.
+fs::path modelFile(const ExportRequest& request) {
+  return fs::is_directory(request.input) ? savedModel(request.input, request.frame).file
+                                         : fs::path(request.input);
+}
+
 ExportResult exportOne(const ExportRequest& request) {
   requireWritable(request.out, request.overwrite);
   const ModelFormat format = formatOf(request.out);
   const LengthUnit unit = unitOf(request.unit, format);
-  const fs::path file = fs::is_directory(request.input)
-                            ? savedModel(request.input, request.frame).file
-                            : fs::path(request.input);
+  const fs::path file = modelFile(request);
   FactSheet facts(shown(file));
   facts.addQuietly("input", file.string());
   const ModelSurface model = surfaceOf(request, file, facts);
@@ -98,12 +102,42 @@ ExportResult exportSeries(const ExportRequest& request, const Progress& progress
   return {facts, false};
 }
 
+/// The model's surface as an Encapsulated STL.
+void exportModelDicom(const ExportRequest& request, const DicomTarget& target, FactSheet& facts) {
+  const fs::path file = modelFile(request);
+  const ModelSurface model = surfaceOf(request, file, facts);
+  writeDicomModel(modelBytes(model, ModelFormat::kStl, unitOf("mm", ModelFormat::kStl)), file,
+                  target);
+  addModelFacts(model, facts);
+  facts.add("unit", "unit", std::string("mm"));
+}
+
 ExportResult exportDicom(const ExportRequest& request, const Progress& progress) {
   const DicomTexts& texts = request.dicom;
-  writeDicom(request.input, request.out, texts, request.overwrite,
-             [&] { return !goesOn(progress, 0, 1); });
-  const bool anonymous = texts.patient_name.empty() && texts.patient_id.empty();
+  requireWritable(request.out, request.overwrite);
+  const DicomTarget target{request.out, texts, request.overwrite,
+                           [&] { return !goesOn(progress, 0, 1); }};
   FactSheet facts(shown(request.input));
+  const auto becomes = [&](const char* what) { facts.add("becomes", "kind", std::string(what)); };
+  switch (dicomKindOf(request.input)) {
+    case DicomKind::kDocument:
+      writeDicomDocument(request.input, target);
+      becomes("Encapsulated PDF");
+      break;
+    case DicomKind::kPicture:
+      writeDicomPicture(request.input, target);
+      becomes("Secondary Capture");
+      break;
+    case DicomKind::kMeasurements:
+      facts.add("numbers", "numbers", writeDicomMeasurements(request.input, target));
+      becomes("Structured Report (TID 1500)");
+      break;
+    case DicomKind::kModel:
+      exportModelDicom(request, target, facts);
+      becomes("Encapsulated STL");
+      break;
+  }
+  const bool anonymous = texts.patient_name.empty() && texts.patient_id.empty();
   facts.add("patient", anonymous ? "not named" : "as given", "anonymous", anonymous);
   facts.add("written to", "out", request.out);
   return {facts, false};
@@ -120,10 +154,10 @@ void ExportRequest::validate() const {
   require(frame >= -1, "`frame=`", frame, "must be 0 or more");
   if (frame >= 0 && !run) throw OptionError("`frame=` needs a run, but MODEL is a file");
   if (ending == ".dcm") {
-    if (!canBecomeDicom(input))
-      throw OptionError(
-          "`out=` is a DICOM file, which takes a PDF (of softscope report) or a picture "
-          "as MODEL; for a model draw one with `softscope figure` first");
+    if (points) throw OptionError("`points=` makes no DICOM file, which holds triangles alone");
+    if (!unit.empty() && unit != "mm")
+      throw OptionError("`unit=` of a DICOM file is mm; leave it out");
+    if (every != 1) throw OptionError("`every=` belongs to .pvd files");
     return;
   }
   if (!dicom.patient_name.empty() || !dicom.patient_id.empty() || !dicom.title.empty())

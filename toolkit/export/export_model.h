@@ -11,7 +11,7 @@
 namespace softscope {
 
 struct ExportRequest {
-  std::string input;         // a run, points or a mesh; for .dcm a PDF or a picture
+  std::string input;         // a run, points or a mesh; for .dcm also a report or a picture
   std::string out;           // file; its ending is the format, .pvd a series of .vtp
   std::string unit;          // mm, cm or m; empty: the format's own
   SurfaceOptions surface;    // from points to triangles

@@ -9,6 +9,7 @@
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
+#include "vtk_views/drawing/fonts.h"
 
 namespace softscope {
 namespace {
@@ -56,6 +57,7 @@ Json figureRecord(const std::string& command, const FigureOptions& options) {
               {"style",
                {{"name", style.name},
                 {"width_mm", style.width_mm},
+                {"font", figureFont()},
                 {"font_pt", style.font_pt},
                 {"line_pt", style.line_pt},
                 {"dots_per_inch", style.dots_per_inch}}},

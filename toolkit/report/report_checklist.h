@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Throws OptionError unless empty (none) or "claim".
+/// Throws OptionError unless empty (none), "claim" or "stard-ai".
 void requireChecklist(const std::string& name);
 
 /// A row per item: its number, what it asks for in our words, where this report says it, and what

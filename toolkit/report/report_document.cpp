@@ -115,6 +115,7 @@ std::vector<ReportSection> caseSections(const ReportRequest& request, double lim
   if (!c.maps.empty()) sections.back().parts.emplace_back(mapPlace(request.cases, limit_mm));
   append(plotParts(c), sections.back().parts);
   append(pictureParts(c), sections.back().parts);
+  sections.push_back({"grading", "Review", {ReportReview{{c.name}}}});
   sections.push_back({"limits", "Limits", {limitsList(c, request.choices)}});
   sections.push_back({"methods", "Methods", {methodsList(c)}});
   sections.push_back({"provenance", "Provenance", {provenanceTable(c, request.choices)}});

@@ -217,6 +217,7 @@ std::vector<ReportPart> resultParts(const ReportCase& c) {
   addTable(distancesTable(c, "Distances [mm]"), parts);
   addTable(bothWaysTable(c), parts);
   addTable(scoresTable(c), parts);
+  addTable(heldOutTable(c.record), parts);
   addTable(motionTable(c), parts);
   addTable(valueTable("Over time", "", c.record,
                       {{"drift [mm/s]", "surface.drift_mm_per_s"},

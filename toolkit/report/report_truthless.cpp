@@ -113,7 +113,7 @@ ReportTiles truthlessTiles(const ReportCase& c) {
 }
 
 std::vector<ReportTable> truthlessTables(const ReportCase& c) {
-  return {viewTable(c),
+  return {viewTable(c), heldOutTable(c.record),
           statisticsTable("Over the frames [mm]", c.record,
                           {{"back-projection, by the run itself", "backprojection"},
                            {"the scope's step from frame to frame", "camera.step"}}),

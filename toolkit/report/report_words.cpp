@@ -74,4 +74,17 @@ void addTable(ReportTable table, std::vector<ReportPart>& parts) {
   if (!table.rows.empty()) parts.emplace_back(std::move(table));
 }
 
+ReportTable heldOutTable(const FactSheet::Json& record) {
+  return valueTable(
+      "Held-out views: the model of the frame before, drawn for frames that the run did not see",
+      "mean", record,
+      {{"frames", "held_out.views"},
+       {"PSNR over the pixels that the model covers [dB]", "held_out.psnr_db"},
+       {"PSNR over all pixels [dB]", "held_out.psnr_over_all_pixels_db"},
+       {"SSIM", "held_out.ssim"},
+       {"control, the image of the frame before: PSNR over the same pixels [dB]",
+        "held_out.control.psnr_db"},
+       {"control: SSIM", "held_out.control.ssim"}});
+}
+
 }  // namespace softscope

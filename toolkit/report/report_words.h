@@ -33,4 +33,7 @@ void addTable(ReportTable table, std::vector<ReportPart>& parts);
 ReportTable valueTable(const std::string& caption, const std::string& heading,
                        const FactSheet::Json& record, const std::vector<NamedPart>& values);
 
+/// Views that the run did not see, with their control; without rows where no frame was held out.
+ReportTable heldOutTable(const FactSheet::Json& record);
+
 }  // namespace softscope

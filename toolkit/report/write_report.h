@@ -17,7 +17,7 @@ struct ReportOptions {
   double limit_mm = 0;  // where the colours end; 0: a round number above the largest P95
   int seed = 1;         // of resampling for confidence intervals
   bool with_paths = false;
-  std::string checklist;  // claim; empty: none
+  std::string checklist;  // claim, stard-ai; empty: none
   std::vector<Threshold> thresholds;
   std::filesystem::path html, pdf;  // files; `pdf` may be empty
   bool overwrite = false;

@@ -19,6 +19,7 @@
 #include "toolkit/run/repeated_warnings.h"
 #include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_folder.h"
+#include "toolkit/run/run_reader.h"
 #include "toolkit/run/run_record.h"
 #include "toolkit/run/run_tables.h"
 #include "toolkit/run/stereo_sync.h"
@@ -40,9 +41,11 @@ bool isGone(const SequencePaths& sequence) {
 
 /// Everything that decides the result; a run goes on only with the same.
 std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& settings,
-                     const std::filesystem::path& tracks, int frame_step) {
+                     const std::filesystem::path& tracks, const FrameRange& frames) {
   std::string all;
-  if (frame_step != 1) all += "frame_step=" + std::to_string(frame_step) + "\n";
+  if (frames.step != 1) all += "frame_step=" + std::to_string(frames.step) + "\n";
+  if (frames.hold_out_every != 0)
+    all += "hold_out_every=" + std::to_string(frames.hold_out_every) + "\n";
   for (const SettingInfo& setting : settings)
     all += setting.key + "=" + setting.current_text + "\n";
   for (const auto& [part, input] : inputs.items())
@@ -123,8 +126,9 @@ std::unique_ptr<ReconstructionBackend> SequenceRun::backendOf(
 /// Where no frame is left, the run was stopped between its last one and its record.
 void SequenceRun::skipDone(const Checkpoint& earlier) {
   SequenceOptions& sequence = options_.settings.sequence;
-  const int done = (earlier.next_frame - sequence.frames.begin) / sequence.frames.step;
-  all_done_ = done >= SequenceReader(options_.sequence, sequence).frameCount();
+  FrameRange done = sequence.frames;
+  done.end = earlier.next_frame;
+  all_done_ = done.count() >= SequenceReader(options_.sequence, sequence).frameCount();
   if (!all_done_) sequence.frames.begin = earlier.next_frame;
 }
 
@@ -133,9 +137,9 @@ ReconstructedRun SequenceRun::run() {
   const std::vector<TrackSeed> tracked = seedsOf(options_.tracks);
   requireOutside(options_.out, options_.sequence);
   SequenceOptions& sequence = options_.settings.sequence;
-  RunFolder folder({options_.out, options_.save_every, sequence.frames.step, !tracked.empty(),
-                    options_.overwrite},
-                   options_.resume);
+  RunFolder folder(
+      {options_.out, options_.save_every, sequence.frames, !tracked.empty(), options_.overwrite},
+      options_.resume);
   const ReconstructionOptions& method = options_.settings.method;
   if (method.depth.source == "stereo" || options_.sequence.depth.empty())
     if (const std::string warning =
@@ -144,9 +148,8 @@ ReconstructedRun SequenceRun::run() {
       listener_.warn(warning);
   const Json inputs = inputsJson(options_.sequence);
   const SettingsBinder binder = settingsOf(options_.settings);
-  Checkpoint checkpoint{digestOf(inputs, binder.list(), options_.tracks, sequence.frames.step),
-                        sequence.frames.begin,
-                        {}};
+  Checkpoint checkpoint{
+      digestOf(inputs, binder.list(), options_.tracks, sequence.frames), sequence.frames.begin, {}};
   const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);
   if (earlier) {
     checkpoint.next_frame = earlier->next_frame;
@@ -160,6 +163,7 @@ ReconstructedRun SequenceRun::run() {
   reconstructor.track(tracked);
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
+  if (sequence.frames.hold_out_every > 0) record.set(kHoldOutKey, sequence.frames.hold_out_every);
   checkThresholds(options_.thresholds, record.json(), kOutcomes);  // before the work
   if (earlier) {
     folder.takeOver(earlier->next_frame);

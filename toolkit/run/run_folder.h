@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/frame_range.h"
 #include "core/point_cloud.h"
 #include "core/trajectory.h"
 #include "io/files/file_lock.h"
@@ -22,7 +23,7 @@ inline constexpr const char* kRunLock = "writing.lock";
 struct RunFolderOptions {
   std::filesystem::path folder;
   int save_every = 10;  // frames between models/NNNNNN.ply; 0: none
-  int frame_step = 1;   // between the frames that are reconstructed
+  FrameRange frames;    // those that are reconstructed
   bool tracks = false;
   bool overwrite = false;
 };
@@ -47,9 +48,11 @@ class RunFolder {
 
   /// `names` without a left one: the images came from no files.
   void add(const FrameRecord& record, const FrameNames& names = {});
-  /// Whether it is this frame's turn to have its model saved.
+  /// Whether it is this frame's turn to have its model saved, or the next one is held out and will
+  /// be compared with it.
   bool savesModel(int frame) const {
-    return options_.save_every > 0 && frame / options_.frame_step % options_.save_every == 0;
+    return options_.frames.holdsOut(frame + 1) ||
+           (options_.save_every > 0 && frame / options_.frames.step % options_.save_every == 0);
   }
   /// Which camera models say that they were seen by.
   void tellCamera(const PinholeCamera& left) { left_ = left; }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "core/error.h"
+#include "io/files/file_bytes.h"
 #include "io/files/folder.h"
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
@@ -97,6 +99,16 @@ double SequenceTruth::timeOf(int frame) const {
                                       : std::nan("");
 }
 
+int holdOutEvery(const fs::path& run_folder) {
+  const fs::path file = run_folder / "run.json";
+  if (!isFile(file)) return 0;
+  const auto json = nlohmann::json::parse(readBytes(file, kTextLimitBytes), nullptr,
+                                          /*allow_exceptions=*/false);
+  if (!json.is_object() || !json.contains(kHoldOutKey)) return 0;
+  const auto& every = json[kHoldOutKey];
+  return every.is_number_integer() && every >= 2 && every <= 1000000 ? every.get<int>() : 0;
+}
+
 JudgedRun openJudgedRun(const fs::path& folder) {
   JudgedRun run;
   run.folder = folder;
@@ -113,6 +125,7 @@ JudgedRun openJudgedRun(const fs::path& folder) {
   for (std::size_t k = 0; k < rows.confidence.size(); ++k)
     if (std::isfinite(rows.confidence[k])) run.confidence[rows.frames[k]] = rows.confidence[k];
   run.stopped = isThere(folder / "checkpoint.bin") || isThere(folder / "writing.lock");
+  run.hold_out_every = holdOutEvery(folder);
   run.models = numberedFiles(folder / "models", ".ply");
   run.last_model = fileOrNone(folder / "model.ply");
   run.tracks = fileOrNone(folder / "tracks.csv");

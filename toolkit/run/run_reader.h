@@ -26,6 +26,7 @@ struct JudgedRun {
   std::map<int, double> coverage;           // share of the tissue that has depth, of all frames
   std::map<int, double> confidence;         // of pose and warp, as the run says
   FrameFiles models;                        // models/NNNNNN.ply
+  int hold_out_every = 0;                   // frames n, 2n, … were held out; 0: none
   bool stopped = false;                     // before its end: the clip's last frames lack
   std::filesystem::path last_model;         // model.ply; empty where it is missing
   std::filesystem::path tracks;             // tracks.csv; empty where it is missing
@@ -41,6 +42,10 @@ struct JudgedRun {
   /// The frame that the last model shows: the last that counts.
   int lastCounted() const;
 };
+
+/// Of run.json, what JudgedRun has; 0 where it doesn't say.
+inline constexpr const char* kHoldOutKey = "hold_out_every";
+int holdOutEvery(const std::filesystem::path& run_folder);
 
 /// Throws InputError: no such folder, no trajectory, or a table of frames that doesn't fit it.
 JudgedRun openJudgedRun(const std::filesystem::path& folder);

@@ -21,8 +21,8 @@ struct ViewMovieOptions {
   bool overwrite = false;
 };
 
-/// Which moment each of the video's frames shows.
-std::vector<int> movieMoments(const ViewSource& source, const ViewMovieOptions& options);
+/// The time of the clip that each of the video's frames shows.
+std::vector<double> movieTimes(const ViewSource& source, const ViewMovieOptions& options);
 
 /// Returns how many frames the video has; 0 where `progress` stopped it, and nothing is written.
 int writeMovie(ViewSource& source, const ViewMovieOptions& options, const Progress& progress);

@@ -16,7 +16,7 @@ struct Canvas::Cairo {
                          colour.blue / 255.0);
   }
   void setFont(const TextStyle& style) {
-    cairo_select_font_face(context.get(), kFontFamily, CAIRO_FONT_SLANT_NORMAL,
+    cairo_select_font_face(context.get(), figureFont().c_str(), CAIRO_FONT_SLANT_NORMAL,
                            style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(context.get(), style.size_px);
   }

@@ -8,6 +8,15 @@
 namespace softscope {
 namespace {
 
+constexpr const char* kWithArialsWidths[] = {"Arial", "Helvetica", "Liberation Sans"};
+constexpr const char* kLastResort = "DejaVu Sans";
+
+std::string chooseFont() {
+  for (const char* family : kWithArialsWidths)
+    if (findFont(family).family == family) return family;  // else fontconfig names a stand-in
+  return kLastResort;
+}
+
 std::string textOf(FcPattern* pattern, const char* key) {
   FcChar8* text = nullptr;
   if (FcPatternGetString(pattern, key, 0, &text) != FcResultMatch) return {};
@@ -27,5 +36,12 @@ FontFile findFont(const std::string& family) {
   if (!found || outcome != FcResultMatch) return {};
   return {textOf(found.get(), FC_FAMILY), textOf(found.get(), FC_FILE)};
 }
+
+const std::string& figureFont() {
+  static const std::string chosen = chooseFont();
+  return chosen;
+}
+
+bool figureFontHasArialsWidths() { return figureFont() != kLastResort; }
 
 }  // namespace softscope

@@ -143,7 +143,7 @@ void trace(cairo_t* context, const std::vector<PointPt>& points) {
 }
 
 double setFont(cairo_t* context, const DrawnText& text) {
-  cairo_select_font_face(context, kFontFamily, CAIRO_FONT_SLANT_NORMAL,
+  cairo_select_font_face(context, figureFont().c_str(), CAIRO_FONT_SLANT_NORMAL,
                          text.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, text.size_pt);
   cairo_text_extents_t extents;
@@ -272,7 +272,7 @@ std::string svgBytes(const VectorDrawing& drawing) {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
       "width=\"" +
       width + "pt\" height=\"" + height + "pt\" viewBox=\"0 0 " + width + " " + height +
-      "\" font-family=\"" + kFontFamily + ", sans-serif\">\n" +
+      "\" font-family=\"" + figureFont() + ", Arial, Helvetica, sans-serif\">\n" +
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   for (const auto& part : drawing.parts) std::visit(writer, part);
   return writer.text + "</svg>\n";

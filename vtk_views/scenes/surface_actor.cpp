@@ -86,7 +86,7 @@ vtkSmartPointer<vtkLookupTable> tableOf(const ErrorColours& colours) {
   return table;
 }
 
-vtkSmartPointer<vtkPolyData> polyDataOf(const SceneSurface& surface) {
+vtkSmartPointer<vtkPolyData> polyDataOf(const SceneSurface& surface, const SurfaceRole& role) {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(pointsOf(surface.mesh));
   vtkNew<vtkCellArray> cells;
@@ -99,7 +99,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const SceneSurface& surface) {
     data->SetVerts(cells);
   } else {
     data->SetPolys(cells);
-    data->GetPointData()->SetNormals(normalsOf(surface.mesh));
+    if (!role.unlit) data->GetPointData()->SetNormals(normalsOf(surface.mesh));
   }
   if (!surface.errors_mm.empty())
     data->GetPointData()->SetScalars(scalarsOf(surface.errors_mm));
@@ -108,8 +108,8 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const SceneSurface& surface) {
   return data;
 }
 
-void light(const SceneSurface& surface, vtkProperty* look) {
-  if (surface.isPoints() || !surface.errors_mm.empty()) {
+void light(const SceneSurface& surface, const SurfaceRole& role, vtkProperty* look) {
+  if (role.unlit || surface.isPoints() || !surface.errors_mm.empty()) {
     look->LightingOff();  // shading would change the colours that the bar promises
     return;
   }
@@ -125,7 +125,7 @@ void light(const SceneSurface& surface, vtkProperty* look) {
 void redressSurface(const SceneSurface& surface, const ErrorColours& colours,
                     const SurfaceRole& role, vtkActor* actor) {
   auto* mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
-  mapper->SetInputData(polyDataOf(surface));
+  mapper->SetInputData(polyDataOf(surface, role));
   if (!surface.errors_mm.empty()) {
     mapper->SetLookupTable(tableOf(colours));
     mapper->UseLookupTableScalarRangeOn();
@@ -138,7 +138,7 @@ void redressSurface(const SceneSurface& surface, const ErrorColours& colours,
   look->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   look->SetPointSize(float(role.point_size_px));
   actor->SetPosition(role.shift_mm.x(), role.shift_mm.y(), role.shift_mm.z());
-  light(surface, look);
+  light(surface, role, look);
   look->SetOpacity(role.see_through ? kSeeThrough : 1);
   look->SetBackfaceCulling(role.see_through);  // one layer only: right without sorting
 }

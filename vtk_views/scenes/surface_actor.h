@@ -15,6 +15,7 @@ namespace softscope {
 struct SurfaceRole {
   double point_size_px = 1;
   bool see_through = false;
+  bool unlit = false;    // its colours are a photograph's, which have their light in them
   bool neutral = false;  // grey: another surface has the colours of errors
   Eigen::Vector3d shift_mm = Eigen::Vector3d::Zero();
 };

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "vtk_views/scenes/offscreen_window.h"
 #include "vtk_views/scenes/point_spacing.h"
+#include "vtk_views/scenes/point_splats.h"
 #include "vtk_views/scenes/surface_actor.h"
 #include "vtk_views/scenes/view_camera.h"
 #include "vtk_views/scenes/window_pixels.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr int kFiner = 2;         // pixels are drawn this much smaller each way, then averaged
 constexpr double kNearer = 0.02;  // of the picture's width
+constexpr double kEyeAway = 100;  // the same
 constexpr double kSmallestDot = 1 / 150.0, kLargestDot = 1 / 50.0;  // the same
 
 /// Sparse points stay dots.
@@ -26,6 +28,17 @@ double pointSizeMm(const SceneSurface& surface, const SurfacePictureOptions& opt
   if (options.point_size_mm > 0 || !surface.isPoints()) return options.point_size_mm;
   return std::clamp(dotSizeMm(surface.mesh.vertices_mm), kSmallestDot * options.width_mm,
                     kLargestDot * options.width_mm);
+}
+
+/// Dense points become pieces of their surface, which can be shaded.
+SceneSurface piecesOf(const SceneSurface& surface, const ViewPlane& camera,
+                      const SurfacePictureOptions& options) {
+  if (options.point_size_mm > 0 || !surface.isPoints() ||
+      dotSizeMm(surface.mesh.vertices_mm) > kLargestDot * options.width_mm)
+    return surface;
+  const Eigen::Vector3d eye_mm =
+      camera.centre_mm + kEyeAway * options.width_mm * camera.towardsViewer();
+  return splatsOf(surface, 1, eye_mm.cast<float>());
 }
 
 }  // namespace
@@ -45,11 +58,12 @@ ColourImage drawSurfaces(const std::vector<SceneSurface>& surfaces, const ErrorC
     if (!surface.errors_mm.empty() && surface.errors_mm.size() != surface.mesh.vertices_mm.size())
       throw Error("error map: every vertex needs one error");
     SurfaceRole role;
+    role.unlit = surface.isPoints() && !surface.mesh.colours.empty();
     role.point_size_px = std::max(1.0, pointSizeMm(surface, options) * pixels_per_mm);
     role.see_through = options.see_through && i == 0 && surfaces.size() > 1 && !with_errors;
     role.neutral = with_errors && surface.errors_mm.empty();
     if (i > 0) role.shift_mm = shift_mm;
-    renderer->AddActor(surfaceActor(surface, colours, role));
+    renderer->AddActor(surfaceActor(piecesOf(surface, camera, options), colours, role));
   }
   const auto window = makeOffscreenWindow(kFiner * options.width_px, kFiner * options.height_px);
   window->AddRenderer(renderer);

@@ -55,12 +55,4 @@ void makeParallel(vtkRenderer* renderer) {
   vtk->ParallelProjectionOn();
 }
 
-double pixelsPerMm(vtkRenderer* renderer, double height_px) {
-  vtkCamera* vtk = renderer->GetActiveCamera();
-  const double half_mm = vtk->GetParallelProjection() != 0
-                             ? vtk->GetParallelScale()
-                             : vtk->GetDistance() * tangentOfHalf(vtk->GetViewAngle());
-  return height_px / (2 * half_mm);
-}
-
 }  // namespace softscope

@@ -23,7 +23,4 @@ void aimAsScope(vtkRenderer* renderer, const PinholeCamera& left,
 /// From perspective to parallel projection, with what lies at the focal point as large as before.
 void makeParallel(vtkRenderer* renderer);
 
-/// How large 1 mm at the focal point is in a picture of that height.
-double pixelsPerMm(vtkRenderer* renderer, double height_px);
-
 }  // namespace softscope

@@ -130,6 +130,18 @@ void Playback::goTo(int index) {
   at_s_ = source_.secondsOf(index_);
 }
 
+void Playback::goToTime(double clip_s) {
+  goTo(0);
+  while (index_ + 1 < source_.count() && source_.secondsOf(index_ + 1) <= clip_s) ++index_;
+  at_s_ = clip_s;
+}
+
+double Playback::share() const {
+  if (index_ + 1 >= source_.count()) return 0;
+  const double from_s = source_.secondsOf(index_), to_s = source_.secondsOf(index_ + 1);
+  return to_s > from_s ? std::clamp((at_s_ - from_s) / (to_s - from_s), 0.0, 1.0) : 0;
+}
+
 void Playback::togglePlaying() {
   playing = !playing;
   if (playing && index_ == source_.count() - 1 && !source_.live()) goTo(0);
@@ -173,7 +185,7 @@ const std::vector<std::pair<std::string, std::string>>& viewKeys() {
       {"up down", "twice, half as fast"},
       {"l", "loop"},
       {"c, or 1 2 3", "colour: texture, errors, weights"},
-      {"+ -", "larger, smaller dots"},
+      {"+ -", "larger, smaller pieces of surface"},
       {"v", "the scope's own view, and back"},
       {"f t y", "from the front, from above, from the side"},
       {"r", "reset the view"},

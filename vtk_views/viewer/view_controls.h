@@ -25,6 +25,7 @@ struct ViewState {
   Look look = Look::kFree;
   bool nodes = false, motion = false, scope = true, ct = true, reference = true, help = false;
   double dot_scale = 1;
+  bool turning = false;  // about the model, all the way round: nothing may leave the window
 };
 
 /// Goes through the moments by the clip's own clock.
@@ -33,10 +34,14 @@ class Playback {
   explicit Playback(const ViewSource& source) : source_(source) {}
 
   int index() const { return index_; }
+  /// How much of the time until the next moment has passed: 0 at a moment itself, and at the last.
+  double share() const;
   bool playing = false, looping = false;
   double speed = 1;  // seconds of the clip a second
 
   void goTo(int index);  // stops at the ends
+  /// To a time of the clip, as while playing.
+  void goToTime(double clip_s);
   void step(int by) {
     playing = false;
     goTo(index_ + by);

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "vtk_views/scenes/offscreen_window.h"
 #include "vtk_views/scenes/window_pixels.h"
+#include "vtk_views/viewer/moment_between.h"
 #include "vtk_views/viewer/view_sheet.h"
 
 namespace softscope {
@@ -43,13 +44,13 @@ ViewPicture::ViewPicture(ViewSource& source, int width_px, int height_px, bool c
 }
 
 ColourImage ViewPicture::draw(const Playback& playback, const ViewState& state, double turn_deg) {
-  const auto moment = source_.moment(playback.index(), state.colour == ViewColour::kErrors);
+  const auto moment = shownMoment(source_, playback, state.colour == ViewColour::kErrors);
   const double aspect = double(width_px_) / height_px_;
   if (!first_) first_ = moment;
   scene_.show(*moment, state);
-  scene_.look(state.look == Look::kScope ? *moment : *first_, state.look, aspect);
+  scene_.look(state.look == Look::kScope ? *moment : *first_, state, aspect);
   if (state.look != Look::kScope) scene_.turn(turn_deg);
-  scene_.sizeFor(kFiner * height_px_, state.dot_scale, kFiner);
+  scene_.sizeFor(kFiner);
   window_->Render();
   const ColourImage view = readPixels(window_, width_px_, height_px_, kFiner);
   if (foot_scale_ == 0) return view;

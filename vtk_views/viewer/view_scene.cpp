@@ -6,10 +6,11 @@
 #include <vtkProperty.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vtk_views/scenes/four_panels.h"
-#include "vtk_views/scenes/point_spacing.h"
+#include "vtk_views/scenes/point_splats.h"
 #include "vtk_views/scenes/surface_actor.h"
 #include "vtk_views/scenes/view_camera.h"
 #include "vtk_views/viewer/view_props.h"
@@ -19,6 +20,8 @@ namespace {
 
 constexpr double kScopeDepth = 0.22;  // of the way to the tissue
 constexpr double kEyeAway = 4;        // in widths of the picture
+constexpr double kRoomAround = 1.08;  // of what is seen
+constexpr double kStrays = 0.002;     // share of the points at each side that may be cut
 constexpr double kArrowTimes = 4, kLeastMotion_mm = 0.05;
 constexpr double kNodeDotsPx = 5;
 constexpr double kSliceBehind = 0.7;   // slices behind the middle, in widths of the model
@@ -72,16 +75,14 @@ SceneSurface ViewScene::shownPoints(const ViewMoment& moment, const ViewState& s
 }
 
 void ViewScene::showPoints(const ViewMoment& moment, const ViewState& state) {
-  const SceneSurface surface = shownPoints(moment, state);
-  const std::size_t count = surface.mesh.vertices_mm.size();
-  if (count < dots_measured_ * 9 / 10 || count > dots_measured_ * 11 / 10) {
-    dot_mm_ = dotSizeMm(surface.mesh.vertices_mm);
-    dots_measured_ = count;
-  }
+  Eigen::Vector3d eye_mm = centre_mm_ - kEyeAway * width_mm_ * Eigen::Vector3d::UnitZ();
+  if (moment.world_from_left) eye_mm = moment.world_from_left->translation();
+  const SceneSurface surface =
+      splatsOf(shownPoints(moment, state), state.dot_scale, eye_mm.cast<float>());
   ErrorColours colours = world_.errors;
   if (state.colour == ViewColour::kWeights) colours = {false, world_.largest_weight};
   SurfaceRole role;
-  role.point_size_px = points_ ? points_->GetProperty()->GetPointSize() : 1;
+  role.unlit = true;
   if (points_) return redressSurface(surface, colours, role, points_);
   points_ = surfaceActor(surface, colours, role);
   addActor(points_);
@@ -110,7 +111,8 @@ void ViewScene::showScope(const ViewMoment& moment, const ViewState& state) {
   for (const auto& [frame, place] : world_.path_mm)
     if (frame <= moment.frame) path.push_back(place);
   const LineSet way = pathLines(path, kPathColour);
-  LineSet scope;
+  LineSet& scope = scope_lines_;
+  scope = {};
   if (moment.world_from_left && world_.left.width_px > 0) {
     const Eigen::Vector3d eye = moment.world_from_left->translation();
     scope =
@@ -196,7 +198,7 @@ void ViewScene::show(const ViewMoment& moment, const ViewState& state) {
   showScope(moment, state);
   showNodes(moment, state);
   showSlices(moment, state);
-  if (state.look == Look::kScope) look(moment, Look::kScope, aspect_);
+  if (state.look == Look::kScope) look(moment, state, aspect_);
   renderer_->ResetCameraClippingRange();
 }
 
@@ -209,7 +211,44 @@ ViewPlane ViewScene::viewFor(Look look) const {
   return cameraView(centre_mm_, of_scope ? kFromTheScope : figure.eye, world_.frame);
 }
 
-void ViewScene::look(const ViewMoment& moment, Look look, double aspect) {
+/// What is seen, in the plane of the view, from its centre. Of the model all but a few strays; of
+/// one that turns all that passes.
+Eigen::AlignedBox2d ViewScene::boxSeen(const ViewMoment& moment, const ViewPlane& plane,
+                                       bool turning) const {
+  const auto place = [&](const Eigen::Vector3f& point_mm) {
+    Eigen::Vector2d at = plane.project(point_mm.cast<double>());
+    const double depth_mm = plane.towardsViewer().dot(point_mm.cast<double>() - plane.centre_mm);
+    if (turning) at.x() = std::hypot(at.x(), depth_mm);
+    return at;
+  };
+  Eigen::AlignedBox2d box;
+  std::array<std::vector<double>, 2> along;
+  for (const Eigen::Vector3f& point_mm : moment.model.vertices_mm) {
+    const Eigen::Vector2d at = place(point_mm);
+    along[0].push_back(at.x());
+    along[1].push_back(at.y());
+  }
+  if (!along[0].empty()) {
+    const auto quantile = [](std::vector<double>& values, double share) {
+      const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+      std::nth_element(values.begin(), at, values.end());
+      return *at;
+    };
+    box.extend(Eigen::Vector2d(quantile(along[0], kStrays), quantile(along[1], kStrays)));
+    box.extend(Eigen::Vector2d(quantile(along[0], 1 - kStrays), quantile(along[1], 1 - kStrays)));
+  }
+  if (scope_ && scope_->GetVisibility())
+    for (const auto& [begin, end] : scope_lines_.lines_mm)
+      box.extend(place(begin)).extend(place(end));
+  if (reference_ && reference_->GetVisibility())
+    for (const Eigen::Vector3f& point_mm : reference_shown_->vertices_mm)
+      box.extend(place(point_mm));
+  if (turning && !box.isEmpty()) box.extend(Eigen::Vector2d(-box.max().x(), box.center().y()));
+  return box;
+}
+
+void ViewScene::look(const ViewMoment& moment, const ViewState& state, double aspect) {
+  const Look look = state.look;
   aspect_ = aspect;
   measure(moment);
   if (look == Look::kScope && moment.world_from_left && world_.left.width_px > 0) {
@@ -217,8 +256,15 @@ void ViewScene::look(const ViewMoment& moment, Look look, double aspect) {
     return aimAsScope(renderer_, world_.left, *moment.world_from_left, std::max(focus_mm, 1.0),
                       aspect);
   }
-  const double height_mm = aspect > 1 ? width_mm_ : width_mm_ / aspect;
-  aimParallel(renderer_, viewFor(look), height_mm, kEyeAway * width_mm_);
+  ViewPlane plane = viewFor(look);
+  const Eigen::AlignedBox2d box = boxSeen(moment, plane, state.turning);
+  double height_mm = aspect > 1 ? width_mm_ : width_mm_ / aspect;
+  if (!box.isEmpty() && box.sizes().maxCoeff() > 0) {
+    height_mm = kRoomAround * std::max(box.sizes().y(), box.sizes().x() / aspect);
+    const Eigen::Vector2d middle = box.center();
+    plane.centre_mm += middle.x() * plane.right + middle.y() * plane.up;
+  }
+  aimParallel(renderer_, plane, height_mm, kEyeAway * std::max(width_mm_, height_mm));
 }
 
 void ViewScene::turn(double angle_deg) {
@@ -226,9 +272,7 @@ void ViewScene::turn(double angle_deg) {
   renderer_->ResetCameraClippingRange();
 }
 
-void ViewScene::sizeFor(double height_px, double dot_scale, double line_scale) {
-  const double dot_px = dot_scale * dot_mm_ * pixelsPerMm(renderer_, height_px);
-  if (points_) points_->GetProperty()->SetPointSize(float(std::clamp(dot_px, 1.0, 64.0)));
+void ViewScene::sizeFor(double line_scale) {
   if (nodes_) nodes_->GetProperty()->SetPointSize(float(kNodeDotsPx * line_scale));
   for (const auto& lines : {scope_, path_, arrows_})
     if (lines) lines->GetProperty()->SetLineWidth(float(1.6 * line_scale));

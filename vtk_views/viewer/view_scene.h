@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "vtk_views/viewer/view_controls.h"
+#include "vtk_views/viewer/view_props.h"
 #include "vtk_views/viewer/view_source.h"
 
 namespace softscope {
@@ -24,12 +25,13 @@ class ViewScene {
   vtkRenderer* renderer() { return renderer_; }
   /// Puts a moment there. The camera stays, but the scope's own eye follows the scope.
   void show(const ViewMoment& moment, const ViewState& state);
-  /// Takes a standard look at what is shown. `aspect`: of the renderer, width / height.
-  void look(const ViewMoment& moment, Look look, double aspect);
+  /// Takes the state's look at what is shown, so that it fills the window and nothing is cut.
+  /// `aspect`: of the renderer, width / height.
+  void look(const ViewMoment& moment, const ViewState& state, double aspect);
   /// Turns about what is looked at, from where it was looked at.
   void turn(double angle_deg);
-  /// Gives dots and lines their size in a picture that is `height_px` high.
-  void sizeFor(double height_px, double dot_scale, double line_scale);
+  /// Gives lines and the dots of nodes their size.
+  void sizeFor(double line_scale);
   /// What a picture of that width shows, mm; NaN where near is larger than far.
   double widthShownMm(double aspect) const;
 
@@ -43,6 +45,7 @@ class ViewScene {
   void showSlices(const ViewMoment& moment, const ViewState& state);
   void addSlices(const Eigen::Vector3d& towards_viewer);
   ViewPlane viewFor(Look look) const;
+  Eigen::AlignedBox2d boxSeen(const ViewMoment& moment, const ViewPlane& plane, bool turning) const;
   void measure(const ViewMoment& moment);
 
   const ViewWorld& world_;
@@ -51,10 +54,9 @@ class ViewScene {
   std::vector<vtkSmartPointer<vtkActor>> slices_;
   Look slices_look_ = Look::kFree;
   std::shared_ptr<const TriangleMesh> reference_shown_;
+  LineSet scope_lines_;
   Eigen::Vector3d centre_mm_ = Eigen::Vector3d::Zero();
   double width_mm_ = 0;  // 0: not measured yet
-  double dot_mm_ = 0.3;
-  std::size_t dots_measured_ = 0;  // of how many points
   double aspect_ = 1;
 };
 

@@ -14,6 +14,7 @@
 
 #include "vtk_views/scenes/view_camera.h"
 #include "vtk_views/scenes/window_pixels.h"
+#include "vtk_views/viewer/moment_between.h"
 #include "vtk_views/viewer/view_picture.h"
 #include "vtk_views/viewer/view_scene.h"
 #include "vtk_views/viewer/view_sheet.h"
@@ -185,7 +186,7 @@ ViewWindow::Parts::Parts(ViewSource& the_source, ViewWindowOptions the_options)
   help_.show(card_);
   open();
   showMoment();
-  scene_.look(*moment_, state.look, aspect());
+  scene_.look(*moment_, state, aspect());
   render();
 }
 
@@ -238,7 +239,7 @@ void ViewWindow::Parts::layOut() {
 void ViewWindow::Parts::beforeRender() {
   if (!moment_) return;
   layOut();
-  scene_.sizeFor(height() - kViewFootPx, state.dot_scale, 1);
+  scene_.sizeFor(1);
   const ViewFoot foot =
       footOf(source, *moment_, playback, state, scene_.widthShownMm(aspect()), /*of_window=*/true);
   foot_.show(drawViewFoot(foot, width()));
@@ -248,7 +249,7 @@ void ViewWindow::Parts::render() { interactor_->Render(); }
 
 void ViewWindow::Parts::showMoment() {
   const auto start = Clock::now();
-  moment_ = source.moment(playback.index(), state.colour == ViewColour::kErrors);
+  moment_ = shownMoment(source, playback, state.colour == ViewColour::kErrors);
   scene_.show(*moment_, state);
   render();
   ++pace.pictures;
@@ -262,7 +263,7 @@ void ViewWindow::Parts::doTask(ViewTask task) {
     if (options.save) options.save(readPixels(window_, width(), height(), 1), moment_->frame);
     return;
   }
-  if (task == ViewTask::kLook) scene_.look(*moment_, state.look, aspect());
+  if (task == ViewTask::kLook) scene_.look(*moment_, state, aspect());
   showMoment();
 }
 
@@ -307,7 +308,8 @@ void ViewWindow::Parts::tick() {
     last_tick_ = Clock::now();
     if (options.closes()) return interactor_->TerminateApp();
     lookForMore();
-    if (playback.pass(passed_s)) showMoment();
+    const double before = playback.share();
+    if (playback.pass(passed_s) || (playback.playing && playback.share() != before)) showMoment();
   });
 }
 

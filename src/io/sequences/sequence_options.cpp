@@ -53,6 +53,10 @@ void SequenceOptions::validate() const {
   rightOffset();
   require(frames.begin >= 0, "`frames=`", frames.begin, "can't be negative");
   require(frames.step >= 1, "`frames=`", frames.step, "must have a step of 1 or more");
+  require(frames.hold_out_every == 0 || frames.hold_out_every >= 2, "`hold_out=`",
+          frames.hold_out_every, "must be 2 or more");
+  require(frames.hold_out_every == 0 || frames.step == 1, "`hold_out=`", frames.hold_out_every,
+          "takes neighbouring frames, `frames=` without a step");
 }
 
 }  // namespace softscope

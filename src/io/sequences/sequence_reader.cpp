@@ -14,7 +14,7 @@ namespace {
 
 FrameRange rangeWithin(FrameRange range, int count) {
   if (range.end < 0) range.end = count;
-  if (range.begin >= count || range.end > count || range.begin >= range.end)
+  if (range.begin >= count || range.end > count || range.begin >= range.end || range.count() == 0)
     throw OptionError(say("`frames=` ", range.begin, ":", range.end, ", but the sequence has ",
                           count, " frames, 0:", count, "."));
   return range;
@@ -22,9 +22,10 @@ FrameRange rangeWithin(FrameRange range, int count) {
 
 /// The first frame of the range from `first` on; of an empty rest the sequence's own `first`.
 int firstFrom(const FrameRange& range, int first) {
-  if (first <= range.begin) return range.begin;
-  const int steps = (first - range.begin + range.step - 1) / range.step;
-  const int index = range.begin + steps * range.step;
+  if (first <= range.begin && !range.holdsOut(range.begin)) return range.begin;
+  const int steps = std::max(0, first - range.begin + range.step - 1) / range.step;
+  int index = range.begin + steps * range.step;
+  if (range.holdsOut(index)) index += range.step;
   return index < range.end ? index : first;
 }
 
@@ -64,6 +65,7 @@ class SequenceReader::Impl {
     try {
       bool go_on = true;
       for (int index = range_.begin; index < range_.end && go_on; index += range_.step) {
+        if (range_.holdsOut(index)) continue;
         FrameResult result = index == first_.index ? std::move(first_) : load(index);
         go_on = result.ok() || index < first_.index || loader_.survivesErrors();
         go_on = queue_.push(std::move(result)) && go_on;

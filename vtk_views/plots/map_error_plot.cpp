@@ -1,0 +1,64 @@
+#include "vtk_views/plots/map_error_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vtk_views/drawing/error_colours.h"
+#include "vtk_views/drawing/nice_ticks.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kMargin = 0.4;  // in heights of letters
+constexpr double kBarShare = 0.8;
+
+/// The 95th percentile of what was judged, rounded up; 1 where nothing was.
+double limitOf(const Raster<float>& error) {
+  std::vector<float> known;
+  std::copy_if(error.values.begin(), error.values.end(), std::back_inserter(known),
+               [](float value) { return std::isfinite(value); });
+  if (known.empty()) return 1;
+  const auto at = known.begin() + std::ptrdiff_t(0.95 * double(known.size() - 1));
+  std::nth_element(known.begin(), at, known.end());
+  return *at > 0 ? roundUp(*at) : 1;
+}
+
+}  // namespace
+
+VectorDrawing drawMapErrors(const MapErrorData& data, const PlotStyle& style) {
+  const ErrorColours colours{false, limitOf(data.error)};
+  ColourBarText bar;
+  bar.label = data.label;
+  bar.missing = "not measured, or no truth";
+  DrawnPicture map;
+  map.picture = ColourImage(data.error.width_px, data.error.height_px);
+  for (std::size_t i = 0; i < data.error.size(); ++i) {
+    const float error = data.error.values[i];
+    map.picture.values[i] = colours.colour(error);
+    bar.any_above |= error > colours.limit_mm;
+    bar.any_missing |= !std::isfinite(error);
+  }
+  VectorDrawing drawing;
+  drawing.width_pt = style.width_mm * kPtPerMm;
+  const double margin = kMargin * style.font_pt;
+  DrawnText title;
+  title.at = {margin, 1.3 * style.font_pt};
+  title.text = data.title;
+  title.size_pt = style.font_pt;
+  title.bold = true;
+  drawing.parts.emplace_back(title);
+  const double top = 1.9 * style.font_pt;
+  const double height = drawing.width_pt * data.error.height_px / std::max(1, data.error.width_px);
+  map.top_left = {0, top};
+  map.bottom_right = {drawing.width_pt, top + height};
+  drawing.parts.emplace_back(std::move(map));
+  const double bar_width = kBarShare * drawing.width_pt;
+  const double used =
+      drawColourBar(colours, bar, {(drawing.width_pt - bar_width) / 2, top + height + 2 * margin},
+                    bar_width, style.font_pt, drawing);
+  drawing.height_pt = top + height + 3 * margin + used;
+  return drawing;
+}
+
+}  // namespace softscope
