@@ -248,6 +248,25 @@ TEST_F(Figure, ARasMeshIsTurnedAndADistantOneTold) {
   EXPECT_THAT(outcome.err, HasSubstr("beside the volume"));
 }
 
+TEST_F(Figure, SidesAreNamedAsInAComparison) {
+  const auto sidesOf = [&](const std::string& head) {
+    write("box.obj", boxObj({-20, -10, -8}, {20, 25, 8}, head));
+    EXPECT_EQ(figure({"--reference", at("box.obj"), "--out", at("box.svg"), "--force"}).exit_code,
+              0);
+    EXPECT_EQ(run({"compare", "--reference", at("box.obj"), "--test", at("box.obj"), "--out",
+                   at("compared"), "--force"})
+                  .exit_code,
+              0);
+    return std::pair(textOf(at("box.svg")), textOf(at("compared/error_map.svg")));
+  };
+  const auto [figure_known, compare_known] = sidesOf("# SPACE=LPS\n");
+  EXPECT_THAT(figure_known, HasSubstr(">S<"));
+  EXPECT_THAT(compare_known, testing::ContainsRegex("seen from [RLAPIS]+<"));
+  const auto [figure_axes, compare_axes] = sidesOf("");
+  EXPECT_THAT(figure_axes, HasSubstr(">+z<"));
+  EXPECT_THAT(compare_axes, testing::ContainsRegex("seen from [-+][xyz]"));
+}
+
 TEST_F(Figure, AModelInItsScopesFrameIsTold) {
   PointCloud cloud;
   for (int i = 0; i < 50; ++i) cloud.points_mm.emplace_back(float(i % 10), float(i / 10), 50.0f);
