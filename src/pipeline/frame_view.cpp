@@ -17,10 +17,6 @@ namespace {
 /// largest sigma of a new point, 0.5 mm, is twice the 0.1 px that stereo errs by.
 constexpr double kNearMmPerPx = 2.5;
 
-/// A new point may be this much less sure than the typical depth of its frame: else poor images
-/// leave half of the tissue without a model.
-constexpr double kNewPointSigmas = 3;
-
 /// Limits in mm are those of near tissue and grow with what a pixel of disparity is worth. Fusion
 /// compares a depth with the typical one of its frame: where all depths are worse, because the
 /// tissue is far or the images are poor, they still make a model. The warp does not: tissue far
@@ -38,8 +34,6 @@ void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
   if (!std::isfinite(typical_mm)) return;
   double& reference_mm = view->fusion.points.reference_sigma_mm;
   if (reference_mm > 0) reference_mm = std::max(reference_mm, typical_mm);
-  double& new_point_mm = view->fusion.insertion.max_sigma_mm;
-  new_point_mm = std::max(new_point_mm, kNewPointSigmas * typical_mm);
 }
 
 using Rows = std::vector<std::vector<float>>;
