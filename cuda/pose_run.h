@@ -70,9 +70,7 @@ class PoseRun final : public PoseSearch {
     inputs.rig = question.rig;
     inputs.regions = question.regions;
     const Eigen::Isometry3d* starts[] = {&question.fitted, &question.old, &question.before};
-    for (int s = 0; s < kPoseStarts; ++s)
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 4; ++j) inputs.starts[s].at[i][j] = (*starts[s])(i, j);
+    for (int s = 0; s < kPoseStarts; ++s) inputs.starts[s] = rowsOf(*starts[s]);
     inputs.scale_factor = RefinePoseOptions::kRobustScale * RefinePoseOptions::kRobustScale;
     inputs.pairs = static_cast<int>(question.pairs.size());
     return inputs;

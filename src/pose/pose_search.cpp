@@ -23,13 +23,6 @@ struct Residual {
   bool usable = false;
 };
 
-PoseRows rowsOf(const Eigen::Isometry3d& left_from_world) {
-  PoseRows rows;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 4; ++j) rows.at[i][j] = left_from_world(i, j);
-  return rows;
-}
-
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6d& twist) {
   const Eigen::Vector3d turn = twist.head<3>();
   Eigen::Isometry3d by = Eigen::Isometry3d::Identity();
@@ -150,6 +143,13 @@ class Pairs {
 };
 
 }  // namespace
+
+PoseRows rowsOf(const Eigen::Isometry3d& left_from_world) {
+  PoseRows rows;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) rows.at[i][j] = left_from_world(i, j);
+  return rows;
+}
 
 PoseAnswer CpuPoseSearch::answer(const PoseQuestion& question) {
   const Pairs now(question, PairPlace::kNow), since(question, PairPlace::kSince);

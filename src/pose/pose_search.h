@@ -11,6 +11,8 @@
 
 namespace softscope {
 
+PoseRows rowsOf(const Eigen::Isometry3d& left_from_world);
+
 /// All poses are left camera from world.
 struct PoseQuestion {
   std::vector<SeenPair> pairs;
