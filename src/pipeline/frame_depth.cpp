@@ -8,6 +8,7 @@
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/stage_clock.h"
 #include "stereo/rectification/image_border.h"
+#include "stereo/refinement/mask_leaks.h"
 
 namespace softscope {
 
@@ -68,11 +69,12 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
     throw InputError("there is no right view to match, and no depth/ to take its place");
   StageClock clock;
   const StereoPair rectified = rectifier_.rectify(frame.pair);
-  measured.mask = frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
+  const Mask instruments =
+      frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
   // Instruments are dropped afterwards: their mask is one view's, and weak texture beside them
   // needs the wide windows of the coarser sizes.
   const ViewMasks ignored = pixelsToIgnore(rectified, rectifier_, options_.find_border);
-  measured.mask = united(measured.mask, ignored.left);
+  measured.mask = united(instruments, ignored.left);
   measured.border = ignored.left;
   clock.lap("rectify");
   AlignedPair aligned{rectified, ignored, {}};
@@ -85,6 +87,7 @@ void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");
   StereoSurface found = stage_->measure(aligned, measured.mask);
+  if (!frame.mask.empty()) found.drop(leaksOf(instruments, found.disparity.disparity_px));
   measured.disparity = std::move(found.disparity);
   measured.depth = std::move(found.depth);
   measured.normals = std::move(found.normals);

@@ -1,5 +1,6 @@
 #include "pipeline/stereo_stage.h"
 
+#include <limits>
 #include <utility>
 
 #include "stereo/depth/depth_from_disparity.h"
@@ -29,9 +30,7 @@ StereoSurface CpuStereoStage::measure(const AlignedPair& aligned, const Mask& ma
   removeRoll(aligned.roll_rad, &found.disparity.disparity_px);
   clock.lap("disparity");
   found.depth = depthFromDisparity(found.disparity, rig_);
-  for (Raster<float>* raster : {&found.disparity.disparity_px, &found.disparity.sigma_px,
-                                &found.depth.depth_mm, &found.depth.sigma_mm})
-    dropMasked(mask, raster);
+  found.drop(mask);
   clock.lap("depth");
   found.normals = normalsFromDepth(found.depth.depth_mm, rig_.left);
   clock.lap("normals");
@@ -42,6 +41,15 @@ StereoSurface CpuStereoStage::measure(const AlignedPair& aligned, const Mask& ma
 }
 
 }  // namespace
+
+void StereoSurface::drop(const Mask& mask) {
+  for (Raster<float>* raster :
+       {&disparity.disparity_px, &disparity.sigma_px, &depth.depth_mm, &depth.sigma_mm})
+    dropMasked(mask, raster);
+  if (!normals.sameShape(mask)) return;
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask.values[i] != 0) normals.values[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+}
 
 std::unique_ptr<StereoStage> makeCpuStereoStage(const StereoOptions& options,
                                                 const RectifiedRig& rig) {

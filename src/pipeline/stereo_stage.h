@@ -18,6 +18,9 @@ struct StereoSurface {
   DepthMap depth;
   NormalMap normals;
   StageTimes times;
+
+  /// Nothing was measured under `mask`, which may be empty.
+  void drop(const Mask& mask);
 };
 
 /// What of stage 1 may run on another device. Every implementation gives the same bytes.

@@ -236,6 +236,56 @@ TEST(Reconstructor, KeepsInstrumentsOutOfTheModel) {
     EXPECT_FALSE(colour.green > 200 && colour.red < 60 && colour.blue < 60);
 }
 
+/// The clip's first frame with a striped bar across columns 90 to 149, far before the tissue.
+Frame frameWithABar(const ShortClip& clip) {
+  Frame frame = clip.frames[0];
+  const int disparity_px = 40;
+  for (int v = 0; v < 180; ++v)
+    for (int u = 90; u < 150; ++u) {
+      const std::uint8_t gray = (u * 7 + v * 13) % 31 < 15 ? 220 : 90;
+      frame.pair.left.at(u, v) = {gray, gray, gray};
+      frame.pair.right.at(u - disparity_px, v) = {gray, gray, gray};
+    }
+  return frame;
+}
+
+std::vector<TrackSeed> seedsInColumn(int u) {
+  std::vector<TrackSeed> seeds;
+  for (int v = 40; v < 150; v += 10)
+    seeds.push_back({v, static_cast<double>(u), static_cast<double>(v)});
+  return seeds;
+}
+
+// Windows that see the bar's edge measure the bar, not the tissue.
+TEST(Reconstructor, TracksBesideAnInstrumentBeginOnTheTissue) {
+  const ShortClip& clip = shortClip();
+  Frame frame = frameWithABar(clip);
+  frame.mask = Mask(240, 180, 0);
+  for (int v = 0; v < 180; ++v)
+    for (int u = 90; u < 150; ++u) frame.mask.at(u, v) = 255;
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  reconstructor.track(seedsInColumn(152));
+  const FrameRecord record = reconstructor.process(frame);
+  const Raster<float>& truth_mm = clip.truth.front().depth_mm;
+  for (const TrackedPosition& point : record.tracked)
+    EXPECT_NEAR(point.position_mm.z(), truth_mm.at(152, point.id), 1.0) << "row " << point.id;
+}
+
+// The bar is taken away: what was on it floats before the tissue, where nothing is.
+TEST(Reconstructor, TracksThatFloatBeforeTheTissueAreNotVisible) {
+  const ShortClip& clip = shortClip();
+  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  reconstructor.track(seedsInColumn(120));
+  const FrameRecord before = reconstructor.process(frameWithABar(clip));
+  reconstructor.process(clip.frames[0]);
+  const FrameRecord after = reconstructor.process(clip.frames[1]);
+  ASSERT_EQ(after.status, FrameStatus::kFused) << after.reason;
+  for (std::size_t k = 0; k < after.tracked.size(); ++k) {
+    EXPECT_TRUE(before.tracked[k].visible) << "row " << after.tracked[k].id;
+    EXPECT_FALSE(after.tracked[k].visible) << "row " << after.tracked[k].id;
+  }
+}
+
 TEST(Reconstructor, ThePapersPresetRunsToo) {
   const ShortClip& clip = shortClip();
   ReconstructionOptions options = ReconstructionOptions::paper();
