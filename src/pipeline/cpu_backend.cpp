@@ -345,7 +345,10 @@ bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
             v = static_cast<int>(std::lround(pixel.y()));
   if (!frame_.not_tissue.contains(u, v) || frame_.not_tissue.at(u, v) != 0) return false;
   const float depth_mm = frame_.measured.depth.depth_mm.at(u, v);
-  return !(point_left.z() - depth_mm > VisibilityOptions::kOcclusionMm);
+  const double behind_mm = point_left.z() - depth_mm;
+  // Nothing floats before the tissue: such a point was lost.
+  return !(std::abs(behind_mm) >
+           VisibilityOptions::kOcclusionMm * std::max(1.0, frame_.summary.limit_scale));
 }
 
 std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_from_left) const {

@@ -11,35 +11,67 @@
 namespace softscope {
 namespace {
 
-constexpr int kSearchPx = 6;          // a seed without depth takes it from pixels this near
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr int kSearchPx = 6;          // a seed without depth takes it from pixels this near …
+constexpr int kGapShare = 40;         // … or, where many are measured, this share of the width
 constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
 constexpr double kMaxSettleMm = 0.5;  // of near tissue; further off is another surface
 
-/// Depth at the pixel: a plane fitted to the inverse depth of the 5 x 5 pixels around; where none
-/// of them is measured, the nearest one that is. NaN where there is none.
-double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel) {
+/// Depth at the pixel by a plane fitted to the inverse depth of the measured pixels within
+/// `radius_px`. NaN where fewer than `least` are measured.
+double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, int radius_px,
+                   int least) {
   const int u0 = static_cast<int>(std::lround(pixel.x()));
   const int v0 = static_cast<int>(std::lround(pixel.y()));
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double nearest_mm = std::numeric_limits<double>::quiet_NaN(), nearest_px = kSearchPx + 1;
   int count = 0;
-  for (int v = v0 - kSearchPx; v <= v0 + kSearchPx; ++v)
-    for (int u = u0 - kSearchPx; u <= u0 + kSearchPx; ++u) {
+  for (int v = v0 - radius_px; v <= v0 + radius_px; ++v)
+    for (int u = u0 - radius_px; u <= u0 + radius_px; ++u) {
       if (!depth_mm.contains(u, v) || !std::isfinite(depth_mm.at(u, v))) continue;
-      const double x = u - pixel.x(), y = v - pixel.y(), distance_px = std::hypot(x, y);
-      if (distance_px < nearest_px) {
-        nearest_px = distance_px;
-        nearest_mm = depth_mm.at(u, v);
-      }
-      if (std::abs(u - u0) > 2 || std::abs(v - v0) > 2) continue;
-      const Eigen::Vector3d row(1, x, y);
+      const Eigen::Vector3d row(1, u - pixel.x(), v - pixel.y());
       normal += row * row.transpose();
       right += row / depth_mm.at(u, v);
       ++count;
     }
-  if (count < 13) return nearest_mm;
+  if (count < least) return kUnknown;
   return 1 / normal.ldlt().solve(right).x();
+}
+
+struct NearestDepth {
+  double depth_mm = kUnknown;
+  double distance_px = 0;
+};
+
+/// Of the measured pixel that is nearest; NaN where none lies within `radius_px`.
+NearestDepth nearestDepth(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel,
+                          int radius_px) {
+  const int u0 = static_cast<int>(std::lround(pixel.x()));
+  const int v0 = static_cast<int>(std::lround(pixel.y()));
+  NearestDepth nearest{kUnknown, radius_px + 1.0};
+  for (int v = v0 - radius_px; v <= v0 + radius_px; ++v)
+    for (int u = u0 - radius_px; u <= u0 + radius_px; ++u) {
+      const double distance_px = std::hypot(u - pixel.x(), v - pixel.y());
+      if (!depth_mm.contains(u, v) || !std::isfinite(depth_mm.at(u, v)) ||
+          distance_px >= nearest.distance_px)
+        continue;
+      nearest = {depth_mm.at(u, v), distance_px};
+    }
+  return nearest;
+}
+
+/// Depth of the surface at the pixel: of its 5 x 5 neighbours; in a gap or beside an instrument, of
+/// what is measured around, going on from the nearest pixel at 45 degrees at most. NaN where there
+/// is none.
+double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, double focal_px) {
+  const double here_mm = planeAround(depth_mm, pixel, 2, 13);
+  if (std::isfinite(here_mm)) return here_mm;
+  const int gap_px = std::max(kSearchPx, depth_mm.width_px / kGapShare);
+  const double around_mm = planeAround(depth_mm, pixel, gap_px, gap_px * gap_px);
+  if (!std::isfinite(around_mm)) return nearestDepth(depth_mm, pixel, kSearchPx).depth_mm;
+  const NearestDepth nearest = nearestDepth(depth_mm, pixel, gap_px);
+  const double limit_mm = nearest.distance_px * nearest.depth_mm / focal_px;
+  return std::clamp(around_mm, nearest.depth_mm - limit_mm, nearest.depth_mm + limit_mm);
 }
 
 std::int64_t cellOf(const Eigen::Vector3d& position_mm) {
@@ -97,7 +129,7 @@ void MaterialPoints::add(int id, const Eigen::Vector2d& pixel, const PinholeCame
                          const Raster<float>& depth_mm, const Eigen::Isometry3d& world_from_left) {
   Point point;
   point.id = id;
-  const double depth = depthAround(depth_mm, pixel);
+  const double depth = depthAround(depth_mm, pixel, left.fx_px);
   if (std::isfinite(depth))
     point.position_mm = world_from_left * liftPixel(left, pixel.x(), pixel.y(), depth);
   points.push_back(point);

@@ -41,6 +41,20 @@ TEST(MaterialPoints, TakeDepthFromNearbyOrStayUnknown) {
   EXPECT_EQ(tracked.points[1].model_point, -1);
 }
 
+// Half of the picture is an instrument. The tissue beside it slants: its nearest depth is wrong.
+TEST(MaterialPoints, BeginOnTheSurfaceThatGoesOnBesideAnInstrument) {
+  const PinholeCamera left{640, 480, 500, 500, 320, 240};
+  Raster<float> depth_mm(640, 480, std::numeric_limits<float>::quiet_NaN());
+  const auto depthAt = [](double u) { return 1 / (0.02 - 1e-5 * (u - 300)); };
+  for (int v = 0; v < 480; ++v)
+    for (int u = 300; u < 640; ++u) depth_mm.at(u, v) = static_cast<float>(depthAt(u));
+  MaterialPoints tracked;
+  tracked.add(0, {292, 240}, left, depth_mm, Eigen::Isometry3d::Identity());
+  tracked.add(1, {270, 240}, left, depth_mm, Eigen::Isometry3d::Identity());
+  EXPECT_NEAR(tracked.points[0].position_mm.z(), depthAt(292), 1e-3);
+  EXPECT_FALSE(tracked.points[1].position_mm.allFinite()) << "too far from any depth";
+}
+
 TEST(MaterialPoints, FollowTheWarp) {
   PointModel model = flatModel();
   WarpGraph graph;
