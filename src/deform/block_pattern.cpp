@@ -10,15 +10,13 @@ int BlockPattern::find(int i, int j) const {
   return at != end && *at == i ? static_cast<int>(at - row.begin()) : -1;
 }
 
-BlockPattern makeBlockPattern(int nodes, std::vector<std::pair<std::int32_t, std::int32_t>> pairs) {
+BlockPattern makeBlockPattern(int nodes, NodePairs pairs) {
+  for (auto& [row, column] : pairs) std::swap(row, column);  // sorted by column
   for (std::int32_t j = 0; j < nodes; ++j) pairs.emplace_back(j, j);
-  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
-    return a.second != b.second ? a.second < b.second : a.first < b.first;
-  });
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sortNodePairs(nodes, &pairs);
   BlockPattern pattern;
   pattern.column_start.assign(static_cast<std::size_t>(nodes) + 1, 0);
-  for (const auto& [i, j] : pairs) {
+  for (const auto& [j, i] : pairs) {
     pattern.row.push_back(i);
     ++pattern.column_start[j + 1];
   }
@@ -27,7 +25,7 @@ BlockPattern makeBlockPattern(int nodes, std::vector<std::pair<std::int32_t, std
 }
 
 BlockPattern makeBlockPattern(const WarpGraph& graph) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  NodePairs pairs;
   pairs.reserve(graph.stencils.size() * 6 + graph.edges.size());
   for (const NodeStencil& stencil : graph.stencils)
     for (int b = 1; b < kNodesPerPoint; ++b)

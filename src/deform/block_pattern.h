@@ -1,11 +1,10 @@
 // src/deform/block_pattern.h: which pairs of nodes meet in the normal equations.
 #pragma once
 
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "core/warp_graph.h"
+#include "deform/node_pairs.h"
 
 namespace softscope {
 
@@ -28,6 +27,6 @@ struct BlockPattern {
 BlockPattern makeBlockPattern(const WarpGraph& graph);
 
 /// From pairs (row, column), row > column, in any order, repeated or not.
-BlockPattern makeBlockPattern(int nodes, std::vector<std::pair<std::int32_t, std::int32_t>> pairs);
+BlockPattern makeBlockPattern(int nodes, NodePairs pairs);
 
 }  // namespace softscope

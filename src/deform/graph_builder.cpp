@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -95,15 +94,16 @@ Carriers findCarriers(const NodeReach::Near& near, const Eigen::Vector3f& point_
 class StencilBook {
  public:
   explicit StencilBook(std::vector<NodeStencil>* stencils) : stencils_(stencils) {
-    for (std::size_t s = 0; s < stencils->size(); ++s)
-      numbers_.emplace((*stencils)[s], static_cast<std::int32_t>(s));
+    makeTable(4 * stencils->size());
   }
 
   std::int32_t numberOf(const NodeStencil& stencil) {
-    const auto [at, added] =
-        numbers_.emplace(stencil, static_cast<std::int32_t>(stencils_->size()));
-    if (added) stencils_->push_back(stencil);
-    return at->second;
+    std::int32_t& held = slotOf(stencil);
+    if (held >= 0) return held;
+    const std::int32_t number = held = static_cast<std::int32_t>(stencils_->size());
+    stencils_->push_back(stencil);
+    if (2 * stencils_->size() > slots_.size()) makeTable(2 * slots_.size());
+    return number;
   }
 
   void dropUnused(Bindings* bindings) {
@@ -123,8 +123,28 @@ class StencilBook {
   }
 
  private:
+  void makeTable(std::size_t room) {
+    std::size_t size = 64;
+    while (size < room) size *= 2;
+    slots_.assign(size, -1);
+    for (std::size_t s = 0; s < stencils_->size(); ++s) {
+      std::int32_t& held = slotOf((*stencils_)[s]);
+      if (held < 0) held = static_cast<std::int32_t>(s);  // of equal ones the first
+    }
+  }
+  /// The number of the stencil, or -1 in the place where it belongs.
+  std::int32_t& slotOf(const NodeStencil& stencil) {
+    std::uint64_t hash = 0;
+    for (const std::int32_t node : stencil)
+      hash = (hash ^ static_cast<std::uint32_t>(node)) * 0x9E3779B97F4A7C15ULL;
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = static_cast<std::size_t>(hash >> 32) & mask;
+    while (slots_[slot] >= 0 && (*stencils_)[slots_[slot]] != stencil) slot = (slot + 1) & mask;
+    return slots_[slot];
+  }
+
   std::vector<NodeStencil>* stencils_;
-  std::map<NodeStencil, std::int32_t> numbers_;
+  std::vector<std::int32_t> slots_;  // open addressing; number of a stencil, or -1
 };
 
 /// One growth of the graph over the region around unbound points.
@@ -192,17 +212,32 @@ class Growth {
     }
   }
 
-  void bindPoints() {
-    StencilBook book(&graph_.stencils);
+  /// Of points_, those without a binding and those that a new node is near to.
+  std::vector<int> pointsToBind() const {
+    std::vector<int> to_bind;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const int cell = cells_.cellOf(static_cast<int>(i));
-      PointBinding& binding = bindings_[points_[i]];
-      if (cell < 0 || (binding.bound() && !near_new_node_[cell])) continue;
-      const Carriers carriers = findCarriers(reach_.near(cell), positions_mm_[points_[i]], graph_,
-                                             options_.node_spacing_mm);
+      if (cell >= 0 && (!bindings_[points_[i]].bound() || near_new_node_[cell]))
+        to_bind.push_back(static_cast<int>(i));
+    }
+    return to_bind;
+  }
+
+  void bindPoints() {
+    const std::vector<int> to_bind = pointsToBind();
+    std::vector<Carriers> carriers(to_bind.size());
+    parallelRanges(static_cast<int>(to_bind.size()), kPointsATask / 8, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k)
+        carriers[k] =
+            findCarriers(reach_.near(cells_.cellOf(to_bind[k])), positions_mm_[points_[to_bind[k]]],
+                         graph_, options_.node_spacing_mm);
+    });
+    StencilBook book(&graph_.stencils);
+    for (std::size_t k = 0; k < to_bind.size(); ++k) {
+      PointBinding& binding = bindings_[points_[to_bind[k]]];
       ++(binding.bound() ? result_.points_rebound : result_.points_bound);
-      binding.stencil = book.numberOf(carriers.stencil);
-      binding.weights = carriers.weights;
+      binding.stencil = book.numberOf(carriers[k].stencil);
+      binding.weights = carriers[k].weights;
     }
     book.dropUnused(&bindings_);
   }

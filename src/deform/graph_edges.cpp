@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "deform/node_pairs.h"
 #include "deform/node_terms.h"
 
 namespace softscope {
@@ -12,21 +13,19 @@ namespace {
 
 constexpr int kBridges = 3;  // three neighbours hold a part's rotation too
 
-using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
-
-Pairs sharedStencils(const WarpGraph& graph) {
-  Pairs pairs;
+NodePairs sharedStencils(const WarpGraph& graph) {
+  NodePairs pairs;
+  pairs.reserve(graph.stencils.size() * 6);
   for (const NodeStencil& stencil : graph.stencils)
     for (int b = 1; b < kNodesPerPoint; ++b)
       for (int a = 0; a < b; ++a)
         if (stencil[a] != stencil[b]) pairs.emplace_back(stencil[a], stencil[b]);
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sortNodePairs(static_cast<int>(graph.size()), &pairs);
   return pairs;
 }
 
 /// The number of each node's connected part; parts are numbered by their first node.
-std::vector<int> findParts(std::size_t nodes, const Pairs& pairs, int* part_count) {
+std::vector<int> findParts(std::size_t nodes, const NodePairs& pairs, int* part_count) {
   std::vector<int> parent(nodes);
   std::iota(parent.begin(), parent.end(), 0);
   const auto find = [&](int node) {
@@ -48,7 +47,7 @@ std::vector<int> findParts(std::size_t nodes, const Pairs& pairs, int* part_coun
 }
 
 /// The node of part `own` that is closest to any other part, and its distance order there.
-void bridge(const WarpGraph& graph, const std::vector<int>& part, int own, Pairs* pairs) {
+void bridge(const WarpGraph& graph, const std::vector<int>& part, int own, NodePairs* pairs) {
   const int nodes = static_cast<int>(graph.size());
   const auto& g = graph.positions_mm;
   double closest = std::numeric_limits<double>::max();
@@ -72,7 +71,7 @@ void bridge(const WarpGraph& graph, const std::vector<int>& part, int own, Pairs
 }
 
 /// Every part but the largest is tied to what is closest; repeated until one part is left.
-void joinParts(const WarpGraph& graph, Pairs* pairs) {
+void joinParts(const WarpGraph& graph, NodePairs* pairs) {
   int count = 0;
   std::vector<int> part = findParts(graph.size(), *pairs, &count);
   while (count > 1) {
@@ -89,10 +88,9 @@ void joinParts(const WarpGraph& graph, Pairs* pairs) {
 }  // namespace
 
 std::vector<GraphEdge> makeEdges(const WarpGraph& graph, const GraphOptions& options) {
-  Pairs pairs = sharedStencils(graph);
+  NodePairs pairs = sharedStencils(graph);
   joinParts(graph, &pairs);
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sortNodePairs(static_cast<int>(graph.size()), &pairs);
   std::vector<GraphEdge> edges;
   edges.reserve(pairs.size());
   for (const auto& [a, b] : pairs) {

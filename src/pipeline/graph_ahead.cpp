@@ -9,11 +9,11 @@ namespace softscope {
 void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
                          const WarpGraph& graph, DeformSolver* solver) {
   drop();
-  result_ = std::async(std::launch::async, [options, &model, &graph, solver] {
-    Grown grown{model.bindings, graph};
-    growGraph(options, model.positions_mm, &grown.bindings, &grown.graph);
-    solver->prepare(grown.graph);
-    return grown;
+  result_ = std::async(std::launch::async, [this, options, &model, &graph, solver] {
+    grown_.bindings = model.bindings;
+    grown_.graph = graph;
+    growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
+    solver->prepare(grown_.graph);
   });
 }
 
@@ -22,9 +22,9 @@ void GraphAhead::grow(const GraphOptions& options, PointModel* model, WarpGraph*
     growGraph(options, model, graph);
     return;
   }
-  Grown grown = result_.get();
-  model->bindings = std::move(grown.bindings);
-  *graph = std::move(grown.graph);
+  result_.get();
+  std::swap(model->bindings, grown_.bindings);
+  std::swap(*graph, grown_.graph);
 }
 
 void GraphAhead::drop() {

@@ -28,7 +28,8 @@ class GraphAhead {
     std::vector<PointBinding> bindings;
     WarpGraph graph;
   };
-  std::future<Grown> result_;
+  std::future<void> result_;
+  Grown grown_;  // by result_; else memory to be used again
 };
 
 }  // namespace softscope

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
 
 #include "core/parallel.h"
 #include "deform/warp.h"
+#include "fusion/cell_table.h"
 
 namespace softscope {
 namespace {
@@ -82,33 +82,83 @@ std::int64_t cellOf(const Eigen::Vector3d& position_mm) {
          (static_cast<std::int64_t>(cell.z()) + kBias);
 }
 
-/// Tracked points in and beside a cell.
-using PointsOfCells = std::unordered_map<std::int64_t, std::vector<int>>;
+/// Tracked points in and beside each cell.
+class TrackedNear {
+ public:
+  explicit TrackedNear(std::size_t expected) : table_(expected) {
+    keys_.reserve(expected);
+    points_.reserve(expected);
+    next_.reserve(expected);
+  }
+  void add(std::int64_t cell, int point) {
+    const std::int32_t entry = static_cast<std::int32_t>(keys_.size());
+    keys_.push_back(static_cast<CellKey>(cell));
+    points_.push_back(point);
+    std::int32_t& first = firstOf(keys_.back());
+    next_.push_back(first);
+    first = entry;
+  }
+  bool empty() const { return keys_.empty(); }
+  /// Calls found(point) for each tracked point in or beside the cell.
+  template <class Found>
+  void forEach(std::int64_t cell, const Found& found) const {
+    for (std::int32_t entry = firstOf(static_cast<CellKey>(cell)); entry != CellHashTable::kEmpty;
+         entry = next_[static_cast<std::size_t>(entry)])
+      found(points_[static_cast<std::size_t>(entry)]);
+  }
 
-/// Model points that lie in those cells, in their order, and who is near.
-std::vector<std::pair<std::size_t, const std::vector<int>*>> modelPointsNear(
-    const PointsOfCells& points_of_cell, const PointModel& model) {
-  std::vector<std::pair<std::size_t, const std::vector<int>*>> all;
-  if (points_of_cell.empty()) return all;
-  const std::size_t grain = kPointsATask, tasks = (model.size() + grain - 1) / grain;
-  std::vector<std::vector<std::pair<std::size_t, const std::vector<int>*>>> parts(tasks);
-  parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
-    for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
-         ++task)
-      for (std::size_t i = task * grain; i < std::min(model.size(), (task + 1) * grain); ++i) {
-        const auto found = points_of_cell.find(cellOf(model.positions_mm[i].cast<double>()));
-        if (found != points_of_cell.end()) parts[task].emplace_back(i, &found->second);
-      }
-  });
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
+ private:
+  /// The last entry of the cell, from which the others follow.
+  std::int32_t& firstOf(CellKey key) const {
+    return table_.find(key, [&](std::int32_t entry) { return keys_[entry] == key; });
+  }
+
+  mutable CellHashTable table_;
+  std::vector<CellKey> keys_;  // per entry, as the others
+  std::vector<int> points_;
+  std::vector<std::int32_t> next_;
+};
 
 /// What the model says around one tracked point.
 struct SurfacePiece {
   double weight = 0, height_mm = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
+
+/// What one model point adds to the piece of a tracked point.
+struct SurfaceShare {
+  int point;
+  double weight, height_mm;
+  Eigen::Vector3d normal;
+};
+
+/// Of all model points, in their order.
+std::vector<SurfaceShare> surfaceShares(const TrackedNear& near, const PointModel& model,
+                                        const std::vector<MaterialPoints::Point>& points) {
+  std::vector<SurfaceShare> all;
+  if (near.empty()) return all;
+  const auto sharesOf = [&](std::size_t i, std::vector<SurfaceShare>* shares) {
+    const Eigen::Vector3d position = model.positions_mm[i].cast<double>();
+    near.forEach(cellOf(position), [&](int k) {
+      const Eigen::Vector3d away = position - points[static_cast<std::size_t>(k)].position_mm;
+      const double share = 1 - away.squaredNorm() / (kSurfaceMm * kSurfaceMm);
+      if (share <= 0) return;
+      const Eigen::Vector3d normal = model.normals[i].cast<double>();
+      const double weight = share * model.weights[i];
+      shares->push_back({k, weight, weight * normal.dot(away), weight * normal});
+    });
+  };
+  const std::size_t grain = kPointsATask, tasks = (model.size() + grain - 1) / grain;
+  std::vector<std::vector<SurfaceShare>> parts(tasks);
+  parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
+    for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
+         ++task)
+      for (std::size_t i = task * grain; i < std::min(model.size(), (task + 1) * grain); ++i)
+        sharesOf(i, &parts[task]);
+  });
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
 
 std::int32_t nearestPoint(const PointModel& model, const Eigen::Vector3f& position_mm) {
   std::int32_t nearest = -1;
@@ -160,29 +210,21 @@ void MaterialPoints::renumber(const IndexMap& map, const PointModel& model) {
 void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm,
                             double limit_scale) {
   const double limit_mm = kMaxSettleMm * limit_scale;
-  PointsOfCells points_of_cell;
+  constexpr int kCellsAround = 27;
+  TrackedNear near(points.size() * kCellsAround);
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].model_point < 0) continue;
-    for (int cell = 0; cell < 27; ++cell) {
+    for (int cell = 0; cell < kCellsAround; ++cell) {
       const Eigen::Vector3d step(cell % 3 - 1, cell / 3 % 3 - 1, cell / 9 - 1);
-      points_of_cell[cellOf(points[k].position_mm + kSurfaceMm * step)].push_back(
-          static_cast<int>(k));
+      near.add(cellOf(points[k].position_mm + kSurfaceMm * step), static_cast<int>(k));
     }
   }
   std::vector<SurfacePiece> pieces(points.size());
-  for (const auto& [i, near] : modelPointsNear(points_of_cell, model)) {
-    const Eigen::Vector3d position = model.positions_mm[i].cast<double>();
-    for (const int k : *near) {
-      const Eigen::Vector3d away = position - points[static_cast<std::size_t>(k)].position_mm;
-      const double share = 1 - away.squaredNorm() / (kSurfaceMm * kSurfaceMm);
-      if (share <= 0) continue;
-      SurfacePiece& piece = pieces[static_cast<std::size_t>(k)];
-      const Eigen::Vector3d normal = model.normals[i].cast<double>();
-      const double weight = share * model.weights[i];
-      piece.weight += weight;
-      piece.height_mm += weight * normal.dot(away);
-      piece.normal += weight * normal;
-    }
+  for (const SurfaceShare& share : surfaceShares(near, model, points)) {
+    SurfacePiece& piece = pieces[static_cast<std::size_t>(share.point)];
+    piece.weight += share.weight;
+    piece.height_mm += share.height_mm;
+    piece.normal += share.normal;
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (pieces[k].weight <= 0 || pieces[k].normal.norm() <= 0) continue;
