@@ -8,8 +8,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kSlipPx = 1;  // of the texture in the image that is no change of the tissue
-
 /// As of windows that are matched: below it the anchors are of no use there.
 constexpr double kLeastAnchorCorrelation = 0.7;
 
@@ -19,14 +17,22 @@ bool agree(const BlockCorrelation& block) {
 
 }  // namespace
 
+AnchorAgreement::AnchorAgreement(int width_px, int height_px)
+    : width_px_(width_px),
+      block_px_(BlockCorrelation::blockPx(width_px)),
+      agrees_((width_px + block_px_ - 1) / block_px_, (height_px + block_px_ - 1) / block_px_, 0) {}
+
+AnchorAgreement::AnchorAgreement(int width_px, int height_px, const BlockSums* blocks)
+    : AnchorAgreement(width_px, height_px) {
+  for (std::size_t block = 0; block < agrees_.size(); ++block)
+    agrees_.values[block] = agree(BlockCorrelation(blocks[block]));
+}
+
 AnchorAgreement::AnchorAgreement(const PointModel& model, const Observation& observation,
                                  const Visibility& visibility) {
   const ColourImage& image = observation.colour;
   if (image.empty()) return;
-  width_px_ = image.width_px;
-  block_px_ = BlockCorrelation::blockPx(width_px_);
-  agrees_ = Mask((image.width_px + block_px_ - 1) / block_px_,
-                 (image.height_px + block_px_ - 1) / block_px_, 0);
+  *this = AnchorAgreement(image.width_px, image.height_px);
   const int count = static_cast<int>(model.size());
   const int tasks = (count + kPointsATask - 1) / kPointsATask;
   std::vector<std::vector<BlockCorrelation>> parts(static_cast<std::size_t>(tasks));

@@ -5,16 +5,41 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
+#include "core/hd.h"
 #include "core/image.h"
 
 namespace softscope {
 
+/// Sums over the points of one block, as a device counts them. Blocks of 256 x 256 pixels fit.
+struct BlockSums {
+  static constexpr int kPlaces = 9;
+  struct Place {
+    std::uint32_t image, image_sq, product;
+  };
+  std::uint32_t points, model, model_sq;
+  Place places[kPlaces];
+};
+
 /// Sums over the points of one block. They are whole numbers, so their order doesn't matter.
 class BlockCorrelation {
  public:
+  BlockCorrelation() = default;
+  explicit BlockCorrelation(const BlockSums& sums)
+      : points_(static_cast<int>(sums.points)), model_(sums.model), model_sq_(sums.model_sq) {
+    for (std::size_t k = 0; k < kPlaces; ++k) {
+      const BlockSums::Place& from = sums.places[k];
+      places_[k] = {double(from.image), double(from.image_sq), double(from.product)};
+    }
+  }
+
   static int blockPx(int width_px) { return std::max(16, width_px / 20); }  // 32 px of 640
-  static constexpr int kPlaces = 9;  // in place, and moved in eight directions
+  static constexpr int kPlaces = BlockSums::kPlaces;  // in place, and moved in eight directions
+
+  /// -1, 0 or 1: where a place lies among the 3 x 3.
+  SOFTSCOPE_HD static int column(int place) { return place % 3 - 1; }
+  SOFTSCOPE_HD static int row(int place) { return place / 3 - 1; }
 
   /// A point of `brightness` at a pixel of the image, in place and moved by `shift_px` (the same
   /// for all points of the block); left out where a moved place is outside.
@@ -26,8 +51,7 @@ class BlockCorrelation {
     model_ += brightness;
     model_sq_ += brightness * brightness;
     for (int place = 0; place < kPlaces; ++place) {
-      const double seen =
-          toGray(image.at(u + shift_px * (place % 3 - 1), v + shift_px * (place / 3 - 1)));
+      const double seen = toGray(image.at(u + shift_px * column(place), v + shift_px * row(place)));
       Place& sums = places_[static_cast<std::size_t>(place)];
       sums.image += seen;
       sums.image_sq += seen * seen;

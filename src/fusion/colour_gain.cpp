@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "fusion/colour_levels.h"
@@ -11,49 +12,44 @@
 namespace softscope {
 namespace {
 
-constexpr int kBins = 512;  // of log2(ratio), from -2 to 2; 1 is the middle of one
-constexpr float kBinsPerOctave = kBins / 4.0f;
-constexpr int kDarkest = 16;  // below it quantisation spoils the ratio
+constexpr float kBinsPerOctave = kGainBins / 4.0f;
 constexpr int kFewestPoints = 100;
-constexpr std::size_t kMostPoints = 20000;  // an even subset tells the median well enough
 
-/// Counts of log2(ratio).
+/// Counts of the ratios of one channel.
 struct RatioHistogram {
-  std::array<int, kBins> counts{};
-  int total = 0;
+  std::array<int, kGainBins> counts{};
 
-  void add(float ratio) {
-    const float bin = (std::log2(ratio) + 2) * kBinsPerOctave + 0.5f;
-    if (!(bin >= 0 && bin < kBins)) return;
-    ++counts[static_cast<std::size_t>(bin)];
-    ++total;
+  void add(std::uint8_t seen, std::uint8_t known) {
+    const int bin = gainBin(seen, known);
+    if (bin >= 0) ++counts[static_cast<std::size_t>(bin)];
   }
-
   void operator+=(const RatioHistogram& other) {
     for (std::size_t bin = 0; bin < counts.size(); ++bin) counts[bin] += other.counts[bin];
-    total += other.total;
   }
-
-  float median() const {
-    if (total < kFewestPoints) return 1;
-    int bin = 0;
-    for (int below = 0; below + counts[bin] <= total / 2; ++bin) below += counts[bin];
-    const float ratio = std::exp2(static_cast<float>(bin) / kBinsPerOctave - 2);
-    return std::clamp(ratio, 0.5f, 2.0f);
-  }
+  float median() const { return gainOf(counts.data()); }
 };
 
-bool usable(Rgb8 colour, const ColourOptions& options) {
-  return std::min({colour.red, colour.green, colour.blue}) >= kDarkest &&
-         std::max({colour.red, colour.green, colour.blue}) < 250 && !isHighlight(colour, options);
+}  // namespace
+
+int gainBin(std::uint8_t seen, std::uint8_t known) {
+  const float ratio = static_cast<float>(seen) / known;
+  const float bin = (std::log2(ratio) + 2) * kBinsPerOctave + 0.5f;
+  return bin >= 0 && bin < kGainBins ? static_cast<int>(bin) : -1;
 }
 
-}  // namespace
+float gainOf(const int* counts) {
+  const int total = std::accumulate(counts, counts + kGainBins, 0);
+  if (total < kFewestPoints) return 1;
+  int bin = 0;
+  for (int below = 0; below + counts[bin] <= total / 2; ++bin) below += counts[bin];
+  const float ratio = std::exp2(static_cast<float>(bin) / kBinsPerOctave - 2);
+  return std::clamp(ratio, 0.5f, 2.0f);
+}
 
 ColourGain estimateGain(const PointModel& model, const Observation& observation,
                         const Visibility& visibility, const ColourOptions& options) {
   if (!options.compensate_gain || observation.colour.empty()) return {};
-  const std::size_t stride = 1 + model.size() / kMostPoints;
+  const std::size_t stride = gainStride(model.size());
   const int count = static_cast<int>((model.size() + stride - 1) / stride);
   RatioHistogram red, green, blue;
   std::mutex adding;
@@ -65,10 +61,10 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
       if (point.sight != Sight::kSeen) continue;
       const Rgb8 seen = observation.colour.values[static_cast<std::size_t>(point.pixel)];
       const Rgb8 known = model.colours[i];
-      if (!usable(seen, options) || !usable(known, options)) continue;
-      own_red.add(static_cast<float>(seen.red) / known.red);
-      own_green.add(static_cast<float>(seen.green) / known.green);
-      own_blue.add(static_cast<float>(seen.blue) / known.blue);
+      if (!tellsGain(seen, options) || !tellsGain(known, options)) continue;
+      own_red.add(seen.red, known.red);
+      own_green.add(seen.green, known.green);
+      own_blue.add(seen.blue, known.blue);
     }
     const std::lock_guard<std::mutex> lock(adding);  // whole numbers: in any order
     red += own_red, green += own_green, blue += own_blue;

@@ -7,15 +7,10 @@
 namespace softscope {
 namespace {
 
-constexpr int kCellPx = 4;    // squares in which nearer points hide others …
-constexpr float kHideMm = 1;  // … this far behind
-constexpr std::uint64_t kNoPoint = ~std::uint64_t{0};
-
-/// Depth above, index below: the smallest is the nearest point, the first of equals.
-std::uint64_t entry(float depth_mm, int index) {
+std::uint64_t entryOf(float depth_mm, int index) {
   std::uint32_t bits;
   std::memcpy(&bits, &depth_mm, sizeof bits);
-  return std::uint64_t{bits} << 32 | static_cast<std::uint32_t>(index);
+  return DrawnPoints::entry(bits, index);
 }
 
 }  // namespace
@@ -42,9 +37,9 @@ std::int32_t DrawnPoints::findShown(int u, int v) const {
   const std::uint64_t held =
       nearest_[static_cast<std::size_t>(v) * camera_.width_px + u].load(std::memory_order_relaxed);
   if (held == kNoPoint) return -1;
-  const std::int32_t index = static_cast<std::int32_t>(held & 0xFFFFFFFFu);
+  const std::int32_t index = pointOf(held);
   const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[index]);
-  const float cosine = -(camera_.left_from_world * model_.normals[index]).dot(left) / left.norm();
+  const float cosine = cosineToRay(left, camera_.left_from_world * model_.normals[index]);
   const bool hidden = surface_.hides(u, v, left.z(), cosine, camera_.fx_px, kHideMm);
   return hidden ? -1 : index;
 }
@@ -54,7 +49,7 @@ void DrawnPoints::draw(int i) {
   int u, v;
   if (!left.allFinite() || !camera_.findPixel(left, &u, &v)) return;
   surface_.add(u, v, left.z());
-  const std::uint64_t mine = entry(left.z(), i);
+  const std::uint64_t mine = entryOf(left.z(), i);
   auto& pixel = nearest_[static_cast<std::size_t>(v) * camera_.width_px + u];
   std::uint64_t held = pixel.load(std::memory_order_relaxed);
   while (mine < held && !pixel.compare_exchange_weak(held, mine, std::memory_order_relaxed))

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/hd.h"
 #include "core/point_model.h"
 #include "core/raster.h"
 #include "fusion/nearest_surface.h"
@@ -16,6 +17,17 @@ namespace softscope {
 /// hidden. Same input, same result on any number of threads. The model must outlive it.
 class DrawnPoints {
  public:
+  static constexpr int kCellPx = 4;    // squares in which nearer points hide others …
+  static constexpr float kHideMm = 1;  // … this far behind
+  static constexpr std::uint64_t kNoPoint = ~std::uint64_t{0};
+  /// Bits of the depth above, index below: the smallest is the nearest point, the first of equals.
+  SOFTSCOPE_HD static std::uint64_t entry(std::uint32_t depth_bits, int index) {
+    return std::uint64_t{depth_bits} << 32 | static_cast<std::uint32_t>(index);
+  }
+  SOFTSCOPE_HD static std::int32_t pointOf(std::uint64_t entry) {
+    return static_cast<std::int32_t>(entry & 0xFFFFFFFFu);
+  }
+
   DrawnPoints(const PointModel& model, const PosedCamera& camera);
 
   const PointModel& model() const { return model_; }

@@ -9,15 +9,7 @@
 namespace softscope {
 namespace {
 
-/// A node that few points speak for is believed to be like the whole frame: that counts as so many.
-constexpr double kPriorPoints = 5;
-
 constexpr int kNodesATask = 48;
-
-/// A difference counts as no more than so many standard deviations of those around it: single wrong
-/// depths say nothing about the tissue.
-constexpr double kLargest = 3;
-const double kGaussian = std::sqrt(M_PI / 2);  // standard deviation over mean absolute value
 
 bool carries(const WarpGraph& graph, const PointBinding& binding) {
   return binding.bound() && binding.stencil < static_cast<std::int32_t>(graph.stencils.size());
@@ -93,9 +85,8 @@ std::vector<double> nodeMeans(const std::vector<Difference>& all, std::size_t no
       }
     });
   });
-  const double prior = kPriorPoints * frame_total / frame_weight;
   for (std::size_t n = 0; n < nodes; ++n)
-    totals[n] = (totals[n] + prior) / (weights[n] + kPriorPoints);
+    totals[n] = innovationMean(totals[n], weights[n], frame_total, frame_weight);
   return totals;
 }
 
@@ -116,7 +107,7 @@ InnovationField::InnovationField(const PointModel& model, const WarpGraph& graph
       double around_mm = 0;
       for (int k = 0; k < kNodesPerPoint; ++k)
         around_mm += one.binding->weights[k] * away_mm[static_cast<std::size_t>((*one.stencil)[k])];
-      const double counted_mm = std::min(one.away_mm, kLargest * kGaussian * around_mm);
+      const double counted_mm = countedDifference(one.away_mm, around_mm);
       return counted_mm * counted_mm;
     });
   };

@@ -1,8 +1,10 @@
 // src/fusion/innovation.h: how far a frame lies from the model that was warped to meet it.
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "core/hd.h"
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "fusion/fusion_options.h"
@@ -17,6 +19,24 @@ struct Innovation {
   float excess_mm2 = 0;  // of it, what the depth's own errors don't explain: the model's variance
 };
 
+/// The mean of some quantity around a node, from its weighted total there and over the frame. A
+/// node that few points speak for is believed to be like the whole frame.
+SOFTSCOPE_HD inline double innovationMean(double total, double weight, double frame_total,
+                                          double frame_weight) {
+  constexpr double kPriorPoints = 5;  // that the frame counts as
+  const double prior = kPriorPoints * frame_total / frame_weight;
+  return (total + prior) / (weight + kPriorPoints);
+}
+
+/// A difference counts as no more than three standard deviations of those around it: single wrong
+/// depths say nothing about the tissue. `around_mm`: mean absolute difference there.
+SOFTSCOPE_HD inline double countedDifference(double away_mm, double around_mm) {
+  constexpr double kLargest =
+      3 * 1.2533141373155001;  // standard deviation over mean absolute value
+  const double limit_mm = kLargest * around_mm;
+  return limit_mm < away_mm ? limit_mm : away_mm;
+}
+
 /// What the seen points around each node say. Empty, and 0 everywhere, where nothing is known about
 /// the depth's errors.
 class InnovationField {
@@ -26,6 +46,9 @@ class InnovationField {
   /// `graph` has live positions, `visibility` is about `model`.
   InnovationField(const PointModel& model, const WarpGraph& graph, const Observation& observation,
                   const Visibility& visibility, const PointFusionOptions& options);
+
+  /// From the means around each node.
+  explicit InnovationField(std::vector<Innovation> nodes) : nodes_(std::move(nodes)) {}
 
   /// Of the nodes that carry a point, in the proportion in which they carry it.
   Innovation at(const WarpGraph& graph, const PointBinding& binding) const;

@@ -3,14 +3,13 @@
 
 #include <Eigen/Core>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <vector>
 
 #include "core/parallel.h"
-#include "fusion/observation.h"
+#include "fusion/sight_formulas.h"
 
 namespace softscope {
 
@@ -45,19 +44,14 @@ class NearestSurface {
     return depth_mm;
   }
 
-  /// Whether the point lies clearly behind: docs/fusion.md (F4). The square's own extent counts by
-  /// the slope of the point's surface. `cosine`: between the point's normal and its ray.
+  /// Whether the point lies clearly behind: liesBehind(). `cosine`: cosineToRay() of the point.
   bool hides(int u, int v, float depth_mm, float cosine, float focal_px, float margin_mm) const {
-    const float steep = cosine > kLeastCosine ? cosine : kLeastCosine;
-    const float slope = std::sqrt(1 - steep * steep) / steep;
-    const float extent_mm = 1.5f * static_cast<float>(cell_px_) * depth_mm / focal_px;
-    return depth_mm > depthAt(u, v) + margin_mm + slope * extent_mm;
+    return liesBehind(depthAt(u, v), cell_px_, depth_mm, cosine, focal_px, margin_mm);
   }
 
  private:
   static constexpr int kCellsATask = 1 << 15;
   static constexpr std::uint32_t kFar = 0x7F800000;  // infinity
-  static constexpr float kLeastCosine = 0.1f;
 
   std::atomic<std::uint32_t>& cell(int u, int v) {
     return bits_[static_cast<std::size_t>(v / cell_px_) * columns_ + u / cell_px_];

@@ -1,7 +1,7 @@
 #include "fusion/view_evidence.h"
 
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/parallel.h"
 #include "fusion/block_correlation.h"
@@ -9,14 +9,6 @@
 
 namespace softscope {
 namespace {
-
-constexpr int kShiftShare = 80;  // blocks are moved by this part of the image's width: 8 px of 640
-constexpr double kSigmas = 3;
-
-/// What one row of blocks has to say.
-struct Votes {
-  int compared_px = 0, agreeing_px = 0, blocks = 0, in_place = 0;
-};
 
 class Comparison {
  public:
@@ -28,23 +20,20 @@ class Comparison {
         states_(states),
         depth_step_(static_cast<float>(options.kEdgeStep)),
         block_px_(BlockCorrelation::blockPx(states.width_px)),
-        shift_px_(std::max(3, states.width_px / kShiftShare)) {}
+        shift_px_(evidenceShiftPx(states.width_px)) {}
 
   int rows() const { return (states_.height_px + block_px_ - 1) / block_px_; }
 
-  Votes rowOfBlocks(int row) const {
-    Votes votes;
+  EvidenceVotes rowOfBlocks(int row) const {
+    EvidenceVotes votes;
     for (int u0 = 0; u0 < states_.width_px; u0 += block_px_) {
-      const BlockCorrelation block = blockAt(u0, row * block_px_, &votes);
-      if (!block.textured()) continue;
-      ++votes.blocks;
-      votes.in_place += block.bestInPlace();
+      votes.add(blockAt(u0, row * block_px_, &votes));
     }
     return votes;
   }
 
  private:
-  BlockCorrelation blockAt(int u0, int v0, Votes* votes) const {
+  BlockCorrelation blockAt(int u0, int v0, EvidenceVotes* votes) const {
     BlockCorrelation block;
     for (int v = v0; v < std::min(v0 + block_px_, states_.height_px); ++v)
       for (int u = u0; u < std::min(u0 + block_px_, states_.width_px); ++u) {
@@ -61,14 +50,11 @@ class Comparison {
   }
 
   bool depthAgrees(int point, int u, int v) const {
-    const float measured_mm = observation_.depth.depth_mm.at(u, v);
-    float tolerance_mm = depth_step_ * measured_mm;
-    if (!observation_.depth.sigma_mm.empty())
-      tolerance_mm = std::max(tolerance_mm,
-                              static_cast<float>(kSigmas) * observation_.depth.sigma_mm.at(u, v));
+    const Raster<float>& sigmas_mm = observation_.depth.sigma_mm;
     const float model_mm =
         drawn_.camera().toLeft(model_.positions_mm[static_cast<std::size_t>(point)]).z();
-    return std::abs(model_mm - measured_mm) <= tolerance_mm;
+    return depthsAgree(model_mm, observation_.depth.depth_mm.at(u, v),
+                       sigmas_mm.empty() ? 0.0f : sigmas_mm.at(u, v), depth_step_);
   }
 
   const DrawnPoints& drawn_;
@@ -87,30 +73,34 @@ double ViewEvidence::confidence() const {
   return std::min(depth_share, std::max(0.0, (image_share - kChance) / (1 - kChance)));
 }
 
+ViewEvidence evidenceOf(const EvidenceVotes& votes) {
+  ViewEvidence evidence;
+  evidence.blocks = votes.blocks;
+  if (votes.compared_px > 0)
+    evidence.depth_share = static_cast<double>(votes.agreeing_px) / votes.compared_px;
+  if (votes.blocks > 0) evidence.image_share = static_cast<double>(votes.in_place) / votes.blocks;
+  return evidence;
+}
+
 ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observation,
                           const Raster<PixelState>& states, const PixelOptions& options) {
   options.validate();
   observation.validate();
   requireStates(states, observation);
   const Comparison comparison(drawn, observation, states, options);
-  std::vector<Votes> rows(static_cast<std::size_t>(comparison.rows()));
+  std::vector<EvidenceVotes> rows(static_cast<std::size_t>(comparison.rows()));
   parallelRanges(comparison.rows(), 1, [&](int begin, int end) {
     for (int row = begin; row < end; ++row)
       rows[static_cast<std::size_t>(row)] = comparison.rowOfBlocks(row);
   });
-  Votes all;
-  for (const Votes& row : rows) {
+  EvidenceVotes all;
+  for (const EvidenceVotes& row : rows) {
     all.compared_px += row.compared_px;
     all.agreeing_px += row.agreeing_px;
     all.blocks += row.blocks;
     all.in_place += row.in_place;
   }
-  ViewEvidence evidence;
-  evidence.blocks = all.blocks;
-  if (all.compared_px > 0)
-    evidence.depth_share = static_cast<double>(all.agreeing_px) / all.compared_px;
-  if (all.blocks > 0) evidence.image_share = static_cast<double>(all.in_place) / all.blocks;
-  return evidence;
+  return evidenceOf(all);
 }
 
 }  // namespace softscope

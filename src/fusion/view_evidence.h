@@ -1,8 +1,12 @@
 // src/fusion/view_evidence.h: whether the warped model, seen from the pose, shows the frame.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "core/hd.h"
+#include "fusion/block_correlation.h"
 #include "fusion/drawn_points.h"
 #include "fusion/observation.h"
 
@@ -19,6 +23,30 @@ struct ViewEvidence {
   /// 0: no more agreement than by chance, 1: everywhere. 0 where nothing could be compared.
   double confidence() const;
 };
+
+/// Whether the model's depth is the measured one. `sigma_mm` 0 where none is known.
+SOFTSCOPE_HD inline bool depthsAgree(float model_mm, float measured_mm, float sigma_mm,
+                                     float depth_step) {
+  constexpr float kSigmas = 3;
+  const float by_step_mm = depth_step * measured_mm, by_sigma_mm = kSigmas * sigma_mm;
+  const float tolerance_mm = by_step_mm < by_sigma_mm ? by_sigma_mm : by_step_mm;
+  return std::abs(model_mm - measured_mm) <= tolerance_mm;
+}
+
+/// By how much blocks of an image of that width are moved: 8 px of 640.
+inline int evidenceShiftPx(int width_px) { return std::max(3, width_px / 80); }
+
+/// What the blocks of the image say; they may be added up in any order.
+struct EvidenceVotes {
+  int compared_px = 0, agreeing_px = 0, blocks = 0, in_place = 0;
+
+  void add(const BlockCorrelation& block) {
+    if (!block.textured()) return;
+    ++blocks;
+    in_place += block.bestInPlace();
+  }
+};
+ViewEvidence evidenceOf(const EvidenceVotes& votes);
 
 /// Of the model drawn from the observation's pose: compares, over the pixels that are sure: its
 /// depth, to `options.kEdgeStep` of the depth or three standard errors, whichever is more; and the

@@ -1,41 +1,14 @@
 #include "fusion/visibility.h"
 
-#include <cmath>
 #include <string>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fusion/nearest_surface.h"
+#include "fusion/sight_formulas.h"
 
 namespace softscope {
 namespace {
-
-Sight sightOfState(PixelState state) {
-  return state == PixelState::kMasked ? Sight::kMasked : Sight::kUnknown;
-}
-
-/// What the measurement alone says about one point; adds it to the model's nearest surface.
-PointSight sightOf(const Eigen::Vector3f& point_left, const Eigen::Vector3f& normal_left,
-                   const PosedCamera& camera, const Observation& observation,
-                   const Raster<PixelState>& states, const SightLimits& limits,
-                   NearestSurface* nearest) {
-  PointSight result;
-  int u, v;
-  if (!point_left.allFinite() || !camera.findPixel(point_left, &u, &v)) return result;
-  const int pixel = v * camera.width_px + u;
-  const PixelState state = states.values[pixel];
-  if (state == PixelState::kSure) {
-    const float depth_mm = observation.depth.depth_mm.values[pixel];
-    result = compareWithPixel(point_left, normal_left, camera.ray(u, v) * depth_mm,
-                              observation.normals.values[pixel], limits);
-  } else {
-    result.sight = sightOfState(state);
-  }
-  result.pixel = pixel;
-  // A point that isn't there any more hides nothing.
-  if (result.sight != Sight::kSeenThrough) nearest->add(u, v, point_left.z());
-  return result;
-}
 
 /// Hides what lies behind the model's own nearest surface: (F4).
 void hideBehindModel(const PointModel& model, const PosedCamera& camera,
@@ -47,7 +20,7 @@ void hideBehindModel(const PointModel& model, const PosedCamera& camera,
       PointSight& point = visibility->points[i];
       if (point.sight != Sight::kSeen && point.sight != Sight::kTurned) continue;
       const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);
-      const float cosine = -(camera.left_from_world * model.normals[i]).dot(left) / left.norm();
+      const float cosine = cosineToRay(left, camera.left_from_world * model.normals[i]);
       if (nearest.hides(point.pixel % camera.width_px, point.pixel / camera.width_px, left.z(),
                         cosine, camera.fx_px, margin_mm))
         point.sight = Sight::kHidden;
@@ -84,16 +57,22 @@ Visibility findVisible(const PointModel& model, const Observation& observation,
   observation.validate();
   requireStates(states, observation);
   const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
-  const SightLimits limits{static_cast<float>(options.max_distance_mm),
-                           static_cast<float>(std::cos(options.kMaxAngleDeg * M_PI / 180))};
+  const SightLimits limits = sightLimits(options);
+  const SightRasters rasters{observation.depth.depth_mm.values.data(),
+                             observation.normals.values.data(), states.values.data()};
   NearestSurface nearest(camera.width_px, camera.height_px, options.kOcclusionCellPx);
   Visibility visibility;
   visibility.points.resize(model.size());
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i)
-      visibility.points[i] =
-          sightOf(camera.toLeft(model.positions_mm[i]), camera.left_from_world * model.normals[i],
-                  camera, observation, states, limits, &nearest);
+    for (int i = begin; i < end; ++i) {
+      const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);
+      const PointSight sight =
+          sightOf(left, camera.left_from_world * model.normals[i], camera, rasters, limits);
+      visibility.points[i] = sight;
+      // A point that isn't there any more hides nothing.
+      if (sight.pixel >= 0 && sight.sight != Sight::kSeenThrough)
+        nearest.add(sight.pixel % camera.width_px, sight.pixel / camera.width_px, left.z());
+    }
   });
   hideBehindModel(model, camera, nearest, options, &visibility);
   return visibility;

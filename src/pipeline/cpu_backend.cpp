@@ -36,7 +36,8 @@ class CpuBackend : public ReconstructionBackend {
                 options),
         matching_(parts.makeMatching(options, rig())),
         pose_search_(parts.makePoseSearch()),
-        solver_(parts.makeSolver(options.deform)) {
+        solver_(parts.makeSolver(options.deform)),
+        comparer_(parts.makeComparer(rig())) {
     options.validate();
   }
 
@@ -102,6 +103,7 @@ class CpuBackend : public ReconstructionBackend {
 
   // Of the frame at hand.
   FrameView frame_;
+  std::unique_ptr<FrameComparer> comparer_;  // may read frame_ until endFrame()
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
   std::optional<ModelComparison> comparison_;  // with the warped model
@@ -110,11 +112,13 @@ class CpuBackend : public ReconstructionBackend {
 };
 
 DepthSummary CpuBackend::measure(const Frame& frame) {
+  comparer_->endFrame();
   clock_ = StageClock();
   matches_.clear();
   comparison_.reset();
   pose_ = RigidPose();
   frame_ = frames_.measure(frame, &clock_);
+  if (!empty()) comparer_->beginFrame(observe(Eigen::Isometry3d::Identity()), frame_.states);
   return frame_.summary;
 }
 
@@ -237,9 +241,8 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   growth_.grow(options_.graph, &state_.model, &state_.graph);
   state_.tracked.anchor(state_.model);
   clock_.lap("graph");
-  const std::vector<std::int32_t> visible =
-      findVisible(state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility)
-          .seen();
+  const std::vector<std::int32_t> visible = comparer_->seenPoints(
+      state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility);
   const DepthTarget surface(frame_.measured.depth, frame_.measured.normals, left(),
                             world_from_left.inverse(), frame_.association);
   clock_.lap("visible");
@@ -262,23 +265,12 @@ void CpuBackend::acceptWarp(bool is_reference) {
 }
 
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
-  const Observation observation = observe(world_from_left);
-  EvidenceSummary evidence;
-  const auto draw = [&] {
-    const DrawnPoints drawn(state_.model, posedCamera(left(), world_from_left));
-    parallelInvoke(
-        [&] { evidence.predicted = backProjectionError(drawn, observation, frame_.states); },
-        [&] {
-          evidence.view = viewEvidence(drawn, observation, frame_.states, frame_.fusion.pixels);
-        });
-  };
   // Nearly every frame is confirmed: what fusion asks first is found beside the evidence.
-  parallelInvoke(draw, [&] {
-    comparison_ =
-        compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
-  });
+  FrameComparison found = comparer_->compare(state_.model, state_.graph, observe(world_from_left),
+                                             frame_.states, frame_.fusion);
+  comparison_ = std::move(found.model);
   clock_.lap("check");
-  return evidence;
+  return {found.predicted, found.view};
 }
 
 void CpuBackend::rejectWarp() {
@@ -317,7 +309,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
       },
-      [&] { fused_.corrected = backProjectionError(state_.model, observation, frame_.states); });
+      [&] { fused_.corrected = comparer_->error(state_.model, observation, frame_.states); });
   fused_.points = static_cast<int>(state_.model.size());
   fused_.seen = update.seen;
   fused_.fused = update.points.fused;

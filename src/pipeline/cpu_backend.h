@@ -7,6 +7,7 @@
 
 #include "core/stereo_rig.h"
 #include "deform/lm_solver.h"
+#include "fusion/frame_comparer.h"
 #include "pipeline/match_stage.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
@@ -25,6 +26,8 @@ struct BackendParts {
   std::function<std::unique_ptr<PoseSearch>()> makePoseSearch = [] {
     return std::make_unique<CpuPoseSearch>();
   };
+  std::function<std::unique_ptr<FrameComparer>(const RectifiedRig&)> makeComparer =
+      [](const RectifiedRig&) { return std::make_unique<CpuFrameComparer>(); };
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp. On two, the processor's own stereo and those
   /// stages only take turns (docs/benchmarks.md).
