@@ -118,7 +118,6 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   comparison_.reset();
   pose_ = RigidPose();
   frame_ = frames_.measure(frame, &clock_);
-  if (!empty()) comparer_->beginFrame(observe(Eigen::Isometry3d::Identity()), frame_.states);
   return frame_.summary;
 }
 
@@ -135,6 +134,8 @@ LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
                                  bool maybe_static) {
   LocateSummary summary;
   summary.matches = match(viewed_from);
+  // Beside the pose: its copies would delay those of the matches.
+  comparer_->beginFrame(observe(Eigen::Isometry3d::Identity()), frame_.states);
   summary.pose = estimatePose(last, reference, maybe_static);
   return summary;
 }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "cuda/comparison.h"
 #include "cuda/device_info.h"
 #include "cuda/locate.h"
 #include "cuda/pose.h"
@@ -114,6 +115,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.makeMatching = makeCudaMatchStage;
   parts.makePoseSearch = cuda::makePoseSearch;
   parts.makeSolver = makeCudaSolver;
+  parts.makeComparer = [](const RectifiedRig& rig) { return cuda::makeFrameComparer(rig.left); };
   parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;

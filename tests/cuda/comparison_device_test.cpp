@@ -1,0 +1,34 @@
+// tests/cuda/comparison_device_test.cpp: model and frame compared on the GPU, as on the CPU.
+#include <gtest/gtest.h>
+
+#include "comparison_cases.h"
+#include "cuda/comparison.h"
+#include "cuda/device_info.h"
+
+namespace softscope::test {
+namespace {
+
+class ComparisonOnDevice : public testing::TestWithParam<ComparisonCase> {
+ protected:
+  void SetUp() override {
+    const cuda::DeviceInfo info = cuda::queryDevices();
+    if (info.devices.empty()) GTEST_SKIP() << info.why_none;
+  }
+};
+
+TEST_P(ComparisonOnDevice, FindsWhatTheCpuFindsFrameAfterFrame) {
+  const ComparisonScene scene(GetParam()), other(comparisonCases()[1]);
+  CpuFrameComparer cpu;
+  const bool ahead = true;
+  const auto device = cuda::makeFrameComparer(ComparisonScene::camera());
+  const ComparisonScene::Found first = scene.compareWith(device.get(), ahead);
+  scene.expectSame(first, scene.compareWith(&cpu, ahead));
+  other.compareWith(device.get(), ahead);
+  scene.expectEqual(scene.compareWith(device.get(), !ahead), first);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cuda, ComparisonOnDevice, testing::ValuesIn(comparisonCases()),
+                         [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace softscope::test
