@@ -28,8 +28,8 @@ class GraphAhead {
     std::vector<PointBinding> bindings;
     WarpGraph graph;
   };
-  std::future<void> result_;
-  Grown grown_;  // by result_; else memory to be used again
+  Grown grown_;               // by result_; else memory to be used again
+  std::future<void> result_;  // its thread ends before grown_ does
 };
 
 }  // namespace softscope
