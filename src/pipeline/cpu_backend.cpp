@@ -51,8 +51,8 @@ class CpuBackend : public ReconstructionBackend {
     state_ = std::move(state);
   }
 
-  void prepare(const Frame& next) override {
-    if (worksAhead()) frames_.prepare(next);
+  void prepare(const Frame& next, const Frame* after) override {
+    if (worksAhead()) frames_.prepare(next, after);
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,

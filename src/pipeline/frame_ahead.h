@@ -1,4 +1,4 @@
-// src/pipeline/frame_ahead.h: stage 1, of the next frame too while this one is worked on.
+// src/pipeline/frame_ahead.h: stage 1, of the next two frames too while this one is worked on.
 #pragma once
 
 #include <future>
@@ -11,8 +11,8 @@
 
 namespace softscope {
 
-/// FrameDepth and viewFrame() with at most one frame under way on a thread of its own. Same
-/// results.
+/// FrameDepth and viewFrame() with at most two frames under way, each on a thread of its own: the
+/// views of one are aligned while the one before it is matched. Same results.
 class FrameAhead {
  public:
   FrameAhead(std::unique_ptr<FrameDepth> depth, const ReconstructionOptions& options)
@@ -20,19 +20,22 @@ class FrameAhead {
 
   const FrameDepth& depth() const { return *depth_; }
 
-  /// Begins. `next` must live and stay as it is until measure() has been called again.
-  void prepare(const Frame& next);
+  /// Begins, with `after` (the frame after it) too, where that isn't null. Both must live and stay
+  /// as they are until measure() has been called for them, or twice.
+  void prepare(const Frame& next, const Frame* after);
   /// What was begun, if that is this frame; whatever went wrong with it is thrown here. Laps
   /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
   FrameView measure(const Frame& frame, StageClock* clock);
 
  private:
-  FrameView measureNow(const Frame& frame, StageClock* clock);
+  FrameView measureNow(std::future<FrameViews> begun, const Frame& frame, StageClock* clock);
+  std::future<FrameViews> takeViews(const Frame& frame);
 
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
-  const Frame* prepared_ = nullptr;
-  std::future<FrameView> result_;  // ends before depth_ does
+  const Frame *prepared_ = nullptr, *aligned_ = nullptr;
+  std::future<FrameViews> views_;  // of aligned_; both end before depth_ does
+  std::future<FrameView> result_;  // of prepared_
 };
 
 }  // namespace softscope

@@ -40,13 +40,11 @@ bool FrameDepth::takesFile(const Frame& frame) const {
   return options_.source == "files" || (options_.source == "auto" && !frame.depth_mm.empty());
 }
 
-MeasuredFrame FrameDepth::measure(const Frame& frame) {
-  MeasuredFrame measured;
-  if (takesFile(frame))
-    takeFile(frame, measured);
-  else
-    match(frame, measured);
-  return measured;
+FrameViews FrameDepth::viewsOf(const Frame& frame) const {
+  if (!takesFile(frame)) return align(frame);
+  FrameViews views;
+  takeFile(frame, views.measured);
+  return views;
 }
 
 void FrameDepth::takeFile(const Frame& frame, MeasuredFrame& measured) const {
@@ -64,37 +62,49 @@ void FrameDepth::takeFile(const Frame& frame, MeasuredFrame& measured) const {
   measured.times = clock.laps();
 }
 
-void FrameDepth::match(const Frame& frame, MeasuredFrame& measured) {
+FrameViews FrameDepth::align(const Frame& frame) const {
   if (frame.pair.right.empty())
     throw InputError("there is no right view to match, and no depth/ to take its place");
+  FrameViews views;
+  MeasuredFrame& measured = views.measured;
+  AlignedPair& aligned = views.aligned;
   StageClock clock;
   const StereoPair rectified = rectifier_.rectify(frame.pair);
-  const Mask instruments =
-      frame.mask.empty() ? rectifier_.outside() : rectifier_.rectifyMask(frame.mask);
+  if (!frame.mask.empty()) views.instruments = rectifier_.rectifyMask(frame.mask);
+  const Mask& known = frame.mask.empty() ? rectifier_.outside() : views.instruments;
   // Instruments are dropped afterwards: their mask is one view's, and weak texture beside them
   // needs the wide windows of the coarser sizes.
   const ViewMasks ignored = pixelsToIgnore(rectified, rectifier_, options_.find_border);
-  measured.mask = united(instruments, ignored.left);
+  measured.mask = united(known, ignored.left);
   measured.border = ignored.left;
   clock.lap("rectify");
-  AlignedPair aligned{rectified, ignored, {}};
   if (options_.align_rows)
     aligned = alignRows(rectified, options_.stereo.disparity_max_px, ignored);
   else
-    aligned.before = measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
-                                         options_.stereo.disparity_max_px, ignored);
+    aligned = {rectified, ignored,
+               measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
+                                   options_.stereo.disparity_max_px, ignored)};
   measured.rows = aligned.before;
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");
+  measured.times = clock.laps();
+  return views;
+}
+
+MeasuredFrame FrameDepth::measure(FrameViews views) {
+  MeasuredFrame measured = std::move(views.measured);
+  AlignedPair& aligned = views.aligned;
+  if (aligned.pair.left.empty()) return measured;
   StereoSurface found = stage_->measure(aligned, measured.mask);
-  if (!frame.mask.empty()) found.drop(leaksOf(instruments, found.disparity.disparity_px));
+  if (!views.instruments.empty())
+    found.drop(leaksOf(views.instruments, found.disparity.disparity_px));
   measured.disparity = std::move(found.disparity);
   measured.depth = std::move(found.depth);
   measured.normals = std::move(found.normals);
   measured.left = std::move(aligned.pair.left);
   measured.method = stage_->name();
-  measured.times = clock.laps();
   measured.times.insert(measured.times.end(), found.times.begin(), found.times.end());
+  return measured;
 }
 
 }  // namespace softscope

@@ -39,6 +39,14 @@ struct MeasuredFrame {
   StageTimes times;
 };
 
+/// A frame before it is matched.
+struct FrameViews {
+  MeasuredFrame
+      measured;         // all but disparity, depth and normals; whole where depth came from a file
+  AlignedPair aligned;  // empty there
+  Mask instruments;     // of the frame's own mask, rectified; empty where it has none
+};
+
 /// Rectify, align rows, match, lift; or take the depth that the sequence brings.
 class FrameDepth {
  public:
@@ -51,10 +59,14 @@ class FrameDepth {
   const Rectifier& rectifier() const { return rectifier_; }
 
   /// Throws InputError where the frame doesn't fit.
-  MeasuredFrame measure(const Frame& frame);
+  MeasuredFrame measure(const Frame& frame) { return measure(viewsOf(frame)); }
+
+  // The same in two halves. The first may run beside the second of another frame.
+  FrameViews viewsOf(const Frame& frame) const;
+  MeasuredFrame measure(FrameViews views);
 
  private:
-  void match(const Frame& frame, MeasuredFrame& measured);
+  FrameViews align(const Frame& frame) const;
   void takeFile(const Frame& frame, MeasuredFrame& measured) const;
   bool takesFile(const Frame& frame) const;
   void requireRectified() const;

@@ -72,8 +72,9 @@ DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
   });
   summary.tissue_px = tissue_px;
   summary.measured_px = static_cast<int>(countOf(depths_mm));
-  summary.median_sigma_mm = medianOf(sigmas_mm);
-  const double depth_mm = medianOf(depths_mm);
+  double depth_mm = 0;
+  parallelInvoke([&] { summary.median_sigma_mm = medianOf(sigmas_mm); },
+                 [&] { depth_mm = medianOf(depths_mm); });
   const double mm_per_px = depth_mm * depth_mm / (rig.left.fx_px * rig.baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   if (measured.rows.known()) summary.row_difference_px = measured.rows.mean_row_difference_px;
@@ -87,8 +88,9 @@ FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
   FrameView view;
   view.measured = std::move(measured);
   view.not_tissue = notTissue(view.measured, options.tissue);
-  view.live = livePicture(view.measured, view.not_tissue);
-  view.summary = summarise(view.measured, view.not_tissue, rig);
+  // Neither needs the other.
+  parallelInvoke([&] { view.live = livePicture(view.measured, view.not_tissue); },
+                 [&] { view.summary = summarise(view.measured, view.not_tissue, rig); });
   scaleOptions(options, &view);
   // How sure a pixel is does not depend on where the camera stands.
   view.states = judgePixels({view.measured.depth, view.measured.normals, view.measured.left,

@@ -12,8 +12,8 @@ namespace softscope {
 namespace {
 
 void addTo(Mask& mask, const Mask& more) {
-  for (std::size_t i = 0; i < more.size(); ++i)
-    if (more.values[i] != 0) mask.values[i] = 1;
+  for (std::size_t i = 0; i < more.size(); ++i)  // no branch: many pixels at a time
+    mask.values[i] = more.values[i] != 0 ? std::uint8_t{1} : mask.values[i];
 }
 
 Mask unseen(const ModelView& view) {
@@ -28,7 +28,7 @@ Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options) {
   Mask mask(frame.left.width_px, frame.left.height_px, 0);
   if (!frame.mask.empty()) addTo(mask, frame.mask);
   for (std::size_t i = 0; i < frame.border.size(); ++i)
-    if (frame.border.values[i] != 0) mask.values[i] = 0;
+    mask.values[i] = frame.border.values[i] != 0 ? std::uint8_t{0} : mask.values[i];
   if (options.detect_instruments) addTo(mask, detectInstruments(frame.left));
   if (options.margin_px > 0) mask = dilated(mask, options.margin_px);
   addTo(mask, frame.border);  // without a margin: no matching window reached it

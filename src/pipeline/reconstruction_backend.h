@@ -107,9 +107,10 @@ class ReconstructionBackend {
   virtual std::string device() const = 0;  // which processor or GPU
   virtual const RectifiedRig& rig() const = 0;
 
-  /// May begin what needs no model of the frame that comes next. Results don't depend on it.
-  /// `next` must live and stay as it is until measure() has been called again.
-  virtual void prepare(const Frame& /*next*/) {}
+  /// May begin what needs no model of the frame that comes next, and of the one `after` it, where
+  /// that isn't null. Results don't depend on it. Both must live and stay as they are until
+  /// measure() has been called for them, or twice.
+  virtual void prepare(const Frame& /*next*/, const Frame* /*after*/) {}
   /// Stage 1: rectifies, masks and measures. Throws InputError where the frame doesn't fit.
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 to 4: draws the model from that pose, finds its pixels in the live image, and the

@@ -39,12 +39,12 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
   options.validate();
 }
 
-FrameRecord Reconstructor::process(const Frame& frame, const Frame* next) {
+FrameRecord Reconstructor::process(const Frame& frame, const Frame* next, const Frame* after) {
   FrameRecord record;
   record.frame = frame.index;
   record.time_s = frame.time_s;
   try {
-    reconstruct(frame, next, record);
+    reconstruct(frame, next, after, record);
   } catch (const InputError& error) {
     reject(record, FrameStatus::kUnreadable, error.what());
   }
@@ -78,9 +78,10 @@ void Reconstructor::finish(FrameRecord& record) {
 
 // Song et al. 2018, section III, in its order: depth, visible model, matches, rigid pose, warp
 // field, fusion.
-void Reconstructor::reconstruct(const Frame& frame, const Frame* next, FrameRecord& record) {
+void Reconstructor::reconstruct(const Frame& frame, const Frame* next, const Frame* after,
+                                FrameRecord& record) {
   const bool measured = measure(frame, record);
-  if (next != nullptr) backend_->prepare(*next);
+  if (next != nullptr) backend_->prepare(*next, after);
   if (!measured) return;
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
   const bool was_lost = lost_;

@@ -28,10 +28,11 @@ class Reconstructor {
                 const ReconstructionOptions& options);
 
   /// One frame, from pictures to the updated model. A frame that isn't good enough leaves the
-  /// model as it was; the record says why. `next`: the frame after it, where that is known already,
-  /// so that its depth may begin meanwhile; it must live until it is processed itself, or the
-  /// frame that takes its place. The model doesn't depend on it.
-  FrameRecord process(const Frame& frame, const Frame* next = nullptr);
+  /// model as it was; the record says why. `next` and `after`: the two frames after it, where they
+  /// are known already, so that their depth may begin meanwhile; each must live until it is
+  /// processed itself, or the frame that takes its place. The model doesn't depend on them.
+  FrameRecord process(const Frame& frame, const Frame* next = nullptr,
+                      const Frame* after = nullptr);
 
   /// A frame that could not even be read, or has no partner.
   FrameRecord skip(int index, const std::string& reason, double time_s = kUnknown,
@@ -48,7 +49,7 @@ class Reconstructor {
   void restore(ReconstructionState state);
 
  private:
-  void reconstruct(const Frame& frame, const Frame* next, FrameRecord& record);
+  void reconstruct(const Frame& frame, const Frame* next, const Frame* after, FrameRecord& record);
   bool measure(const Frame& frame, FrameRecord& record);
   bool locate(FrameRecord& record);
   bool locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record);

@@ -75,6 +75,30 @@ TEST(FrameWindow, HoldsAFrameAndTheOneAfterItInPlace) {
   EXPECT_EQ(window.following(), nullptr);
 }
 
+TEST(FrameWindow, HoldsTheTwoFramesAfterTheCurrentOneInPlace) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 5);
+  SequenceReader reader(folder.path());
+  FrameWindow window(reader);
+  EXPECT_EQ(window.afterFollowing(), nullptr);
+  const Frame *expected = nullptr, *expected_following = nullptr;
+  for (int i = 0; i < 5; ++i) {
+    const FrameResult* result = window.advance();
+    ASSERT_NE(result, nullptr);
+    EXPECT_EQ(result->frame.index, i);
+    if (i > 0) {
+      EXPECT_EQ(&result->frame, expected);
+      EXPECT_EQ(window.following(), expected_following);
+    }
+    expected = window.following();
+    expected_following = window.afterFollowing();
+    EXPECT_EQ(expected != nullptr, i < 4) << i;
+    EXPECT_EQ(expected_following != nullptr, i < 3) << i;
+  }
+  EXPECT_EQ(window.advance(), nullptr);
+  EXPECT_EQ(window.advance(), nullptr);
+}
+
 TEST(SequenceReader, ReadsAFolderOfPictures) {
   TemporaryFolder folder;
   makeSequence(folder.path(), 12);

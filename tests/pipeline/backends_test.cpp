@@ -27,13 +27,13 @@ Reconstructor reconstructorOf(const BackendParts& parts) {
   return {makeCpuBackend(shortClip().calibration, options, parts), options};
 }
 
-/// Frames begin … end - 1, each with the one after it.
+/// Frames begin … end - 1, each with the two after it.
 std::vector<FrameRecord> run(Reconstructor& reconstructor, std::size_t begin, std::size_t end) {
   const std::vector<Frame>& frames = shortClip().frames;
   std::vector<FrameRecord> records;
+  const auto frameAt = [&](std::size_t i) { return i < frames.size() ? &frames[i] : nullptr; };
   for (std::size_t i = begin; i < end; ++i)
-    records.push_back(
-        reconstructor.process(frames[i], i + 1 < frames.size() ? &frames[i + 1] : nullptr));
+    records.push_back(reconstructor.process(frames[i], frameAt(i + 1), frameAt(i + 2)));
   return records;
 }
 
@@ -137,7 +137,8 @@ TEST(WorkingAhead, GivesTheSameModelInWhateverOrderFramesCome) {
 
   const std::vector<Frame>& frames = shortClip().frames;
   Reconstructor mistaken = reconstructorOf(parts);
-  for (std::size_t i = 0; i < 4; ++i) mistaken.process(frames[i], &frames[5 - i]);
+  for (std::size_t i = 0; i < 4; ++i)
+    mistaken.process(frames[i], &frames[5 - i], &frames[(i + 2) % 5]);
   EXPECT_TRUE(modelOf(mistaken) == modelOfTheCpu());
 }
 
@@ -148,7 +149,7 @@ TEST(WorkingAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
   const std::vector<Frame>& frames = shortClip().frames;
   Frame one_eyed = frames[1];
   one_eyed.pair.right = {};
-  EXPECT_TRUE(reconstructor.process(frames[0], &one_eyed).fused());
+  EXPECT_TRUE(reconstructor.process(frames[0], &one_eyed, &frames[2]).fused());
   const FrameRecord bad = reconstructor.process(one_eyed, &frames[2]);
   EXPECT_EQ(bad.status, FrameStatus::kUnreadable);
   EXPECT_THAT(bad.reason, testing::HasSubstr("no right view"));

@@ -187,7 +187,8 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     if (input_gone_) break;
     FrameRecord frame;
     try {
-      frame = result->ok() ? reconstructor.process(result->frame, frames.following())
+      frame = result->ok() ? reconstructor.process(result->frame, frames.following(),
+                                                   frames.afterFollowing())
                            : reconstructor.skip(result->index, result->error, result->time_s,
                                                 result->unpaired ? FrameStatus::kUnpaired
                                                                  : FrameStatus::kUnreadable);
