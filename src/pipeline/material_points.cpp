@@ -186,9 +186,14 @@ void MaterialPoints::add(int id, const Eigen::Vector2d& pixel, const PinholeCame
 }
 
 void MaterialPoints::anchor(const PointModel& model) {
-  for (Point& point : points)
-    if (point.model_point < 0 && point.position_mm.allFinite())
-      point.model_point = nearestPoint(model, point.position_mm.cast<float>());
+  constexpr int kSearchesATask = 4;  // each goes through the whole model
+  parallelRanges(static_cast<int>(points.size()), kSearchesATask, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      Point& point = points[static_cast<std::size_t>(k)];
+      if (point.model_point < 0 && point.position_mm.allFinite())
+        point.model_point = nearestPoint(model, point.position_mm.cast<float>());
+    }
+  });
 }
 
 void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model) {
