@@ -4,9 +4,12 @@
 
 namespace softscope::cuda {
 
-std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left) {
+std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left,
+                                                 std::shared_ptr<SharedRasters> shared) {
   requireDevice();
-  return std::make_unique<ComparisonRun<DeviceMachine>>(left);
+  auto run = std::make_unique<ComparisonRun<DeviceMachine>>(left);
+  run->share(std::move(shared));
+  return run;
 }
 
 }  // namespace softscope::cuda

@@ -4,11 +4,14 @@
 #include <memory>
 
 #include "core/camera.h"
+#include "cuda/shared_rasters.h"
 #include "fusion/frame_comparer.h"
 
 namespace softscope::cuda {
 
-/// Throws BackendError where no GPU works.
-std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left);
+/// `shared`: where it tells what rasters lie on the device; may be null. Throws BackendError where
+/// no GPU works.
+std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left,
+                                                 std::shared_ptr<SharedRasters> shared = nullptr);
 
 }  // namespace softscope::cuda

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <future>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "cuda/comparison_passes.h"
+#include "cuda/shared_rasters.h"
 #include "fusion/frame_comparer.h"
 
 namespace softscope::cuda {
@@ -36,6 +38,8 @@ class ComparisonRun final : public FrameComparer {
     send(frame_.gain_bins, bins);
     machine_.wait();
   }
+  /// Tells other stages what lies on the device.
+  void share(std::shared_ptr<SharedRasters> shared) { shared_ = std::move(shared); }
   ~ComparisonRun() override {
     if (sending_.valid()) sending_.wait();
   }
@@ -52,6 +56,7 @@ class ComparisonRun final : public FrameComparer {
     if (sending_.valid()) sending_.wait();  // what went wrong is of no interest any more
     sending_ = {};
     has_frame_ = false;
+    if (shared_) *shared_ = {};
   }
 
   std::vector<std::int32_t> seenPoints(const PointModel& model, const Observation& observation,
@@ -142,6 +147,8 @@ class ComparisonRun final : public FrameComparer {
     send(frame_.sigma_mm, depth.sigma_mm.values);
     send(frame_.colour, colour.values);
     machine_.wait();
+    if (shared_)
+      *shared_ = {depth.depth_mm.values.data(), frame_.depth_mm, frame_.sigma_mm, frame_.normals};
   }
   void sendShape(const PointModel& model) {
     reserveModel(model.size());
@@ -251,6 +258,7 @@ class ComparisonRun final : public FrameComparer {
   std::size_t capacity_ = 0;
   std::vector<std::uint8_t> seen_;
   std::vector<char> totals_;
+  std::shared_ptr<SharedRasters> shared_;
   std::future<void> sending_;
   bool has_frame_ = false;
 };

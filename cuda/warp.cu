@@ -4,9 +4,12 @@
 
 namespace softscope::cuda {
 
-std::unique_ptr<WarpDevice> makeWarpDevice(const WarpWeights& weights) {
+std::unique_ptr<WarpDevice> makeWarpDevice(const WarpWeights& weights,
+                                           std::shared_ptr<const SharedRasters> shared) {
   requireDevice();
-  return std::make_unique<WarpRun<DeviceMachine>>(weights);
+  auto run = std::make_unique<WarpRun<DeviceMachine>>(weights);
+  run->share(std::move(shared));
+  return run;
 }
 
 }  // namespace softscope::cuda

@@ -3,11 +3,13 @@
 
 #include <memory>
 
+#include "cuda/shared_rasters.h"
 #include "deform/warp_device.h"
 
 namespace softscope::cuda {
 
 /// On the first GPU. Throws BackendError without a device that runs this build.
-std::unique_ptr<WarpDevice> makeWarpDevice(const WarpWeights& weights);
+std::unique_ptr<WarpDevice> makeWarpDevice(const WarpWeights& weights,
+                                           std::shared_ptr<const SharedRasters> shared = nullptr);
 
 }  // namespace softscope::cuda

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "cuda/shared_rasters.h"
 #include "cuda/warp_passes.h"
 #include "deform/warp_device.h"
 
@@ -20,6 +23,8 @@ class WarpRun final : public WarpDevice {
       : machine_(std::forward<Arguments>(arguments)...), passes_(machine_.executor()) {
     inputs_.weights = weights;
   }
+  /// Rasters that lie on the device already are not copied again.
+  void share(std::shared_ptr<const SharedRasters> shared) { shared_ = std::move(shared); }
   ~WarpRun() override = default;
 
   void setStructure(const WarpStructure& structure) override {
@@ -47,6 +52,12 @@ class WarpRun final : public WarpDevice {
 
   void setSurface(const DepthLookUp& surface) override {
     inputs_.surface = surface;
+    if (shared_ && shared_->holds(surface.depth_mm)) {
+      inputs_.surface.depth_mm = shared_->depth_mm;
+      inputs_.surface.normals = shared_->normals;
+      inputs_.surface.sigma_mm = shared_->sigma_mm;
+      return;
+    }
     const bool has_depth = surface.depth_mm != nullptr;
     const auto pixels = has_depth ? static_cast<std::size_t>(surface.width_px) *
                                         static_cast<std::size_t>(surface.height_px)
@@ -167,6 +178,7 @@ class WarpRun final : public WarpDevice {
   WarpStructureLayout graph_;
   WarpPointLayout points_;
   PlaneConstraint* matches_ = nullptr;
+  std::shared_ptr<const SharedRasters> shared_;
   WarpInputs inputs_;
   int accepted_ = 0;
   double floor_ = 0;

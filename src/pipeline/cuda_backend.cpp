@@ -94,10 +94,12 @@ std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& opti
 }
 
 /// Affine nodes have no kernels.
-std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options) {
+std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
+                                             std::shared_ptr<const cuda::SharedRasters> shared) {
   if (options.node_model != NodeModel::kRigid) return makeDeformSolver(options);
   return makeDeformSolver(
-      options, makeDeviceWarpSystem(options, cuda::makeWarpDevice(warpWeights(options))));
+      options,
+      makeDeviceWarpSystem(options, cuda::makeWarpDevice(warpWeights(options), std::move(shared))));
 }
 
 }  // namespace
@@ -114,8 +116,13 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.makeStereo = makeCudaStereoStage;
   parts.makeMatching = makeCudaMatchStage;
   parts.makePoseSearch = cuda::makePoseSearch;
-  parts.makeSolver = makeCudaSolver;
-  parts.makeComparer = [](const RectifiedRig& rig) { return cuda::makeFrameComparer(rig.left); };
+  // The comparer copies the frame's rasters to the device while the pose is found; the solver takes
+  // them from there.
+  const auto rasters = std::make_shared<cuda::SharedRasters>();
+  parts.makeSolver = [rasters](const DeformOptions& warp) { return makeCudaSolver(warp, rasters); };
+  parts.makeComparer = [rasters](const RectifiedRig& rig) {
+    return cuda::makeFrameComparer(rig.left, rasters);
+  };
   parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;

@@ -58,6 +58,8 @@ class WarpScene {
   }
 
   const DeformOptions& options() const { return options_; }
+  const DepthMap& depth() const { return view_.depth; }
+  const NormalMap& normals() const { return view_.normals; }
   WarpWeights weights() const { return warpWeights(options_); }
   struct Found {
     DeformSummary summary;

@@ -36,6 +36,25 @@ TEST_P(WarpPasses, FindTheCpusWarpInAnyOrderOfThreads) {
 INSTANTIATE_TEST_SUITE_P(Cuda, WarpPasses, testing::ValuesIn(test::warpCases()),
                          [](const auto& each) { return each.param.name; });
 
+TEST(WarpPassesEdge, RastersOnTheDeviceAreTakenFromThere) {
+  const test::WarpScene scene(test::warpCases()[1]);
+  const DepthMap& depth = scene.depth();
+  std::vector<float> depth_mm = depth.depth_mm.values, sigma_mm = depth.sigma_mm.values;
+  const auto shared = std::make_shared<cuda::SharedRasters>();
+  *shared = {depth.depth_mm.values.data(), depth_mm.data(), sigma_mm.data(),
+             scene.normals().values.data()};
+  auto device = std::make_unique<cuda::WarpRun<test::HostMachine>>(scene.weights(), 1U);
+  device->share(shared);
+  const auto solver =
+      makeDeformSolver(scene.options(), makeDeviceWarpSystem(scene.options(), std::move(device)));
+  const test::WarpScene::Found expected = scene.solve(solverOnTheHost(scene, 1).get());
+  EXPECT_EQ(test::furthestApart(scene.solve(solver.get()).graph, expected.graph), 0);
+  depth_mm.assign(depth_mm.size(), NAN);  // of the copy alone
+  EXPECT_EQ(scene.solve(solver.get()).summary.reason, StopReason::kNothingToFit);
+  *shared = {};
+  EXPECT_EQ(test::furthestApart(scene.solve(solver.get()).graph, expected.graph), 0);
+}
+
 TEST(WarpPassesEdge, AffineNodesAreRefused) {
   const test::WarpScene scene(test::warpCases().back());
   DeformOptions affine = scene.options();
