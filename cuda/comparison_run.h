@@ -177,6 +177,9 @@ class ComparisonRun final : public FrameComparer {
     model_memory_ = Memory(counting.bytes(), kWhat);
     Arena arena(model_memory_.data());
     model_ = ComparisonModelLayout(arena, capacity_);
+    ResetKernel reset;  // sights have padding, which is copied with them
+    reset.add(model_.sights, capacity_ * sizeof(PointSight) / sizeof(std::uint32_t), 0);
+    machine_.executor().launch("reset", reset, reset.blocks());
   }
 
   SeenQuestions questionsOf(const FusionOptions& options, std::size_t points) const {
