@@ -47,9 +47,9 @@ def undescribed(path):
 
 
 def unguarded(text):
-    """Includes a reader of VTK without the door to it, vtk_views/files/guarded_read.h."""
+    """Includes a reader of VTK without the door to it, core/guarded_read.h."""
     return (FOREIGN_READER.search(text) is not None
-            and '#include "vtk_views/files/guarded_read.h"' not in text)
+            and '#include "core/guarded_read.h"' not in text)
 
 
 class FileRules(unittest.TestCase):
@@ -83,12 +83,12 @@ class FileRules(unittest.TestCase):
                  if path.suffix in SOURCES
                  and path.relative_to(ROOT).parts[0] not in ("tests", "cmake")
                  and unguarded(text_of(path))]
-        self.none(wrong, "include a reader of VTK, but not vtk_views/files/guarded_read.h")
+        self.none(wrong, "include a reader of VTK, but not core/guarded_read.h")
 
     def test_the_rules_find_made_up_breaches(self):
         self.assertTrue(unguarded("#include <vtk" + "STLReader.h>\n"))
         self.assertFalse(unguarded('#include <vtk' + 'STLReader.h>\n'
-                                   '#include "vtk_views/files/guarded_read.h"\n'))
+                                   '#include "core/guarded_read.h"\n'))
         self.assertTrue(MACHINE_PATH.search("see /" + "home/someone/data"))
         self.assertTrue(MACHINE_PATH.search('"/' + 'root/x"'))
         self.assertFalse(MACHINE_PATH.search("build/work/x and https://example.org/home/x"))
