@@ -84,7 +84,7 @@ RunOptions ReconstructCommand::readSettings() const {
   Settings settings = settings_.read();
   if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
   if (!scope_.empty()) addAssignment(settings, "pose.scope=" + scope_);
-  if (no_correspondence_) addAssignment(settings, "deform.use_correspondences=false");
+  if (no_correspondence_) addAssignment(settings, "deform.correspondence_weight=0");
   settingsOf(options).apply(settings);
   source_.applyFrames(options.sequence);
   options.sequence.frames.hold_out_every = hold_out_;
