@@ -338,6 +338,34 @@ TEST_F(Depth, ANetworkMeasuresWhatElasDoes) {
   EXPECT_NEAR(json["frames"][0]["depth_mm"]["median"], 50, 1);
 }
 
+TEST_F(Depth, ANetworkMeasuresTheRenderedHeart) {
+  SOFTSCOPE_DATA_OR_SKIP(heart, "openhelp_heart");
+  PlaneSweep sweep;
+  sweep.disparities = 64;
+  sweep.window_px = 11;
+  sweep.channels = 1;
+  const std::string model = write("net.onnx", sweep.model());
+  const Outcome outcome =
+      run({"depth", heart, "--frames", "0:1", "--out", at("out"), "--quiet", "--write", "depth",
+           "--set", "stereo.method=onnx", "--set", "stereo.model=" + model});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Raster<float> found = readDepth(at("out/000000_depth.pfm"));
+  const Raster<float> truth = readDepth(heart / "groundtruth/depth/000000.png");
+  std::vector<double> errors_mm;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    known += std::isfinite(truth.values[i]);
+    const double error_mm = std::abs(found.values[i] - truth.values[i]);
+    if (std::isfinite(error_mm)) errors_mm.push_back(error_mm);
+  }
+  EXPECT_GT(errors_mm.size(), 0.6 * known);
+  const auto middle = errors_mm.begin() + long(errors_mm.size() / 2);
+  std::nth_element(errors_mm.begin(), middle, errors_mm.end());
+  RecordProperty("median_mm", std::to_string(*middle));
+  RecordProperty("coverage", std::to_string(double(errors_mm.size()) / double(known)));
+  EXPECT_LT(*middle, 0.4);  // a quarter of a pixel at 65 mm here
+}
+
 TEST_F(Depth, ABadNetworkIsOneLineAndExitCode3) {
   const std::string sequence = makeSequence("s", 2);
   const auto expect = [&](const std::string& model, const std::string& part) {
