@@ -30,7 +30,9 @@ const char* const kDetails =
     "rectified.\n"
     "LEFT alone may be a sequence folder, or a picture or video that holds both views\n"
     "(side by side, top and bottom, interlaced). Settings: stereo.*, sequence.*, calibration.*,\n"
-    "depth.source, depth.align_rows; a wrong key is answered with the nearest one.";
+    "depth.source, depth.align_rows; a wrong key is answered with the nearest one. A learned "
+    "stereo\n"
+    "network of yours: --set stereo.method=onnx --set stereo.model=FILE.onnx.";
 
 class DepthCommand : public Command {
  public:

@@ -22,7 +22,8 @@ const char* const kDetails =
     "A frame that isn't good enough is skipped and reported, never fused. Ctrl-C ends the run\n"
     "cleanly; --resume goes on from there, with the same result as if it had not been stopped.\n"
     "--fail-if METRIC>LIMIT ends with exit code 1 where that holds: a number of run.json, or per\n"
-    "cent of the frames: lost>10%, skipped>5%, fused<80%.";
+    "cent of the frames: lost>10%, skipped>5%, fused<80%. A learned stereo network of yours takes\n"
+    "the place of ours with --set stereo.method=onnx --set stereo.model=FILE.onnx.";
 
 class ReconstructCommand : public Command {
  public:
@@ -84,7 +85,7 @@ RunOptions ReconstructCommand::readSettings() const {
   Settings settings = settings_.read();
   if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
   if (!scope_.empty()) addAssignment(settings, "pose.scope=" + scope_);
-  if (no_correspondence_) addAssignment(settings, "deform.use_correspondences=false");
+  if (no_correspondence_) addAssignment(settings, "deform.correspondence_weight=0");
   settingsOf(options).apply(settings);
   source_.applyFrames(options.sequence);
   options.sequence.frames.hold_out_every = hold_out_;

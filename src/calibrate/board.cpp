@@ -7,7 +7,9 @@
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
+#include "calibrate/corner_fit.h"
 #include "core/error.h"
 
 namespace softscope {
@@ -87,9 +89,37 @@ double shortestSide(const CornerMap& corners, const BoardOptions& board) {
   return shortest;
 }
 
-/// To where the gradients around it are at right angles to the way from it. The window holds no
-/// other corner and, of a ChArUco board, no marker.
-void refine(const cv::Mat& image, const BoardOptions& board, std::vector<BoardCorner>* corners) {
+/// Along a row or column of the board, from the neighbours that there are.
+std::optional<Eigen::Vector2d> directionAt(const CornerMap& corners, int id, int first, int last,
+                                           int step) {
+  const auto pixelOf = [&](int neighbour, bool is_there) {
+    const auto found = is_there ? corners.find(neighbour) : corners.end();
+    return found == corners.end() ? corners.at(id) : found->second;
+  };
+  const Eigen::Vector2d along = pixelOf(id + step, id < last) - pixelOf(id - step, id > first);
+  if (along.isZero()) return std::nullopt;
+  return along;
+}
+
+/// By the levels around each corner.
+void fitLevels(const GrayImage& image, const BoardOptions& board, int reach_px,
+               std::vector<BoardCorner>* corners) {
+  const CornerMap map = byId(*corners);
+  const int columns = board.cornerColumns(), rows = board.cornerRows();
+  for (BoardCorner& corner : *corners) {
+    const int row_begin = corner.id / columns * columns, column = corner.id % columns;
+    const auto along_row = directionAt(map, corner.id, row_begin, row_begin + columns - 1, 1);
+    const auto along_column =
+        directionAt(map, corner.id, column, column + (rows - 1) * columns, columns);
+    if (along_row && along_column)
+      corner.pixel = fitCorner(image, {corner.pixel, *along_row, *along_column}, reach_px);
+  }
+}
+
+/// To where the gradients around it are at right angles to the way from it, then by the levels. The
+/// window holds no other corner and, of a ChArUco board, no marker.
+void refine(const GrayImage& gray, const BoardOptions& board, std::vector<BoardCorner>* corners) {
+  const cv::Mat image = viewOf(gray);
   double reach = shortestSide(byId(*corners), board) * 0.35;
   if (board.hasMarkers()) reach *= (1 - board.marker_mm / board.square_mm);
   const int window = std::clamp(static_cast<int>(std::lround(reach)), 2, 10);
@@ -99,6 +129,7 @@ void refine(const cv::Mat& image, const BoardOptions& board, std::vector<BoardCo
   cv::cornerSubPix(image, points, cv::Size(window, window), cv::Size(-1, -1),
                    {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 60, 1e-4});
   for (std::size_t i = 0; i < points.size(); ++i) (*corners)[i].pixel = {points[i].x, points[i].y};
+  fitLevels(gray, board, window, corners);
 }
 
 bool between(const GrayImage& image, const Eigen::Vector2d& p) {
@@ -168,7 +199,7 @@ std::vector<BoardCorner> findBoard(const GrayImage& image, const BoardOptions& b
   if (image.width_px < 32 || image.height_px < 32) return {};
   std::vector<BoardCorner> corners = board.hasMarkers() ? charucoCorners(viewOf(image), board)
                                                         : checkerboardCorners(viewOf(image), board);
-  if (!corners.empty()) refine(viewOf(image), board, &corners);
+  if (!corners.empty()) refine(image, board, &corners);
   return corners;
 }
 

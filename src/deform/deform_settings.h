@@ -36,7 +36,8 @@ void describe(Visitor& v, DeformOptions& o) {
     "share of the shape of the last 100 frames in what nodes expect of each other");
   v("deform.rest_weight", o.rest_weight, atLeast(0), "w_rest, for nodes out of sight");
   v("deform.data_weight", o.data_weight, atLeast(0), "w_data");
-  v("deform.correspondence_weight", o.correspondence_weight, atLeast(0), "w_corr");
+  v("deform.correspondence_weight", o.correspondence_weight, atLeast(0),
+    "w_corr; 0: matches constrain the pose and not the warp");
   v("deform.data_loss", o.data_robust.loss, robustLosses(), "robust loss of E_data");
   v("deform.correspondence_loss", o.correspondence_robust.loss, robustLosses(),
     "robust loss of E_corr");

@@ -215,7 +215,7 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
   DeformObservation seen;
   seen.surface = &surface;
   seen.visible = &visible;
-  if (!options_.use_correspondences) return seen;
+  if (options_.deform.correspondence_weight == 0) return seen;
   const double reference_mm = frame_.association.reference_sigma_mm;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     const LiftedMatch& match = matches_[i];

@@ -27,7 +27,7 @@ struct FrameDepthOptions {
 
 /// All rasters have the shape of the rectified left picture.
 struct MeasuredFrame {
-  std::string method;  // elas, sgbm or files
+  std::string method;  // elas, sgbm, onnx or files
   ColourImage left;    // rectified
   Mask mask;    // instruments, black border, what the raw left image does not show; may be empty
   Mask border;  // of these, what was known before matching; may be empty

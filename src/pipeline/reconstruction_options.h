@@ -38,7 +38,6 @@ struct ReconstructionOptions {
   RefinePoseOptions refine_pose;  // 0 iterations: RANSAC's fit is the pose
   GraphOptions graph;
   DeformOptions deform;
-  bool use_correspondences = true;  // false: matches give the pose, but don't pull the warp
   bool match_last_picture = false;  // true: frame to frame, on the last picture's texture, not on
                                     // the model's; errors add up. For comparison
   FusionOptions fusion;

@@ -47,8 +47,6 @@ void describe(Visitor& v, ReconstructionOptions& o) {
   describe(v, o.refine_pose);
   describe(v, o.graph);
   describe(v, o.deform);
-  v("deform.use_correspondences", o.use_correspondences,
-    "false: matches constrain the pose and not the warp");
   describe(v, o.fusion);
   describe(v, o.gate);
 }

@@ -13,7 +13,9 @@ namespace {
 class CpuStereoStage final : public StereoStage {
  public:
   CpuStereoStage(const StereoOptions& options, const RectifiedRig& rig)
-      : matcher_(makeStereoMatcher(options)), rig_(rig) {}
+      : matcher_(makeStereoMatcher(options)), rig_(rig) {
+    matcher_->prepare(rig.left.width_px, rig.left.height_px);
+  }
   std::string name() const override { return matcher_->name(); }
   StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override;
 
@@ -25,8 +27,7 @@ class CpuStereoStage final : public StereoStage {
 StereoSurface CpuStereoStage::measure(const AlignedPair& aligned, const Mask& mask) {
   StageClock clock;
   StereoSurface found;
-  found.disparity =
-      matcher_->match(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
+  found.disparity = matcher_->matchColour(aligned.pair, aligned.ignored);
   removeRoll(aligned.roll_rad, &found.disparity.disparity_px);
   clock.lap("disparity");
   found.depth = depthFromDisparity(found.disparity, rig_);

@@ -27,7 +27,7 @@ struct StereoSurface {
 class StereoStage {
  public:
   virtual ~StereoStage() = default;
-  /// Of the matcher: "elas" or "sgbm"; written into every report.
+  /// Of the matcher: "elas", "sgbm" or "onnx"; written into every report.
   virtual std::string name() const = 0;
   /// No disparity and no depth under `mask`, which may be empty.
   virtual StereoSurface measure(const AlignedPair& aligned, const Mask& mask) = 0;
@@ -36,7 +36,7 @@ class StereoStage {
 using StereoStageFactory =
     std::function<std::unique_ptr<StereoStage>(const StereoOptions&, const RectifiedRig&)>;
 
-/// On the processor's cores. Throws OptionError.
+/// On the processor's cores. Throws OptionError, InputError where a network doesn't fit.
 std::unique_ptr<StereoStage> makeCpuStereoStage(const StereoOptions& options,
                                                 const RectifiedRig& rig);
 

@@ -100,7 +100,7 @@ TEST(CommandLine, MisspeltSettingGetsTheNearestKey) {
 TEST(CommandLine, AnOptionOutOfItsRangeIsNamed) {
   const Outcome outcome = run({"depth", "a", "--out", "x", "--set", "stereo.method=magic"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("--set: stereo.method is magic, expected elas or sgbm"));
+  EXPECT_THAT(outcome.err, HasSubstr("--set: stereo.method is magic, expected elas, sgbm or onnx"));
 }
 
 TEST(CommandLine, SettingsInErrorsBecomeOptions) {

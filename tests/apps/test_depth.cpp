@@ -1,6 +1,7 @@
 // tests/apps/test_depth.cpp: `softscope depth` from files to files.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "io/images/image_writer.h"
 #include "stereo/rectification/rectifier.h"
 #include "support/data_folder.h"
+#include "support/onnx_network.h"
 #include "support/scene.h"
 #include "tests/apps/run_softscope.h"
 #include "vtk_views/plots/depth_picture.h"
@@ -315,6 +317,77 @@ TEST_F(Depth, ARawPairIsRectifiedInside) {
   EXPECT_GT(json["mean_coverage"], 0.3);
   EXPECT_GT(json["frames"][0]["depth_mm"]["median"], 30);  // the tissue lies some 40 to 90 mm away
   EXPECT_LT(json["frames"][0]["depth_mm"]["median"], 120);
+}
+
+// A fraction of a pixel at 14 px of disparity: 50 mm to a millimetre.
+TEST_F(Depth, ANetworkMeasuresWhatElasDoes) {
+  const std::string sequence = makeSequence("s", 1);
+  PlaneSweep sweep;
+  sweep.disparities = 24;
+  sweep.window_px = 7;
+  sweep.sharpness = 1;
+  const std::string model = write("private/net.onnx", sweep.model());
+  const Outcome outcome = run({"depth", sequence, "--out", at("out"), "--set", "stereo.method=onnx",
+                               "--set", "stereo.model=" + model, "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = outcome.json();
+  EXPECT_EQ(json["method"], "onnx");
+  EXPECT_EQ(json["inputs"]["stereo_model"], "net.onnx");
+  EXPECT_EQ(json["options"]["stereo.model"], "net.onnx") << "no path";
+  EXPECT_GT(json["mean_coverage"], 0.7);
+  EXPECT_NEAR(json["frames"][0]["depth_mm"]["median"], 50, 1);
+}
+
+TEST_F(Depth, ANetworkMeasuresTheRenderedHeart) {
+  SOFTSCOPE_DATA_OR_SKIP(heart, "openhelp_heart");
+  PlaneSweep sweep;
+  sweep.disparities = 64;
+  sweep.window_px = 11;
+  sweep.channels = 1;
+  const std::string model = write("net.onnx", sweep.model());
+  const Outcome outcome =
+      run({"depth", heart, "--frames", "0:1", "--out", at("out"), "--quiet", "--write", "depth",
+           "--set", "stereo.method=onnx", "--set", "stereo.model=" + model});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Raster<float> found = readDepth(at("out/000000_depth.pfm"));
+  const Raster<float> truth = readDepth(heart / "groundtruth/depth/000000.png");
+  std::vector<double> errors_mm;
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    known += std::isfinite(truth.values[i]);
+    const double error_mm = std::abs(found.values[i] - truth.values[i]);
+    if (std::isfinite(error_mm)) errors_mm.push_back(error_mm);
+  }
+  EXPECT_GT(errors_mm.size(), 0.6 * known);
+  const auto middle = errors_mm.begin() + long(errors_mm.size() / 2);
+  std::nth_element(errors_mm.begin(), middle, errors_mm.end());
+  RecordProperty("median_mm", std::to_string(*middle));
+  RecordProperty("coverage", std::to_string(double(errors_mm.size()) / double(known)));
+  EXPECT_LT(*middle, 0.4);  // a quarter of a pixel at 65 mm here
+}
+
+TEST_F(Depth, ABadNetworkIsOneLineAndExitCode3) {
+  const std::string sequence = makeSequence("s", 2);
+  const auto expect = [&](const std::string& model, const std::string& part) {
+    for (const char* command : {"depth", "reconstruct"}) {
+      const Outcome outcome = run({command, sequence, "--out", at("out"), "--quiet", "--set",
+                                   "stereo.method=onnx", "--set", "stereo.model=" + model});
+      EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+      EXPECT_THAT(outcome.err, HasSubstr(part)) << command;
+      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+      EXPECT_FALSE(fs::exists(at("out"))) << command;
+    }
+  };
+  expect(at("none.onnx"), "none.onnx");
+  expect(write("text.onnx", "a network"), "text.onnx: isn't an ONNX model");
+  PlaneSweep lacking, zero;
+  lacking.more = {"GridSample"};
+  zero.output_factor = 0;
+  expect(write("lacking.onnx", lacking.model()), "lacks operators of this network: GridSample");
+  expect(write("zero.onnx", zero.model()), "its output disparity is 0 to 0");
+  const Outcome alone = run({"depth", sequence, "--out", at("out"), "--set", "stereo.method=onnx"});
+  EXPECT_EQ(alone.exit_code, 2) << alone.err;
+  EXPECT_THAT(alone.err, HasSubstr("stereo.model=FILE.onnx"));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ TEST(RecordPaths, NamesStandForPathsInInputsAndTexts) {
         {"reference", "visits/doe/liver.stl"}}},
       {"runs", {"/mnt/jane/a/", "b"}},
       {"machine", {{"processor", "A /x/y"}}},
+      {"configuration", {{"stereo.model", "/mnt/jane/net.onnx"}, {"calibration.unit", "a/b"}}},
       {"warnings",
        {"/mnt/jane/Doe Jane/left/3.png: is black", "visits/doe/liver.stl: has holes",
         "visits/doe/seen.ply: is empty", "it drifts by 0.1 mm/s"}}};
@@ -26,6 +27,8 @@ TEST(RecordPaths, NamesStandForPathsInInputsAndTexts) {
   EXPECT_EQ(names["inputs"]["reference"], "liver.stl");
   EXPECT_EQ(names["runs"], (FactSheet::Json{"a", "b"}));
   EXPECT_EQ(names["machine"], record["machine"]);
+  EXPECT_EQ(names["configuration"]["stereo.model"], "net.onnx");
+  EXPECT_EQ(names["configuration"]["calibration.unit"], "a/b");
   EXPECT_EQ(names["warnings"], (FactSheet::Json{"left/3.png: is black", "liver.stl: has holes",
                                                 "seen.ply: is empty", "it drifts by 0.1 mm/s"}));
   EXPECT_EQ(RecordPaths{true}.applyTo(record), record);

@@ -43,10 +43,11 @@ class StudyCommand : public InFolder {
 };
 
 TEST_F(StudyCommand, RunsItsCasesAndWritesTheTable) {
-  const Outcome done = study(kSimulated +
-                             "[[variant]]\nname = 'surf'\n"
-                             "[[variant]]\nname = 'loose'\nreconstruct.deform.use_correspondences "
-                             "= false\n");
+  const Outcome done =
+      study(kSimulated +
+            "[[variant]]\nname = 'surf'\n"
+            "[[variant]]\nname = 'loose'\nreconstruct.deform.correspondence_weight "
+            "= 0.0\n");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const auto json = result();
   ASSERT_EQ(json["cases"].size(), 2u);

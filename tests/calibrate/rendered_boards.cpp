@@ -1,5 +1,6 @@
 #include "rendered_boards.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
@@ -41,6 +42,14 @@ cv::Mat charucoPicture(const BoardOptions& board, double pixels_per_mm) {
   return picture;
 }
 
+/// 1 and -1 by turns between whole numbers, averaged over `width`: a ray stands for its part of the
+/// pixel, and without it edges would lie on a grid of thirds of a pixel.
+double squareWave(double x, double width) {
+  const double line = std::round(x);
+  const double after = std::clamp(2 * (x - line) / width, -1.0, 1.0);
+  return std::fmod(line, 2) == 0 ? after : -after;
+}
+
 /// Brightness at a place of the board's plane, whose origin is the first inner corner.
 class BoardFace {
  public:
@@ -48,7 +57,8 @@ class BoardFace {
     if (board.hasMarkers()) picture_ = charucoPicture(board, kPixelsPerMm);
   }
 
-  double at(double x_mm, double y_mm) const {
+  /// Of a checkerboard, the mean over a square of `extent_mm`.
+  double at(double x_mm, double y_mm, double extent_mm) const {
     const double x = x_mm / board_.square_mm + 1, y = y_mm / board_.square_mm + 1;  // in squares
     const int columns = board_.cornerColumns() + 1, rows = board_.cornerRows() + 1;
     if (x < -0.6 || y < -0.6 || x > columns + 0.6 || y > rows + 0.6) return kAround;
@@ -58,7 +68,9 @@ class BoardFace {
       const int v = std::min(picture_.rows - 1, int(y * board_.square_mm * kPixelsPerMm));
       return picture_.at<std::uint8_t>(v, u) > 127 ? kLight : kDark;
     }
-    return (int(x) + int(y)) % 2 == 0 ? kDark : kLight;
+    const double extent = extent_mm / board_.square_mm;
+    return (kLight + kDark) / 2 -
+           (kLight - kDark) / 2 * squareWave(x, extent) * squareWave(y, extent);
   }
 
  private:
@@ -100,7 +112,8 @@ GrayImage renderWith(const BoardRendering& rendering, const std::vector<cv::Poin
           const cv::Point2d& ray = rays[std::size_t(v * kRays + j) * std::size_t(width * kRays) +
                                         std::size_t(u * kRays + i)];
           const Eigen::Vector3d p = board_from_ray * Eigen::Vector3d(ray.x, ray.y, 1);
-          sum += face.at(p.x() / p.z(), p.y() / p.z());
+          // p.z() is 1 / depth
+          sum += face.at(p.x() / p.z(), p.y() / p.z(), 1 / (p.z() * camera.pinhole.fx_px * kRays));
         }
       light.at<float>(v, u) = float(sum / (kRays * kRays));
     }

@@ -68,9 +68,9 @@ TEST(StereoSolver, TwentyBlurredNoisyViewsGiveTheCameras) {
   std::vector<double> rows_px = rowDifferencesPx(found, left_px, right_px);
   for (double& row : rows_px) row = std::abs(row);
   std::sort(rows_px.begin(), rows_px.end());
-  EXPECT_LT(rows_px[rows_px.size() * 95 / 100], 0.1);
-  EXPECT_LT(rows_px.back(), 0.4);  // at the rim, beyond the boards' corners
-  EXPECT_LT(solution.summary.rms_px, 0.15);
+  EXPECT_LT(rows_px[rows_px.size() * 95 / 100], 0.03);
+  EXPECT_LT(rows_px.back(), 0.1);  // at the rim, beyond the boards' corners
+  EXPECT_LT(solution.summary.rms_px, 0.05);
   const RowErrors rows = rowErrors(solution);
   EXPECT_LT(rows.worst_region_px, 0.05);
   EXPECT_GE(rows.rms_px, rows.worst_region_px);

@@ -267,12 +267,17 @@ TEST(CalibrationReader, ReadsEndoNerfOnceTheBaselineIsGiven) {
 TEST(CalibrationReader, HintsFillInAndScale) {
   CalibrationHints hints;
   hints.baseline_mm = 10;
-  hints.image_width_px = 640;
-  hints.image_height_px = 480;
+  hints.image_size = "640x480";
   const auto found = parseCalibration(openCvYaml(""), "c", hints);
   EXPECT_NEAR(found.baseline_mm(), 10, 1e-12);
   EXPECT_NEAR(found.right_from_left.translation().y(), 0.04, 1e-5);  // the direction stays
   expectSize(found, 640, 480);
+  for (const char* size : {"640", "640x", "0x480", "-640x480", "640x480.5", "1e9x480", "wide"}) {
+    hints.image_size = size;
+    expectError<OptionError>([&] { parseCalibration(openCvYaml(""), "c", hints); },
+                             {"calibration.image_size", size, "640x480"});
+  }
+  hints.image_size = "640x480";
   hints.unit = "furlong";
   expectError<OptionError>([&] { parseCalibration(openCvYaml(), "c", hints); },
                            {"calibration.unit"});

@@ -10,6 +10,7 @@ import numpy as np
 import softscope
 
 PROGRAM = os.environ["SOFTSCOPE"]
+NETWORK = Path(__file__).resolve().parents[1] / "fuzz/corpus/onnx/free.onnx"  # four disparities
 
 
 class Clip(unittest.TestCase):
@@ -126,6 +127,14 @@ class Reconstructs(Clip):
         self.assertEqual(depth.method, "sgbm")
         made = softscope.simulate(str(self.root / "two"), frames=2, width_px=64, height_px=48)
         self.assertEqual(made.frames, 2)
+
+    def test_a_network_is_a_setting(self):
+        pair = self.frames[0].left, self.frames[0].right
+        depth = softscope.DepthEstimator(self.calibration, stereo_method="onnx",
+                                         stereo_model=str(NETWORK)).measure(*pair)
+        self.assertEqual(depth.method, "onnx")
+        with self.assertRaisesRegex(softscope.InputError, "isn't an ONNX model"):
+            softscope.DepthEstimator(self.calibration, stereo_method="onnx", stereo_model=__file__)
 
     def test_a_grey_image_stands_for_three_equal_channels(self):
         grey = [np.ascontiguousarray(image[:, :, 1])

@@ -13,9 +13,9 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/guarded_read.h"
 #include "support/folder_test.h"
 #include "vtk_views/files/error_map.h"
-#include "vtk_views/files/guarded_read.h"
 #include "vtk_views/files/vtk_errors.h"
 #include "vtk_views/files/vtp_surface.h"
 

@@ -110,6 +110,8 @@ MeasuredSequence SequenceMeasurement::measure() {
   requireApart(options_.out, options_.sequence);
   requireFree(outputs, reader.frameCount());
   DepthEstimator estimator = estimatorFor(reader);
+  if (const std::string& model = options_.settings.measurement.stereo.model; !model.empty())
+    options_.inputs["stereo_model"] = model;
 
   DepthRecord record(options_.inputs, reader.calibration(), estimator, options_.raw_left);
   record.addSettings(settingsOf(options_.settings).list());

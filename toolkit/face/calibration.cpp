@@ -9,8 +9,8 @@ namespace softscope::api {
 
 Calibration Calibration::read(const std::string& file, int width_px, int height_px) {
   CalibrationHints hints;
-  hints.image_width_px = width_px;
-  hints.image_height_px = height_px;
+  if (width_px != 0 || height_px != 0)
+    hints.image_size = std::to_string(width_px) + "x" + std::to_string(height_px);
   return calibrationOf(readCalibration(file, hints));
 }
 

@@ -26,11 +26,14 @@ bool isAmong(const std::string& key, const char* const (&names)[N]) {
 /// Keys whose texts are paths; below `inputs` every text is one but for these two.
 bool holdsPath(const std::string& key, bool in_inputs) {
   if (in_inputs) return !isAmong(key, {"sha256", "role"});
-  return isAmong(key, {"path", "run", "runs", "sequence"});
+  return isAmong(key, {"path", "run", "runs", "sequence", "stereo.model"});
 }
 
-bool staysAsItIs(const std::string& key) {
-  return isAmong(key, {"softscope", "machine", "configuration", "style"});
+bool staysAsItIs(const std::string& key) { return isAmong(key, {"softscope", "machine", "style"}); }
+
+/// Of a record's settings, those that are no path stay as they are.
+bool staysWithin(const std::string& parent, const std::string& key) {
+  return parent == "configuration" && !holdsPath(key, false);
 }
 
 std::string recordedName(const std::string& text) {
@@ -53,7 +56,8 @@ void forEachText(Json& part, const std::string& key, bool in_inputs, const Visit
     for (Json& element : part) forEachText(element, key, in_inputs, visit);
   if (!part.is_object()) return;
   for (const auto& [name, value] : part.items())
-    if (!staysAsItIs(name)) forEachText(value, name, in_inputs || name == "inputs", visit);
+    if (!staysAsItIs(name) && !staysWithin(key, name))
+      forEachText(value, name, in_inputs || name == "inputs", visit);
 }
 
 bool continuesWord(char c) {

@@ -10,8 +10,8 @@ struct RecordPaths {
   bool keep = false;
 
   /// The record as it is written and printed: each path becomes the name of its file or folder, in
-  /// the inputs and within texts. Settings, machine and style stay as they are. With --keep-paths
-  /// the record itself. No command reads a path back from a record.
+  /// the inputs, in stereo.model and within texts. Other settings, machine and style stay. With
+  /// --keep-paths the record itself. No command reads a path back from a record.
   FactSheet::Json applyTo(const FactSheet::Json& record) const;
 };
 

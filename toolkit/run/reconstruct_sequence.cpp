@@ -146,7 +146,7 @@ ReconstructedRun SequenceRun::run() {
             settleRightOffset(options_.sequence, sequence, method.depth.stereo.disparity_max_px);
         !warning.empty())
       listener_.warn(warning);
-  const Json inputs = inputsJson(options_.sequence);
+  const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model);
   const SettingsBinder binder = settingsOf(options_.settings);
   Checkpoint checkpoint{
       digestOf(inputs, binder.list(), options_.tracks, sequence.frames), sequence.frames.begin, {}};

@@ -42,7 +42,7 @@ Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Js
 
 }  // namespace
 
-Json inputsJson(const SequencePaths& paths) {
+Json inputsJson(const SequencePaths& paths, const fs::path& stereo_model) {
   Json inputs = Json::object();
   const std::pair<const char*, const fs::path&> parts[] = {{"left", paths.left},
                                                            {"right", paths.right},
@@ -50,7 +50,8 @@ Json inputsJson(const SequencePaths& paths) {
                                                            {"calibration", paths.calibration},
                                                            {"mask", paths.mask},
                                                            {"depth", paths.depth},
-                                                           {"timestamps", paths.timestamps}};
+                                                           {"timestamps", paths.timestamps},
+                                                           {"stereo_model", stereo_model}};
   for (const auto& [name, path] : parts)
     if (!path.empty()) inputs[name] = {{"path", path.string()}, {"sha256", sha256Of(path)}};
   return inputs;

@@ -16,7 +16,7 @@
 namespace softscope {
 
 /// Path and SHA-256 of every part that there is. Throws InputError.
-FactSheet::Json inputsJson(const SequencePaths& paths);
+FactSheet::Json inputsJson(const SequencePaths& paths, const std::filesystem::path& stereo_model);
 
 class RunRecord {
  public:

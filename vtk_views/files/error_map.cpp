@@ -18,7 +18,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "vtk_views/files/guarded_read.h"
+#include "core/guarded_read.h"
 #include "vtk_views/files/packed_bytes.h"
 #include "vtk_views/files/vtk_errors.h"
 

@@ -14,7 +14,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "vtk_views/files/guarded_read.h"
+#include "core/guarded_read.h"
 
 namespace softscope {
 namespace {

@@ -14,7 +14,7 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "vtk_views/files/guarded_read.h"
+#include "core/guarded_read.h"
 #include "vtk_views/files/packed_bytes.h"
 #include "vtk_views/files/vtk_errors.h"
 

@@ -16,7 +16,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "vtk_views/files/guarded_read.h"
+#include "core/guarded_read.h"
 #include "vtk_views/files/vtk_errors.h"
 #include "vtk_views/volumes/dicom_slices.h"
 #include "vtk_views/volumes/packed_volume.h"

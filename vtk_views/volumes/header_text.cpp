@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "vtk_views/files/guarded_read.h"
+#include "core/guarded_read.h"
 
 namespace softscope {
 namespace {

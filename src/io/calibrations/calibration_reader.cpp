@@ -1,5 +1,8 @@
 #include "io/calibrations/calibration_reader.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "io/calibrations/calibration_check.h"
 #include "io/calibrations/calibration_files.h"
@@ -14,6 +17,8 @@ namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kLongestSidePx = 100000;
 
 double millimetresPer(const std::string& unit, const std::string& name) {
   if (unit == "mm") return 1;
@@ -37,8 +42,9 @@ void setBaseline(const CalibrationDraft& draft, const CalibrationHints& hints,
 }
 
 void setSize(const CalibrationHints& hints, PinholeCamera& camera) {
-  if (camera.width_px == 0) camera.width_px = hints.image_width_px;
-  if (camera.height_px == 0) camera.height_px = hints.image_height_px;
+  const auto [width_px, height_px] = hints.imageSizePx();
+  if (camera.width_px == 0) camera.width_px = width_px;
+  if (camera.height_px == 0) camera.height_px = height_px;
 }
 
 StereoCalibration finish(const CalibrationDraft& draft, const std::string& name,
@@ -123,7 +129,25 @@ CalibrationDraft draftFromSet(CalibrationSet set, const std::vector<NamedText>& 
 
 }  // namespace
 
-void CalibrationHints::validate() const { requireAllowed(*this); }
+std::pair<int, int> CalibrationHints::imageSizePx() const {
+  if (image_size.empty()) return {0, 0};
+  const std::string_view text = image_size;
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  const auto length = [](std::string_view word) {  // 0: none
+    const double value = numberOf(word).value_or(0);
+    return value >= 1 && value <= kLongestSidePx && value == std::floor(value) ? int(value) : 0;
+  };
+  const int width = length(text.substr(0, cross));
+  const int height = cross < text.size() ? length(text.substr(cross + 1)) : 0;
+  require(width > 0 && height > 0, "calibration.image_size", image_size,
+          "must be WIDTHxHEIGHT in pixels, such as 640x480");
+  return {width, height};
+}
+
+void CalibrationHints::validate() const {
+  requireAllowed(*this);
+  imageSizePx();
+}
 
 StereoCalibration readCalibration(const fs::path& file_or_folder, const CalibrationHints& hints) {
   hints.validate();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/stereo_rig.h"
 
@@ -12,11 +13,13 @@ namespace softscope {
 
 /// What a calibration file may leave unsaid.
 struct CalibrationHints {
-  int image_width_px = 0;  // 0 = the file says it, or the pictures will
-  int image_height_px = 0;
+  std::string image_size;  // "640x480"; empty = the file says it, or the pictures will
   double baseline_mm = 0;  // 0 = the file says it; else T is scaled to this length
   std::string unit;        // "mm", "cm" or "m"; empty = as the file or its form says
   bool rectified = false;  // the pictures are rectified, whatever the file says
+
+  /// Width and height of `image_size`; 0 0 where that is empty. Throws OptionError.
+  std::pair<int, int> imageSizePx() const;
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;

@@ -13,10 +13,8 @@ void describe(Visitor& v, CalibrationHints& o) {
   v("calibration.unit", o.unit, oneOf({"", "mm", "cm", "m"}),
     "of T in the file; empty: as the file says");
   v("calibration.rectified", o.rectified, "the images are rectified, whatever the file says");
-  v("calibration.image_width_px", o.image_width_px, atLeast(0),
-    "where the file is silent; 0: the images'");
-  v("calibration.image_height_px", o.image_height_px, atLeast(0),
-    "where the file is silent; 0: the images'");
+  v("calibration.image_size", o.image_size, FreeText{"empty or WIDTHxHEIGHT"},
+    "in pixels, where the file is silent; empty: the images'");
 }
 
 }  // namespace softscope

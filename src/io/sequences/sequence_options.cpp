@@ -50,6 +50,7 @@ int SequenceOptions::rightOffset() const {
 
 void SequenceOptions::validate() const {
   requireAllowed(*this);
+  calibration.validate();
   rightOffset();
   require(frames.begin >= 0, "`frames=`", frames.begin, "can't be negative");
   require(frames.step >= 1, "`frames=`", frames.step, "must have a step of 1 or more");

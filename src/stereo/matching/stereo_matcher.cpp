@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "stereo/matching/elas_matcher.h"
+#include "stereo/matching/onnx_matcher.h"
 #include "stereo/matching/sgbm_matcher.h"
 
 namespace softscope {
@@ -23,6 +24,7 @@ void requireRectifiedPair(const GrayImage& left, const GrayImage& right) {
 std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options) {
   options.validate();
   if (options.method == "sgbm") return std::make_unique<SgbmMatcher>(options);
+  if (options.method == "onnx") return std::make_unique<OnnxMatcher>(options);
   return std::make_unique<ElasMatcher>(options);
 }
 

@@ -21,7 +21,7 @@ class StereoMatcher {
  public:
   virtual ~StereoMatcher() = default;
 
-  /// "elas" or "sgbm"; written into every report.
+  /// "elas", "sgbm" or "onnx"; written into every report.
   virtual std::string name() const = 0;
 
   /// Both pictures rectified and of one shape, else Error. Result: the left picture's shape, NaN
@@ -33,6 +33,14 @@ class StereoMatcher {
     return match(left, right, {});
   }
 
+  /// The same for colour images; matchers that need no colour take their luma.
+  virtual DisparityMap matchColour(const StereoPair& pair, const ViewMasks& ignored) {
+    return match(toGray(pair.left), toGray(pair.right), ignored);
+  }
+
+  /// What may take long or fail before the first pair of this size. Throws InputError.
+  virtual void prepare(int /*width_px*/, int /*height_px*/) {}
+
   /// Of the last match().
   virtual const StageTimes& times() const = 0;
 };
@@ -42,7 +50,7 @@ constexpr int kSmallestPicturePx = 32;
 /// Throws InputError unless both pictures have one shape, kSmallestPicturePx or more each way.
 void requireRectifiedPair(const GrayImage& left, const GrayImage& right);
 
-/// Throws OptionError if the options break a rule.
+/// Throws OptionError if the options break a rule, InputError where a network can't be read.
 std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options);
 
 }  // namespace softscope

@@ -92,9 +92,18 @@ struct SmoothingOptions {
   }
 };
 
+/// The user's network (docs/stereo.md, 8).
+struct NetworkOptions {
+  static constexpr int agreement_radius_px = 6;  // window of the agreement is (2 r + 1)²
+  static constexpr double model_sigma_px = 0.1;  // error that no agreement shows
+  static constexpr double left_right_px = 1.0;   // left and right disparity agree to this
+};
+
 /// What any matcher needs.
 struct StereoOptions {
-  std::string method = "elas";  // "elas" or "sgbm"
+  std::string method = "elas";         // "elas", "sgbm" or "onnx"
+  std::string model;                   // of "onnx": the network's file
+  std::string model_input = "levels";  // what it takes for a level of 0 to 255
   int disparity_min_px = 0;
   int disparity_max_px = 255;
   static constexpr int darkest_gray = 10;  // darker pixels can't be matched …

@@ -20,7 +20,11 @@ void describe(Visitor& v, SmoothingOptions& o) {
 
 template <class Visitor>
 void describe(Visitor& v, StereoOptions& o) {
-  v("stereo.method", o.method, oneOf({"elas", "sgbm"}), "disparity by ELAS or OpenCV's SGBM");
+  v("stereo.method", o.method, oneOf({"elas", "sgbm", "onnx"}),
+    "disparity by ELAS, OpenCV's SGBM or a network");
+  v("stereo.model", o.model, FreeText{"empty or a file"}, "the network of onnx, an ONNX file");
+  v("stereo.model_input", o.model_input, oneOf({"levels", "unit", "imagenet"}),
+    "the network takes 0 to 255, 0 to 1, or ImageNet's mean 0 and deviation 1");
   v("stereo.disparity_min_px", o.disparity_min_px, atLeast(0), "smallest disparity sought");
   v("stereo.disparity_max_px", o.disparity_max_px, between(1, StereoOptions::kLargestDisparityPx),
     "largest disparity sought; above disparity_min_px");

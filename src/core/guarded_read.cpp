@@ -1,5 +1,5 @@
-// vtk_views/files/guarded_read.cpp: fork, limits, and a pipe for the answer.
-#include "vtk_views/files/guarded_read.h"
+// src/core/guarded_read.cpp: fork, limits, and a pipe for the answer.
+#include "core/guarded_read.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -51,12 +51,12 @@ struct ReadLimits {
   rlim_t seconds, memory_bytes;
 };
 
-ReadLimits limitsFor(std::uintmax_t input_bytes) {
+ReadLimits limitsFor(std::uintmax_t input_bytes, const GuardAllowance& allowance) {
   std::uintmax_t pages = 0;  // of the address space that there is already
   std::ifstream("/proc/self/statm") >> pages;
   const auto page = static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
-  return {kBaseSeconds + input_bytes / kMegabyte,
-          pages * page + kBaseMemory + kMemoryPerByte * input_bytes};
+  return {kBaseSeconds + input_bytes / kMegabyte + static_cast<rlim_t>(allowance.seconds),
+          pages * page + kBaseMemory + kMemoryPerByte * input_bytes + allowance.memory_bytes};
 }
 
 void limitTo(int resource, rlim_t value) {
@@ -218,8 +218,8 @@ void requireRegularFile(const std::filesystem::path& file) {
 }
 
 std::string guardedRead(const std::string& source, std::uintmax_t input_bytes,
-                        const std::function<std::string()>& read) {
-  const ReadLimits limits = limitsFor(input_bytes);
+                        const std::function<std::string()>& read, const GuardAllowance& allowance) {
+  const ReadLimits limits = limitsFor(input_bytes, allowance);
   ReadingChild child(limits, read);
   std::string bytes;
   const auto deadline = Clock::now() + std::chrono::seconds(2 * limits.seconds);

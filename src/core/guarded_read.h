@@ -1,4 +1,4 @@
-// vtk_views/files/guarded_read.h: the one door to readers of other libraries.
+// src/core/guarded_read.h: the one door to readers of other libraries.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,22 @@ namespace softscope {
 /// for its writer.
 void requireRegularFile(const std::filesystem::path& file);
 
+/// What a child may take beyond the limits for its input.
+struct GuardAllowance {
+  int seconds = 0;  // of processor time
+  std::uintmax_t memory_bytes = 0;
+};
+
 /// Runs `read` in a child process with limits and returns the bytes that it returns. Readers of
 /// other libraries crash or hang on some damaged files: the child's death is an InputError that
 /// names `source`, what the library prints goes nowhere, and an Error that `read` throws is thrown
 /// here again. Limits: processor time of 10 s and 1 s per MB of input, twice that on the clock, and
-/// memory of 2 GiB and 16 times the input (none under AddressSanitizer, which reserves terabytes).
+/// memory of 2 GiB and 16 times the input (none under AddressSanitizer, which reserves terabytes),
+/// and what `allowance` adds.
 /// `read` must not share work among threads: the child has only its own.
 std::string guardedRead(const std::string& source, std::uintmax_t input_bytes,
-                        const std::function<std::string()>& read);
+                        const std::function<std::string()>& read,
+                        const GuardAllowance& allowance = {});
 
 /// True in the child of guardedRead(), and nowhere else.
 bool insideGuardedRead();

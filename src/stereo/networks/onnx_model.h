@@ -1,0 +1,49 @@
+// src/stereo/networks/onnx_model.h: declarations of an ONNX file, read without a library.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace softscope {
+
+/// What a file says, for messages of one line: shortened, without control characters.
+std::string printable(std::string text, std::size_t longest = 60);
+
+struct OnnxTensor {
+  static constexpr int kFloat32 = 1;
+  static constexpr std::int64_t kFree = -1;
+
+  std::string name;
+  int element_type = 0;             // TensorProto.DataType
+  std::vector<std::int64_t> shape;  // kFree: stated when the network is run
+
+  std::string text() const;  // "left: 1 x 3 x H x W float32"; a free length is `?`
+};
+
+struct OnnxOperator {
+  std::string domain;  // empty: ONNX's own
+  std::string name;    // "Conv"
+  int inputs = 0;      // of its first node
+};
+
+/// What a network declares: its inputs without stored weights, its outputs, each operator once.
+struct OnnxModel {
+  std::vector<OnnxTensor> inputs, outputs;
+  std::vector<OnnxOperator> operators;
+  bool has_external_weights = false;  // in other files
+};
+
+/// `name` is what messages call the file. Throws InputError where the bytes are no whole ONNX
+/// model.
+OnnxModel parseOnnx(std::string_view bytes, const std::string& name);
+
+/// The model with this shape declared for each of its inputs. Throws InputError as parseOnnx().
+std::string withInputShape(std::string_view bytes, const std::string& name,
+                           const std::vector<std::int64_t>& shape);
+
+/// A model of one node of this operator, to find out whether a library has it.
+std::string oneNodeModel(const OnnxOperator& wanted);
+
+}  // namespace softscope
