@@ -22,6 +22,8 @@
 namespace softscope {
 namespace {
 
+constexpr double kFloatingLimits = 3;  // before the surface, in units of the limit behind it
+
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
 class CpuBackend : public ReconstructionBackend {
@@ -339,9 +341,10 @@ bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
   if (!frame_.not_tissue.contains(u, v) || frame_.not_tissue.at(u, v) != 0) return false;
   const float depth_mm = frame_.measured.depth.depth_mm.at(u, v);
   const double behind_mm = point_left.z() - depth_mm;
-  // Nothing floats before the tissue: such a point was lost.
-  return !(std::abs(behind_mm) >
-           VisibilityOptions::kOcclusionMm * std::max(1.0, frame_.summary.limit_scale));
+  const double limit_mm =
+      VisibilityOptions::kOcclusionMm * std::max(1.0, frame_.summary.limit_scale);
+  // Errors of tracks and of depth stay below the second limit; what floats beyond it was lost.
+  return !(behind_mm > limit_mm || -behind_mm > kFloatingLimits * limit_mm);
 }
 
 std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_from_left) const {
