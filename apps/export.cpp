@@ -24,8 +24,8 @@ const char* const kDetails =
     "  .dcm         by MODEL: a PDF becomes an Encapsulated PDF, the .html of `softscope report` "
     "a\n"
     "               Structured Report (TID 1500) with each of its numbers, a picture a Secondary\n"
-    "               Capture, a model an Encapsulated STL; needs dcmtk. Without --patient-name and\n"
-    "               --patient-id it names nobody.\n"
+    "               Capture, a model an Encapsulated STL; needs dcmtk. The patient's name and ID\n"
+    "               are empty unless --patient-name and --patient-id are given.\n"
     "docs/export.md tells how the surface is made and what each format keeps.";
 
 class ExportCommand : public Command {
@@ -65,7 +65,8 @@ void ExportCommand::declare(ArgumentList& arguments) {
   arguments.option("--island-mm2", "N", request_.surface.least_island_mm2,
                    "smaller pieces are dropped (default 10)");
   arguments.option("--patient-name", "TEXT", request_.dicom.patient_name, "for .dcm: Family^Given");
-  arguments.option("--patient-id", "TEXT", request_.dicom.patient_id, "for .dcm");
+  arguments.option("--patient-id", "TEXT", request_.dicom.patient_id,
+                   "for .dcm: ID of the patient");
   arguments.option("--title", "TEXT", request_.dicom.title,
                    "for .dcm: of the document or the series");
   arguments.flag("--force", request_.overwrite, "overwrite what is there");

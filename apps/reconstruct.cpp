@@ -61,7 +61,7 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
   arguments.option("--save-every", "N", options_.save_every,
                    "save the model every N frames (default 10; 0: only the last)");
   arguments.option("--hold-out", "N", hold_out_,
-                   "leave frames N, 2N, … out; `evaluate` draws the model for each of them");
+                   "leave frames 1, N+1, 2N+1, … out; `evaluate` draws the model for each");
   arguments.option("--track", "FILE", track_,
                    "follow pixels of the first left picture: CSV id,u_px,v_px");
   arguments.option("--backend", "NAME", options_.backend, "auto (the default), cpu or cuda");

@@ -1,41 +1,32 @@
-// eval/images/disparity_errors.cpp: one pass over the pixels, then statistics.
+// eval/images/disparity_errors.cpp: statistics of the differences, and what could be matched.
 #include "eval/images/disparity_errors.h"
 
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
+#include "eval/images/map_differences.h"
 #include "eval/images/pixel_masks.h"
 
 namespace softscope {
 
 void DisparityErrorOptions::validate() const {
-  for (const double threshold_px : bad_thresholds_px)
-    require(threshold_px >= 0, "bad_thresholds_px", threshold_px, "can't be negative");
+  requireThresholds("bad_thresholds_px", bad_thresholds_px);
 }
 
 DisparityErrors disparityErrors(const Raster<float>& measured_px, const Raster<float>& truth_px,
                                 const DisparityErrorOptions& options, const Mask& ignore) {
   options.validate();
-  requireSameShape(measured_px, truth_px, "disparity map");
-  requireSameShape(measured_px, ignore, "disparity map");
-  const Mask unmatchable = ignoreMatchesOutside(truth_px);
-  std::vector<double> errors_px, absolute_px;
+  const MapDifferences px = mapDifferences(measured_px, truth_px, ignore, "disparity map");
+  DisparityErrors result;
+  result.absolute_px = statistics(px.magnitude);
+  result.signed_px = statistics(px.with_sign);
+  result.bad_percent = percentsAbove(px.magnitude, options.bad_thresholds_px);
+  const Mask unmatchable = ignoreEither(ignoreMatchesOutside(truth_px), ignore);
   std::size_t matchable = 0, matched = 0;
   for (std::size_t i = 0; i < measured_px.size(); ++i) {
-    if (!ignore.empty() && ignore.values[i]) continue;
-    const bool measured = std::isfinite(measured_px.values[i]);
     matchable += !unmatchable.values[i];
-    matched += measured && !unmatchable.values[i];
-    if (!measured || !std::isfinite(truth_px.values[i])) continue;
-    errors_px.push_back(static_cast<double>(measured_px.values[i]) - truth_px.values[i]);
-    absolute_px.push_back(std::abs(errors_px.back()));
+    matched += !unmatchable.values[i] && std::isfinite(measured_px.values[i]);
   }
-  DisparityErrors result;
-  result.absolute_px = statistics(absolute_px);
-  result.signed_px = statistics(errors_px);
-  for (const double threshold_px : options.bad_thresholds_px)
-    result.bad_percent.push_back(percentAbove(absolute_px, threshold_px));
   result.matchable_count = matchable;
   if (matchable > 0)
     result.coverage_percent = 100.0 * static_cast<double>(matched) / static_cast<double>(matchable);

@@ -7,11 +7,11 @@ namespace {
 void summarise(TrackErrors& errors, int last_frame) {
   std::vector<double> all, visible, hidden, observed, predicted, control, last;
   for (const TrackError& e : errors.each) {
-    all.push_back(e.error_mm);
+    all.push_back(e.errorMm());
     control.push_back(e.control_mm);
-    (e.visible ? visible : hidden).push_back(e.error_mm);
-    (e.unseen ? predicted : observed).push_back(e.error_mm);
-    if (e.frame == last_frame) last.push_back(e.error_mm);
+    (e.visible ? visible : hidden).push_back(e.errorMm());
+    (e.unseen ? predicted : observed).push_back(e.errorMm());
+    if (e.frame == last_frame) last.push_back(e.errorMm());
   }
   errors.error_mm = statistics(all);
   errors.visible_mm = statistics(visible);
@@ -37,11 +37,10 @@ TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>&
     } else if (found == truth.end() || move == moves.end()) {
       ++errors.without_truth;
     } else {
-      const Eigen::Vector3d offset_mm = move->second * sample.position_mm - found->second;
       errors.each.push_back(
-          {sample.frame, sample.id, offset_mm.norm(),
+          {sample.frame, sample.id, move->second * sample.position_mm - found->second,
            start == truth.end() ? Statistics::kNone : (found->second - start->second).norm(),
-           sample.visible, unseen.count({sample.frame, sample.id}) > 0, offset_mm});
+           sample.visible, unseen.count({sample.frame, sample.id}) > 0});
     }
   }
   if (!truth.empty())

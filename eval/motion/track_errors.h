@@ -24,11 +24,12 @@ struct TrackSample {
 struct TrackError {
   int frame = 0;
   int id = 0;
-  double error_mm = 0;
+  Eigen::Vector3d offset_mm = Eigen::Vector3d::Zero();  // from the truth, in its world
   double control_mm = 0;  // of an estimate that never moves: |truth now - truth at the start|
   bool visible = true;    // as the estimate says
   bool unseen = false;    // as truth says
-  Eigen::Vector3d offset_mm = Eigen::Vector3d::Zero();  // from the truth, in its world
+
+  double errorMm() const { return offset_mm.norm(); }
 };
 
 struct TrackErrors {

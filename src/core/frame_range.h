@@ -8,11 +8,9 @@ struct FrameRange {
   int begin = 0;
   int end = -1;  // -1 = to the last
   int step = 1;
-  int hold_out_every = 0;  // frames n, 2n, … of the sequence are held out; 0: none
+  int hold_out_every = 0;  // frames 1, n + 1, 2n + 1, … of the sequence are held out; 0: none
 
-  bool holdsOut(int frame) const {
-    return hold_out_every > 0 && frame > 0 && frame % hold_out_every == 0;
-  }
+  bool holdsOut(int frame) const { return hold_out_every > 0 && frame % hold_out_every == 1; }
   /// How many frames; `end` must be known.
   int count() const {
     int frames = 0;

@@ -126,8 +126,8 @@ TEST_F(Evaluate, TheDrawnModelIsComparedWithDepthAndPicture) {
     }
   const Json result = evaluated();
   EXPECT_NEAR(result["view"]["psnr_db"], 20 * std::log10(255.0 / 10), 0.1);
-  EXPECT_GT(result["view"]["judged_share"], 0.5);  // its points are 1 mm, three pixels apart
-  EXPECT_GT(result["view"]["psnr_over_all_pixels_db"], result["view"]["psnr_db"]);
+  EXPECT_EQ(result["view"]["judged_share"], 1) << "its points are three pixels apart: no gaps";
+  EXPECT_EQ(result["view"]["psnr_over_all_pixels_db"], result["view"]["psnr_db"]);
   for (int k = 0; k < kFrames; ++k) {  // the aperture hides the left half
     ColourImage half(160, 120, Rgb8{210, 110, 100});
     for (int v = 0; v < 120; ++v)
@@ -135,9 +135,13 @@ TEST_F(Evaluate, TheDrawnModelIsComparedWithDepthAndPicture) {
     writePng(at("truth/left/00000" + std::to_string(k) + ".png"), half, true);
   }
   const Json with_border = evaluated();
-  EXPECT_NEAR(with_border["view"]["judged_share"], result["view"]["judged_share"], 0.05)
+  EXPECT_NEAR(with_border["view"]["judged_share"], 1, 0.05)
       << "of the tissue, not of black borders";
   EXPECT_NEAR(with_border["view"]["psnr_db"], result["view"]["psnr_db"], 0.1);
+  EXPECT_NEAR(double(with_border["view"]["psnr_over_all_pixels_db"]) -
+                  double(with_border["view"]["psnr_db"]),
+              10 * std::log10(2), 0.2)
+      << "the same differences over twice the pixels";
   // 0.1 + 0.02 mm a frame too near; points at the rim, which stand for unseen tissue, twice that.
   EXPECT_NEAR(result["frames"][3]["depth_mean_mm"], 0.16, 0.01);
   EXPECT_TRUE(evaluate({"--no-views", "--json"}).json()["depth"]["mean_mm"].is_null());

@@ -59,7 +59,8 @@ TEST_F(EvaluateLost, EveryOutputBeginsWithTheFrames) {
   const std::string page = textOf(at("page.html"));
   const std::size_t said = page.find("Of 6 frames 3 were fused, 1 skipped, 2 lost.");
   ASSERT_NE(said, std::string::npos);
-  EXPECT_LT(said, page.find("Mean distance"));
+  EXPECT_LT(said, page.find("The frames over time."));
+  EXPECT_LT(page.find("The frames over time."), page.find("Mean distance"));
   EXPECT_EQ(evaluate({"--fail-if", "lost>30%"}).exit_code, 1);
   EXPECT_EQ(evaluate({"--fail-if", "lost>40%"}).exit_code, 0);
 }
@@ -152,13 +153,19 @@ TEST_F(EvaluateWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
   EXPECT_EQ(drawn.width_px, 160 + 4 + 160) << "image, gap, model";
   for (const char* name : {"quality_series.svg", "quality_series.pdf", "quality_series.png"})
     EXPECT_TRUE(fs::exists(at(std::string("out/") + name))) << name;
-  EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">PSNR [dB]<"));
+  const std::string series = textOf(at("out/quality_series.svg"));
+  ASSERT_NE(series.find(">4 fused of 4 frames<"), std::string::npos);
+  EXPECT_LT(series.find(">4 fused of 4 frames<"), series.find(">PSNR [dB]<"));
   for (const char* letter : {">(a)<", ">(b)<"})
     EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(letter));
   EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">frame<"))
       << "the clip has no clock";
   const Outcome told = softscope::test::run(line);
   EXPECT_THAT(told.out, HasSubstr("no ground truth"));
+  const std::size_t frames = told.out.find("4 of 4 fused, 0 skipped, 0 lost");
+  ASSERT_NE(frames, std::string::npos) << told.out;
+  EXPECT_LT(frames, told.out.find("PSNR"));
+  EXPECT_THAT(told.out, HasSubstr("####  # fused"));
   EXPECT_THAT(told.out, HasSubstr("groundtruth/tracks.csv"));
   std::vector<std::string> limited = line;
   limited.insert(limited.end(), {"--fail-if", "psnr_db<99"});

@@ -108,6 +108,44 @@ TEST_F(EvaluateMaps, ConfidenceIsHeldAgainstTheErrors) {
   EXPECT_THAT(told.out, HasSubstr("50, 68 and 95 % intervals"));
 }
 
+TEST_F(EvaluateMaps, ADepthMapIsNotTakenForADisparityMap) {
+  const std::string map = at("maps/000000_disparity.pfm");
+  const auto refused = [&](const std::string& truth, const char* part) {
+    const Outcome outcome = evaluate({map, "--reference", truth, "--map", "disparity"});
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr(part));
+  };
+  // By its name, or that of its folder.
+  writeDepthPng(at("000000_depth.png"), Raster<float>(40, 20, 50.0f));
+  refused(at("000000_depth.png"), "is called a depth map");
+  fs::create_directories(at("depth"));
+  writeDepthPng(at("depth/000000.png"), Raster<float>(40, 20, 50.0f));
+  refused(at("depth/000000.png"), "is called a depth map");
+  // By its values: 50 mm are no disparity in an image of 40 px.
+  writePfm(at("wide.pfm"), Raster<float>(40, 20, 50.0f));
+  refused(at("wide.pfm"), "a disparity is at most 40 px");
+  // By both: depth falls where disparity rises. A slope of 8 to 28 px, f times baseline 700 px mm;
+  // 25 to 88 mm are 10 to 34 px where 100 steps per mm are read as 256 per px.
+  Raster<float> disparity(40, 20), depth(40, 20);
+  for (std::size_t i = 0; i < disparity.size(); ++i) {
+    disparity.values[i] = 8 + 0.5f * float(i % 40);
+    depth.values[i] = 700 / disparity.values[i];
+  }
+  writePfm(at("slope_disparity.pfm"), disparity);
+  writeDepthPng(at("slope.png"), depth);
+  const Outcome doubted =
+      evaluate({at("slope_disparity.pfm"), "--reference", at("slope.png"), "--json"});
+  ASSERT_EQ(doubted.exit_code, 0) << doubted.err;
+  EXPECT_THAT(doubted.json()["warnings"].dump(),
+              HasSubstr("its values fall where the true ones rise (correlation -0.9"));
+  writeDisparityPng(at("same.png"), disparity);
+  const Outcome same =
+      evaluate({at("slope_disparity.pfm"), "--reference", at("same.png"), "--json"});
+  EXPECT_EQ(same.json()["warnings"].size(), 0u) << same.err;
+  EXPECT_EQ(same.json()["comparison"]["measured_values"], "px");
+  EXPECT_EQ(same.json()["comparison"]["reference_values"], "16 bits, 256 steps per px");
+}
+
 TEST_F(EvaluateMaps, LimitsAndMistakesAreTold) {
   const std::string map = at("maps/000000_disparity.pfm"), truth = at("truth/000000.pfm");
   EXPECT_EQ(evaluate({map, "--reference", truth, "--fail-if", "epe_px>0.5"}).exit_code, 1);

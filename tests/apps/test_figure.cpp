@@ -4,6 +4,7 @@
 
 #include "io/geometry/ply_writer.h"
 #include "tests/apps/evaluate_fixture.h"
+#include "vtk_views/drawing/fonts.h"
 
 namespace softscope::test {
 namespace {
@@ -114,6 +115,8 @@ TEST_F(Figure, FourPanelsInThreeFormatsWithTheirRecord) {
   EXPECT_NEAR(record["errors"]["distance"]["max_mm"], 0.5, 1e-6);
   EXPECT_EQ(record["views"][0]["side_right"], "L");
   EXPECT_EQ(record["volume"]["window"]["name"], "soft-tissue");
+  EXPECT_EQ(record["style"]["font"], figureFont());
+  EXPECT_THAT(svg, HasSubstr("font-family=\"" + figureFont()));
 }
 
 TEST_F(Figure, TheSameInputsGiveTheSameBytes) {
@@ -149,7 +152,7 @@ TEST_F(Figure, MatchesAreFoundAnewWithTheRunsOwnSettings) {
   EXPECT_EQ(dense["matcher"], "dense-surf");
   EXPECT_GT(dense["inliers"], 100);
   EXPECT_GT(dense["with_depth"], 3 * sift["with_depth"].get<int>()) << "that is why it is dense";
-  for (const char* word : {">model view<", ">left picture, frame 2<", ">(b) SIFT: "})
+  for (const char* word : {">model view<", ">left image, frame 2<", ">(b) SIFT: "})
     EXPECT_THAT(textOf(at("m.svg")), HasSubstr(word));
   EXPECT_EQ(matches({"--frame", "1"}).json()["model_frame"], 0);
   EXPECT_EQ(matches({"--frame", "0"}).exit_code, 2) << "no model is older";
@@ -233,6 +236,18 @@ TEST_F(Slice, BadLinesAreRefused) {
     EXPECT_FALSE(fs::exists(at("x.svg")));
   }
   EXPECT_EQ(slice({"--out", at("y.svg")}).exit_code, 2) << "nothing to slice";
+}
+
+TEST_F(Figure, TheBarEndsNearTheNinetyFifthPercentile) {
+  PointCloud cloud;  // 0.4 mm before the box, one point 5 mm
+  for (int i = 0; i < 100; ++i)
+    cloud.points_mm.emplace_back(float(i % 10), float(i / 10) - 5, i == 50 ? 13.0f : 8.4f);
+  writePly(at("points.ply"), cloud, {"", ""});
+  const Outcome outcome = figure({"--reference", at("reference.obj"), "--test", at("points.ply"),
+                                  "--out", at("p.svg"), "--dpi", "100", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NEAR(outcome.json()["errors"]["distance"]["max_mm"], 5, 1e-5);
+  EXPECT_EQ(outcome.json()["errors"]["range_mm"], (Json{0.0, 0.5}));
 }
 
 TEST_F(Figure, ARasMeshIsTurnedAndADistantOneTold) {

@@ -32,6 +32,9 @@ TEST_F(RunFigure, TheModelIsShownBesideTheTruthInItsCamera) {
   for (const char* word : {">true surface<", ">model<", ">scan of this frame<", ">near<", ">far<"})
     EXPECT_THAT(svg, HasSubstr(word));
   EXPECT_THAT(svg, testing::Not(HasSubstr(">R<"))) << "a scope's scene has no patient's sides";
+  EXPECT_THAT(svg, HasSubstr("Model and scan of frame 5, 0.20 s, as the scope sees them."));
+  EXPECT_THAT(svg, testing::Not(HasSubstr("stroke-linecap=\"round\"")))
+      << "a model is cut as a surface, to lines: no dots";
 
   const Outcome seen =
       figure({"--out", at("b.svg"), "--dpi", "100", "--observed", "--frame", "2", "--json"});
@@ -59,14 +62,15 @@ TEST_F(RunFigure, WholeRunsHaveFiguresToo) {
   const Json frames = kind({"--kind", "frames", "--frames", "0,2,5", "--out", at("f.svg")});
   EXPECT_EQ(frames["frames"], (Json{0, 2, 5}));
   EXPECT_EQ(frames["inputs"].size(), 3u);
-  EXPECT_THAT(textOf(at("f.svg")), HasSubstr(">(c) frame 5"));
+  EXPECT_THAT(textOf(at("f.svg")), HasSubstr(">(c) frame 5, 0.20 s<"));
 
   const Json series =
       kind({"--kind", "series", "--reference", at("truth"), "--observed", "--out", at("s.svg")});
   EXPECT_EQ(series["frames"].size(), 4u) << "evenly spread";
   EXPECT_EQ(series["errors"][3]["range_mm"], series["errors"][0]["range_mm"]) << "one range";
   EXPECT_NEAR(series["errors"][3]["distance"]["max_mm"], 0.2, kFloats);
-  for (const char* word : {">up to P95<", ">time [s]<", ">not observed<"})
+  for (const char* word : {">up to P95<", ">time [s]<", ">not observed<", ">(a) frame 0, 0.00 s<",
+                           ">(d) frame 5, 0.20 s<", ">(e) every judged frame<"})
     EXPECT_THAT(textOf(at("s.svg")), HasSubstr(word));
 
   makeWallRun(at("later"), kFrames, 1);
@@ -111,8 +115,26 @@ TEST_F(RunFigure, TwoRunsAreToldApartAndShownAtTheSameFrame) {
                                 "--force",      "--json"};
   const Json coloured = softscope::test::run(line).json();
   EXPECT_EQ(coloured["frame"], 2) << "the last one of the shorter run";
-  for (const char* word : {">(a) paper<", ">(b) ours<"})
+  for (const char* word :
+       {">(a) paper<", ">(b) ours<",
+        ">Two reconstructions, each at frame 2, 0.08 s; one place and one scale.<"})
     EXPECT_THAT(textOf(at("c.svg")), HasSubstr(word));
+  // What run.json says of the images tells whether both are of one clip.
+  const auto clip = [&](const char* file, const char* hash) {
+    write(file, std::string(R"({"inputs":{"left":{"sha256":")") + hash + R"("}}})");
+  };
+  clip("paper/run/run.json", "1a");
+  clip("ours/run/run.json", "1a");
+  softscope::test::run(line);
+  EXPECT_THAT(textOf(at("c.svg")), HasSubstr(">Two reconstructions of one clip, each at frame 2,"));
+  clip("ours/run/run.json", "2b");
+  softscope::test::run(line);
+  EXPECT_THAT(
+      textOf(at("c.svg")),
+      HasSubstr(
+          ">Two reconstructions of two clips, each at frame 2, 0.08 s of its own; one scale.<"));
+  fs::remove(at("paper/run/run.json"));
+  fs::remove(at("ours/run/run.json"));
   line.insert(line.end(), {"--reference", at("truth")});
   EXPECT_EQ(softscope::test::run(line).json()["frame"], 2);
   std::vector<std::string> named = line;
@@ -131,6 +153,5 @@ TEST_F(RunFigure, TwoRunsAreToldApartAndShownAtTheSameFrame) {
   EXPECT_THAT(beyond.err, HasSubstr("the last one that both runs have is 2"));
 }
 
-// Of a real, if small, run: the clip slides, and both matchers see it.
 }  // namespace
 }  // namespace softscope::test

@@ -143,13 +143,14 @@ TEST_F(Reconstruct, HeldOutFramesAreNotSeenAndAreComparedWithTheModelBeforeThem)
   };
   const Outcome done = with({"--out", at("run"), "--json"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_EQ(done.json()["frames"], 8);
+  EXPECT_EQ(done.json()["frames"], 7);
   EXPECT_EQ(done.json()["hold_out_every"], 4);
   const std::string frames = textOf(at("run/frames.csv"));
-  for (const char* number : {"\n3,", "\n5,", "\n7,", "\n9,"})
+  for (const char* number : {"\n0,", "\n4,", "\n6,", "\n8,"})
     EXPECT_THAT(frames, HasSubstr(number));
-  for (const char* number : {"\n4,", "\n8,"}) EXPECT_THAT(frames, Not(HasSubstr(number)));
-  for (const char* model : {"run/models/000003.ply", "run/models/000007.ply"})
+  for (const char* number : {"\n1,", "\n5,", "\n9,"}) EXPECT_THAT(frames, Not(HasSubstr(number)));
+  for (const char* model :
+       {"run/models/000000.ply", "run/models/000004.ply", "run/models/000008.ply"})
     EXPECT_TRUE(fs::exists(at(model))) << model;
 
   // The same with truth and without.
@@ -157,8 +158,9 @@ TEST_F(Reconstruct, HeldOutFramesAreNotSeenAndAreComparedWithTheModelBeforeThem)
   ASSERT_EQ(judged.exit_code, 0) << judged.err;
   const auto held_out = judged.json()["held_out"];
   EXPECT_EQ(held_out["every"], 4);
-  ASSERT_EQ(held_out["views"], 2);
-  EXPECT_EQ(held_out["frames"][1]["frame"], 8);
+  ASSERT_EQ(held_out["views"], 3);
+  EXPECT_EQ(held_out["frames"][1]["frame"], 5);
+  EXPECT_EQ(held_out["frames"][2]["frame"], 9) << "the last of the clip";
   EXPECT_GT(held_out["psnr_db"], 25);
   EXPECT_GT(held_out["psnr_over_all_pixels_db"], held_out["psnr_db"]);
   EXPECT_TRUE(held_out["control"]["psnr_db"].is_number());
@@ -170,14 +172,14 @@ TEST_F(Reconstruct, HeldOutFramesAreNotSeenAndAreComparedWithTheModelBeforeThem)
   ASSERT_EQ(truthless.exit_code, 0) << truthless.err;
   EXPECT_EQ(truthless.json()["held_out"]["frames"], held_out["frames"]);
   ASSERT_EQ(run({"report", at("error"), "--out", at("page.html")}).exit_code, 0);
-  EXPECT_THAT(textOf(at("page.html")), HasSubstr("Held-out views"));
+  EXPECT_THAT(textOf(at("page.html")), HasSubstr("that the run did not see, over 3 frames"));
 
   // A range may begin at such a frame, and a run that was stopped goes on with the same split.
-  const Outcome later = with({"--out", at("later"), "--frames", "4:8", "--json"});
+  const Outcome later = with({"--out", at("later"), "--frames", "5:9", "--json"});
   ASSERT_EQ(later.exit_code, 0) << later.err;
   EXPECT_EQ(later.json()["frames"], 3);
   EXPECT_EQ(with({"--out", at("no"), "--frames", "::2"}).exit_code, 2);
-  EXPECT_EQ(with({"--out", at("no"), "--frames", "4:5"}).exit_code, 2) << "nothing is left";
+  EXPECT_EQ(with({"--out", at("no"), "--frames", "5:6"}).exit_code, 2) << "nothing is left";
   EXPECT_EQ(reconstruct({"--out", at("no"), "--hold-out", "1"}).exit_code, 2);
 }
 

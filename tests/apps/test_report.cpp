@@ -209,6 +209,20 @@ TEST_F(Report, NoHeadingStandsAlone) {
     EXPECT_THAT(page(cases), Not(HasSubstr("<h2>Pictures")));
 }
 
+TEST_F(Report, SmallNumbersAndCountsAreReadable) {
+  Json record = Json::parse(textOf(at("result/evaluation.json")));
+  record["surface"]["drift_mm_per_frame"] = 0.0000304;
+  record["surface"]["drift_mm_per_s"] = -0.0004;
+  record["surface"]["jitter_rms_mm"] = 0.0025;
+  record["held_out"] = {{"every", 8}, {"views", 2}, {"psnr_db", 33.7}};
+  write("result/evaluation.json", record.dump());
+  const std::string html = page({at("result")});
+  for (const char* part : {"drift [mm per frame]", ">0.000030<", ">-0.00040<", ">0.003<", ">value<",
+                           "that the run did not see, over 2 frames"})
+    EXPECT_THAT(html, HasSubstr(part));
+  EXPECT_THAT(html, Not(HasSubstr(">2.00<"))) << "a count has no decimals";
+}
+
 TEST_F(Report, CasesWithoutTruthDontCountAmongTheDistances) {
   writeTruthlessCase(at("real"), 28);
   writeTruthlessCase(at("other"), 32);

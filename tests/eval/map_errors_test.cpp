@@ -8,7 +8,6 @@
 #include "eval/images/depth_errors.h"
 #include "eval/images/disparity_errors.h"
 #include "eval/images/pixel_masks.h"
-#include "eval/surfaces/region_points.h"
 
 namespace softscope {
 namespace {
@@ -115,18 +114,6 @@ TEST(DepthErrors, JudgeWhatBothCamerasSee) {
   EXPECT_EQ(depthErrors(truth_mm, truth_mm, {}, outside).known_count, 32u);
   const Raster<float> hole = disparityFromDepth(Raster<float>(1, 1, 0.0f), rig);
   EXPECT_TRUE(std::isnan(hole.values[0]));  // no depth, not "infinitely near"
-}
-
-TEST(RegionPoints, AreTheMeasuredOnesOfTheRegion) {
-  Raster<float> depth_mm(4, 2, 50.0f);
-  depth_mm.at(1, 1) = kNaN;
-  Raster<std::uint8_t> region(4, 2);
-  region.at(1, 1) = region.at(3, 0) = 255;
-  const std::vector<Eigen::Vector3f> points =
-      pointsInRegion(depth_mm, {4, 2, 100, 50, 1, 1}, region);
-  ASSERT_EQ(points.size(), 1u);
-  EXPECT_TRUE(points[0].isApprox(Eigen::Vector3f(1, -1, 50), 1e-6f));
-  EXPECT_THROW(pointsInRegion(depth_mm, {}, Raster<std::uint8_t>(2, 4)), InputError);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(TrackErrors, MovesEstimatesIntoTheTrueWorldAndSetsTheControlBesideThem) {
   ASSERT_EQ(errors.each.size(), 4u);
   EXPECT_NEAR(errors.predicted_mm.mean, 1, kTrackRounding) << "what truth calls unseen";
   EXPECT_NEAR(errors.observed_mm.mean, 2.0 / 3, kTrackRounding);
-  EXPECT_NEAR(errors.each[2].error_mm, 1, kTrackRounding);
+  EXPECT_NEAR(errors.each[2].errorMm(), 1, kTrackRounding);
   EXPECT_NEAR(errors.each[2].control_mm, 3, kTrackRounding);
   EXPECT_NEAR(errors.error_mm.mean, 0.75, kTrackRounding);
   EXPECT_NEAR(errors.control_mm.mean, 1.75, kTrackRounding);

@@ -10,7 +10,7 @@ constexpr double kNone = Statistics::kNone;
 
 TrackError offBy(int frame, int id, const Eigen::Vector3d& offset_mm, bool visible = true,
                  bool unseen = false) {
-  return {frame, id, offset_mm.norm(), 0, visible, unseen, offset_mm};
+  return {frame, id, offset_mm, 0, visible, unseen};
 }
 
 TEST(WrongFrames, EachLimitAloneMakesAFrameWrong) {

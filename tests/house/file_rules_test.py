@@ -86,6 +86,18 @@ class FileRules(unittest.TestCase):
                  and unguarded(text_of(path))]
         self.none(wrong, "include a reader of VTK or of networks, but not core/guarded_read.h")
 
+    def test_back_projection_is_defined_in_one_document(self):
+        documents = sorted((ROOT / "docs").glob("*.md"))
+        wrong = [path.name for path in documents
+                 if path.name != "evaluation.md" and "**Back-projection**" in text_of(path)]
+        self.none(wrong, "define back-projection, which docs/evaluation.md does")
+        self.assertEqual(text_of(ROOT / "docs/evaluation.md").count("**Back-projection**:"), 1)
+        rows = [line for path in documents for line in text_of(path).splitlines()
+                if line.startswith("| `backprojection_mean_mm`")]
+        self.assertTrue(rows)
+        self.none([row for row in rows if "(evaluation.md#which-frames-count)" not in row],
+                  "rows say what back-projection is, but name no definition")
+
     def test_the_rules_find_made_up_breaches(self):
         self.assertTrue(unguarded("#include <vtk" + "STLReader.h>\n"))
         self.assertTrue(unguarded("#include <opencv2" + "/dnn.hpp>\n"))

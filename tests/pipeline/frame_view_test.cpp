@@ -3,22 +3,30 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace softscope {
 namespace {
 
 constexpr int kWidth = 40, kHeight = 30;
 
-FrameView viewOf(float depth_mm, float sigma_mm) {
-  RectifiedRig rig;
-  rig.left = {kWidth, kHeight, 500, 500, 20, 15};
-  rig.baseline_mm = 5;
+MeasuredFrame measuredAt(float depth_mm, float sigma_mm) {
   MeasuredFrame measured;
   measured.left = ColourImage(kWidth, kHeight, Rgb8{120, 90, 80});
   measured.depth.depth_mm = Raster<float>(kWidth, kHeight, depth_mm);
   measured.depth.sigma_mm = Raster<float>(kWidth, kHeight, sigma_mm);
   measured.normals = NormalMap(kWidth, kHeight, -Eigen::Vector3f::UnitZ());
+  return measured;
+}
+
+FrameView viewOf(MeasuredFrame measured) {
+  RectifiedRig rig;
+  rig.left = {kWidth, kHeight, 500, 500, 20, 15};
+  rig.baseline_mm = 5;
   return viewFrame(std::move(measured), rig, ReconstructionOptions());
 }
+
+FrameView viewOf(float depth_mm, float sigma_mm) { return viewOf(measuredAt(depth_mm, sigma_mm)); }
 
 TEST(FrameView, NearAndSureTissueHasTheLimitsOfTheSettings) {
   const ReconstructionOptions options;
@@ -39,6 +47,21 @@ TEST(FrameView, UnsureDepthBendsTheModelLess) {
 TEST(FrameView, LimitsFollowThePixelOfDisparity) {
   EXPECT_EQ(viewOf(50, 0.05f).summary.limit_scale, 1);
   EXPECT_NEAR(viewOf(100, 0.05f).summary.limit_scale, 100.0 * 100 / (500 * 5) / 2.5, 1e-6);
+}
+
+TEST(FrameView, CoverageIsOfTheTissueNotOfBlackBorders) {
+  MeasuredFrame measured = measuredAt(50, 0.05f);
+  measured.border = Mask(kWidth, kHeight);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) {
+      const bool black = u < 8, unmeasured = v >= kHeight / 2;
+      measured.border.at(u, v) = black ? 255 : 0;
+      if (black || unmeasured) measured.depth.depth_mm.at(u, v) = std::nanf("");
+    }
+  measured.mask = measured.border;
+  const FrameView view = viewOf(std::move(measured));
+  EXPECT_EQ(view.summary.tissue_px, (kWidth - 8) * kHeight);
+  EXPECT_EQ(view.summary.coverage(), 0.5) << "of the tissue the upper half has depth";
 }
 
 }  // namespace

@@ -144,6 +144,34 @@ TEST(FourPanels, StraysOfAModelDontWidenTheField) {
   EXPECT_NEAR(
       sliceViews(scene, {axialView({0, 0, 0}, scene.frame, SideRule::kRadiological)}, {}).width_mm,
       before_mm, 1e-9);
+  // Of points one in a thousand may stray.
+  Scene points;
+  points.surfaces.push_back({"points", {}, {0, 0, 255}, {}});
+  for (int i = 0; i <= 2000; ++i)
+    points.surfaces[0].mesh.vertices_mm.emplace_back(0.01f * float(i % 1000), 0.0f, 0.0f);
+  const auto widthOf = [&] {
+    return sliceViews(points, {axialView({0, 0, 0}, scene.frame, SideRule::kRadiological)}, {})
+        .width_mm;
+  };
+  const double usual_mm = widthOf();
+  points.surfaces[0].mesh.vertices_mm.emplace_back(500.0f, 0.0f, 0.0f);
+  EXPECT_NEAR(widthOf(), usual_mm, 0.02);
+}
+
+TEST(FourPanels, ScenesOfTwoWorldsAreCentredEachByItself) {
+  Scene left, right;
+  left.surfaces.push_back({"", boxMesh({-40, -5, -5}, {-20, 5, 5}), {0, 0, 255}, {}});
+  right.surfaces.push_back({"", boxMesh({20, -5, -5}, {40, 5, 5}), {0, 0, 255}, {}});
+  const ViewPlane front = cameraView({0, 0, 0}, {0, -1, 0}, SceneFrame::kAxes);
+  const auto fieldOf = [&](int second_world) {
+    return fitField({{&left, front, true, 0}, {&right, front, true, second_world}}, 100, {}, false);
+  };
+  const PanelField one = fieldOf(0), two = fieldOf(1);
+  EXPECT_NEAR(one.planes[0].centre_mm.x(), 0, 1e-6) << "one place: a motion stays visible";
+  EXPECT_NEAR(one.planes[1].centre_mm.x(), 0, 1e-6);
+  EXPECT_NEAR(two.planes[0].centre_mm.x(), -30, 1e-4);
+  EXPECT_NEAR(two.planes[1].centre_mm.x(), 30, 1e-4);
+  EXPECT_LT(two.width_mm, one.width_mm / 3) << "no panel is half empty";
 }
 
 TEST(SurfacePicture, GivesTheSamePixelsTwice) {

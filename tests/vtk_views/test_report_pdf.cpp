@@ -142,6 +142,15 @@ TEST(ErrorMapFigure, ShowsTheErrorsInTheColoursOfTheBar) {
   EXPECT_NEAR(plain.green, 145, 4);
   EXPECT_NEAR(plain.blue, 141, 4);
   EXPECT_GT(int(with_sign.blue), with_sign.red + 50) << "inside is blue";
+  // Every panel has its letter; its title and the scale lie above the picture, not on it.
+  std::vector<std::string> titles;
+  for (const auto& part : drawing.parts) {
+    const auto* text = std::get_if<DrawnText>(&part);
+    if (text == nullptr || text->at.y_pt > pictures[0]->bottom_right.y_pt) continue;
+    titles.push_back(text->text);
+    EXPECT_LT(text->at.y_pt, pictures[0]->top_left.y_pt) << text->text;
+  }
+  EXPECT_THAT(titles, testing::IsSupersetOf({"(a) Distance", "(b) Signed"}));
   EXPECT_THROW(drawErrorMaps({}, style), Error);
 }
 

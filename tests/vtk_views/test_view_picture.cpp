@@ -74,6 +74,45 @@ TEST_F(ViewPictures, WhatIsSeenFillsTheWindowAndNothingIsCut) {
   }
 }
 
+TEST_F(ViewPictures, ArrowsAndTipsOfTheModelAreNotCut) {
+  class Moving : public MadeSource {
+   public:
+    Moving() : MadeSource(1) {}
+    std::shared_ptr<const ViewMoment> moment(int index, bool with_errors) override {
+      auto moment = std::make_shared<ViewMoment>(*MadeSource::moment(index, with_errors));
+      moment->node_motion_mm = {{0, 8, 0}};  // an arrow of 32 mm, from above the patch
+      for (int i = 0; i < 10; ++i) {         // one in a thousand points
+        moment->model.vertices_mm.emplace_back(0, 20 + 0.3f * float(i), 50);
+        moment->model.colours.push_back({20, 200, 20});
+        moment->weights.push_back(1);
+      }
+      return moment;
+    }
+  } moving;
+  ViewState state;
+  state.motion = true;
+  state.scope = false;
+  state.look = Look::kFront;
+  Playback playback(moving);
+  const ColourImage view = ViewPicture(moving, 640, 480, /*clean=*/true).draw(playback, state, 0);
+  const auto nearest = [&](Rgb8 colour) {  // to a side, px
+    int least = view.width_px;
+    for (int v = 0; v < view.height_px; ++v)
+      for (int u = 0; u < view.width_px; ++u) {
+        const Rgb8& c = view.at(u, v);
+        if (std::abs(c.red - colour.red) + std::abs(c.green - colour.green) +
+                std::abs(c.blue - colour.blue) <
+            60)
+          least = std::min({least, u, v, view.width_px - 1 - u, view.height_px - 1 - v});
+      }
+    return least;
+  };
+  EXPECT_GT(nearest({235, 30, 35}), 5) << "the arrow";
+  EXPECT_LT(nearest({235, 30, 35}), 40);
+  EXPECT_LT(nearest({20, 200, 20}), view.width_px) << "the tip";
+  EXPECT_GT(nearest({20, 200, 20}), 10) << "has the room that is left around everything";
+}
+
 TEST_F(ViewPictures, TheFootTellsWhetherMoreMayCome) {
   const auto going = [this] {
     return footOf(source, *source.moment(0, false), Playback(source), {}, 100, false).going;

@@ -65,6 +65,14 @@ TEST(ViewPlane, PositionsCarryTheirSide) {
   EXPECT_EQ(positionText(obliqueView({0, 0, 0}, {0, 1, 1}, kPatient, kRadiological), kPatient), "");
 }
 
+TEST(ViewPlane, AnUnknownSpaceHasNoAnatomicalPlanes) {
+  const auto frame = SceneFrame::kAxes;
+  EXPECT_EQ(axialView({0, 0, 0}, frame, kRadiological).name, "xy plane");
+  EXPECT_EQ(coronalView({0, 0, 0}, frame, kRadiological).name, "xz plane");
+  EXPECT_EQ(sagittalView({0, 0, 0}, frame).name, "yz plane");
+  EXPECT_EQ(sides(coronalView({0, 0, 0}, frame, kRadiological), frame), "-x +x +z -z");
+}
+
 TEST(ViewPlane, AScopesSceneIsSeenAsTheScopeSeesIt) {
   const auto frame = SceneFrame::kCamera;
   EXPECT_EQ(sides(axialView({0, 0, 0}, frame, kRadiological), frame), "left right up down");

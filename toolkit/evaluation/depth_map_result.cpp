@@ -186,19 +186,29 @@ void keepWorst(const std::string& name, const Raster<float>& measured, const Ras
     worst->error.values[i] = std::abs(measured.values[i] - truth.values[i]);
 }
 
-JudgedMap judgeMap(const DepthMapOptions& options, MapKind kind, const fs::path& measured_file,
-                   const fs::path& true_file, WorstMap* worst) {
+/// The first tells enough.
+void addWarning(const std::string& warning, DepthMapResult* result) {
+  if (!warning.empty() && result->warnings.empty()) result->warnings.push_back(warning);
+}
+
+JudgedMap judgeMap(const DepthMapOptions& options, const fs::path& measured_file,
+                   const fs::path& true_file, DepthMapResult* result) {
+  for (const fs::path& file : {measured_file, true_file}) requireNamedAs(result->kind, file);
   JudgedMap judged;
   judged.name = measured_file.filename().string();
-  if (kind == MapKind::kDepth) {
+  if (result->kind == MapKind::kDepth) {
     const Raster<float> measured_mm = readDepth(measured_file), truth_mm = readDepth(true_file);
     judged.depth = depthErrors(measured_mm, truth_mm);
-    keepWorst(judged.name, measured_mm, truth_mm, judged.depth->absolute_mm.mean, worst);
+    addWarning(oppositesWarning(judged.name, measured_mm, truth_mm), result);
+    keepWorst(judged.name, measured_mm, truth_mm, judged.depth->absolute_mm.mean, &result->worst);
     return judged;
   }
   const Raster<float> measured = readDisparity(measured_file), truth = readDisparity(true_file);
+  requireDisparities(measured, measured_file);
+  requireDisparities(truth, true_file);
   judged.disparity = disparityErrors(measured, truth);
-  keepWorst(judged.name, measured, truth, judged.disparity->absolute_px.mean, worst);
+  addWarning(oppositesWarning(judged.name, measured, truth), result);
+  keepWorst(judged.name, measured, truth, judged.disparity->absolute_px.mean, &result->worst);
   if (options.calibration.empty()) return judged;
   const RectifiedRig rig = Rectifier(readCalibration(options.calibration)).rig();
   judged.depth = depthErrors(depthOfDisparity(measured, rig), depthOfDisparity(truth, rig));
@@ -241,7 +251,7 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
   const bool of_depth = result.kind == MapKind::kDepth;
   if (of_depth && !options.confidence.empty())
     throw OptionError("`confidence=` is of disparities; give it with a disparity map");
-  const std::string part = of_depth ? "depth" : "disparity";
+  const std::string part = nameOf(result.kind);
   const auto measured = depthMapsIn(options.measured, part),
              truth = depthMapsIn(options.reference, part);
   std::vector<fs::path> sure;
@@ -252,7 +262,11 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
     if (result.interrupted) return result;
     const fs::path& true_file =
         partnerOfMap(measured[i], i, measured.size(), truth, options.reference);
-    result.maps.push_back(judgeMap(options, result.kind, measured[i], true_file, &result.worst));
+    result.maps.push_back(judgeMap(options, measured[i], true_file, &result));
+    if (i == 0) {
+      result.measured_unit = unitOfMap(measured[i], result.kind);
+      result.true_unit = unitOfMap(true_file, result.kind);
+    }
     if (!sure.empty())
       addSigmas(readDisparity(measured[i]), readDisparity(true_file),
                 partnerOfMap(measured[i], i, measured.size(), sure, options.confidence),
@@ -279,8 +293,11 @@ Json depthMapJson(const DepthMapResult& result) {
   json["inputs"] = {{"run", result.measured}, {"reference", result.reference}};
   json["comparison"] = {
       {"reference_kind", result.kind == MapKind::kDepth ? "depth maps" : "disparity maps"},
+      {"measured_values", result.measured_unit},
+      {"reference_values", result.true_unit},
       {"alignment", "none"}};
   json["maps_judged"] = result.maps.size();
+  json["warnings"] = result.warnings;
   json["disparity"] = mapMeans(result, disparityColumns());
   json["depth"] = mapMeans(result, depthColumns());
   json["sigma"] = mapMeans(result, sigmaColumns());
@@ -308,6 +325,8 @@ FactSheet depthMapFacts(const DepthMapResult& result) {
     return std::string();
   };
   facts.addLine("maps", std::to_string(result.maps.size()) + "; values are means over the maps");
+  facts.addLine("read as", std::string(nameOf(result.kind)) + ": measured in " +
+                               result.measured_unit + "; truth in " + result.true_unit);
   const auto d = disparityColumns(), z = depthColumns(), s = sigmaColumns();
   if (result.kind == MapKind::kDisparity) {
     facts.addLine("disparity",
@@ -327,6 +346,7 @@ FactSheet depthMapFacts(const DepthMapResult& result) {
     facts.addLine("  coverage",
                   mean(z, "depth_coverage_percent", 1) + " % of the pixels with known depth");
   }
+  for (const std::string& warning : result.warnings) facts.warn(warning);
   if (std::isnan(meanOverMaps(result, s[0].value))) return facts;
   const auto percent = [&](const char* key) {
     for (const MapColumn& column : s)

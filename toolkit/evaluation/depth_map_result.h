@@ -10,13 +10,12 @@
 #include "eval/images/depth_errors.h"
 #include "eval/images/disparity_errors.h"
 #include "eval/images/predicted_sigma.h"
+#include "toolkit/evaluation/map_kinds.h"
 #include "toolkit/progress.h"
 #include "toolkit/record/fact_sheet.h"
 #include "vtk_views/drawing/vector_drawing.h"
 
 namespace softscope {
-
-enum class MapKind { kDisparity, kDepth };
 
 struct DepthMapOptions {
   std::string measured;     // a map, or a folder of maps
@@ -51,6 +50,8 @@ struct DepthMapResult {
   MapKind kind = MapKind::kDepth;
   std::vector<JudgedMap> maps;
   WorstMap worst;
+  std::string measured_unit, true_unit;  // what the values of the files were taken for
+  std::vector<std::string> warnings;
   bool interrupted = false;
 };
 
@@ -58,7 +59,9 @@ struct DepthMapResult {
 bool holdsDepthMaps(const std::filesystem::path& path);
 
 /// Maps of folders belong together by the frame number that their names begin with, else by their
-/// order. Throws InputError where a partner is missing or sizes differ.
+/// order. Throws InputError where a partner is missing, sizes differ, or a map's name or values say
+/// that it is of the other kind; warns where the values of both maps run against each other, as
+/// those of a depth and of a disparity map do.
 DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& progress = {});
 
 FactSheet::Json depthMapJson(const DepthMapResult& result);

@@ -153,7 +153,7 @@ void addCamera(const CameraResult& camera, FactsByFrame& facts) {
 void addTracks(const TrackErrors& tracks, FactsByFrame& facts) {
   std::map<int, std::pair<std::vector<double>, std::vector<double>>> by_frame;
   for (const TrackError& e : tracks.each) {
-    by_frame[e.frame].first.push_back(e.error_mm);
+    by_frame[e.frame].first.push_back(e.errorMm());
     by_frame[e.frame].second.push_back(e.control_mm);
   }
   for (const auto& [frame, values] : by_frame) {
@@ -238,8 +238,8 @@ FactSheet::Json FrameTable::json() const {
 std::string tracksCsv(const TrackErrors& tracks) {
   std::string text = "frame,id,error_mm,no_motion_mm,visible\n";
   for (const TrackError& e : tracks.each)
-    text += std::to_string(e.frame) + "," + std::to_string(e.id) + "," + csvCell(e.error_mm) + "," +
-            csvCell(e.control_mm) + "," + (e.visible ? "1\n" : "0\n");
+    text += std::to_string(e.frame) + "," + std::to_string(e.id) + "," + csvCell(e.errorMm()) +
+            "," + csvCell(e.control_mm) + "," + (e.visible ? "1\n" : "0\n");
   return text;
 }
 

@@ -25,11 +25,6 @@ TrueTracks positionsOf(const std::vector<TrackSample>& samples) {
   return positions_mm;
 }
 
-/// Whether the true tracks show tissue that never moves; false without tracks.
-bool showsRigidTissue(const SequenceTruth& truth) {
-  return !truth.tracks.empty() && isRigid(positionsOf(readTracks(truth.tracks)));
-}
-
 }  // namespace
 
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
@@ -53,9 +48,13 @@ CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
   return result;
 }
 
-std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth) {
+std::vector<TrackSample> readTrueTracks(const SequenceTruth& truth) {
+  return truth.tracks.empty() ? std::vector<TrackSample>() : readTracks(truth.tracks);
+}
+
+std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth,
+                                       const std::vector<TrackSample>& true_samples) {
   if (run.tracks.empty() || truth.tracks.empty()) return std::nullopt;
-  const std::vector<TrackSample> true_samples = readTracks(truth.tracks);
   const TrueTracks true_tracks = positionsOf(true_samples);
   UnseenTracks unseen;
   for (const TrackSample& sample : true_samples)
@@ -81,7 +80,7 @@ RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
   std::vector<Eigen::Isometry3d> poses;
   std::map<int, std::vector<double>> tracks_mm;
   if (result.tracks)
-    for (const TrackError& e : result.tracks->each) tracks_mm[e.frame].push_back(e.error_mm);
+    for (const TrackError& e : result.tracks->each) tracks_mm[e.frame].push_back(e.errorMm());
   std::map<int, double> surface_mm;
   for (const JudgedModel& model : result.surface.models)
     surface_mm[model.frame] = model.errors.observed_mm.mean;
@@ -95,13 +94,14 @@ RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
   return {revisits(poses, of_surface, {}), revisits(poses, of_tracks, {})};
 }
 
-std::vector<JudgedFrame> judgeClaims(const JudgedRun& run, const SequenceTruth& truth,
+std::vector<JudgedFrame> judgeClaims(const JudgedRun& run,
+                                     const std::vector<TrackSample>& true_samples,
                                      const EvaluationResult& result) {
   std::map<int, double> surface_mm, jump_mm, pose_mm, pose_deg;
   for (const JudgedModel& model : result.surface.models)
     surface_mm[model.frame] = model.errors.observed_mm.mean;
   if (result.tracks) jump_mm = largestJumps(*result.tracks);
-  if (result.camera && showsRigidTissue(truth))
+  if (result.camera && !true_samples.empty() && isRigid(positionsOf(true_samples)))
     for (std::size_t k = 0; k < result.camera->frames.size(); ++k) {
       pose_mm[result.camera->frames[k]] = result.camera->errors.unaligned.each_mm[k];
       pose_deg[result.camera->frames[k]] = result.camera->errors.unaligned.each_deg[k];

@@ -47,9 +47,13 @@ struct EvaluationResult {
 /// first frame on, as its own world begins there.
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth);
 
+/// Empty where the sequence has no tracks.csv.
+std::vector<TrackSample> readTrueTracks(const SequenceTruth& truth);
+
 /// Throws InputError where the run's tracks have nothing in common with the true ones. None where
 /// either lacks tracks.csv.
-std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth);
+std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth,
+                                       const std::vector<TrackSample>& true_samples);
 
 /// Of a result that holds surface and tracks already.
 RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
@@ -57,7 +61,8 @@ RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
 
 /// Of a result that holds surface, camera and tracks already: what the run claims of each fused
 /// frame.
-std::vector<JudgedFrame> judgeClaims(const JudgedRun& run, const SequenceTruth& truth,
+std::vector<JudgedFrame> judgeClaims(const JudgedRun& run,
+                                     const std::vector<TrackSample>& true_samples,
                                      const EvaluationResult& result);
 
 /// What a reader of the result should know: frames without a model, parts that lack, a model that

@@ -49,12 +49,13 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
   result.outcomes = run.outcomes;
   for (const int frame : run.frames) result.times_s[frame] = truth.timeOf(frame);
   result.camera = judgeCamera(run, truth);
-  result.tracks = judgeTracks(run, truth);
+  const std::vector<TrackSample> true_tracks = readTrueTracks(truth);
+  result.tracks = judgeTracks(run, truth, true_tracks);
   result.backprojection_mm = run.backprojection_mm;
   const auto frames = framesToJudge(run, truth);
   result.surface = judgeSeries(run, truth, options.views, counting(progress, frames.size()));
   result.revisits = judgeRevisits(run, truth, result);
-  result.judged_frames = judgeClaims(run, truth, result);
+  result.judged_frames = judgeClaims(run, true_tracks, result);
   if (options.views && !result.surface.interrupted) result.held_out = judgeHeldOut(run, truth);
   result.warnings = run.warnings();
   for (std::string& warning : heldOutWarnings(result.held_out))

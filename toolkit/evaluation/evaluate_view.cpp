@@ -1,11 +1,11 @@
-// toolkit/evaluation/evaluate_view.cpp: one splat, one photograph.
+// toolkit/evaluation/evaluate_view.cpp: one drawing, one photograph.
 #include "toolkit/evaluation/evaluate_view.h"
 
 #include <cmath>
 
 #include "core/error.h"
+#include "eval/images/model_drawing.h"
 #include "eval/images/pixel_masks.h"
-#include "features/model_view.h"
 #include "io/files/folder.h"
 #include "io/images/image_reader.h"
 #include "io/sequences/sequence_paths.h"
@@ -73,7 +73,7 @@ Mask ViewJudge::instruments(int frame) const {
 
 ViewErrors ViewJudge::judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left,
                             int frame, const Raster<float>& true_depth_mm, DrawnPair* drawn) {
-  const ModelView view = renderModelView(file.model, rig_.left, run_from_left, {});
+  const ModelDrawing view = drawModel(file.model, rig_.left, run_from_left);
   const Mask ignore = instruments(frame);
   ViewErrors errors;
   errors.depth = depthErrors(view.depth_mm, true_depth_mm, {{3}}, ignore);
@@ -94,7 +94,7 @@ PictureErrors ViewJudge::judgeImage(const ModelFile& file, const Eigen::Isometry
                                     int other, int frame) {
   const auto earlier = photograph(other), picture = photograph(frame);
   if (!file.coloured || !earlier || !picture) return {};
-  const ModelView view = renderModelView(file.model, rig_.left, run_from_left, {});
+  const ModelDrawing view = drawModel(file.model, rig_.left, run_from_left);
   return pictureErrors(*earlier, *picture, ignoreUnmeasured(view.depth_mm),
                        united(instruments(frame), findBlackBorder(*picture)));
 }

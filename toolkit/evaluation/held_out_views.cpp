@@ -49,7 +49,7 @@ HeldOutResult judgeHeldOut(const JudgedRun& run, const SequenceTruth& pictures,
   ViewJudge judge(pictures);
   const PinholeCamera& left = pictures.rig.left;
   const Raster<float> no_depth(left.width_px, left.height_px, std::nanf(""));
-  const int first = (run.frames.front() / result.every + 1) * result.every;
+  const int first = (run.frames.front() + result.every - 1) / result.every * result.every + 1;
   for (int frame = first; frame <= run.frames.back() + 1; frame += result.every) {
     HeldOutView view;
     view.frame = frame;
@@ -79,6 +79,10 @@ Json heldOutJson(const HeldOutResult& result) {
 
 void addHeldOutFacts(const HeldOutResult& result, FactSheet& facts) {
   if (result.every == 0) return;
+  if (result.views.empty())
+    return facts.addLine("held-out views",
+                         "none was drawn: of no held-out frame there are the model "
+                         "of the frame before and an image");
   const Json json = heldOutJson(result);
   const auto text = [](const Json& value, int decimals) {
     return value.is_number() ? fixed(value.get<double>(), decimals) : std::string("?");

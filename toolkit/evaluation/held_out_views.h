@@ -17,8 +17,9 @@ struct HeldOutView {
   PictureErrors control;  // of the image of the frame before, over the same pixels
 };
 
-/// EndoNeRF's split (every n-th frame for the test), for a method that looks back alone: nothing of
-/// a held-out frame, and nothing later, is in the model that is compared with it.
+/// The usual split of EndoNeRF's clips (frames 1, n + 1, 2n + 1, … for the test), for a method that
+/// looks back alone: nothing of a held-out frame, and nothing later, is in the model that is
+/// compared with it.
 struct HeldOutResult {
   int every = 0;  // 0: the run held no frame out
   std::vector<HeldOutView> views;

@@ -7,6 +7,8 @@
 #include <list>
 
 #include "core/error.h"
+#include "io/files/file_bytes.h"
+#include "io/files/folder.h"
 #include "io/text/message.h"
 #include "toolkit/evaluation/run_moment.h"
 #include "toolkit/record/statistics_json.h"
@@ -226,8 +228,30 @@ FrameFiles allModels(const JudgedRun& run) {
   return models;
 }
 
-std::string twoRunsText(const std::string& moment) {
-  return "Two reconstructions, each at " + moment + "; one place and one scale.";
+/// What run.json says of the left images; empty where it says nothing.
+std::string clipOf(const std::string& run) {
+  const std::filesystem::path file = std::filesystem::path(run) / "run.json";
+  if (!isFile(file)) return {};
+  const Json record = Json::parse(readBytes(file, kTextLimitBytes), nullptr, false);
+  const Json::json_pointer hash("/inputs/left/sha256");
+  return record.is_object() && record.contains(hash) && record[hash].is_string()
+             ? record[hash].get<std::string>()
+             : std::string();
+}
+
+enum class Clips { kUnknown, kOne, kTwo };
+
+Clips clipsOf(const RunFigureOptions& options) {
+  const std::string first = clipOf(options.run), second = clipOf(options.other);
+  if (first.empty() || second.empty()) return Clips::kUnknown;
+  return first == second ? Clips::kOne : Clips::kTwo;
+}
+
+std::string twoRunsText(Clips clips, const std::string& moment) {
+  if (clips == Clips::kTwo)
+    return "Two reconstructions of two clips, each at " + moment + " of its own; one scale.";
+  return std::string("Two reconstructions") + (clips == Clips::kOne ? " of one clip" : "") +
+         ", each at " + moment + "; one place and one scale.";
 }
 
 RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs) {
@@ -255,7 +279,7 @@ RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs)
   coloured.insert(coloured.end(), mapped.begin(), mapped.end());
   PanelOptions sheet = options.panels;
   sheet.foot = foot;
-  sheet.foot.notes = {twoRunsText(momentText(frame, a.time_s))};
+  sheet.foot.notes = {twoRunsText(clipsOf(options), momentText(frame, a.time_s))};
   figure.drawing = drawScenes(coloured, sheet);
   return figure;
 }
@@ -265,6 +289,7 @@ RunFigure compareColoured(const RunFigureOptions& options, SceneInputs& inputs) 
   const FrameFiles first = allModels(openJudgedRun(options.run));
   const FrameFiles second = allModels(openJudgedRun(options.other));
   const int frame = frameOfBoth(options, keysOf(first), keysOf(second));
+  const Clips clips = clipsOf(options);
   std::list<Scene> scenes;
   std::vector<ScenePanel> panels;
   for (const auto& [models, name] : {std::pair{&first, names.first}, {&second, names.second}}) {
@@ -272,9 +297,11 @@ RunFigure compareColoured(const RunFigureOptions& options, SceneInputs& inputs) 
     inputs.note("model", file.string());
     scenes.push_back(sceneOf(modelMesh(file)));
     panels.push_back(panelOf(scenes.back(), eyeOf(options), name));
+    if (clips == Clips::kTwo) panels.back().world = static_cast<int>(panels.size());
   }
   PanelOptions sheet = options.panels;
-  sheet.foot.notes = {twoRunsText(momentText(frame, openJudgedRun(options.run).timeOf(frame)))};
+  sheet.foot.notes = {
+      twoRunsText(clips, momentText(frame, openJudgedRun(options.run).timeOf(frame)))};
   return {drawScenes(panels, sheet), {{"runs", {options.run, options.other}}, {"frame", frame}}};
 }
 

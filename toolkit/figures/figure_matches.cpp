@@ -146,7 +146,7 @@ RunFigure drawMatchFigure(const RunFigureOptions& options, SceneInputs& inputs) 
   figure.left = view.colour;
   figure.right = measured.left;
   figure.left_title = "model view";
-  figure.right_title = say("left picture, frame ", moment.frame);
+  figure.right_title = say("left image, frame ", moment.frame);
   RunFigure result;
   result.record = {{"run", options.run},
                    {"sequence", options.sequence},

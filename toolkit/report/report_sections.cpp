@@ -36,7 +36,7 @@ std::string referenceText(const ReportCase& c) {
     case Kind::kMesh:
       return "a surface that does not move, from CT for example";
     case Kind::kPictures:
-      return "none: there is no ground truth; the video's own left pictures stand beside the model";
+      return "none: there is no ground truth; the video's own left images stand beside the model";
     case Kind::kPair:
       return "a surface of " + whole(numberAt(c.record, "completeness.n")) + " vertices";
   }
@@ -49,7 +49,7 @@ std::string frameText(const ReportCase& c) {
            "counted as an error of the surface";
   if (c.kind == Kind::kMesh) return "the reference's";
   if (c.kind == Kind::kPictures)
-    return "the left picture of each moment, from the pose that the run estimated";
+    return "the left image of each moment, from the pose that the run estimated";
   const std::string space = textAt(c.record, "space");
   return "the reference's; space: " + (space.empty() ? "not said" : space);
 }
@@ -219,9 +219,9 @@ std::vector<ReportPart> resultParts(const ReportCase& c) {
   addTable(scoresTable(c), parts);
   addTable(heldOutTable(c.record), parts);
   addTable(motionTable(c), parts);
-  addTable(valueTable("Over time", "", c.record,
+  addTable(valueTable("Over time", "value", c.record,
                       {{"drift [mm/s]", "surface.drift_mm_per_s"},
-                       {"drift [mm a frame]", "surface.drift_mm_per_frame"},
+                       {"drift [mm per frame]", "surface.drift_mm_per_frame"},
                        {"jitter, rms of second differences [mm]", "surface.jitter_rms_mm"}}),
            parts);
   return parts;

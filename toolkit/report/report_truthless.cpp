@@ -30,7 +30,7 @@ void addFigure(const CaseFrames& frames, const std::string& key, const std::stri
 
 ReportTable viewTable(const ReportCase& c) {
   ReportTable table =
-      valueTable("Model drawn from the run's own pose, beside the picture", "mean", c.record,
+      valueTable("Model drawn from the run's own pose, beside the image", "mean", c.record,
                  {{"PSNR over the pixels that the model covers [dB]", "view.psnr_db"},
                   {"PSNR over all pixels [dB]", "view.psnr_over_all_pixels_db"},
                   {"SSIM", "view.ssim"}});
@@ -42,7 +42,7 @@ ReportTable viewTable(const ReportCase& c) {
 }
 
 ReportTable pathTable(const ReportCase& c) {
-  return valueTable("The scope's path, as estimated", "", c.record,
+  return valueTable("The scope's path, as estimated", "value", c.record,
                     {{"moved from first to last fused frame [mm]", "camera.moved_mm"},
                      {"turned from first to last fused frame [degrees]", "camera.turned_deg"},
                      {"jitter, rms of second differences [mm]", "camera.jitter_rms_mm"}});
@@ -87,7 +87,7 @@ ReportParagraph truthlessHeadline(const ReportCase& c) {
       "There is no ground truth: how far the model lies from the tissue is not known.";
   if (const double psnr_db = numberAt(c.record, "view.psnr_db"); std::isfinite(psnr_db))
     text +=
-        " Drawn from the pose that the run estimated, it resembles the video's pictures with "
+        " Drawn from the pose that the run estimated, it resembles the video's images with "
         "a PSNR of " +
         decibels(psnr_db) + ".";
   if (const double mean_mm = numberAt(c.record, "backprojection.mean_mm"); std::isfinite(mean_mm))
@@ -123,9 +123,8 @@ std::vector<ReportTable> truthlessTables(const ReportCase& c) {
 std::vector<CaptionedFigure> truthlessFigures(const ReportCase& c) {
   std::vector<CaptionedFigure> figures;
   const CaseFrames frames = framesOf(c);
-  addFigure(frames, "view_psnr_db", "PSNR [dB]", "The drawn model beside the picture.", figures);
-  addFigure(frames, "view_ssim", "SSIM", "The same, by structure: 1 is the picture itself.",
-            figures);
+  addFigure(frames, "view_psnr_db", "PSNR [dB]", "The drawn model beside the image.", figures);
+  addFigure(frames, "view_ssim", "SSIM", "The same, by structure: 1 is the image itself.", figures);
   addFigure(frames, "backprojection_mean_mm", "back-projection [mm]",
             "Distance of the model in sight from the depth of that frame.", figures);
   addFigure(frames, "step_mm", "scope's step [mm]",
@@ -149,10 +148,9 @@ std::vector<std::string> truthlessLimits(const ReportCase& c) {
 std::vector<std::string> truthlessMethods() {
   return {
       "PSNR and SSIM: each saved model drawn from the pose that the run estimated, against the "
-      "left picture of that moment, over the pixels that the model covers, without masks and black "
-      "borders. Over all pixels: the "
-      "same "
-      "differences shared out over the whole picture, the higher the less is covered. SSIM: "
+      "left image of that moment, over the pixels that the model covers, without masks and black "
+      "borders. Over all pixels: the same differences shared out over the whole image, the higher "
+      "the less is covered. SSIM: "
       "windows of 11 x 11, sigma 1.5.",
       kBackProjectionMeaning,
       "Jitter: root mean square of the second differences of the scope's positions."};

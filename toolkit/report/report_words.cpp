@@ -9,6 +9,7 @@ namespace softscope {
 namespace {
 
 const char* const kDash = "\xE2\x80\x93";
+constexpr double kThreeDecimals = 0.0005;  // smaller values round to 0 in three decimals
 
 std::string countText(double count) {
   return std::isfinite(count) ? std::to_string(std::llround(count)) : kDash;
@@ -24,6 +25,8 @@ const char* const kBackProjectionMeaning =
 std::string numberText(double value) {
   if (!std::isfinite(value)) return kDash;
   const double size = std::abs(value);
+  if (size > 1e-9 && size < kThreeDecimals)  // else a drift of micrometres would be 0.000
+    return fixed(value, 1 - static_cast<int>(std::floor(std::log10(size))));
   return fixed(value + 0.0, size < 1 ? 3 : size < 100 ? 2 : 1);
 }
 
@@ -75,16 +78,18 @@ void addTable(ReportTable table, std::vector<ReportPart>& parts) {
 }
 
 ReportTable heldOutTable(const FactSheet::Json& record) {
-  return valueTable(
+  ReportTable table = valueTable(
       "Held-out views: the model of the frame before, drawn for frames that the run did not see",
       "mean", record,
-      {{"frames", "held_out.views"},
-       {"PSNR over the pixels that the model covers [dB]", "held_out.psnr_db"},
+      {{"PSNR over the pixels that the model covers [dB]", "held_out.psnr_db"},
        {"PSNR over all pixels [dB]", "held_out.psnr_over_all_pixels_db"},
        {"SSIM", "held_out.ssim"},
        {"control, the image of the frame before: PSNR over the same pixels [dB]",
         "held_out.control.psnr_db"},
        {"control: SSIM", "held_out.control.ssim"}});
+  if (const double views = numberAt(record, "held_out.views"); views > 0)
+    table.caption += ", over " + countText(views) + (views == 1 ? " frame" : " frames");
+  return table;
 }
 
 }  // namespace softscope

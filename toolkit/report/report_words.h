@@ -10,7 +10,8 @@
 
 namespace softscope {
 
-/// "0.072"; an en dash where it wasn't measured. Decimals by size: 3 below 1, 2 below 100.
+/// "0.072"; an en dash where it wasn't measured. Decimals by size: 3 below 1, 2 below 100; two
+/// digits below 0.0005.
 std::string numberText(double value);
 std::string millimetresText(double value);           // "0.072 mm"
 std::string percentText(double share);               // 0.984 is "98.4 %"

@@ -26,7 +26,7 @@ struct JudgedRun {
   std::map<int, double> coverage;           // share of the tissue that has depth, of all frames
   std::map<int, double> confidence;         // of pose and warp, as the run says
   FrameFiles models;                        // models/NNNNNN.ply
-  int hold_out_every = 0;                   // frames n, 2n, … were held out; 0: none
+  int hold_out_every = 0;                   // frames 1, n + 1, … were held out; 0: none
   bool stopped = false;                     // before its end: the clip's last frames lack
   std::filesystem::path last_model;         // model.ply; empty where it is missing
   std::filesystem::path tracks;             // tracks.csv; empty where it is missing

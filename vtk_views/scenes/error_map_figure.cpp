@@ -15,15 +15,18 @@ namespace softscope {
 namespace {
 
 constexpr double kHeightShare = 0.72;  // of a cell's width
+constexpr double kSideRoom = 1.6;      // for a side's letters, of their size
 constexpr double kPixelsPerPt = 2.2;   // 160 dots an inch
 constexpr double kPushShare = 0.03;    // the reference lies back by this much of its size
 constexpr Rgb8 kReference{200, 200, 200};
 
-/// Also sets the width that shows nearly all of the surface in a picture of this shape.
-ViewPlane cameraOf(const ErrorMap& map, double height_share, double& width_mm) {
+/// Also sets the width that shows nearly all of the surface in a picture of this shape, with room
+/// for the letters: `side_share` of the width at each side.
+ViewPlane cameraOf(const ErrorMap& map, double height_share, double side_share, double& width_mm) {
   const Eigen::Matrix3d axes = viewAxes(map).cast<double>();
   const Eigen::AlignedBox3d box = mostOfPoints(map, {&map}).cast<double>();
-  width_mm = std::max({box.sizes().x(), box.sizes().y() / height_share, 1e-3});
+  width_mm = std::max({box.sizes().x() / (1 - 2 * side_share),
+                       box.sizes().y() / (height_share - 2 * side_share), 1e-3});
   ViewPlane camera;
   camera.right = axes.col(0);
   camera.up = axes.col(1);
@@ -59,6 +62,7 @@ void drawLabel(PointPt at, const std::string& words, TextAnchor anchor, double f
   text.text = words;
   text.size_pt = font_pt;
   text.anchor = anchor;
+  text.rim = Rgb8{255, 255, 255};  // the reference may lie behind
   drawing.parts.emplace_back(std::move(text));
 }
 
@@ -76,26 +80,28 @@ void drawSides(const ErrorMap& map, const ViewPlane& camera, PointPt from, Point
             TextAnchor::kMiddle, font_pt, drawing);
 }
 
-/// The longest of 1, 2, 5, 10, … mm that takes at most a quarter of the width.
+/// The longest of 1, 2, 5, 10, … mm that takes at most a quarter of the width; above the picture,
+/// at the right.
 void drawRuler(double pt_per_mm, PointPt from, PointPt to, double font_pt, VectorDrawing& drawing) {
   const double most_mm = (to.x_pt - from.x_pt) / 4 / pt_per_mm;
   const double power = std::pow(10.0, std::floor(std::log10(most_mm)));
   double length_mm = power;
   for (const double leading : {2.0, 5.0})
     if (leading * power <= most_mm) length_mm = leading * power;
-  const double left = from.x_pt + font_pt, y_pt = to.y_pt - 0.8 * font_pt;
-  drawing.parts.emplace_back(
-      DrawnLine{{{left, y_pt}, {left + length_mm * pt_per_mm, y_pt}}, 1.5, {20, 20, 20}});
+  const double left = to.x_pt - length_mm * pt_per_mm, y_pt = from.y_pt - 0.75 * font_pt;
+  drawing.parts.emplace_back(DrawnLine{{{left, y_pt}, {to.x_pt, y_pt}}, 1.5, {20, 20, 20}});
   char words[32];
   std::snprintf(words, sizeof words, "%g mm", length_mm);
-  drawLabel({left, y_pt - 0.4 * font_pt}, words, TextAnchor::kStart, font_pt, drawing);
+  drawLabel({left - 0.4 * font_pt, from.y_pt - 0.5 * font_pt}, words, TextAnchor::kEnd, font_pt,
+            drawing);
 }
 
-void drawCell(const ErrorMapCell& cell, PointPt top_left, double width_pt,
+void drawCell(const ErrorMapCell& cell, int index, PointPt top_left, double width_pt,
               const ErrorMapFigureStyle& style, VectorDrawing& drawing) {
   const double height_pt = kHeightShare * width_pt, title_pt = 1.6 * style.font_pt;
   SurfacePictureOptions options;
-  const ViewPlane camera = cameraOf(*cell.map, kHeightShare, options.width_mm);
+  const ViewPlane camera =
+      cameraOf(*cell.map, kHeightShare, kSideRoom * style.font_pt / width_pt, options.width_mm);
   options.width_px = static_cast<int>(std::lround(width_pt * kPixelsPerPt));
   options.height_px = static_cast<int>(std::lround(height_pt * kPixelsPerPt));
   options.point_size_mm = 1.7 * pointSpacingMm(*cell.map);
@@ -110,7 +116,7 @@ void drawCell(const ErrorMapCell& cell, PointPt top_left, double width_pt,
   drawRuler(width_pt / options.width_mm, from, to, style.font_pt, drawing);
   DrawnText title;
   title.at = {top_left.x_pt, top_left.y_pt + 1.1 * style.font_pt};
-  title.text = cell.title;
+  title.text = std::string("(") + static_cast<char>('a' + index % 26) + ") " + cell.title;
   title.size_pt = style.font_pt;
   title.bold = true;
   drawing.parts.emplace_back(title);
@@ -143,7 +149,7 @@ VectorDrawing drawErrorMaps(const std::vector<ErrorMapCell>& cells,
   const double row_pt = kHeightShare * width_pt + 1.6 * style.font_pt + gap_pt;
   drawing.height_pt = rows * row_pt + colourBarHeightPt(style.font_pt) + 0.5 * style.font_pt;
   for (int i = 0; i < static_cast<int>(cells.size()); ++i)
-    drawCell(cells[static_cast<std::size_t>(i)],
+    drawCell(cells[static_cast<std::size_t>(i)], i,
              {i % columns * (width_pt + gap_pt), i / columns * row_pt}, width_pt, style, drawing);
   const double half_pt = (drawing.width_pt - gap_pt) / 2;
   double x_pt = 0;

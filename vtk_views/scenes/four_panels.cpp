@@ -93,7 +93,7 @@ PanelField fourViews(const Scene& scene, const FourPanelOptions& options) {
   const bool in_3d = !surfacesIn3d(scene).empty();
   std::vector<FieldView> views;
   for (std::size_t i = 0; i < planes.size(); ++i)
-    if (i < 3 || in_3d) views.push_back({&scene, planes[i], /*is_3d=*/i == 3});
+    if (i < 3 || in_3d) views.push_back({&scene, planes[i], /*is_3d=*/i == 3, 0});
   PanelField field = fitField(views, panelWidthPt(views.size(), options, footOf(scene, options)),
                               options.style, options.keep_centres);
   if (!in_3d) field.planes.push_back(planes[3]);
@@ -104,7 +104,7 @@ PanelField sliceViews(const Scene& scene, const std::vector<ViewPlane>& planes,
                       const PanelOptions& options) {
   if (options.width_mm > 0) return {planes, options.width_mm};
   std::vector<FieldView> views;
-  for (const ViewPlane& plane : planes) views.push_back({&scene, plane, false});
+  for (const ViewPlane& plane : planes) views.push_back({&scene, plane, false, 0});
   return fitField(views, panelWidthPt(planes.size(), options, footOf(scene, options)),
                   options.style, options.keep_centres);
 }
@@ -149,7 +149,7 @@ VectorDrawing drawScenes(const std::vector<ScenePanel>& panels, const PanelOptio
   PanelField field{{}, options.width_mm};
   std::vector<FieldView> views;
   for (const ScenePanel& panel : panels) {
-    views.push_back({panel.scene, panel.camera, /*is_3d=*/true});
+    views.push_back({panel.scene, panel.camera, /*is_3d=*/true, panel.world});
     field.planes.push_back(panel.camera);
   }
   if (!(field.width_mm > 0))

@@ -47,6 +47,7 @@ struct ScenePanel {
   const Scene* scene = nullptr;
   ViewPlane camera;
   std::string caption;
+  int world = 0;  // panels of one world show one place
 };
 
 /// A panel each, all at one scale; the legend is the first scene's. At least one.

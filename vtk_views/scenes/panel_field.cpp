@@ -53,14 +53,16 @@ Eigen::AlignedBox2d projectedBox(const FieldView& view, const ViewPlane& plane) 
   return box;
 }
 
-bool lookAlike(const ViewPlane& a, const ViewPlane& b) {
-  return a.right.isApprox(b.right) && a.up.isApprox(b.up);
+/// Of one world and from one direction.
+bool lookAlike(const FieldView& a, const FieldView& b) {
+  return a.world == b.world && a.plane.right.isApprox(b.plane.right) &&
+         a.plane.up.isApprox(b.plane.up);
 }
 
 /// The centre of the first view that looks the same way, at this plane's own depth.
-void shareCentre(const std::vector<FieldView>& views, ViewPlane& plane) {
+void shareCentre(const std::vector<FieldView>& views, const FieldView& view, ViewPlane& plane) {
   for (const FieldView& first : views) {
-    if (!lookAlike(first.plane, plane)) continue;
+    if (!lookAlike(first, view)) continue;
     const Eigen::Vector3d axis = plane.towardsViewer();
     const double depth_mm = axis.dot(plane.centre_mm - first.plane.centre_mm);
     plane.centre_mm = first.plane.centre_mm + depth_mm * axis;
@@ -78,10 +80,10 @@ PanelField fitField(const std::vector<FieldView>& views, double panel_pt, const 
   double widest_mm = 0, volume_mm = 1e9;
   for (const FieldView& view : views) {
     ViewPlane plane = view.plane;
-    if (!keep_centres) shareCentre(views, plane);
+    if (!keep_centres) shareCentre(views, view, plane);
     Eigen::AlignedBox2d box;
     for (const FieldView& other : views)
-      if (lookAlike(other.plane, plane)) box.extend(projectedBox(other, plane));
+      if (lookAlike(other, view)) box.extend(projectedBox(other, plane));
     if (keep_centres && !box.isEmpty()) {
       const Eigen::Vector2d reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
       widest_mm = std::max(widest_mm, 2 * reach.maxCoeff());

@@ -54,6 +54,11 @@ Vector3d unitOf(const Vector3d& direction) {
   return direction.normalized();
 }
 
+/// An anatomical word needs a stated space.
+const char* planeName(SceneFrame frame, const char* anatomical, const char* by_axes) {
+  return frame == SceneFrame::kAxes ? by_axes : anatomical;
+}
+
 }  // namespace
 
 ViewPlane axialView(const Vector3d& centre_mm, SceneFrame frame, SideRule rule) {
@@ -61,20 +66,22 @@ ViewPlane axialView(const Vector3d& centre_mm, SceneFrame frame, SideRule rule) 
   if (frame == SceneFrame::kCamera)
     return make("from the scope", centre_mm, Vector3d::UnitX(), front);
   const double side = rule == SideRule::kRadiological ? 1 : -1;
-  return make("axial", centre_mm, side * Vector3d::UnitX(), front);
+  return make(planeName(frame, "axial", "xy plane"), centre_mm, side * Vector3d::UnitX(), front);
 }
 
 ViewPlane coronalView(const Vector3d& centre_mm, SceneFrame frame, SideRule rule) {
   if (frame == SceneFrame::kCamera)
     return make("from above", centre_mm, Vector3d::UnitX(), Vector3d::UnitZ());
   const double side = rule == SideRule::kRadiological ? 1 : -1;
-  return make("coronal", centre_mm, side * Vector3d::UnitX(), Vector3d::UnitZ());
+  return make(planeName(frame, "coronal", "xz plane"), centre_mm, side * Vector3d::UnitX(),
+              Vector3d::UnitZ());
 }
 
 ViewPlane sagittalView(const Vector3d& centre_mm, SceneFrame frame) {
   if (frame == SceneFrame::kCamera)
     return make("from the right", centre_mm, Vector3d::UnitZ(), -Vector3d::UnitY());
-  return make("sagittal", centre_mm, Vector3d::UnitY(), Vector3d::UnitZ());
+  return make(planeName(frame, "sagittal", "yz plane"), centre_mm, Vector3d::UnitY(),
+              Vector3d::UnitZ());
 }
 
 ViewPlane obliqueView(const Vector3d& centre_mm, const Vector3d& normal, SceneFrame frame,

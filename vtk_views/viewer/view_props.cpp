@@ -108,10 +108,10 @@ LineSet motionArrows(const std::vector<Eigen::Vector3f>& ends_mm,
   for (std::size_t i = 0; i < std::min(ends_mm.size(), motions_mm.size()); ++i) {
     const Eigen::Vector3f shaft = float(times) * motions_mm[i];
     if (!(motions_mm[i].norm() >= float(least_mm))) continue;
-    const Eigen::Vector3f end = ends_mm[i], side = 0.25f * shaft.norm() * shaft.unitOrthogonal();
+    const Eigen::Vector3f end = ends_mm[i], side = 0.1f * shaft.norm() * shaft.unitOrthogonal();
     set.lines_mm.emplace_back(end - shaft, end);
-    set.lines_mm.emplace_back(end, end - 0.35f * shaft + side);
-    set.lines_mm.emplace_back(end, end - 0.35f * shaft - side);
+    set.lines_mm.emplace_back(end, end - 0.25f * shaft + side);
+    set.lines_mm.emplace_back(end, end - 0.25f * shaft - side);
   }
   return set;
 }

@@ -22,6 +22,7 @@ constexpr double kScopeDepth = 0.22;  // of the way to the tissue
 constexpr double kEyeAway = 4;        // in widths of the picture
 constexpr double kRoomAround = 1.08;  // of what is seen
 constexpr double kStrays = 0.002;     // share of the points at each side that may be cut
+constexpr double kStraysFrom = 0.1;   // beyond the others, of their width
 constexpr double kArrowTimes = 4, kLeastMotion_mm = 0.05;
 constexpr double kNodeDotsPx = 5;
 constexpr double kSliceBehind = 0.7;   // slices behind the middle, in widths of the model
@@ -37,6 +38,18 @@ SceneSurface surfaceOf(TriangleMesh mesh, Rgb8 colour) {
   return surface;
 }
 
+/// The extremes of the values; without the strays where these lie far from all others.
+std::pair<double, double> endsOfMost(std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double least = *low, most = *high;
+  const auto strays = static_cast<std::ptrdiff_t>(kStrays * double(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + strays, values.end());
+  const double first = values[std::size_t(strays)];
+  std::nth_element(values.begin(), values.end() - 1 - strays, values.end());
+  const double last = *(values.end() - 1 - strays), far = kStraysFrom * (last - first);
+  return {least < first - far ? first : least, most > last + far ? last : most};
+}
+
 /// A little nearer to the eye than it is: nodes lie in the surface, not behind its dots.
 void drawOver(vtkActor* actor) {
   vtkMapper* mapper = actor->GetMapper();
@@ -50,6 +63,11 @@ void drawUnder(vtkActor* actor) {
   vtkMapper* mapper = actor->GetMapper();
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0, -kNearerSteps);
+}
+
+LineSet arrowsOf(const ViewMoment& moment) {
+  return motionArrows(moment.nodes_mm, moment.node_motion_mm, kArrowTimes, kLeastMotion_mm,
+                      kArrowColour);
 }
 
 }  // namespace
@@ -105,19 +123,19 @@ void ViewScene::showReference(const ViewMoment& moment, const ViewState& state) 
   if (reference_) reference_->SetVisibility(state.reference && moment.reference != nullptr);
 }
 
+LineSet ViewScene::scopeOf(const ViewMoment& moment) const {
+  if (!moment.world_from_left || world_.left.width_px <= 0) return {};
+  const Eigen::Vector3d eye = moment.world_from_left->translation();
+  return scopeLines(world_.left, *moment.world_from_left, kScopeDepth * (centre_mm_ - eye).norm());
+}
+
 void ViewScene::showScope(const ViewMoment& moment, const ViewState& state) {
   const bool shown = state.scope && state.look != Look::kScope && moment.world_from_left;
   std::vector<Eigen::Vector3f> path;
   for (const auto& [frame, place] : world_.path_mm)
     if (frame <= moment.frame) path.push_back(place);
   const LineSet way = pathLines(path, kPathColour);
-  LineSet& scope = scope_lines_;
-  scope = {};
-  if (moment.world_from_left && world_.left.width_px > 0) {
-    const Eigen::Vector3d eye = moment.world_from_left->translation();
-    scope =
-        scopeLines(world_.left, *moment.world_from_left, kScopeDepth * (centre_mm_ - eye).norm());
-  }
+  const LineSet scope = scopeOf(moment);
   if (scope_) {
     redressLines(scope, scope_);
     redressLines(way, path_);
@@ -135,8 +153,7 @@ void ViewScene::showNodes(const ViewMoment& moment, const ViewState& state) {
   const SceneSurface nodes = surfaceOf(mesh, kNodeColour);
   SurfaceRole role;
   role.point_size_px = nodes_ ? nodes_->GetProperty()->GetPointSize() : kNodeDotsPx;
-  const LineSet arrows = motionArrows(moment.nodes_mm, moment.node_motion_mm, kArrowTimes,
-                                      kLeastMotion_mm, kArrowColour);
+  const LineSet arrows = arrowsOf(moment);
   if (nodes_) {
     redressSurface(nodes, world_.errors, role, nodes_);
     redressLines(arrows, arrows_);
@@ -211,8 +228,8 @@ ViewPlane ViewScene::viewFor(Look look) const {
   return cameraView(centre_mm_, of_scope ? kFromTheScope : figure.eye, world_.frame);
 }
 
-/// What is seen, in the plane of the view, from its centre. Of the model all but a few strays; of
-/// one that turns all that passes.
+/// What is seen, in the plane of the view, from its centre. Of the model all but far strays; of one
+/// that turns all that passes.
 Eigen::AlignedBox2d ViewScene::boxSeen(const ViewMoment& moment, const ViewPlane& plane,
                                        bool turning) const {
   const auto place = [&](const Eigen::Vector3f& point_mm) {
@@ -229,17 +246,16 @@ Eigen::AlignedBox2d ViewScene::boxSeen(const ViewMoment& moment, const ViewPlane
     along[1].push_back(at.y());
   }
   if (!along[0].empty()) {
-    const auto quantile = [](std::vector<double>& values, double share) {
-      const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-      std::nth_element(values.begin(), at, values.end());
-      return *at;
-    };
-    box.extend(Eigen::Vector2d(quantile(along[0], kStrays), quantile(along[1], kStrays)));
-    box.extend(Eigen::Vector2d(quantile(along[0], 1 - kStrays), quantile(along[1], 1 - kStrays)));
+    const auto [left, right] = endsOfMost(along[0]);
+    const auto [down, up] = endsOfMost(along[1]);
+    box.extend(Eigen::Vector2d(left, down)).extend(Eigen::Vector2d(right, up));
   }
-  if (scope_ && scope_->GetVisibility())
-    for (const auto& [begin, end] : scope_lines_.lines_mm)
-      box.extend(place(begin)).extend(place(end));
+  const auto extendBy = [&](const vtkSmartPointer<vtkActor>& actor, const LineSet& lines) {
+    if (!actor || !actor->GetVisibility()) return;
+    for (const auto& [begin, end] : lines.lines_mm) box.extend(place(begin)).extend(place(end));
+  };
+  extendBy(arrows_, arrowsOf(moment));
+  extendBy(scope_, scopeOf(moment));
   if (reference_ && reference_->GetVisibility())
     for (const Eigen::Vector3f& point_mm : reference_shown_->vertices_mm)
       box.extend(place(point_mm));

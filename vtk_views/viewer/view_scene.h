@@ -45,6 +45,7 @@ class ViewScene {
   void showSlices(const ViewMoment& moment, const ViewState& state);
   void addSlices(const Eigen::Vector3d& towards_viewer);
   ViewPlane viewFor(Look look) const;
+  LineSet scopeOf(const ViewMoment& moment) const;
   Eigen::AlignedBox2d boxSeen(const ViewMoment& moment, const ViewPlane& plane, bool turning) const;
   void measure(const ViewMoment& moment);
 
@@ -54,7 +55,6 @@ class ViewScene {
   std::vector<vtkSmartPointer<vtkActor>> slices_;
   Look slices_look_ = Look::kFree;
   std::shared_ptr<const TriangleMesh> reference_shown_;
-  LineSet scope_lines_;
   Eigen::Vector3d centre_mm_ = Eigen::Vector3d::Zero();
   double width_mm_ = 0;  // 0: not measured yet
   double aspect_ = 1;

@@ -73,6 +73,13 @@ bool naturallyBefore(std::string_view a, std::string_view b) {
   return a < b;  // equal but for leading zeros
 }
 
+std::vector<fs::path> existingIn(const fs::path& folder, const std::vector<std::string>& names) {
+  std::vector<fs::path> found;
+  for (const std::string& name : names)
+    if (isThere(folder / name)) found.push_back(folder / name);
+  return found;
+}
+
 std::vector<fs::path> filesIn(const fs::path& folder,
                               const std::vector<std::string_view>& extensions) {
   requireFolder(folder);

@@ -23,6 +23,10 @@ bool naturallyBefore(std::string_view a, std::string_view b);
 std::vector<std::filesystem::path> filesIn(const std::filesystem::path& folder,
                                            const std::vector<std::string_view>& extensions);
 
+/// Those of `names` that lie in the folder, as paths, in their order.
+std::vector<std::filesystem::path> existingIn(const std::filesystem::path& folder,
+                                              const std::vector<std::string>& names);
+
 /// Throws the InputError of filesIn() where `folder` is none.
 void requireFolder(const std::filesystem::path& folder);
 

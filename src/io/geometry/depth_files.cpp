@@ -113,9 +113,5 @@ void writeDepthNpy(const fs::path& file, const Raster<float>& depth_mm, bool ove
   for (float& value : metres.values) value /= 1000;
   writeFile(file, npyBytes(metres), overwrite);
 }
-void writeFloatTiff(const fs::path& file, const Raster<float>& raster, bool overwrite) {
-  requireWritable(file, overwrite);
-  writeFile(file, encodeImage(".tif", matrixView(raster, CV_32F)), overwrite);
-}
 
 }  // namespace softscope

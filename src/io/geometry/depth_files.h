@@ -39,7 +39,5 @@ void writePfm(const std::filesystem::path& file, const Raster<float>& raster,
               bool overwrite = false);
 void writeDepthNpy(const std::filesystem::path& file, const Raster<float>& depth_mm,
                    bool overwrite = false);  // in metres
-void writeFloatTiff(const std::filesystem::path& file, const Raster<float>& raster,
-                    bool overwrite = false);
 
 }  // namespace softscope

@@ -12,13 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> existing(const fs::path& folder, const std::vector<std::string>& names) {
-  std::vector<fs::path> found;
-  for (const std::string& name : names)
-    if (isFile(folder / name)) found.push_back(folder / name);
-  return found;
-}
-
 std::vector<fs::path> videosIn(const fs::path& folder) {
   std::vector<fs::path> videos;
   for (const fs::path& file : filesIn(folder, {".mp4", ".avi", ".mkv", ".mov", ".webm"}))
@@ -32,7 +25,7 @@ DatasetClip stir2026(const fs::path& folder) {
   DatasetClip clip;
   clip.form = "STIR 2026";
   clip.paths.calibration = folder / "calib.json";
-  clip.truth = existing(folder, {"annotations.json", "queries.json"});
+  clip.truth = existingIn(folder, {"annotations.json", "queries.json"});
   const std::vector<fs::path> videos = videosIn(folder);
   for (const fs::path& video : videos) {
     const std::string name = lowerCase(video.filename().string());
@@ -55,7 +48,7 @@ DatasetClip surgt(const fs::path& folder) {
   clip.paths.stereo = folder / info.video;
   clip.paths.calibration = folder / "calibration.yaml";
   clip.paths.layout = info.side_by_side ? "side-by-side" : "top-bottom";
-  clip.truth = existing(folder, info.truth);
+  clip.truth = existingIn(folder, info.truth);
   for (const fs::path& part : {clip.paths.stereo, clip.paths.calibration})
     if (!isFile(part))
       throw InputError(shown(part) +
@@ -69,7 +62,7 @@ DatasetClip scared(const fs::path& folder) {
   clip.paths.left = folder / "Left_Image.png";
   clip.paths.right = folder / "Right_Image.png";
   clip.paths.calibration = folder / "endoscope_calibration.yaml";
-  clip.truth = existing(folder, {"left_depth_map.tiff", "right_depth_map.tiff"});
+  clip.truth = existingIn(folder, {"left_depth_map.tiff", "right_depth_map.tiff"});
   for (const fs::path& part : {clip.paths.right, clip.paths.calibration})
     if (!isFile(part))
       throw InputError(shown(part) +

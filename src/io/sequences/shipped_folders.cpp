@@ -18,13 +18,6 @@ namespace fs = std::filesystem;
 constexpr double kSameMomentS = 0.005;  // a sixth of the time between two frames
 constexpr double kC3vdStepMm = 100.0 / 65535;
 
-std::vector<fs::path> present(const fs::path& folder, const std::vector<std::string>& names) {
-  std::vector<fs::path> found;
-  for (const std::string& name : names)
-    if (isThere(folder / name)) found.push_back(folder / name);
-  return found;
-}
-
 std::vector<fs::path> imagesIn(const fs::path& folder) {
   return filesIn(folder, {kPictureKinds.begin(), kPictureKinds.end()});
 }
@@ -70,7 +63,7 @@ DatasetClip servCt(const fs::path& folder) {
   requirePart(clip.paths.right, "an experiment of SERV-CT");
   requirePart(folder / "Rectified_calibration", "an experiment of SERV-CT");
   clip.paths.calibration = oneCalibration(folder / "Rectified_calibration");
-  clip.truth = present(folder, {"Reference_CT", "Reference_RGB"});
+  clip.truth = existingIn(folder, {"Reference_CT", "Reference_RGB"});
   return clip;
 }
 
@@ -80,7 +73,7 @@ DatasetClip stereoMis(const fs::path& folder) {
   clip.paths.stereo = onlyVideo(folder, "StereoMIS");
   clip.paths.calibration = folder / "StereoCalibration.ini";
   clip.paths.layout = "top-bottom";
-  clip.truth = present(folder, {"groundtruth.txt", "train_split.csv", "test_split.csv"});
+  clip.truth = existingIn(folder, {"groundtruth.txt", "train_split.csv", "test_split.csv"});
   return clip;
 }
 
@@ -104,7 +97,7 @@ DatasetClip d4d(const fs::path& folder, bool rectified) {
   clip.paths.left_files = std::move(pairs.left);
   clip.paths.right_files = std::move(pairs.right);
   clip.paths.times_s = std::move(pairs.times_s);
-  clip.truth = present(
+  clip.truth = existingIn(
       folder, {"curated_camera_pose_start.txt", "curated_camera_pose_end.txt", "pointcloud"});
   return clip;
 }
@@ -127,7 +120,7 @@ DatasetClip stirToEnd2025(const fs::path& given) {
   clip.paths.right = onlyVideo(right, "STIR");
   clip.paths.calibration = own.parent_path().parent_path() / "calib.json";
   requirePart(clip.paths.calibration, "STIR");
-  clip.truth = present(given, {"segmentation/icgstartseg.png", "segmentation/icgendseg.png"});
+  clip.truth = existingIn(given, {"segmentation/icgstartseg.png", "segmentation/icgendseg.png"});
   return clip;
 }
 
@@ -165,7 +158,7 @@ DatasetClip c3vd(const fs::path& folder) {
   }
   if (clip.paths.left_files.empty())
     throw InputError(shown(folder) + ": holds no NNNN_color.png, but C3VD's sequences do.");
-  clip.truth = present(folder, {"pose.txt"});
+  clip.truth = existingIn(folder, {"pose.txt"});
   return clip;
 }
 
