@@ -52,7 +52,7 @@ class OnnxGraph {
     std::string tensor;
     for (const int length : shape) tensor += protobuf::number(1, length);
     std::string raw(values.size() * sizeof(float), '\0');
-    std::memcpy(raw.data(), values.data(), raw.size());
+    if (!values.empty()) std::memcpy(raw.data(), values.data(), raw.size());
     tensor += protobuf::number(2, 1) + protobuf::text(8, name) + protobuf::text(9, raw) + more;
     graph_ += protobuf::text(5, tensor);
   }
