@@ -14,7 +14,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <new>
 #include <system_error>
 
@@ -46,6 +48,18 @@ constexpr bool kLimitMemory = true;
 #else
 constexpr bool kLimitMemory = true;
 #endif
+
+/// AddressSanitizer's allocator, unlike glibc's, leaves a lock that another thread holds at the
+/// fork locked in the child for ever. Threads that are about to end are waited for.
+void settleThreads() {
+  if (kLimitMemory) return;  // not under that sanitizer
+  constexpr int kTries = 20;
+  for (int k = 0; k < kTries; ++k) {
+    const std::filesystem::directory_iterator threads("/proc/self/task"), end;
+    if (std::distance(threads, end) <= 1) return;
+    usleep(1000);
+  }
+}
 
 struct ReadLimits {
   rlim_t seconds, memory_bytes;
@@ -132,6 +146,7 @@ class ReadingChild {
   ReadingChild(const ReadLimits& limits, const std::function<std::string()>& read) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("no pipe can be opened to read a file");
+    settleThreads();
     id_ = fork();
     if (id_ == 0) {
       close(ends[0]);
