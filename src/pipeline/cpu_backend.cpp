@@ -341,8 +341,7 @@ bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
   if (!frame_.not_tissue.contains(u, v) || frame_.not_tissue.at(u, v) != 0) return false;
   const float depth_mm = frame_.measured.depth.depth_mm.at(u, v);
   const double behind_mm = point_left.z() - depth_mm;
-  const double limit_mm =
-      VisibilityOptions::kOcclusionMm * std::max(1.0, frame_.summary.limit_scale);
+  const double limit_mm = VisibilityOptions::kOcclusionMm * frame_.summary.limit_scale;
   // Errors of tracks and of depth stay below the second limit; what floats beyond it was lost.
   return !(behind_mm > limit_mm || -behind_mm > kFloatingLimits * limit_mm);
 }

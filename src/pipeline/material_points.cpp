@@ -17,23 +17,31 @@ constexpr int kGapShare = 40;         // … or, where many are measured, this s
 constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
 constexpr double kMaxSettleMm = 0.5;  // of near tissue; further off is another surface
 
+/// Calls visit(x, y, depth) for the measured pixels within `radius_px`, x and y from `pixel`.
+template <class Visit>
+void visitMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, int radius_px,
+                   const Visit& visit) {
+  const int u0 = static_cast<int>(std::lround(pixel.x()));
+  const int v0 = static_cast<int>(std::lround(pixel.y()));
+  for (int v = v0 - radius_px; v <= v0 + radius_px; ++v)
+    for (int u = u0 - radius_px; u <= u0 + radius_px; ++u)
+      if (depth_mm.contains(u, v) && std::isfinite(depth_mm.at(u, v)))
+        visit(u - pixel.x(), v - pixel.y(), depth_mm.at(u, v));
+}
+
 /// Depth at the pixel by a plane fitted to the inverse depth of the measured pixels within
 /// `radius_px`. NaN where fewer than `least` are measured.
 double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, int radius_px,
                    int least) {
-  const int u0 = static_cast<int>(std::lround(pixel.x()));
-  const int v0 = static_cast<int>(std::lround(pixel.y()));
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   int count = 0;
-  for (int v = v0 - radius_px; v <= v0 + radius_px; ++v)
-    for (int u = u0 - radius_px; u <= u0 + radius_px; ++u) {
-      if (!depth_mm.contains(u, v) || !std::isfinite(depth_mm.at(u, v))) continue;
-      const Eigen::Vector3d row(1, u - pixel.x(), v - pixel.y());
-      normal += row * row.transpose();
-      right += row / depth_mm.at(u, v);
-      ++count;
-    }
+  visitMeasured(depth_mm, pixel, radius_px, [&](double x, double y, float depth) {
+    const Eigen::Vector3d row(1, x, y);
+    normal += row * row.transpose();
+    right += row / depth;
+    ++count;
+  });
   if (count < least) return kUnknown;
   return 1 / normal.ldlt().solve(right).x();
 }
@@ -46,17 +54,11 @@ struct NearestDepth {
 /// Of the measured pixel that is nearest; NaN where none lies within `radius_px`.
 NearestDepth nearestDepth(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel,
                           int radius_px) {
-  const int u0 = static_cast<int>(std::lround(pixel.x()));
-  const int v0 = static_cast<int>(std::lround(pixel.y()));
   NearestDepth nearest{kUnknown, radius_px + 1.0};
-  for (int v = v0 - radius_px; v <= v0 + radius_px; ++v)
-    for (int u = u0 - radius_px; u <= u0 + radius_px; ++u) {
-      const double distance_px = std::hypot(u - pixel.x(), v - pixel.y());
-      if (!depth_mm.contains(u, v) || !std::isfinite(depth_mm.at(u, v)) ||
-          distance_px >= nearest.distance_px)
-        continue;
-      nearest = {depth_mm.at(u, v), distance_px};
-    }
+  visitMeasured(depth_mm, pixel, radius_px, [&](double x, double y, float depth) {
+    const double distance_px = std::hypot(x, y);
+    if (distance_px < nearest.distance_px) nearest = {depth, distance_px};
+  });
   return nearest;
 }
 
