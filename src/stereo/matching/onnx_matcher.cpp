@@ -121,6 +121,23 @@ void dropDenied(const Raster<float>& left_right, const ViewMasks& ignored,
   });
 }
 
+/// Sigma from how far the right image and the half size disagree around each pixel; NaN disparity
+/// where that is too far.
+void predictSigma(const Raster<float>& left_right, const Raster<float>& scale, DisparityMap* map) {
+  const int radius_px = NetworkOptions::agreement_radius_px;
+  const Raster<float> left_right_2 = localMeanSquare(left_right, radius_px);
+  const Raster<float> scale_2 = localMeanSquare(scale, radius_px);
+  const float known_2 = static_cast<float>(NetworkOptions::model_sigma_px) *
+                        static_cast<float>(NetworkOptions::model_sigma_px);
+  for (std::size_t i = 0; i < map->sigma_px.size(); ++i) {
+    float& d = map->disparity_px.values[i];
+    const float sigma = std::sqrt(
+        known_2 + std::max(left_right_2.values[i] / kTwoErrors, scale_2.values[i] / kFiveErrors));
+    if (!(sigma <= static_cast<float>(RefinementOptions::max_sigma_px))) d = kNaN;
+    if (!std::isnan(d)) map->sigma_px.values[i] = sigma;
+  }
+}
+
 }  // namespace
 
 OnnxMatcher::OnnxMatcher(const StereoOptions& options)
@@ -166,18 +183,7 @@ DisparityMap OnnxMatcher::matchColour(const StereoPair& pair, const ViewMasks& i
   dropDenied(left_right, ignored, options_, &map.disparity_px);
   for (std::size_t i = 0; i < left_right.size(); ++i)  // what is denied tells nothing of the rest
     if (std::isnan(map.disparity_px.values[i])) left_right.values[i] = scale.values[i] = kNaN;
-  const int radius_px = NetworkOptions::agreement_radius_px;
-  const Raster<float> left_right_2 = localMeanSquare(left_right, radius_px);
-  const Raster<float> scale_2 = localMeanSquare(scale, radius_px);
-  const float known_2 = static_cast<float>(NetworkOptions::model_sigma_px) *
-                        static_cast<float>(NetworkOptions::model_sigma_px);
-  for (std::size_t i = 0; i < map.sigma_px.size(); ++i) {
-    float& d = map.disparity_px.values[i];
-    const float sigma = std::sqrt(
-        known_2 + std::max(left_right_2.values[i] / kTwoErrors, scale_2.values[i] / kFiveErrors));
-    if (!(sigma <= static_cast<float>(RefinementOptions::max_sigma_px))) d = kNaN;
-    if (!std::isnan(d)) map.sigma_px.values[i] = sigma;
-  }
+  predictSigma(left_right, scale, &map);
   clock.lap("agreement");
   removeDark(map.disparity_px, left_gray, options_.darkest_gray, options_.dark_margin_px);
   removeSpeckles(map.disparity_px, options_.elas.speckle_size_px, ElasOptions::speckle_step_px);
