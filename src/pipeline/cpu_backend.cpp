@@ -292,7 +292,8 @@ void CpuBackend::rejectWarp() {
 void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   growth_.drop();
   const Observation observation = observe(world_from_left);
-  if (empty()) seedTracks(world_from_left);
+  const bool first = empty();
+  if (first) seedTracks(world_from_left);
   before_ = {};
   if (!comparison_)
     comparison_ =
@@ -305,10 +306,16 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
+  if (first) {
+    state_.tracked.anchor(state_.model);
+    state_.tracked.look(frame_.live.gray, frame_.live.ignore, state_.model, left(),
+                        world_from_left);
+  }
   // Neither needs the other.
   parallelInvoke(
       [&] {
         state_.tracked.renumber(update.index_map, state_.model);
+        state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left);
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
       },

@@ -11,10 +11,11 @@
 namespace softscope {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoDepth = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSearchPx = 6;          // a seed without depth takes it from pixels this near …
 constexpr int kGapShare = 40;         // … or, where many are measured, this share of the width
 constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
+constexpr double kLargestSlope = 4;   // of a surface that a point is moved along, depth over width
 constexpr double kMaxSettleMm = 0.5;  // of near tissue; further off is another surface
 
 /// Calls visit(x, y, depth) for the measured pixels within `radius_px`, x and y from `pixel`.
@@ -42,19 +43,19 @@ double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
     right += row / depth;
     ++count;
   });
-  if (count < least) return kUnknown;
+  if (count < least) return kNoDepth;
   return 1 / normal.ldlt().solve(right).x();
 }
 
 struct NearestDepth {
-  double depth_mm = kUnknown;
+  double depth_mm = kNoDepth;
   double distance_px = 0;
 };
 
 /// Of the measured pixel that is nearest; NaN where none lies within `radius_px`.
 NearestDepth nearestDepth(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel,
                           int radius_px) {
-  NearestDepth nearest{kUnknown, radius_px + 1.0};
+  NearestDepth nearest{kNoDepth, radius_px + 1.0};
   visitMeasured(depth_mm, pixel, radius_px, [&](double x, double y, float depth) {
     const double distance_px = std::hypot(x, y);
     if (distance_px < nearest.distance_px) nearest = {depth, distance_px};
@@ -199,10 +200,70 @@ void MaterialPoints::anchor(const PointModel& model) {
 }
 
 void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model) {
-  for (Point& point : points)
-    if (point.model_point >= 0)
-      point.position_mm = warpPoint(
-          graph, model.bindings[static_cast<std::size_t>(point.model_point)], point.position_mm);
+  for (Point& point : points) {
+    if (point.model_point < 0) continue;
+    const PointBinding& binding = model.bindings[static_cast<std::size_t>(point.model_point)];
+    const Eigen::Vector3d before = point.position_mm;
+    point.position_mm = warpPoint(graph, binding, before);
+    for (int k = 0; k < 2; ++k)
+      point.pixels_mm.col(k) =
+          (warpPoint(graph, binding, before + FirstLook::kHalfPx * point.pixels_mm.col(k)) -
+           point.position_mm) /
+          FirstLook::kHalfPx;
+  }
+}
+
+void MaterialPoints::look(const GrayImage& image, const Mask& ignore, const PointModel& model,
+                          const PinholeCamera& left, const Eigen::Isometry3d& world_from_left) {
+  const Eigen::Isometry3d left_from_world = world_from_left.inverse();
+  for (Point& point : points) {
+    if (point.model_point < 0) continue;
+    const Eigen::Vector3d centre = left_from_world * point.position_mm;
+    const Eigen::Vector2d pixel = projectPoint(left, centre);
+    const Eigen::Vector3d normal =
+        left_from_world.linear() *
+        model.normals[static_cast<std::size_t>(point.model_point)].cast<double>();
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector3d step = liftPixel(left, pixel.x() + (k == 0), pixel.y() + (k == 1), 1.0);
+      const double depth_mm = normal.dot(centre) / normal.dot(step);
+      point.pixels_mm.col(k) = world_from_left.linear() * (step * depth_mm - centre);
+    }
+    point.look = FirstLook::take(image, ignore, pixel);
+  }
+}
+
+void MaterialPoints::align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
+                           const Eigen::Isometry3d& world_from_left) {
+  constexpr int kLooksATask = 8;
+  const Eigen::Isometry3d left_from_world = world_from_left.inverse();
+  const auto alignOne = [&](Point& point) {
+    if (point.look.taken == 0 || !point.position_mm.allFinite()) return;
+    const Eigen::Vector3d centre = left_from_world * point.position_mm;
+    if (!(centre.z() > 0)) return;
+    const Eigen::Vector2d pixel = projectPoint(left, centre);
+    Eigen::Matrix2d map;
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector3d edge =
+          left_from_world.linear() * point.pixels_mm.col(k) * FirstLook::kHalfPx;
+      const Eigen::Vector3d ahead = centre + edge, behind = centre - edge;
+      map.col(k) =
+          (projectPoint(left, ahead) - projectPoint(left, behind)) / (2 * FirstLook::kHalfPx);
+    }
+    const FoundLook found = findLook(point.look, image, ignore, pixel, map);
+    if (!found.found) return;
+    const Eigen::Vector3d normal =
+        left_from_world.linear() *
+        point.pixels_mm.col(0).cross(point.pixels_mm.col(1)).normalized();
+    const Eigen::Vector3d ray = liftPixel(left, found.pixel.x(), found.pixel.y(), 1.0);
+    const double depth_mm = normal.dot(centre) / normal.dot(ray);
+    const double farthest_mm =
+        centre.z() * kLargestSlope * (found.pixel - pixel).norm() / left.fx_px;
+    if (!((ray * depth_mm - centre).norm() <= farthest_mm)) return;
+    point.position_mm = world_from_left * (ray * depth_mm);
+  };
+  parallelRanges(static_cast<int>(points.size()), kLooksATask, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) alignOne(points[static_cast<std::size_t>(k)]);
+  });
 }
 
 void MaterialPoints::renumber(const IndexMap& map, const PointModel& model) {

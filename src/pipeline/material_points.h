@@ -12,6 +12,7 @@
 #include "core/raster.h"
 #include "core/warp_graph.h"
 #include "fusion/density_grid.h"
+#include "pipeline/first_look.h"
 
 namespace softscope {
 
@@ -28,8 +29,9 @@ struct TrackedPosition {
   bool visible = false;
 };
 
-/// Follows points by the warp that carries the model point beside them; after fusion they are laid
-/// back onto the model's surface, so that points and surface stay one thing.
+/// Follows points by the warp that carries the model point beside them; after fusion they are
+/// placed where the image shows what they looked like at first, and laid back onto the model's
+/// surface, so that points and surface stay one thing.
 class MaterialPoints {
  public:
   struct Point {
@@ -37,6 +39,10 @@ class MaterialPoints {
     std::int32_t model_point = -1;  // the one beside it; -1 where the tissue was never measured
     Eigen::Vector3d position_mm =
         Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    /// Where its neighbours of the first image, one pixel right and one down, lie from it; the warp
+    /// carries them.
+    Eigen::Matrix<double, 3, 2> pixels_mm = Eigen::Matrix<double, 3, 2>::Zero();
+    FirstLook look;
   };
 
   /// A seed in the rectified left camera: lies where its ray meets the depth around the pixel.
@@ -48,6 +54,13 @@ class MaterialPoints {
   void warp(const WarpGraph& graph, const PointModel& model);
   /// Model points have new numbers.
   void renumber(const IndexMap& map, const PointModel& model);
+  /// Takes how they look in the image, now that they lie on the tissue; their surface is the
+  /// model's around them.
+  void look(const GrayImage& image, const Mask& ignore, const PointModel& model,
+            const PinholeCamera& left, const Eigen::Isometry3d& world_from_left);
+  /// Moves them along the surface to where the image shows their first looks: docs/fusion.md (F29).
+  void align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
+             const Eigen::Isometry3d& world_from_left);
   /// Lays them onto the surface that the model's points around them make, along the rays of the
   /// scope at `scope_mm`, as fusion moves the model's points: docs/fusion.md (F8). `limit_scale`:
   /// DepthSummary::limit_scale of the frame.
@@ -55,5 +68,7 @@ class MaterialPoints {
 
   std::vector<Point> points;
 };
+static_assert(sizeof(MaterialPoints::Point) == 8 + 9 * sizeof(double) + 2 * FirstLook::kPixels + 14,
+              "no padding between or behind the members");
 
 }  // namespace softscope

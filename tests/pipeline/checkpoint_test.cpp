@@ -19,7 +19,13 @@ Checkpoint someCheckpoint() {
   model.graph.edges = {{0, 1, 0.5}};
   model.graph.stencils = {{0, 1, 1, 1}};
   model.memory.unexplained_mm = Raster<float>(3, 2, 8.0f);
-  model.tracked.points.push_back({9, 0, {1, 2, 3}});
+  MaterialPoints::Point point;
+  point.id = 9;
+  point.model_point = 0;
+  point.position_mm = {1, 2, 3};
+  point.pixels_mm(2, 1) = 0.5;
+  point.look.gray.back() = 77;
+  model.tracked.points.push_back(point);
   model.last.left = ColourImage(2, 1, {7, 8, 9});
   model.exposure = {0.9f, 1.1f, 1.2f};
   checkpoint.state.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
@@ -40,6 +46,8 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.graph.edges[0].weight, 0.5);
   EXPECT_EQ(after.state.model.memory.unexplained_mm.at(2, 1), 8.0f);
   EXPECT_EQ(after.state.model.tracked.points[0].id, 9);
+  EXPECT_EQ(after.state.model.tracked.points[0].pixels_mm(2, 1), 0.5);
+  EXPECT_EQ(after.state.model.tracked.points[0].look.gray.back(), 77);
   EXPECT_EQ(after.state.model.exposure.green, 1.1f);
   EXPECT_EQ(after.state.model.last.left.at(1, 0), (Rgb8{7, 8, 9}));
   EXPECT_TRUE(after.state.lost);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "deform/graph_builder.h"
 
 namespace softscope {
@@ -108,6 +110,33 @@ TEST(MaterialPoints, DoNotSlideAlongAGrazingRay) {
   tracked.anchor(flatModel());
   tracked.settle(flatModel(0.2f), Eigen::Vector3d(-50, 0, 45), 1);
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(0, 0, 50.2)).norm(), 1e-5);
+}
+
+// The warp has carried the point two pixels off; the texture stayed.
+TEST(MaterialPoints, GoToWhereTheImageShowsTheirFirstLook) {
+  const auto imageOf = [](double shift_px) {
+    GrayImage image(100, 80);
+    for (int v = 0; v < 80; ++v)
+      for (int u = 0; u < 100; ++u)
+        image.at(u, v) = static_cast<std::uint8_t>(std::lround(
+            120 + 40 * std::sin(0.6 * (u - shift_px)) + 40 * std::cos(0.5 * v + 0.1 * u)));
+    return image;
+  };
+  const auto still = Eigen::Isometry3d::Identity();
+  MaterialPoints tracked;
+  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), still);
+  tracked.anchor(flatModel());
+  tracked.look(imageOf(0), Mask(), flatModel(), kLeft, still);
+  // A pixel at 50 mm is half a millimetre wide.
+  EXPECT_LT((tracked.points[0].pixels_mm.col(0) - Eigen::Vector3d(0.5, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((tracked.points[0].pixels_mm.col(1) - Eigen::Vector3d(0, 0.5, 0)).norm(), 1e-9);
+  const Eigen::Vector3d warped(1, 0, 50);
+  tracked.points[0].position_mm = warped;
+  tracked.align(GrayImage(100, 80, 120), Mask(), kLeft, still);
+  EXPECT_EQ(tracked.points[0].position_mm, warped) << "nothing to be seen";
+  MaterialPoints there = tracked;
+  there.align(imageOf(0), Mask(), kLeft, still);
+  EXPECT_LT((there.points[0].position_mm - Eigen::Vector3d(0, 0, 50)).norm(), 0.03);
 }
 
 }  // namespace
