@@ -1,16 +1,19 @@
 """Damaged inputs of every form through every command that reads them.
 
-A run's number and the seed decide it wholly: `--only N` repeats one and keeps its folder. Counts
-crashes, hangs (20 s of processor time), more than 4 GB, exit 70, and exit 0 with a number that isn't
-finite, an invented geometry or a half-written file. Exit code 1: there was a finding.
+A run's number and the seed decide it wholly: `--only N` repeats one and keeps its folder. 19 of 20
+runs share a process that is kept; a finding there is tried again in a process of its own, and told
+as one behind other runs where it does not come back. Counts crashes, hangs (20 s of processor time),
+more than 4 GB, exit 70, and exit 0 with a number that isn't finite, an invented geometry or a
+half-written file. Exit code 1: there was a finding.
 """
 import argparse
 import collections
+import json
 import os
-import queue
 import random
 import shlex
 import shutil
+import signal
 import sys
 import tempfile
 import threading
@@ -23,10 +26,9 @@ from seeds import make_seeds
 from server import Server
 
 FIRST_COMMAND_SHARE = 0.5
-
-
-WHOLE_EXIT_EVERY = 20  # runs: the others leave out static destructors
+WHOLE_EXIT_EVERY = 20  # runs: these have a process of their own, which ends with its destructors
 SECONDS_BETWEEN_TALLIES = 60
+KEPT_END = "end of a kept process: its static destructors crash, or a sanitizer found a leak"
 
 
 def tree(folder, inner=""):
@@ -101,12 +103,30 @@ class Trial:
         self.file = rng.choice(self.form.files(home))
         self.bytes = damaged((home / self.file).read_bytes(), rng)
 
-    def run(self, server, place, hang_seconds):
+    def run(self, server, place, hang_seconds, alone=False):
+        """`alone`: in a process of its own."""
         place.damage(self.file, self.bytes)
-        exits = "whole" if self.number % WHOLE_EXIT_EVERY == 0 else "quick"
+        whole = self.number % WHOLE_EXIT_EVERY == 0
+        exits = "whole" if whole else "quick" if alone else "kept"
         outcome = server.run([*self.words, "--threads", "1"], place.folder,
                              seconds=hang_seconds + 5, exits=exits)
         return outcome, judge(outcome, self.words, place.folder, 1000 * hang_seconds)
+
+
+def one_trial(trial, server, place, hang_seconds):
+    """Its outcome and findings; the place is as before."""
+    def restored(found):
+        written = place.restore(str(trial.file))
+        return one_of_each_kind(found) + [f"input written: {file}" for file in written]
+    outcome, found = trial.run(server, place, hang_seconds)
+    found = restored(found)
+    if not found or outcome.runs_before == 0:
+        return outcome, found
+    outcome_alone, found_alone = trial.run(server, place, hang_seconds, alone=True)
+    found_alone = restored(found_alone)
+    if found_alone:
+        return outcome_alone, found_alone
+    return outcome, [f"behind {outcome.runs_before} other runs: {what}" for what in found]
 
 
 class Tally:
@@ -121,16 +141,33 @@ class Tally:
             self.codes[outcome.code] += 1
             self.of_form[trial.form.name] += 1
             self.slowest_ms = max(self.slowest_ms, outcome.cpu_ms)
-            self.findings += [(trial, what) for what in found]
+            self.findings += found
+
     def line(self):
+        """What an interrupted run has done: all of its counts."""
         seconds = time.monotonic() - self.started
         return (f"{self.runs} runs in {seconds:.0f} s, {self.runs / seconds:.0f} per second; "
-                f"findings: {len(self.findings)}")
+                f"{self.exit_codes()}; findings: {len(self.findings)}")
+
+    def exit_codes(self):
+        return "exit codes: " + ", ".join(f"{count} with {code}"
+                                          for code, count in sorted(self.codes.items()))
+
+    def save(self, file):
+        if file is None:
+            return
+        with self.lock:
+            record = {"runs": self.runs, "seconds": round(time.monotonic() - self.started),
+                      "exit_codes": self.codes, "forms": self.of_form, "findings": self.findings,
+                      "largest_processor_time_ms": self.slowest_ms}
+            text = json.dumps(record, indent=2)
+        part = Path(f"{file}.part")
+        part.write_text(text + "\n")
+        part.replace(file)
 
     def text(self):
-        kinds = collections.Counter(what.split(":")[0] for _, what in self.findings)
-        codes = ", ".join(f"{count} with {code}" for code, count in sorted(self.codes.items()))
-        lines = [f"{self.runs} runs in {time.monotonic() - self.started:.0f} s; exit codes: {codes}",
+        kinds = collections.Counter(what.split(":")[0] for what in self.findings)
+        lines = [f"{self.runs} runs in {time.monotonic() - self.started:.0f} s; {self.exit_codes()}",
                  "forms: " + ", ".join(f"{name} {n}" for name, n in sorted(self.of_form.items())),
                  f"largest processor time of one run: {self.slowest_ms / 1000:.1f} s",
                  "findings: " + (", ".join(f"{n} {kind}" for kind, n in kinds.items()) or "none")]
@@ -159,44 +196,48 @@ def unsound_seeds(options, forms, root, folder):
         place = Place(form, root, folder)
         file = str(form.files(root / form.folder)[0])
         for words in form.commands:
-            outcome = server.run([*words, "--threads", "1"], folder, seconds=options.hang_seconds)
+            outcome = server.run([*words, "--threads", "1"], folder, seconds=options.hang_seconds,
+                                 exits="kept")
             found = judge(outcome, words, folder, 1000 * options.hang_seconds)
             if outcome.code != form.sound_code or found:
                 wrong.append(f"{form.name}: softscope {' '.join(words)} ended with {outcome.code} "
                              f"without damage: {outcome.err.strip()} {', '.join(found)}")
             place.restore(file)
-    server.close()
+    if not server.close():
+        wrong.append(KEPT_END)
     return wrong
 
 
-def work(options, forms, root, folder, numbers, tally, deadline):
+def work(options, forms, root, folder, numbers, tally, is_over):
     server, places = Server(options.server), {}
-    while time.monotonic() < deadline:
-        try:
-            number = numbers.get_nowait()
-        except queue.Empty:
+    for number in numbers:
+        if is_over():
             break
         trial = Trial(forms, root, options.seed, number)
         name = trial.form.name
         if name not in places:
             places[name] = Place(trial.form, root, folder / name.replace(" ", "_"))
-        outcome, found = trial.run(server, places[name], options.hang_seconds)
-        found = one_of_each_kind(found)
-        found += [f"input written: {file}" for file in places[name].restore(str(trial.file))]
+        outcome, found = one_trial(trial, server, places[name], options.hang_seconds)
         tally.add(trial, outcome, found)
         for what in found:
             print(f"run {number}: {what}: {trial.form.name}, {trial.file}: softscope "
                   f"{' '.join(trial.words)}\n  again: {repeat_line(options, trial)}", flush=True)
-    server.close()
+    if not server.close():
+        print(KEPT_END, flush=True)
+        tally.findings.append(KEPT_END)
 
 
 def run_all(options, forms, root, scratch):
-    numbers, tally = queue.Queue(), Tally()
-    for number in range(options.first, options.first + options.runs):
-        numbers.put(number)
+    numbers = iter(range(options.first, options.first + options.runs))
+    tally, stopped = Tally(), threading.Event()
     deadline = time.monotonic() + (options.seconds or 1e9)
+    for end in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(end, lambda *_: stopped.set())
+
+    def is_over():
+        return stopped.is_set() or time.monotonic() > deadline
     threads = [threading.Thread(target=work, args=(options, forms, root, scratch / f"job{job}",
-                                                   numbers, tally, deadline))
+                                                   numbers, tally, is_over))
                for job in range(options.jobs)]
     for thread in threads:
         thread.start()
@@ -204,7 +245,9 @@ def run_all(options, forms, root, scratch):
         while thread.is_alive():
             thread.join(SECONDS_BETWEEN_TALLIES)
             if thread.is_alive():
+                tally.save(options.counts)
                 print(tally.line(), flush=True)
+    tally.save(options.counts)
     print(tally.text())
     return 1 if tally.findings or tally.runs == 0 else 0
 
@@ -214,7 +257,8 @@ def run_one(options, forms, root):
     trial = Trial(forms, root, options.seed, options.only)
     folder = Path(tempfile.mkdtemp(prefix=f"softscope_run_{options.only}_"))
     server = Server(options.server)
-    outcome, found = trial.run(server, Place(trial.form, root, folder), options.hang_seconds)
+    outcome, found = trial.run(server, Place(trial.form, root, folder), options.hang_seconds,
+                               alone=True)
     server.close()
     print(f"{trial.form.name}: {trial.file} is damaged\ncd {folder}; softscope {' '.join(trial.words)}")
     print(f"exit {outcome.code}, {outcome.cpu_ms} ms, {outcome.memory_kb >> 10} MB\n{outcome.err}", end="")
@@ -235,6 +279,7 @@ def options_of(words):
     parser.add_argument("--form", help="damages this form alone")
     parser.add_argument("--check-seeds", action="store_true",
                         help="runs each command once, without damage")
+    parser.add_argument("--counts", help="a JSON file that keeps the counts, once a minute")
     parser.add_argument("--only", type=int, help="repeats one run, keeps its folder")
     return parser.parse_args(words)
 

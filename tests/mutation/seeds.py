@@ -7,6 +7,8 @@ import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from network import plane_sweep
+
 SIZE = (12, 10, 8)  # voxels
 DRAWN_WEIGHT = 0.05  # a drawing in 3-D takes as long as fifty other runs
 SPACING_MM = (2.0, 2.5, 3.0)
@@ -259,6 +261,8 @@ def make_seeds(root, server):
     pictures.mkdir()
     for view in ("left", "right"):
         shutil.copy(root / "clip" / view / "000000.png", pictures / f"{view}.png")
+    (root / "network").mkdir()
+    (root / "network/n.onnx").write_bytes(plane_sweep())
     make_study_record(root)
     make_stopped_run(root, server)
     return forms(video=make_video(root, softscope))
@@ -385,6 +389,9 @@ def forms(video):
         Form("pixels", "pixels", ["track.csv"], [
             ["reconstruct", "clip", "--frames", "0:1", "--track", "track.csv", *depth]],
             weight=0.3, shared=["clip"]),
+        Form("network", "network", ["n.onnx"], [
+            ["depth", "clip", "--frames", "0:1", "--set", "stereo.method=onnx", "--set",
+             "stereo.model=n.onnx", *depth]], weight=0.5, shared=["clip"]),
     ]
     if video:
         all_forms.append(Form("video", "video", ["left.mp4"], [

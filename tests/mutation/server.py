@@ -1,4 +1,4 @@
-"""One process that runs softscope's commands, each in a fork of it: softscope_server.cpp."""
+"""One process that runs softscope's commands, in forks of it: softscope_server.cpp."""
 import os
 import subprocess
 from dataclasses import dataclass
@@ -13,6 +13,7 @@ class Outcome:
     failed_writes: int  # for a full disk
     out: str = ""
     err: str = ""
+    runs_before: int = 0  # in the same process
 
 
 class Server:
@@ -22,7 +23,7 @@ class Server:
     def run(self, words, folder, out="out.txt", err="err.txt", seconds=30, fault="none", event=0,
             exits="whole"):
         """Runs one command line in `folder`; `out` and `err` are files there, `pipe` or `closed`.
-        `exits`: `whole`, or `quick` without static destructors."""
+        `exits`: `whole`, `quick` without static destructors, or `kept`: in a process that runs many."""
         if self._process is None:
             # Symbols are resolved once, and not by each fork for itself.
             self._process = subprocess.Popen([*self._prefix, self._program], text=True,
@@ -32,9 +33,10 @@ class Server:
         self._process.stdin.write("\x1f".join(map(str, fields)) + "\n")
         self._process.stdin.flush()
         answer = self._process.stdout.readline().split()
-        if len(answer) != 5:
+        if len(answer) != 6:
             raise RuntimeError(f"{self._program} ended")
-        outcome = Outcome(*map(int, answer))
+        *facts, runs_before = map(int, answer)
+        outcome = Outcome(*facts, runs_before=runs_before)
         for name, file in (("out", out), ("err", err)):
             if file not in ("pipe", "closed"):
                 with open(f"{folder}/{file}", "rb") as stream:
@@ -42,7 +44,9 @@ class Server:
         return outcome
 
     def close(self):
-        if self._process is not None:
-            self._process.stdin.close()
-            self._process.wait()
-            self._process = None
+        """Whether the process kept for runs ended soundly: static destructors, a sanitizer's leaks."""
+        if self._process is None:
+            return True
+        self._process.stdin.close()
+        code, self._process = self._process.wait(), None
+        return code == 0
