@@ -1,4 +1,5 @@
 """The harness finds planted faults, and none where there is none."""
+import json
 import random
 import tempfile
 import unittest
@@ -8,15 +9,15 @@ import seeds
 from damage import damaged
 from fault_injection import difference, without_times
 from judge import judge
-from mutation import Place
+from mutation import Place, Tally, Trial, one_trial
 from server import Outcome
 
 INFO = ["info", "v.mha", "--json", "--quiet"]
 SOUND = '{"spacing_mm": [2.0, 2.5, 3.0], "value_range": [0, 1]}'
 
 
-def outcome(code=0, out=SOUND, err="", cpu_ms=10, memory_kb=1000):
-    return Outcome(code, cpu_ms, memory_kb, 0, 0, out, err)
+def outcome(code=0, out=SOUND, err="", cpu_ms=10, memory_kb=1000, runs_before=0):
+    return Outcome(code, cpu_ms, memory_kb, 0, 0, out, err, runs_before)
 
 
 class Judge(unittest.TestCase):
@@ -68,6 +69,60 @@ class Judge(unittest.TestCase):
         self.assertEqual(self.found(words=words, out=""), [])
         (self.folder / "o.svg").write_text('<line x1="nan"/>')
         self.assertIn("not finite", self.found(words=words, out="")[0])
+
+
+class FakeServer:
+    """Answers by the way to exit."""
+
+    def __init__(self, **answers):
+        self.answers, self.asked = answers, []
+
+    def run(self, words, folder, seconds, exits):
+        self.asked.append(exits)
+        return self.answers[exits]
+
+
+class KeptProcess(unittest.TestCase):
+    """What is found behind other runs is tried again alone."""
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        root = Path(place.name)
+        (root / "mha").mkdir()
+        (root / "mha/v.mha").write_bytes(seeds.meta_image(seeds.voxels(), False))
+        form = seeds.Form("mha", "mha", ["v.mha"], [["info", "v.mha", "--quiet"]])
+        self.place = Place(form, root, root / "job")
+        self.trial = Trial([form], root, 1, 1)
+
+    def found(self, **answers):
+        server = FakeServer(**answers)
+        return one_trial(self.trial, server, self.place, 20)[1], server.asked
+
+    def test_sound_outcomes_are_run_once(self):
+        self.assertEqual(self.found(kept=outcome()), ([], ["kept"]))
+
+    def test_a_finding_of_the_input_is_told_as_such(self):
+        crash = dict(code=-11, out="")
+        self.assertEqual(self.found(kept=outcome(runs_before=3, **crash), quick=outcome(**crash)),
+                         (["crash: signal 11"], ["kept", "quick"]))
+
+    def test_a_finding_that_needs_other_runs_is_one_too(self):
+        self.assertEqual(self.found(kept=outcome(code=-11, runs_before=3), quick=outcome())[0],
+                         ["behind 3 other runs: crash: signal 11"])
+
+    def test_the_first_run_of_a_process_is_alone_already(self):
+        self.assertEqual(self.found(kept=outcome(code=-11))[1], ["kept"])
+
+    def test_counts_are_kept(self):
+        file = Path(self.place.folder) / "counts.json"
+        tally = Tally()
+        tally.add(self.trial, outcome(code=3), ["hang"])
+        tally.save(file)
+        record = json.loads(file.read_text())
+        self.assertEqual((record["runs"], record["exit_codes"], record["forms"], record["findings"]),
+                         (1, {"3": 1}, {"mha": 1}, ["hang"]))
+        self.assertIn("1 with 3", tally.line())
 
 
 class Places(unittest.TestCase):
