@@ -7,8 +7,11 @@
 
 namespace softscope {
 
-/// Delaunay triangles as indices into `points`; exact on integers, so points on a grid (many on one
-/// circle) or on one line are no special case. Points must be distinct.
+/// Delaunay triangles as indices into `points`, counter-clockwise on the screen (x right, y down).
+/// Computed in integers, so exact. Of several points on one circle without a point inside, the
+/// first in raster order (smallest y, then x) is joined to all others, so the triangles depend on
+/// the positions alone; they are in raster order of their first corner. Of equal points the first
+/// is used. Throws Error where two coordinates differ by 2^30 or more.
 std::vector<std::array<int, 3>> delaunay(const std::vector<Eigen::Vector2i>& points);
 
 }  // namespace softscope
