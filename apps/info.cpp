@@ -8,7 +8,9 @@
 #include "core/error.h"
 #include "io/files/folder.h"
 #include "io/sequences/dataset_form.h"
+#include "io/sequences/dataset_search.h"
 #include "io/sequences/sequence_paths.h"
+#include "io/text/message.h"
 #include "io/text/text_lines.h"
 #include "toolkit/figures/volume_arguments.h"
 #include "toolkit/inspection/describe_file.h"
@@ -38,6 +40,15 @@ bool looksLikeSequence(const fs::path& folder) {
     calibration |= stem == "calibration";
   }
   return depth && calibration;
+}
+
+/// For a folder that can't be read itself: throws InputError where clips of data sets lie below it.
+void nameClipsBelow(const std::string& folder) {
+  const std::vector<FoundClip> clips = clipsBelow(folder);
+  if (clips.empty()) return;
+  throw InputError(say(shown(folder), ": is no clip itself; clips below it: ", clips.size(),
+                       ", the first of them ", shown(clips.front().folder), " (",
+                       clips.front().form, "). Name one."));
 }
 
 class InfoCommand : public Command {
@@ -76,11 +87,16 @@ class InfoCommand : public Command {
   }
 
   FactSheet describeFolder() const {
-    if (looksLikeSequence(path_) || recogniseDataset(path_)) return describeSequence(path_, check_);
+    if (looksLikeSequence(path_) || recogniseDataset(path_)) {
+      const FactSheet facts = describeSequence(path_, check_);
+      if (facts.hasProblems()) nameClipsBelow(path_);
+      return facts;
+    }
     if (looksLikeVolume(path_)) return describeVolume(path_, volumeOptions());
     try {
       return describeCalibration(path_);
     } catch (const InputError& error) {
+      nameClipsBelow(path_);
       throw InputError(path_ +
                        ": is neither a sequence (left/ and right/, left.mp4 and right.mp4, or "
                        "stereo.mp4) nor a DICOM series nor a calibration; as such: " +

@@ -151,6 +151,11 @@ TEST_F(DatasetLayouts, ShippedFormsAreReconstructedAsOurOwn) {
     EXPECT_EQ(info.json()["dataset"], form);
     EXPECT_EQ(info.json()["frames"], 2) << layout;
     EXPECT_EQ(info.json()["height_px"], 180) << layout;
+    if (clip != at(layout)) {
+      const Outcome above = run({"info", at(layout)});
+      EXPECT_EQ(above.exit_code, 3) << layout;
+      EXPECT_THAT(above.err, HasSubstr("the first of them " + clip + " (" + form + ")"));
+    }
     const Outcome outcome = run({"reconstruct", clip, "--out", at(layout + "_run"), "--quiet"});
     ASSERT_EQ(outcome.exit_code, 0) << layout << outcome.err;
     const Trajectory path = readTrajectory(at(layout + "_run/trajectory.txt"));
