@@ -65,6 +65,8 @@ TEST_F(Calibrate, FilmsGiveACalibrationThatOtherCommandsRead) {
   EXPECT_GE(json["views_used"], 12);
   EXPECT_LT(json["rms_px"], 0.2);
   EXPECT_GT(json["coverage"]["left"], 0.5);
+  EXPECT_GT(json["row_error"]["expected_median_95_px"], 0);
+  EXPECT_GT(json["row_error"]["expected_worst_95_px"], json["row_error"]["expected_median_95_px"]);
   ASSERT_EQ(json["depth"].size(), 3u);
   EXPECT_GT(json["depth"][2]["sigma_mm"], json["depth"][0]["sigma_mm"]);
   bool blurred = false, doubled = false;
@@ -80,6 +82,7 @@ TEST_F(Calibrate, FilmsGiveACalibrationThatOtherCommandsRead) {
   EXPECT_NEAR(found.baseline_mm() / truth.baseline_mm(), 1, 0.005);
   EXPECT_EQ(found.left.pinhole.width_px, truth.left.pinhole.width_px);
   EXPECT_THAT(textOf(at("c.yaml")), HasSubstr("left_fx_px_half_width_95"));
+  EXPECT_THAT(textOf(at("c.yaml")), HasSubstr("row_error_worst_95_px"));
   EXPECT_EQ(run({"info", at("c.yaml"), "--json"}).exit_code, 0);
   const ColourImage picture = readColourImage(at("c_coverage.png"));
   EXPECT_EQ(picture.height_px, truth.left.pinhole.height_px);

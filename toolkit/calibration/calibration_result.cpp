@@ -77,6 +77,17 @@ void addDepths(const CalibrationReport& report, FactSheet* facts) {
   facts->addQuietly("depth", list);
 }
 
+void addRowOutlook(const RowOutlook& outlook, FactSheet* facts) {
+  const Eigen::Vector2d& at = outlook.worst_at_px;
+  facts->add("rows expected",
+             say("within ", fixed(outlook.median_95_px, 3), " px over half of the image, ",
+                 fixed(outlook.worst_95_px, 3), " px at worst, in column ", fixed(at.x(), 0),
+                 ", row ", fixed(at.y(), 0), " (95 %)"),
+             "row_error.expected_worst_95_px", numberOrNull(outlook.worst_95_px));
+  facts->addQuietly("row_error.expected_median_95_px", numberOrNull(outlook.median_95_px));
+  facts->addQuietly("row_error.expected_worst_at_px", {at.x(), at.y()});
+}
+
 void addViews(const CalibrationReport& report, FactSheet* facts) {
   Json used = Json::array(), left_out = Json::array();
   for (const SolvedView& view : report.solution.views)
@@ -116,6 +127,7 @@ CalibrationReport calibrateFromFilm(const BoardFilm& film, const BoardOptions& b
       parseCalibration(calibrationYaml(report.solution.calibration()), "the solution").warnings;
   report.intervals = parameterIntervals(report.solution);
   report.rows = rowErrors(report.solution);
+  report.row_outlook = rowOutlook(report.solution);
   report.coverage = boardCoverage(report.solution);
   for (const double distance_mm : distances_mm)
     report.depths.push_back(depthOutlook(report.solution, distance_mm));
@@ -128,6 +140,7 @@ std::string calibrationText(const CalibrationReport& report) {
   text += say("quality:\n   rms_px: ", report.solution.summary.rms_px,
               "\n   views: ", report.solution.views.size(),
               "\n   row_error_rms_px: ", report.rows.rms_px,
+              "\n   row_error_worst_95_px: ", report.row_outlook.worst_95_px,
               "\n   left_coverage: ", report.coverage.left_share,
               "\n   right_coverage: ", report.coverage.right_share, "\n");
   for (ParameterInterval one : report.intervals) {
@@ -172,6 +185,7 @@ FactSheet calibrationFacts(const CalibrationReport& report, const BoardFilm& fil
   Json regions = Json::array();
   for (const double mean : report.rows.region_mean_px) regions.push_back(numberOrNull(mean));
   facts.addQuietly("row_error.region_mean_px", regions);
+  addRowOutlook(report.row_outlook, &facts);
   addDepths(report, &facts);
   facts.add("coverage",
             percent(report.coverage.left_share) + " of the left image, " +

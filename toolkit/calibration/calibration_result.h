@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibrate/calibration_quality.h"
+#include "calibrate/row_outlook.h"
 #include "core/image.h"
 #include "toolkit/calibration/board_film.h"
 #include "toolkit/record/fact_sheet.h"
@@ -17,6 +18,7 @@ struct CalibrationReport {
   std::vector<LeftOutView> left_out;  // before and by the solution, by frame
   std::vector<ParameterInterval> intervals;
   RowErrors rows;
+  RowOutlook row_outlook;
   BoardCoverage coverage;
   std::vector<DepthOutlook> depths;
   std::vector<std::string> advice;    // what to film more of
