@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "deform/carrier_finder.h"
 #include "deform/graph_edges.h"
 #include "deform/node_reach.h"
 #include "deform/shape_memory.h"
@@ -56,38 +57,6 @@ std::vector<int> pointsInside(const Positions& positions_mm, const CellNumbering
   for (int i = 0; i < count; ++i)
     if (is_inside[i]) points.push_back(i);
   return points;
-}
-
-/// The four nearest of the cell's nodes, weighted by docs/energy.md (25).
-struct Carriers {
-  NodeStencil stencil{};
-  std::array<float, kNodesPerPoint> weights{};
-};
-
-Carriers findCarriers(const NodeReach::Near& near, const Eigen::Vector3f& point_mm,
-                      const WarpGraph& graph, double spacing_mm) {
-  std::array<std::pair<double, int>, NodeReach::kNearest> sorted;
-  for (int i = 0; i < near.count; ++i)
-    sorted[i] = {(graph.positions_mm[near.nodes[i]] - point_mm.cast<double>()).norm(),
-                 near.nodes[i]};
-  std::sort(sorted.begin(), sorted.begin() + near.count);
-  const int used = std::min(near.count, kNodesPerPoint);
-  // Where the surface holds no further node, d_max is what the next one's distance would be.
-  const double furthest = near.count > kNodesPerPoint ? sorted[kNodesPerPoint].first
-                                                      : sorted[used - 1].first + spacing_mm;
-  double total = 0;
-  for (int i = 0; i < used; ++i) {
-    sorted[i].first = std::max(1 - sorted[i].first / furthest, 1e-6);
-    total += sorted[i].first;
-  }
-  std::sort(sorted.begin(), sorted.begin() + used,
-            [](const auto& a, const auto& b) { return a.second < b.second; });
-  Carriers carriers;
-  for (int i = 0; i < kNodesPerPoint; ++i) {
-    carriers.stencil[i] = sorted[std::min(i, used - 1)].second;
-    carriers.weights[i] = i < used ? static_cast<float>(sorted[i].first / total) : 0.0f;
-  }
-  return carriers;
 }
 
 /// Gives every set of nodes its number; drops the numbers that no point uses any more.
@@ -227,10 +196,9 @@ class Growth {
     const std::vector<int> to_bind = pointsToBind();
     std::vector<Carriers> carriers(to_bind.size());
     parallelRanges(static_cast<int>(to_bind.size()), kPointsATask / 8, [&](int begin, int end) {
+      CarrierFinder finder(reach_, graph_, options_.node_spacing_mm);
       for (int k = begin; k < end; ++k)
-        carriers[k] =
-            findCarriers(reach_.near(cells_.cellOf(to_bind[k])), positions_mm_[points_[to_bind[k]]],
-                         graph_, options_.node_spacing_mm);
+        carriers[k] = finder.find(cells_.cellOf(to_bind[k]), positions_mm_[points_[to_bind[k]]]);
     });
     StencilBook book(&graph_.stencils);
     for (std::size_t k = 0; k < to_bind.size(); ++k) {

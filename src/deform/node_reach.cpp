@@ -25,7 +25,7 @@ void NodeReach::spreadAll(const std::vector<Start>& starts) {
     Visits visits(cells_.size());
     for (int i = begin; i < end; ++i) walks[i] = walk(starts[i].position_mm, &visits);
   });
-  parallelRanges(cells_.size(), kCellsATask, [&](int begin, int end) {
+  parallelRanges(cells_.size(), cellsAThread(cells_.size()), [&](int begin, int end) {
     for (std::size_t i = 0; i < starts.size(); ++i)
       for (const Reached& reached : walks[i])
         if (reached.cell >= begin && reached.cell < end)

@@ -1,7 +1,7 @@
 #include "deform/surface_cells.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "core/parallel.h"
@@ -21,6 +21,8 @@ std::uint64_t pack(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 }  // namespace
 
+int cellsAThread(int cells) { return std::max(kCellsATask, cells / threadCount() + 1); }
+
 CellNumbering::CellNumbering(double cell_mm, int expected_cells) : inverse_cell_(1 / cell_mm) {
   std::size_t capacity = 64;
   while (capacity < 2 * static_cast<std::size_t>(expected_cells)) capacity *= 2;
@@ -28,11 +30,14 @@ CellNumbering::CellNumbering(double cell_mm, int expected_cells) : inverse_cell_
 }
 
 bool CellNumbering::keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const {
+  constexpr double kEnd = static_cast<double>(kOrigin - 64), kFirst = 1 - kEnd;
   std::int64_t index[3];
   for (int c = 0; c < 3; ++c) {
-    const double cell = std::floor(static_cast<double>(point_mm[c]) * inverse_cell_);
-    if (!(std::abs(cell) < static_cast<double>(kOrigin - 64))) return false;  // NaN too
-    index[c] = static_cast<std::int64_t>(cell) + kOrigin;
+    const double cell = static_cast<double>(point_mm[c]) * inverse_cell_;
+    if (!(cell >= kFirst && cell < kEnd)) return false;  // NaN too
+    // std::floor is a call into the C library wherever SSE4.1 is not taken for granted.
+    const std::int64_t whole = static_cast<std::int64_t>(cell);
+    index[c] = whole - (static_cast<double>(whole) > cell ? 1 : 0) + kOrigin;
   }
   *key = pack(index[0], index[1], index[2]);
   return true;
@@ -98,7 +103,7 @@ void SurfaceCells::findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
   representatives_.assign(cells, -1);
   std::vector<int> counts(cells, 0);
   std::vector<float> closest(cells, std::numeric_limits<float>::max());
-  parallelRanges(size(), kCellsATask, [&](int begin, int end) {
+  parallelRanges(size(), cellsAThread(size()), [&](int begin, int end) {
     const auto is_own = [&](int cell) { return cell >= begin && cell < end; };
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!is_own(cell_of_[i])) continue;

@@ -10,6 +10,10 @@ namespace softscope {
 /// A grain for loops over cells.
 inline constexpr int kCellsATask = 512;
 
+/// A grain for loops over cells in which each task looks at everything and takes what is its own:
+/// no more tasks than threads.
+int cellsAThread(int cells);
+
 /// From cubes of a regular grid to numbers 0, 1, 2 … in order of first use.
 class CellNumbering {
  public:
