@@ -2,11 +2,11 @@
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 
 #include "apps/help_text.h"
+#include "core/decimal_number.h"
 #include "core/error.h"
-#include "io/text/nearest_name.h"
+#include "core/nearest_name.h"
 #include "toolkit/record/version.h"
 
 namespace softscope {
@@ -22,15 +22,12 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
   return nearest.empty() ? nearest : " (did you mean `" + nearest + "`?)";
 }
 
-template <class Number, class Convert>
-Number toNumber(const std::string& name, const std::string& text, const char* kind,
-                const Convert& convert) {
-  char* end = nullptr;
-  errno = 0;
-  const auto value = convert(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || errno != 0 || Number(value) != value)
+template <class Number>
+Number toNumber(const std::string& name, const std::string& text, const char* kind) {
+  const auto value = decimalNumber<Number>(text);
+  if (!value || *value != *value)  // nan
     throw OptionError(name + " is `" + text + "`, but must be " + kind);
-  return Number(value);
+  return *value;
 }
 
 void assign(const Argument& argument, const std::vector<std::string>& values) {
@@ -38,11 +35,9 @@ void assign(const Argument& argument, const std::vector<std::string>& values) {
   if (auto* text = std::get_if<std::string*>(&argument.target)) **text = values.back();
   if (auto* list = std::get_if<std::vector<std::string>*>(&argument.target)) **list = values;
   if (auto* number = std::get_if<int*>(&argument.target))
-    **number = toNumber<int>(argument.name, values.back(), "a whole number",
-                             [](const char* t, char** end) { return std::strtol(t, end, 10); });
+    **number = toNumber<int>(argument.name, values.back(), "a whole number");
   if (auto* number = std::get_if<double*>(&argument.target))
-    **number = toNumber<double>(argument.name, values.back(), "a number",
-                                [](const char* t, char** end) { return std::strtod(t, end); });
+    **number = toNumber<double>(argument.name, values.back(), "a number");
 }
 
 /// Declares every argument as text: what numbers may be is our own message to write.

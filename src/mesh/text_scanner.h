@@ -1,10 +1,10 @@
 // src/mesh/text_scanner.h: words and numbers of a text file, and where they stand.
 #pragma once
 
-#include <charconv>
 #include <string>
 #include <string_view>
 
+#include "core/decimal_number.h"
 #include "core/error.h"
 
 namespace softscope {
@@ -40,12 +40,9 @@ class TextScanner {
   template <class Number>
   Number toNumber(std::string_view word) const {
     if (word.empty()) fail("the text ends where a number is expected");
-    Number value{};
-    const char* begin = word.data() + (word[0] == '+');
-    const auto end = std::from_chars(begin, word.data() + word.size(), value);
-    if (end.ec != std::errc() || end.ptr != word.data() + word.size())
-      fail("found " + shownWord(word) + " where a number is expected");
-    return value;
+    const auto value = decimalNumber<Number>(word);
+    if (!value) fail("found " + shownWord(word) + " where a number is expected");
+    return *value;
   }
 
   bool atEnd() {

@@ -67,6 +67,30 @@ TEST_F(Records, EveryCommandWritesPathsOnlyWhereAsked) {
       "f.json");
 }
 
+TEST_F(Records, EveryCommandSaysWhatItWrote) {
+  const std::string clip = makeSequence("clip", 2);
+  write("flat.obj", "v 0 0 50\nv 9 0 50\nv 0 9 50\nf 1 2 3\n");
+  const std::string flat = at("flat.obj");
+  const std::vector<std::vector<std::string>> lines{
+      {"reconstruct", clip, "--out", at("r")},
+      {"depth", clip, "--out", at("d")},
+      {"evaluate", at("run"), "--reference", at("truth"), "--out", at("e")},
+      {"compare", "--reference", flat, "--test", flat, "--out", at("c")},
+      {"slice", "--surface", flat, "--out", at("s.svg")},
+      {"figure", at("run"), "--reference", at("truth"), "--kind", "series", "--out", at("f.svg")},
+      {"report", at("e"), "--out", at("p.html")},
+      {"export", flat, "--out", at("m.stl")},
+      {"simulate", "--out", at("made"), "--frames", "2", "--size", "96x80", "--set",
+       "organ.cells_per_side=16"},
+      {"calibration-template", "rectified", "--out", at("t.yaml")}};
+  for (const std::vector<std::string>& line : lines) {
+    const Outcome done = run(line);
+    ASSERT_EQ(done.exit_code, 0) << line[0] << ": " << done.err;
+    const auto out = std::find(line.begin(), line.end(), "--out");
+    EXPECT_THAT(done.out + done.err, HasSubstr(*(out + 1))) << line[0];
+  }
+}
+
 TEST_F(Records, HashesTellWhatWasCompared) {
   write("flat.obj", "v 0 0 50\nv 9 0 50\nv 0 9 50\nf 1 2 3\n");
   const Json compared =

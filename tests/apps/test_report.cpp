@@ -90,6 +90,17 @@ TEST_F(Report, NothingIsOverwrittenUnlessAsked) {
   EXPECT_EQ(textOf(at("page.html")), "mine");
 }
 
+TEST_F(Report, AFileIsWhatItsNameSays) {
+  for (const auto& [html, pdf] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"p.pdf", "q.pdf"}, {"p", "q.pdf"}, {"p.html", "q.html"}}) {
+    const Outcome outcome =
+        run({"report", at("result"), "--out", at(html), "--pdf", at(pdf), "--force"});
+    EXPECT_EQ(outcome.exit_code, 2) << html << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("must end in"));
+    EXPECT_FALSE(fs::exists(at(html)));
+  }
+}
+
 TEST_F(Report, BadInputsAreNamedAndLeaveNoPage) {
   fs::create_directories(at("empty"));
   fs::create_directories(at("broken"));
@@ -168,6 +179,8 @@ TEST_F(Report, WithoutTruthTheFirstPictureIsTheModelBesideTheImage) {
   EXPECT_LT(picture, html.find("<h2>What was compared"));
   EXPECT_THAT(html, HasSubstr("image of frame 30"));
   EXPECT_THAT(html, HasSubstr("It covers 75.0 % of the tissue in sight. It is 2 frames old"));
+  EXPECT_THAT(html, HasSubstr("the model's of the moments for which a model was saved"))
+      << "why it is not the share that has depth";
   write("real/drawn_view.png", "none");
   expectRefused({"drawn_view.png", "is no PNG"}, report({at("real"), "--force"}));
 }

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/nearest_name.h"
 #include "io/settings/settings_binder.h"
 #include "io/settings/settings_text.h"
 #include "io/temporary_folder.h"
-#include "io/text/nearest_name.h"
 
 namespace softscope::test {
 namespace {

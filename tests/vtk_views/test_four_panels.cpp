@@ -204,6 +204,33 @@ TEST(FourPanels, NothingIsDrawnBeyondTheSheet) {
   }
 }
 
+TEST(FourPanels, WordsLieBesideTheContours) {
+  for (const double width_mm : {89.0, 183.0})
+    for (const SceneFrame frame : {SceneFrame::kPatient, SceneFrame::kCamera, SceneFrame::kAxes}) {
+      Scene scene = lopsidedScene();
+      scene.frame = frame;
+      FourPanelOptions options = optionsFor(scene);
+      options.style.width_mm = width_mm;
+      options.width_mm = 0;  // as a figure chooses it
+      const VectorDrawing drawing = drawFourPanels(scene, options);
+      std::size_t contour_points = 0;
+      for (const DrawnLine& line : partsOf<DrawnLine>(drawing)) {
+        if (line.points.size() <= 2) continue;  // bars, rims, samples of the legend
+        contour_points += line.points.size();
+        for (const DrawnText& text : partsOf<DrawnText>(drawing)) {
+          const double length_pt = textWidthPt(text);
+          const double left_pt =
+              text.at.x_pt - length_pt * static_cast<int>(text.anchor) / 2.0;  // start, middle, end
+          for (const PointPt& p : line.points)
+            EXPECT_FALSE(p.x_pt > left_pt && p.x_pt < left_pt + length_pt &&
+                         p.y_pt < text.at.y_pt && p.y_pt > text.at.y_pt - 0.7 * text.size_pt)
+                << text.text << " lies on a contour, " << width_mm << " mm wide";
+        }
+      }
+      EXPECT_GT(contour_points, 20u);
+    }
+}
+
 TEST(FourPanels, TheColourBarSpansTheRangeOfTheErrors) {
   Scene scene = lopsidedScene();
   scene.surfaces[1].errors_mm.assign(8, 0.5);

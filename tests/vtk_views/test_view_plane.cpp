@@ -65,6 +65,11 @@ TEST(ViewPlane, PositionsCarryTheirSide) {
   EXPECT_EQ(positionText(obliqueView({0, 0, 0}, {0, 1, 1}, kPatient, kRadiological), kPatient), "");
 }
 
+TEST(ViewPlane, APlaceIsToldBySidesWhereTheyAreKnown) {
+  EXPECT_EQ(sidesText({-1.25, 0, 3}, 1, kPatient), "R 1.2, P 0.0, S 3.0");
+  EXPECT_EQ(sidesText({-0.5, 0.25, 1}, 2, SceneFrame::kAxes), "x -0.50, y 0.25, z 1.00");
+}
+
 TEST(ViewPlane, AnUnknownSpaceHasNoAnatomicalPlanes) {
   const auto frame = SceneFrame::kAxes;
   EXPECT_EQ(axialView({0, 0, 0}, frame, kRadiological).name, "xy plane");

@@ -84,6 +84,46 @@ TEST_F(DamagedVolume, WithAbsurdGeometryNamesTheField) {
               HasSubstr("Offset"));
 }
 
+TEST_F(DamagedVolume, WithAMisspeltKeyNamesItAndWhatIsExpected) {
+  for (const auto& [key, wrong] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"ElementSpacing", "ElementSpacng"},
+           {"ElementSpacing", "elementspacing"},
+           {"ElementSpacing", "Element Spacing"},
+           {"TransformMatrix", "TransfromMatrix"},
+           {"Offset", "Ofset"},
+           {"Offset", "OFFSET"},
+           {"BinaryDataByteOrderMSB", "BinaryDataByteOrderMBS"},
+           {"CompressedData", "CompresedData"}}) {
+    const std::string error = errorOf("k.mha", replaced(mha, key, wrong) + voxels);
+    EXPECT_THAT(error, testing::AllOf(HasSubstr("k.mha"), HasSubstr(std::string("`") + wrong + "`"),
+                                      HasSubstr(std::string("`") + key + "` is expected")));
+  }
+  for (const auto& [key, wrong] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"space directions", "space directons"},
+           {"space origin", "space orgin"},
+           {"space:", "spaces:"},
+           {"kinds", "sorts"}}) {
+    const std::string error = errorOf("k.nrrd", replaced(nrrd, key, wrong) + voxels);
+    const std::string name = std::string(wrong).substr(0, std::string(wrong).find(':'));
+    EXPECT_THAT(error, testing::AllOf(HasSubstr("k.nrrd"), HasSubstr("`" + name + "`")));
+  }
+  EXPECT_THAT(errorOf("n.nrrd", replaced(nrrd, "space origin:", "space origin:=") + voxels),
+              HasSubstr("`space origin:` is expected"));
+}
+
+TEST_F(DamagedVolume, WithNotesOfOtherProgramsIsRead) {
+  const std::string noted = replaced(mha, "NDims", "Comment = made\n0008|0060 = CT\nNDims");
+  EXPECT_TRUE(readVolume(write("n.mha", noted + voxels)).facts.warnings.empty());
+  const Volume other =
+      readVolume(write("o.mha", replaced(mha, "NDims", "Institution = X\nNDims") + voxels));
+  ASSERT_EQ(other.facts.warnings.size(), 1U);
+  EXPECT_THAT(other.facts.warnings[0], HasSubstr("Institution"));
+  const std::string noted_nrrd =
+      replaced(replaced(nrrd, "sizes", "modality:=CT\nsizes"), "space origin", "Space Origin");
+  EXPECT_EQ(readVolume(write("n.nrrd", noted_nrrd + voxels)).facts.lps_from_voxel,
+            readVolume(write("p.nrrd", nrrd + voxels)).facts.lps_from_voxel);
+}
+
 TEST_F(DamagedVolume, WithADamagedHeaderIsAnErrorAndNeverACrash) {
   for (const auto& [what, with] : std::initializer_list<std::pair<const char*, const char*>>{
            {"NDims = 3", "NDims = -1"},

@@ -2,7 +2,7 @@
 #include "toolkit/calibration/calibration_template.h"
 
 #include "core/error.h"
-#include "io/text/nearest_name.h"
+#include "core/nearest_name.h"
 
 namespace softscope {
 namespace {

@@ -5,12 +5,12 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "core/parallel.h"
 #include "io/files/atomic_file.h"
 #include "io/geometry/depth_files.h"
 #include "io/geometry/ply_writer.h"
 #include "io/images/image_writer.h"
-#include "io/text/nearest_name.h"
 #include "toolkit/depth/frame_statistics.h"
 #include "toolkit/record/fact_sheet.h"
 

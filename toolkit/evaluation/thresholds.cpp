@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "io/text/nearest_name.h"
+#include "core/nearest_name.h"
 #include "io/text/text_lines.h"
 
 namespace softscope {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "io/files/atomic_file.h"
 #include "io/text/message.h"
-#include "io/text/nearest_name.h"
 #include "io/text/text_lines.h"
 #include "toolkit/comparison/landmark_places.h"
 #include "vtk_views/scenes/four_panels.h"

@@ -76,10 +76,23 @@ ViewPlane planeNamed(const SliceRequest& request, const std::string& name,
                      rule);
 }
 
-std::vector<ViewPlane> planesThrough(const SliceRequest& request, const Scene& scene) {
-  const Eigen::Vector3d centre_mm = request.page.centreIn(
-      scene,
-      request.surfaces.empty() ? nullptr : &scene.surfaces[(request.reference.empty() ? 0 : 1)]);
+Eigen::Vector3d centreOf(const SliceRequest& request, const Scene& scene) {
+  return request.page.centreIn(scene, request.surfaces.empty()
+                                          ? nullptr
+                                          : &scene.surfaces[(request.reference.empty() ? 0 : 1)]);
+}
+
+/// What the captions have no room for: where the oblique planes lie. Empty where there is none.
+std::vector<std::string> notesOnPlanes(const SliceRequest& request,
+                                       const Eigen::Vector3d& centre_mm, SceneFrame frame) {
+  if (std::count(request.planes.begin(), request.planes.end(), "oblique") == 0) return {};
+  const Eigen::Vector3d normal = parseVector(request.normal, "`normal=`").normalized();
+  return {(request.positions.empty() ? "Oblique plane through " : "Oblique planes, 0 mm at ") +
+          sidesText(centre_mm, 1, frame) + " mm; normal " + sidesText(normal, 2, frame)};
+}
+
+std::vector<ViewPlane> planesThrough(const SliceRequest& request,
+                                     const Eigen::Vector3d& centre_mm) {
   std::vector<std::string> names = request.planes;
   if (names.empty()) names = {"axial", "coronal", "sagittal"};
   std::vector<ViewPlane> planes;
@@ -127,7 +140,9 @@ DrawnFigure drawSliceFigure(const SliceRequest& request) {
   panels.width_mm = request.page.field_mm;
   panels.keep_centres = !request.page.at.empty();
   panels.columns = request.columns;
-  const std::vector<ViewPlane> planes = planesThrough(request, scene);
+  const Eigen::Vector3d centre_mm = centreOf(request, scene);
+  const std::vector<ViewPlane> planes = planesThrough(request, centre_mm);
+  panels.foot.notes = notesOnPlanes(request, centre_mm, scene.frame);
   DrawnFigure figure;
   FactSheet::Json& record = figure.record = figureRecord("slice", request.page);
   parallelInvoke([&] { record["inputs"] = inputs.inputsJson(); },

@@ -152,6 +152,10 @@ std::vector<std::string> truthlessMethods() {
       "borders. Over all pixels: the same differences shared out over the whole image, the higher "
       "the less is covered. SSIM: "
       "windows of 11 x 11, sigma 1.5.",
+      "Two shares of the tissue, without masks and black borders: the depth's is of each frame by "
+      "itself, the model's of the moments for which a model was saved. The model shows more than "
+      "the depth where earlier frames saw tissue that this one did not measure, and less where a "
+      "depth was too uncertain, or not yet the same in two frames in a row, to become part of it.",
       kBackProjectionMeaning,
       "Jitter: root mean square of the second differences of the scope's positions."};
 }

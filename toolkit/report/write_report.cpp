@@ -1,12 +1,14 @@
 // toolkit/report/write_report.cpp: cases in, files out.
 #include "toolkit/report/write_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "io/files/atomic_file.h"
 #include "io/files/new_files.h"
 #include "io/text/message.h"
+#include "io/text/text_lines.h"
 #include "toolkit/report/report_checklist.h"
 #include "vtk_views/report/report_html.h"
 #include "vtk_views/report/report_pdf.h"
@@ -37,12 +39,23 @@ std::vector<ReportCase> readCases(const ReportOptions& options) {
   return cases;
 }
 
+/// Throws where a file would hold something else than its name says.
+void requireEnding(const std::filesystem::path& file, const char* option,
+                   const std::vector<std::string>& endings, const char* content) {
+  const std::string found = lowerCase(file.extension().string());
+  if (std::find(endings.begin(), endings.end(), found) == endings.end())
+    throw OptionError(
+        say(option, " is `", shown(file), "`, but must end in ", endings[0], ": it is ", content));
+}
+
 }  // namespace
 
 void ReportOptions::validate() const {
   require(limit_mm >= 0 && std::isfinite(limit_mm), "`limit_mm=`", limit_mm, "must be above 0");
   require(seed >= 0, "`seed=`", seed, "must be 0 or more");
   requireChecklist(checklist);
+  requireEnding(html, "`out=`", {".html", ".htm"}, "a page; `pdf=` writes the same on paper");
+  if (!pdf.empty()) requireEnding(pdf, "`pdf=`", {".pdf"}, "a report on paper");
   requireWritable(html, overwrite);
   if (!pdf.empty()) requireWritable(pdf, overwrite);
   if (html == pdf) throw OptionError("`out=` and `pdf=` name the same file; give two");

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
+#include "core/decimal_number.h"
 #include "core/error.h"
 
 namespace softscope {
@@ -66,8 +66,12 @@ std::vector<std::string> cellsOfLine(std::string_view line) {
   return cells;
 }
 
-double numberIn(const std::string& cell) {
-  return cell.empty() ? kUnknown : std::strtod(cell.c_str(), nullptr);
+template <class Number>
+Number numberIn(const std::string& cell, Number otherwise, const std::string& file) {
+  if (cell.empty()) return otherwise;
+  if (const auto value = decimalNumber<Number>(cell)) return *value;
+  throw InputError(file + ": a cell holds `" + cell +
+                   "`, but a number is expected; start again without `resume=`");
 }
 
 FrameStatus statusNamed(const std::string& name, const std::string& file) {
@@ -174,19 +178,23 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
     return cells[std::size_t(std::find(heading.begin(), heading.end(), column) - heading.begin())];
   };
   FrameRecord record;
-  record.frame = std::atoi(cell("frame").c_str());
+  const auto whole = [&](const char* column) { return numberIn(cell(column), 0, name); };
+  const auto real = [&](const std::string& column) {
+    return numberIn(cell(column), kUnknown, name);
+  };
+  record.frame = whole("frame");
   record.status = statusNamed(cell("status"), name);
-  record.points = std::atoi(cell("points").c_str());
-  record.warp.nodes = std::atoi(cell("nodes").c_str());
-  record.pose.inliers = std::atoi(cell("inliers").c_str());
+  record.points = whole("points");
+  record.warp.nodes = whole("nodes");
+  record.pose.inliers = whole("inliers");
   record.pose.found = !cell("scope_static").empty();
   record.pose.scope_static = cell("scope_static") == "1";
-  record.evidence.view.depth_share = numberIn(cell("depth_agreement"));
-  record.evidence.view.image_share = numberIn(cell("image_agreement"));
-  record.fusion.corrected.mean_mm = numberIn(cell("backprojection_mean_mm"));
-  record.evidence.predicted.mean_mm = numberIn(cell("prediction_mean_mm"));
+  record.evidence.view.depth_share = real("depth_agreement");
+  record.evidence.view.image_share = real("image_agreement");
+  record.fusion.corrected.mean_mm = real("backprojection_mean_mm");
+  record.evidence.predicted.mean_mm = real("prediction_mean_mm");
   for (const std::string& stage : timedStages())
-    if (const double elapsed_ms = numberIn(cell(stage + "_ms")); elapsed_ms > 0)
+    if (const double elapsed_ms = real(stage + "_ms"); elapsed_ms > 0)
       record.times.emplace_back(stage, elapsed_ms);
   return record;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "eval/simulation/scope_lens.h"
 #include "io/calibrations/calibration_writer.h"
 #include "io/datasets/stir_files.h"
@@ -15,7 +16,6 @@
 #include "io/images/image_writer.h"
 #include "io/images/video_writer.h"
 #include "io/text/message.h"
-#include "io/text/nearest_name.h"
 #include "toolkit/simulation/layout_folder.h"
 #include "toolkit/simulation/shipped_layouts.h"
 

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "eval/simulation/simulation_settings.h"
-#include "io/text/nearest_name.h"
 #include "io/text/text_lines.h"
 
 namespace softscope {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "io/documents/toml_tree.h"
 #include "io/text/message.h"
-#include "io/text/nearest_name.h"
 #include "toolkit/study/study_settings.h"
 
 namespace softscope {

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "io/sequences/sequence_options.h"
 #include "io/text/message.h"
-#include "io/text/nearest_name.h"
 #include "io/text/text_lines.h"
 #include "pipeline/run_options.h"
 #include "toolkit/simulation/simulate_options.h"

@@ -59,6 +59,17 @@ const char* planeName(SceneFrame frame, const char* anatomical, const char* by_a
   return frame == SceneFrame::kAxes ? by_axes : anatomical;
 }
 
+/// "L 12.0" of a patient, "x 12.0" else.
+std::string sideText(Eigen::Index axis, double value, int decimals, SceneFrame frame) {
+  char text[48];
+  if (frame == SceneFrame::kPatient)
+    std::snprintf(text, sizeof text, "%c %.*f", (value < 0 ? "RAI" : "LPS")[axis], decimals,
+                  std::abs(value));
+  else
+    std::snprintf(text, sizeof text, "%c %.*f", "xyz"[axis], decimals, value);
+  return text;
+}
+
 }  // namespace
 
 ViewPlane axialView(const Vector3d& centre_mm, SceneFrame frame, SideRule rule) {
@@ -119,13 +130,13 @@ std::string positionText(const ViewPlane& plane, SceneFrame frame) {
   const Vector3d normal = plane.towardsViewer();
   Eigen::Index axis = 0;
   if (normal.cwiseAbs().maxCoeff(&axis) < 1 - kAlongAxis) return {};
-  const double place = plane.centre_mm[axis];
-  char text[48];
-  if (frame == SceneFrame::kPatient)
-    std::snprintf(text, sizeof text, "%c %.1f mm", (place < 0 ? "RAI" : "LPS")[axis],
-                  std::abs(place));
-  else
-    std::snprintf(text, sizeof text, "%c %.1f mm", "xyz"[axis], place);
+  return sideText(axis, plane.centre_mm[axis], 1, frame) + " mm";
+}
+
+std::string sidesText(const Vector3d& vector, int decimals, SceneFrame frame) {
+  std::string text;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    text += (axis > 0 ? ", " : "") + sideText(axis, vector[axis], decimals, frame);
   return text;
 }
 

@@ -56,6 +56,9 @@ ViewPlane cameraView(const Eigen::Vector3d& centre_mm, const Eigen::Vector3d& to
 /// first ("L", "SA"); of a camera's frame the strongest in a word ("right", "far").
 std::string sideName(const Eigen::Vector3d& direction, SceneFrame frame);
 
+/// A place or direction by its sides, "L 12.0, P 3.5, S 30.0"; by x, y, z where these are unknown.
+std::string sidesText(const Eigen::Vector3d& vector, int decimals, SceneFrame frame);
+
 /// Where along its normal a plane lies, "S 1602.3 mm", "x -4.0 mm"; empty for an oblique one.
 std::string positionText(const ViewPlane& plane, SceneFrame frame);
 

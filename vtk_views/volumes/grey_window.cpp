@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/decimal_number.h"
 #include "core/error.h"
 
 namespace softscope {
@@ -49,10 +49,13 @@ GreyWindow parseWindow(const std::string& text, const Volume& volume) {
     return preset;
   }
   GreyWindow window;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf%n", &window.width, &window.level, &used) < 2 ||
-      std::size_t(used) != text.size() || !(window.width > 0) || !std::isfinite(window.width) ||
-      !std::isfinite(window.level)) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const std::string_view words = text;
+  const auto width = decimalNumber<double>(words.substr(0, comma));
+  const auto level = decimalNumber<double>(words.substr(std::min(comma + 1, text.size())));
+  window.width = width.value_or(0);
+  window.level = level.value_or(std::nan(""));
+  if (!(window.width > 0) || !std::isfinite(window.width) || !std::isfinite(window.level)) {
     std::string names;
     for (const std::string& name : windowNames()) names += name + ", ";
     throw OptionError("`window=` is `" + text + "`, but must be " + names +

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
+#include "core/decimal_number.h"
 #include "core/error.h"
 #include "core/guarded_read.h"
+#include "core/nearest_name.h"
 
 namespace softscope {
 namespace {
@@ -48,6 +48,33 @@ bool nextLine(const std::string& path, std::istream& file, std::string& line) {
 [[noreturn]] void failLine(const std::string& path, const std::string& line) {
   throw InputError(path + ": its header has the line " + inQuotes(line) +
                    ", which says nothing. Is it damaged, or of another kind than its name says?");
+}
+
+/// In small letters, and without what parts its words where these don't matter.
+std::string plainName(const std::string& name, bool joined) {
+  std::string plain;
+  for (const char c : name)
+    if (!joined || (c != ' ' && c != '_' && c != '-'))
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return plain;
+}
+
+/// Whether two names differ by what a hand or a damaged byte does, and not by their meaning.
+bool nearlyEqual(const std::string& name, const std::string& known) {
+  constexpr std::size_t kLettersPerSlip = 5, kLongestKey = 100;
+  if (name.size() > kLongestKey) return false;
+  const int slips = std::max(1, static_cast<int>(known.size() / kLettersPerSlip));
+  return editDistance(plainName(name, true), plainName(known, true)) <= slips;
+}
+
+bool isAmong(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A name for a message: at most 60 characters, unprintable ones as `?`.
+std::string shownKey(const std::string& key) {
+  const std::string quoted = inQuotes(key);
+  return quoted.substr(1, quoted.size() - 2);
 }
 
 /// "a finite number", "3 finite numbers".
@@ -90,8 +117,11 @@ HeaderText HeaderText::readNrrd(const std::string& path) {
     if (line[0] == '#') continue;
     const auto at = line.find(':');
     if (at == std::string::npos) failLine(path, line);
-    if (line.compare(at, 2, ":=") == 0) continue;
-    header.add(withoutSpaces(line.substr(0, at)), withoutSpaces(line.substr(at + 1)));
+    const std::string key = plainName(withoutSpaces(line.substr(0, at)), false);
+    if (line.compare(at, 2, ":=") == 0)
+      header.notes_.insert(key);
+    else
+      header.add(key, withoutSpaces(line.substr(at + 1)));
   }
   file.clear();
   header.end_offset_ = static_cast<std::uintmax_t>(file.tellg());
@@ -151,6 +181,36 @@ bool HeaderText::flagOr(const std::string& key, bool otherwise) const {
   fail(key, "but must be True or False");
 }
 
+std::vector<std::string> HeaderText::unknownKeys(const std::vector<std::string>& read,
+                                                 const std::vector<std::string>& harmless) const {
+  std::vector<std::string> unknown;
+  for (const auto& [key, value] : fields_) {
+    if (isAmong(read, key) || isAmong(harmless, key)) continue;
+    for (const std::string& meant : read)
+      if (nearlyEqual(key, meant))
+        throw InputError(path_ + ": the header has the line `" + shownKey(key) + "`, but `" +
+                         meant +
+                         "` is expected. Correct the line, or remove it where it means nothing");
+    unknown.push_back(shownKey(key));
+  }
+  return unknown;
+}
+
+void HeaderText::requireKnownKeys(const std::vector<std::string>& known) const {
+  for (const auto& [key, value] : fields_) {
+    if (isAmong(known, key)) continue;
+    const std::string nearest = nearestName(key, known);
+    throw InputError(path_ + ": the header has the line `" + shownKey(key) +
+                     "`, which is no field of its format" +
+                     (nearest.empty() ? "." : "; is `" + nearest + "` meant?") +
+                     " Correct the line, or write a note as `key:=value`");
+  }
+  for (const std::string& note : notes_)
+    if (isAmong(known, note) && !has(note))
+      throw InputError(path_ + ": the header has the note `" + note + ":=`, but the field `" +
+                       note + ":` is expected. Write it without the equals sign");
+}
+
 void HeaderText::fail(const std::string& key, const std::string& complaint) const {
   throw InputError(path_ + ": `" + key + "` is " + inQuotes(textOr(key, "")) + ", " + complaint);
 }
@@ -160,12 +220,9 @@ std::vector<double> finiteNumbers(std::string text) {
   std::istringstream words(text);
   std::vector<double> values;
   for (std::string word; words >> word;) {
-    // Decimal alone: strtod would take 0x10 for 16, and a comma in some locales.
-    const char *begin = word.data() + (word[0] == '+' ? 1 : 0), *end = word.data() + word.size();
-    double value = 0;
-    const auto read = std::from_chars(begin, end, value);
-    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return {};
-    values.push_back(value);
+    const auto value = decimalNumber<double>(word);
+    if (!value || !std::isfinite(*value)) return {};
+    values.push_back(*value);
   }
   return values;
 }

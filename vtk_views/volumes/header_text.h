@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@ class HeaderText {
  public:
   /// Lines "key = value" up to and with `last_key`.
   static HeaderText readMetaImage(const std::string& path, const std::string& last_key);
-  /// Lines "key: value" after the magic, up to an empty line or the end; comments and "key:=value"
-  /// are skipped.
+  /// Lines "key: value" after the magic, up to an empty line or the end, keys in small letters;
+  /// comments are skipped, and of notes "key:=value" the keys kept.
   static HeaderText readNrrd(const std::string& path);
 
   const std::string& path() const { return path_; }
@@ -34,6 +35,13 @@ class HeaderText {
                                    std::int64_t most) const;
   bool flagOr(const std::string& key, bool otherwise) const;
 
+  /// Names that are none of `read` and none of `harmless`. Throws where one is nearly one of
+  /// `read`: its reader would pass over it and take a default.
+  std::vector<std::string> unknownKeys(const std::vector<std::string>& read,
+                                       const std::vector<std::string>& harmless) const;
+  /// Throws where a name is none of `known`, or where a note "key:=value" stands for one.
+  void requireKnownKeys(const std::vector<std::string>& known) const;
+
   /// InputError: the file, the key, what it holds, and what is wrong with it.
   [[noreturn]] void fail(const std::string& key, const std::string& complaint) const;
 
@@ -43,6 +51,7 @@ class HeaderText {
   std::string path_;
   std::uintmax_t end_offset_ = 0;
   std::map<std::string, std::string> fields_;
+  std::set<std::string> notes_;
 };
 
 /// The finite numbers of "1 0 0"; commas count as spaces. Empty where a word is none.

@@ -12,6 +12,50 @@ namespace {
 
 constexpr std::int64_t kMostVoxelsASide = std::int64_t{1} << 30;
 
+/// What this reader takes from a header.
+const std::vector<std::string> kReadKeys{
+    "ObjectType",      "NDims",       "BinaryData",    "BinaryDataByteOrderMSB",
+    "CompressedData",  "DimSize",     "HeaderSize",    "ElementByteOrderMSB",
+    "TransformMatrix", "Rotation",    "Orientation",   "ElementNumberOfChannels",
+    "Offset",          "Position",    "Origin",        "ElementSpacing",
+    "ElementSize",     "ElementType", "DistanceUnits", "ElementDataFile"};
+
+/// What the format knows besides.
+const std::vector<std::string> kHarmlessKeys{"AcquisitionDate",
+                                             "AnatomicalOrientation",
+                                             "CenterOfRotation",
+                                             "Color",
+                                             "Comment",
+                                             "CompressedDataSize",
+                                             "CompressionLevel",
+                                             "ElementMax",
+                                             "ElementMin",
+                                             "ElementNBits",
+                                             "ID",
+                                             "ElementToIntensityFunctionOffset",
+                                             "Kinds",
+                                             "ElementToIntensityFunctionSlope",
+                                             "Modality",
+                                             "Name",
+                                             "ObjectSubType",
+                                             "ParentID",
+                                             "SequenceID",
+                                             "TransformType"};
+
+/// What ITK and Slicer add: DICOM's tags ("0008|0060") and fields of their own.
+bool isNoteOfAProgram(const std::string& key) {
+  const bool is_tag = key.size() == 9 && key[4] == '|';
+  return is_tag || key.compare(0, 4, "ITK_") == 0 || key.compare(0, 4, "Seq_") == 0;
+}
+
+void warnOfUnknownKeys(const HeaderText& header, VolumeSummary& summary) {
+  std::string names;
+  for (const std::string& key : header.unknownKeys(kReadKeys, kHarmlessKeys))
+    if (!isNoteOfAProgram(key)) names += (names.empty() ? "" : ", ") + key;
+  if (!names.empty())
+    summary.warnings.emplace_back("the header has lines that mean nothing to softscope: " + names);
+}
+
 VoxelType metaImageType(const HeaderText& header) {
   static const std::pair<const char*, VoxelType> kTypes[] = {
       {"MET_CHAR", VoxelType::kInt8},       {"MET_UCHAR", VoxelType::kUint8},
@@ -124,8 +168,9 @@ StoredVolume readMetaImage(const std::string& path, const VolumeOptions& options
   const HeaderText header = HeaderText::readMetaImage(path, "ElementDataFile");
   if (header.textOr("ObjectType", "Image") != "Image")
     header.fail("ObjectType", "but a volume is an Image");
-  header.wholes("NDims", 1, 3, 3);
   StoredVolume volume;
+  warnOfUnknownKeys(header, volume.summary);
+  header.wholes("NDims", 1, 3, 3);
   VoxelBlock block;
   volume.summary.format = "MetaImage";
   block.voxels = 1;

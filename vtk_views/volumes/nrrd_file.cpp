@@ -15,6 +15,48 @@ namespace {
 
 constexpr std::int64_t kMostNrrdSize = std::int64_t{1} << 30;
 
+/// Every field of the format; what is none of these must be a note, `key:=value`.
+const std::vector<std::string> kNrrdFields{"axis maxs",
+                                           "axis mins",
+                                           "axismaxs",
+                                           "axismins",
+                                           "block size",
+                                           "blocksize",
+                                           "byte skip",
+                                           "byteskip",
+                                           "centerings",
+                                           "centers",
+                                           "content",
+                                           "data file",
+                                           "datafile",
+                                           "dimension",
+                                           "encoding",
+                                           "endian",
+                                           "kinds",
+                                           "labels",
+                                           "line skip",
+                                           "lineskip",
+                                           "max",
+                                           "min",
+                                           "measurement frame",
+                                           "number",
+                                           "old max",
+                                           "old min",
+                                           "oldmax",
+                                           "oldmin",
+                                           "sample units",
+                                           "sampleunits",
+                                           "sizes",
+                                           "space",
+                                           "space dimension",
+                                           "space directions",
+                                           "space origin",
+                                           "space units",
+                                           "spacings",
+                                           "thicknesses",
+                                           "type",
+                                           "units"};
+
 VoxelType nrrdType(const HeaderText& header) {
   using Names = std::vector<const char*>;
   static const std::pair<Names, VoxelType> kTypes[] = {
@@ -194,6 +236,7 @@ std::string nrrdVoxels(const HeaderText& header, VoxelBlock block) {
 
 StoredVolume readNrrd(const std::string& path, const VolumeOptions& options) {
   const HeaderText header = HeaderText::readNrrd(path);
+  header.requireKnownKeys(kNrrdFields);
   const auto dimension = static_cast<std::size_t>(header.wholes("dimension", 1, 3, 4)[0]);
   const auto sizes = header.wholes("sizes", dimension, 1, kMostNrrdSize);
   StoredVolume volume;

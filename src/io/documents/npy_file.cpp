@@ -1,9 +1,9 @@
 #include "io/documents/npy_file.h"
 
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 
+#include "core/decimal_number.h"
 #include "core/error.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
@@ -48,8 +48,9 @@ bool readShape(std::string_view text, NpyArray& out) {
   const auto words = wordsOf(text.substr(1, end - 1));
   if (words.size() != 2) return false;
   const auto number = [](std::string_view word, std::size_t& value) {
-    const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-    return result.ec == std::errc() && result.ptr == word.data() + word.size();
+    const auto whole = decimalNumber<std::size_t>(word);
+    value = whole.value_or(0);
+    return whole.has_value();
   };
   return number(words[0], out.rows) && number(words[1], out.columns) && out.rows > 0 &&
          out.columns > 0 && out.rows <= kMostNumbers / out.columns;

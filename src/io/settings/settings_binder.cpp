@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "io/text/message.h"
-#include "io/text/nearest_name.h"
 #include "io/text/text_lines.h"
 
 namespace softscope {

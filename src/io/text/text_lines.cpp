@@ -4,6 +4,8 @@
 #include <charconv>
 #include <limits>
 
+#include "core/decimal_number.h"
+
 namespace softscope {
 namespace {
 
@@ -71,11 +73,7 @@ std::string lowerCase(std::string_view text) {
 }
 
 std::optional<double> numberOf(std::string_view word) {
-  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
-  double value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (error == std::errc() && stop == end) return value;
+  if (const auto value = decimalNumber<double>(word)) return value;
   return specialNumber(word);
 }
 

@@ -1,4 +1,4 @@
-// src/io/text/nearest_name.h: what a misspelt name was meant to be.
+// src/core/nearest_name.h: what a misspelt name was meant to be.
 #pragma once
 
 #include <string>

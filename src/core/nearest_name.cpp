@@ -1,14 +1,19 @@
-#include "io/text/nearest_name.h"
+#include "core/nearest_name.h"
 
 #include <algorithm>
-
-#include "io/text/text_lines.h"
 
 namespace softscope {
 namespace {
 
 // Longer names are no misspellings; the cap bounds the work.
 constexpr std::size_t kLongestName = 200;
+
+std::string lowerCase(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
 
 std::string_view lastPart(std::string_view name) {
   const std::size_t dot = name.rfind('.');
