@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/stereo_rig.h"
-#include "cuda/device_info.h"
+#include "cuda/device/device_info.h"
 #include "pipeline/frame_depth.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/stereo_rig.h"
-#include "deform/lm_solver.h"
+#include "deform/solver/lm_solver.h"
 #include "fusion/frame_comparer.h"
 #include "pipeline/match_stage.h"
 #include "pipeline/reconstruction_backend.h"

@@ -2,13 +2,13 @@
 
 #include <utility>
 
-#include "cuda/comparison.h"
-#include "cuda/device_info.h"
-#include "cuda/locate.h"
-#include "cuda/pose.h"
-#include "cuda/stereo.h"
-#include "cuda/warp.h"
-#include "deform/device_warp_system.h"
+#include "cuda/comparison/comparison.h"
+#include "cuda/device/device_info.h"
+#include "cuda/locate/locate.h"
+#include "cuda/pose/pose.h"
+#include "cuda/stereo/stereo.h"
+#include "cuda/warp/warp.h"
+#include "deform/solver/device_warp_system.h"
 #include "pipeline/cpu_backend.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/host_prior.h"

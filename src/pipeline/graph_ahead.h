@@ -6,8 +6,8 @@
 
 #include "core/point_model.h"
 #include "core/warp_graph.h"
-#include "deform/deform_options.h"
-#include "deform/lm_solver.h"
+#include "deform/options/deform_options.h"
+#include "deform/solver/lm_solver.h"
 
 namespace softscope {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "deform/warp.h"
+#include "deform/graph/warp.h"
 #include "fusion/cell_table.h"
 
 namespace softscope {

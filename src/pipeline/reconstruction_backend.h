@@ -11,7 +11,7 @@
 #include "core/point_model.h"
 #include "core/stereo_rig.h"
 #include "core/warp_graph.h"
-#include "deform/lm_solver.h"
+#include "deform/solver/lm_solver.h"
 #include "fusion/back_projection_error.h"
 #include "fusion/colour_gain.h"
 #include "fusion/point_insertion.h"

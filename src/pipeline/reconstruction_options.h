@@ -1,7 +1,7 @@
 // src/pipeline/reconstruction_options.h: everything that a reconstruction may be told.
 #pragma once
 
-#include "deform/deform_options.h"
+#include "deform/options/deform_options.h"
 #include "features/matcher_options.h"
 #include "features/model_view.h"
 #include "fusion/fusion_options.h"

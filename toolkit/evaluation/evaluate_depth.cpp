@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "eval/simulation/ray_tree.h"
+#include "eval/simulation/surface/ray_tree.h"
 #include "eval/surfaces/surface_alignment.h"
 #include "io/geometry/depth_files.h"
 #include "io/text/message.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "eval/simulation/scope_lens.h"
+#include "eval/simulation/camera/scope_lens.h"
 #include "io/calibrations/calibration_writer.h"
 #include "io/datasets/stir_files.h"
 #include "io/datasets/surgt_files.h"

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "eval/simulation/simulation_settings.h"
+#include "eval/simulation/sequence/simulation_settings.h"
 #include "io/text/nearest_name.h"
 #include "io/text/text_lines.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "eval/simulation/simulation_options.h"
+#include "eval/simulation/sequence/simulation_options.h"
 #include "io/settings/settings_binder.h"
 
 namespace softscope {

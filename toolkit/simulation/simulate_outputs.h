@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/trajectory.h"
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "io/files/new_files.h"
 #include "io/images/video_writer.h"
 #include "toolkit/simulation/simulate_options.h"
