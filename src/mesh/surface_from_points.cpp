@@ -7,8 +7,10 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "core/parallel.h"
 #include "mesh/border_trim.h"
 #include "mesh/growing_surface.h"
@@ -90,9 +92,7 @@ float spacingOf(const OrientedPoints& points, float least_cosine) {
     });
     distances.push_back(nearest);
   }
-  std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(distances.size() / 2),
-                   distances.end());
-  return distances[distances.size() / 2];
+  return medianOf(std::move(distances));
 }
 
 NeighbourRule ruleFor(const SurfaceOptions& options, float spacing_mm) {

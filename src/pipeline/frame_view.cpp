@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -44,12 +43,6 @@ std::size_t countOf(const Rows& rows) {
   return count;
 }
 
-/// Of numbers above 0; the upper of two middle ones, NaN of none.
-double medianOf(const Rows& rows) {
-  const std::size_t count = countOf(rows);
-  return count > 0 ? absoluteOfRank(rows, count / 2) : std::numeric_limits<double>::quiet_NaN();
-}
-
 DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
                        const RectifiedRig& rig) {
   DepthSummary summary;
@@ -73,8 +66,8 @@ DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
   summary.tissue_px = tissue_px;
   summary.measured_px = static_cast<int>(countOf(depths_mm));
   double depth_mm = 0;
-  parallelInvoke([&] { summary.median_sigma_mm = medianOf(sigmas_mm); },
-                 [&] { depth_mm = medianOf(depths_mm); });
+  parallelInvoke([&] { summary.median_sigma_mm = absoluteMedian(sigmas_mm); },
+                 [&] { depth_mm = absoluteMedian(depths_mm); });
   const double mm_per_px = depth_mm * depth_mm / (rig.left.fx_px * rig.baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   if (measured.rows.known()) summary.row_difference_px = measured.rows.mean_row_difference_px;

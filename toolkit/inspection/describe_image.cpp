@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "io/files/file_bytes.h"
 #include "io/geometry/depth_files.h"
 #include "io/images/image_header.h"
@@ -87,14 +89,13 @@ FactSheet describeFloatMap(const std::string& file) {
     facts.warn("not one pixel has a value");
     return facts;
   }
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double lowest = *least, highest = *most;
-  std::nth_element(values.begin(), middle, values.end());
+  const float median = medianOf(std::move(values));
   facts.add("values",
-            fixed(lowest, 2) + " to " + fixed(highest, 2) + ", median " + fixed(*middle, 2),
+            fixed(lowest, 2) + " to " + fixed(highest, 2) + ", median " + fixed(median, 2),
             "value_range", {lowest, highest});
-  facts.addQuietly("median", *middle);
+  facts.addQuietly("median", median);
   return facts;
 }
 
