@@ -32,67 +32,11 @@ struct LevelCounters {
 /// One level of the pyramid.
 struct StereoLevel {
   StereoLevel(Arena& arena, const StereoOptions& level_options, int width_px, int height_px)
-      : options(level_options), width(width_px), height(height_px) {
-    const ElasOptions& elas = options.elas;
-    const int step = elas.support_step_px;
-    grid = {width,
-            height,
-            step,
-            (width + step - 1) / step,
-            (height + step - 1) / step,
-            {options.disparity_min_px, options.disparity_max_px},
-            elas.support_texture,
-            elas.support_uniqueness,
-            elas.support_left_right_px,
-            elas.support_window_cells,
-            elas.support_agreement_px,
-            elas.support_min_neighbours};
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    const auto points =
-        static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-    const std::size_t row_pixels = static_cast<std::size_t>(grid.rows) * grid.width;
-    const auto count = static_cast<std::size_t>(grid.count());
-    for (int view = 0; view < 2; ++view) {
-      gray[view] = arena.image<std::uint8_t>(width, height);
-      ignored[view] = arena.image<std::uint8_t>(width, height);
-      ignored_rows[view] = arena.image<std::uint8_t>(width, height);
-      gradient[view] = planGradient(arena);
-      prior[view] = arena.image<std::int16_t>(width, height);
-      whole[view] = arena.image<std::int16_t>(width, height);
-      slow[view] = arena.image<float>(width, height);
-      smooth[view] = arena.image<float>(width, height);
-      fast_part[view] = arena.image<float>(width, height);
-      slow_part[view] = arena.image<float>(width, height);
-      disparity[view] = arena.image<float>(width, height);
-    }
-    costs.best_left = arena.array<std::uint32_t>(2 * row_pixels);
-    costs.best_right = costs.best_left == nullptr ? nullptr : costs.best_left + row_pixels;
-    costs.volume = arena.array<std::uint16_t>(points * count);
-    support = arena.array<float>(points);
-    kept = arena.array<float>(points);
-    rows.own = arena.array<PriorEvidence>(2 * row_pixels);
-    rows.above = arena.array<PriorEvidence>(2 * row_pixels);
-    rows.below = arena.array<PriorEvidence>(2 * row_pixels);
-    rows.has_points = arena.array<int>(2 * static_cast<std::size_t>(grid.rows));
-    rows.width = width;
-    rows.rows = grid.rows;
-    rows.step = step;
-    bits.columns = blocksFor(width, kTileWidth);
-    bits.rows = blocksFor(height, kTileHeight);
-    bits.words = arena.array<std::uint32_t>(bitWords());
-    dark_rows = arena.image<std::uint8_t>(width, height);
-    marks = arena.image<std::uint8_t>(width, height);
-    near_marks = arena.image<std::uint8_t>(width, height);
-    mixed = arena.image<std::uint8_t>(width, height);
-    sigma = arena.image<float>(width, height);
-    for (float*& plane : residuals.planes) plane = arena.array<float>(pixels);
-    islands_labels = arena.array<int>(pixels);
-    islands_sizes = arena.array<int>(pixels);
-    mixed_list = arena.array<int>(pixels);
-    counters = arena.array<LevelCounters>(1);
-    light_parts = arena.array<LightSums>(static_cast<std::size_t>(LightFit::samplesAlong(height)) *
-                                         LightFit::kParts);
-    selection = arena.array<Selection>(1);
+      : options(level_options), width(width_px), height(height_px), grid(supportGrid()) {
+    for (int view = 0; view < 2; ++view) planView(arena, view);
+    planSupport(arena);
+    planBits(arena);
+    planResults(arena);
   }
 
   std::size_t bitWords() const {
@@ -124,6 +68,81 @@ struct StereoLevel {
   Selection* selection;
 
  private:
+  SupportGrid supportGrid() const {
+    const ElasOptions& elas = options.elas;
+    const int step = elas.support_step_px;
+    return {width,
+            height,
+            step,
+            (width + step - 1) / step,
+            (height + step - 1) / step,
+            {options.disparity_min_px, options.disparity_max_px},
+            elas.support_texture,
+            elas.support_uniqueness,
+            elas.support_left_right_px,
+            elas.support_window_cells,
+            elas.support_agreement_px,
+            elas.support_min_neighbours};
+  }
+
+  /// The images of one camera.
+  void planView(Arena& arena, int view) {
+    gray[view] = arena.image<std::uint8_t>(width, height);
+    ignored[view] = arena.image<std::uint8_t>(width, height);
+    ignored_rows[view] = arena.image<std::uint8_t>(width, height);
+    gradient[view] = planGradient(arena);
+    prior[view] = arena.image<std::int16_t>(width, height);
+    whole[view] = arena.image<std::int16_t>(width, height);
+    slow[view] = arena.image<float>(width, height);
+    smooth[view] = arena.image<float>(width, height);
+    fast_part[view] = arena.image<float>(width, height);
+    slow_part[view] = arena.image<float>(width, height);
+    disparity[view] = arena.image<float>(width, height);
+  }
+
+  /// Support points and the prior between them.
+  void planSupport(Arena& arena) {
+    const auto grid_rows = static_cast<std::size_t>(grid.rows);
+    const std::size_t points = static_cast<std::size_t>(grid.columns) * grid_rows;
+    const std::size_t row_pixels = grid_rows * static_cast<std::size_t>(grid.width);
+    costs.best_left = arena.array<std::uint32_t>(2 * row_pixels);
+    costs.best_right = costs.best_left == nullptr ? nullptr : costs.best_left + row_pixels;
+    costs.volume = arena.array<std::uint16_t>(points * static_cast<std::size_t>(grid.count()));
+    support = arena.array<float>(points);
+    kept = arena.array<float>(points);
+    rows.own = arena.array<PriorEvidence>(2 * row_pixels);
+    rows.above = arena.array<PriorEvidence>(2 * row_pixels);
+    rows.below = arena.array<PriorEvidence>(2 * row_pixels);
+    rows.has_points = arena.array<int>(2 * grid_rows);
+    rows.width = width;
+    rows.rows = grid.rows;
+    rows.step = options.elas.support_step_px;
+  }
+
+  void planBits(Arena& arena) {
+    bits.columns = blocksFor(width, kTileWidth);
+    bits.rows = blocksFor(height, kTileHeight);
+    bits.words = arena.array<std::uint32_t>(bitWords());
+  }
+
+  /// Filters, refinement and their counters.
+  void planResults(Arena& arena) {
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    dark_rows = arena.image<std::uint8_t>(width, height);
+    marks = arena.image<std::uint8_t>(width, height);
+    near_marks = arena.image<std::uint8_t>(width, height);
+    mixed = arena.image<std::uint8_t>(width, height);
+    sigma = arena.image<float>(width, height);
+    for (float*& plane : residuals.planes) plane = arena.array<float>(pixels);
+    islands_labels = arena.array<int>(pixels);
+    islands_sizes = arena.array<int>(pixels);
+    mixed_list = arena.array<int>(pixels);
+    counters = arena.array<LevelCounters>(1);
+    light_parts = arena.array<LightSums>(static_cast<std::size_t>(LightFit::samplesAlong(height)) *
+                                         LightFit::kParts);
+    selection = arena.array<Selection>(1);
+  }
+
   GradientPlane planGradient(Arena& arena) {
     const int side = GradientPlane::sideMargin(options.disparity_max_px);
     const int stride = (width + 2 * side + 63) / 64 * 64;
