@@ -197,7 +197,7 @@ void Reconstructor::rememberView() {
     key_views_.erase(key_views_.begin());
 }
 
-ReconstructionState Reconstructor::state() const {
+ReconstructionStateView Reconstructor::state() const {
   return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_,
           unfused_frames_,   searches_};
 }

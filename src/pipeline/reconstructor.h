@@ -11,8 +11,9 @@
 namespace softscope {
 
 /// Everything that a run needs to go on where it stopped.
-struct ReconstructionState {
-  ModelState model;
+template <class Model>
+struct StateOf {
+  Model model;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
@@ -20,6 +21,9 @@ struct ReconstructionState {
   int unfused_frames = 0;  // since the last one that was fused
   int searches = 0;        // of them, in which the model was sought over the whole image
 };
+using ReconstructionState = StateOf<ModelState>;
+/// Refers to a Reconstructor's model: valid until its next frame is processed.
+using ReconstructionStateView = StateOf<const ModelState&>;
 
 /// Owns the order of the stages; the back end owns what they work on.
 class Reconstructor {
@@ -44,8 +48,8 @@ class Reconstructor {
   const ReconstructionBackend& backend() const { return *backend_; }
   /// Valid until the next frame is processed.
   const ModelState& model() const { return backend_->state(); }
-  /// A copy of everything that the next frame needs.
-  ReconstructionState state() const;
+  /// Everything that the next frame needs; the model isn't copied.
+  ReconstructionStateView state() const;
   void restore(ReconstructionState state);
 
  private:

@@ -240,7 +240,7 @@ void RunFolder::writeTables(const ModelState& state) {
   writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
 }
 
-void RunFolder::flush(const Checkpoint& checkpoint) {
+void RunFolder::flush(const CheckpointView& checkpoint) {
   writeTables(checkpoint.state.model);
   writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
 }

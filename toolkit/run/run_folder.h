@@ -59,7 +59,7 @@ class RunFolder {
   /// models/NNNNNN.ply, which says its moment, and .vtp; nodes/NNNNNN.csv. Of the frame that was
   /// added last.
   void saveModel(int frame, double time_s, const ModelState& state);
-  void flush(const Checkpoint& checkpoint);
+  void flush(const CheckpointView& checkpoint);
   /// Of the last frame, where it wasn't its turn.
   void saveLastModel(const ModelState& state);
   /// run.json. `complete`: nothing is left to resume, so the checkpoint goes.
