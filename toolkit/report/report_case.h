@@ -35,6 +35,10 @@ struct ReportCase {
     return kind == Kind::kPair ? "accuracy" : hasTruth() ? "surface" : "view";
   }
   double main(const std::string& key) const { return numberAt(record, mainPart() + "." + key); }
+  /// How the model was aligned to the reference; empty or "none" where it was not.
+  std::string alignment() const {
+    return textAt(record, kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
+  }
   /// One value a judged moment; empty for a pair.
   std::vector<double> overFrames(const std::string& key) const;
 };
