@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_image.cpp: a picture, a depth file, a video.
+// toolkit/inspection/describe_image.cpp: an image, a depth file, a video.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,7 +59,7 @@ void addBrightness(const ColourImage& image, FactSheet& facts) {
             "mean_gray", sum / count);
   facts.addQuietly("dark_share", double(dark) / count);
   facts.addQuietly("saturated_share", double(bright) / count);
-  if (double(dark) > 0.5 * count) facts.warn("more than half of the picture is dark");
+  if (double(dark) > 0.5 * count) facts.warn("more than half of the image is dark");
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ void addBrightness(const ColourImage& image, FactSheet& facts) {
 FactSheet describeImage(const std::string& file) {
   const std::string bytes = readBytes(file);
   const ImageHeader header = inspectImage(bytes, file);
-  FactSheet facts(file + ": a picture");
+  FactSheet facts(file + ": an image");
   facts.addQuietly("kind", "image");
   facts.add("format", "format", nameOf(header.form));
   addSize(header.width_px, header.height_px, facts);

@@ -18,7 +18,7 @@ double numberAt(const FactSheet::Json& record, const std::string& path);
 std::string textAt(const FactSheet::Json& record, const std::string& path);
 
 struct ReportCase {
-  /// evaluate against truth, a mesh, pictures alone (no truth); compare
+  /// evaluate against truth, a mesh, images alone (no truth); compare
   enum class Kind { kSequence, kMesh, kPictures, kPair };
 
   std::string name;  // as the report calls it

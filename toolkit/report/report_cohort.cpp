@@ -78,7 +78,7 @@ ReportTable agreementTable(const std::string& caption, const BlandAltman& b) {
   return table;
 }
 
-/// Nothing for fewer than two differences: there is no spread to speak of.
+/// Nothing for fewer than two differences.
 void addAgreement(AgreementData data, const std::string& caption, const std::string& figure_caption,
                   std::vector<ReportPart>& parts) {
   for (std::size_t i = 0; i < data.x.size(); ++i)

@@ -112,7 +112,7 @@ std::optional<Checkpoint> SequenceRun::earlierState(const RunFolder& folder,
   if (earlier && earlier->settings != settings)
     throw OptionError(
         "`resume=`: the run in " + out +
-        " was begun with other settings, pictures, calibration or tracked pixels; give the "
+        " was begun with other settings, images, calibration or tracked pixels; give the "
         "same, or start again without `resume=`");
   return earlier;
 }

@@ -1,4 +1,4 @@
-// toolkit/run/run_folder.h: the files that `softscope reconstruct` leaves.
+// toolkit/run/run_folder.h: writer of the folder of `softscope reconstruct`.
 #pragma once
 
 #include <filesystem>
@@ -87,7 +87,7 @@ class RunFolder {
   std::optional<FileLock> lock_;
 };
 
-/// The model as a point cloud with weights, world frame, in the light of the last fused picture.
+/// The model as a point cloud with weights, world frame, in the light of the last fused image.
 PointCloud cloudOf(const ModelState& state);
 
 }  // namespace softscope
