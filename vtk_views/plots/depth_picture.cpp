@@ -154,7 +154,7 @@ ColourImage drawDepthPicture(const ColourImage& left, const Raster<float>& depth
                              const Mask& mask, const DepthRange& range,
                              const DepthPictureText& text) {
   if (left.empty() || !left.sameShape(depth_mm) || (!mask.empty() && !left.sameShape(mask)))
-    throw Error("depth picture: photograph, depth and mask must have one shape");
+    throw Error("depth image: photograph, depth and mask must have one shape");
   const DepthPictureLayout layout = layoutDepthPicture(left.width_px, left.height_px);
   const ColouredDepth coloured = colourDepth(depth_mm, mask, range);
   Canvas canvas(layout.width_px, layout.height_px);
