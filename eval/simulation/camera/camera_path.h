@@ -1,4 +1,4 @@
-// eval/simulation/camera/camera_path.h: how the scope is held and moved.
+// eval/simulation/camera/camera_path.h: motion of the scope.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ struct CameraPathOptions {
   double amplitude_mm = 4;     // of the way, measured at the scope
   double period_s = 6;
   double tremor_mm = 0.15;   // of the hand, 5 to 11 Hz; 0 switches it off
-  double distance_mm = 40;   // from the scope to the tissue in the middle of the picture
+  double distance_mm = 40;   // from the scope to the tissue in the middle of the image
   double azimuth_deg = 0;    // where the scope comes from: around the organ's y axis,
   double elevation_deg = 0;  // then up towards it; 0, 0 looks along -z
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kNewtonSteps = 8;  // each doubles the digits; 4 are enough for common lenses
 constexpr int kRimSteps = 16;    // places a side at which the lens is tried
-constexpr double kRim = 0.05;    // of the picture, around it
+constexpr double kRim = 0.05;    // of the image, around it
 
 /// Where the lens puts the direction (x, y, 1), and how that changes with x and y.
 struct Bent {

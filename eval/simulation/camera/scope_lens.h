@@ -1,4 +1,4 @@
-// eval/simulation/camera/scope_lens.h: from space to the pixels of a lens that bends, and back.
+// eval/simulation/camera/scope_lens.h: projection with lens distortion, and its inverse.
 #pragma once
 
 #include "core/camera.h"
@@ -14,7 +14,7 @@ struct ScopeLens {
   Eigen::Vector2d project(const Eigen::Vector3d& point_mm) const;
   /// What the pixel looks along, z = 1, in the camera's frame: project()'s inverse by Newton steps.
   Eigen::Vector3d ray(double u_px, double v_px) const;
-  /// Whether no two directions meet in one pixel, in the picture and a little around it.
+  /// Whether no two directions meet in one pixel, in the image and a little around it.
   bool invertible() const;
 };
 

@@ -1,4 +1,4 @@
-// eval/simulation/camera/sensor.h: from light to a picture, with what a real camera adds.
+// eval/simulation/camera/sensor.h: camera model: from light to an 8-bit image.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ struct SensorOptions {
   double exposureAt(double time_s) const;
 };
 
-/// `seed` decides the noise; no two pictures should share it.
+/// `seed` decides the noise; no two images should share it.
 ColourImage takePicture(const Raster<Eigen::Vector3f>& light, const SensorOptions& options,
                         double time_s, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// eval/simulation/camera/smoke.h: what burning leaves in the air between scope and tissue.
+// eval/simulation/camera/smoke.h: smoke between scope and tissue.
 #pragma once
 
 #include <Eigen/Core>

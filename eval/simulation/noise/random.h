@@ -1,4 +1,4 @@
-// eval/simulation/noise/random.h: chance that is the same on every machine.
+// eval/simulation/noise/random.h: random numbers that are the same on every machine.
 #pragma once
 
 #include <Eigen/Core>

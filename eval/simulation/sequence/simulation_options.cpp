@@ -21,7 +21,7 @@ void ScopeOptions::validate() const {
   require(cy_px < height_px, "scope.cy_px", cy_px,
           "must be below the height, or negative (middle)");
   require(lens().invertible(), "scope.k1", k1,
-          "so the lenses fold the picture over itself; bend it less");
+          "so the lenses fold the image over itself; bend it less");
 }
 
 RectifiedRig ScopeOptions::rig() const {

@@ -1,4 +1,4 @@
-// eval/simulation/sequence/simulation_options.h: everything that decides a simulated sequence.
+// eval/simulation/sequence/simulation_options.h: options of a simulated sequence.
 #pragma once
 
 #include "core/stereo_rig.h"
@@ -15,18 +15,18 @@
 
 namespace softscope {
 
-/// The cameras: parallel, one kind of lens; rows aligned but for what the calibration doesn't know.
+/// The cameras: parallel, one kind of lens; rows aligned except for calibration errors.
 struct ScopeOptions {
   int width_px = 640;
   int height_px = 480;
   double focal_px = 0;  // 0: 0.875 of the width, as wide as common laparoscopes
-  double cx_px = -1;    // negative: the middle of the picture
+  double cx_px = -1;    // negative: the middle of the image
   double cy_px = -1;
   double baseline_mm = 5.2;
-  // OpenCV's coefficients of both lenses; any of them: the pictures are not rectified, and all
-  // truth a pixel has lies on the left picture as it is.
+  // OpenCV's coefficients of both lenses; any of them: the images are not rectified, and all
+  // truth a pixel has lies on the left image as it is.
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
-  double row_error_px = 0;  // rows of the right picture lie lower by this than the calibration says
+  double row_error_px = 0;    // rows of the right image lie lower by this than the calibration says
   double roll_error_deg = 0;  // and it is turned by this
 
   /// Throws OptionError.
@@ -43,7 +43,7 @@ struct SimulationOptions {
   int seed = 1;
   double frames_per_second = 25;
   double texel_mm = 0;        // 0: three quarters of a pixel at the camera's distance
-  int track_spacing_px = 20;  // between neighbouring tracked points of the first picture
+  int track_spacing_px = 20;  // between neighbouring tracked points of the first image
   OrganOptions organ;
   TextureOptions texture;
   DeformationOptions deformation;

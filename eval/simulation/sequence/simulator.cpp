@@ -44,7 +44,7 @@ Eigen::Vector3d findTarget(const TriangleMesh& mesh, const CameraPathOptions& ca
   return (middle + (away_mm - hit.distance) * to_scope).cast<double>();
 }
 
-/// The scope's first picture: right, down, forward from the tissue in its middle.
+/// The scope's first image: right, down, forward from the tissue in its middle.
 Eigen::Isometry3d viewOf(const CameraPath& path, const Eigen::Vector3d& target_body_mm) {
   Eigen::Isometry3d body_from_view = path.bodyFromLeft(0);
   body_from_view.translation() = target_body_mm;
@@ -136,7 +136,7 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
   Raster<RayHit> hits = castCentres(first, lens_);
   const Mask hidden = instrumentMask(hits, instrumentAt(0), lens_);
   for (std::size_t i = 0; i < hits.size(); ++i)
-    if (hidden.values[i] != 0) hits.values[i] = {};  // nobody can point at what isn't seen
+    if (hidden.values[i] != 0) hits.values[i] = {};  // hidden: no track starts there
   track_points_ = chooseTrackPoints(hits, options.track_spacing_px);
 }
 

@@ -1,5 +1,5 @@
-// eval/simulation/sequence/simulator.h: what a stereo scope would see of living tissue, and the
-// truth.
+// eval/simulation/sequence/simulator.h: stereo images of deforming tissue from a simulated scope,
+// with ground truth.
 #pragma once
 
 #include <optional>

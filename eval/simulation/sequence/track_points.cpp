@@ -1,4 +1,4 @@
-// eval/simulation/sequence/track_points.cpp: barycentric coordinates are for ever.
+// eval/simulation/sequence/track_points.cpp: barycentric coordinates.
 #include "eval/simulation/sequence/track_points.h"
 
 namespace softscope {

@@ -1,4 +1,4 @@
-// eval/simulation/surface/ray_tree.h: what a ray meets first on a surface of triangles.
+// eval/simulation/surface/ray_tree.h: ray casting against a triangle mesh.
 #pragma once
 
 #include <Eigen/Core>

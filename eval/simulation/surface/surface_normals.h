@@ -1,4 +1,4 @@
-// eval/simulation/surface/surface_normals.h: which way a surface faces, vertex by vertex.
+// eval/simulation/surface/surface_normals.h: vertex normals.
 #pragma once
 
 #include <Eigen/Core>

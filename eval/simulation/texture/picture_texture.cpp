@@ -1,4 +1,4 @@
-// eval/simulation/texture/picture_texture.cpp: three mirrored projections of one averaged picture.
+// eval/simulation/texture/picture_texture.cpp: three mirrored projections of one averaged image.
 #include "eval/simulation/texture/picture_texture.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ PictureTexture::PictureTexture(const ColourImage& picture, double picture_mm, do
   mean_ = (sum / double(linear_.size())).cast<float>();
 }
 
-/// Between four pixels, from the picture's middle.
+/// Between four pixels, from the image's middle.
 Eigen::Vector3f PictureTexture::pixelAt(float right_mm, float down_mm) const {
   const auto width = float(linear_.width_px), height = float(linear_.height_px);
   const float x =
@@ -84,7 +84,7 @@ Eigen::Vector3f PictureTexture::at(const Eigen::Vector3f& rest_mm,
                                    const Eigen::Vector3f& normal) const {
   const Eigen::Vector3f p = view_from_body_ * rest_mm;
   Eigen::Array3f share = (view_from_body_.linear() * normal).array().abs();
-  share.z() = std::max(kFront * share.z(), 1e-3F);  // also where nothing says how it faces
+  share.z() = std::max(kFront * share.z(), 1e-3F);  // also where the normal is unknown
   share = share.square().square().square();
   share /= share.sum();
   Eigen::Vector3f colour = Eigen::Vector3f::Zero();

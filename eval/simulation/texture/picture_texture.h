@@ -1,4 +1,4 @@
-// eval/simulation/texture/picture_texture.h: a photograph, laid on tissue.
+// eval/simulation/texture/picture_texture.h: a photograph as texture of the tissue.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,20 +7,20 @@
 
 namespace softscope {
 
-/// The picture is projected along the scope's first viewing direction, its middle on the tissue
+/// The image is projected along the scope's first viewing direction, its middle on the tissue
 /// there, upright; where the surface is seen from its side, from the side instead, blended. Beyond
 /// its border it goes on mirrored, so there is no seam.
 class PictureTexture {
  public:
   /// `picture_mm`: its width on the tissue. `texel_mm`: no finer detail is asked for; a finer
-  /// picture is averaged. `body_from_view`: x right, y down, z forward, from where its middle lies.
+  /// image is averaged. `body_from_view`: x right, y down, z forward, from where its middle lies.
   PictureTexture(const ColourImage& picture, double picture_mm, double texel_mm,
                  const Eigen::Isometry3d& body_from_view);
 
   /// Linear red, green, blue at a place of the undeformed tissue that faces along `normal`.
   Eigen::Vector3f at(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& normal) const;
 
-  /// Of the whole picture.
+  /// Of the whole image.
   const Eigen::Vector3f& mean() const { return mean_; }
 
  private:

@@ -17,7 +17,7 @@ void describe(Visitor& v, VesselOptions& o) {
 
 template <class Visitor>
 void describe(Visitor& v, TextureOptions& o) {
-  v("texture.picture_mm", o.picture_mm, between(2, 2000), "width of the picture on the tissue");
+  v("texture.picture_mm", o.picture_mm, between(2, 2000), "width of the image on the tissue");
   v("texture.contrast", o.contrast, between(0, 2), "0: one colour, 1: healthy abdomen");
   v("texture.fat", o.fat, between(0, 1), "share of the surface under fat, roughly");
   v("texture.wetness", o.wetness, between(0, 5), "strength of specular highlights");

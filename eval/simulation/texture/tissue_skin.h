@@ -1,4 +1,4 @@
-// eval/simulation/texture/tissue_skin.h: the texture, painted once on each triangle that a camera
+// eval/simulation/texture/tissue_skin.h: texture atlas, painted for each triangle that a camera
 // sees.
 #pragma once
 

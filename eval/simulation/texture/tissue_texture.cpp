@@ -44,7 +44,7 @@ VesselOptions noVessels() {
 void TextureOptions::validate() const {
   requireAllowed(*this);
   require(picture.empty() || picture_mm <= picture.width_px, "texture.picture_mm", picture_mm,
-          "must be no more than the picture has pixels across: coarser ones than 1 mm are a blur");
+          "must be no more than the image has pixels across: coarser ones than 1 mm are a blur");
 }
 
 TissueTexture::TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions& options,
@@ -137,7 +137,7 @@ TissueTexture::Layer TissueTexture::procedural(const Eigen::Vector3f& warped_mm,
   return layer;
 }
 
-/// The picture shows no relief; bumps of our own break up the highlights.
+/// The image shows no relief; bumps of our own break up the highlights.
 TissueTexture::Layer TissueTexture::pictured(const Eigen::Vector3f& rest_mm,
                                              const Eigen::Vector3f& rest_normal) const {
   const float middle = fractalNoise(rest_mm / 3.2F, 3, seed_ + 2);

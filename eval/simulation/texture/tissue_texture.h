@@ -1,4 +1,4 @@
-// eval/simulation/texture/tissue_texture.h: what tissue looks like at each of its points.
+// eval/simulation/texture/tissue_texture.h: procedural colour of tissue at each surface point.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +34,7 @@ struct TissuePoint {
 };
 
 /// A solid texture: a function of the place in the undeformed tissue, so that it moves with it. A
-/// picture also asks which way the surface faces there.
+/// image also asks which way the surface faces there.
 class TissueTexture {
  public:
   /// `picture`: instead of procedural tissue.

@@ -1,4 +1,4 @@
-// eval/simulation/texture/vessel_map.h: which vessel lies at a place of the tissue.
+// eval/simulation/texture/vessel_map.h: look-up of the vessel at a surface point.
 #pragma once
 
 #include <vector>

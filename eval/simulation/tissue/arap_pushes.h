@@ -1,5 +1,5 @@
-// eval/simulation/tissue/arap_pushes.h: pushes that stay, spread through the tissue as rigidly as
-// possible.
+// eval/simulation/tissue/arap_pushes.h: persistent pushes, spread through the tissue as rigidly as
+// possible (ARAP).
 #pragma once
 
 #include <Eigen/SparseCholesky>

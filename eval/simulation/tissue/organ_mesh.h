@@ -1,4 +1,4 @@
-// eval/simulation/tissue/organ_mesh.h: an organ of nobody's, for simulations that need no patient.
+// eval/simulation/tissue/organ_mesh.h: procedural organ mesh.
 #pragma once
 
 #include <cstdint>

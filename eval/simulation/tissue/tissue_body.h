@@ -1,5 +1,5 @@
-// eval/simulation/tissue/tissue_body.h: the organ as it is simulated: its skin, and the walls of a
-// wound.
+// eval/simulation/tissue/tissue_body.h: the simulated organ: the surface of the tissue and the
+// walls of a wound.
 #pragma once
 
 #include <Eigen/Core>

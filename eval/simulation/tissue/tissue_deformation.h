@@ -1,4 +1,4 @@
-// eval/simulation/tissue/tissue_deformation.h: tissue that breathes, beats and is pushed.
+// eval/simulation/tissue/tissue_deformation.h: breathing, heartbeat and pushes.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// eval/simulation/view/scope_shading.h: how wet tissue looks under the scope's own light.
+// eval/simulation/view/scope_shading.h: shading of wet tissue under the scope's light.
 #pragma once
 
 #include <Eigen/Core>

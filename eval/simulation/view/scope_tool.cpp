@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-constexpr float kShaft_mm = 120;  // long enough to leave any picture
+constexpr float kShaft_mm = 120;  // long enough to leave any image
 
 /// A ray against a ball of radius r around c; the nearer side.
 std::optional<float> meetBall(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,

@@ -14,8 +14,8 @@ namespace softscope {
 
 struct ScopeToolOptions {
   double radius_mm = 0;     // of the shaft; 0: no instrument
-  double side_deg = 205;    // where it comes from in the picture: 0 right, 90 below, 180 left
-  double reach = 0.25;      // its tip, from the picture's middle (0) to the border (1)
+  double side_deg = 205;    // where it comes from in the image: 0 right, 90 below, 180 left
+  double reach = 0.25;      // its tip, from the image's middle (0) to the border (1)
   double height_mm = 8;     // of the tip above the tissue that the scope looks at
   double amplitude_mm = 4;  // it moves to and fro along its shaft
   double period_s = 2.5;
@@ -39,7 +39,7 @@ struct ToolHit {
 /// Shaft and two jaws at one moment, in the left camera's frame.
 class ScopeTool {
  public:
-  /// The tissue in the middle of the picture is `distance_mm` away.
+  /// The tissue in the middle of the image is `distance_mm` away.
   ScopeTool(const ScopeToolOptions& options, const PinholeCamera& left, double distance_mm,
             double time_s);
 

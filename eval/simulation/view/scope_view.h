@@ -1,5 +1,5 @@
-// eval/simulation/view/scope_view.h: what one camera of the scope sees of the tissue, by ray
-// casting.
+// eval/simulation/view/scope_view.h: image of one camera of the scope, rendered by ray casting of
+// the tissue.
 #pragma once
 
 #include <vector>

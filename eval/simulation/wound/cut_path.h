@@ -1,4 +1,4 @@
-// eval/simulation/wound/cut_path.h: a straight line over a surface, as edges of it.
+// eval/simulation/wound/cut_path.h: a straight line over a surface, as edges of the mesh.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// eval/simulation/wound/gape_field.h: how the skin beside a wound follows its lips.
+// eval/simulation/wound/gape_field.h: displacement of the surface beside an opening wound.
 #pragma once
 
 #include <Eigen/Core>
