@@ -110,7 +110,7 @@ struct ComparisonFrameLayout {
   std::size_t totals_bytes = 0;
 };
 
-/// The model's points, and what the frame says of each.
+/// The model's points, and the comparison of each with the frame.
 struct ComparisonModelLayout {
   ComparisonModelLayout() = default;
   ComparisonModelLayout(Arena& arena, std::size_t points) {

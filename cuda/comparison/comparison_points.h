@@ -97,7 +97,7 @@ SOFTSCOPE_HD inline bool isCarried(const PointBinding& binding,
   return binding.stencil != PointBinding::kUnbound && binding.stencil < graph.stencil_count;
 }
 
-/// What seen points are asked for.
+/// Inputs of the visible points.
 struct SeenQuestions {
   bool gain = false, anchors = false, innovation = false;
   ColourOptions colour;
@@ -105,7 +105,7 @@ struct SeenQuestions {
   float reference_mm = 0, largest_weight = 0;
 };
 
-/// After HideKernel, a thread per point: what seen points say of gain, anchors and innovation.
+/// After HideKernel, a thread per point: gain, anchors and innovation of visible points.
 struct SeenKernel {
   static constexpr int kThreads = 256, kPhases = 3;
   struct Shared {

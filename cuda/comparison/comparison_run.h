@@ -167,7 +167,7 @@ class ComparisonRun final : public FrameComparer {
     graph_ = ComparisonGraphLayout(arena, graph.size(), graph.stencils.size());
     send(graph_.stencils, graph.stencils);
   }
-  /// Twice the points at a time, so that a growing model seldom asks for memory.
+  /// Twice the points at a time, so that a growing model rarely reallocates.
   void reserveModel(std::size_t points) {
     if (points <= capacity_) return;
     capacity_ = capacity_ == 0 ? points : 2 * points;

@@ -17,10 +17,10 @@ struct Device {
   std::string problem;  // why this build's kernels don't run on it; empty: they do
 };
 
-/// What CUDA says about this machine.
+/// CUDA's facts about this machine.
 struct DeviceInfo {
   std::string runtime_version;  // of the toolkit softscope was built with: "13.0"; empty: CPU only
-  std::string driver_version;   // newest CUDA that the driver speaks; empty: there is no driver
+  std::string driver_version;   // newest CUDA that the driver supports; empty: no driver
   std::vector<Device> devices;
   std::string why_none;  // one line, empty if there are devices
 };

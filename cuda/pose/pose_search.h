@@ -208,14 +208,14 @@ struct SearchPoseKernel {
   }
 };
 
-/// What a pair says, kept for the sums of regions.
+/// Contribution of a pair, kept for the sums of regions.
 struct PairSaying {
   double gain, score[6];
   std::int32_t region;   // below 0: not seen from the best pose
   std::int32_t is_both;  // seen from the old one, too
 };
 
-/// A block per kind of places: three medians, then what regions say.
+/// A block per kind of places: three medians, then the sums of regions.
 struct JudgePoseKernel {
   static constexpr int kThreads = kPoseThreads;
   static constexpr int kSumStep = PoseMedian::kSteps, kEnd = kSumStep + PoseSums<1>::kSteps;

@@ -85,7 +85,7 @@ struct PriorRowKernel {
 };
 
 /// A thread: one column of one view, from above or from below, each row taking over what the row
-/// before it says where its points are nearer.
+/// before it where its points are nearer.
 struct PriorSweepKernel {
   static constexpr int kThreads = 32, kPhases = 1, kAhead = 12;
   using Shared = Nothing;

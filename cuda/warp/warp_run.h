@@ -151,7 +151,7 @@ class WarpRun final : public WarpDevice {
 
   NodeTransform* accepted() const { return graph_.transforms[accepted_]; }
   NodeTransform* trial() const { return graph_.transforms[1 - accepted_]; }
-  /// Half as much again, so that a growing graph seldom asks for memory.
+  /// Half as much again, so that a growing graph rarely reallocates.
   void reserve(std::size_t bytes, Memory* memory) {
     if (memory->bytes() >= bytes) return;
     *memory = Memory();
