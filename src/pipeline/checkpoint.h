@@ -1,4 +1,4 @@
-// src/pipeline/checkpoint.h: a run's state as bytes, so that it can go on after a stop.
+// src/pipeline/checkpoint.h: serialisation of a run's state, for resuming.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// src/pipeline/cpu_backend.h: every stage on the processor's cores.
+// src/pipeline/cpu_backend.h: all stages on the CPU.
 #pragma once
 
 #include <functional>

@@ -75,7 +75,7 @@ class CudaMatchStage final : public MatchStage {
 ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                                    const GrayImage& seen_gray, const MatchPicture& live,
                                    const MeasuredFrame& frame, StageClock* clock) {
-  // Twice the points at a time, so that a growing model seldom asks for memory.
+  // Twice the points at a time, so that a growing model rarely reallocates.
   if (model.size() > capacity_) reserve(2 * model.size());
   device_->setModel(model);
   device_->setLive(live, frame.depth);

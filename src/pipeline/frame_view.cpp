@@ -19,7 +19,7 @@ constexpr double kNearMmPerPx = 2.5;
 /// Limits in mm are those of near tissue and grow with what a pixel of disparity is worth. Fusion
 /// compares a depth with the typical one of its frame: where all depths are worse, because the
 /// tissue is far or the images are poor, they still make a model. The warp does not: tissue far
-/// away bends no further than near tissue, so unsure depth bends it less.
+/// away bends no further than near tissue, so depth with a large sigma bends it less.
 void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
   view->association = options.deform.association;
   view->fusion = options.fusion;
@@ -85,7 +85,7 @@ FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
   parallelInvoke([&] { view.live = livePicture(view.measured, view.not_tissue); },
                  [&] { view.summary = summarise(view.measured, view.not_tissue, rig); });
   scaleOptions(options, &view);
-  // How sure a pixel is does not depend on where the camera stands.
+  // The state of a pixel does not depend on the camera's pose.
   view.states = judgePixels({view.measured.depth, view.measured.normals, view.measured.left,
                              view.not_tissue, rig.left, Eigen::Isometry3d::Identity()},
                             view.fusion.pixels);

@@ -1,4 +1,4 @@
-// src/pipeline/graph_ahead.h: growth of the node graph beside stages that don't need it.
+// src/pipeline/graph_ahead.h: growth of the node graph in parallel to stages that do not need it.
 #pragma once
 
 #include <future>
@@ -20,7 +20,7 @@ class GraphAhead {
                DeformSolver* solver);
   /// Takes over what was begun for this model and graph, or grows them now.
   void grow(const GraphOptions& options, PointModel* model, WarpGraph* graph);
-  /// Waits for what was begun and forgets it.
+  /// Waits for the work in progress and discards it.
   void drop();
 
  private:

@@ -122,7 +122,7 @@ class TrackedNear {
   std::vector<std::int32_t> next_;
 };
 
-/// What the model says around one tracked point.
+/// The model around one tracked point.
 struct SurfacePiece {
   double weight = 0, height_mm = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

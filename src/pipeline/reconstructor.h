@@ -31,7 +31,7 @@ class Reconstructor {
   Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
                 const ReconstructionOptions& options);
 
-  /// One frame, from pictures to the updated model. A frame that isn't good enough leaves the
+  /// One frame, from images to the updated model. A frame that isn't good enough leaves the
   /// model as it was; the record says why. `next` and `after`: the two frames after it, where they
   /// are known already, so that their depth may begin meanwhile; each must live until it is
   /// processed itself, or the frame that takes its place. The model doesn't depend on them.
@@ -67,9 +67,9 @@ class Reconstructor {
 
   std::unique_ptr<ReconstructionBackend> backend_;
   GateOptions gate_;
-  bool matching_;  // false: nothing tells where the scope is, so it is taken to stand still
+  bool matching_;  // false: the scope is taken as static
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last sure motion
+  Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last reliable motion
   std::vector<Eigen::Isometry3d> key_views_;
   bool lost_ = false;
   int unfused_frames_ = 0;  // since the last one that was fused

@@ -1,4 +1,4 @@
-// src/deform/cholesky/block_cholesky.h: solves the normal equations exactly.
+// src/deform/cholesky/block_cholesky.h: sparse block Cholesky solver of the normal equations.
 #pragma once
 
 #include <Eigen/Core>

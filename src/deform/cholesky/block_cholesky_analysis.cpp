@@ -1,5 +1,4 @@
-// src/deform/cholesky/block_cholesky_analysis.cpp: where everything will lie, before any number is
-// known.
+// src/deform/cholesky/block_cholesky_analysis.cpp: symbolic analysis: memory layout of the factor.
 #include <algorithm>
 #include <cmath>
 
@@ -102,7 +101,7 @@ BlockCholesky::Deal BlockCholesky::deal(const std::vector<int>& subtrees) const 
   return dealt;
 }
 
-/// A front's update lives until its parent has added it. Updates of even and odd depth lie in two
+/// A front's update is kept until its parent has added it. Updates of even and odd depth lie in two
 /// pools, each used like a stack: when a front is eliminated its children lie in the other pool and
 /// its grandchildren are gone, so nothing has to move. What may run at the same time lies apart.
 BlockCholesky::PoolTops BlockCholesky::placeUpdates(const Deal& dealt, PoolTops base, int depth) {

@@ -1,4 +1,4 @@
-// src/deform/cholesky/block_cholesky_solve.cpp: forward and backward through the factor.
+// src/deform/cholesky/block_cholesky_solve.cpp: forward and backward substitution.
 #include <algorithm>
 
 #include "core/error.h"

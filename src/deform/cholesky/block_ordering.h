@@ -1,5 +1,5 @@
-// src/deform/cholesky/block_ordering.h: in which order the nodes are eliminated, so that little
-// fills in.
+// src/deform/cholesky/block_ordering.h: fill-reducing order in which the nodes of the graph are
+// eliminated.
 #pragma once
 
 #include <vector>

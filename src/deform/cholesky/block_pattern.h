@@ -1,4 +1,4 @@
-// src/deform/cholesky/block_pattern.h: which pairs of nodes meet in the normal equations.
+// src/deform/cholesky/block_pattern.h: block sparsity pattern of the normal equations.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// src/deform/cholesky/elimination_tree.h: what the Cholesky factor will look like, before any
-// number is known.
+// src/deform/cholesky/elimination_tree.h: elimination tree and structure of the Cholesky factor, by
+// symbolic analysis.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// src/deform/cholesky/front_tables.h: graph, sums and fronts as flat arrays, as a device takes
-// them.
+// src/deform/cholesky/front_tables.h: graph, sums and fronts as flat arrays, in the layout that a
+// device reads.
 #pragma once
 
 #include <cstddef>

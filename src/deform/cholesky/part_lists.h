@@ -1,4 +1,4 @@
-// src/deform/cholesky/part_lists.h: which parts of stencils, edges and nodes add up to which block.
+// src/deform/cholesky/part_lists.h: which stencils, edges and nodes are summed into each block.
 #pragma once
 
 #include <vector>

@@ -87,7 +87,7 @@ bool usable(const PointModel& model, const WarpGraph& graph, const KeyPointMatch
          match.target_mm.allFinite() && match.sqrt_information.allFinite();
 }
 
-/// What one thread needs to ask for the targets of one stencil's candidates.
+/// Buffers of one thread for the targets of one stencil's candidates.
 struct Inquiry {
   std::vector<Eigen::Vector3f> warped_mm, warped_normals;
   std::vector<PlaneTarget> targets;

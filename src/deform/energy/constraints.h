@@ -1,4 +1,4 @@
-// src/deform/energy/constraints.h: everything that pulls the model in one frame, sorted by stencil.
+// src/deform/energy/constraints.h: point and match constraints of one frame, sorted by stencil.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ struct KeyPointMatch {
   std::int32_t model_point = 0;  // a bound point at the source: its nodes carry the match
   Eigen::Vector3f source_mm;     // on the model, before the warp
   Eigen::Vector3f target_mm;     // where it was measured
-  /// Whitens the residual; identity: every direction is equally sure, to the reference.
+  /// Whitens the residual; identity: reference sigma in every direction.
   Eigen::Matrix3f sqrt_information = Eigen::Matrix3f::Identity();
 };
 
@@ -77,7 +77,7 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
 /// Counts rows and points anew.
 void listActive(ConstraintSet* constraints);
 
-/// Warps the candidates by the graph's transforms and asks the surface (nullptr: nothing) for
+/// Warps the candidates by the graph's transforms and takes from the surface (nullptr: none)
 /// their targets; replaces the rows of points.
 void associate(const WarpGraph& graph, const CandidatePoints& candidates,
                const SurfaceTarget* surface, double data_weight, ConstraintSet* constraints);

@@ -1,4 +1,4 @@
-// src/deform/energy/energy.h: how badly a warp fits: docs/energy.md (4).
+// src/deform/energy/energy.h: value of the energy of a warp: docs/energy.md (4).
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// src/deform/energy/graph_facts.h: what the solver must know of a graph before and after it works.
+// src/deform/energy/graph_facts.h: structure and validity of a graph, before and after a solve.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// src/deform/energy/node_sight.h: tissue in sight bends as it is seen to, hidden tissue keeps its
-// shape and place.
+// src/deform/energy/node_sight.h: visibility of nodes: stiffness of visible tissue, rest position
+// of hidden tissue.
 #pragma once
 
 #include "core/point_model.h"

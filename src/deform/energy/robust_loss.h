@@ -1,4 +1,4 @@
-// src/deform/energy/robust_loss.h: what a residual costs, and how far it is believed.
+// src/deform/energy/robust_loss.h: robust loss of a residual and its weight.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// src/deform/energy/surface_target.h: where the live surface wants a warped model point to be.
+// src/deform/energy/surface_target.h: target plane of each warped model point.
 #pragma once
 
 #include <Eigen/Core>

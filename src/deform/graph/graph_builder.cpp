@@ -196,7 +196,7 @@ class Growth {
     return moved;
   }
 
-  /// In the order of the points: as the picture was read, row by row.
+  /// In the order of the points: as the image was read, row by row.
   void addNodes() {
     graph_.moved_mm.resize(graph_.size(), Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -1,4 +1,4 @@
-// src/deform/graph/graph_builder.h: lays nodes over the model and ties points to them.
+// src/deform/graph/graph_builder.h: nodes placed over the model, and binding of points to them.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// src/deform/graph/graph_edges.h: which nodes want to move alike.
+// src/deform/graph/graph_edges.h: edges between neighbouring nodes, and their weights.
 #pragma once
 
 #include <vector>

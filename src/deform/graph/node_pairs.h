@@ -1,4 +1,4 @@
-// src/deform/graph/node_pairs.h: pairs of nodes in order, each once.
+// src/deform/graph/node_pairs.h: sorted, unique pairs of nodes.
 #pragma once
 
 #include <cstdint>

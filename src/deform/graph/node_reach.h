@@ -1,4 +1,4 @@
-// src/deform/graph/node_reach.h: which nodes a short walk along the surface leads to.
+// src/deform/graph/node_reach.h: nodes within a geodesic distance along the surface.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// src/deform/graph/shape_memory.h: the shape that edges of the node graph had in the last frames.
+// src/deform/graph/shape_memory.h: mean shape of the graph's edges over the last frames.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// src/deform/graph/surface_cells.h: the model's surface as small cubes, to walk along it.
+// src/deform/graph/surface_cells.h: voxel grid of the model's surface, for geodesic distances.
 #pragma once
 
 #include <Eigen/Core>

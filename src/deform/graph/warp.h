@@ -1,4 +1,4 @@
-// src/deform/graph/warp.h: carries points and normals from the last frame to the live one.
+// src/deform/graph/warp.h: warping of points and normals from the last frame to the current one.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// The nodes' transforms as the warping loops want them.
+/// The nodes' transforms in the layout of the warping loops.
 std::vector<PackedNode> packNodes(const WarpGraph& graph);
 
 /// Warps `count` points and unit normals by docs/energy.md (2), (24). Unbound points stay.
@@ -22,7 +22,7 @@ void warpRange(const std::vector<PackedNode>& nodes, const std::vector<NodeStenc
 /// Warps all points and normals of the model in place, on all cores.
 void warpModel(const WarpGraph& graph, PointModel* model);
 
-/// One point, mm, by the binding that carries it: docs/energy.md (2). The slow, exact twin of
+/// One point, mm, by the binding that carries it: docs/energy.md (2). The slow, exact version of
 /// warpRange(), for tracked points.
 Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,
                           const Eigen::Vector3d& point_mm);

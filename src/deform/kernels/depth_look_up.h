@@ -13,7 +13,7 @@ namespace softscope {
 struct PlaneTarget {
   Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  float reliability = 0;  // weighs the squared residual; 0: the surface says nothing here
+  float reliability = 0;  // weight of the squared residual; 0: no target here
 };
 
 /// Projective association with a depth map: docs/energy.md (8) to (11). Owns nothing.

@@ -1,4 +1,4 @@
-// src/deform/kernels/node_terms.h: what a node may do, and the terms that hold nodes together.
+// src/deform/kernels/node_terms.h: unknowns of a node, and its rotation and rest terms.
 //
 // Eigen of fixed size only, so that the GPU compiles it too.
 #pragma once

@@ -1,4 +1,4 @@
-// src/deform/options/deform_options.h: how the tissue may bend, and how hard we look for the bend.
+// src/deform/options/deform_options.h: weights of the energy and limits of the solver.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ struct GraphOptions {
 struct AssociationOptions {
   double max_distance_mm = 5.0;                 // epsilon_d
   static constexpr double kMaxAngleDeg = 45.0;  // epsilon_n
-  double reference_sigma_mm = 0.15;  // depth this sure weighs 1, others by inverse variance;
+  double reference_sigma_mm = 0.15;  // depth of this sigma weighs 1, others by inverse variance;
                                      // 0: all depths weigh 1
   static constexpr double kMaxReliability = 4.0;  // no depth weighs more than this
   int max_points = 0;  // use an even subset, each standing for many; 0 = all
@@ -48,7 +48,7 @@ struct RobustOptions {
 struct SolverOptions {
   int max_iterations = 8;  // linear systems solved and accepted, over all associations
   static constexpr int kIterationsPerAssociation = 1;
-  static constexpr int kMaxRejections = 8;  // in a row, before we say that there is no better step
+  static constexpr int kMaxRejections = 8;         // in a row, before the solver stops
   static constexpr double kInitialDamping = 1e-7;  // lambda, relative to the block diagonal
   static constexpr double kDiagonalFloor = 1e-10;  // added, relative to its largest entry
   static constexpr double kMinDamping = 1e-10;
@@ -57,7 +57,7 @@ struct SolverOptions {
   double cost_tolerance = 1e-3;     // or when a step lowers the cost by less than this share
 };
 
-/// The energy's weights and everything else that stage 6 may be told. The defaults were found on a
+/// Weights of the energy and all other options of stage 6. The defaults were found on a
 /// simulated sequence with noise (docs/energy.md, "Which weights"), for 0.2 mm between points:
 /// E_data grows with their number.
 struct DeformOptions {
@@ -65,7 +65,7 @@ struct DeformOptions {
   double rotation_weight = 40.0;        // w_rot; has no effect on rigid nodes
   double regularisation_weight = 30.0;  // w_reg
   double seen_stiffness = 0.2;          // of it, between nodes whose every point is in sight
-  double shape_memory = 0.2;            // share of the remembered shape in what edges expect
+  double shape_memory = 0.2;            // share of the remembered shape in the expected one
   double rest_weight = 0.01;            // w_rest, for what hides
   double data_weight = 3.0;             // w_data
   double correspondence_weight = 60.0;  // w_corr

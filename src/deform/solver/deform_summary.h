@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// What a frame says about the tissue. World frame, mm; everything is the caller's.
+/// Observation of a frame. World frame, mm; refers to the caller's data.
 struct DeformObservation {
   const SurfaceTarget* surface = nullptr;     // the live surface; nullptr = matches alone
   const std::vector<int>* visible = nullptr;  // model points that it may pull; nullptr = all

@@ -1,4 +1,4 @@
-// src/deform/solver/lm_solver.h: finds the warp that explains a frame.
+// src/deform/solver/lm_solver.h: Levenberg-Marquardt solver of the warp of one frame.
 #pragma once
 
 #include <memory>
