@@ -1,4 +1,4 @@
-// apps/all_commands.cpp: what softscope can do.
+// apps/all_commands.cpp: list of commands.
 #include "apps/command.h"
 
 namespace softscope {

@@ -1,4 +1,4 @@
-// apps/argument_list.h: what a command accepts, without a word of how it is parsed.
+// apps/argument_list.h: declaration of a command's arguments, independent of the parser.
 #pragma once
 
 #include <string>

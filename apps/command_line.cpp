@@ -1,4 +1,4 @@
-// apps/command_line.cpp: CLI11's only home; it splits the line, we judge it.
+// apps/command_line.cpp: parsing with CLI11, and our checks.
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
@@ -72,7 +72,8 @@ void parseArguments(Command& command, const ArgumentList& arguments,
   app.allow_extras();
   addTo(app, arguments);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants the end first
+    app.parse(
+        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them in reverse
   } catch (const CLI::ArgumentMismatch& error) {
     fail(command, error.what());
   }

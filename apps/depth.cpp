@@ -21,14 +21,14 @@ const char* const kDetails =
     "  depth.pfm, depth.png           mm along the optical axis; png 16 bits, 0.01 mm a step\n"
     "  confidence.png                 255 x probability that the error is below 0.5 px\n"
     "  cloud.ply                      points with normals and colours, mm\n"
-    "  picture.png                    the depth beside the left picture, with its scale\n"
+    "  picture.png                    the depth beside the left image, with its scale\n"
     "  summary.json                   coverage, percentiles, row alignment, times, options\n"
     "Of several frames only depth.png and summary.json are written unless --write asks for more.\n"
     "Rasters are those of the rectified left camera. Raw pairs are rectified first.\n"
     "--write disparity,confidence needs no calibration: two images or folders are then taken to "
     "be\n"
     "rectified.\n"
-    "LEFT alone may be a sequence folder, or a picture or video that holds both views\n"
+    "LEFT alone may be a sequence folder, or an image or video that holds both views\n"
     "(side by side, top and bottom, interlaced). Settings: stereo.*, sequence.*, calibration.*,\n"
     "depth.source, depth.align_rows; a wrong key is answered with the nearest one. A learned "
     "stereo\n"
@@ -60,15 +60,15 @@ class DepthCommand : public Command {
 };
 
 void DepthCommand::declare(ArgumentList& arguments) {
-  arguments.positional("LEFT", source_.left,
-                       "left picture, folder of pictures or video; or a sequence", true);
-  arguments.positional("RIGHT", source_.right, "right picture, folder or video; not for a sequence",
+  arguments.positional("LEFT", source_.left, "left image, folder of images or video; or a sequence",
+                       true);
+  arguments.positional("RIGHT", source_.right, "right image, folder or video; not for a sequence",
                        false);
   arguments.option("--out", "DIR", out_, "folder for the results", true);
   source_.declareOptions(arguments);
   arguments.option("--frame", "NAME", frame_,
                    "frame of the point cloud: left (rectified, the default) or raw-left");
-  arguments.option("--range", "A:B", range_text_, "mm that the picture's colour bar spans");
+  arguments.option("--range", "A:B", range_text_, "mm that the image's colour bar spans");
   arguments.option("--backend", "NAME", backend_, "auto (the default), cpu or cuda");
   arguments.option("--write", "LIST", write_,
                    "some of disparity,depth,confidence,cloud,picture (default: all of a pair, "

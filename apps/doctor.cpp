@@ -1,4 +1,4 @@
-// apps/doctor.cpp: is everything there that softscope needs, and what to do where it isn't?
+// apps/doctor.cpp: `softscope doctor`: check of the installation.
 #include <algorithm>
 #include <iostream>
 
@@ -99,7 +99,7 @@ Finding examineRendering(Json& json) {
                        {"first_frame_ms", check.first_frame_ms},
                        {"problem", check.problem}};
   return {"rendering", check.works,
-          check.works ? check.renderer + ", first picture " + fixed(check.first_frame_ms, 0) + " ms"
+          check.works ? check.renderer + ", first image " + fixed(check.first_frame_ms, 0) + " ms"
                       : "nothing draws on this machine",
           check.problem};
 }
@@ -121,7 +121,7 @@ class DoctorCommand : public Command {
     return "checks versions, processor, CUDA, rendering and fonts";
   }
   std::string details() const override {
-    return "Draws a small picture off screen and reads its pixels back. Exit code 4 where nothing\n"
+    return "Draws a small image off screen and reads its pixels back. Exit code 4 where nothing\n"
            "on this machine draws; every other lack is a warning that says what to do.";
   }
   std::string example() const override { return "softscope doctor --json"; }

@@ -25,7 +25,7 @@ const char* const kDetails =
     "into observed and predicted points, signed distance, completeness, three HD95 by name, drift\n"
     "and jitter; tracks beside the no-motion control; the scope's path (ATE, RPE); the model "
     "drawn\n"
-    "from the run's pose beside true depth and picture (PSNR, SSIM).\n"
+    "from the run's pose beside true depth and image (PSNR, SSIM).\n"
     "Against a mesh (STL, PLY, OBJ; a CT's, say) the last model, or each one, is compared.\n"
     "Of a sequence without groundtruth/ it gives what needs no truth: PSNR and SSIM of the drawn\n"
     "model, back-projection, coverage, steps and jitter of the scope; and says what is missing.\n"

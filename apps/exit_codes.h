@@ -1,4 +1,4 @@
-// apps/exit_codes.h: what the shell is told; scripts rely on these numbers.
+// apps/exit_codes.h: exit codes; scripts rely on these numbers.
 #pragma once
 
 namespace softscope {

@@ -23,7 +23,7 @@ const char* const kDetails =
     "  .pvd         all saved models of a run, a .vtp each in the folder beside it, for ParaView\n"
     "  .dcm         by MODEL: a PDF becomes an Encapsulated PDF, the .html of `softscope report` "
     "a\n"
-    "               Structured Report (TID 1500) with each of its numbers, a picture a Secondary\n"
+    "               Structured Report (TID 1500) with each of its numbers, an image a Secondary\n"
     "               Capture, a model an Encapsulated STL; needs dcmtk. The patient's name and ID\n"
     "               are empty unless --patient-name and --patient-id are given.\n"
     "docs/export.md tells how the surface is made and what each format keeps.";
@@ -50,7 +50,7 @@ class ExportCommand : public Command {
 
 void ExportCommand::declare(ArgumentList& arguments) {
   arguments.positional("MODEL", request_.input,
-                       "a run, points or a mesh; for .dcm also a report or a picture", true);
+                       "a run, points or a mesh; for .dcm also a report or an image", true);
   arguments.option("--out", "FILE", request_.out, "what to write; its ending is the format", true);
   arguments.option("--frame", "N", request_.frame,
                    "of a run: the model that was saved at this frame");

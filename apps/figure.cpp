@@ -1,4 +1,4 @@
-// apps/figure.cpp: `softscope figure`: axial, coronal, sagittal and 3-D in one picture.
+// apps/figure.cpp: `softscope figure`: axial, coronal, sagittal and 3-D in one image.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const char* const kDetails =
     "sees them at the last frame that has both, or at --frame.\n"
     "Of whole runs: --kind frames shows the model at some frames, --kind series its error maps\n"
     "over time with the series of all frames, --kind compare two runs side by side, --kind\n"
-    "matches what dense SURF and SIFT find of the model in a new picture.\n"
+    "matches what dense SURF and SIFT find of the model in a new image.\n"
     "Beside the figure lies a JSON file with inputs, hashes, views, range and counts. The same\n"
     "inputs give the same bytes. Research use only.";
 

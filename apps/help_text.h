@@ -1,4 +1,4 @@
-// apps/help_text.h: what --help prints.
+// apps/help_text.h: text of --help.
 #pragma once
 
 #include <memory>

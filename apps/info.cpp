@@ -1,4 +1,4 @@
-// apps/info.cpp: `softscope info`: what is this file, and is it plausible?
+// apps/info.cpp: `softscope info`: content and plausibility of a file.
 #include <filesystem>
 
 #include "apps/command.h"
@@ -55,7 +55,7 @@ class InfoCommand : public Command {
  public:
   std::string name() const override { return "info"; }
   std::string summary() const override {
-    return "what a sequence, picture, mesh, volume, calibration or settings file holds";
+    return "what a sequence, image, mesh, volume, calibration or settings file holds";
   }
   std::string details() const override {
     return "Tells size, units, geometry, what is implausible and what is missing.";
@@ -115,7 +115,7 @@ class InfoCommand : public Command {
       return describeCalibration(path_);
     throw InputError(
         path_ +
-        ": unknown kind of file. Accepted: a sequence folder; pictures (png, jpg, "
+        ": unknown kind of file. Accepted: a sequence folder; images (png, jpg, "
         "bmp, tif, pgm, ppm), pfm, videos; meshes (ply, stl, obj); volumes (nii, nii.gz, "
         "nrrd, mha, DICOM); calibrations (yaml, xml, json, txt, ini, npy); settings (toml)");
   }

@@ -1,4 +1,4 @@
-// apps/interrupt.cpp: a signal handler may touch one flag, and that flag must be global.
+// apps/interrupt.cpp: signal handler with one global flag.
 #include "apps/interrupt.h"
 
 #include <csignal>

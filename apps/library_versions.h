@@ -1,4 +1,4 @@
-// apps/library_versions.h: what softscope stands on.
+// apps/library_versions.h: versions of the libraries.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// apps/log.h: how loud stderr is.
+// apps/log.h: log level of stderr.
 #pragma once
 
 #include "apps/common_options.h"

@@ -86,7 +86,7 @@ int runProgram(const std::vector<std::string>& words) {
     spdlog::error("{}", tell(error));
     return kInput;
   } catch (const std::bad_alloc&) {
-    spdlog::error("out of memory. Smaller pictures or fewer threads need less");
+    spdlog::error("out of memory. Smaller images or fewer threads need less");
     return kBug;
   } catch (const std::exception& error) {
     spdlog::error("unexpected: {}. Please report this with the command line", error.what());

@@ -1,4 +1,4 @@
-// apps/progress_bar.h: how far the work is, how fast, how long still.
+// apps/progress_bar.h: progress, speed and remaining time.
 #pragma once
 
 #include <chrono>

@@ -17,7 +17,7 @@ const char* const kDetails =
     "models/NNNNNN.ply and .vtp with models.pvd for ParaView, trajectory.txt (TUM lines,\n"
     "world_from_left), frames.csv (what became of each frame), tracks.csv (with --track), "
     "run.json.\n"
-    "A sequence is a folder with left/ and right/ pictures or videos and calibration.yaml;\n"
+    "A sequence is a folder with left/ and right/ images or videos and calibration.yaml;\n"
     "two videos and a calibration do as well: see the second example.\n"
     "A frame that isn't good enough is skipped and reported, never fused. Ctrl-C ends the run\n"
     "cleanly; --resume goes on from there, with the same result as if it had not been stopped.\n"
@@ -63,7 +63,7 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
   arguments.option("--hold-out", "N", hold_out_,
                    "leave frames 1, N+1, 2N+1, … out; `evaluate` draws the model for each");
   arguments.option("--track", "FILE", track_,
-                   "follow pixels of the first left picture: CSV id,u_px,v_px");
+                   "follow pixels of the first left image: CSV id,u_px,v_px");
   arguments.option("--backend", "NAME", options_.backend, "auto (the default), cpu or cuda");
   arguments.option("--preset", "NAME", preset_, "default, or paper: the paper's nodes and weights");
   arguments.option("--matcher", "NAME", matcher_, "dense-surf (the default), sift or surf-off");

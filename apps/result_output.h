@@ -1,4 +1,4 @@
-// apps/result_output.h: stdout carries results and nothing else.
+// apps/result_output.h: results on stdout, as JSON or lines.
 #pragma once
 
 #include <string>

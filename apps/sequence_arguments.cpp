@@ -10,7 +10,7 @@ namespace softscope {
 void SequenceArguments::declareOptions(ArgumentList& arguments) {
   arguments.option("--calibration", "FILE", calibration,
                    "calibration; a sequence folder has its own");
-  arguments.option("--mask", "PATH", mask, "picture or folder; non-zero pixels are ignored");
+  arguments.option("--mask", "PATH", mask, "image or folder; non-zero pixels are ignored");
   arguments.option("--frames", "A:B:STEP", frames,
                    "frames A up to, not with, B, every STEP-th of them; each may be left out");
 }

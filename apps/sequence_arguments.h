@@ -1,4 +1,4 @@
-// apps/sequence_arguments.h: which pictures a command works on.
+// apps/sequence_arguments.h: arguments that name a sequence.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-/// A sequence folder, or two pictures, folders or videos with their calibration, or one video that
+/// A sequence folder, or two images, folders or videos with their calibration, or one video that
 /// holds both views. `left` and `right` are the command's own positional arguments.
 struct SequenceArguments {
   std::string left, right, calibration, mask, frames;

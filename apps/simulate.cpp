@@ -59,7 +59,7 @@ void SimulateCommand::declare(ArgumentList& arguments) {
   arguments.option("--texture", "PICTURE", texture_,
                    "photograph of tissue (PNG, JPEG, TIFF …); left out: procedural tissue");
   arguments.option("--frames", "N", frames_, "how many (default 40)");
-  arguments.option("--size", "WxH", size_, "of the pictures (default 640x480)");
+  arguments.option("--size", "WxH", size_, "of the images (default 640x480)");
   arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
   arguments.option("--truth", "LIST", truth_,
                    "some of mesh,depth,trajectory,tracks (the default), normals,flow; or none");

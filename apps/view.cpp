@@ -1,4 +1,4 @@
-// apps/view.cpp: `softscope view`: a run in a window, a picture or a movie.
+// apps/view.cpp: `softscope view`: a run in a window, an image or a movie.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -122,7 +122,7 @@ void ViewCommand::openWindow(RunSource& source) const {
   spdlog::debug("the window is open");
   window.run();
   const ViewPace pace = window.pace();
-  spdlog::debug("{} pictures, {:.1f} ms each", pace.pictures,
+  spdlog::debug("{} images, {:.1f} ms each", pace.pictures,
                 1000 * pace.seconds / std::max(pace.pictures, 1));
 }
 

@@ -126,7 +126,7 @@ def figures(work):
         ("Two runs: with and without matches", "two_runs",
          ["figure", first, "--kind", "compare", "--other", second, "--name", "with matches",
           "--name", "without", "--reference", clip, "--width-mm", 183]),
-        ("Matches of the model in a new picture", "matches",
+        ("Matches of the model in a new image", "matches",
          ["figure", first, "--kind", "matches", "--reference", clip, "--frame", 16]),
         ("The viewer: errors, the scope and its path", "view",
          ["view", first, "--reference", clip, "--colour", "errors"]),

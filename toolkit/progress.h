@@ -1,4 +1,4 @@
-// toolkit/progress.h: how long work tells how far it is, and how it is stopped.
+// toolkit/progress.h: progress callback of long work.
 #pragma once
 
 #include <functional>

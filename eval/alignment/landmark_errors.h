@@ -1,4 +1,4 @@
-// eval/alignment/landmark_errors.h: an alignment by named points, and how far it can be trusted.
+// eval/alignment/landmark_errors.h: alignment by landmarks, with FRE and TRE.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// eval/distance/point_tree.h: how far the nearest of many points is.
+// eval/distance/point_tree.h: distance to the nearest of many points.
 #pragma once
 
 #include <Eigen/Core>

@@ -13,7 +13,7 @@ namespace {
 constexpr int kGrain = 4096;
 constexpr double kPi = 3.14159265358979323846;
 
-/// A triangle with a repeated index folds to an edge and takes no part in who borders whom.
+/// A triangle with a repeated index is an edge and has no neighbours.
 bool folded(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 /// Spreads vertex numbers over 64 bits (the finaliser of splitmix64).

@@ -1,4 +1,4 @@
-// eval/distance/pseudo_normals.h: which side is outside, at faces, edges and vertices of a mesh.
+// eval/distance/pseudo_normals.h: inside and outside by normals of faces, edges and vertices.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// eval/distance/tree_kernels_dispatch.cpp: which instruction sets this processor runs.
+// eval/distance/tree_kernels_dispatch.cpp: choice of the instruction set at run time.
 #include "eval/distance/tree_kernels.h"
 
 namespace softscope {

@@ -1,4 +1,4 @@
-// eval/distance/tree_layout.h: how the triangle tree lies in memory.
+// eval/distance/tree_layout.h: memory layout of the triangle tree.
 //
 // An implicit tree of eight children a node: every level is packed to the left, so that node j of a
 // level holds the nodes (or leaves) 8j to 8j + 7 of the level below. Boxes and triangles are

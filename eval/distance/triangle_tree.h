@@ -1,4 +1,4 @@
-// eval/distance/triangle_tree.h: how far points lie from a surface of triangles, and on which side.
+// eval/distance/triangle_tree.h: signed distance of points from a triangle mesh.
 #pragma once
 
 #include <Eigen/Core>

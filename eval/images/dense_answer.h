@@ -1,4 +1,4 @@
-// eval/images/dense_answer.h: a depth for every pixel, and which pixels both cameras see.
+// eval/images/dense_answer.h: dense depth with gaps filled, and occlusion mask.
 #pragma once
 
 #include "core/image.h"

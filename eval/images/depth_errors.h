@@ -1,4 +1,4 @@
-// eval/images/depth_errors.h: how far a depth map is from the truth.
+// eval/images/depth_errors.h: errors of a depth map against ground truth.
 #pragma once
 
 #include <cstddef>

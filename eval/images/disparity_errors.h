@@ -1,4 +1,4 @@
-// eval/images/disparity_errors.h: how far a disparity map is from the truth.
+// eval/images/disparity_errors.h: errors of a disparity map against ground truth.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct DisparityErrors {
   Statistics absolute_px;           // |measured - truth|
   Statistics signed_px;             // measured - truth: positive = measured too near
   std::vector<double> bad_percent;  // share of absolute errors > bad_thresholds_px[i]
-  /// Measured share of the pixels that have a match inside the right picture (u - truth within it)
+  /// Measured share of the pixels that have a match inside the right image (u - truth within it)
   /// and that the mask does not ignore; NaN where there are none.
   double coverage_percent = Statistics::kNone;
   std::size_t matchable_count = 0;  // what coverage_percent is a share of

@@ -1,4 +1,4 @@
-// eval/images/model_drawing.h: a point model as a camera would see it, for the evaluation alone.
+// eval/images/model_drawing.h: z-buffer rendering of a point model, for the evaluation alone.
 #pragma once
 
 #include <Eigen/Geometry>

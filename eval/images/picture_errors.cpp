@@ -60,7 +60,7 @@ bool windowIsJudged(const Raster<int>& ignored, int u, int v) {
          0;
 }
 
-/// The window's sums along the rows of both pictures; the rim stays zero and is never asked for.
+/// The window's sums along the rows of both images; the rim stays zero and is never asked for.
 Raster<Moments> sumAlongRows(const GrayImage& x, const GrayImage& y, const Window& window) {
   Raster<Moments> sums(x.width_px, x.height_px, Moments{});
   parallelRows(x.height_px, [&](int v) {
@@ -110,10 +110,10 @@ PictureErrors pictureErrors(const ColourImage& drawn, const ColourImage& photogr
                             const Mask& undrawn, const Mask& not_tissue) {
   const Mask ignore = ignoreEither(undrawn, not_tissue);
   if (!drawn.sameShape(photograph) || (!ignore.empty() && !drawn.sameShape(ignore)))
-    throw InputError("a picture of " + std::to_string(drawn.width_px) + " x " +
+    throw InputError("an image of " + std::to_string(drawn.width_px) + " x " +
                      std::to_string(drawn.height_px) + " pixels is compared with one of " +
                      std::to_string(photograph.width_px) + " x " +
-                     std::to_string(photograph.height_px) + "; give pictures of one size");
+                     std::to_string(photograph.height_px) + "; give images of one size");
   double squares = 0, judged = 0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     if (!ignore.empty() && ignore.values[i] != 0) continue;

@@ -1,4 +1,4 @@
-// eval/images/picture_errors.h: how alike a drawn picture and a photograph are.
+// eval/images/picture_errors.h: PSNR and SSIM of a rendered image.
 #pragma once
 
 #include "core/image.h"
@@ -9,7 +9,7 @@ namespace softscope {
 /// NaN where no pixel can be judged. Infinite PSNR: no difference at all.
 struct PictureErrors {
   double psnr_db = Statistics::kNone;  // over the judged pixels, all three channels
-  /// The same differences averaged over all pixels of the picture, judged or not: what some papers
+  /// The same differences averaged over all pixels of the image, judged or not: what some papers
   /// give. It is the higher, the less is judged.
   double psnr_over_all_pixels_db = Statistics::kNone;
   /// Structural similarity of luma (Wang et al. 2004): Gaussian window 11 x 11, sigma 1.5,

@@ -1,4 +1,4 @@
-// eval/images/pixel_masks.h: which pixels take no part in a comparison. Non-zero = ignore.
+// eval/images/pixel_masks.h: masks of pixels that a comparison ignores. Non-zero = ignore.
 #pragma once
 
 #include "core/image.h"
@@ -11,7 +11,7 @@ namespace softscope {
 Mask ignoreUnmeasured(const Raster<float>& values);
 
 /// Ignores pixels whose disparity is unknown, or whose match u - disparity lies outside the
-/// picture. Occlusion inside the picture is not looked at.
+/// image. Occlusion inside the image is not looked at.
 Mask ignoreMatchesOutside(const Raster<float>& disparity_px);
 
 /// Ignores what either ignores; an empty mask ignores nothing. Throws InputError for two shapes.

@@ -1,4 +1,4 @@
-// eval/images/predicted_sigma.h: whether a predicted standard error tells how large an error is.
+// eval/images/predicted_sigma.h: calibration of a predicted standard error against true errors.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct IntervalCoverage {
 IntervalCoverage intervalCoverage(const std::vector<double>& errors,
                                   const std::vector<double>& sigmas);
 
-/// What is left of the mean absolute error after the least sure values were removed.
+/// Mean absolute error after removal of the values with the largest sigma.
 struct Sparsification {
   std::vector<double> removed_share;  // 0, 0.1 … 0.9
   std::vector<double> mean_left;      // by predicted sigma, the largest removed first

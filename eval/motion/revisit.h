@@ -1,4 +1,4 @@
-// eval/motion/revisit.h: what was learnt in between costs when the scope comes back.
+// eval/motion/revisit.h: errors when the scope returns to tissue seen before.
 #pragma once
 
 #include <Eigen/Geometry>

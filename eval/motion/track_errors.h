@@ -1,4 +1,4 @@
-// eval/motion/track_errors.h: tracked points of tissue against where that tissue truly was.
+// eval/motion/track_errors.h: errors of tracked material points against ground truth.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -26,8 +26,8 @@ struct TrackError {
   int id = 0;
   Eigen::Vector3d offset_mm = Eigen::Vector3d::Zero();  // from the truth, in its world
   double control_mm = 0;  // of an estimate that never moves: |truth now - truth at the start|
-  bool visible = true;    // as the estimate says
-  bool unseen = false;    // as truth says
+  bool visible = true;    // by the estimate
+  bool unseen = false;    // by the ground truth
 
   double errorMm() const { return offset_mm.norm(); }
 };
@@ -55,7 +55,7 @@ using UnseenTracks = std::set<std::pair<int, int>>;
 /// What brings an estimate of a frame into the true world, by way of the camera of that frame.
 using TruthFromEstimate = std::map<int, Eigen::Isometry3d>;
 
-/// Judges the frames that `moves` knows; estimates of others count as without truth. The control
+/// Evaluates the frames in `moves`; estimates of others count as without truth. The control
 /// starts at the first of these frames.
 TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
                         const TruthFromEstimate& moves, const UnseenTracks& unseen = {});

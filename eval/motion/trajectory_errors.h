@@ -1,4 +1,4 @@
-// eval/motion/trajectory_errors.h: how far an estimated path of the scope is from the true one.
+// eval/motion/trajectory_errors.h: errors of the scope's path against ground truth.
 #pragma once
 
 #include <Eigen/Geometry>

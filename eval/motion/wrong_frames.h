@@ -1,4 +1,4 @@
-// eval/motion/wrong_frames.h: frames that a run takes for right and that are wrong.
+// eval/motion/wrong_frames.h: frames that a run accepts although they are wrong.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace softscope {
 /// known.
 struct JudgedFrame {
   int frame = 0;
-  double confidence = Statistics::kNone;  // 0 to 1, as the run says
+  double confidence = Statistics::kNone;  // 0 to 1, by the run
   double surface_mm = Statistics::kNone;  // mean error of the observed surface
   double pose_mm = Statistics::kNone;     // of the scope, where the scene is rigid
   double pose_deg = Statistics::kNone;
@@ -23,7 +23,7 @@ struct JudgedFrame {
 /// 1 deg off; a point in view that jumps by more than 1 mm against its truth.
 bool isWrong(const JudgedFrame& judged);
 
-/// A wrong frame that is not told as such: its confidence is not at or below one half.
+/// A wrong frame that is not reported as such: its confidence is above one half.
 bool isSilentlyWrong(const JudgedFrame& judged);
 
 /// By frame, from the second on: by how much the error of a point, as a vector, changes at most

@@ -1,4 +1,4 @@
-// eval/statistics/cohort.h: what several cases say together, and how surely. Definitions:
+// eval/statistics/cohort.h: statistics over cases with confidence intervals. Definitions:
 // docs/report.md.
 #pragma once
 

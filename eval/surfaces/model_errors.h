@@ -18,7 +18,7 @@ namespace softscope {
 /// What is true at one moment. Nothing is owned.
 struct TrueMoment {
   const TriangleTree& surface;    // in the true world's frame
-  const Raster<float>& depth_mm;  // of the rectified left picture, NaN = none; empty = unknown
+  const Raster<float>& depth_mm;  // of the rectified left image, NaN = none; empty = unknown
   const RectifiedRig& rig;        // needed where the depth is known
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
 };

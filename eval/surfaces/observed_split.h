@@ -13,7 +13,7 @@ namespace softscope {
 
 /// The reference counts as observed within `reach_mm` of what was seen, and not beyond its rim
 /// where that is an open surface; a vertex of the test where its closest point on the reference is.
-/// What lies beyond the rim of an open reference is neither observed nor predicted: nobody knows
+/// What lies beyond the rim of an open reference is neither observed nor predicted: it is unknown
 /// the truth there, and its distance from the rim is no error.
 struct ObservedSplit {
   double reach_mm = 0;

@@ -27,7 +27,7 @@ struct Depth {
 /// For one thread at a time; works on many.
 class DepthEstimator {
  public:
-  /// `options`: keys stereo.* and depth.*; `backend`: cpu, cuda or auto, which wakes a GPU where
+  /// `options`: keys stereo.* and depth.*; `backend`: cpu, cuda or auto, which starts a GPU if
   /// there is one. Throws OptionError, InputError and BackendError.
   explicit DepthEstimator(const Calibration& calibration, const Options& options = {},
                           const std::string& backend = "cpu");

@@ -8,9 +8,11 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <utility>
 
 #include "calibrate/corner_fit.h"
 #include "core/error.h"
+#include "core/median.h"
 
 namespace softscope {
 namespace {
@@ -167,10 +169,7 @@ double medianWidth(const GrayImage& image, const CornerMap& corners, const Board
     const double width = widthOfEdge(image, a, b);
     if (std::isfinite(width)) widths.push_back(width);
   });
-  if (widths.empty()) return 0;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  return widths.empty() ? 0 : medianOf(std::move(widths));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct BoardCorner {
 std::vector<BoardCorner> findBoard(const GrayImage& image, const BoardOptions& board);
 
 /// Turns the corners of a checkerboard in the right view by half a turn where that brings them into
-/// the order of the left view: a board has no mark that tells its ends apart.
+/// the order of the left view: the ends of a board are not marked.
 void matchOrder(const std::vector<BoardCorner>& left, const BoardOptions& board,
                 std::vector<BoardCorner>* right);
 

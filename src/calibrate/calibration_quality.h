@@ -1,4 +1,4 @@
-// src/calibrate/calibration_quality.h: how far a calibration can be trusted, and what it lacks.
+// src/calibrate/calibration_quality.h: quality measures of a calibration, and what its images lack.
 #pragma once
 
 #include <string>

@@ -5,8 +5,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
+#include "core/median.h"
 
 namespace softscope {
 namespace {
@@ -81,11 +83,7 @@ Eigen::Isometry3d commonPose(const OneCamera& left, const OneCamera& right) {
     }
   }
   double medians[6];
-  for (int k = 0; k < 6; ++k) {
-    auto middle = values[k].begin() + static_cast<std::ptrdiff_t>(values[k].size() / 2);
-    std::nth_element(values[k].begin(), middle, values[k].end());
-    medians[k] = *middle;
-  }
+  for (int k = 0; k < 6; ++k) medians[k] = medianOf(std::move(values[k]));
   const Eigen::Vector3d rotation(medians[0], medians[1], medians[2]);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (rotation.norm() > 0)
@@ -110,12 +108,6 @@ double rmsOf(const BundleState& state, const BundleView& view) {
   const std::vector<Eigen::Vector2d> residuals = residualsOf(state, view);
   for (const Eigen::Vector2d& residual : residuals) squares += residual.squaredNorm();
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, residuals.size())));
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::string twoDigits(double value) {

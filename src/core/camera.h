@@ -1,4 +1,4 @@
-// src/core/camera.h: from millimetres to pixels and back.
+// src/core/camera.h: pinhole camera: projection of points in mm to pixels and back-projection.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,7 +41,7 @@ SOFTSCOPE_HD inline Eigen::Matrix<Scalar, 3, 1> liftPixel(const PinholeCamera& c
           (v_px - Scalar(camera.cy_px)) / Scalar(camera.fy_px) * depth_mm, depth_mm};
 }
 
-/// How a real lens bends the picture: OpenCV's model, in OpenCV's order
+/// How a real lens bends the image: OpenCV's model, in OpenCV's order
 /// k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 (rational, tangential, thin prism). Zero = no distortion.
 struct LensDistortion {
   std::array<double, 12> coefficients{};

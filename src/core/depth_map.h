@@ -1,4 +1,4 @@
-// src/core/depth_map.h: how far the tissue is, pixel by pixel.
+// src/core/depth_map.h: depth per pixel of the rectified left camera.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,15 +7,15 @@
 
 namespace softscope {
 
-/// How far left each pixel of the rectified left picture moved in the right one.
-/// NaN where nothing was matched. Both rasters have the picture's shape.
+/// How far left each pixel of the rectified left image moved in the right one.
+/// NaN where nothing was matched. Both rasters have the image's shape.
 struct DisparityMap {
   Raster<float> disparity_px;
   Raster<float> sigma_px;  // predicted standard error of disparity_px; NaN where unmatched
 };
 
 /// Distance along the optical axis of the rectified left camera.
-/// NaN where nothing was measured. Both rasters have the picture's shape.
+/// NaN where nothing was measured. Both rasters have the image's shape.
 struct DepthMap {
   Raster<float> depth_mm;
   Raster<float> sigma_mm;  // predicted standard error of depth_mm; NaN where unmeasured

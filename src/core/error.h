@@ -1,4 +1,4 @@
-// src/core/error.h: what can go wrong, by whose hand it can be mended.
+// src/core/error.h: exceptions, one type per kind of failure.
 #pragma once
 
 #include <sstream>

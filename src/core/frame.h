@@ -1,4 +1,4 @@
-// src/core/frame.h: everything a sequence knows about one moment.
+// src/core/frame.h: images, masks and time of one moment of a sequence.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// src/core/frame_range.h: which frames of a sequence.
+// src/core/frame_range.h: range of frame numbers with a step.
 #pragma once
 
 namespace softscope {

@@ -1,4 +1,4 @@
-// src/core/guarded_read.cpp: fork, limits, and a pipe for the answer.
+// src/core/guarded_read.cpp: child process with limits, and a pipe for its result.
 #include "core/guarded_read.h"
 
 #include <fcntl.h>
@@ -102,7 +102,7 @@ bool writeAll(int pipe, const char* bytes, std::size_t count) {
   return true;
 }
 
-/// Kind, length, bytes: a child that dies on its way leaves fewer bytes than it promised.
+/// Kind, length, bytes: a child that ends early leaves fewer bytes than the length states.
 bool answer(int pipe, char kind, const std::string& bytes) {
   const std::size_t length = bytes.size();
   return writeAll(pipe, &kind, 1) &&

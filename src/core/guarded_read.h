@@ -1,4 +1,4 @@
-// src/core/guarded_read.h: the one door to readers of other libraries.
+// src/core/guarded_read.h: file readers of other libraries, run in a child process.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// src/core/image.h: what a camera saw.
+// src/core/image.h: 8-bit gray and colour images.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ GrayImage halve(const GrayImage& image);
 /// The same shape: 1 where one of the four is not zero; empty stays empty.
 Mask halvedMask(const Mask& mask);
 
-/// The two pictures of one moment.
+/// The two images of one moment.
 struct StereoPair {
   ColourImage left;
   ColourImage right;

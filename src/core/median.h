@@ -1,4 +1,4 @@
-// src/core/median.h: the median of a list.
+// src/core/median.h: median and quantile of a list.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,17 @@ Number medianOf(std::vector<Number> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// The number of rank floor(share * (count - 1)), 0: the least; `share` 0 to 1. NaN of an empty
+/// list.
+template <class Number>
+Number quantileOf(std::vector<Number> values, double share) {
+  if (values.empty()) return std::numeric_limits<Number>::quiet_NaN();
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 }  // namespace softscope

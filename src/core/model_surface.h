@@ -1,4 +1,4 @@
-// src/core/model_surface.h: a model as other programs take it.
+// src/core/model_surface.h: a model as a surface, for export to other programs.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// src/core/nearest_name.h: what a misspelt name was meant to be.
+// src/core/nearest_name.h: nearest known name of a misspelt one.
 #pragma once
 
 #include <string>

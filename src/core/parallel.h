@@ -1,4 +1,4 @@
-// src/core/parallel.h: the same work on every core, the same result on any number of them.
+// src/core/parallel.h: loops over all cores with results that do not depend on their number.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ void parallelRows(int rows, const Body& body) {
 /// Runs both, at the same time where there are cores for it.
 void parallelInvoke(const std::function<void()>& first, const std::function<void()>& second);
 
-/// While it lives, at most `threads` threads work (0 = as many as there are cores).
+/// In its scope, at most `threads` threads work (0 = as many as there are cores).
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

@@ -1,4 +1,4 @@
-// src/core/point_model.h: the tissue as we know it, point by point.
+// src/core/point_model.h: surface points of the tissue with normal, colour, weight and binding.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// src/core/raster.h: one value a pixel.
+// src/core/raster.h: a two-dimensional array with one value per pixel.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@
 namespace softscope {
 
 /// The ideal pair after rectification: parallel axes, rows aligned, one focal length.
-/// A point at depth z appears in the right picture at
+/// A point at depth z appears in the right image at
 ///   u_right = u_left - disparity,  z = focal_px * baseline_mm / (disparity + disparity_offset_px).
 struct RectifiedRig {
   PinholeCamera left;

@@ -17,7 +17,7 @@ struct StereoCalibration {
   RawCamera right;
   /// p_right = right_from_left * p_left, mm (OpenCV's R and T).
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
-  bool rectified = false;             // the pictures on disk are rectified already
+  bool rectified = false;             // the images on disk are rectified already
   double depth_unit_mm = 0.01;        // one step of the 16-bit depth files
   std::string source;                 // the file it came from, for messages
   std::string form;                   // "OpenCV", "Hamlyn", "OpenCAS", "SCARED", "EndoNeRF", "ROS"

@@ -1,4 +1,4 @@
-// src/core/trajectory.h: where the scope was, moment by moment.
+// src/core/trajectory.h: poses of the scope over time.
 #pragma once
 
 #include <Eigen/Geometry>

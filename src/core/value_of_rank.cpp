@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <mutex>
 
 #include "core/parallel.h"
@@ -44,6 +45,12 @@ float absoluteOfRank(const std::vector<std::vector<float>>& parts, std::size_t r
   const auto at = within.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(within.begin(), at, within.end());
   return *at;
+}
+
+float absoluteMedian(const std::vector<std::vector<float>>& parts) {
+  std::size_t count = 0;
+  for (const std::vector<float>& part : parts) count += part.size();
+  return count > 0 ? absoluteOfRank(parts, count / 2) : std::numeric_limits<float>::quiet_NaN();
 }
 
 }  // namespace softscope

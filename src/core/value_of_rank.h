@@ -10,4 +10,8 @@ namespace softscope {
 /// The rank is below their count.
 float absoluteOfRank(const std::vector<std::vector<float>>& parts, std::size_t rank);
 
+/// The median of those absolute values: the upper one of the two middle values of an even count;
+/// NaN of none.
+float absoluteMedian(const std::vector<std::vector<float>>& parts);
+
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/core/warp_graph.h: the sparse nodes that carry the tissue from frame to frame.
+// src/core/warp_graph.h: deformation graph: nodes, edges and transforms that warp the model.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ SOFTSCOPE_HD inline Eigen::Vector3d warpByNode(const NodeTransform& transform,
   return transform.linear * (point_mm - node_mm) + node_mm + transform.translation_mm;
 }
 
-/// Two nodes that want to move alike. first < second.
+/// Two neighbouring nodes that should move alike. first < second.
 struct GraphEdge {
   std::int32_t first = 0;
   std::int32_t second = 0;

@@ -37,7 +37,7 @@ struct Squares {
   Raster<std::int32_t> valid;  // how many wavelets of the square touch no ignored pixel
 };
 
-/// Wavelets of one row of pixels, all of the picture's width; 0 where they'd leave the picture.
+/// Wavelets of one row of pixels, all of the image's width; 0 where they'd leave the image.
 struct WaveletRow {
   explicit WaveletRow(int width) : du(static_cast<std::size_t>(width), 0), dv(du), valid(du) {}
   std::vector<std::int32_t> du, dv, valid;
@@ -128,7 +128,7 @@ void describeRow(const Cells& cells, const SurfRules& rules, int r, DenseDescrip
 DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
                            const DenseSurfOptions& options) {
   if (!ignore.empty() && !ignore.sameShape(image))
-    throw Error("dense SURF: the mask has another shape than the picture");
+    throw Error("dense SURF: the mask has another shape than the image");
   const SurfRules rules = surfRules(options);
   DenseDescriptors out;
   out.grid_px = options.kGridPx;

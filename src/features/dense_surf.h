@@ -1,4 +1,4 @@
-// src/features/dense_surf.h: a SURF descriptor every few pixels, whatever the picture shows.
+// src/features/dense_surf.h: SURF descriptors on a regular grid of pixels.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct DenseDescriptors {
 /// (Uijlings, Smeulders, Scha 2009): wavelets come from an integral image, each is summed once into
 /// its grid square, each square once into its cells, and a cell serves the 16 descriptors that
 /// share it. Without SURF's Gaussian weights, which would forbid the sharing. `ignore` is empty or
-/// has the picture's shape, non-zero = invalid. A picture smaller than one descriptor gives none.
+/// has the image's shape, non-zero = invalid. An image smaller than one descriptor gives none.
 /// Throws Error where the shapes differ.
 DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
                            const DenseSurfOptions& options);

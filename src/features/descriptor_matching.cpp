@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kInvalid = kNoDistance;
 
-/// Distances from one descriptor to all in a window of another picture's nodes.
+/// Distances from one descriptor to all in a window of another image's nodes.
 class Window {
  public:
   /// Nodes around (column, row), cut at the grid's ends.

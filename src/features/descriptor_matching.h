@@ -1,4 +1,4 @@
-// src/features/descriptor_matching.h: nearest descriptors within reach, both ways.
+// src/features/descriptor_matching.h: nearest descriptors within a search radius, with cross-check.
 #pragma once
 
 #include <Eigen/Core>

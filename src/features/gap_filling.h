@@ -1,4 +1,4 @@
-// src/features/gap_filling.h: closes thin gaps through which what lies behind would show.
+// src/features/gap_filling.h: filling of thin gaps of the model view.
 #pragma once
 
 #include "features/model_view.h"

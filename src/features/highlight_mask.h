@@ -1,4 +1,4 @@
-// src/features/highlight_mask.h: where the light is mirrored, and the tissue can't be seen.
+// src/features/highlight_mask.h: specular highlight mask.
 #pragma once
 
 #include "core/image.h"

@@ -1,4 +1,4 @@
-// src/features/integral_image.h: sums over any rectangle by four look-ups.
+// src/features/integral_image.h: integral images: sums over rectangles by four look-ups.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace softscope {
 
 /// (width + 1) x (height + 1): value (u, v) sums all pixels left of and above (u, v), exclusive.
-/// Pictures above 8 megapixels of full white would overflow: 2^31 / 255.
+/// Images above 8 megapixels of full white would overflow: 2^31 / 255.
 template <class Pixel, class Value>
 Raster<std::int32_t> integralImage(const Raster<Pixel>& image, const Value& valueOf) {
   Raster<std::int32_t> sums(image.width_px + 1, image.height_px + 1, 0);

@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// A model point as a small disc of the picture. Its plane makes the inverse depth linear in the
+/// A model point as a small disc of the image. Its plane makes the inverse depth linear in the
 /// pixel.
 struct SplatDisc {
   float u_px, v_px, radius_px;
@@ -20,7 +20,7 @@ struct SplatDisc {
   std::int32_t point;
 };
 
-/// Rows first_row … first_row + rows - 1 of the picture that is being drawn. Pointers stand at
+/// Rows first_row … first_row + rows - 1 of the image that is being drawn. Pointers stand at
 /// column 0 of the first row; kSplatMargin columns beyond either end may be written.
 constexpr int kSplatMargin = 48;
 constexpr int kLargestDiscPx = 3;
@@ -60,7 +60,7 @@ struct WindowTemplate {
   int rows;
 };
 
-/// Weighted sums over the window of the live picture at a sub-pixel place.
+/// Weighted sums over the window of the live image at a sub-pixel place.
 struct WindowSums {
   float along_u, along_v, along_contrast, mean, square;
 };
@@ -85,7 +85,7 @@ struct FeatureKernels {
   /// other.
   void (*descriptorDistances)(const std::uint8_t* one, const std::uint8_t* others, int count,
                               std::uint16_t* distances);
-  /// Bilinear samples of the live picture, with (0, 0) of the window at `corner` plus the fraction;
+  /// Bilinear samples of the live image, with (0, 0) of the window at `corner` plus the fraction;
   /// rows + 1 rows of kWindowLanes + 1 values are read.
   WindowSums (*windowSums)(const WindowTemplate& fixed, const float* corner, int stride,
                            float fraction_u, float fraction_v);

@@ -1,4 +1,4 @@
-// src/features/lift_matches.h: matched pixels become matched points.
+// src/features/lift_matches.h: matched pixels to matched points in mm.
 #pragma once
 
 #include <Eigen/Core>

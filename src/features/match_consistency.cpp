@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-/// Indices of the matches in squares of the model picture.
+/// Indices of the matches in squares of the model image.
 class MatchSquares {
  public:
   MatchSquares(const std::vector<PixelMatch>& matches, float side_px) : side_px_(side_px) {

@@ -1,4 +1,4 @@
-// src/features/match_consistency.h: tissue moves like its neighbours, outliers don't.
+// src/features/match_consistency.h: consistency test of a match with its neighbours.
 #pragma once
 
 #include <vector>

@@ -23,14 +23,14 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
     return std::to_string(raster.width_px) + " x " + std::to_string(raster.height_px);
   };
   if (!model.gray.sameShape(live.gray))
-    throw Error("matching: the model view is " + shape(model.gray) + " and the live picture " +
+    throw Error("matching: the model view is " + shape(model.gray) + " and the live image " +
                 shape(live.gray) + "; both need one shape");
   if (!model.anchor.empty() && !model.anchor.sameShape(model.gray))
     throw Error("matching: the anchor is " + shape(model.anchor) + ", but the model view " +
                 shape(model.gray));
   for (const MatchPicture* picture : {&model, &live})
     if (!picture->ignore.empty() && !picture->ignore.sameShape(picture->gray))
-      throw Error("matching: a mask is " + shape(picture->ignore) + ", but its picture " +
+      throw Error("matching: a mask is " + shape(picture->ignore) + ", but its image " +
                   shape(picture->gray));
 }
 
@@ -125,7 +125,7 @@ class NoMatcher : public FeatureMatcher {
   std::vector<PixelMatch> match(const MatchPicture&, const MatchPicture&) override { return {}; }
 };
 
-/// The picture with its dark pixels ignored as well: they show the unlit background, whose edge
+/// The image with its dark pixels ignored as well: they show the unlit background, whose edge
 /// with the tissue moves as the outline does, not as the tissue.
 MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& options) {
   Mask dark(picture.gray.width_px, picture.gray.height_px, 0);

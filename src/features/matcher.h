@@ -1,4 +1,4 @@
-// src/features/matcher.h: where did each pixel of the model view go?
+// src/features/matcher.h: dense matching of the model view to the live image.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,14 +11,14 @@
 
 namespace softscope {
 
-/// A picture to be matched, and what of it to leave out.
+/// An image to be matched, and what of it to leave out.
 struct MatchPicture {
   GrayImage gray;
-  Mask ignore;         // empty, or the picture's shape; non-zero = no tissue, instrument, highlight
+  Mask ignore;         // empty, or the image's shape; non-zero = no tissue, instrument, highlight
   GrayImage anchor{};  // empty, or how the same tissue looked when it was first seen
 };
 
-/// One piece of tissue in two pictures.
+/// One piece of tissue in two images.
 struct PixelMatch {
   Eigen::Vector2f model_px;
   Eigen::Vector2f live_px;

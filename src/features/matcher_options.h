@@ -1,4 +1,4 @@
-// src/features/matcher_options.h: how pixels of the model view are found again; every default.
+// src/features/matcher_options.h: options of matching and their defaults.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Gauss-Newton on a window around each match; blind to gain and offset of the brightness.
+/// Gauss-Newton on a window around each match, invariant to brightness gain and offset.
 struct SubpixelOptions {
   std::string method = "gauss-newton";  // or "none"
   static constexpr int kRadiusPx = 7;   // window is (2 r + 1)², at most 15²
@@ -47,7 +47,7 @@ struct MatcherOptions {
   DenseSurfOptions dense_surf;
   SubpixelOptions subpixel;
   ConsistencyOptions consistency;             // of dense SURF and of flow
-  static constexpr int kSiftFeatures = 4000;  // strongest key points that SIFT keeps a picture
+  static constexpr int kSiftFeatures = 4000;  // strongest key points that SIFT keeps an image
 
   /// Throws OptionError: the field, its value, the rule it breaks.
   void validate() const;

@@ -1,4 +1,4 @@
-// src/features/model_view.h: what a camera would see of the model.
+// src/features/model_view.h: the model rendered from a camera pose.
 #pragma once
 
 #include <Eigen/Geometry>

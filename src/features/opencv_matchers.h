@@ -1,4 +1,4 @@
-// src/features/opencv_matchers.h: what OpenCV has to offer, for comparison.
+// src/features/opencv_matchers.h: OpenCV's matchers, for comparison.
 #pragma once
 
 #include <memory>

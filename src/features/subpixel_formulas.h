@@ -113,7 +113,7 @@ SOFTSCOPE_HD inline SearchStep takeStep(const WindowSums& sums, float farthest_p
   return std::sqrt(u * u + v * v) < kConvergedPx ? SearchStep::kConverged : SearchStep::kGoesOn;
 }
 
-/// What a window at its place says about the match.
+/// Fit of a window at its place.
 struct WindowVerdict {
   bool accepted;
   float similarity, sigma_px;

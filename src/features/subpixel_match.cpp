@@ -35,7 +35,7 @@ Raster<float> smoothed(const GrayImage& image) {
 
 using WindowPlane = std::array<float, kLargestWindow * kWindowLanes>;
 
-/// Everything about one window of the model picture.
+/// Everything about one window of the model image.
 struct Patch {
   WindowPlane steepest_u, steepest_v, contrast, weight;
   WindowMatrix information;  // per unit of weight
@@ -98,7 +98,7 @@ class Refiner {
     return true;
   }
 
-  /// Weights of the window without what either picture ignores, sum 1.
+  /// Weights of the window without what either image ignores, sum 1.
   bool weigh(int mu, int mv, int lu, int lv, Patch* patch) const {
     const int r = options_.kRadiusPx;
     patch->rows = 2 * r + 1;

@@ -1,4 +1,4 @@
-// src/fusion/anchor_agreement.h: where the frame still shows what the anchors hold.
+// src/fusion/anchor_agreement.h: image blocks that agree with the anchors' colours.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-/// By rows of the picture.
+/// By rows of the image.
 using Rows = std::vector<std::vector<float>>;
 
 /// Sums go row by row, so that they don't depend on threads.

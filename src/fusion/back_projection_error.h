@@ -1,4 +1,4 @@
-// src/fusion/back_projection_error.h: how far the model, drawn into the frame, is from its depth.
+// src/fusion/back_projection_error.h: distance of the rendered model from the frame's depth.
 #pragma once
 
 #include <limits>
@@ -18,7 +18,7 @@ struct BackProjectionError {
 };
 
 /// Of the model drawn from the observation's pose: subtracts the measured depth, over the pixels
-/// that are sure and show a point: docs/fusion.md (F19). No difference is too large to count.
+/// that are reliable and show a point: docs/fusion.md (F19). No difference is too large to count.
 /// Throws OptionError where the arguments don't fit together.
 BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observation& observation,
                                         const Raster<PixelState>& states);

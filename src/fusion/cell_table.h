@@ -1,4 +1,4 @@
-// src/fusion/cell_table.h: which point lives in which cell of a grid without borders.
+// src/fusion/cell_table.h: hash grid of points without bounds.
 #pragma once
 
 #include <Eigen/Core>

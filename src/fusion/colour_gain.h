@@ -1,4 +1,4 @@
-// src/fusion/colour_gain.h: how much brighter the new picture is than the model.
+// src/fusion/colour_gain.h: brightness gain between model and image.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct ColourGain {
 };
 
 /// The median over the points that are seen, highlights and dark pixels left out; bounded to
-/// 1/2 … 2. 1 where fewer than 100 points speak, there is no picture, or the option is off.
+/// 1/2 … 2. 1 with fewer than 100 points, without an image, or with the option off.
 ColourGain estimateGain(const PointModel& model, const Observation& observation,
                         const Visibility& visibility, const ColourOptions& options);
 
@@ -35,7 +35,7 @@ SOFTSCOPE_HD inline bool isHighlight(Rgb8 seen, const ColourOptions& options) {
 constexpr int kGainBins = 512;
 /// The bin of one channel of a point; -1 where the ratio counts for nothing.
 int gainBin(std::uint8_t seen, std::uint8_t known);
-/// Whether a colour tells anything of the gain: not dark, not saturated, no highlight.
+/// Whether a colour is usable for the gain: not dark, not saturated, no highlight.
 SOFTSCOPE_HD inline bool tellsGain(Rgb8 colour, const ColourOptions& options) {
   constexpr int kDarkest = 16;  // below it quantisation spoils the ratio
   const auto inside = [](int level) { return level >= kDarkest && level < 250; };

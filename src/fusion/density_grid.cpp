@@ -78,7 +78,7 @@ void mergePart(unsigned part, unsigned parts, const std::vector<CellKey>& keys, 
   }
 }
 
-/// Merges within cells. Afterwards heir[i] is i, or who took i's place (perhaps merged in turn).
+/// Merges within cells. Afterwards heir[i] is i, or the point that i was merged into (or its heir).
 /// Cells need nothing of each other.
 std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cosine,
                                      PointModel* model) {
@@ -114,7 +114,7 @@ void compact(PointModel* model, const std::vector<std::int32_t>& old_of_new) {
                  [&] { parallelInvoke([&] { keepAt(&model->bindings, old_of_new); }, keepRest); });
 }
 
-/// Turns heirs into new indices; lists who stays.
+/// Turns heirs into new indices; lists the points that stay.
 IndexMap indexMap(std::vector<std::int32_t> heir, std::vector<std::int32_t>* old_of_new) {
   IndexMap map;
   map.new_of_old.assign(heir.size(), IndexMap::kRemoved);

@@ -1,4 +1,4 @@
-// src/fusion/density_grid.h: tissue that is squeezed or seen twice doesn't get more points.
+// src/fusion/density_grid.h: merging of points that are denser than the point spacing.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace softscope {
 /// Where points went when some were removed.
 struct IndexMap {
   static constexpr std::int32_t kRemoved = -1;
-  std::vector<std::int32_t> new_of_old;  // merged points lead to the one that stands for them
+  std::vector<std::int32_t> new_of_old;  // merged points map to the one that replaces them
   std::int32_t new_count = 0;
 
   bool identity() const { return static_cast<std::size_t>(new_count) == new_of_old.size(); }

@@ -1,4 +1,4 @@
-// src/fusion/drawn_points.h: the model point that each pixel shows.
+// src/fusion/drawn_points.h: index of the model point that each pixel shows.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// src/fusion/frame_comparer.h: everything that compares the whole model with one frame.
+// src/fusion/frame_comparer.h: comparison of the whole model with one frame.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace softscope {
 
-/// What a frame says of the warped model, before the model learns from it.
+/// Comparison of a frame with the warped model, before fusion.
 struct FrameComparison {
   BackProjectionError predicted;
   ViewEvidence view;

@@ -1,16 +1,16 @@
-// src/fusion/fusion_options.h: what a measurement must be like to change the model, and how much.
+// src/fusion/fusion_options.h: options of fusion and their defaults.
 #pragma once
 
 namespace softscope {
 
-/// How far a warped point is believed, by its distance to its nodes: docs/fusion.md (F7).
+/// Weight of a warped point by the distance to its nodes: docs/fusion.md (F7).
 enum class NodeTrust {
   kEqual,      // everywhere alike
   kWarpNoise,  // the warp adds noise that grows away from nodes: old weight fades, new counts fully
   kPaper,      // the formula of the paper as printed: what is measured near nodes weighs less
 };
 
-/// Which pixels may speak at all.
+/// Which pixels are used at all.
 struct PixelOptions {
   static constexpr double kMaxDepthMm =
       500;                    // no endoscope sees further: such depths are no depths
@@ -39,7 +39,7 @@ struct PointFusionOptions {
   double truncation_mm = 1.0;           // tau: larger differences are not averaged
   bool soft_truncation = true;          // weights fall smoothly to 0 at tau
   double max_weight = 10.0;             // omega_max
-  double reference_sigma_mm = 0.1;      // depth this sure weighs 1, others by inverse variance;
+  double reference_sigma_mm = 0.1;      // depth of this sigma weighs 1, others by inverse variance;
                                         // 0: all depths weigh 1
   double max_measurement_weight = 2.0;  // no depth weighs more than this
   NodeTrust node_trust = NodeTrust::kWarpNoise;
@@ -58,7 +58,7 @@ struct PointFusionOptions {
   void validate() const;
 };
 
-/// How colours follow the picture: docs/fusion.md (F11), (F13).
+/// How colours follow the image: docs/fusion.md (F11), (F13).
 struct ColourOptions {
   bool compensate_gain = true;  // of the frame against the model, a factor per channel
   double max_weight = 4.0;      // new colours count at least 1 / (1 + max_weight)
@@ -76,9 +76,9 @@ struct InsertionOptions {
   double spacing_mm = 0.2;  // between new points, and from them to old ones, …
   // … but no more than this in the image: near tissue and fine images get more points
   static constexpr double kMostSpacingPx = 2.4;
-  double max_sigma_mm = 0.5;  // less sure depths make no points
+  double max_sigma_mm = 0.5;  // depths with a larger sigma make no points
   double band_mm = 2.0;       // a model point this near in depth explains a pixel
-  bool confirm = true;        // wait until two frames in a row say the same
+  bool confirm = true;        // wait for two frames in a row
 
   void validate() const;
 };
@@ -90,7 +90,7 @@ struct DensityOptions {
   static constexpr double kMaxAngleDeg = 60.0;
 };
 
-/// Everything that stage 7 may be told.
+/// Options of stage 7.
 struct FusionOptions {
   PixelOptions pixels;
   VisibilityOptions visibility;

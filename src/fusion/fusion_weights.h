@@ -1,4 +1,4 @@
-// src/fusion/fusion_weights.h: how much a measurement counts against what is known.
+// src/fusion/fusion_weights.h: weight of a measurement against the model.
 #pragma once
 
 #include <cmath>

@@ -15,7 +15,7 @@ bool carries(const WarpGraph& graph, const PointBinding& binding) {
   return binding.bound() && binding.stencil < static_cast<std::int32_t>(graph.stencils.size());
 }
 
-/// One seen point: who carries it, and how it differs from the measurement.
+/// One visible point: its binding, and its difference from the measurement.
 struct Difference {
   const NodeStencil* stencil;
   const PointBinding* binding;

@@ -1,4 +1,4 @@
-// src/fusion/innovation.h: how far a frame lies from the model that was warped to meet it.
+// src/fusion/innovation.h: innovation: distance of a frame's depth from the warped model.
 #pragma once
 
 #include <utility>
@@ -20,7 +20,7 @@ struct Innovation {
 };
 
 /// The mean of some quantity around a node, from its weighted total there and over the frame. A
-/// node that few points speak for is believed to be like the whole frame.
+/// node with few points takes the value of the whole frame.
 SOFTSCOPE_HD inline double innovationMean(double total, double weight, double frame_total,
                                           double frame_weight) {
   constexpr double kPriorPoints = 5;  // that the frame counts as
@@ -29,7 +29,7 @@ SOFTSCOPE_HD inline double innovationMean(double total, double weight, double fr
 }
 
 /// A difference counts as no more than three standard deviations of those around it: single wrong
-/// depths say nothing about the tissue. `around_mm`: mean absolute difference there.
+/// depths are not informative. `around_mm`: mean absolute difference there.
 SOFTSCOPE_HD inline double countedDifference(double away_mm, double around_mm) {
   constexpr double kLargest =
       3 * 1.2533141373155001;  // standard deviation over mean absolute value
@@ -37,8 +37,8 @@ SOFTSCOPE_HD inline double countedDifference(double away_mm, double around_mm) {
   return limit_mm < away_mm ? limit_mm : away_mm;
 }
 
-/// What the seen points around each node say. Empty, and 0 everywhere, where nothing is known about
-/// the depth's errors.
+/// Innovation of the visible points around each node. Empty, and 0 everywhere, where nothing is
+/// known about the depth's errors.
 class InnovationField {
  public:
   InnovationField() = default;

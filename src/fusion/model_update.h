@@ -1,4 +1,4 @@
-// src/fusion/model_update.h: stage 7 in one sentence: see, average, insert, thin out.
+// src/fusion/model_update.h: stage 7: visibility, averaging, insertion, thinning of points.
 #pragma once
 
 #include "core/point_model.h"

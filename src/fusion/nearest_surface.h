@@ -1,4 +1,4 @@
-// src/fusion/nearest_surface.h: how near the model itself comes to the camera, square by square.
+// src/fusion/nearest_surface.h: nearest depth of the model per image block.
 #pragma once
 
 #include <Eigen/Core>

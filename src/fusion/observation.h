@@ -1,4 +1,4 @@
-// src/fusion/observation.h: what the scope measured just now, and which pixels may be believed.
+// src/fusion/observation.h: depth, colours and pose of one frame, and the state of each pixel.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,12 +31,12 @@ struct Observation {
 /// In single precision.
 PosedCamera posedCamera(const PinholeCamera& left, const Eigen::Isometry3d& world_from_left);
 
-/// What a pixel has to say about the surface.
+/// State of a pixel.
 enum class PixelState : std::uint8_t {
   kUnmeasured,  // no depth
   kMasked,      // not tissue
   kEdge,        // too near to a depth edge
-  kUnsure,      // depth not sure enough, no normal, or too grazing
+  kUnsure,      // sigma too large, no normal, or too grazing
   kSure,
 };
 

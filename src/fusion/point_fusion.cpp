@@ -113,7 +113,7 @@ class Fuser {
     model_.normals[i] = ((1 - gain) * model_.normals[i] + gain * measured).normalized();
   }
 
-  /// The picture between its pixels. Places beyond the rim read the rim.
+  /// The image between its pixels. Places beyond the rim read the rim.
   Rgb8 colourAt(const Eigen::Vector3f& left) const {
     const ColourImage& picture = observation_.colour;
     const auto inside = [](float at, int count) {

@@ -1,4 +1,4 @@
-// src/fusion/point_fusion.h: what is seen again moves the points that we know.
+// src/fusion/point_fusion.h: weighted averaging of visible points with their measurements.
 #pragma once
 
 #include "core/point_model.h"
@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-/// What a frame says of the model as it is, before any point changes.
+/// Comparison of a frame with the model, before any point changes.
 struct ModelComparison {
   Visibility visibility;
   ColourGain gain;
@@ -30,7 +30,7 @@ ModelComparison compareModel(const PointModel& model, const WarpGraph& graph,
 struct PointFusionSummary {
   int fused = 0;         // averaged with a measurement
   int contradicted = 0;  // seen through, or not confirmed: lost weight
-  ColourGain gain;       // of the picture against the model
+  ColourGain gain;       // of the image against the model
 };
 
 /// Averages every seen point with its measurement, lets go of what is contradicted:

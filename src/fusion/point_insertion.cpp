@@ -44,7 +44,7 @@ NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
   return drawn;
 }
 
-/// The model's depths in and around some rows of the picture.
+/// The model's depths in and around some rows of the image.
 class DepthsAround {
  public:
   DepthsAround(const NearestSurface& drawn, const PosedCamera& camera, int begin, int end)
@@ -78,7 +78,7 @@ class DepthsAround {
   Raster<float> depths_mm_;
 };
 
-/// Depths that are sure enough to make points, and unexplained: the model has no point within reach
+/// Depths reliable enough to make points, and unexplained: the model has no point within reach
 /// that is not behind their band: (F14). NaN elsewhere.
 class UnexplainedDepths {
  public:
@@ -151,7 +151,7 @@ bool confirmed(const Eigen::Vector3f& point_world, const PosedCamera& last_camer
   return false;
 }
 
-/// Those that are allowed, in the picture's order.
+/// Those that are allowed, in the image's order.
 std::vector<std::int32_t> candidatePixels(const Raster<float>& unexplained_mm,
                                           const std::vector<std::uint8_t>& allowed) {
   const int width = unexplained_mm.width_px;
@@ -176,7 +176,7 @@ int countAboveZero(const Raster<float>& depth_mm) {
   return count;
 }
 
-/// The pixels that become points, in the picture's order: (F16), the first of every cell.
+/// The pixels that become points, in the image's order: (F16), the first of every cell.
 std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
                                        const PosedCamera& camera,
                                        const std::vector<std::uint8_t>& allowed,

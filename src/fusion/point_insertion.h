@@ -1,4 +1,4 @@
-// src/fusion/point_insertion.h: tissue that the model doesn't know yet becomes points.
+// src/fusion/point_insertion.h: new points from measurements that the model does not explain.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +14,7 @@
 namespace softscope {
 
 /// What the last frame measured and the model could not explain; NaN elsewhere. Empty before the
-/// first frame. Its size is the picture's, whatever the model's.
+/// first frame. Its size is the image's, whatever the model's.
 struct InsertionMemory {
   Raster<float> unexplained_mm;
   PinholeCamera left;
@@ -22,13 +22,13 @@ struct InsertionMemory {
 };
 
 struct InsertionSummary {
-  int unexplained_px = 0;  // sure pixels where the model has nothing
+  int unexplained_px = 0;  // reliable pixels where the model has no point
   int inserted = 0;        // points added at the model's end
 };
 
-/// Adds points, unbound, where pixels are sure and nothing of the model explains them:
+/// Adds unbound points where pixels are reliable and the model does not explain them:
 /// docs/fusion.md (F14) to (F16). `visibility` is the model's, before new points. An empty model
-/// takes the whole picture at once; later, with options.confirm, a place must have been
+/// takes the whole image at once; later, with options.confirm, a place must have been
 /// unexplained in the last frame too, so that a wrong depth seen once makes no tissue.
 /// Throws OptionError for bad options and for arguments that don't fit together.
 InsertionSummary insertPoints(const Observation& observation, const Raster<PixelState>& states,

@@ -1,4 +1,4 @@
-// src/fusion/point_spacing.h: how far apart the model's points are, by their distance.
+// src/fusion/point_spacing.h: point spacing as a function of depth.
 #pragma once
 
 #include "core/hd.h"

@@ -1,4 +1,4 @@
-// src/fusion/posed_camera.h: from the world to pixels, as the inner loops want it.
+// src/fusion/posed_camera.h: projection from the world to pixels in single precision.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Lens and pose in single precision, as the inner loops want them.
+/// Lens and pose in single precision, for the inner loops.
 struct PosedCamera {
   Eigen::Matrix3f left_from_world = Eigen::Matrix3f::Identity();
   Eigen::Vector3f left_from_world_mm = Eigen::Vector3f::Zero();
@@ -22,7 +22,7 @@ struct PosedCamera {
   SOFTSCOPE_HD Eigen::Vector3f toWorld(const Eigen::Vector3f& point_left) const {
     return left_from_world.transpose() * (point_left - left_from_world_mm);
   }
-  /// The pixel that holds the point's picture; false where it is not in the picture, NaN included.
+  /// The pixel that holds the point's image; false where it is not in the image, NaN included.
   SOFTSCOPE_HD bool findPixel(const Eigen::Vector3f& point_left, int* u, int* v) const {
     if (!(point_left.z() > 0)) return false;
     const float inverse_z = 1 / point_left.z();

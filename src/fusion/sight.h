@@ -1,4 +1,4 @@
-// src/fusion/sight.h: what the camera says about one model point: docs/fusion.md (F1) to (F3).
+// src/fusion/sight.h: visibility of one model point: docs/fusion.md (F1) to (F3).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 namespace softscope {
 
 enum class Sight : std::uint8_t {
-  kOutside,      // not in the picture
-  kUnknown,      // in the picture, where nothing sure was measured
+  kOutside,      // not in the image
+  kUnknown,      // in the image, where nothing sure was measured
   kMasked,       // behind an instrument, or beyond the scope's circle
   kHidden,       // behind the measured surface, or behind a nearer one of the model
   kTurned,       // where a surface was measured, but one that looks elsewhere
@@ -50,7 +50,7 @@ SOFTSCOPE_HD inline float rayStretch(const Eigen::Vector3f& point_left) {
   return std::sqrt(x * x + y * y + 1);
 }
 
-/// (F3), for a point in the picture and a pixel that is sure.
+/// (F3), for a point in the image and a pixel that is sure.
 SOFTSCOPE_HD inline PointSight compareWithPixel(const Eigen::Vector3f& point_left,
                                                 const Eigen::Vector3f& own_normal_left,
                                                 const Eigen::Vector3f& lifted_left,

@@ -1,4 +1,4 @@
-// src/fusion/sight_formulas.h: sight of one model point, for the CPU and the GPU.
+// src/fusion/sight_formulas.h: visibility of one model point, for the CPU and the GPU.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// src/fusion/view_evidence.h: whether the warped model, seen from the pose, shows the frame.
+// src/fusion/view_evidence.h: agreement of the warped, rendered model with the frame.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ SOFTSCOPE_HD inline bool depthsAgree(float model_mm, float measured_mm, float si
 /// By how much blocks of an image of that width are moved: 8 px of 640.
 inline int evidenceShiftPx(int width_px) { return std::max(3, width_px / 80); }
 
-/// What the blocks of the image say; they may be added up in any order.
+/// Sums over blocks of the image, in any order.
 struct EvidenceVotes {
   int compared_px = 0, agreeing_px = 0, blocks = 0, in_place = 0;
 
@@ -48,7 +48,7 @@ struct EvidenceVotes {
 };
 ViewEvidence evidenceOf(const EvidenceVotes& votes);
 
-/// Of the model drawn from the observation's pose: compares, over the pixels that are sure: its
+/// Of the model drawn from the observation's pose: compares, over the reliable pixels: its
 /// depth, to `options.kEdgeStep` of the depth or three standard errors, whichever is more; and the
 /// brightness of its points with the image, block by block, in place and moved by some pixels in
 /// eight directions. Throws OptionError where the arguments don't fit together.

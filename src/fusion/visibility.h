@@ -1,4 +1,4 @@
-// src/fusion/visibility.h: which points of the model the camera sees in the new frame.
+// src/fusion/visibility.h: visible points of the model in the new frame.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace softscope {
 
-/// What the camera says about every point of a model, in the model's order.
+/// Visibility of every point of a model, in the model's order.
 struct Visibility {
   std::vector<PointSight> points;
 

@@ -1,4 +1,4 @@
-// src/mesh/border_trim.h: a border without splinters.
+// src/mesh/border_trim.h: removal of thin triangles from a border.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// src/mesh/coarse_mesh.h: a surface with fewer vertices, all of them its own.
+// src/mesh/coarse_mesh.h: mesh simplification that keeps original vertices.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// src/mesh/growing_surface.cpp: sectors around each point tell what still fits.
+// src/mesh/growing_surface.cpp: angular sectors around each point decide whether a triangle fits.
 #include "mesh/growing_surface.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// src/mesh/growing_surface.h: triangles that are taken only where they leave the surface one sheet.
+// src/mesh/growing_surface.h: triangles added only where the surface stays manifold.
 #pragma once
 
 #include <cstdint>

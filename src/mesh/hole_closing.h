@@ -1,4 +1,4 @@
-// src/mesh/hole_closing.h: lids for holes.
+// src/mesh/hole_closing.h: closing of holes.
 #pragma once
 
 #include "core/triangle_mesh.h"

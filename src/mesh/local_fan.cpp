@@ -42,7 +42,7 @@ void LocalFan::gather(std::int32_t point, float reach) {
 double LocalFan::reachOfCell() const {
   double squared = 0;
   for (const Corner& corner : cell_) squared = std::max(squared, corner.place_mm.squaredNorm());
-  return 4 * squared;  // who lies further than twice the reach cuts nothing
+  return 4 * squared;  // points beyond twice the reach cut nothing
 }
 
 /// Keeps what is nearer to the point than to the neighbour.
@@ -80,7 +80,7 @@ double LocalFan::cutWithin(std::int32_t point, float reach_mm) {
 }
 
 const std::vector<FanTriangle>& LocalFan::around(std::int32_t point) {
-  // Amid a dense surface, the nearest neighbours say it all.
+  // Within a dense surface, the nearest neighbours are enough.
   const float reach_mm = 2 * rule_.hole_radius_mm;
   if (cutWithin(point, reach_mm / 2) > double(reach_mm) / 2) cutWithin(point, reach_mm);
   fan_.clear();

@@ -1,4 +1,4 @@
-// src/mesh/local_fan.h: the triangles around one point, in its own plane.
+// src/mesh/local_fan.h: triangle fan of one point in its tangent plane.
 #pragma once
 
 #include <Eigen/Core>

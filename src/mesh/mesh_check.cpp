@@ -13,9 +13,9 @@
 namespace softscope {
 namespace {
 
-constexpr double kFlat = 1e-6;  // height over longest side: what float coordinates can't tell
+constexpr double kFlat = 1e-6;  // height over longest side: below float resolution
 
-/// An organ or what a scope sees of it is 5 mm to 2 m long; other numbers are other units.
+/// An organ or the visible part of it is 5 mm to 2 m long; other sizes are other units.
 constexpr double kShortestOrgan_mm = 5, kLongestOrgan_mm = 2000;
 
 /// The corner of a side's triangle that names `vertex`, one of the side's two.

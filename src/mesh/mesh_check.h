@@ -1,4 +1,4 @@
-// src/mesh/mesh_check.h: is this surface what distances, volumes and figures take it for?
+// src/mesh/mesh_check.h: checks of a mesh: closed, oriented, manifold, plausible size.
 #pragma once
 
 #include <Eigen/Core>

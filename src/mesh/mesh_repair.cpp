@@ -1,4 +1,4 @@
-// src/mesh/mesh_repair.cpp: one flaw after the other, so that each step may trust the last.
+// src/mesh/mesh_repair.cpp: one defect after the other; no step undoes another.
 #include "mesh/mesh_repair.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// src/mesh/mesh_repair.h: a closed, oriented, manifold surface of one that is nearly so.
+// src/mesh/mesh_repair.h: repair to a closed, oriented, manifold surface.
 #pragma once
 
 #include <string>

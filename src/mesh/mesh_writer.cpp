@@ -45,7 +45,7 @@ Eigen::Vector3f finite(const Eigen::Vector3f& normal) {
   return normal.allFinite() ? normal : Eigen::Vector3f(0, 0, 0);
 }
 
-/// What a header says of the coordinates: each line begins with `prefix`.
+/// The header lines about the coordinates; each begins with `prefix`.
 std::string remarks(const ModelSurface& surface, const LengthUnit& unit, const char* prefix) {
   std::string text = prefix + ("unit " + unit.name) + "\n";
   if (!surface.frame.empty()) text += prefix + ("frame " + surface.frame) + "\n";

@@ -1,4 +1,4 @@
-// src/mesh/mesh_writer.h: a model in the formats that every mesh program reads.
+// src/mesh/mesh_writer.h: a model as PLY, OBJ or STL.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// src/mesh/ply_header.h: what a PLY file says about itself.
+// src/mesh/ply_header.h: header of a PLY file.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// src/mesh/point_grid.h: which points lie around a place.
+// src/mesh/point_grid.h: grid of points for neighbour searches.
 #pragma once
 
 #include <Eigen/Core>

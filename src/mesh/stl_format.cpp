@@ -52,7 +52,7 @@ std::string lowerCase(std::string_view word) {
   return lower;
 }
 
-/// How long a binary file is that says it holds as many triangles; 0 where it is too short to say.
+/// Expected length of a binary file by its number of triangles; 0 if it is too short to have one.
 std::uint64_t promisedBytes(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes + kCountBytes) return 0;
   return kHeaderBytes + kCountBytes +

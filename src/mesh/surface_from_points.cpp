@@ -7,8 +7,10 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "core/parallel.h"
 #include "mesh/border_trim.h"
 #include "mesh/growing_surface.h"
@@ -54,7 +56,7 @@ FitPoints fitPoints(const PointCloud& cloud) {
   return fit;
 }
 
-/// How far most of the points lie apart, along the longest axis; blind to far outliers.
+/// Extent of most points along the longest axis, robust to outliers.
 float extentOf(const std::vector<Eigen::Vector3f>& points_mm) {
   float extent = 0;
   std::vector<float> places(points_mm.size());
@@ -90,9 +92,7 @@ float spacingOf(const OrientedPoints& points, float least_cosine) {
     });
     distances.push_back(nearest);
   }
-  std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(distances.size() / 2),
-                   distances.end());
-  return distances[distances.size() / 2];
+  return medianOf(std::move(distances));
 }
 
 NeighbourRule ruleFor(const SurfaceOptions& options, float spacing_mm) {
@@ -126,7 +126,7 @@ FitPoints spreadOut(const FitPoints& all, const NeighbourRule& rule, float least
   return spread;
 }
 
-/// A triangle that somebody wants, the lowest index first.
+/// A candidate triangle, the lowest index first.
 struct Candidate {
   Triangle triangle;
   float radius_mm;
@@ -151,7 +151,7 @@ std::vector<Candidate> wishesOf(const OrientedPoints& points, const PointGrid& g
   return wishes;
 }
 
-/// Each triangle once, those first that more of their points want, the small ones first of these.
+/// Each triangle once; more points in favour first, then the smaller triangle.
 std::vector<Candidate> ranked(std::vector<Candidate> wishes) {
   std::sort(wishes.begin(), wishes.end(), [](const Candidate& a, const Candidate& b) {
     return a.triangle != b.triangle ? a.triangle < b.triangle : a.radius_mm < b.radius_mm;

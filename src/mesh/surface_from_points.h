@@ -1,4 +1,4 @@
-// src/mesh/surface_from_points.h: triangles between points that know which way they face.
+// src/mesh/surface_from_points.h: surface reconstruction from oriented points.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// src/mesh/text_scanner.h: words and numbers of a text file, and where they stand.
+// src/mesh/text_scanner.h: words and numbers of a text file, with their positions.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ class TextScanner {
     return text_.substr(begin, at_ - begin);
   }
 
-  /// The rest of this line, without its end; the scanner stands at the next line.
+  /// The rest of this line, without its end; moves to the next line.
   std::string_view restOfLine() {
     const std::size_t begin = at_;
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;

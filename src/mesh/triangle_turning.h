@@ -1,4 +1,4 @@
-// src/mesh/triangle_turning.h: neighbours that face alike.
+// src/mesh/triangle_turning.h: consistent orientation of neighbouring triangles.
 #pragma once
 
 #include <cstddef>

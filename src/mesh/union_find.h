@@ -1,4 +1,4 @@
-// src/mesh/union_find.h: who belongs together.
+// src/mesh/union_find.h: disjoint sets.
 #pragma once
 
 #include <cstdint>

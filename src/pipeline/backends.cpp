@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-// The only file that asks whether CUDA was built.
+// The only file that checks whether CUDA was built.
 #ifdef SOFTSCOPE_HAS_CUDA
 cuda::DeviceInfo cudaDevices() { return cuda::queryDevices(); }
 std::vector<std::string> builtBackends() { return {"cpu", "cuda"}; }
@@ -39,7 +39,7 @@ std::vector<std::string> builtBackends() { return {"cpu"}; }
 
 namespace {
 
-/// Why auto stays on the processor, as far as options and machine tell.
+/// Why auto chooses the CPU, by options and machine.
 std::string whyNotOnGpu(const FrameDepthOptions& depth) {
   if (depth.source == "files") return "depth.source is files, and stereo is what the GPU computes";
   if (depth.stereo.method != "elas") return depth.stereo.method + " has no GPU version";

@@ -1,4 +1,4 @@
-// src/pipeline/backends.h: what this build, on this machine, can compute on.
+// src/pipeline/backends.h: back ends available in this build on this machine.
 #pragma once
 
 #include <memory>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/stereo_rig.h"
-#include "cuda/device_info.h"
+#include "cuda/device/device_info.h"
 #include "pipeline/frame_depth.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
@@ -14,7 +14,7 @@
 namespace softscope {
 
 /// The GPUs and CUDA versions found; `why_none` also says so if this build has no CUDA at all.
-/// Never throws. Takes up to a second: the driver wakes each GPU.
+/// Never throws. Takes up to a second: the driver starts each GPU.
 cuda::DeviceInfo cudaDevices();
 
 /// Why no kernel of this build runs on this machine; empty: they do.
@@ -26,7 +26,7 @@ std::vector<std::string> builtBackends();
 /// Throws OptionError unless `name` is auto, cpu or cuda.
 void requireBackendName(const std::string& name);
 
-/// A back end or a stage of it, and what to tell of the choice.
+/// A back end or a stage of it, and the reason of the choice.
 template <class Part>
 struct Chosen {
   Part part;

@@ -155,7 +155,7 @@ void visit(Archive& archive, Whole& checkpoint) {
 
 }  // namespace
 
-std::string checkpointBytes(const Checkpoint& checkpoint) {
+std::string checkpointBytes(const CheckpointView& checkpoint) {
   Writer writer;
   visit(writer, checkpoint);
   const std::uint64_t checksum = checksumOf(writer.bytes);

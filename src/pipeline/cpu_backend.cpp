@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/median.h"
 #include "core/parallel.h"
-#include "deform/surface_target.h"
-#include "deform/warp.h"
+#include "deform/energy/surface_target.h"
+#include "deform/graph/warp.h"
 #include "fusion/model_update.h"
 #include "fusion/visibility.h"
 #include "pipeline/frame_ahead.h"
@@ -175,7 +175,7 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
   if (options_.refine_pose.iterations == 0) return;
   const RectifiedRig& rig = this->rig();
   std::vector<PosePair> pairs;
-  // Neighbouring matches err alike; an even choice of them says as much.
+  // Errors of neighbouring matches correlate; an even subset carries as much information.
   const std::size_t step = 1 + matches_.size() / kPosePairs;
   for (std::size_t i = 0; i < matches_.size(); i += step) {
     if (pose_.inlier[i] == 0) continue;
@@ -221,7 +221,7 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
   const double reference_mm = frame_.association.reference_sigma_mm;
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     const LiftedMatch& match = matches_[i];
-    // Outliers are tissue that moves by itself, if the windows agree; else they are mistakes.
+    // Outliers whose windows agree are moving tissue; the others are wrong matches.
     if (pose_.found && pose_.inlier[i] == 0 && !(match.similarity > 0)) continue;
     KeyPointMatch pull;
     pull.model_point = match.model_point;

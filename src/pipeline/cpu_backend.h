@@ -1,4 +1,4 @@
-// src/pipeline/cpu_backend.h: every stage on the processor's cores.
+// src/pipeline/cpu_backend.h: all stages on the CPU.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/stereo_rig.h"
-#include "deform/lm_solver.h"
+#include "deform/solver/lm_solver.h"
 #include "fusion/frame_comparer.h"
 #include "pipeline/match_stage.h"
 #include "pipeline/reconstruction_backend.h"

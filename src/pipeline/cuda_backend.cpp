@@ -2,13 +2,13 @@
 
 #include <utility>
 
-#include "cuda/comparison.h"
-#include "cuda/device_info.h"
-#include "cuda/locate.h"
-#include "cuda/pose.h"
-#include "cuda/stereo.h"
-#include "cuda/warp.h"
-#include "deform/device_warp_system.h"
+#include "cuda/comparison/comparison.h"
+#include "cuda/device/device_info.h"
+#include "cuda/locate/locate.h"
+#include "cuda/pose/pose.h"
+#include "cuda/stereo/stereo.h"
+#include "cuda/warp/warp.h"
+#include "deform/solver/device_warp_system.h"
 #include "pipeline/cpu_backend.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/host_prior.h"
@@ -75,7 +75,7 @@ class CudaMatchStage final : public MatchStage {
 ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                                    const GrayImage& seen_gray, const MatchPicture& live,
                                    const MeasuredFrame& frame, StageClock* clock) {
-  // Twice the points at a time, so that a growing model seldom asks for memory.
+  // Twice the points at a time, so that a growing model rarely reallocates.
   if (model.size() > capacity_) reserve(2 * model.size());
   device_->setModel(model);
   device_->setLive(live, frame.depth);

@@ -1,4 +1,4 @@
-// src/pipeline/frame_ahead.h: stage 1, of the next two frames too while this one is worked on.
+// src/pipeline/frame_ahead.h: stage 1 of the next two frames, computed during the current one.
 #pragma once
 
 #include <future>

@@ -28,7 +28,7 @@ FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOpt
   if (options.source == "files") requireRectified();
 }
 
-/// Depth files belong to the pictures as they are.
+/// Depth files belong to the images as they are.
 void FrameDepth::requireRectified() const {
   if (!rectified_)
     throw InputError(calibration_source_ +

@@ -25,7 +25,7 @@ struct FrameDepthOptions {
   void validate() const;
 };
 
-/// All rasters have the shape of the rectified left picture.
+/// All rasters have the shape of the rectified left image.
 struct MeasuredFrame {
   std::string method;  // elas, sgbm, onnx or files
   ColourImage left;    // rectified

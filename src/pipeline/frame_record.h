@@ -1,4 +1,4 @@
-// src/pipeline/frame_record.h: what became of one frame; a line of frames.csv.
+// src/pipeline/frame_record.h: outcome of one frame: a row of frames.csv.
 #pragma once
 
 #include <optional>

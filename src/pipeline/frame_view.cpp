@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,7 +19,7 @@ constexpr double kNearMmPerPx = 2.5;
 /// Limits in mm are those of near tissue and grow with what a pixel of disparity is worth. Fusion
 /// compares a depth with the typical one of its frame: where all depths are worse, because the
 /// tissue is far or the images are poor, they still make a model. The warp does not: tissue far
-/// away bends no further than near tissue, so unsure depth bends it less.
+/// away bends no further than near tissue, so depth with a large sigma bends it less.
 void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
   view->association = options.deform.association;
   view->fusion = options.fusion;
@@ -42,12 +41,6 @@ std::size_t countOf(const Rows& rows) {
   std::size_t count = 0;
   for (const std::vector<float>& row : rows) count += row.size();
   return count;
-}
-
-/// Of numbers above 0; the upper of two middle ones, NaN of none.
-double medianOf(const Rows& rows) {
-  const std::size_t count = countOf(rows);
-  return count > 0 ? absoluteOfRank(rows, count / 2) : std::numeric_limits<double>::quiet_NaN();
 }
 
 DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
@@ -73,8 +66,8 @@ DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
   summary.tissue_px = tissue_px;
   summary.measured_px = static_cast<int>(countOf(depths_mm));
   double depth_mm = 0;
-  parallelInvoke([&] { summary.median_sigma_mm = medianOf(sigmas_mm); },
-                 [&] { depth_mm = medianOf(depths_mm); });
+  parallelInvoke([&] { summary.median_sigma_mm = absoluteMedian(sigmas_mm); },
+                 [&] { depth_mm = absoluteMedian(depths_mm); });
   const double mm_per_px = depth_mm * depth_mm / (rig.left.fx_px * rig.baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   if (measured.rows.known()) summary.row_difference_px = measured.rows.mean_row_difference_px;
@@ -92,7 +85,7 @@ FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
   parallelInvoke([&] { view.live = livePicture(view.measured, view.not_tissue); },
                  [&] { view.summary = summarise(view.measured, view.not_tissue, rig); });
   scaleOptions(options, &view);
-  // How sure a pixel is does not depend on where the camera stands.
+  // The state of a pixel does not depend on the camera's pose.
   view.states = judgePixels({view.measured.depth, view.measured.normals, view.measured.left,
                              view.not_tissue, rig.left, Eigen::Isometry3d::Identity()},
                             view.fusion.pixels);

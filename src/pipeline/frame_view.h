@@ -1,4 +1,4 @@
-// src/pipeline/frame_view.h: what a measured frame tells without the model.
+// src/pipeline/frame_view.h: masks, pixel states and typical sigma of a measured frame.
 #pragma once
 
 #include "core/image.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "deform/graph_builder.h"
+#include "deform/graph/graph_builder.h"
 
 namespace softscope {
 

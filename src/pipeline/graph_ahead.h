@@ -1,4 +1,4 @@
-// src/pipeline/graph_ahead.h: growth of the node graph beside stages that don't need it.
+// src/pipeline/graph_ahead.h: growth of the node graph in parallel to stages that do not need it.
 #pragma once
 
 #include <future>
@@ -6,8 +6,8 @@
 
 #include "core/point_model.h"
 #include "core/warp_graph.h"
-#include "deform/deform_options.h"
-#include "deform/lm_solver.h"
+#include "deform/options/deform_options.h"
+#include "deform/solver/lm_solver.h"
 
 namespace softscope {
 
@@ -20,7 +20,7 @@ class GraphAhead {
                DeformSolver* solver);
   /// Takes over what was begun for this model and graph, or grows them now.
   void grow(const GraphOptions& options, PointModel* model, WarpGraph* graph);
-  /// Waits for what was begun and forgets it.
+  /// Waits for the work in progress and discards it.
   void drop();
 
  private:

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "deform/warp.h"
+#include "deform/graph/warp.h"
 #include "fusion/cell_table.h"
 
 namespace softscope {
@@ -122,7 +122,7 @@ class TrackedNear {
   std::vector<std::int32_t> next_;
 };
 
-/// What the model says around one tracked point.
+/// The model around one tracked point.
 struct SurfacePiece {
   double weight = 0, height_mm = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

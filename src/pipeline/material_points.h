@@ -1,4 +1,4 @@
-// src/pipeline/material_points.h: pieces of tissue that are followed through the whole run.
+// src/pipeline/material_points.h: material points tracked through the whole run.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace softscope {
 
-/// A pixel of the first left picture, as it is on disk.
+/// A pixel of the first left image, as it is on disk.
 struct TrackSeed {
   int id = 0;
   double u_px = 0, v_px = 0;

@@ -1,4 +1,4 @@
-// src/pipeline/model_matches.cpp: masks, pictures, pairs.
+// src/pipeline/model_matches.cpp: masks, images, pairs.
 #include "pipeline/model_matches.h"
 
 #include <algorithm>

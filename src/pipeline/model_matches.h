@@ -1,4 +1,4 @@
-// src/pipeline/model_matches.h: stages 2 to 4 meet: model view and live picture become point pairs.
+// src/pipeline/model_matches.h: stages 2 to 4: from model view and live image to point pairs.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ namespace softscope {
 /// What of a frame is no tissue: its mask, and instruments where they are to be detected.
 Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options);
 
-/// The rectified left picture as it is matched: without what is no tissue, without highlights.
+/// The rectified left image as it is matched: without what is no tissue, without highlights.
 MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue);
 
 struct ModelMatches {
@@ -25,8 +25,8 @@ struct ModelMatches {
 /// The view as it is matched: with its anchors, without where it shows nothing.
 MatchPicture modelPicture(const ModelView& view);
 
-/// Finds the view's pixels again in the live picture of the measured frame, by their looks in
-/// `picture`: modelPicture(), or another picture from the same place.
+/// Finds the view's pixels again in the live image of the measured frame, by their looks in
+/// `picture`: modelPicture(), or another image from the same place.
 ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
                         const MatchPicture& live, const MeasuredFrame& frame,
                         FeatureMatcher& matcher);

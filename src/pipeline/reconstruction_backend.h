@@ -1,4 +1,4 @@
-// src/pipeline/reconstruction_backend.h: the seam between the order of work and those who do it.
+// src/pipeline/reconstruction_backend.h: interface between the frame loop and the stages.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@
 #include "core/point_model.h"
 #include "core/stereo_rig.h"
 #include "core/warp_graph.h"
-#include "deform/lm_solver.h"
+#include "deform/solver/lm_solver.h"
 #include "fusion/back_projection_error.h"
 #include "fusion/colour_gain.h"
 #include "fusion/point_insertion.h"
@@ -63,9 +63,9 @@ struct WarpSummary {
   int nodes = 0;
 };
 
-/// What speaks for the pose and the warp of a frame.
+/// Evidence for the pose and the warp of a frame.
 struct EvidenceSummary {
-  BackProjectionError predicted;  // of the warped model, before it learns from the frame
+  BackProjectionError predicted;  // of the warped model, before fusion
   ViewEvidence view;
 };
 
@@ -95,7 +95,7 @@ struct ModelState {
   InsertionMemory memory;
   MaterialPoints tracked;
   LastPicture last;     // kept only where it is matched
-  ColourGain exposure;  // of the last picture that was fused, against the model's colours
+  ColourGain exposure;  // of the last image that was fused, against the model's colours
 };
 
 /// The working set of a run, and one verb a stage. The reconstructor owns the order. Poses are
@@ -126,7 +126,7 @@ class ReconstructionBackend {
   /// Carries points, nodes and tracked points to the live shape. `is_reference`: that is the shape
   /// in which later poses are measured.
   virtual void acceptWarp(bool is_reference) = 0;
-  /// After acceptWarp(): compares the model with the frame, before it learns from it.
+  /// After acceptWarp(): compares the model with the frame, before fusion.
   virtual EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) = 0;
   /// The model is again as it was before findWarp(), also after acceptWarp().
   virtual void rejectWarp() = 0;

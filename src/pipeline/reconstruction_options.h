@@ -1,7 +1,7 @@
-// src/pipeline/reconstruction_options.h: everything that a reconstruction may be told.
+// src/pipeline/reconstruction_options.h: options of a reconstruction.
 #pragma once
 
-#include "deform/deform_options.h"
+#include "deform/options/deform_options.h"
 #include "features/matcher_options.h"
 #include "features/model_view.h"
 #include "fusion/fusion_options.h"
@@ -22,7 +22,7 @@ struct GateOptions {
   static constexpr double kKeyViewStepDeg = 15;  // … or turned this much: another key view
 };
 
-/// What of the picture is not tissue.
+/// What of the image is not tissue.
 struct TissueMaskOptions {
   int margin_px = 6;  // pixels this near to a masked one are left out: the stereo window's reach
   bool detect_instruments = false;  // by colour, beside mask files
@@ -38,7 +38,7 @@ struct ReconstructionOptions {
   RefinePoseOptions refine_pose;  // 0 iterations: RANSAC's fit is the pose
   GraphOptions graph;
   DeformOptions deform;
-  bool match_last_picture = false;  // true: frame to frame, on the last picture's texture, not on
+  bool match_last_picture = false;  // true: frame to frame, on the last image's texture, not on
                                     // the model's; errors add up. For comparison
   FusionOptions fusion;
   GateOptions gate;

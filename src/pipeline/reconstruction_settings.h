@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/setting_rules.h"
-#include "deform/deform_settings.h"
+#include "deform/options/deform_settings.h"
 #include "features/feature_settings.h"
 #include "fusion/fusion_settings.h"
 #include "pipeline/reconstruction_options.h"

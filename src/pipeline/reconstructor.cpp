@@ -111,7 +111,7 @@ bool Reconstructor::locate(FrameRecord& record) {
 }
 
 bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record) {
-  // After a frame that was not fused, nothing tells that the scope stood still.
+  // After a frame that was not fused, the scope may have moved.
   const bool maybe_static = unfused_frames_ == 0;
   const LocateSummary found =
       backend_->locate(viewpoint, world_from_left_, reference_pose_, maybe_static);
@@ -197,7 +197,7 @@ void Reconstructor::rememberView() {
     key_views_.erase(key_views_.begin());
 }
 
-ReconstructionState Reconstructor::state() const {
+ReconstructionStateView Reconstructor::state() const {
   return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_,
           unfused_frames_,   searches_};
 }

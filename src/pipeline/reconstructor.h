@@ -11,8 +11,9 @@
 namespace softscope {
 
 /// Everything that a run needs to go on where it stopped.
-struct ReconstructionState {
-  ModelState model;
+template <class Model>
+struct StateOf {
+  Model model;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
@@ -20,6 +21,9 @@ struct ReconstructionState {
   int unfused_frames = 0;  // since the last one that was fused
   int searches = 0;        // of them, in which the model was sought over the whole image
 };
+using ReconstructionState = StateOf<ModelState>;
+/// Refers to a Reconstructor's model: valid until its next frame is processed.
+using ReconstructionStateView = StateOf<const ModelState&>;
 
 /// Owns the order of the stages; the back end owns what they work on.
 class Reconstructor {
@@ -27,7 +31,7 @@ class Reconstructor {
   Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
                 const ReconstructionOptions& options);
 
-  /// One frame, from pictures to the updated model. A frame that isn't good enough leaves the
+  /// One frame, from images to the updated model. A frame that isn't good enough leaves the
   /// model as it was; the record says why. `next` and `after`: the two frames after it, where they
   /// are known already, so that their depth may begin meanwhile; each must live until it is
   /// processed itself, or the frame that takes its place. The model doesn't depend on them.
@@ -44,8 +48,8 @@ class Reconstructor {
   const ReconstructionBackend& backend() const { return *backend_; }
   /// Valid until the next frame is processed.
   const ModelState& model() const { return backend_->state(); }
-  /// A copy of everything that the next frame needs.
-  ReconstructionState state() const;
+  /// Everything that the next frame needs; the model isn't copied.
+  ReconstructionStateView state() const;
   void restore(ReconstructionState state);
 
  private:
@@ -63,9 +67,9 @@ class Reconstructor {
 
   std::unique_ptr<ReconstructionBackend> backend_;
   GateOptions gate_;
-  bool matching_;  // false: nothing tells where the scope is, so it is taken to stand still
+  bool matching_;  // false: the scope is taken as static
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last sure motion
+  Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last reliable motion
   std::vector<Eigen::Isometry3d> key_views_;
   bool lost_ = false;
   int unfused_frames_ = 0;  // since the last one that was fused

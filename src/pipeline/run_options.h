@@ -1,4 +1,4 @@
-// src/pipeline/run_options.h: what a command that reads a sequence may be told.
+// src/pipeline/run_options.h: options of commands that read a sequence.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// src/pose/pair_residual.h: what one pair says about a pose: docs/energy.md (26) to (29), for the
+// src/pose/pair_residual.h: residual of one pair at a pose: docs/energy.md (26) to (29), for the
 // CPU and the GPU.
 #pragma once
 

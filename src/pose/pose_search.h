@@ -1,4 +1,4 @@
-// src/pose/pose_search.h: the poses that pairs agree with best, and what the pairs say about them.
+// src/pose/pose_search.h: robust search of the pose over matched pairs.
 #pragma once
 
 #include <Eigen/Core>

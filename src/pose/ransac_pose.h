@@ -1,4 +1,4 @@
-// src/pose/ransac_pose.h: how the scope moved, from points that were seen twice.
+// src/pose/ransac_pose.h: scope motion from matched points by RANSAC.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-// src/pose/refine_pose.h: pose that most of the tissue agrees with, to sub-pixel, and its error.
+// src/pose/refine_pose.h: sub-pixel refinement of the pose, and its standard error.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// src/pose/rigid_fit.h: the rotation and translation that lay one set of points on another.
+// src/pose/rigid_fit.h: least-squares rigid transform between two point sets.
 #pragma once
 
 #include <Eigen/Core>

@@ -236,14 +236,14 @@ TEST_F(Reconstruct, PairsTheViewsOfOneMoment) {
   }
   const Outcome done = reconstruct({"--out", at("run"), "--json"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.err, HasSubstr("right picture f -1 belongs to left picture f"));
+  EXPECT_THAT(done.err, HasSubstr("right image f -1 belongs to left image f"));
   EXPECT_EQ(done.json()["configuration"]["sequence.right_offset"], "-1");
   EXPECT_EQ(done.json()["frames_fused"], 7);
   EXPECT_EQ(done.json()["frames_by_status"]["unpaired"], 1) << "nothing is wrong with its files";
   EXPECT_LT(double(done.json()["mean_backprojection_mm"]), 0.2);
   const auto told = run({"info", at("clip"), "--json"}).json();
   EXPECT_EQ(told["right_offset"], -1) << "the same for every command";
-  EXPECT_THAT(told["warnings"].dump(), HasSubstr("belongs to left picture f"));
+  EXPECT_THAT(told["warnings"].dump(), HasSubstr("belongs to left image f"));
   const Outcome depth = run({"depth", at("clip"), "--out", at("depth"), "--json", "--frames", "0:2",
                              "--set", "stereo.disparity_max_px=63"});
   EXPECT_EQ(depth.json()["options"]["sequence.right_offset"], "-1");

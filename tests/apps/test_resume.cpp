@@ -108,7 +108,7 @@ TEST_F(Resume, AnotherPictureIsAnotherRun) {
   fs::copy_file(other, left);
   const Outcome resumed = resume({"--frames", "0:" + std::to_string(done + 1)});
   EXPECT_EQ(resumed.exit_code, 2);
-  EXPECT_THAT(resumed.err, HasSubstr("other settings, pictures"));
+  EXPECT_THAT(resumed.err, HasSubstr("other settings, images"));
 }
 
 TEST_F(Resume, PicturesThatVanishEndTheRunAndCanBePutBack) {

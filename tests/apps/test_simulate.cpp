@@ -5,7 +5,7 @@
 #include <fstream>
 #include <map>
 
-#include "eval/simulation/organ_mesh.h"
+#include "eval/simulation/tissue/organ_mesh.h"
 #include "io/images/image_reader.h"
 #include "io/images/image_writer.h"
 #include "mesh/mesh_check.h"

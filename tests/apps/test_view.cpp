@@ -217,7 +217,7 @@ TEST_F(View, TheWindowOpensPlaysAndClosesOnRequest) {
   int status = -1;
   waitpid(shell, &status, 0);
   EXPECT_EQ(status, 0) << textOf(at("log"));
-  EXPECT_THAT(textOf(at("log")), HasSubstr("pictures, "));
+  EXPECT_THAT(textOf(at("log")), HasSubstr("images, "));
 }
 
 class SavedRun : public InFolder {};

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "cuda/locate.h"
-#include "cuda/match.h"
-#include "cuda/view.h"
+#include "cuda/locate/locate.h"
+#include "cuda/match/match.h"
+#include "cuda/view/view.h"
 #include "stereo/depth/depth_from_disparity.h"
 #include "stereo/matching/elas_matcher.h"
 #include "tests/bench/cuda_bench.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "cuda/stereo.h"
+#include "cuda/stereo/stereo.h"
 #include "stereo/depth/depth_from_disparity.h"
 #include "stereo/matching/elas_matcher.h"
 #include "tests/bench/cuda_bench.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "cuda/warp.h"
+#include "cuda/warp/warp.h"
 #include "tests/bench/cuda_bench.h"
 #include "tests/cuda/warp_cases.h"
 

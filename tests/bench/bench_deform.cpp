@@ -8,10 +8,10 @@
 #include <random>
 
 #include "core/parallel.h"
-#include "deform/block_cholesky.h"
-#include "deform/lm_solver.h"
+#include "deform/cholesky/block_cholesky.h"
+#include "deform/graph/warp.h"
 #include "deform/scenes.h"
-#include "deform/warp.h"
+#include "deform/solver/lm_solver.h"
 
 namespace softscope {
 namespace {

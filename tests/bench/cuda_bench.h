@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/rectified_rig.h"
-#include "cuda/device_info.h"
+#include "cuda/device/device_info.h"
 
 namespace softscope::bench {
 

@@ -39,5 +39,11 @@ TEST(ValueOfRank, TakesZeroAndInfinity) {
   EXPECT_EQ(absoluteOfRank(parts, 3), INFINITY);
 }
 
+TEST(ValueOfRank, MedianIsTheUpperOfTwo) {
+  EXPECT_EQ(absoluteMedian({{-4, 1}, {}, {2, 3}}), 3);
+  EXPECT_EQ(absoluteMedian({{-4, 1}, {2}}), 2);
+  EXPECT_TRUE(std::isnan(absoluteMedian({{}, {}})));
+}
+
 }  // namespace
 }  // namespace softscope

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "deform/graph_builder.h"
+#include "deform/graph/graph_builder.h"
 #include "fusion/frame_comparer.h"
 #include "tests/fusion/made_shots.h"
 

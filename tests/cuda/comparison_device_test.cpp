@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "comparison_cases.h"
-#include "cuda/comparison.h"
-#include "cuda/device_info.h"
+#include "cuda/comparison/comparison.h"
+#include "cuda/device/device_info.h"
 
 namespace softscope::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "comparison_cases.h"
-#include "cuda/comparison_run.h"
+#include "cuda/comparison/comparison_run.h"
 #include "host_machine.h"
 
 namespace softscope::test {

@@ -3,9 +3,9 @@
 
 #include <cstring>
 
-#include "cuda/host_executor.h"
-#include "cuda/locate.h"
-#include "cuda/locate_passes.h"
+#include "cuda/device/host_executor.h"
+#include "cuda/locate/locate.h"
+#include "cuda/locate/locate_passes.h"
 #include "host_memory.h"
 
 namespace softscope::test {

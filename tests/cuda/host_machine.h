@@ -5,7 +5,7 @@
 #include <cstring>
 #include <memory>
 
-#include "cuda/host_executor.h"
+#include "cuda/device/host_executor.h"
 #include "host_memory.h"
 
 namespace softscope::test {

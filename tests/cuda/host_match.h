@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cuda/host_executor.h"
-#include "cuda/match_passes.h"
+#include "cuda/device/host_executor.h"
+#include "cuda/match/match_passes.h"
 #include "host_memory.h"
 
 namespace softscope::test {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cuda/arena.h"
+#include "cuda/device/arena.h"
 
 namespace softscope::test {
 

@@ -6,8 +6,8 @@
 
 #include "core/depth_map.h"
 #include "core/image.h"
-#include "cuda/host_executor.h"
-#include "cuda/stereo_passes.h"
+#include "cuda/device/host_executor.h"
+#include "cuda/stereo/stereo_passes.h"
 #include "host_memory.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/host_prior.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/point_model.h"
-#include "cuda/host_executor.h"
-#include "cuda/view_passes.h"
+#include "cuda/device/host_executor.h"
+#include "cuda/view/view_passes.h"
 #include "host_memory.h"
 
 namespace softscope::test {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "cuda/device_info.h"
-#include "cuda/locate.h"
+#include "cuda/device/device_info.h"
+#include "cuda/locate/locate.h"
 #include "locate_cases.h"
 
 namespace softscope {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "cuda/device_info.h"
-#include "cuda/match.h"
+#include "cuda/device/device_info.h"
+#include "cuda/match/match.h"
 #include "match_cases.h"
 
 namespace softscope {

@@ -1,8 +1,8 @@
 // tests/cuda/pose_device_test.cpp: the pose found on the GPU is the CPU's.
 #include <gtest/gtest.h>
 
-#include "cuda/device_info.h"
-#include "cuda/pose.h"
+#include "cuda/device/device_info.h"
+#include "cuda/pose/pose.h"
 #include "pose_cases.h"
 
 namespace softscope {

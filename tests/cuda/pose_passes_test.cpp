@@ -2,7 +2,7 @@
 // find the CPU's pose.
 #include <gtest/gtest.h>
 
-#include "cuda/pose_run.h"
+#include "cuda/pose/pose_run.h"
 #include "host_machine.h"
 #include "pose_cases.h"
 

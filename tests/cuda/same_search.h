@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "deform/deform_summary.h"
+#include "deform/solver/deform_summary.h"
 
 namespace softscope::test {
 

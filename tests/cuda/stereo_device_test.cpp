@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/error.h"
-#include "cuda/device_info.h"
-#include "cuda/stereo.h"
+#include "cuda/device/device_info.h"
+#include "cuda/stereo/stereo.h"
 #include "stereo_cases.h"
 
 namespace softscope {

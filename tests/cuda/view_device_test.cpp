@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "cuda/device_info.h"
-#include "cuda/view.h"
+#include "cuda/device/device_info.h"
+#include "cuda/view/view.h"
 #include "view_cases.h"
 
 namespace softscope {

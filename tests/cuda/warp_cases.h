@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "deform/device_warp_system.h"
-#include "deform/lm_solver.h"
+#include "deform/solver/device_warp_system.h"
+#include "deform/solver/lm_solver.h"
 #include "tests/deform/scenes.h"
 
 namespace softscope::test {

@@ -1,8 +1,8 @@
 // tests/cuda/warp_device_test.cpp: the warp found on the GPU has the CPU's energy.
 #include <gtest/gtest.h>
 
-#include "cuda/device_info.h"
-#include "cuda/warp.h"
+#include "cuda/device/device_info.h"
+#include "cuda/warp/warp.h"
 #include "same_search.h"
 #include "warp_cases.h"
 

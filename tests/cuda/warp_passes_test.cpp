@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "cuda/warp_run.h"
-#include "deform/block_pattern.h"
-#include "deform/dissection.h"
+#include "cuda/warp/warp_run.h"
+#include "deform/cholesky/block_pattern.h"
+#include "deform/cholesky/dissection.h"
 #include "host_machine.h"
 #include "same_search.h"
 #include "warp_cases.h"

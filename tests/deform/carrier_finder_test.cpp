@@ -1,5 +1,5 @@
 // tests/deform/carrier_finder_test.cpp: carriers against their definition, in any order of points.
-#include "deform/carrier_finder.h"
+#include "deform/graph/carrier_finder.h"
 
 #include <gtest/gtest.h>
 

@@ -12,8 +12,8 @@
 #include "core/camera.h"
 #include "core/depth_map.h"
 #include "core/point_model.h"
-#include "deform/constraints.h"
-#include "deform/graph_builder.h"
+#include "deform/energy/constraints.h"
+#include "deform/graph/graph_builder.h"
 
 namespace softscope::scenes {
 

@@ -1,11 +1,11 @@
 // tests/deform/shape_memory_test.cpp: what edges remember, by hand.
-#include "deform/shape_memory.h"
+#include "deform/graph/shape_memory.h"
 
 #include <gtest/gtest.h>
 
-#include "deform/lm_solver.h"
-#include "deform/node_terms.h"
-#include "deform/warp.h"
+#include "deform/graph/warp.h"
+#include "deform/kernels/node_terms.h"
+#include "deform/solver/lm_solver.h"
 
 namespace softscope {
 namespace {
@@ -30,7 +30,7 @@ void moveTo(const Eigen::Matrix3d& turn, const Eigen::Vector3d& first_mm,
 
 ExpectedOffsets expectedBy(const WarpGraph& graph, double memory) {
   ConstraintSet constraints;
-  expectShape(graph, memory, &constraints);
+  expectShape(graph, memory, &constraints.expected);
   return constraints.expected.at(0);
 }
 

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "deform/block_cholesky.h"
-#include "deform/kernels.h"
+#include "deform/cholesky/block_cholesky.h"
+#include "deform/kernels/deform_kernels.h"
 
 namespace softscope {
 namespace {

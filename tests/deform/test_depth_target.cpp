@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "deform/surface_target.h"
+#include "deform/energy/surface_target.h"
 #include "scenes.h"
 
 namespace softscope {

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
-#include "deform/block_pattern.h"
-#include "deform/energy.h"
-#include "deform/node_sight.h"
-#include "deform/node_terms.h"
-#include "deform/normal_equations.h"
-#include "deform/robust_loss.h"
+#include "deform/cholesky/block_pattern.h"
+#include "deform/energy/energy.h"
+#include "deform/energy/node_sight.h"
+#include "deform/energy/robust_loss.h"
+#include "deform/kernels/node_terms.h"
+#include "deform/solver/normal_equations.h"
 #include "scenes.h"
 
 namespace softscope {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <random>
 
-#include "deform/node_terms.h"
-#include "deform/plane_term.h"
+#include "deform/kernels/node_terms.h"
+#include "deform/kernels/plane_term.h"
 
 namespace softscope {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
-#include "deform/lm_solver.h"
-#include "deform/warp.h"
+#include "deform/graph/warp.h"
+#include "deform/solver/lm_solver.h"
 #include "scenes.h"
 
 namespace softscope {

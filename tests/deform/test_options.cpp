@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "deform/lm_solver.h"
+#include "deform/solver/lm_solver.h"
 
 namespace softscope {
 namespace {

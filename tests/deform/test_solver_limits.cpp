@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "deform/lm_solver.h"
-#include "deform/warp.h"
+#include "deform/graph/warp.h"
+#include "deform/solver/lm_solver.h"
 #include "scenes.h"
 
 namespace softscope {

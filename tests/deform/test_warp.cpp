@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
-#include "deform/node_terms.h"
-#include "deform/warp.h"
+#include "deform/graph/warp.h"
+#include "deform/kernels/node_terms.h"
 #include "scenes.h"
 
 namespace softscope {

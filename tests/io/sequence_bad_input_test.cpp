@@ -65,7 +65,7 @@ TEST_F(BadSequence, MissingViewsAreNamed) {
 TEST_F(BadSequence, EmptyFoldersAndMissingCalibration) {
   fs::remove_all(at("left"));
   fs::create_directory(at("left"));
-  expectRefused({"left", "holds no pictures"});
+  expectRefused({"left", "holds no images"});
   makeSequence(at("other"), 1);
   fs::remove(at("other/calibration.yaml"));
   expectError<InputError>([&] { SequenceReader(at("other")); }, {"no calibration"});

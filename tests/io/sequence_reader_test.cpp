@@ -248,7 +248,7 @@ void expectRightBefore(SequenceReader& reader, int count, double tolerance) {
   const auto alone = reader.next();
   ASSERT_TRUE(alone && !alone->ok());
   EXPECT_EQ(alone->index, 0);
-  EXPECT_THAT(alone->error, testing::HasSubstr("no picture of this moment"));
+  EXPECT_THAT(alone->error, testing::HasSubstr("no image of this moment"));
   for (int f = 1; f < count; ++f) {
     const auto result = reader.next();
     ASSERT_TRUE(result && result->ok());
@@ -292,7 +292,7 @@ TEST(SequenceReader, RefusesAnOffsetThatPairsNothing) {
   SequenceOptions options;
   options.right_offset = "-3";
   expectError<OptionError>([&] { SequenceReader(folder.path(), options); },
-                           {"sequence.right_offset is -3", "3 pictures"});
+                           {"sequence.right_offset is -3", "3 images"});
   for (const char* text : {"one", "0.5", "", "1e9"}) {
     options.right_offset = text;
     expectError<OptionError>([&] { SequenceReader(folder.path(), options); },

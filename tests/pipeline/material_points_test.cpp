@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "deform/graph_builder.h"
+#include "deform/graph/graph_builder.h"
 
 namespace softscope {
 namespace {

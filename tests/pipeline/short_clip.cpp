@@ -1,6 +1,6 @@
 #include "short_clip.h"
 
-#include "eval/simulation/organ_mesh.h"
+#include "eval/simulation/tissue/organ_mesh.h"
 #include "pipeline/cpu_backend.h"
 
 namespace softscope::test {

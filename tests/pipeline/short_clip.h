@@ -6,7 +6,7 @@
 
 #include "core/frame.h"
 #include "core/stereo_rig.h"
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "pipeline/reconstructor.h"
 
 namespace softscope::test {

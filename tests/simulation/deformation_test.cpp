@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "eval/simulation/organ_mesh.h"
-#include "eval/simulation/tissue_deformation.h"
+#include "eval/simulation/tissue/organ_mesh.h"
+#include "eval/simulation/tissue/tissue_deformation.h"
 
 namespace softscope {
 namespace {

@@ -1,5 +1,5 @@
 // tests/simulation/incision_test.cpp: a cut is invisible until it opens, then as wide as it says.
-#include "eval/simulation/incision.h"
+#include "eval/simulation/wound/incision.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "mesh/mesh_check.h"
 #include "simple_shapes.h"
 

@@ -1,5 +1,5 @@
 // tests/simulation/organ_mesh_test.cpp: the built-in organ is a sound surface.
-#include "eval/simulation/organ_mesh.h"
+#include "eval/simulation/tissue/organ_mesh.h"
 
 #include <gtest/gtest.h>
 

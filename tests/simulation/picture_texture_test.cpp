@@ -1,12 +1,12 @@
 // tests/simulation/picture_texture_test.cpp: a photograph lies where it should and has no seam.
-#include "eval/simulation/picture_texture.h"
+#include "eval/simulation/texture/picture_texture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 
 namespace softscope {
 namespace {

@@ -1,5 +1,5 @@
 // tests/simulation/ray_tree_test.cpp: rays meet what formulas say.
-#include "eval/simulation/ray_tree.h"
+#include "eval/simulation/surface/ray_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "eval/simulation/random.h"
+#include "eval/simulation/noise/random.h"
 #include "simple_shapes.h"
 
 namespace softscope {

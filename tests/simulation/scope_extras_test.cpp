@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 
 namespace softscope {
 namespace {

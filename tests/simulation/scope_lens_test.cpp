@@ -1,10 +1,10 @@
 // tests/simulation/scope_lens_test.cpp: a lens that bends, and pictures through it.
-#include "eval/simulation/scope_lens.h"
+#include "eval/simulation/camera/scope_lens.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "stereo/rectification/rectifier.h"
 
 namespace softscope {

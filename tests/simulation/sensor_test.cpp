@@ -1,12 +1,12 @@
 // tests/simulation/sensor_test.cpp: light becomes grey levels by rules that can be checked.
-#include "eval/simulation/sensor.h"
+#include "eval/simulation/camera/sensor.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/simulation/scope_shading.h"
+#include "eval/simulation/view/scope_shading.h"
 
 namespace softscope {
 namespace {

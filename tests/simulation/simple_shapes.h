@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/triangle_mesh.h"
-#include "eval/simulation/organ_mesh.h"
+#include "eval/simulation/tissue/organ_mesh.h"
 
 namespace softscope::test {
 

@@ -1,5 +1,5 @@
 // tests/simulation/simulator_test.cpp: pictures, depth, mesh, tracks and path tell one story.
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 
 #include <gtest/gtest.h>
 

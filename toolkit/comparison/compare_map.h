@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_map.h: a comparison to be turned and looked at.
+// toolkit/comparison/compare_map.h: error map of a comparison, for interactive views.
 #pragma once
 
 #include "core/triangle_mesh.h"

@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_picture.h: where the test lies off the reference, as a picture.
+// toolkit/comparison/compare_picture.h: image of the test surface coloured by its errors.
 #pragma once
 
 #include "core/triangle_mesh.h"

@@ -1,4 +1,4 @@
-// toolkit/comparison/landmark_places.h: points of a patient that have names.
+// toolkit/comparison/landmark_places.h: named landmarks of a patient.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,4 @@
-// toolkit/comparison/surface_fit.h: the test brought to its reference, the same wherever it is
-// offered.
+// toolkit/comparison/surface_fit.h: alignment of a test surface to its reference.
 #pragma once
 
 #include <optional>

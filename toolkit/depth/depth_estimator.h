@@ -1,4 +1,4 @@
-// toolkit/depth/depth_estimator.h: one stereo frame to everything that `softscope depth` writes.
+// toolkit/depth/depth_estimator.h: depth of one stereo frame with all outputs of `softscope depth`.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-/// All rasters have the shape of the rectified left picture.
+/// All rasters have the shape of the rectified left image.
 struct DepthResult : MeasuredFrame {
   PointCloud cloud;  // mm, in the frame asked for
 };

@@ -1,4 +1,4 @@
-// toolkit/depth/depth_outputs.cpp: rasters, cloud and picture to disk.
+// toolkit/depth/depth_outputs.cpp: rasters, cloud and image to disk.
 #include "toolkit/depth/depth_outputs.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// toolkit/depth/depth_outputs.h: the files that `softscope depth` leaves, frame by frame.
+// toolkit/depth/depth_outputs.h: files of `softscope depth`, per frame.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// toolkit/depth/depth_record.h: what summary.json says of a run of `softscope depth`.
+// toolkit/depth/depth_record.h: summary.json of `softscope depth`.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// toolkit/depth/frame_statistics.h: what a summary says of one frame's depth.
+// toolkit/depth/frame_statistics.h: depth statistics of one frame.
 #pragma once
 
 #include "toolkit/depth/depth_estimator.h"

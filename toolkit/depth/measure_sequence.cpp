@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One range for all pictures of a run: of a sequence the first frame's, a tenth wider on either
+/// One range for all images of a run: of a sequence the first frame's, a tenth wider on either
 /// side, since tissue moves.
 DepthRange rangeForAll(const DepthRange& first, bool is_sequence) {
   if (!is_sequence) return first;
@@ -32,7 +32,7 @@ DepthRange rangeForAll(const DepthRange& first, bool is_sequence) {
   return {std::max(0.0, first.nearest_mm - margin_mm), first.farthest_mm + margin_mm};
 }
 
-/// Above the picture: the method, the path's last part, and the frame unless it is negative.
+/// Above the image: the method, the path's last part, and the frame unless it is negative.
 std::string pictureTitle(const std::string& method, const std::string& path, int frame) {
   fs::path place = fs::path(path).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
@@ -88,7 +88,7 @@ void SequenceMeasurement::requireFree(const DepthOutputs& outputs, int frames) c
 }
 
 DepthEstimator SequenceMeasurement::estimatorFor(const SequenceReader& reader) const {
-  // To wake a GPU takes longer than one pair does on the processor.
+  // Starting a GPU takes longer than one pair on the CPU.
   const bool one_pair = options_.backend == "auto" && reader.frameCount() == 1;
   auto chosen = makeFrameDepth(one_pair ? "cpu" : options_.backend, reader.calibration(),
                                options_.settings.measurement);

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "eval/simulation/ray_tree.h"
+#include "eval/simulation/surface/ray_tree.h"
 #include "eval/surfaces/surface_alignment.h"
 #include "io/geometry/depth_files.h"
 #include "io/text/message.h"
@@ -22,7 +22,7 @@ Raster<float> castDepth(const TriangleMesh& mesh_world, const PinholeCamera& lef
   constexpr int kRays = std::tuple_size_v<RayPacket>;
   parallelRows(left.height_px, [&](int v) {
     for (int begin = 0; begin < left.width_px; begin += kRays) {
-      RayPacket rays;  // the last ones of a row may point beyond the picture
+      RayPacket rays;  // the last ones of a row may point beyond the image
       for (int i = 0; i < kRays; ++i)
         rays[std::size_t(i)] = liftPixel<double>(left, begin + i, v, 1).cast<float>();
       const PacketHits hits = tree.cast(Eigen::Vector3f::Zero(), rays);
@@ -40,7 +40,7 @@ Raster<float> trueDepth(const SequenceTruth& truth, int frame, const TriangleMes
   const PinholeCamera& left = truth.rig.left;
   const auto& pose = truth.trajectory[static_cast<std::size_t>(frame)];
   const auto file = truth.depths.find(frame);
-  if (file == truth.depths.end() || !truth.rectified)  // such a file is of the raw picture's pixels
+  if (file == truth.depths.end() || !truth.rectified)  // such a file is of the raw image's pixels
     return castDepth(mesh_world, left, pose.world_from_left.inverse());
   Raster<float> depth_mm = readDepth(file->second, truth.depth_unit_mm);
   if (depth_mm.width_px != left.width_px || depth_mm.height_px != left.height_px)

@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// Of the rectified left picture, mm; NaN where there is no tissue. Without a file in
+/// Of the rectified left image, mm; NaN where there is no tissue. Without a file in
 /// groundtruth/depth, the depth of `mesh_world` as the true camera of this frame would see it.
 /// Throws InputError where the file's size isn't the camera's.
 Raster<float> trueDepth(const SequenceTruth& truth, int frame, const TriangleMesh& mesh_world);

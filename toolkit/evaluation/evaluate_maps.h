@@ -1,5 +1,4 @@
-// toolkit/evaluation/evaluate_maps.h: some of the judged models with the error of each point, to be
-// looked at.
+// toolkit/evaluation/evaluate_maps.h: error maps of some evaluated models, for interactive views.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_plots.h: from what was judged to what is drawn.
+// toolkit/evaluation/evaluate_plots.h: data of the plots of an evaluation.
 #pragma once
 
 #include <string>

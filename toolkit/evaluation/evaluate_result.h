@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_result.h: everything that one evaluation found.
+// toolkit/evaluation/evaluate_result.h: results of one evaluation.
 #pragma once
 
 #include <map>
@@ -65,7 +65,7 @@ std::vector<JudgedFrame> judgeClaims(const JudgedRun& run,
                                      const std::vector<TrackSample>& true_samples,
                                      const EvaluationResult& result);
 
-/// What a reader of the result should know: frames without a model, parts that lack, a model that
+/// Warnings for the reader of a result: frames without a model, parts that lack, a model that
 /// is suspiciously far away. Nothing of it keeps the rest from being right.
 std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTruth& truth,
                                           const EvaluationResult& result);

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_run.h: a run folder, or maps, against what they are judged by.
+// toolkit/evaluation/evaluate_run.h: evaluation of a run folder or of maps.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_series.h: a run's models, one after the other, against what is true.
+// toolkit/evaluation/evaluate_series.h: evaluation of a run's models one after the other.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +51,7 @@ using AfterModel = std::function<bool()>;
 std::vector<int> framesToJudge(const JudgedRun& run, const SequenceTruth& truth);
 
 /// Each model in the frame of its own moment's camera. The next moment is read meanwhile.
-/// With `views`, each model is drawn as well and compared with the picture. Throws InputError.
+/// With `views`, each model is drawn as well and compared with the image. Throws InputError.
 SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth, bool views,
                           const AfterModel& after_model);
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr Rgb8 kNothingDrawn{176, 176, 176};
 
-/// Empty for a video, a single picture, or nothing at all.
+/// Empty for a video, a single image, or nothing at all.
 std::vector<fs::path> picturesIn(const fs::path& folder) {
   std::error_code ignored;
   if (folder.empty() || !fs::is_directory(folder, ignored)) return {};
@@ -31,7 +31,7 @@ std::vector<fs::path> picturesIn(const fs::path& folder) {
 SequencePaths pathsOrNone(const fs::path& sequence) {
   try {
     return findSequence(sequence);
-  } catch (const InputError&) {  // truth without pictures
+  } catch (const InputError&) {  // truth without images
     return {};
   }
 }
@@ -40,7 +40,7 @@ void requireSize(int width_px, int height_px, const PinholeCamera& left, const f
   if (width_px != left.width_px || height_px != left.height_px)
     throw InputError(say(shown(file), ": has ", width_px, " x ", height_px,
                          " pixels, but the calibration says ", left.width_px, " x ", left.height_px,
-                         "; give pictures of this camera"));
+                         "; give images of this camera"));
 }
 
 }  // namespace

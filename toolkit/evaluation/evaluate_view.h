@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_view.h: the model as the camera would see it, against what it saw.
+// toolkit/evaluation/evaluate_view.h: the rendered model against the image of its frame.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace softscope {
 /// Of one moment, drawn from the run's own pose.
 struct ViewErrors {
   DepthErrors depth;  // of the drawn model, against the true depth
-  /// Against the left picture; NaN where the sequence has none, or the model no colours.
+  /// Against the left image; NaN where the sequence has none, or the model no colours.
   PictureErrors picture;
 };
 
@@ -32,13 +32,13 @@ struct DrawnPair {
 inline constexpr const char* kPsnrMask =
     "pixels that the model covers, without masks and black borders";
 
-/// Draws models and compares them with the sequence's left pictures. Pixels where the model shows
+/// Draws models and compares them with the sequence's left images. Pixels where the model shows
 /// nothing, and masked ones, aren't judged. Frames must be asked for in rising order.
 class ViewJudge {
  public:
   explicit ViewJudge(const SequenceTruth& truth);
 
-  /// Throws InputError where a picture can't be read or has another size. `drawn`: what was
+  /// Throws InputError where an image can't be read or has another size. `drawn`: what was
   /// compared, unless null.
   ViewErrors judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left, int frame,
                    const Raster<float>& true_depth_mm, DrawnPair* drawn = nullptr);

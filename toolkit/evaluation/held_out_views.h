@@ -1,4 +1,4 @@
-// toolkit/evaluation/held_out_views.h: the model drawn for frames that the run did not see.
+// toolkit/evaluation/held_out_views.h: the model rendered for frames that were held out of the run.
 #pragma once
 
 #include <functional>

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr double kOpposite = -0.5;  // correlation of a measured map and the truth
 constexpr double kConstant = 1e-9;  // relative variance that is rounding
 
-/// Of pixels that both maps know; NaN where one of them is constant.
+/// Over pixels that both maps measured; NaN if one of them is constant.
 double correlation(const Raster<float>& a, const Raster<float>& b) {
   double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

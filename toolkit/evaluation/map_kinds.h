@@ -1,4 +1,4 @@
-// toolkit/evaluation/map_kinds.h: whether maps are of the kind that they are compared as.
+// toolkit/evaluation/map_kinds.h: check that two maps are of the same kind: depth or disparity.
 #pragma once
 
 #include <filesystem>

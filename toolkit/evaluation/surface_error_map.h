@@ -1,5 +1,4 @@
-// toolkit/evaluation/surface_error_map.h: from distances that eval measured to the colours of a
-// figure.
+// toolkit/evaluation/surface_error_map.h: colours of a figure from measured distances.
 #pragma once
 
 #include <string>

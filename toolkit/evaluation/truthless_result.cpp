@@ -1,4 +1,4 @@
-// toolkit/evaluation/truthless_result.cpp: the run's own words, and the model beside the picture.
+// toolkit/evaluation/truthless_result.cpp: the run's own words, and the model beside the image.
 #include "toolkit/evaluation/truthless_result.h"
 
 #include <algorithm>
@@ -167,7 +167,7 @@ Json viewJson(const TruthlessResult& result) {
   return json;
 }
 
-/// The picture drawn_view.png: which moment, how much of the tissue the model covers, and how many
+/// The image drawn_view.png: which moment, how much of the tissue the model covers, and how many
 /// frames of the run came after it.
 Json drawnViewJson(const TruthlessResult& result) {
   if (result.drawn.empty()) return nullptr;
@@ -238,7 +238,7 @@ Json truthlessJson(const TruthlessResult& result) {
 }
 
 FactSheet truthlessFacts(const TruthlessResult& result) {
-  FactSheet facts(result.run + " beside the pictures of " + result.sequence +
+  FactSheet facts(result.run + " beside the images of " + result.sequence +
                   ", which has no ground truth");
   addOutcomeFacts(result.outcomes, facts);
   const auto mean = [&](const Value& value, int decimals) {

@@ -1,5 +1,4 @@
-// toolkit/evaluation/truthless_result.h: what can be said of a run where nothing is known to be
-// true.
+// toolkit/evaluation/truthless_result.h: evaluation of a run without ground truth.
 #pragma once
 
 #include <filesystem>
@@ -26,14 +25,14 @@ struct TruthlessFrame {
   double coverage = Statistics::kNone;           // share of the tissue that has depth: the run's
   double step_mm = Statistics::kNone, step_deg = Statistics::kNone;
   double second_difference_mm = Statistics::kNone;  // length of that of the scope's positions
-  PictureErrors picture;  // of the model, drawn from the run's pose, against the left picture
+  PictureErrors picture;  // of the model, drawn from the run's pose, against the left image
 };
 
 struct TruthlessResult {
   std::string run, sequence;              // as the user named them
   FrameOutcomes outcomes;                 // of the run
   std::map<int, TruthlessFrame> frames;   // every frame with a pose
-  std::vector<int> drawn;                 // those with a saved model and a picture
+  std::vector<int> drawn;                 // those with a saved model and an image
   DrawnPair last_drawn;                   // of the last of them
   double moved_mm = Statistics::kNone;    // from the first to the last pose: drift of a still scope
   double turned_deg = Statistics::kNone;  // the same of its direction
@@ -44,7 +43,7 @@ struct TruthlessResult {
 };
 
 /// Depth, poses and back-projection as the run wrote them; of frames with a saved model the drawn
-/// view against the picture, unless `views` is false. `after_model` as for judgeSeries(). Throws
+/// view against the image, unless `views` is false. `after_model` as for judgeSeries(). Throws
 /// InputError where the sequence can't be read or has fewer frames than the run.
 TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::path& sequence,
                                   bool views, const std::function<bool()>& after_model);

@@ -1,5 +1,4 @@
-// toolkit/export/export_dicom.h: reports, their numbers, pictures and models for a hospital's
-// archive, by way of dcmtk's tools.
+// toolkit/export/export_dicom.h: reports, images and models as DICOM, by dcmtk's tools.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +31,7 @@ struct DicomTarget {
 /// Each throws BackendError where dcmtk isn't installed, InputError for a file that it refuses.
 /// A PDF becomes an Encapsulated PDF.
 void writeDicomDocument(const std::filesystem::path& pdf, const DicomTarget& target);
-/// A picture becomes a Secondary Capture.
+/// An image becomes a Secondary Capture.
 void writeDicomPicture(const std::filesystem::path& picture, const DicomTarget& target);
 /// The numbers of a report (.html of `softscope report`) become a Structured Report, TID 1500
 /// (toolkit/export/structured_report.h). Returns how many.

@@ -24,7 +24,7 @@ ModelFormat formatOf(const std::filesystem::path& file) {
   if (found != kFormats.end()) return found->second;
   throw OptionError("`out=` is `" + shown(file) +
                     "`, but must end in .ply, .vtp, .obj, .stl, .glb or .gltf; .pvd for all saved "
-                    "models of a run, .dcm for a report or a picture");
+                    "models of a run, .dcm for a report or an image");
 }
 
 bool holdsPoints(ModelFormat format) {

@@ -1,4 +1,4 @@
-// toolkit/export/export_files.h: which formats a model can be written in.
+// toolkit/export/export_files.h: export formats of a model.
 #pragma once
 
 #include <filesystem>

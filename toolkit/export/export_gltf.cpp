@@ -81,7 +81,7 @@ int addNormals(std::vector<Eigen::Vector3f> normals, Parts& parts) {
   return addVectors(normals, parts);
 }
 
-/// Pictures are in sRGB, the standard's colours in linear light: 16 bits keep the dark ones apart.
+/// Images are in sRGB, the standard's colours in linear light: 16 bits keep the dark ones apart.
 std::array<std::uint16_t, 256> linearLight() {
   std::array<std::uint16_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {

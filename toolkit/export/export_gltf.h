@@ -1,4 +1,4 @@
-// toolkit/export/export_gltf.h: a model as browsers, Blender and presentations read it.
+// toolkit/export/export_gltf.h: a model as glTF.
 #pragma once
 
 #include <string>

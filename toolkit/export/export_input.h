@@ -1,4 +1,4 @@
-// toolkit/export/export_input.h: what `softscope export` is given.
+// toolkit/export/export_input.h: input of `softscope export`.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// toolkit/export/export_model.h: models, reports and pictures as files of other programs.
+// toolkit/export/export_model.h: models, reports and images as files of other programs.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace softscope {
 
 struct ExportRequest {
-  std::string input;         // a run, points or a mesh; for .dcm also a report or a picture
+  std::string input;         // a run, points or a mesh; for .dcm also a report or an image
   std::string out;           // file; its ending is the format, .pvd a series of .vtp
   std::string unit;          // mm, cm or m; empty: the format's own
   SurfaceOptions surface;    // from points to triangles

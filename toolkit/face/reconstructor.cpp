@@ -92,9 +92,8 @@ Run Reconstructor::finish() {
           "recordTo() names one before the first frame");
   if (impl_->loop.backend().empty())
     throw InputError(impl_->out + ": not one frame could be used; the reports say why");
-  Checkpoint checkpoint{"", impl_->frames, impl_->loop.state()};
-  impl_->folder->saveLastModel(checkpoint.state.model);
-  impl_->folder->flush(checkpoint);
+  impl_->folder->saveLastModel(impl_->loop.model());
+  impl_->folder->flush({"", impl_->frames, impl_->loop.state()});
   impl_->folder->writeRecord(jsonText(impl_->record->json()), /*complete=*/true);
   impl_->folder.reset();
   return Run(impl_->out);

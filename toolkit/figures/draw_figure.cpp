@@ -196,7 +196,7 @@ void validateKind(const FigureRequest& r) {
   if (r.kind == "series" && r.reference.empty())
     throw OptionError("`kind=` series needs `reference=` SEQUENCE, with its ground truth");
   if (r.kind == "matches" && r.reference.empty())
-    throw OptionError("`kind=` matches needs `reference=` SEQUENCE, with the run's pictures");
+    throw OptionError("`kind=` matches needs `reference=` SEQUENCE, with the run's images");
   require(r.names.empty() || (r.kind == "compare" && r.names.size() == 2), "`names=`",
           r.names.empty() ? "" : r.names[0], "belongs to `kind=` compare, which takes two");
   require((r.kind == "compare") == !r.other.empty(), "`other=`",

@@ -1,4 +1,4 @@
-// toolkit/figures/figure_outputs.h: a drawing to disk, and what there is to know about it.
+// toolkit/figures/figure_outputs.h: writing of a figure in each format, with a record.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,4 @@
-// toolkit/figures/scene_inputs.h: from files to a scene, with a record of what was read and
-// assumed.
+// toolkit/figures/scene_inputs.h: scene of a figure from files, with a record of what was read.
 #pragma once
 
 #include <filesystem>

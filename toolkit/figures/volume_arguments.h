@@ -1,5 +1,5 @@
-// toolkit/figures/volume_arguments.h: what a user states about a volume, on every command that
-// reads one.
+// toolkit/figures/volume_arguments.h: options of a CT or MR volume, for every command that reads
+// one.
 #pragma once
 
 #include <string>

@@ -49,14 +49,14 @@ void addCalibration(const StereoCalibration& calibration, const std::string& key
             calibration.form);
   facts.addQuietly(at + "source", calibration.source);
   if (left.width_px > 0) {
-    facts.add("for pictures of", size(left), at + "image_width_px", left.width_px);
+    facts.add("for images of", size(left), at + "image_width_px", left.width_px);
     facts.addQuietly(at + "image_height_px", left.height_px);
     const double across_deg = viewDeg(left.width_px, left.fx_px);
     const double down_deg = viewDeg(left.height_px, left.fy_px);
     facts.add("field of view", fixed(across_deg, 1) + " x " + fixed(down_deg, 1) + " degrees",
               at + "field_of_view_deg", {across_deg, down_deg});
   } else {
-    facts.missing("the picture size that the calibration holds for");
+    facts.missing("the image size that the calibration holds for");
   }
   facts.add(one ? "camera" : "left camera", cameraText(calibration.left), at + "left",
             cameraJson(calibration.left));
@@ -71,7 +71,7 @@ void addCalibration(const StereoCalibration& calibration, const std::string& key
   facts.add("baseline", fixed(calibration.baseline_mm(), 3) + " mm", at + "baseline_mm",
             calibration.baseline_mm());
   facts.add("turned by", fixed(turn_deg, 2) + " degrees", at + "rotation_deg", turn_deg);
-  facts.add("rectified", calibration.rectified ? "yes" : "no, pictures are rectified when read",
+  facts.add("rectified", calibration.rectified ? "yes" : "no, images are rectified when read",
             at + "rectified", calibration.rectified);
   facts.add("1 px of disparity", "is " + fixed(step_mm, 2) + " mm of depth at 50 mm",
             at + "depth_of_1px_at_50mm_mm", step_mm);

@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_file.h: what a file holds and lacks, a function per kind of file.
+// toolkit/inspection/describe_file.h: description of a file by its kind.
 #pragma once
 
 #include <string>

@@ -1,9 +1,11 @@
-// toolkit/inspection/describe_image.cpp: a picture, a depth file, a video.
+// toolkit/inspection/describe_image.cpp: an image, a depth file, a video.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "io/files/file_bytes.h"
 #include "io/geometry/depth_files.h"
 #include "io/images/image_header.h"
@@ -57,7 +59,7 @@ void addBrightness(const ColourImage& image, FactSheet& facts) {
             "mean_gray", sum / count);
   facts.addQuietly("dark_share", double(dark) / count);
   facts.addQuietly("saturated_share", double(bright) / count);
-  if (double(dark) > 0.5 * count) facts.warn("more than half of the picture is dark");
+  if (double(dark) > 0.5 * count) facts.warn("more than half of the image is dark");
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ void addBrightness(const ColourImage& image, FactSheet& facts) {
 FactSheet describeImage(const std::string& file) {
   const std::string bytes = readBytes(file);
   const ImageHeader header = inspectImage(bytes, file);
-  FactSheet facts(file + ": a picture");
+  FactSheet facts(file + ": an image");
   facts.addQuietly("kind", "image");
   facts.add("format", "format", nameOf(header.form));
   addSize(header.width_px, header.height_px, facts);
@@ -87,14 +89,13 @@ FactSheet describeFloatMap(const std::string& file) {
     facts.warn("not one pixel has a value");
     return facts;
   }
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double lowest = *least, highest = *most;
-  std::nth_element(values.begin(), middle, values.end());
+  const float median = medianOf(std::move(values));
   facts.add("values",
-            fixed(lowest, 2) + " to " + fixed(highest, 2) + ", median " + fixed(*middle, 2),
+            fixed(lowest, 2) + " to " + fixed(highest, 2) + ", median " + fixed(median, 2),
             "value_range", {lowest, highest});
-  facts.addQuietly("median", *middle);
+  facts.addQuietly("median", median);
   return facts;
 }
 

@@ -31,7 +31,7 @@ std::string layoutOf(const SequencePaths& paths) {
   if (paths.right.empty())
     return "images and depth of one camera, in " + left + " and " + paths.depth.filename().string();
   return fs::is_directory(paths.left)
-             ? "pictures in left/ and right/"
+             ? "images in left/ and right/"
              : "videos " + left + " and " + paths.right.filename().string();
 }
 
@@ -125,7 +125,7 @@ void checkFrames(SequenceReader& reader, FactSheet& facts) {
 void addView(const fs::path& view, const std::string& key, FactSheet& facts) {
   if (view.empty()) return;
   try {
-    facts.add(key + " pictures", key + "_pictures", openPictures(view)->count());
+    facts.add(key + " images", key + "_pictures", openPictures(view)->count());
   } catch (const InputError& error) {
     facts.fail(error.what());
   }

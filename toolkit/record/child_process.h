@@ -1,4 +1,4 @@
-// toolkit/record/child_process.h: softscope, started by softscope.
+// toolkit/record/child_process.h: `softscope` as a child process.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace softscope {
 
 /// A program that runs beside this one, in a process group of its own: Ctrl-C reaches it by
-/// interrupt() alone. It is asked to end when this process dies.
+/// interrupt() alone. It is asked to end when this process ends.
 class ChildProcess {
  public:
   /// `words[0]` is the program. Its output and errors are appended to `log`. Throws Error where it

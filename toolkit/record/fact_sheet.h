@@ -1,4 +1,4 @@
-// toolkit/record/fact_sheet.h: facts that people read as lines and programs as JSON.
+// toolkit/record/fact_sheet.h: facts of a result, as lines of text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// toolkit/record/machine.h: the computer we run on.
+// toolkit/record/machine.h: facts about the computer.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// toolkit/record/path_words.h: where a sentence names a file, so that it needn't tell of people and
-// machines.
+// toolkit/record/path_words.h: paths within texts, for their removal.
 #pragma once
 
 #include <functional>

@@ -55,16 +55,14 @@ std::string targetErrorText(const ReportCase& c) {
 }  // namespace
 
 bool wasAligned(const ReportCase& c) {
-  const std::string how =
-      textAt(c.record, c.kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
+  const std::string how = c.alignment();
   return !how.empty() && how != "none";
 }
 
 std::string alignmentText(const ReportCase& c) {
   if (!c.hasTruth()) return "none: there is nothing to align with";
   if (!wasAligned(c)) return "none: no error is hidden by fitting the model to the reference";
-  const std::string how =
-      textAt(c.record, c.kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
+  const std::string how = c.alignment();
   if (how == "rigid")
     return "rigid: one fit to the reference, found with the first model, holds for all";
   if (how == "icp")

@@ -1,4 +1,4 @@
-// toolkit/report/report_case.cpp: a record, its maps, its pictures.
+// toolkit/report/report_case.cpp: a record, its maps, its images.
 #include "toolkit/report/report_case.h"
 
 #include <algorithm>

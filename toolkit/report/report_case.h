@@ -18,7 +18,7 @@ double numberAt(const FactSheet::Json& record, const std::string& path);
 std::string textAt(const FactSheet::Json& record, const std::string& path);
 
 struct ReportCase {
-  /// evaluate against truth, a mesh, pictures alone (no truth); compare
+  /// evaluate against truth, a mesh, images alone (no truth); compare
   enum class Kind { kSequence, kMesh, kPictures, kPair };
 
   std::string name;  // as the report calls it
@@ -35,6 +35,10 @@ struct ReportCase {
     return kind == Kind::kPair ? "accuracy" : hasTruth() ? "surface" : "view";
   }
   double main(const std::string& key) const { return numberAt(record, mainPart() + "." + key); }
+  /// How the model was aligned to the reference; empty or "none" where it was not.
+  std::string alignment() const {
+    return textAt(record, kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
+  }
   /// One value a judged moment; empty for a pair.
   std::vector<double> overFrames(const std::string& key) const;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "eval/statistics/cohort.h"
+#include "toolkit/report/metric_paths.h"
 #include "toolkit/report/report_words.h"
 #include "vtk_views/plots/agreement_plot.h"
 
@@ -77,7 +78,7 @@ ReportTable agreementTable(const std::string& caption, const BlandAltman& b) {
   return table;
 }
 
-/// Nothing for fewer than two differences: there is no spread to speak of.
+/// Nothing for fewer than two differences.
 void addAgreement(AgreementData data, const std::string& caption, const std::string& figure_caption,
                   std::vector<ReportPart>& parts) {
   for (std::size_t i = 0; i < data.x.size(); ++i)
@@ -121,7 +122,8 @@ std::vector<ReportPart> truthlessCohortParts(const Cases& cases, const ReportCho
   const auto summary = [&](const char* key) {
     return summariseCohort(valuesOf(cases, metricNamed(key)), choices.seed);
   };
-  const CohortSummary psnr = summary("psnr_db"), kept = summary("backprojection_mean_mm");
+  const CohortSummary psnr = summary(metric_paths::kCohortPsnr),
+                      kept = summary(metric_paths::kCohortBackProjection);
   std::string text =
       "None of the " + std::to_string(cases.size()) +
       " cases has ground truth: how far the models lie from the tissue is not known.";
@@ -138,8 +140,8 @@ std::vector<ReportPart> truthlessCohortParts(const Cases& cases, const ReportCho
 const ReportCase* worstOf(const Cases& cases) {
   const ReportCase* worst = nullptr;
   for (const ReportCase& c : cases)
-    if (std::isfinite(c.main("p95_mm")) &&
-        (worst == nullptr || c.main("p95_mm") > worst->main("p95_mm")))
+    if (std::isfinite(c.main(metric_paths::kP95)) &&
+        (worst == nullptr || c.main(metric_paths::kP95) > worst->main(metric_paths::kP95)))
       worst = &c;
   return worst;
 }
@@ -149,18 +151,20 @@ const ReportCase* worstOf(const Cases& cases) {
 const std::vector<CohortMetric>& cohortMetrics() {
   static const std::vector<CohortMetric> metrics{
       {"fused_share", "frames fused [share]", "outcomes.fused_share", ""},
-      {"mean_mm", "mean distance [mm]", "surface.mean_mm", "accuracy.mean_mm"},
-      {"median_mm", "median [mm]", "surface.median_mm", "accuracy.median_mm"},
-      {"p95_mm", "P95 [mm]", "surface.p95_mm", "accuracy.p95_mm"},
-      {"max_mm", "largest [mm]", "surface.max_mm", "accuracy.max_mm"},
-      {"signed_mean_mm", "signed mean [mm]", "surface.signed.mean_mm", "signed.mean_mm"},
+      {metric_paths::kMean, "mean distance [mm]", "surface.mean_mm", "accuracy.mean_mm"},
+      {metric_paths::kMedian, "median [mm]", "surface.median_mm", "accuracy.median_mm"},
+      {metric_paths::kP95, "P95 [mm]", "surface.p95_mm", "accuracy.p95_mm"},
+      {metric_paths::kMax, "largest [mm]", "surface.max_mm", "accuracy.max_mm"},
+      {metric_paths::kCohortSignedMean, "signed mean [mm]", metric_paths::kSignedMean,
+       metric_paths::kSignedMeanOfPair},
       {"hd95_max_of_directed_mm", "HD95, larger of both [mm]",
        "surface.hausdorff.hd95_max_of_directed_mm", "hausdorff.hd95_max_of_directed_mm"},
-      {"completeness_1mm", "reconstructed [share]", "surface.completeness_1mm", ""},
+      {"completeness_1mm", "reconstructed [share]", metric_paths::kCompleteness, ""},
       {"track_mean_mm", "material points, mean [mm]", "tracks.mean_mm", ""},
-      {"backprojection_mean_mm", "back-projection, mean [mm]", "backprojection.mean_mm", ""},
-      {"psnr_db", "PSNR of the drawn view [dB]", "view.psnr_db", ""},
-      {"ssim", "SSIM of the drawn view", "view.ssim", ""}};
+      {metric_paths::kCohortBackProjection, "back-projection, mean [mm]",
+       metric_paths::kBackProjectionMean, ""},
+      {metric_paths::kCohortPsnr, "PSNR of the drawn view [dB]", metric_paths::kPsnr, ""},
+      {"ssim", "SSIM of the drawn view", metric_paths::kSsim, ""}};
   return metrics;
 }
 
@@ -168,7 +172,7 @@ ReportTable cohortComparedTable(const Cases& cases) {
   ReportTable table{"", {"case", "tested", "reference", "alignment"}, {}, /*words=*/true};
   for (const ReportCase& c : cases) {
     const bool pair = c.kind == ReportCase::Kind::kPair;
-    const std::string how = textAt(c.record, pair ? "alignment.method" : "comparison.alignment");
+    const std::string how = c.alignment();
     table.rows.push_back({c.name, pair ? "surface model" : "live model of a video",
                           pair                                ? "surface"
                           : !c.hasTruth()                     ? "none: no ground truth"
@@ -185,8 +189,8 @@ bool anyTruth(const Cases& cases) {
 
 std::vector<ReportPart> cohortParts(const Cases& cases, const ReportChoices& choices) {
   if (!anyTruth(cases)) return truthlessCohortParts(cases, choices);
-  const auto means = valuesOf(cases, metricNamed("mean_mm"));
-  const auto p95s = valuesOf(cases, metricNamed("p95_mm"));
+  const auto means = valuesOf(cases, metricNamed(metric_paths::kMean));
+  const auto p95s = valuesOf(cases, metricNamed(metric_paths::kP95));
   const CohortSummary mean = summariseCohort(means, choices.seed);
   const CohortSummary p95 = summariseCohort(p95s, choices.seed);
   const ReportCase* worst = worstOf(cases);
@@ -211,7 +215,7 @@ std::vector<ReportPart> cohortParts(const Cases& cases, const ReportChoices& cho
                                         : "it takes three cases or more"},
        {"95th percentile", numberText(p95.mean) + " mm", "median " + numberText(p95.median)},
        {"Worst case by P95", worst == nullptr ? "not measured" : worst->name,
-        worst == nullptr ? "" : millimetresText(worst->main("p95_mm"))}}});
+        worst == nullptr ? "" : millimetresText(worst->main(metric_paths::kP95))}}});
   parts.emplace_back(summaryTable(cases, choices));
   parts.emplace_back(casesTable(cases));
   AgreementData data;
@@ -219,7 +223,7 @@ std::vector<ReportPart> cohortParts(const Cases& cases, const ReportChoices& cho
   data.x_label = "mean distance of the case [mm]";
   data.y_label = "signed mean [mm]";
   data.x = means;
-  data.differences = valuesOf(cases, metricNamed("signed_mean_mm"));
+  data.differences = valuesOf(cases, metricNamed(metric_paths::kCohortSignedMean));
   addAgreement(std::move(data), "Agreement with the reference (Bland-Altman, per case first)",
                "Each dot is a case: its mean signed distance, + = outside the reference. Bands: "
                "95 % confidence.",
@@ -244,7 +248,7 @@ std::vector<ReportPart> pairedParts(const Cases& cases, const Cases& versus,
                           numberText(signedRankTest(differences).p_value)});
   }
   std::vector<ReportPart> parts{table};
-  const CohortMetric& metric = metricNamed("mean_mm");
+  const CohortMetric& metric = metricNamed(metric_paths::kMean);
   AgreementData data;
   data.title = "Two methods, the same cases";
   data.x_label = "mean distance, both methods' mean [mm]";
@@ -295,7 +299,8 @@ Json cohortJson(const Cases& cases, const Cases& versus, const ReportChoices& ch
                                   {"mean_difference_ci", intervalJson(d.mean_ci)},
                                   {"signed_rank_p", signedRankTest(differences).p_value}};
   }
-  json["agreement"] = agreementJson(blandAltman(valuesOf(cases, metricNamed("signed_mean_mm"))));
+  json["agreement"] =
+      agreementJson(blandAltman(valuesOf(cases, metricNamed(metric_paths::kCohortSignedMean))));
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "io/files/file_hash.h"
 #include "toolkit/record/version.h"
+#include "toolkit/report/metric_paths.h"
 #include "toolkit/report/report_alignment.h"
 #include "toolkit/report/report_checklist.h"
 #include "toolkit/report/report_cohort.h"
@@ -28,7 +29,8 @@ const char* const kNotice = "Research use only, not for diagnosis.";
 double colourLimit(const std::vector<ReportCase>& cases) {
   double largest_mm = 0;
   for (const ReportCase& c : cases)
-    if (std::isfinite(c.main("p95_mm"))) largest_mm = std::max(largest_mm, c.main("p95_mm"));
+    if (std::isfinite(c.main(metric_paths::kP95)))
+      largest_mm = std::max(largest_mm, c.main(metric_paths::kP95));
   return roundUp(largest_mm);
 }
 
@@ -241,9 +243,10 @@ ReportDocument makeReport(ReportRequest request) {
   page.metrics_json = document.metrics.dump(1, ' ', false, Json::error_handler_t::replace);
   document.facts = FactSheet(page.title + ", " + page.subtitle);
   for (ReportCase& c : request.cases) {
-    document.facts.addLine(c.name, c.hasTruth() ? "mean " + millimetresText(c.main("mean_mm")) +
-                                                      ", P95 " + millimetresText(c.main("p95_mm"))
-                                                : truthlessSummary(c));
+    document.facts.addLine(c.name, c.hasTruth()
+                                       ? "mean " + millimetresText(c.main(metric_paths::kMean)) +
+                                             ", P95 " + millimetresText(c.main(metric_paths::kP95))
+                                       : truthlessSummary(c));
     if (!c.maps.empty()) page.maps.push_back({c.name, std::move(c.maps)});
   }
   page.map_figure = mapFigure(page.maps, page.limit_mm, &document.warnings);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "toolkit/report/metric_paths.h"
 #include "vtk_views/plots/series_plot.h"
 
 namespace softscope {
@@ -44,8 +45,9 @@ std::optional<CaptionedFigure> seriesFigure(const ReportCase& c) {
   ErrorSeriesData data;
   data.title = "Error over time";
   data.time_label = frames.x_label;
-  const auto medians = frames.series("median_mm"), p95s = frames.series("p95_mm");
-  for (const auto& [x, mean] : frames.series("mean_mm")) {
+  const auto medians = frames.series(metric_paths::kMedian),
+             p95s = frames.series(metric_paths::kP95);
+  for (const auto& [x, mean] : frames.series(metric_paths::kMean)) {
     data.times.push_back(x);
     data.mean.push_back(mean);
     data.median.push_back(valueAt(medians, x));
@@ -78,8 +80,8 @@ std::optional<CaptionedFigure> histogramFigure(const ReportCase& c) {
     data.cumulative.push_back(so_far / total);
   }
   data.share_beyond = beyond / total;
-  data.median = c.main("median_mm");
-  data.p95 = c.main("p95_mm");
+  data.median = c.main(metric_paths::kMedian);
+  data.p95 = c.main(metric_paths::kP95);
   return CaptionedFigure{drawErrorHistogram(data),
                          "Share of the points in each bin, and of all below; median and 95th "
                          "percentile marked."};

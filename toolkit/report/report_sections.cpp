@@ -6,6 +6,7 @@
 
 #include "toolkit/record/metric_lists.h"
 #include "toolkit/record/version.h"
+#include "toolkit/report/metric_paths.h"
 #include "toolkit/report/report_alignment.h"
 #include "toolkit/report/report_plots.h"
 #include "toolkit/report/report_privacy.h"
@@ -69,7 +70,8 @@ std::vector<NamedPart> distanceParts(const ReportCase& c) {
 }
 
 ReportTable bothWaysTable(const ReportCase& c) {
-  const std::string at = c.kind == Kind::kPair ? "hausdorff." : "surface.hausdorff.";
+  const std::string at =
+      c.kind == Kind::kPair ? metric_paths::kHausdorffOfPair : metric_paths::kHausdorff;
   std::vector<NamedPart> parts;
   for (const Metric<HausdorffDistances>& metric : hausdorffMetrics())
     parts.push_back({metric.name, at + metric.key});
@@ -83,7 +85,7 @@ ReportTable motionTable(const ReportCase& c) {
                           {"scope's position, not aligned", "camera.pose"},
                           {"scope's position, path aligned (ATE)", "camera.ate"},
                           {"scope's step from frame to frame (RPE)", "camera.rpe"},
-                          {"back-projection, by the run itself", "backprojection"}});
+                          {"back-projection, by the run itself", metric_paths::kBackProjection}});
 }
 
 std::string shareText(double value) {
@@ -121,10 +123,10 @@ void addFrames(const ReportCase& c, std::vector<ReportPart>& parts) {
 
 ReportParagraph headline(const ReportCase& c) {
   if (!c.hasTruth()) return truthlessHeadline(c);
-  std::string text = "The model lies " + millimetresText(c.main("mean_mm")) +
+  std::string text = "The model lies " + millimetresText(c.main(metric_paths::kMean)) +
                      " from the reference on average; 95 % of its points lie within " +
-                     millimetresText(c.main("p95_mm")) + ".";
-  const double completeness = numberAt(c.record, "surface.completeness_1mm");
+                     millimetresText(c.main(metric_paths::kP95)) + ".";
+  const double completeness = numberAt(c.record, metric_paths::kCompleteness);
   if (std::isfinite(completeness))
     text +=
         " Of the tissue that both cameras see, " + percentText(completeness) + " is reconstructed.";
@@ -150,15 +152,15 @@ std::optional<ReportTile> withinTile(const ReportCase& c) {
 ReportTiles tiles(const ReportCase& c) {
   if (!c.hasTruth()) return truthlessTiles(c);
   ReportTiles tiles;
-  tiles.tiles.push_back({"Mean distance", millimetresText(c.main("mean_mm")),
-                         "median " + millimetresText(c.main("median_mm"))});
-  tiles.tiles.push_back({"95th percentile", millimetresText(c.main("p95_mm")),
-                         "largest " + millimetresText(c.main("max_mm"))});
+  tiles.tiles.push_back({"Mean distance", millimetresText(c.main(metric_paths::kMean)),
+                         "median " + millimetresText(c.main(metric_paths::kMedian))});
+  tiles.tiles.push_back({"95th percentile", millimetresText(c.main(metric_paths::kP95)),
+                         "largest " + millimetresText(c.main(metric_paths::kMax))});
   const std::string signed_mean =
-      c.kind == Kind::kPair ? "signed.mean_mm" : "surface.signed.mean_mm";
+      c.kind == Kind::kPair ? metric_paths::kSignedMeanOfPair : metric_paths::kSignedMean;
   tiles.tiles.push_back({"Bias (signed mean)", millimetresText(numberAt(c.record, signed_mean)),
                          "+ = outside the reference"});
-  const double completeness = numberAt(c.record, "surface.completeness_1mm");
+  const double completeness = numberAt(c.record, metric_paths::kCompleteness);
   if (std::isfinite(completeness))
     tiles.tiles.push_back({"Reconstructed", percentText(completeness),
                            "of the tissue that both cameras see, within 1 mm"});

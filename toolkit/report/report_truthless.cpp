@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "toolkit/report/metric_paths.h"
 #include "toolkit/report/report_plots.h"
 #include "toolkit/report/report_words.h"
 #include "vtk_views/plots/value_series_plot.h"
@@ -31,19 +32,19 @@ void addFigure(const CaseFrames& frames, const std::string& key, const std::stri
 ReportTable viewTable(const ReportCase& c) {
   ReportTable table =
       valueTable("Model drawn from the run's own pose, beside the image", "mean", c.record,
-                 {{"PSNR over the pixels that the model covers [dB]", "view.psnr_db"},
-                  {"PSNR over all pixels [dB]", "view.psnr_over_all_pixels_db"},
-                  {"SSIM", "view.ssim"}});
-  if (const double share = numberAt(c.record, "view.judged_share"); std::isfinite(share))
+                 {{"PSNR over the pixels that the model covers [dB]", metric_paths::kPsnr},
+                  {"PSNR over all pixels [dB]", metric_paths::kPsnrOverAll},
+                  {"SSIM", metric_paths::kSsim}});
+  if (const double share = numberAt(c.record, metric_paths::kJudgedShare); std::isfinite(share))
     table.rows.push_back({"tissue that the model covers", percentText(share)});
-  if (const double share = numberAt(c.record, "coverage.mean_share"); std::isfinite(share))
+  if (const double share = numberAt(c.record, metric_paths::kDepthShare); std::isfinite(share))
     table.rows.push_back({"tissue that has depth, by the run itself", percentText(share)});
   return table;
 }
 
 ReportTable pathTable(const ReportCase& c) {
   return valueTable("The scope's path, as estimated", "value", c.record,
-                    {{"moved from first to last fused frame [mm]", "camera.moved_mm"},
+                    {{"moved from first to last fused frame [mm]", metric_paths::kScopeMoved},
                      {"turned from first to last fused frame [degrees]", "camera.turned_deg"},
                      {"jitter, rms of second differences [mm]", "camera.jitter_rms_mm"}});
 }
@@ -85,38 +86,41 @@ std::string drawnViewCaption(const ReportCase& c) {
 ReportParagraph truthlessHeadline(const ReportCase& c) {
   std::string text =
       "There is no ground truth: how far the model lies from the tissue is not known.";
-  if (const double psnr_db = numberAt(c.record, "view.psnr_db"); std::isfinite(psnr_db))
+  if (const double psnr_db = numberAt(c.record, metric_paths::kPsnr); std::isfinite(psnr_db))
     text +=
         " Drawn from the pose that the run estimated, it resembles the video's images with "
         "a PSNR of " +
         decibels(psnr_db) + ".";
-  if (const double mean_mm = numberAt(c.record, "backprojection.mean_mm"); std::isfinite(mean_mm))
+  if (const double mean_mm = numberAt(c.record, metric_paths::kBackProjectionMean);
+      std::isfinite(mean_mm))
     text += " In sight, it lies " + millimetresText(mean_mm) +
             " on average from the depth that it was made of (back-projection).";
   return {text, /*important=*/true};
 }
 
 std::string truthlessSummary(const ReportCase& c) {
-  return "no ground truth; PSNR " + decibels(numberAt(c.record, "view.psnr_db")) +
-         ", back-projection " + millimetresText(numberAt(c.record, "backprojection.mean_mm"));
+  return "no ground truth; PSNR " + decibels(numberAt(c.record, metric_paths::kPsnr)) +
+         ", back-projection " +
+         millimetresText(numberAt(c.record, metric_paths::kBackProjectionMean));
 }
 
 ReportTiles truthlessTiles(const ReportCase& c) {
   const auto value = [&](const char* path) { return numberAt(c.record, path); };
-  return {{{"PSNR of the drawn view", decibels(value("view.psnr_db")),
-            "over " + percentText(value("view.judged_share")) + " of the tissue"},
-           {"Back-projection", millimetresText(value("backprojection.mean_mm")),
-            "by the run itself; no accuracy"},
-           {"Tissue with depth", percentText(value("coverage.mean_share")), "by the run itself"},
-           {"Scope moved", millimetresText(value("camera.moved_mm")),
-            "first to last fused frame; drift if it stood still"}}};
+  return {
+      {{"PSNR of the drawn view", decibels(value(metric_paths::kPsnr)),
+        "over " + percentText(value(metric_paths::kJudgedShare)) + " of the tissue"},
+       {"Back-projection", millimetresText(value(metric_paths::kBackProjectionMean)),
+        "by the run itself; no accuracy"},
+       {"Tissue with depth", percentText(value(metric_paths::kDepthShare)), "by the run itself"},
+       {"Scope moved", millimetresText(value(metric_paths::kScopeMoved)),
+        "first to last fused frame; drift if it stood still"}}};
 }
 
 std::vector<ReportTable> truthlessTables(const ReportCase& c) {
   return {viewTable(c), heldOutTable(c.record),
           statisticsTable("Over the frames [mm]", c.record,
-                          {{"back-projection, by the run itself", "backprojection"},
-                           {"the scope's step from frame to frame", "camera.step"}}),
+                          {{"back-projection, by the run itself", metric_paths::kBackProjection},
+                           {"the scope's step from frame to frame", metric_paths::kScopeStep}}),
           pathTable(c)};
 }
 

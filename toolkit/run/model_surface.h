@@ -7,8 +7,8 @@
 namespace softscope {
 
 /// All points of the model in their order, with colours where it has them, and the triangles of
-/// surfaceFromPoints() between them; without triangles where the points know no normals or make no
-/// surface. Vertices that no triangle uses are strays.
+/// surfaceFromPoints() between them; without triangles where the points have no normals or make no
+/// surface. Vertices that no triangle uses are outliers.
 TriangleMesh modelSurface(const ModelFile& file);
 
 }  // namespace softscope

@@ -42,23 +42,23 @@ void requireSameSize(const Json& record, const PinholeCamera& left, const fs::pa
   const double height = numberAt(record, "/rectified_rig/height_px");
   if (std::isnan(width) || std::isnan(height)) return;
   if (width == left.width_px && height == left.height_px) return;
-  throw InputError(say(shown(file), ": the run's pictures have ", width, " x ", height,
+  throw InputError(say(shown(file), ": the run's images have ", width, " x ", height,
                        " pixels, but the sequence's ", left.width_px, " x ", left.height_px,
                        "; a run of another sequence?"));
 }
 
-/// Empty where the pictures are the recorded ones, or either isn't known.
+/// Empty where the images are the recorded ones, or either isn't known.
 std::string pictureWarning(const Json& record, const SequenceTruth& truth) {
   const Json::json_pointer place("/inputs/left/sha256");
   if (!record.contains(place) || !record.at(place).is_string()) return {};
   SequencePaths paths;
   try {
     paths = findSequence(truth.folder);
-  } catch (const InputError&) {  // truth without pictures is enough to judge by
+  } catch (const InputError&) {  // truth without images is enough to judge by
     return {};
   }
   if (paths.left.empty() || sha256Of(paths.left) == record.at(place).get<std::string>()) return {};
-  return "the run was made from other pictures than " + shown(paths.left) +
+  return "the run was made from other images than " + shown(paths.left) +
          " holds now; a run of another sequence?";
 }
 

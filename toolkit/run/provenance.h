@@ -1,4 +1,4 @@
-// toolkit/run/provenance.h: whether a run was made from the sequence that it is judged by.
+// toolkit/run/provenance.h: check that a run was made from the given sequence.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// By what run.json says of the cameras and pictures; a run without one passes. Returns a line for
-/// what may be meant that way: another focal length or baseline, other pictures. Throws InputError
-/// where run.json is broken or its pictures have another size.
+/// By what run.json says of the cameras and images; a run without one passes. Returns a line for
+/// what may be meant that way: another focal length or baseline, other images. Throws InputError
+/// where run.json is broken or its images have another size.
 std::vector<std::string> checkOrigin(const JudgedRun& run, const SequenceTruth& truth);
 
 }  // namespace softscope

@@ -87,7 +87,8 @@ class SequenceRun {
   void skipDone(const Checkpoint& earlier);
   std::unique_ptr<ReconstructionBackend> backendOf(const StereoCalibration& calibration) const;
   void reconstructAll(FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
-                      RunFolder& folder, RunRecord& record, Checkpoint& checkpoint);
+                      RunFolder& folder, RunRecord& record, const std::string& digest,
+                      int next_frame);
   ReconstructedRun finish(bool nothing, RunFolder& folder, RunRecord& record) const;
 
   ReconstructOptions options_;
@@ -111,7 +112,7 @@ std::optional<Checkpoint> SequenceRun::earlierState(const RunFolder& folder,
   if (earlier && earlier->settings != settings)
     throw OptionError(
         "`resume=`: the run in " + out +
-        " was begun with other settings, pictures, calibration or tracked pixels; give the "
+        " was begun with other settings, images, calibration or tracked pixels; give the "
         "same, or start again without `resume=`");
   return earlier;
 }
@@ -148,13 +149,10 @@ ReconstructedRun SequenceRun::run() {
       listener_.warn(warning);
   const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model);
   const SettingsBinder binder = settingsOf(options_.settings);
-  Checkpoint checkpoint{
-      digestOf(inputs, binder.list(), options_.tracks, sequence.frames), sequence.frames.begin, {}};
-  const std::optional<Checkpoint> earlier = earlierState(folder, checkpoint.settings);
-  if (earlier) {
-    checkpoint.next_frame = earlier->next_frame;
-    skipDone(*earlier);
-  }
+  const std::string digest = digestOf(inputs, binder.list(), options_.tracks, sequence.frames);
+  const std::optional<Checkpoint> earlier = earlierState(folder, digest);
+  const int first_frame = earlier ? earlier->next_frame : sequence.frames.begin;
+  if (earlier) skipDone(*earlier);
 
   SequenceReader reader(options_.sequence, sequence);
   FrameWindow frames(reader);  // outlives the back end, which looks ahead in it
@@ -171,12 +169,13 @@ ReconstructedRun SequenceRun::run() {
     record.set("resumed_at_frame", earlier->next_frame);
     for (const FrameRecord& frame : folder.earlierFrames()) record.add(frame);
   }
-  reconstructAll(frames, reader.frameCount(), reconstructor, folder, record, checkpoint);
+  reconstructAll(frames, reader.frameCount(), reconstructor, folder, record, digest, first_frame);
   return finish(reconstructor.backend().empty(), folder, record);
 }
 
 void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
-                                 RunFolder& folder, RunRecord& record, Checkpoint& checkpoint) {
+                                 RunFolder& folder, RunRecord& record, const std::string& digest,
+                                 int next_frame) {
   int since_flush = 0, processed = 0;
   bool at_end = all_done_;
   bool wanted = goesOn(listener_.progress, 0, frame_count);
@@ -203,11 +202,10 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     record.add(asTabled(frame));
     if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
       folder.saveModel(frame.frame, frame.time_s, reconstructor.model());
-    checkpoint.next_frame = frame.frame + options_.settings.sequence.frames.step;
+    next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
     if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {
-      checkpoint.state = reconstructor.state();
-      folder.flush(checkpoint);
+      folder.flush({digest, next_frame, reconstructor.state()});
       since_flush = 0;
     }
     wanted = goesOn(listener_.progress, processed, frame_count);
@@ -217,9 +215,8 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
   if (interrupted_ && !input_gone_ && failure_.empty())
     listener_.warn("interrupted: what is finished stays; `resume=` goes on");
   if (reconstructor.backend().empty()) return;
-  checkpoint.state = reconstructor.state();
-  if (!interrupted_) folder.saveLastModel(checkpoint.state.model);
-  folder.flush(checkpoint);  // resumable until run.json is there
+  if (!interrupted_) folder.saveLastModel(reconstructor.model());
+  folder.flush({digest, next_frame, reconstructor.state()});  // resumable until run.json is there
 }
 
 ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord& record) const {

@@ -216,7 +216,7 @@ void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   const PointCloud cloud = cloudOf(state);
   writeFile(file(kNodes) / numberedName(frame, ".csv"), nodesCsv(state.graph), true);
   writeFile(file(kModels) / numberedName(frame, ".vtp"), pointCloudVtp(cloud), true);
-  // Last: who sees the model of a run that still goes on finds the rest.
+  // Last: a reader of a growing run that finds the model finds the rest.
   writePly(file(kModels) / numberedName(frame, ".ply"), cloud,
            {"world", "", momentComments(time_s, trajectory_.back().world_from_left, left_)}, true);
   if (saved_.empty() || saved_.back().frame != frame) saved_.push_back({frame, time_s});
@@ -240,7 +240,7 @@ void RunFolder::writeTables(const ModelState& state) {
   writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
 }
 
-void RunFolder::flush(const Checkpoint& checkpoint) {
+void RunFolder::flush(const CheckpointView& checkpoint) {
   writeTables(checkpoint.state.model);
   writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
 }

@@ -1,4 +1,4 @@
-// toolkit/run/run_folder.h: the files that `softscope reconstruct` leaves.
+// toolkit/run/run_folder.h: writer of the folder of `softscope reconstruct`.
 #pragma once
 
 #include <filesystem>
@@ -59,7 +59,7 @@ class RunFolder {
   /// models/NNNNNN.ply, which says its moment, and .vtp; nodes/NNNNNN.csv. Of the frame that was
   /// added last.
   void saveModel(int frame, double time_s, const ModelState& state);
-  void flush(const Checkpoint& checkpoint);
+  void flush(const CheckpointView& checkpoint);
   /// Of the last frame, where it wasn't its turn.
   void saveLastModel(const ModelState& state);
   /// run.json. `complete`: nothing is left to resume, so the checkpoint goes.
@@ -87,7 +87,7 @@ class RunFolder {
   std::optional<FileLock> lock_;
 };
 
-/// The model as a point cloud with weights, world frame, in the light of the last fused picture.
+/// The model as a point cloud with weights, world frame, in the light of the last fused image.
 PointCloud cloudOf(const ModelState& state);
 
 }  // namespace softscope

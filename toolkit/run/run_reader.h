@@ -1,4 +1,4 @@
-// toolkit/run/run_reader.h: the parts of a run, and of the truth it is judged by.
+// toolkit/run/run_reader.h: reader of a run and of its ground truth.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -31,7 +31,7 @@ struct JudgedRun {
   std::filesystem::path last_model;         // model.ply; empty where it is missing
   std::filesystem::path tracks;             // tracks.csv; empty where it is missing
 
-  /// What a reader of any of its numbers should know; empty for a run that reached its end.
+  /// Warning for readers of its numbers; empty for a run that reached its end.
   std::vector<std::string> warnings() const;
   /// NaN where the frame has no pose, and for all frames of a clip without timestamps.
   double timeOf(int frame) const;
@@ -61,7 +61,7 @@ struct SequenceTruth {
   std::filesystem::path tracks;  // groundtruth/tracks.csv; empty where it is missing
   RectifiedRig rig;
   double depth_unit_mm = 0.01;
-  bool rectified = true;  // so are the pictures, and what is given for their pixels
+  bool rectified = true;  // so are the images, and what is given for their pixels
 
   /// NaN where the clip has no timestamps.
   double timeOf(int frame) const;

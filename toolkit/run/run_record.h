@@ -1,4 +1,4 @@
-// toolkit/run/run_record.h: what run.json says of a reconstruction.
+// toolkit/run/run_record.h: run.json of a reconstruction.
 #pragma once
 
 #include <map>
@@ -28,7 +28,7 @@ class RunRecord {
   void addWarning(const std::string& text) { warnings_.push_back(text); }
   void set(const std::string& key, const FactSheet::Json& value) { json_[key] = value; }
 
-  /// What a user should know of the whole run: frames that were not fused, or fused with little
+  /// Warnings about the whole run: frames that were not fused, or fused with little
   /// evidence, a static scope. In json() among the warnings.
   std::vector<std::string> conclusions() const;
   FactSheet::Json json() const;

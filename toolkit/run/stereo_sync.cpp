@@ -17,7 +17,7 @@ constexpr int kFrames = 120;  // looked at: some seconds, breathing moves tissue
 constexpr int kMoments = 12;  // compared among these
 constexpr std::size_t kReach = SynchronyMeter::kReach;
 
-/// Successive pairs; the one in the middle is compared with all right pictures.
+/// Successive pairs; the one in the middle is compared with all right images.
 using Window = std::deque<StereoPair>;
 
 void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter& meter) {
@@ -63,10 +63,10 @@ std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& optio
   if (found.right_offset == 0) return "";
   std::array<char, 16> offset{};
   std::snprintf(offset.data(), offset.size(), "%+d", found.right_offset);
-  return say("the views are not of one moment: right picture f ", offset.data(),
-             " belongs to left picture f (", found.agreeing, " matches agree about the rows then, ",
+  return say("the views are not of one moment: right image f ", offset.data(),
+             " belongs to left image f (", found.agreeing, " matches agree about the rows then, ",
              found.agreeing_as_is,
-             " as the pictures are numbered) and is paired with it; sequence.right_offset=0 takes "
+             " as the images are numbered) and is paired with it; sequence.right_offset=0 takes "
              "them as they are");
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "eval/simulation/scope_lens.h"
+#include "eval/simulation/camera/scope_lens.h"
 #include "io/calibrations/calibration_writer.h"
 #include "io/datasets/stir_files.h"
 #include "io/datasets/surgt_files.h"

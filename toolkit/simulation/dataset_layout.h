@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "toolkit/simulation/simulate_options.h"
 
 namespace softscope {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "io/files/atomic_file.h"
 #include "io/files/new_files.h"
 

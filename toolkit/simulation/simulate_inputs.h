@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_inputs.h: what a simulation is made of, from files.
+// toolkit/simulation/simulate_inputs.h: input files of a simulation.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct OrganFile {
 /// Throws InputError.
 OrganFile readOrgan(const SimulateOptions& options);
 
-/// Reads the picture that `texture.picture` names, if any, into the simulation's options. Throws
+/// Reads the image that `texture.picture` names, if any, into the simulation's options. Throws
 /// InputError, and OptionError where `texture.picture_mm` doesn't suit it.
 void readTexture(SimulateOptions& options);
 

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "eval/simulation/simulation_settings.h"
+#include "eval/simulation/sequence/simulation_settings.h"
 #include "io/text/text_lines.h"
 
 namespace softscope {
@@ -30,7 +30,7 @@ void SimulateOptions::validate() const {
   require(!organ.empty(), "organ.mesh", "``", "must be builtin or a file");
   simulation.validate();
   require(!input_depth || simulation.scope.lens().distortion.isZero(), "input_depth", "true",
-          "needs lenses without distortion: depth files belong to rectified pictures");
+          "needs lenses without distortion: depth files belong to rectified images");
 }
 
 SettingsBinder settingsOf(SimulateOptions& options) {

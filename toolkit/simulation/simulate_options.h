@@ -1,9 +1,9 @@
-// toolkit/simulation/simulate_options.h: what `softscope simulate` may be told.
+// toolkit/simulation/simulate_options.h: options of `softscope simulate`.
 #pragma once
 
 #include <string>
 
-#include "eval/simulation/simulation_options.h"
+#include "eval/simulation/sequence/simulation_options.h"
 #include "io/settings/settings_binder.h"
 
 namespace softscope {
@@ -13,7 +13,7 @@ struct SimulateOptions {
   int truth_every = 5;            // mesh and depth of every so manieth frame, and of the last
   std::string organ = "builtin";  // or a mesh file
   double organ_unit_mm = 1;       // of a mesh file
-  std::string texture = "";       // a picture file; empty: procedural tissue
+  std::string texture = "";       // an image file; empty: procedural tissue
   std::string pictures = "png";   // or jpg, mp4
   int jpeg_quality = 95;          // of jpg
   bool masks = true;              // mask/, where there is an instrument

@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_outputs.cpp: pictures, calibration, truth.
+// toolkit/simulation/simulate_outputs.cpp: images, calibration, truth.
 #include "toolkit/simulation/simulate_outputs.h"
 
 #include <algorithm>

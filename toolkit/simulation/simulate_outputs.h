@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/trajectory.h"
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "io/files/new_files.h"
 #include "io/images/video_writer.h"
 #include "toolkit/simulation/simulate_options.h"
@@ -24,7 +24,7 @@ struct SimulateOutputOptions {
   bool overwrite = false;
 };
 
-/// Each file appears whole or not at all. Frames first, what speaks of all frames last. Without
+/// Each file appears whole or not at all. Frames first, files about all frames last. Without
 /// finish() the destructor takes back what was written.
 class SimulateOutputs {
  public:
@@ -59,7 +59,7 @@ class SimulateOutputs {
   SimulateOutputOptions options_;
   mutable NewFiles new_files_;
   Trajectory trajectory_;
-  std::vector<VideoWriter> videos_;  // left, right; of pictures as mp4
+  std::vector<VideoWriter> videos_;  // left, right; of images as mp4
   std::string tracks_csv_ = "frame,id,x_mm,y_mm,z_mm,visible\n";
 };
 

@@ -1,7 +1,7 @@
 // toolkit/simulation/simulate_sequence.cpp: inputs, frames, truth.
 #include "toolkit/simulation/simulate_sequence.h"
 
-#include "eval/simulation/simulator.h"
+#include "eval/simulation/sequence/simulator.h"
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/record/setting_json.h"

@@ -1,4 +1,4 @@
-// toolkit/study/study_file.h: which cases a study has, and what each is told (docs/studies.md).
+// toolkit/study/study_file.h: cases and settings of a study (docs/studies.md).
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct StudyCase {
   std::string sequence;       // an existing folder; empty: simulated
   StudyValues simulate, reconstruct, evaluate;
   std::map<std::string, double> beside;  // published values to stand beside ours, by heading
-  std::vector<std::string> notes;        // what the reader of the table must know
+  std::vector<std::string> notes;        // notes below the table
   std::string skip;                      // why it can't be run here; empty: it can
 };
 

@@ -1,4 +1,4 @@
-// toolkit/study/study_folder.h: where a study keeps what.
+// toolkit/study/study_folder.h: paths within the folder of a study.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// toolkit/study/study_table.h: what all cases of a study came to, as one record and one table.
+// toolkit/study/study_table.h: results of all cases of a study, as one record and one table.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct StudyBreak {
   std::string plot, series, sweep;
   bool broken = false;
   double level = 0;                   // if broken
-  std::vector<double> held, not_run;  // levels that don't break; that nobody knows of
+  std::vector<double> held, not_run;  // levels that pass; levels that were not run
 };
 
 /// The whole study as study.json: its cases' records as they are, what breaks where, how and on

@@ -1,4 +1,4 @@
-// toolkit/viewer/show_run.h: what the viewer shows of a run, in a window, a picture or a movie.
+// toolkit/viewer/show_run.h: what the viewer shows of a run, in a window, an image or a movie.
 #pragma once
 
 #include <functional>

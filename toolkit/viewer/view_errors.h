@@ -1,4 +1,4 @@
-// toolkit/viewer/view_errors.h: where the errors of a viewed model come from.
+// toolkit/viewer/view_errors.h: errors of a viewed model: measured now or before.
 #pragma once
 
 #include <filesystem>

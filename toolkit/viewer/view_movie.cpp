@@ -1,4 +1,4 @@
-// toolkit/viewer/view_movie.cpp: times of the clip, one picture a video frame.
+// toolkit/viewer/view_movie.cpp: times of the clip, one image a video frame.
 #include "toolkit/viewer/view_movie.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// toolkit/viewer/view_run.h: a run, finished or not, as the viewer shows it.
+// toolkit/viewer/view_run.h: models of a finished or growing run, for the viewer.
 #pragma once
 
 #include <filesystem>

@@ -28,7 +28,7 @@ CairoSurface toCairo(const ColourImage& picture);
 /// Of a surface that newCairoPixels() made.
 ColourImage fromCairo(cairo_surface_t* surface);
 
-/// A PNG file of the picture. The same picture gives the same bytes.
+/// A PNG file of the image. The same image gives the same bytes.
 std::string pngBytes(const ColourImage& picture);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/drawing/canvas.h: a white sheet to draw figures on.
+// vtk_views/drawing/canvas.h: raster drawing surface.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@ class Canvas {
   void frame(const Box& box, Rgb8 colour = {60, 60, 60});
   void line(double x0_px, double y0_px, double x1_px, double y1_px, double width_px, Rgb8 colour);
   void triangle(double x0, double y0, double x1, double y1, double x2, double y2, Rgb8 colour);
-  /// Scales the picture to the box; smooth for photographs, pixel by pixel for measured values.
+  /// Scales the image to the box; smooth for photographs, pixel by pixel for measured values.
   void picture(const ColourImage& picture, const Box& box, bool smooth);
   /// (x, y) is on the text's baseline: its left end, middle or right end.
   void text(double x_px, double y_px, const std::string& text, const TextStyle& style);

@@ -1,4 +1,4 @@
-// vtk_views/drawing/colour_map.h: numbers as colours that the eye ranks rightly.
+// vtk_views/drawing/colour_map.h: perceptually ordered colour map.
 #pragma once
 
 #include "core/image.h"

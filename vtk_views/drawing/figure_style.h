@@ -1,4 +1,4 @@
-// vtk_views/drawing/figure_style.h: what a journal asks of a figure.
+// vtk_views/drawing/figure_style.h: sizes and fonts of figures by journal.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// vtk_views/drawing/fonts.h: which typeface our figures are set in.
+// vtk_views/drawing/fonts.h: typeface of figures.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// vtk_views/drawing/html_text.h: foreign text and bytes inside a page, harmless.
+// vtk_views/drawing/html_text.h: escaping of text and bytes for HTML.
 #pragma once
 
 #include <string>

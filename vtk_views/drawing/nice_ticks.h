@@ -1,4 +1,4 @@
-// vtk_views/drawing/nice_ticks.h: where an axis carries its numbers.
+// vtk_views/drawing/nice_ticks.h: round tick values of an axis.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// vtk_views/drawing/vector_drawing.h: a drawing of lines and words that stays sharp at any size.
+// vtk_views/drawing/vector_drawing.h: vector drawing of lines and text.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct DrawnText {
   bool bold = false;
   bool upwards = false;  // reads from the bottom to the top
   Rgb8 colour{20, 20, 20};
-  /// Around each letter, so that it is read over lines and pictures.
+  /// Around each letter, so that it is read over lines and images.
   std::optional<Rgb8> rim = std::nullopt;
 };
 
@@ -73,7 +73,7 @@ void appendBelow(const VectorDrawing& below, double gap_pt, VectorDrawing& drawi
 double textWidthPt(const DrawnText& text);
 
 // The same drawing gives the same bytes. Lines are lines and text stays text in SVG and PDF; a PDF
-// carries its font, and both carry their pictures. All throw Error for a drawing without a size, or
+// carries its font, and both carry their images. All throw Error for a drawing without a size, or
 // one that cairo refuses.
 
 std::string svgBytes(const VectorDrawing& drawing);

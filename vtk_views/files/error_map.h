@@ -22,7 +22,7 @@ struct ErrorMap {
 
   int frame = -1;  // -1 = no moment of a series
   double time_s = std::nan("");
-  Eigen::Vector3f look{0, 1, 0};  // where a picture is best taken: along `look`, `up` upwards
+  Eigen::Vector3f look{0, 1, 0};  // where an image is best taken: along `look`, `up` upwards
   Eigen::Vector3f up{0, 0, 1};    // (defaults: the front of a patient in LPS)
 };
 

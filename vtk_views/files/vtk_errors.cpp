@@ -71,7 +71,7 @@ class SilentOutput : public vtkOutputWindow {
 };
 vtkStandardNewMacro(SilentOutput);
 
-/// VTK's warnings go to its window and to its log: to neither while this lives.
+/// In its scope, VTK's warnings go neither to its window nor to its log.
 class Silence {
  public:
   Silence()

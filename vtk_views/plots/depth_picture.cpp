@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "vtk_views/drawing/colour_map.h"
 #include "vtk_views/drawing/nice_ticks.h"
 
@@ -121,13 +122,6 @@ void drawCaptions(Canvas& canvas, const DepthPictureLayout& layout, const DepthP
               style);
 }
 
-/// The k-th smallest of the measured depths, k = `part` of their number.
-float quantile(std::vector<float>& measured_mm, double part) {
-  const auto at = measured_mm.begin() + std::ptrdiff_t(part * double(measured_mm.size() - 1));
-  std::nth_element(measured_mm.begin(), at, measured_mm.end());
-  return *at;
-}
-
 }  // namespace
 
 DepthRange depthRangeToShow(const Raster<float>& depth_mm) {
@@ -135,7 +129,7 @@ DepthRange depthRangeToShow(const Raster<float>& depth_mm) {
   for (const float z_mm : depth_mm.values)
     if (std::isfinite(z_mm)) measured_mm.push_back(z_mm);
   if (measured_mm.empty()) return {0, 100};
-  const double low_mm = quantile(measured_mm, 0.01), high_mm = quantile(measured_mm, 0.99);
+  const double low_mm = quantileOf(measured_mm, 0.01), high_mm = quantileOf(measured_mm, 0.99);
   const double span_mm = std::max(1.0, high_mm - low_mm);
   const double step_mm = std::pow(10.0, std::floor(std::log10(span_mm / 2)));  // 0.1, 1, 10 mm …
   return {step_mm * std::floor((low_mm - 0.02 * span_mm) / step_mm),
@@ -160,7 +154,7 @@ ColourImage drawDepthPicture(const ColourImage& left, const Raster<float>& depth
                              const Mask& mask, const DepthRange& range,
                              const DepthPictureText& text) {
   if (left.empty() || !left.sameShape(depth_mm) || (!mask.empty() && !left.sameShape(mask)))
-    throw Error("depth picture: photograph, depth and mask must have one shape");
+    throw Error("depth image: photograph, depth and mask must have one shape");
   const DepthPictureLayout layout = layoutDepthPicture(left.width_px, left.height_px);
   const ColouredDepth coloured = colourDepth(depth_mm, mask, range);
   Canvas canvas(layout.width_px, layout.height_px);

@@ -25,7 +25,7 @@ struct DepthPictureText {
   std::string note;   // below them, e.g. coverage
 };
 
-/// Where things are drawn, for pictures of a given size.
+/// Where things are drawn, for images of a given size.
 struct DepthPictureLayout {
   int width_px = 0;
   int height_px = 0;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "core/median.h"
 #include "vtk_views/drawing/error_colours.h"
 #include "vtk_views/drawing/nice_ticks.h"
 
@@ -19,9 +21,8 @@ double limitOf(const Raster<float>& error) {
   std::copy_if(error.values.begin(), error.values.end(), std::back_inserter(known),
                [](float value) { return std::isfinite(value); });
   if (known.empty()) return 1;
-  const auto at = known.begin() + std::ptrdiff_t(0.95 * double(known.size() - 1));
-  std::nth_element(known.begin(), at, known.end());
-  return *at > 0 ? roundUp(*at) : 1;
+  const float limit = quantileOf(std::move(known), 0.95);
+  return limit > 0 ? roundUp(limit) : 1;
 }
 
 }  // namespace

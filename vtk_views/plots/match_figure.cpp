@@ -1,4 +1,4 @@
-// vtk_views/plots/match_figure.cpp: pictures, dots, lines, words, in this order.
+// vtk_views/plots/match_figure.cpp: images, dots, lines, words, in this order.
 #include "vtk_views/plots/match_figure.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class MatchSheet {
   void text(PointPt at, const std::string& words, double size_pt, TextAnchor anchor, Rgb8 colour);
 
   const MatchFigure& figure_;
-  double font_pt_, picture_pt_, scale_;  // width of a picture; pt a pixel
+  double font_pt_, picture_pt_, scale_;  // width of an image; pt a pixel
   std::size_t lines_;
   double top_pt_ = 0;  // of the row at hand
   VectorDrawing drawing_;
@@ -124,7 +124,7 @@ VectorDrawing drawMatches(const MatchFigure& figure, const FigureStyle& style, i
   if (figure.panels.empty() || figure.left.width_px == 0 ||
       figure.left.width_px != figure.right.width_px ||
       figure.left.height_px != figure.right.height_px)
-    throw Error("matches: they need two pictures of one size");
+    throw Error("matches: they need two images of one size");
   return MatchSheet(figure, style, lines).draw();
 }
 

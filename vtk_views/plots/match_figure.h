@@ -1,4 +1,4 @@
-// vtk_views/plots/match_figure.h: which pixel of one picture was found where in another.
+// vtk_views/plots/match_figure.h: which pixel of one image was found where in another.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ struct DrawnMatch {
   bool inlier = false;
 };
 
-/// One row of the figure: two pictures side by side and what joins them.
+/// One row of the figure: two images side by side and what joins them.
 struct MatchPanel {
   std::string caption;  // below, after its letter
   std::vector<DrawnMatch> matches;
@@ -29,9 +29,9 @@ struct MatchFigure {
   std::string note;  // small, at the bottom, in as many lines as it takes
 };
 
-/// Every match is a dot in both pictures; of each row at most `lines` are joined by a line, evenly
+/// Every match is a dot in both images; of each row at most `lines` are joined by a line, evenly
 /// spread over the given order, inliers and outliers in their true proportion. Outliers lie on top.
-/// Throws Error where there is no panel or the pictures differ in size.
+/// Throws Error where there is no panel or the images differ in size.
 VectorDrawing drawMatches(const MatchFigure& figure, const FigureStyle& style, int lines = 24);
 
 }  // namespace softscope

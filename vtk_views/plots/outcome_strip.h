@@ -1,4 +1,4 @@
-// vtk_views/plots/outcome_strip.h: which frames of a run were fused, skipped or lost, as a strip.
+// vtk_views/plots/outcome_strip.h: strip of fused, skipped and lost frames.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// vtk_views/plots/worst_frames_plot.h: the frames that are farthest off, side by side.
+// vtk_views/plots/worst_frames_plot.h: the frames with the largest errors, side by side.
 #pragma once
 
 #include <string>

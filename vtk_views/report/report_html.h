@@ -1,4 +1,4 @@
-// vtk_views/report/report_html.h: a report as one page that needs nothing else.
+// vtk_views/report/report_html.h: a report as one self-contained HTML page.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// HTML with style, scripts, plots, pictures, maps and metrics inside: it opens from disk and asks
+/// HTML with style, scripts, plots, images, maps and metrics inside: it opens from disk and asks
 /// the network for nothing. The same page gives the same bytes.
 std::string reportHtml(const ReportPage& page);
 

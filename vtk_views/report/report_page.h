@@ -1,4 +1,4 @@
-// vtk_views/report/report_page.h: what a report says, for paper and for the screen alike.
+// vtk_views/report/report_page.h: content of a report, for HTML and PDF.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ struct ReportTable {
 
 enum class ReportMark { kNone, kGood, kBad };
 
-/// A number so large that nobody misses it.
+/// A headline number in large type.
 struct ReportTile {
   std::string label, value, note;
   ReportMark mark = ReportMark::kNone;
@@ -52,7 +52,7 @@ struct ReportPicture {
   std::string caption;
 };
 
-/// Where the page's map stands; on paper its picture.
+/// Where the page's map stands; on paper its image.
 struct ReportMapPlace {
   std::string caption, paper_caption;
 };

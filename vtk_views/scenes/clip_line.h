@@ -1,4 +1,4 @@
-// vtk_views/scenes/clip_line.h: what of a line lies in a panel.
+// vtk_views/scenes/clip_line.h: clipping of a line to a panel.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// vtk_views/scenes/drawing_versions.h: the libraries that only this folder knows.
+// vtk_views/scenes/drawing_versions.h: versions of the drawing libraries.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// vtk_views/scenes/egl_display.h: an OpenGL driver that needs no screen.
+// vtk_views/scenes/egl_display.h: OpenGL context without a display.
 #pragma once
 
 #include <EGL/egl.h>

@@ -1,4 +1,4 @@
-// vtk_views/scenes/error_map_figure.cpp: pictures in a grid, bars below.
+// vtk_views/scenes/error_map_figure.cpp: images in a grid, bars below.
 #include "vtk_views/scenes/error_map_figure.h"
 
 #include <Eigen/Geometry>
@@ -20,7 +20,7 @@ constexpr double kPixelsPerPt = 2.2;   // 160 dots an inch
 constexpr double kPushShare = 0.03;    // the reference lies back by this much of its size
 constexpr Rgb8 kReference{200, 200, 200};
 
-/// Also sets the width that shows nearly all of the surface in a picture of this shape, with room
+/// Also sets the width that shows nearly all of the surface in an image of this shape, with room
 /// for the letters: `side_share` of the width at each side.
 ViewPlane cameraOf(const ErrorMap& map, double height_share, double side_share, double& width_mm) {
   const Eigen::Matrix3d axes = viewAxes(map).cast<double>();
@@ -80,7 +80,7 @@ void drawSides(const ErrorMap& map, const ViewPlane& camera, PointPt from, Point
             TextAnchor::kMiddle, font_pt, drawing);
 }
 
-/// The longest of 1, 2, 5, 10, … mm that takes at most a quarter of the width; above the picture,
+/// The longest of 1, 2, 5, 10, … mm that takes at most a quarter of the width; above the image,
 /// at the right.
 void drawRuler(double pt_per_mm, PointPt from, PointPt to, double font_pt, VectorDrawing& drawing) {
   const double most_mm = (to.x_pt - from.x_pt) / 4 / pt_per_mm;

@@ -1,4 +1,4 @@
-// vtk_views/scenes/four_panels.cpp: a slice or a 3-D picture in each place of the grid.
+// vtk_views/scenes/four_panels.cpp: a slice or a 3-D image in each place of the grid.
 #include "vtk_views/scenes/four_panels.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// vtk_views/scenes/map_view.h: how an error map is looked at first.
+// vtk_views/scenes/map_view.h: default view of an error map.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,11 +8,11 @@
 
 namespace softscope {
 
-/// Columns: right, up, towards the viewer, for one who looks along the map's `look`.
+/// Columns: right, up, towards the viewer, for a view along the map's `look`.
 Eigen::Matrix3f viewAxes(const ErrorMap& map);
 
 /// The box, along those axes of `view`, that holds nearly all points of all maps: without the
-/// outermost two percent at each side, so that a few stray points don't shrink the rest, and a
+/// outermost two percent at each side, so that a few outliers don't shrink the rest, and a
 /// little wider.
 Eigen::AlignedBox3f mostOfPoints(const ErrorMap& view, const std::vector<const ErrorMap*>& maps);
 

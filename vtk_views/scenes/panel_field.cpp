@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStrays = 0.001;  // share of points at each end of an axis that may lie outside
 
-/// Of the vertices that triangles use; of points without the strays.
+/// Of the vertices that triangles use; of points without outliers.
 void extend(const SceneSurface& surface, const ViewPlane& plane, Eigen::AlignedBox2d& box) {
   const auto& vertices = surface.mesh.vertices_mm;
   std::vector<char> drawn(vertices.size(), surface.isPoints() ? 1 : 0);

@@ -1,4 +1,4 @@
-// vtk_views/scenes/panel_field.h: how much of a scene panels show, and where its middle lies.
+// vtk_views/scenes/panel_field.h: centre and field of view of panels.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// vtk_views/scenes/plane_contours.h: where a plane cuts a surface.
+// vtk_views/scenes/plane_contours.h: contours of a surface in a plane.
 #pragma once
 
 #include <Eigen/Core>

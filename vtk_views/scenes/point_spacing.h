@@ -1,4 +1,4 @@
-// vtk_views/scenes/point_spacing.h: how large dots must be to look like a surface.
+// vtk_views/scenes/point_spacing.h: point spacing of a model, for the size of its dots.
 #pragma once
 
 #include <Eigen/Core>

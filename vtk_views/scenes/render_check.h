@@ -1,4 +1,4 @@
-// vtk_views/scenes/render_check.h: does this machine really draw?
+// vtk_views/scenes/render_check.h: test of off-screen rendering on this machine.
 #pragma once
 
 #include <string>

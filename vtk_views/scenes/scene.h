@@ -1,4 +1,4 @@
-// vtk_views/scenes/scene.h: what a figure shows, in one frame.
+// vtk_views/scenes/scene.h: surfaces, points and volume of a figure in one frame.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -37,7 +37,7 @@ struct Scene {
   double dot_reach_mm = 0.5;           // points farther from a plane aren't drawn in it
 };
 
-/// Where most of the surfaces' finite vertices are; strays count little. Empty sets give zeros.
+/// Where most of the surfaces' finite vertices are, robust to outliers. Empty sets give zeros.
 struct Middle {
   Eigen::Vector3d median_mm = Eigen::Vector3d::Zero();  // along each axis
   Eigen::Vector3d size_mm = Eigen::Vector3d::Zero();    // of the middle 98 % along each axis

@@ -1,4 +1,4 @@
-// vtk_views/scenes/slice_panel.cpp: picture, lines, dots, letters, bar.
+// vtk_views/scenes/slice_panel.cpp: image, lines, dots, letters, bar.
 #include "vtk_views/scenes/slice_panel.h"
 
 #include <algorithm>

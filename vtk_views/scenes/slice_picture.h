@@ -1,4 +1,4 @@
-// vtk_views/scenes/slice_picture.h: a plane through a volume, as pixels.
+// vtk_views/scenes/slice_picture.h: image of a plane through a volume.
 #pragma once
 
 #include "core/image.h"
@@ -9,14 +9,14 @@
 
 namespace softscope {
 
-/// The part of a plane that a picture shows, around the plane's centre, mm.
+/// The part of a plane that an image shows, around the plane's centre, mm.
 struct SliceField {
   double width_mm = 100;
   double height_mm = 100;
 };
 
 /// The volume's values on the plane; NaN beyond it. Row 0 is at the top; pixels are square if the
-/// shape of picture and field agree.
+/// shape of image and field agree.
 Raster<float> sliceValues(const Volume& volume, const ViewPlane& plane, const SliceField& field,
                           int width_px, int height_px);
 

@@ -19,7 +19,7 @@ namespace softscope {
 namespace {
 
 constexpr int kFiner = 2;         // pixels are drawn this much smaller each way, then averaged
-constexpr double kNearer = 0.02;  // of the picture's width
+constexpr double kNearer = 0.02;  // of the image's width
 constexpr double kEyeAway = 100;  // the same
 constexpr double kSmallestDot = 1 / 150.0, kLargestDot = 1 / 50.0;  // the same
 

@@ -9,12 +9,12 @@ namespace softscope {
 
 struct SurfacePictureOptions {
   int width_px = 600, height_px = 600;
-  double width_mm = 100;     // what the picture's width shows
+  double width_mm = 100;     // what the image's width shows
   double point_size_mm = 0;  // diameter of points; 0: so that they cover their surface
   bool see_through = false;  // the first surface, if others are there too
 };
 
-/// Parallel projection on white: sizes in the picture are true everywhere, and later surfaces can
+/// Parallel projection on white: sizes in the image are true everywhere, and later surfaces can
 /// be drawn a little nearer to the eye, so that the first doesn't hide what lies just inside it. A
 /// surface with errors has their colours, unlit, so that they are the bar's; one with a colour at
 /// each vertex has these, the others are lit in their own, or in grey beside errors, which no tint

@@ -1,4 +1,4 @@
-// vtk_views/scenes/view_camera.h: VTK's camera where ours, or a scope's, is.
+// vtk_views/scenes/view_camera.h: VTK camera from our camera or a scope's pose.
 #pragma once
 
 #include <vtkRenderer.h>
@@ -10,12 +10,12 @@
 
 namespace softscope {
 
-/// Parallel projection, as figures have it: sizes are true everywhere. `height_mm` of the picture,
+/// Parallel projection, as figures have it: sizes are true everywhere. `height_mm` of the image,
 /// the eye `depth_mm` before the plane's centre.
 void aimParallel(vtkRenderer* renderer, const ViewPlane& view, double height_mm, double depth_mm);
 
 /// What the scope itself sees from `world_from_left`, turning about a point `focus_mm` ahead. Where
-/// the picture's shape is another, its height shows the scope's whole height, or its width the
+/// the image's shape is another, its height shows the scope's whole height, or its width the
 /// whole width, whichever shows more. `aspect`: of the renderer, width / height.
 void aimAsScope(vtkRenderer* renderer, const PinholeCamera& left,
                 const Eigen::Isometry3d& world_from_left, double focus_mm, double aspect);

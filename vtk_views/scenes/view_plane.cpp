@@ -21,13 +21,13 @@ ViewPlane make(const char* name, const Vector3d& centre_mm, const Vector3d& righ
   return {name, centre_mm, right, up};
 }
 
-/// Up for a picture that is looked at from `towards_viewer`.
+/// Up for an image that is looked at from `towards_viewer`.
 Vector3d upFor(const Vector3d& towards_viewer, SceneFrame frame) {
   const Vector3d usual =
       frame != SceneFrame::kCamera ? Vector3d(Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
   const Vector3d other =
       frame != SceneFrame::kCamera ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
-  // Within 45 degrees of the axis a picture is read as an axial one (of a scope: one from above).
+  // Within 45 degrees of the axis an image is read as an axial one (of a scope: one from above).
   const Vector3d& hint = std::abs(towards_viewer.dot(usual)) > std::sqrt(0.5) ? other : usual;
   return (hint - hint.dot(towards_viewer) * towards_viewer).normalized();
 }

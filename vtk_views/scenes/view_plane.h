@@ -1,4 +1,4 @@
-// vtk_views/scenes/view_plane.h: which way a picture looks.
+// vtk_views/scenes/view_plane.h: direction and axes of a view.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,13 +13,13 @@ enum class SceneFrame {
   kAxes,     // not said: looked at as a patient, but sides are called +x, -x …
 };
 
-/// Whose left is on the left of the picture.
+/// Whose left is on the left of the image.
 enum class SideRule {
   kRadiological,  // as if facing the patient, axial from the feet: patient's left on the right
   kNeurological,  // as if standing behind, axial from the head: left on the left
 };
 
-/// A plane, or the direction of a camera, with the picture's own right and up: unit vectors, at
+/// A plane, or the direction of a camera, with the image's own right and up: unit vectors, at
 /// right angles.
 struct ViewPlane {
   std::string name;  // "axial"

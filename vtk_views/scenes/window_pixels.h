@@ -1,4 +1,4 @@
-// vtk_views/scenes/window_pixels.h: pictures to VTK and back.
+// vtk_views/scenes/window_pixels.h: images to VTK and back.
 #pragma once
 
 #include <vtkImageData.h>

@@ -1,4 +1,4 @@
-// vtk_views/viewer/moment_between.h: what lies between two saved models of a run.
+// vtk_views/viewer/moment_between.h: interpolation between two saved models.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_controls.h: what the viewer's keys do, without a window.
+// vtk_views/viewer/view_controls.h: key bindings and playback state of the viewer.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ constexpr int kFiner = 2;
 constexpr double kUsualWidth = 960, kUsualHeight = 720;
 constexpr int kLeastWidth = 320, kLeastHeight = 240, kMost = 4096;
 
-/// Letters keep their share of a large picture. In eighths, so that the foot has whole pixels.
+/// Letters keep their share of a large image. In eighths, so that the foot has whole pixels.
 double footScale(int width_px, int height_px) {
   const double larger = std::min(width_px / kUsualWidth, height_px / kUsualHeight);
   return std::max(1.0, std::floor(8 * larger) / 8);

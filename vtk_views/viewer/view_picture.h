@@ -1,5 +1,4 @@
-// vtk_views/viewer/view_picture.h: what the viewer's window would show, without a window or a
-// display.
+// vtk_views/viewer/view_picture.h: content of the viewer's window, rendered off screen.
 #pragma once
 
 #include <vtkRenderWindow.h>

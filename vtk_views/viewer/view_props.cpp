@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_props.cpp: lines, and pictures on rectangles.
+// vtk_views/viewer/view_props.cpp: lines, and images on rectangles.
 #include "vtk_views/viewer/view_props.h"
 
 #include <vtkCellArray.h>

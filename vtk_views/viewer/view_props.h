@@ -39,7 +39,7 @@ LineSet motionArrows(const std::vector<Eigen::Vector3f>& ends_mm,
                      const std::vector<Eigen::Vector3f>& motions_mm, double times, double least_mm,
                      Rgb8 colour);
 
-/// The volume's slice by that plane as a picture in space: a square of `side_mm` around the plane's
+/// The volume's slice by that plane as an image in space: a square of `side_mm` around the plane's
 /// centre, or less where the volume ends.
 vtkSmartPointer<vtkActor> sliceActor(const Volume& volume, const ViewPlane& plane,
                                      const GreyWindow& window, double side_mm);

@@ -19,7 +19,7 @@ namespace softscope {
 namespace {
 
 constexpr double kScopeDepth = 0.22;  // of the way to the tissue
-constexpr double kEyeAway = 4;        // in widths of the picture
+constexpr double kEyeAway = 4;        // in widths of the image
 constexpr double kRoomAround = 1.08;  // of what is seen
 constexpr double kStrays = 0.002;     // share of the points at each side that may be cut
 constexpr double kStraysFrom = 0.1;   // beyond the others, of their width
@@ -38,7 +38,7 @@ SceneSurface surfaceOf(TriangleMesh mesh, Rgb8 colour) {
   return surface;
 }
 
-/// The extremes of the values; without the strays where these lie far from all others.
+/// The extremes of the values, without outliers far from all others.
 std::pair<double, double> endsOfMost(std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double least = *low, most = *high;
@@ -167,7 +167,7 @@ void ViewScene::showNodes(const ViewMoment& moment, const ViewState& state) {
   arrows_->SetVisibility(state.motion);
 }
 
-/// A corner of three slices, with the model in front of it for one who looks so.
+/// A corner of three slices, with the model in front of it in this view.
 void ViewScene::addSlices(const Eigen::Vector3d& towards_viewer) {
   for (const auto& slice : slices_) renderer_->RemoveActor(slice);
   slices_.clear();

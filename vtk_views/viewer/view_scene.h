@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_scene.h: a moment of a run in 3-D, in whatever window draws it.
+// vtk_views/viewer/view_scene.h: a moment of a run as a 3-D scene.
 #pragma once
 
 #include <vtkActor.h>
@@ -32,7 +32,7 @@ class ViewScene {
   void turn(double angle_deg);
   /// Gives lines and the dots of nodes their size.
   void sizeFor(double line_scale);
-  /// What a picture of that width shows, mm; NaN where near is larger than far.
+  /// What an image of that width shows, mm; NaN where near is larger than far.
   double widthShownMm(double aspect) const;
 
  private:

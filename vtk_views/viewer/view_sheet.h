@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_sheet.h: what stands below a view, and the keys, drawn as figures are.
+// vtk_views/viewer/view_sheet.h: time line, legend and keys below a view.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct ViewFoot {
   std::string status;                   // "model 20 of 20, 59 645 points; paused"
   std::string view;                     // "seen from the scope"
   std::string going;                    // "live", "stopped"; empty: all moments are there
-  bool of_window = false;               // says what a picture needn't: playing, keys
+  bool of_window = false;               // says what an image needn't: playing, keys
   std::optional<ErrorColours> colours;  // a bar, and what it says
   ColourBarText bar;
   std::string colour;              // what is said where there is no bar
@@ -34,7 +34,7 @@ struct ViewFoot {
 ViewFoot footOf(const ViewSource& source, const ViewMoment& moment, const Playback& playback,
                 const ViewState& state, double width_mm, bool of_window);
 
-/// kViewFootPx high; of a picture that is larger than a window `scale` times as high, with its
+/// kViewFootPx high; of an image that is larger than a window `scale` times as high, with its
 /// letters and lines.
 ColourImage drawViewFoot(const ViewFoot& foot, int width_px, double scale = 1);
 /// Where on the slider a pixel's column lies, 0 to 1.

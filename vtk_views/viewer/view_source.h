@@ -1,5 +1,4 @@
-// vtk_views/viewer/view_source.h: what a viewer shows: a world that stands, and moments that
-// follow.
+// vtk_views/viewer/view_source.h: source of the moments that the viewer shows.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -60,7 +59,7 @@ class ViewSource {
   virtual std::shared_ptr<const ViewMoment> moment(int index, bool with_errors) = 0;
   /// Whether more moments may come.
   virtual bool live() const = 0;
-  /// Of a live source: whether who made the moments is gone, so that no more are likely.
+  /// Of a live source: whether its writer has ended, so that no more moments are likely.
   virtual bool stopped() const { return false; }
   /// Looks whether there are more by now.
   virtual void look() = 0;

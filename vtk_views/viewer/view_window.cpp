@@ -32,7 +32,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A picture on the window, pixel by pixel.
+/// An image on the window, pixel by pixel.
 class PictureActor {
  public:
   PictureActor() {
@@ -149,7 +149,7 @@ class ViewWindow::Parts : public ViewHandler {
   double aspect() const;
   int width() const { return window_->GetSize()[0]; }
   int height() const { return window_->GetSize()[1]; }
-  /// VTK's loop knows no exceptions: they end it, and run() throws them on.
+  /// VTK's loop passes no exceptions: they end it, and run() rethrows them.
   template <class Action>
   void guarded(Action action) {
     try {

@@ -42,7 +42,7 @@ class ViewWindow {
   ColourImage pixels() const;
   ViewPace pace() const;
 
-  // For those who press keys without a keyboard.
+  // Keys without a keyboard, for tests.
   vtkRenderWindowInteractor* interactor();
   const Playback& playback() const;
   const ViewState& state() const;

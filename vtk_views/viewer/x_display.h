@@ -1,4 +1,4 @@
-// vtk_views/viewer/x_display.h: a screen to open a window on, if there is one.
+// vtk_views/viewer/x_display.h: check for an X display.
 #pragma once
 
 #include <vtkRenderWindow.h>

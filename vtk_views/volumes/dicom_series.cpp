@@ -72,7 +72,7 @@ vtkNew<vtkDICOMMetaData> tagsOf(const std::string& file) {
   return meta;
 }
 
-/// Storage classes without pictures: reports, presentation states, radiotherapy plans, raw data,
+/// Storage classes without images: reports, presentation states, radiotherapy plans, raw data,
 /// encapsulated documents, waveforms, directories (DICOM PS3.4, B.5).
 bool isDocument(const std::string& storage_class) {
   const std::string storage = "1.2.840.10008.5.1.4.1.1.";
@@ -91,7 +91,7 @@ std::string faultOfStray(const std::string& file) {
   } catch (const InputError& error) {
     return error.what();
   }
-  return file + ": belongs to no series with pictures; is it cut short? Copy it again";
+  return file + ": belongs to no series with images; is it cut short? Copy it again";
 }
 
 /// Files that belong to no series: a document, or a slice that is damaged or cut short, which then
@@ -127,7 +127,7 @@ std::vector<std::string> largestSeries(const std::string& path,
   directory->IgnoreDicomdirOn();
   updateOrThrow(*directory, path);
   const int count = directory->GetNumberOfSeries();
-  if (count == 0) throw InputError(path + ": no DICOM series with pictures in this folder");
+  if (count == 0) throw InputError(path + ": no DICOM series with images in this folder");
   std::vector<std::vector<std::string>> series;
   for (int i = 0; i < count; ++i) {
     vtkStringArray* of_series = directory->GetFileNamesForSeries(i);

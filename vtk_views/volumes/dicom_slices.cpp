@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "vtk_views/volumes/header_text.h"
 #include "vtk_views/volumes/stored_volume.h"
 
@@ -183,16 +184,14 @@ std::vector<int> placesInStack(const std::string& path, const std::vector<DicomS
                        " lie in one place by their ImagePositionPatient; a volume has one slice "
                        "there. Give a folder with one phase, or one copy of each slice");
   }
-  std::vector<double> sorted = gaps_mm;
-  const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
-  if (!sorted.empty()) std::nth_element(sorted.begin(), middle, sorted.end());
+  const double median_mm = medianOf(gaps_mm);
   std::vector<int> places{0};
   for (const double gap_mm : gaps_mm) {
-    const double steps = std::min(gap_mm / *middle, 1e6);
+    const double steps = std::min(gap_mm / median_mm, 1e6);
     places.push_back(places.back() + std::max(1, static_cast<int>(std::lround(steps))));
     if (places.back() > 4 * int(slices.size()) + 100)
       throw InputError(path + ": ImagePositionPatient scatters its slices over " +
-                       std::to_string(places.back()) + " places of " + std::to_string(*middle) +
+                       std::to_string(places.back()) + " places of " + std::to_string(median_mm) +
                        " mm, but there are " + std::to_string(slices.size()) +
                        ". Export the series again");
   }

@@ -1,4 +1,4 @@
-// vtk_views/volumes/dicom_slices.h: what the tags of each slice say, and the stack that they make.
+// vtk_views/volumes/dicom_slices.h: tags of DICOM slices, and their order in a stack.
 #pragma once
 
 #include <Eigen/Core>

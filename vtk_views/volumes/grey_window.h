@@ -1,4 +1,4 @@
-// vtk_views/volumes/grey_window.h: which values of a volume are black, and which white.
+// vtk_views/volumes/grey_window.h: window and level of a volume.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct GreyWindow {
   std::uint8_t grey(double value) const;
 };
 
-/// Names that parseWindow() knows.
+/// Names that parseWindow() accepts.
 std::vector<std::string> windowNames();
 
 /// "auto", "soft-tissue", "lung", "bone", "liver", "vessels", or "WIDTH,LEVEL". The named ones are

@@ -4,8 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "vtk_views/volumes/volume_files.h"
 
 namespace softscope {
@@ -63,10 +65,7 @@ double Volume::percentile(double share) const {
   for (std::size_t i = 0; i < values.size(); i += step)
     if (std::isfinite(values[i])) some.push_back(values[i]);
   if (some.empty()) return 0;
-  const auto place = some.begin() + std::ptrdiff_t(std::clamp(share, 0.0, 1.0) *
-                                                   static_cast<double>(some.size() - 1));
-  std::nth_element(some.begin(), place, some.end());
-  return *place;
+  return quantileOf(std::move(some), std::clamp(share, 0.0, 1.0));
 }
 
 Volume readVolume(const std::string& path, const VolumeOptions& options) {

@@ -1,4 +1,4 @@
-// vtk_views/volumes/volume_summary.h: what a CT or MR volume says about itself.
+// vtk_views/volumes/volume_summary.h: header facts of a CT or MR volume.
 #pragma once
 
 #include <Eigen/Core>

@@ -33,15 +33,15 @@ void checkFocal(const RawCamera& camera, const std::string& what, Warnings& warn
   const double aspect = camera.pinhole.fx_px / camera.pinhole.fy_px;
   if (aspect > kLimits.usual_most_aspect || aspect < 1 / kLimits.usual_most_aspect)
     warnings.push_back(say(what, "'s fx / fy is ", aspect,
-                           ", but pixels are nearly square. Was the ", "picture stretched?"));
+                           ", but pixels are nearly square. Was the ", "image stretched?"));
 }
 
-/// Rectification may move the principal point outside the picture, but by less than the largest
+/// Rectification may move the principal point outside the image, but by less than the largest
 /// side.
 void checkPrincipalPoint(const PinholeCamera& camera, const std::string& what) {
   if (std::abs(camera.cx_px) <= kMostSidePx && std::abs(camera.cy_px) <= kMostSidePx) return;
   throw InputError(say(what, "'s principal point is (", camera.cx_px, ", ", camera.cy_px,
-                       ") px, but it lies near the middle of the picture, and none has more than ",
+                       ") px, but it lies near the middle of the image, and none has more than ",
                        kMostSidePx, " pixels a side. Calibrate or export it again."));
 }
 
@@ -90,7 +90,7 @@ void checkRectified(const StereoCalibration& calibration) {
   if (!calibration.rectified) return;
   const auto contradict = [&](const std::string& found) {
     throw InputError(say(calibration.source, ": said to be rectified, but ", found,
-                         ". Give the rectified cameras, or `rectified: 0` with the raw pictures."));
+                         ". Give the rectified cameras, or `rectified: 0` with the raw images."));
   };
   if (!calibration.left.distortion.isZero() || !calibration.right.distortion.isZero())
     contradict("its lens distortion is not 0");
@@ -118,8 +118,8 @@ double lensShiftPx(const RawCamera& camera, double x, double y) {
   return std::hypot((moved_x - x) * camera.pinhole.fx_px, (moved_y - y) * camera.pinhole.fy_px);
 }
 
-/// Throws where the lens moves a point at the middle of the picture's edge, at 45 degrees at most,
-/// by more than the picture is long.
+/// Throws where the lens moves a point at the middle of the image's edge, at 45 degrees at most,
+/// by more than the image is long.
 void checkLens(const RawCamera& camera, const std::string& what) {
   const PinholeCamera& pinhole = camera.pinhole;
   const double across = std::min(pinhole.width_px / (2 * pinhole.fx_px), kLensSlope);
@@ -129,8 +129,8 @@ void checkLens(const RawCamera& camera, const std::string& what) {
     const double shift_px = lensShiftPx(camera, x, y);
     if (!(shift_px <= diagonal_px))
       throw InputError(
-          say(what, "'s lens moves the edge of the picture by ", shift_px,
-              " px, but the picture is ", pinhole.width_px, " x ", pinhole.height_px,
+          say(what, "'s lens moves the edge of the image by ", shift_px, " px, but the image is ",
+              pinhole.width_px, " x ", pinhole.height_px,
               " px. A distortion coefficient is damaged; calibrate or export it again."));
   }
 }

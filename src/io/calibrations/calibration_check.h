@@ -1,4 +1,4 @@
-// src/io/calibrations/calibration_check.h: could this be an endoscope?
+// src/io/calibrations/calibration_check.h: plausibility of a calibration for an endoscope.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ struct CalibrationLimits {
   double usual_least_view_deg = 20, usual_most_view_deg = 120;  // field of view, horizontal
   double usual_most_convergence_deg = 15;                       // angle between the cameras
   double usual_most_aspect = 1.25;                              // fx / fy, or its inverse
-  double most_focal_px = 1e6;                                   // the largest picture sees 1°
+  double most_focal_px = 1e6;                                   // the largest image sees 1°
 };
 
-/// Checks everything that needs no picture size. Throws InputError where it can't be right: focal
+/// Checks everything that needs no image size. Throws InputError where it can't be right: focal
 /// length, principal point, baseline, side of the right camera, a flag `rectified` that the numbers
 /// contradict, depth unit. Returns what is unusual, a line each. `unit` is the file's, for a guess
 /// at what went wrong.
@@ -27,7 +27,7 @@ std::vector<std::string> checkCalibration(const StereoCalibration& calibration,
                                           const std::string& unit = "mm");
 
 /// Checks size, field of view and principal point; nothing while the size is 0 (unknown).
-/// Throws InputError on a size that no picture has or that differs between the cameras.
+/// Throws InputError on a size that no image has or that differs between the cameras.
 std::vector<std::string> checkPictureFit(const StereoCalibration& calibration);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/io/calibrations/calibration_files.h: which files make up a calibration.
+// src/io/calibrations/calibration_files.h: the files of a calibration.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// src/io/calibrations/calibration_forms.h: each form of calibration that is in use, bytes to noun;
+// src/io/calibrations/calibration_forms.h: parsers of each calibration format; values are
 // unchecked.
 #pragma once
 
@@ -39,7 +39,7 @@ bool holdsFewNumbers(const std::vector<Document>& documents);
 /// Whether it is one camera's camera_info of ROS.
 bool isCameraInfo(const Document& document);
 
-/// ROS camera_info of both cameras. `rectified`: the pictures are image_rect, so the projection
+/// ROS camera_info of both cameras. `rectified`: the images are image_rect, so the projection
 /// matrices count.
 CalibrationDraft draftFromRos(const Document& left, const Document& right, const std::string& name,
                               bool rectified);
@@ -66,7 +66,7 @@ CalibrationDraft draftFromHamlyn(const HamlynFiles& files);
 /// The three blocks of numbers in one file.
 CalibrationDraft draftFromHamlyn(const NamedText& file);
 
-/// LLFF's poses_bounds.npy; says neither baseline nor principal point (the picture's middle).
+/// LLFF's poses_bounds.npy; says neither baseline nor principal point (the image's middle).
 CalibrationDraft draftFromEndoNerf(std::string_view npy, const std::string& name);
 
 }  // namespace softscope

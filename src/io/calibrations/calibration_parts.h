@@ -1,5 +1,5 @@
-// src/io/calibrations/calibration_parts.h: from rows of numbers to cameras and poses, with errors
-// that say why.
+// src/io/calibrations/calibration_parts.h: rows of numbers to cameras and poses, with errors that
+// name the cause.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ void setCameraMatrix(PinholeCamera& camera, const std::vector<double>& matrix,
 /// 0, 4, 5, 8, 12 or 14 numbers in OpenCV's order; of 14 the last two (tilt) must be 0.
 LensDistortion distortionFrom(const std::vector<double>& values, const std::string& what);
 
-/// A side of a picture. Throws InputError where it is no whole number from `least` to a million.
+/// A side of an image. Throws InputError where it is no whole number from `least` to a million.
 int wholePixels(double value, int least, const std::string& what);
 
 /// A rotation (nine numbers, or three of a rotation vector) and a translation. Numbers rounded in

@@ -1,5 +1,5 @@
-// src/io/calibrations/endonerf_calibration.cpp: EndoNeRF's poses_bounds.npy, which says neither
-// baseline nor principal point.
+// src/io/calibrations/endonerf_calibration.cpp: EndoNeRF's poses_bounds.npy, without baseline and
+// principal point.
 #include <cmath>
 
 #include "core/error.h"

@@ -1,4 +1,4 @@
-// src/io/calibrations/one_camera.h: calibrations that speak of one camera, or of none.
+// src/io/calibrations/one_camera.h: calibration files of one camera or of none.
 #pragma once
 
 #include "core/stereo_rig.h"

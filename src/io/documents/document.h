@@ -1,4 +1,4 @@
-// src/io/documents/document.h: what a YAML, XML or JSON file says, whichever of them it was.
+// src/io/documents/document.h: a YAML, XML or JSON document as one tree.
 #pragma once
 
 #include <string>

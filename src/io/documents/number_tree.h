@@ -1,4 +1,4 @@
-// src/io/documents/number_tree.h: the numbers of a matrix in a document, however it is written.
+// src/io/documents/number_tree.h: matrices of numbers in a document.
 #pragma once
 
 #include <string>

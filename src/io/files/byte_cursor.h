@@ -1,4 +1,4 @@
-// src/io/files/byte_cursor.h: reads numbers from bytes and never past their end.
+// src/io/files/byte_cursor.h: bounds-checked reading of numbers from bytes.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// src/io/files/file_hash.h: which bytes a result came from.
+// src/io/files/file_hash.h: SHA-256 of files, folders and bytes.
 #pragma once
 
 #include <filesystem>

@@ -1,11 +1,11 @@
-// src/io/files/file_lock.h: one process at a time, and whether there still is one.
+// src/io/files/file_lock.h: lock of a folder by one process, and whether it is held.
 #pragma once
 
 #include <filesystem>
 
 namespace softscope {
 
-/// A lock that ends with its process, however that ends. It keeps out only those who ask for it.
+/// A lock that ends with its process, however that ends. It is advisory.
 class FileLock {
  public:
   /// Makes the file where it is missing; holds nothing yet.

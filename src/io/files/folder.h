@@ -1,4 +1,4 @@
-// src/io/files/folder.h: the files of a folder, in the order in which people number them.
+// src/io/files/folder.h: files of a folder in natural numeric order.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-/// What the path leads to; false, never a throw, where that can't be seen: who reads it reports.
+/// Type of the path's target; false, never a throw, if unknown: the reader reports it.
 bool isThere(const std::filesystem::path& path);
 bool isFile(const std::filesystem::path& path);
 bool isFolder(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// src/io/files/new_files.h: files of one result, which are taken back where it fails.
+// src/io/files/new_files.h: files of one result, removed if the result fails.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// src/io/geometry/depth_files.h: depth and disparity, pixel by pixel, from and to disk.
+// src/io/geometry/depth_files.h: reading and writing of depth and disparity maps.
 #pragma once
 
 #include <filesystem>

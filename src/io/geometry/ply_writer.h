@@ -1,4 +1,4 @@
-// src/io/geometry/ply_writer.h: point clouds for every mesh viewer.
+// src/io/geometry/ply_writer.h: point clouds as PLY.
 #pragma once
 
 #include <filesystem>

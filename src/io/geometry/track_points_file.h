@@ -1,4 +1,4 @@
-// src/io/geometry/track_points_file.h: which pixels of the first left picture are to be followed.
+// src/io/geometry/track_points_file.h: pixels of the first left image to be tracked.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// A pixel of the first left picture as it is on disk, with a number of its own.
+/// A pixel of the first left image as it is on disk, with a number of its own.
 struct TrackPixel {
   int id = 0;
   double u_px = 0, v_px = 0;

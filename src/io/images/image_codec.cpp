@@ -28,7 +28,7 @@ cv::Mat decodeImage(std::string_view bytes, const std::string& name, int flags) 
   cv::Mat image = decodeOrEmpty(bytes, flags);
   if (image.cols != header.width_px || image.rows != header.height_px)
     throw InputError(name +
-                     ": the picture can't be decoded, it is damaged or of an unusual kind. "
+                     ": the image can't be decoded, it is damaged or of an unusual kind. "
                      "Export it again as PNG.");
   return image;
 }
@@ -40,7 +40,7 @@ std::string encodeImage(const char* extension, const cv::Mat& image,
     if (cv::imencode(extension, image, bytes, parameters)) return {bytes.begin(), bytes.end()};
   } catch (const cv::Exception&) {
   }
-  throw Error(say("a picture of ", image.cols, " x ", image.rows, " pixels can't be encoded as ",
+  throw Error(say("an image of ", image.cols, " x ", image.rows, " pixels can't be encoded as ",
                   extension, "."));
 }
 

@@ -1,4 +1,4 @@
-// src/io/images/image_codec.h: OpenCV's picture codecs behind our checks and errors.
+// src/io/images/image_codec.h: OpenCV's image codecs with our checks and errors.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

@@ -36,7 +36,7 @@ ImageForm formOf(std::string_view bytes, const std::string& name) {
   if (startsWith(bytes, {"II*\0", 4}) || startsWith(bytes, {"MM\0*", 4})) return ImageForm::kTiff;
   if (startsWith(bytes, "P5") || startsWith(bytes, "P6")) return ImageForm::kPnm;
   throw InputError(say(name, ": begins with ", excerpt(bytes.substr(0, 4)),
-                       ", but a PNG, JPEG, BMP, TIFF or binary PGM/PPM picture is expected."));
+                       ", but a PNG, JPEG, BMP, TIFF or binary PGM/PPM image is expected."));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// src/io/images/image_header.h: is this picture whole, and how large? Asked before anything is
+// src/io/images/image_header.h: size and completeness of an image file, checked before anything is
 // decoded.
 #pragma once
 

@@ -1,4 +1,4 @@
-// src/io/images/image_reader.h: pictures from disk; png, jpg, bmp, tif, pgm and ppm.
+// src/io/images/image_reader.h: images from disk: png, jpg, bmp, tif, pgm and ppm.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@ namespace softscope {
 
 // Each reads a file, or its bytes from memory, where `name` is what errors call it. All throw
 // InputError on a file that is missing, empty, truncated, damaged, of another form or of an absurd
-// size. 16-bit pictures are scaled to 8 bits; an orientation tag is ignored, because a calibration
-// speaks of the pixels as they are stored.
+// size. 16-bit images are scaled to 8 bits; an orientation tag is ignored, because a calibration
+// refers to the pixels as they are stored.
 
-/// Grey pictures get three equal channels; transparency is dropped.
+/// Grey images get three equal channels; transparency is dropped.
 ColourImage readColourImage(const std::filesystem::path& file);
 ColourImage parseColourImage(std::string_view bytes, const std::string& name);
 

@@ -1,4 +1,4 @@
-// src/io/images/image_walks.h: each picture form from its first byte to its last, without decoding.
+// src/io/images/image_walks.h: structure of each image format, read without decoding.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// src/io/images/image_writer.h: pictures to disk; each appears whole or not at all.
+// src/io/images/image_writer.h: images to disk, written atomically.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// src/io/images/jpeg_damage.cpp: libjpeg's warnings, listened to.
+// src/io/images/jpeg_damage.cpp: libjpeg's warnings.
 #include "io/images/jpeg_damage.h"
 
 #include <jerror.h>
@@ -62,7 +62,7 @@ void requireSoundJpeg(std::string_view bytes, const std::string& name) {
   Listener listener;
   readCodes(bytes, listener);
   if (listener.complaint[0] != '\0')
-    throw InputError(name + ": the picture is damaged inside (" + listener.complaint.data() +
+    throw InputError(name + ": the image is damaged inside (" + listener.complaint.data() +
                      "); copy or export it again.");
 }
 

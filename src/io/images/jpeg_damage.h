@@ -8,7 +8,7 @@ namespace softscope {
 
 /// Reads the coded data of a JPEG whose markers are sound, without computing pixels: a quarter to a
 /// third of the time of reading it. Throws InputError where libjpeg finds data that can't be: a
-/// picture would come out all the same, grey or shifted from there on. A flipped bit that leaves
+/// image would come out all the same, grey or shifted from there on. A flipped bit that leaves
 /// valid codes can't be found: a JPEG has no check sum.
 void requireSoundJpeg(std::string_view bytes, const std::string& name);
 

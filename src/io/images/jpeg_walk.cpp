@@ -58,7 +58,7 @@ PictureSize walkJpeg(std::string_view bytes, const std::string& name) {
     has_scan = true;
     skipScan(cursor, bytes);
   }
-  if (!has_scan) cursor.failDamaged("no picture data");
+  if (!has_scan) cursor.failDamaged("no image data");
   return size;
 }
 

@@ -51,7 +51,7 @@ PictureSize walkPng(std::string_view bytes, const std::string& name) {
     has_data = has_data || type == "IDAT";
     if (type == "IEND") break;
   }
-  if (!has_data) cursor.failDamaged("no picture data");
+  if (!has_data) cursor.failDamaged("no image data");
   return size;
 }
 

@@ -1,4 +1,4 @@
-// src/io/images/quiet_libraries.h: what goes wrong with a file is told by our errors alone.
+// src/io/images/quiet_libraries.h: suppression of messages that image libraries print.
 #pragma once
 
 #include <cstdio>

@@ -66,7 +66,7 @@ VideoWriter::VideoWriter(fs::path target, int width_px, int height_px, double fr
   fs::remove(state_->part, ignored);
   throw Error(say(shown(state_->target), ": a video of ", width_px, " x ", height_px,
                   " pixels can't be written; is the folder there, and are both numbers even? "
-                  "Else write pictures."));
+                  "Else write images."));
 }
 
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
@@ -80,7 +80,7 @@ VideoWriter::~VideoWriter() {
 
 void VideoWriter::add(const ColourImage& picture) {
   if (picture.width_px != state_->size.width || picture.height_px != state_->size.height)
-    throw Error(say(shown(state_->target), ": a picture of ", picture.width_px, " x ",
+    throw Error(say(shown(state_->target), ": an image of ", picture.width_px, " x ",
                     picture.height_px, " pixels, but the video has ", state_->size.width, " x ",
                     state_->size.height));
   cv::Mat bgr;
@@ -93,7 +93,7 @@ void VideoWriter::finish() {
   state_->encoder.release();
   if (const int found = framesIn(state_->part); found != state_->frames)
     throw Error(say(shown(state_->target), ": can't be written: of ", state_->frames,
-                    " pictures the video holds ", found, ". Is the disk full? Free some space."));
+                    " images the video holds ", found, ". Is the disk full? Free some space."));
   requireWritable(state_->target, state_->overwrite);
   std::error_code failed;
   fs::rename(state_->part, state_->target, failed);

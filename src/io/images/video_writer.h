@@ -1,4 +1,4 @@
-// src/io/images/video_writer.h: pictures to a video that appears whole or not at all.
+// src/io/images/video_writer.h: images to a video, written atomically.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ class VideoWriter {
   /// Throws Error where its size is another.
   void add(const ColourImage& picture);
   /// Reads the video back and gives the file its name. Throws Error where a frame is missing: the
-  /// encoder tells nobody that the disk is full.
+  /// encoder does not report that the disk is full.
   void finish();
 
  private:

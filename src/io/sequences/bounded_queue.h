@@ -1,4 +1,4 @@
-// src/io/sequences/bounded_queue.h: hands values from one thread to another and never holds many.
+// src/io/sequences/bounded_queue.h: bounded queue between two threads.
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +14,7 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Waits for room. False where the queue was closed: nobody will take the value.
+  /// Waits for room. False if the queue was closed.
   bool push(Value value) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return closed_ || values_.size() < capacity_; });

@@ -1,4 +1,4 @@
-// src/io/sequences/dataset_form.h: which of the field's data sets a folder is shipped as.
+// src/io/sequences/dataset_form.h: detection of the public data set whose layout a folder has.
 #pragma once
 
 #include <filesystem>

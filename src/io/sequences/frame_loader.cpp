@@ -24,7 +24,7 @@ void requireSequence(const SequencePaths& paths, bool uncalibrated) {
   if (paths.left.empty() == paths.stereo.empty() && !depth_alone)
     throw OptionError("a sequence needs left and right, or stereo, and not both.");
   if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
-    throw OptionError("a sequence needs right pictures or depth beside the left ones.");
+    throw OptionError("a sequence needs right images or depth beside the left ones.");
   if (paths.calibration.empty() && !uncalibrated)
     throw OptionError("a sequence needs a calibration. Give it with `calibration=`.");
 }
@@ -44,7 +44,7 @@ CalibrationHints hintsFor(const SequencePaths& paths, CalibrationHints hints) {
   return hints;
 }
 
-constexpr float kNearestMm = 2;  // no scope sees sharply before that
+constexpr float kNearestMm = 2;  // no scope is in focus before that
 
 /// Depth that all lies nearer: metres, read as millimetres.
 void requireMillimetres(const Raster<float>& depth_mm, const std::string& name) {
@@ -67,7 +67,7 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   is_packed_ = !paths.stereo.empty();
   if (is_packed_ && right_offset_ != 0)
     throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
-                          shown(paths.stereo), " are in the same pictures. Leave it at auto."));
+                          shown(paths.stereo), " are in the same images. Leave it at auto."));
   const bool depth_alone = !is_packed_ && paths.left.empty();
   if (depth_alone) setCalibration(paths);  // says what a step of the files is worth
   const fs::path& first = is_packed_ ? paths.stereo : depth_alone ? paths.depth : paths.left;
@@ -83,7 +83,7 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
       requirePartners(view, {paths.right, right_->files(), right_->count()});
     if (std::abs(right_offset_) >= count_)
       throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but there are ",
-                            count_, " pictures: no two would belong together."));
+                            count_, " images: no two would belong together."));
   }
   if (!paths.mask.empty()) masks_ = partnersIn(paths.mask, kMaskKinds, view);
   if (!paths.depth_files.empty())
@@ -175,7 +175,7 @@ FrameNames FrameLoader::namesOf(int index) const {
 
 void FrameLoader::requirePartner(int index) const {
   if (!hasPartner(index))
-    throw InputError(say(left_->nameOf(index), ": the right view has no picture of this moment ",
+    throw InputError(say(left_->nameOf(index), ": the right view has no image of this moment ",
                          "(sequence.right_offset is ", options_.right_offset, ")"));
 }
 
@@ -189,9 +189,9 @@ void FrameLoader::settleSize(const ColourImage& left, const std::string& name) {
   }
   camera.width_px = calibration_.right.pinhole.width_px = left.width_px;
   camera.height_px = calibration_.right.pinhole.height_px = left.height_px;
-  calibration_.warnings.push_back(
-      say(calibration_.source, ": doesn't say for which picture size it ", "holds; taken to be ",
-          name, "'s ", left.width_px, " x ", left.height_px, "."));
+  calibration_.warnings.push_back(say(calibration_.source, ": doesn't say for which image size it ",
+                                      "holds; taken to be ", name, "'s ", left.width_px, " x ",
+                                      left.height_px, "."));
   for (std::string& line : checkPictureFit(calibration_))
     calibration_.warnings.push_back(std::move(line));
 }

@@ -1,4 +1,4 @@
-// src/io/sequences/frame_loader.h: puts one frame together from all the files that speak of it.
+// src/io/sequences/frame_loader.h: one frame from all its files.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace softscope {
 /// Not for two threads at once; frames must be asked for in rising order.
 class FrameLoader {
  public:
-  /// Opens everything, pairs pictures, masks and depth files by the numbers in their names (by
+  /// Opens everything, pairs images, masks and depth files by the numbers in their names (by
   /// order where they have none), checks counts. Throws InputError.
   FrameLoader(const SequencePaths& paths, const SequenceOptions& options);
 
@@ -31,8 +31,8 @@ class FrameLoader {
   const StereoCalibration& calibration() const { return calibration_; }
   bool survivesErrors() const;
 
-  /// Throws InputError, also where the right view has no picture of that moment. The first call
-  /// settles the layout of packed pictures, and the picture size
+  /// Throws InputError, also where the right view has no image of that moment. The first call
+  /// settles the layout of packed images, and the image size
   /// where the calibration left it out.
   Frame load(int index);
 

@@ -5,7 +5,7 @@
 
 namespace softscope {
 
-/// Which files a frame was made of, as the user knows them.
+/// The files of a frame, as the user names them.
 struct FrameNames {
   long long number = 0;     // in the left file's name; the frame's index where that has none
   std::string left, right;  // file names; of a video or of one file with both views, that file's

@@ -35,7 +35,7 @@ fs::path firstAlone(const Files& files, const Files& others) {
 }
 
 void requireSameNumbers(const ViewFiles& view, const ViewFiles& other) {
-  if (view.count == 1 && other.count == 1) return;  // two single pictures, whatever their names
+  if (view.count == 1 && other.count == 1) return;  // two single images, whatever their names
   fs::path alone = firstAlone(view.files, other.files);
   const bool in_view = !alone.empty();
   if (!in_view) alone = firstAlone(other.files, view.files);

@@ -1,4 +1,4 @@
-// src/io/sequences/frame_pairing.h: which files speak of the same moment.
+// src/io/sequences/frame_pairing.h: pairing of files by frame number.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// One view: its path, its files (none of a video) and how many pictures it has.
+/// One view: its path, its files (none of a video) and how many images it has.
 struct ViewFiles {
   std::filesystem::path path;
   std::vector<std::filesystem::path> files;
@@ -18,11 +18,11 @@ inline const std::vector<std::string_view> kMaskKinds = {".png", ".bmp",  ".jpg"
                                                          ".tif", ".tiff", ".pgm"};
 inline const std::vector<std::string_view> kDepthKinds = {".png", ".pfm", ".tif", ".tiff", ".npy"};
 
-/// Throws InputError where the counts differ, naming the first picture without a partner, or where
+/// Throws InputError where the counts differ, naming the first image without a partner, or where
 /// the k-th files of both carry different numbers.
 void requirePartners(const ViewFiles& view, const ViewFiles& other);
 
-/// The mask or depth files of a folder (or the one file), one for every picture of `view`, in its
+/// The mask or depth files of a folder (or the one file), one for every image of `view`, in its
 /// order. Throws InputError as requirePartners does.
 std::vector<std::filesystem::path> partnersIn(const std::filesystem::path& path,
                                               const std::vector<std::string_view>& kinds,

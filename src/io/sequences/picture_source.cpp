@@ -42,14 +42,14 @@ std::unique_ptr<PictureSource> openPictures(const fs::path& path) {
   if (fs::is_directory(path, code)) {
     auto files = filesIn(path, {kPictureKinds.begin(), kPictureKinds.end()});
     if (files.empty())
-      throw InputError(shown(path) + ": holds no pictures, but png, jpg, bmp or tif are expected.");
+      throw InputError(shown(path) + ": holds no images, but png, jpg, bmp or tif are expected.");
     return std::make_unique<PictureFiles>(std::move(files));
   }
   requireFile(path);
   if (isVideo(path)) return openVideo(path);
   if (isPicture(path)) return std::make_unique<PictureFiles>(std::vector<fs::path>{path});
   throw InputError(say(shown(path),
-                       ": its ending is neither a picture's (png, jpg, bmp, tif) nor a ",
+                       ": its ending is neither an image's (png, jpg, bmp, tif) nor a ",
                        "video's (mp4, avi, mkv, mov, webm, …). Rename or convert it."));
 }
 

@@ -1,4 +1,4 @@
-// src/io/sequences/picture_source.h: one view's pictures, from files or from a video.
+// src/io/sequences/picture_source.h: images of one view, from files or a video.
 #pragma once
 
 #include <array>
@@ -19,28 +19,28 @@ class PictureSource {
  public:
   virtual ~PictureSource() = default;
 
-  /// How many pictures there are; of a video, as many as its header promises.
+  /// How many images there are; of a video, as many as its header promises.
   virtual int count() const = 0;
 
   /// Throws InputError. Indices must not fall from call to call.
   virtual ColourImage read(int index) = 0;
 
-  /// What messages call picture `index`.
+  /// What messages call image `index`.
   virtual std::string nameOf(int index) const = 0;
 
   /// 0 where nothing is known of it.
   virtual double framesPerSecond() const { return 0; }
 
-  /// Whether the picture after one that can't be read can be.
+  /// Whether the image after one that can't be read can be.
   virtual bool survivesErrors() const = 0;
 
-  /// The files, one a picture; empty of a video.
+  /// The files, one an image; empty of a video.
   virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
-/// A folder of pictures, one picture, or a video. Throws InputError.
+/// A folder of images, one image, or a video. Throws InputError.
 std::unique_ptr<PictureSource> openPictures(const std::filesystem::path& path);
-/// These files, one a picture.
+/// These files, one an image.
 std::unique_ptr<PictureSource> openPictures(std::vector<std::filesystem::path> files);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/io/sequences/sequence_options.h: what of a sequence is read, and how.
+// src/io/sequences/sequence_options.h: options of reading a sequence.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ FrameRange parseFrameRange(const std::string& text);
 
 struct SequenceOptions {
   FrameRange frames;
-  std::string layout = "auto";  // of one picture with both views: io/sequences/stereo_packing.h
+  std::string layout = "auto";  // of one image with both views: io/sequences/stereo_packing.h
   bool right_first = false;     // … whose right view comes first
-  // Right picture f + offset belongs to left picture f: a whole number, or auto. The reader takes
-  // auto for 0; who can match pictures may look for it first.
+  // Right image f + offset belongs to left image f: a whole number, or auto. The reader takes
+  // auto for 0; a caller that matches images may look for it first.
   std::string right_offset = "auto";
   int read_ahead = 4;  // frames kept ready
   CalibrationHints calibration;

@@ -39,7 +39,7 @@ fs::path videoNamed(const fs::path& folder, const std::string& name) {
   return {};
 }
 
-/// A folder of pictures, else a video.
+/// A folder of images, else a video.
 fs::path viewNamed(const fs::path& folder, const std::string& name) {
   return hasEntry(folder / name) ? folder / name : videoNamed(folder, name);
 }
@@ -71,7 +71,7 @@ SequencePaths findSequence(const fs::path& folder) {
   if (paths.left.empty() && paths.stereo.empty() && (paths.depth.empty() || !paths.right.empty()))
     throw InputError(
         say(shown(folder), ": holds ", paths.right.empty() ? "no left view" : "a right view alone",
-            ", but left/ and right/ with pictures, left.mp4 and right.mp4, or stereo.mp4 "
+            ", but left/ and right/ with images, left.mp4 and right.mp4, or stereo.mp4 "
             "or depth/ are expected."));
   if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
     throw InputError(shown(folder) +

@@ -1,4 +1,4 @@
-// src/io/sequences/sequence_paths.h: where the parts of a sequence lie.
+// src/io/sequences/sequence_paths.h: paths of the parts of a sequence.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace softscope {
 
-/// left and right: each a picture, a folder of pictures or a video. Or stereo: the same, with both
-/// views in one picture. right may be empty where depth is given, and all three may then be.
+/// left and right: each an image, a folder of images or a video. Or stereo: the same, with both
+/// views in one image. right may be empty where depth is given, and all three may then be.
 struct SequencePaths {
   std::filesystem::path left, right;
   std::filesystem::path stereo;
   std::filesystem::path calibration;  // a file, or a folder that holds one
-  std::filesystem::path mask;         // a folder or a picture; empty = none
+  std::filesystem::path mask;         // a folder or an image; empty = none
   std::filesystem::path depth;        // a folder or a file; empty = none
   std::filesystem::path timestamps;   // a file; empty = none
   // Of a data set whose folder holds more than the view's images, or views that lack images: those

@@ -1,5 +1,5 @@
-// src/io/sequences/sequence_reader.h: a sequence, frame after frame, read ahead on a thread of its
-// own.
+// src/io/sequences/sequence_reader.h: frames of a sequence, in order, read ahead on a thread of
+// their own.
 #pragma once
 
 #include <memory>
@@ -27,9 +27,9 @@ struct FrameResult {
 };
 
 /// Opening reads the calibration and the first frame, and throws InputError on whatever is wrong
-/// with them or with the sequence as a whole: missing or unequal numbers of pictures, sizes that
+/// with them or with the sequence as a whole: missing or unequal numbers of images, sizes that
 /// disagree with the calibration, an unreadable video, a mask of another size. A frame that turns
-/// out bad later is a result with an error; the pictures after it follow, a video ends there.
+/// out bad later is a result with an error; the images after it follow, a video ends there.
 /// At most options.read_ahead frames wait in memory. For one consumer thread.
 class SequenceReader {
  public:
@@ -40,7 +40,7 @@ class SequenceReader {
   SequenceReader(SequenceReader&&) noexcept;
   SequenceReader& operator=(SequenceReader&&) noexcept;
 
-  /// With the picture size filled in, and warnings about it.
+  /// With the image size filled in, and warnings about it.
   const StereoCalibration& calibration() const;
 
   /// Frames that next() will give, all in all.

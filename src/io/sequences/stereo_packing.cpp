@@ -15,7 +15,7 @@ constexpr double kLeastAspect = 0.8, kMostAspect = 2.2;
 // Measured on 19 pairs from five scopes and scenes, packed in each layout: the true parts correlate
 // by 0.36 to 0.92, wrong parts of a view's shape by at most 0.26.
 constexpr double kLeastSimilarity = 0.3;
-// … neighbouring rows of an ordinary picture, unshifted, by 0.99, of interlaced views by at most
+// … neighbouring rows of an ordinary image, unshifted, by 0.99, of interlaced views by at most
 // 0.78.
 constexpr double kSameView = 0.93;
 
@@ -100,7 +100,7 @@ std::vector<StereoLayout> candidates(const ColourImage& image, const ExpectedVie
   return out;
 }
 
-/// How surely the parts are two views of one scene.
+/// Confidence that the parts are two views of one scene.
 double similarity(const ColourImage& image, StereoLayout layout) {
   const StereoPair views = parts(image, {layout, false, false});
   const ViewSimilarity found = viewSimilarity(views.left, views.right);

@@ -1,4 +1,4 @@
-// src/io/sequences/stereo_packing.h: two views in one picture.
+// src/io/sequences/stereo_packing.h: both views in one image.
 #pragma once
 
 #include <string>
@@ -20,11 +20,11 @@ struct StereoPacking {
 };
 
 /// Parts the views. A view has half the width or height, unless full_height.
-/// Throws InputError, in the name of `name`, where the picture has an odd number of columns or
+/// Throws InputError, in the name of `name`, where the image has an odd number of columns or
 /// rows to part.
 StereoPair unpack(const ColourImage& packed, const StereoPacking& packing, const std::string& name);
 
-/// What a picture's views are like, for choosePacking().
+/// What an image's views are like, for choosePacking().
 struct ExpectedView {
   int width_px = 0;  // the calibration's; 0 = unknown
   int height_px = 0;

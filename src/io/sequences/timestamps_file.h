@@ -1,4 +1,4 @@
-// src/io/sequences/timestamps_file.h: when each frame was taken.
+// src/io/sequences/timestamps_file.h: time stamps of frames.
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,7 @@ struct VideoFrameSize {
   }
 };
 
-/// Of a JPEG picture, or of the sequence parameter set in a packet of H.264 or HEVC (start codes of
+/// Of a JPEG image, or of the sequence parameter set in a packet of H.264 or HEVC (start codes of
 /// annex B), as it is shown: coded rows and columns that the set crops are left out (1080 rows are
 /// coded as 1088). `codec` is the four-character code. Nothing where the packet states
 /// no size, or the codec is another.

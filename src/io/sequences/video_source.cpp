@@ -21,7 +21,7 @@ cv::VideoCapture openCapture(const fs::path& file) {
   try {
     // FFmpeg alone: other back ends would take a name for a pattern or a device.
     capture.open(file.string(), cv::CAP_FFMPEG);
-    capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);  // a calibration speaks of stored pixels
+    capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);  // a calibration refers to stored pixels
   } catch (const cv::Exception&) {
   }
   if (!capture.isOpened())
@@ -43,7 +43,7 @@ int countFrames(const fs::path& file, cv::VideoCapture& capture) {
 }
 
 /// Finds where the frames of a video change size, from its packets. OpenCV scales or repeats
-/// earlier pictures from there on.
+/// earlier images from there on.
 class SizeWatch {
  public:
   explicit SizeWatch(const fs::path& file) : packets_(openCapture(file)) {

@@ -1,11 +1,11 @@
-// src/io/sequences/view_similarity.h: do two pictures show the same scene, shifted sideways?
+// src/io/sequences/view_similarity.h: similarity of two images of one scene.
 #pragma once
 
 #include "core/image.h"
 
 namespace softscope {
 
-/// Normalised cross-correlation (-1 to 1) of the pictures' details, without their slow shading.
+/// Normalised cross-correlation (-1 to 1) of the images' details, without their slow shading.
 struct ViewSimilarity {
   double unshifted = 0;
   double best = 0;  // over shifts of up to a quarter of the width

@@ -1,4 +1,4 @@
-// src/io/settings/settings.h: what a settings file and `--set key=value` ask for.
+// src/io/settings/settings.h: keys and values of settings files and `--set`.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// src/io/settings/settings_binder.h: which settings there are, and the options that they fill.
+// src/io/settings/settings_binder.h: settings bound to the fields of option structs.
 #pragma once
 
 #include <functional>

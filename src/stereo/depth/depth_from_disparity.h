@@ -1,4 +1,4 @@
-// src/stereo/depth/depth_from_disparity.h: pixels become millimetres.
+// src/stereo/depth/depth_from_disparity.h: depth from disparity.
 #pragma once
 
 #include "core/depth_map.h"

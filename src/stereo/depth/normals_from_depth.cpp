@@ -19,7 +19,7 @@ constexpr int kHeight = 2 * kReach + 1;
 constexpr int kBandRows = 60;  // solved by one thread at a time
 constexpr float kBox[kHeight] = {1, 1, 1, 1, 1, 1, 1};
 
-/// Which pixels of a window count, as selectedMoments() wants it.
+/// Which pixels of a window count, for selectedMoments().
 struct Selection {
   Selection() {
     for (int y = 0; y < kHeight; ++y)

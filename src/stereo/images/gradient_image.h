@@ -10,7 +10,7 @@
 namespace softscope {
 
 /// Horizontal and vertical Sobel responses times `gain`, clamped to 8 bits around 128. A margin of
-/// 128s surrounds the picture, wide enough for every disparity and window, so that inner loops
+/// 128s surrounds the image, wide enough for every disparity and window, so that inner loops
 /// need no border cases. Pixels under `mask` must have been filled (fillMasked()); windows that
 /// reach them are told by blocked().
 class GradientImage {
@@ -19,7 +19,7 @@ class GradientImage {
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
-  /// Row 0 of the view is row `first_row` of the picture, within kRowMargin.
+  /// Row 0 of the view is row `first_row` of the image, within kRowMargin.
   GradientView view(int first_row = 0) const;
 
   /// 1 where a window of `reach_px` to each side uses a masked pixel; empty where nothing is

@@ -1,4 +1,4 @@
-// src/stereo/kernels/kernel_sets.h: which instruction sets this processor runs.
+// src/stereo/kernels/kernel_sets.h: instruction sets that this processor supports.
 #pragma once
 
 #include "stereo/kernels/matching_kernels.h"

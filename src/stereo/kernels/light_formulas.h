@@ -1,5 +1,5 @@
-// src/stereo/kernels/light_formulas.h: how light and exposure differ between the cameras, for the
-// CPU and the GPU.
+// src/stereo/kernels/light_formulas.h: formulas of brightness differences between the cameras, for
+// the CPU and the GPU.
 #pragma once
 
 #include "core/hd.h"

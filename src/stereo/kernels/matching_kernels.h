@@ -17,7 +17,7 @@ constexpr int kSupportMargin = 4;     // reach of the support window
 constexpr int kDenseWindowReach = 2;  // of the dense matcher
 constexpr int kSobelReach = 1;
 constexpr int kSupportScratch = 64;    // margins and the rest of a register
-constexpr int kSupportNarrowest = 32;  // columns that the pictures must share at a disparity
+constexpr int kSupportNarrowest = 32;  // columns that the images must share at a disparity
 constexpr int kLargestPriorSlope = 65535 / (15 * 15);
 
 /// Both 8-bit gradients of a pixel, around 128, side by side: du + 256 dv. With a margin on every
@@ -30,8 +30,8 @@ struct GradientView {
 };
 
 /// One row of support costs. For every u in [0, width): cost_left[u] the least cost over all
-/// disparities, disparity_left[u] where; the same for the right picture's pixels; 0xFFFF and 0
-/// where the window fits into both pictures at none.
+/// disparities, disparity_left[u] where; the same for the right image's pixels; 0xFFFF and 0
+/// where the window fits into both images at none.
 struct SupportRow {
   std::uint16_t* volume;  // disparity_count x stride; from column d + kSupportMargin on
   std::uint16_t* sums;    // scratch: width + kSupportScratch
@@ -42,11 +42,11 @@ struct SupportRow {
   int stride;
 };
 
-/// One tile of the dense matcher, in the reference picture.
+/// One tile of the dense matcher, in the reference image.
 struct DenseTile {
   int u0, v0;     // its first pixel
   int direction;  // -1: the other pixel is at u - d (reference = left), +1: at u + d
-  int width_px;   // of the pictures
+  int width_px;   // of the images
   const std::uint16_t* disparities;  // candidates, ascending
   const std::uint8_t* everywhere;    // per candidate: 1 = for all pixels, 0 = in the band only
   int candidate_count;

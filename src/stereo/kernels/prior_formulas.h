@@ -27,7 +27,7 @@ SOFTSCOPE_FORMULA PriorEvidence priorBetween(int u, int last, int next, int widt
   return {from + slope * before, 2 * before * after / (before + after), 0};
 }
 
-/// What a row says, or the row before it, `step` rows away, where its points are nearer.
+/// Value of a row, or of the row before it, `step` rows away, where its points are nearer.
 SOFTSCOPE_FORMULA PriorEvidence nearerEvidence(const PriorEvidence& own,
                                                const PriorEvidence& before, float step) {
   if (before.beside_px + before.away_px + step < own.beside_px)

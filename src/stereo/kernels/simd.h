@@ -1,4 +1,4 @@
-// src/stereo/kernels/simd.h: many values at a time, in whatever registers there are.
+// src/stereo/kernels/simd.h: SIMD values of any register width.
 //
 // For the files that are compiled once for each instruction set (kernel_sets.h): everything here is
 // local to the file that includes it.

@@ -34,9 +34,9 @@ struct SmoothingRules {
   static constexpr float kStepPx = 0.5f;  // neighbours of one surface differ by at most this …
   static constexpr float kSlope = 0.25f;  // … and this much more for every pixel between them
   static constexpr float kAgree = 2.5f;   // standard errors at which a neighbour counts a quarter
-  static constexpr float kFewestPixels = 4;  // of a block, for it to have a say
+  static constexpr float kFewestPixels = 4;  // of a block that counts
   static constexpr float kRidge = 1e-3f;     // of the weights: patches through a line stay level
-  static constexpr int kFits = 2;            // first to what is near, then to what agrees
+  static constexpr int kFits = 2;            // first to near blocks, then to those that agree
 
   int size;               // of a block, in pixels
   int reach;              // of a window, in blocks

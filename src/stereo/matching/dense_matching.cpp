@@ -77,7 +77,7 @@ class TileMatcher {
   }
 
  private:
-  /// Beyond the picture its last row and column are repeated.
+  /// Beyond the image its last row and column are repeated.
   void loadPrior() {
     const int inside = std::min(kTileWidth, prior_.width_px - tile_.u0);
     for (int y = 0; y < kTileHeight; ++y) {

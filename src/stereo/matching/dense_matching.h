@@ -12,11 +12,11 @@
 
 namespace softscope {
 
-/// Which of the two pictures gets a disparity.
+/// Which of the two images gets a disparity.
 enum class Reference { kLeft, kRight };
 
-/// Whole disparities of the reference picture, -1 where there is none. `points` in the reference
-/// picture's pixels. Minimises, per pixel, mean gradient difference + plane prior over the
+/// Whole disparities of the reference image, -1 where there is none. `points` in the reference
+/// image's pixels. Minimises, per pixel, mean gradient difference + plane prior over the
 /// disparities near its plane and those of the support points around it.
 Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& right,
                                 Reference reference, const std::vector<SupportPoint>& points,

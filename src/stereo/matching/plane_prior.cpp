@@ -24,7 +24,7 @@ const SupportPoint& nearestTo(const std::vector<SupportPoint>& points, int u, in
       [&](const SupportPoint& a, const SupportPoint& b) { return distance(a) < distance(b); });
 }
 
-/// Anchors along the border, so that triangles cover the whole picture.
+/// Anchors along the border, so that triangles cover the whole image.
 void addBorder(std::vector<SupportPoint>& points, int width, int height) {
   constexpr int kAnchorStep = 64;
   std::vector<SupportPoint> anchors;

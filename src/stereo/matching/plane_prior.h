@@ -1,5 +1,5 @@
-// src/stereo/matching/plane_prior.h: what the support points say about every other pixel (ELAS
-// §3.2).
+// src/stereo/matching/plane_prior.h: disparity prior by planes through triangles of support points
+// (ELAS §3.2).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace softscope {
 /// For every pixel the disparity of its triangle's plane, in 1/8 px; kNoPrior outside.
 constexpr std::int16_t kNoPrior = INT16_MIN;
 
-/// Points in the frame of the picture that is to be matched; the picture's corners are added with
+/// Points in the frame of the image that is to be matched; the image's corners are added with
 /// the disparity of their nearest support point.
 Raster<std::int16_t> interpolatePlanes(std::vector<SupportPoint> points, int width_px,
                                        int height_px);

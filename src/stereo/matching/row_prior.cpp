@@ -74,7 +74,7 @@ void interpolateRow(int width_px, float* disparity_px, float* beside_px) {
   fillBetween(last, width_px, width_px, disparity_px, beside_px);
 }
 
-/// In these columns row i takes over what row `before` says where its points are nearer.
+/// In these columns row i takes over the value of row `before` where its points are nearer.
 void takeNearer(int i, int before, int begin, int end, PriorRows& rows) {
   const float step = rows.rowsBetween(i, before);
   const float *from_d = rows.disparity_px.row(before), *from_beside = rows.beside_px.row(before);

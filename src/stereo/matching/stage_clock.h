@@ -1,4 +1,4 @@
-// src/stereo/matching/stage_clock.h: how long each stage took.
+// src/stereo/matching/stage_clock.h: time of each stage.
 #pragma once
 
 #include <chrono>

@@ -14,9 +14,9 @@ void requireRectifiedPair(const GrayImage& left, const GrayImage& right) {
       left.height_px >= kSmallestPicturePx)
     return;
   std::ostringstream text;
-  text << "the left picture is " << left.width_px << " x " << left.height_px
-       << " pixels, the right " << right.width_px << " x " << right.height_px
-       << ", but stereo needs two pictures of one size, " << kSmallestPicturePx
+  text << "the left image is " << left.width_px << " x " << left.height_px << " pixels, the right "
+       << right.width_px << " x " << right.height_px
+       << ", but stereo needs two images of one size, " << kSmallestPicturePx
        << " pixels or more each way";
   throw InputError(text.str());
 }

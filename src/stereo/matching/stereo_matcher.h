@@ -1,4 +1,4 @@
-// src/stereo/matching/stereo_matcher.h: how far left did each pixel move?
+// src/stereo/matching/stereo_matcher.h: interface of stereo matchers.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace softscope {
 /// Stage and milliseconds, in the order of work.
 using StageTimes = std::vector<std::pair<std::string, double>>;
 
-/// Finds, for each pixel of the rectified left picture, how far left it moved in the right one.
+/// Finds, for each pixel of the rectified left image, how far left it moved in the right one.
 class StereoMatcher {
  public:
   virtual ~StereoMatcher() = default;
@@ -24,7 +24,7 @@ class StereoMatcher {
   /// "elas", "sgbm" or "onnx"; written into every report.
   virtual std::string name() const = 0;
 
-  /// Both pictures rectified and of one shape, else Error. Result: the left picture's shape, NaN
+  /// Both images rectified and of one shape, else Error. Result: the left image's shape, NaN
   /// where there is no match. Same input, same bytes, whatever the number of threads. No matching
   /// window reaches `ignored` pixels of its own view, and those of the left have no disparity.
   virtual DisparityMap match(const GrayImage& left, const GrayImage& right,
@@ -47,7 +47,7 @@ class StereoMatcher {
 
 constexpr int kSmallestPicturePx = 32;
 
-/// Throws InputError unless both pictures have one shape, kSmallestPicturePx or more each way.
+/// Throws InputError unless both images have one shape, kSmallestPicturePx or more each way.
 void requireRectifiedPair(const GrayImage& left, const GrayImage& right);
 
 /// Throws OptionError if the options break a rule, InputError where a network can't be read.

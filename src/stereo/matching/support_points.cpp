@@ -184,8 +184,7 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
 }
 
 std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options) {
-  if (options.prior ==
-      PriorMethod::kPlanes) {  // triangles don't need what their neighbours say already
+  if (options.prior == PriorMethod::kPlanes) {  // triangles don't need redundant points
     removeRedundant(grid, 0, 1, options.support_redundant_cells);
     removeRedundant(grid, 1, 0, options.support_redundant_cells);
   }

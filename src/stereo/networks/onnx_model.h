@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// What a file says, for messages of one line: shortened, without control characters.
+/// Text of a file, for messages of one line: shortened, without control characters.
 std::string printable(std::string text, std::size_t longest = 60);
 
 struct OnnxTensor {

@@ -1,4 +1,4 @@
-// src/stereo/options/stereo_options.h: how disparity is found; one place for every default.
+// src/stereo/options/stereo_options.h: options of stereo matching and their defaults.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ enum class PriorMethod { kPlanes, kRows };
 /// of the gradient descriptors, so that thresholds don't depend on the window's size.
 struct ElasOptions {
   // Gradients: Sobel responses become 8-bit descriptors, 128 = flat.
-  // 8-bit steps per Sobel unit; larger sees weaker texture
+  // 8-bit steps per Sobel unit; larger: more sensitive to weak texture
   static constexpr double gradient_gain = 0.5;
 
   // Support points: pixels that can be matched without help.
@@ -43,7 +43,7 @@ struct ElasOptions {
   static constexpr int gap_width_px = 6;  // gaps in a row or column up to this are interpolated …
   static constexpr double gap_step_px = 2.0;  // … if both sides differ at most by this
 
-  // Where a picture is too weak to be matched pixel by pixel, its half may do, or the half's half.
+  // Where an image is too weak to be matched pixel by pixel, its half may do, or the half's half.
   int coarser_levels = 2;
   // share of unmatched pixels from which that is tried
   static constexpr double coarser_above = 0.05;
@@ -64,10 +64,10 @@ struct RefinementOptions {
   static constexpr double noise_gray = 2.0;
   static constexpr double noise_floor_gray = 0.4;  // noise that even a perfect match leaves
   static constexpr double model_sigma_px = 0.05;   // error that no amount of texture removes
-  // trust in the matched disparity where texture is weak
+  // weight of the matched disparity where texture is weak
   static constexpr double prior_sigma_px = 1.0;
   static constexpr double relaxation = 1.5;  // share of each step taken, but for the last
-  // (R - L)² as a share of R² + L²; unrelated pictures have 1
+  // (R - L)² as a share of R² + L²; unrelated images have 1
   static constexpr double max_difference = 0.5;
   // pixels whose predicted standard error is larger are dropped
   static constexpr double max_sigma_px = 2.0;
@@ -86,7 +86,7 @@ struct SmoothingOptions {
   static constexpr double relief_px = 0.1;  // that tissue has and no patch follows
 
   static constexpr int kSmallestBlockPx = 4;
-  /// In pictures of this width.
+  /// In images of this width.
   int blockPx(int width_px) const {
     return block_px > 0 ? block_px : std::max(kSmallestBlockPx, (width_px + 40) / 80);
   }
@@ -111,7 +111,7 @@ struct StereoOptions {
   // measured pixels this near to a depth step are dropped …
   static constexpr int erode_edges_px = 1;
   static constexpr double edge_step_px = 2.0;  // … where neighbours differ by more than this
-  static constexpr int border_px = 2;  // pixels this near to the picture's border are dropped
+  static constexpr int border_px = 2;          // pixels this near to the image's border are dropped
   ElasOptions elas;
   RefinementOptions refinement;
   SmoothingOptions smoothing;

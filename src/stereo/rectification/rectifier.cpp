@@ -46,7 +46,7 @@ void requireSize(const ColourImage& image, const PinholeCamera& camera, const ch
                  const std::string& source) {
   if (image.width_px == camera.width_px && image.height_px == camera.height_px) return;
   std::ostringstream text;
-  text << source << ": the " << side << " picture is " << image.width_px << " x " << image.height_px
+  text << source << ": the " << side << " image is " << image.width_px << " x " << image.height_px
        << " pixels, but the calibration is for " << camera.width_px << " x " << camera.height_px
        << ". Give the calibration made for this size.";
   throw InputError(text.str());

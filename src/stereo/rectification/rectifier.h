@@ -1,4 +1,4 @@
-// src/stereo/rectification/rectifier.h: makes rows correspond.
+// src/stereo/rectification/rectifier.h: stereo rectification.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 namespace softscope {
 
 /// Removes lens distortion and the rotation between the cameras (Bouguet's method, as OpenCV has
-/// it), so that a point lies in the same row of both pictures. Pictures that are rectified already
+/// it), so that a point lies in the same row of both images. Images that are rectified already
 /// pass unchanged.
 class Rectifier {
  public:
@@ -20,17 +20,17 @@ class Rectifier {
 
   const RectifiedRig& rig() const { return rig_; }
 
-  /// Both pictures as the rectified cameras would have seen them; black outside the originals.
+  /// Both images as the rectified cameras would have seen them; black outside the originals.
   /// Throws InputError where their size isn't the calibration's.
   StereoPair rectify(const StereoPair& raw) const;
 
-  /// Where a pixel of the raw left picture lies in the rectified one.
+  /// Where a pixel of the raw left image lies in the rectified one.
   Eigen::Vector2d rectifiedPixel(const Eigen::Vector2d& raw_left_px) const;
 
-  /// A mask of the left picture; what the left camera didn't see counts as masked.
+  /// A mask of the left image; what the left camera didn't see counts as masked.
   Mask rectifyMask(const Mask& raw) const;
 
-  /// Non-zero where the rectified left pixel lies outside the raw left picture; empty if none.
+  /// Non-zero where the rectified left pixel lies outside the raw left image; empty if none.
   const Mask& outside() const { return outside_; }
   /// The same of the right view.
   const Mask& outsideRight() const { return outside_right_; }
@@ -38,7 +38,7 @@ class Rectifier {
  private:
   struct Maps;
   RectifiedRig rig_;
-  std::unique_ptr<Maps> maps_;  // null where the pictures are rectified already
+  std::unique_ptr<Maps> maps_;  // null where the images are rectified already
   Mask outside_, outside_right_;
 };
 

@@ -7,7 +7,7 @@
 namespace softscope {
 namespace {
 
-/// Row differences small enough to let the picture be, or not known.
+/// Row differences small enough to let the image be, or not known.
 bool canStay(const RowAlignment& found) {
   return !found.known() ||
          found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||

@@ -1,4 +1,4 @@
-// src/stereo/rectification/row_alignment.h: do rows really correspond?
+// src/stereo/rectification/row_alignment.h: measurement and removal of vertical disparity.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace softscope {
 
 /// What matched pixels say about the rows of a rectified pair. Row difference = v_right - v_left.
-/// Its model over the right picture is a polynomial, so that not only a shift and a tilt but also
+/// Its model over the right image is a polynomial, so that not only a shift and a tilt but also
 /// what lens and unequal exposure times leave can be removed.
 struct RowAlignment {
   int matches = 0;                    // pixels that agree with the model
@@ -38,7 +38,7 @@ struct RowAlignment {
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
                                  int disparity_max_px, const ViewMasks& ignored = {});
 
-/// The right picture moved so that the model's row difference vanishes.
+/// The right image moved so that the model's row difference vanishes.
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment);
 
 /// A rectified pair whose rows correspond.
@@ -46,13 +46,13 @@ struct AlignedPair {
   StereoPair pair;
   ViewMasks ignored;     // the right one moved with its view
   RowAlignment before;   // as found
-  bool removed = false;  // whether the right picture was moved
+  bool removed = false;  // whether the right image was moved
   /// Of the right camera about its optical axis, as the rows' tilt shows: see removeRoll().
   double roll_rad = 0;
 };
 
-/// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right picture;
-/// measures once more, since matches are better then, and moves the right picture by both at once.
+/// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right image;
+/// measures once more, since matches are better then, and moves the right image by both at once.
 /// What is ignored says nothing about the rows.
 AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px,
                       const ViewMasks& ignored = {});

@@ -1,5 +1,5 @@
-// src/stereo/rectification/row_meter.h: finds a left picture's pixels in right pictures, some rows
-// off too.
+// src/stereo/rectification/row_meter.h: matches between left and right images, with vertical
+// disparity.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-/// Measures right pictures against one left picture, on a coarse grid, over all disparities up to
+/// Measures right images against one left image, on a coarse grid, over all disparities up to
 /// `disparity_max_px` and rows up to ten off. No support point lies within a window of an ignored
 /// pixel.
 class RowMeter {

@@ -85,7 +85,7 @@ std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlign
     cells.add(matches[i], w);
   }
   cells.addEmptyCells(alignment, equations);
-  // Few matches must not bend the picture: slopes cost a little, curvature more.
+  // Few matches must not bend the image: slopes cost a little, curvature more.
   equations.normal.diagonal() += (Terms() << 0.1, 2, 2, 8, 8, 8).finished();
   const Terms solved = equations.normal.ldlt().solve(equations.rhs);
   std::array<double, 6> model;

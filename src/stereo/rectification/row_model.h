@@ -1,4 +1,4 @@
-// src/stereo/rectification/row_model.h: a smooth row difference through single matches.
+// src/stereo/rectification/row_model.h: smooth model of the vertical disparity from single matches.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Where a pixel of the left picture was found in the right one.
+/// Where a pixel of the left image was found in the right one.
 struct RowMatch {
   double u_right_px, v_right_px, difference_px;  // v_right - v_left
 };

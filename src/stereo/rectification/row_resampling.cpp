@@ -29,7 +29,7 @@ std::array<Weights, kPhases> cubicWeights() {
   return table;
 }
 
-/// Where the pixels of row v come from, in 1 / kPhases of a row, inside the picture.
+/// Where the pixels of row v come from, in 1 / kPhases of a row, inside the image.
 void findSources(const RowAlignment& alignment, int v, int height, int width, int* source) {
   const float scale = static_cast<float>(1 / alignment.half_width_px);
   const float centre = static_cast<float>(alignment.centre_u_px);

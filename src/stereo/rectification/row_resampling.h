@@ -1,4 +1,4 @@
-// src/stereo/rectification/row_resampling.h: every pixel from a little above or below.
+// src/stereo/rectification/row_resampling.h: vertical resampling by a fraction of a pixel.
 #pragma once
 
 #include "core/image.h"
@@ -6,8 +6,8 @@
 
 namespace softscope {
 
-/// The picture moved so that the model's row difference vanishes: (u, v) shows what was at
-/// v + alignment.at(u, v), by a cubic through four rows; beyond the picture its last row is
+/// The image moved so that the model's row difference vanishes: (u, v) shows what was at
+/// v + alignment.at(u, v), by a cubic through four rows; beyond the image its last row is
 /// repeated.
 GrayImage moveRows(const GrayImage& picture, const RowAlignment& alignment);
 ColourImage moveRows(const ColourImage& picture, const RowAlignment& alignment);

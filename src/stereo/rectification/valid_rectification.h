@@ -1,5 +1,5 @@
-// src/stereo/rectification/valid_rectification.h: the rectification that leaves no pixel without an
-// image.
+// src/stereo/rectification/valid_rectification.h: rectification whose images have no invalid
+// pixels.
 #pragma once
 
 #include "core/stereo_rig.h"

@@ -1,4 +1,4 @@
-// src/stereo/rectification/view_synchrony.h: do both views of a clip show the same moments?
+// src/stereo/rectification/view_synchrony.h: time offset between both views of a clip.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace softscope {
 
-/// Which right picture shows the moment of a left one.
+/// Which right image shows the moment of a left one.
 struct ViewSynchrony {
-  int right_offset = 0;    // right picture f + right_offset belongs to left picture f
+  int right_offset = 0;    // right image f + right_offset belongs to left image f
   int agreeing = 0;        // matches whose rows agree with those of all moments, so paired
   int agreeing_as_is = 0;  // … and paired by equal numbers
 };
 
-/// Two videos may have been started or cut a few pictures apart; then whatever moves sideways has
+/// Two videos may have been started or cut a few images apart; then whatever moves sideways has
 /// a wrong depth, and whatever moves up or down differs in its rows. Of one moment, row
 /// differences are the same in every frame: what the calibration leaves. So the offset sought is
 /// the one at which most matches of many moments agree on one row model (docs/stereo.md).
@@ -27,7 +27,7 @@ class SynchronyMeter {
 
   explicit SynchronyMeter(int disparity_max_px) : disparity_max_px_(disparity_max_px) {}
 
-  /// One moment, rectified: rights[k] is right picture f + k - kReach of left picture f.
+  /// One moment, rectified: rights[k] is right image f + k - kReach of left image f.
   void add(const GrayImage& left, const std::array<GrayImage, kOffsets>& rights);
 
   /// Offset 0 unless another one is clearly better: a clip that stands still says nothing.

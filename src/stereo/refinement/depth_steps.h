@@ -1,4 +1,4 @@
-// src/stereo/refinement/depth_steps.h: where one surface ends and another begins.
+// src/stereo/refinement/depth_steps.h: depth discontinuity mask.
 #pragma once
 
 #include <cstdint>

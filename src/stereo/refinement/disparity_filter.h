@@ -1,5 +1,5 @@
-// src/stereo/refinement/disparity_filter.h: removes what can't be right, closes small gaps (ELAS
-// §3.4).
+// src/stereo/refinement/disparity_filter.h: removal of inconsistent disparities and filling of
+// small gaps (ELAS §3.4).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace softscope {
 
-/// Left disparities whose pixel in the right picture tells the same within `tolerance_px`; NaN
+/// Left disparities whose pixel in the right image tells the same within `tolerance_px`; NaN
 /// elsewhere. Input -1 = unmatched.
 Raster<float> checkLeftRight(const Raster<std::int16_t>& left, const Raster<std::int16_t>& right,
                              int tolerance_px);
@@ -29,7 +29,7 @@ void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px);
 void fillGaps(Raster<float>& disparity_px, int width_px, double step_px);
 
 /// Removes measured pixels within `reach_px` of a step of more than `step_px` between neighbours,
-/// and within `border_px` of the picture's border.
+/// and within `border_px` of the image's border.
 void erodeEdges(DisparityMap& map, int reach_px, double step_px, int border_px);
 
 }  // namespace softscope

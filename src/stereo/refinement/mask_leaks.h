@@ -1,4 +1,4 @@
-// src/stereo/refinement/mask_leaks.h: the surface of a masked instrument, measured beside it.
+// src/stereo/refinement/mask_leaks.h: disparities beside an instrument mask that may be its own.
 #pragma once
 
 #include "core/image.h"

@@ -1,5 +1,5 @@
-// src/stereo/refinement/patch_smoothing.h: disparity drawn to the patches that its neighbours agree
-// on.
+// src/stereo/refinement/patch_smoothing.h: smoothing of disparity by quadric patches of the
+// neighbourhood.
 #pragma once
 
 #include "core/depth_map.h"

@@ -33,7 +33,7 @@ class BrightnessSplitter {
   static constexpr int kLanes = 8;  // kernels work on so many values at a time
   int slot(int v) const { return (v + taps_) % taps_; }
 
-  /// Both filters along row v, the border repeated beyond the picture.
+  /// Both filters along row v, the border repeated beyond the image.
   void filterRow(int v) {
     const std::uint8_t* row = image_.row(std::clamp(v, 0, image_.height_px - 1));
     float* padded = padded_.data();

@@ -1,5 +1,5 @@
-// src/stereo/refinement/plane.h: a picture of floats with a margin, so that windows need no border
-// cases.
+// src/stereo/refinement/plane.h: image of floats with a margin around it, so that windows need no
+// border cases.
 #pragma once
 
 #include <cstddef>

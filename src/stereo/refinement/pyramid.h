@@ -26,7 +26,7 @@ inline StereoOptions halved(StereoOptions options) {
   return options;
 }
 
-/// Where `fine` is unmeasured, takes the disparity of the half-size map, in the fine picture's
+/// Where `fine` is unmeasured, takes the disparity of the half-size map, in the fine image's
 /// pixels, interpolated between four measured pixels of one surface; its standard error doubles.
 void fillFromHalf(const DisparityMap& half, DisparityMap& fine);
 

@@ -18,7 +18,7 @@ namespace {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBandRows = 80;  // solved by one thread at a time
 
-/// What all bands share: the pictures, the window, and how to weigh.
+/// What all bands share: the images, the window, and how to weigh.
 struct RefinementContext {
   RefinementContext(const GrayImage& left_image, const GrayImage& right_image,
                     const RefinementOptions& refinement)

@@ -1,4 +1,4 @@
-// src/stereo/refinement/subpixel_refinement.h: from whole pixels to hundredths.
+// src/stereo/refinement/subpixel_refinement.h: sub-pixel refinement of whole-pixel disparities.
 #pragma once
 
 #include "core/depth_map.h"

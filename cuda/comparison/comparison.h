@@ -1,0 +1,17 @@
+// cuda/comparison/comparison.h: comparison of model and frame on the first GPU.
+#pragma once
+
+#include <memory>
+
+#include "core/camera.h"
+#include "cuda/device/shared_rasters.h"
+#include "fusion/frame_comparer.h"
+
+namespace softscope::cuda {
+
+/// `shared`: where it tells what rasters lie on the device; may be null. Throws BackendError where
+/// no GPU works.
+std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left,
+                                                 std::shared_ptr<SharedRasters> shared = nullptr);
+
+}  // namespace softscope::cuda

@@ -1,0 +1,151 @@
+// cuda/comparison/comparison_layout.h: every array of the comparison of model and frame, planned
+// from sizes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/image.h"
+#include "core/point_model.h"
+#include "core/warp_graph.h"
+#include "cuda/device/arena.h"
+#include "fusion/block_correlation.h"
+#include "fusion/colour_gain.h"
+#include "fusion/drawn_points.h"
+#include "fusion/fusion_options.h"
+#include "fusion/sight_formulas.h"
+
+namespace softscope::cuda {
+
+/// Sums that any order of threads makes alike: whole multiples of 2^-26, up to 2^37.
+using FixedSum = unsigned long long;
+constexpr double kFixedUnit = 1.0 / (1 << 26);
+SOFTSCOPE_HD inline FixedSum toFixed(double value) {
+  return static_cast<FixedSum>(
+      static_cast<long long>(value / kFixedUnit + (value < 0 ? -0.5 : 0.5)));
+}
+SOFTSCOPE_HD inline double fromFixed(FixedSum sum) {
+  return static_cast<double>(static_cast<long long>(sum)) * kFixedUnit;
+}
+
+/// Weighted totals of seen points: of one node, or of the frame.
+struct InnovationSums {
+  FixedSum weight, away_mm, expected_mm2, square_mm2;
+};
+
+/// A value of some rank is found in three steps, by 11, 11 and 9 bits of its size.
+constexpr int kRankSteps = 3, kRankBins = 2048;
+SOFTSCOPE_HD constexpr int rankShift(int step) { return step == 0 ? 20 : step == 1 ? 9 : 0; }
+struct RankSearch {
+  std::uint32_t rank, bits;  // left within `bits`, which are those found so far
+};
+
+/// What comes down in one piece; the blocks of the image follow.
+struct ComparisonTotals {
+  InnovationSums frame;
+  FixedSum difference_mm, absolute_mm;  // model minus measurement
+  std::uint32_t differences;
+  std::int32_t compared_px, agreeing_px;
+  RankSearch rank;
+  std::int32_t gain[3][kGainBins];
+};
+
+/// Arrays of the image's size. The rasters of a frame, then what is drawn.
+struct ComparisonFrameLayout {
+  ComparisonFrameLayout() = default;
+  ComparisonFrameLayout(Arena& arena, int width_px, int height_px)
+      : width(width_px),
+        height(height_px),
+        block_px(BlockCorrelation::blockPx(width_px)),
+        block_columns(blocksFor(width_px, block_px)),
+        block_rows(blocksFor(height_px, block_px)) {
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    depth_mm = arena.array<float>(pixels);
+    sigma_mm = arena.array<float>(pixels);
+    normals = arena.array<Eigen::Vector3f>(pixels);
+    states = arena.array<PixelState>(pixels);
+    colour = arena.array<Rgb8>(pixels);
+    gain_bins = arena.array<std::int16_t>(256 * 256);
+    near_cells = arena.array<std::uint32_t>(cells());
+    drawn_cells = arena.array<std::uint32_t>(cells());
+    drawn = arena.array<unsigned long long>(pixels);
+    differences_mm = arena.array<float>(pixels);
+    rank_counts = arena.array<std::uint32_t>(kRankSteps * kRankBins);
+    // From here on in one piece:
+    const std::size_t begin = arena.bytes();
+    totals = arena.array<ComparisonTotals>(1);
+    evidence = arena.array<BlockSums>(blocks());
+    anchors = arena.array<BlockSums>(blocks());
+    totals_bytes = arena.bytes() - begin;
+  }
+
+  static constexpr int kCellPx = DrawnPoints::kCellPx;
+  static_assert(kCellPx == VisibilityOptions::kOcclusionCellPx, "one size of squares for both");
+  std::size_t cells() const {
+    return static_cast<std::size_t>(blocksFor(width, kCellPx)) *
+           static_cast<std::size_t>(blocksFor(height, kCellPx));
+  }
+  std::size_t blocks() const { return static_cast<std::size_t>(block_columns * block_rows); }
+  SOFTSCOPE_HD int cellOf(int pixel) const {
+    const int columns = (width + kCellPx - 1) / kCellPx;
+    return pixel / width / kCellPx * columns + pixel % width / kCellPx;
+  }
+  SOFTSCOPE_HD int blockOf(int pixel) const {
+    return pixel / width / block_px * block_columns + pixel % width / block_px;
+  }
+
+  int width = 0, height = 0, block_px = 1, block_columns = 0, block_rows = 0;
+  bool has_sigma = false, has_colour = false;
+  float *depth_mm = nullptr, *sigma_mm = nullptr;
+  Eigen::Vector3f* normals = nullptr;
+  PixelState* states = nullptr;
+  Rgb8* colour = nullptr;
+  std::int16_t* gain_bins = nullptr;                            // by seen and known level
+  std::uint32_t *near_cells = nullptr, *drawn_cells = nullptr;  // bits of depths
+  unsigned long long* drawn = nullptr;                          // DrawnPoints::entry()
+  float* differences_mm = nullptr;                              // NaN where nothing was compared
+  std::uint32_t* rank_counts = nullptr;
+  ComparisonTotals* totals = nullptr;
+  BlockSums *evidence = nullptr, *anchors = nullptr;  // of the model's image; of the anchors
+  std::size_t totals_bytes = 0;
+};
+
+/// The model's points, and the comparison of each with the frame.
+struct ComparisonModelLayout {
+  ComparisonModelLayout() = default;
+  ComparisonModelLayout(Arena& arena, std::size_t points) {
+    positions_mm = arena.array<Eigen::Vector3f>(points);
+    normals = arena.array<Eigen::Vector3f>(points);
+    colours = arena.array<Rgb8>(points);
+    anchors = arena.array<std::uint8_t>(points);
+    bindings = arena.array<PointBinding>(points);
+    sights = arena.array<PointSight>(points);
+    seen = arena.array<std::uint8_t>(points);
+  }
+
+  int count = 0;
+  Eigen::Vector3f *positions_mm = nullptr, *normals = nullptr;
+  Rgb8* colours = nullptr;
+  std::uint8_t* anchors = nullptr;
+  PointBinding* bindings = nullptr;
+  PointSight* sights = nullptr;
+  std::uint8_t* seen = nullptr;
+};
+
+/// The nodes that carry the points.
+struct ComparisonGraphLayout {
+  ComparisonGraphLayout() = default;
+  ComparisonGraphLayout(Arena& arena, std::size_t node_count, std::size_t sets)
+      : nodes(static_cast<int>(node_count)), stencil_count(static_cast<int>(sets)) {
+    stencils = arena.array<NodeStencil>(sets);
+    sums = arena.array<InnovationSums>(node_count);
+    away_mm = arena.array<double>(node_count);
+  }
+
+  int nodes = 0, stencil_count = 0;
+  NodeStencil* stencils = nullptr;
+  InnovationSums* sums = nullptr;
+  double* away_mm = nullptr;  // mean absolute difference around each node
+};
+
+}  // namespace softscope::cuda

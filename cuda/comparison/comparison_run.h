@@ -1,0 +1,269 @@
+// cuda/comparison/comparison_run.h: memory, copies and launches of the comparison of model and
+// frame, on any machine.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <future>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cuda/comparison/comparison_passes.h"
+#include "cuda/device/shared_rasters.h"
+#include "fusion/frame_comparer.h"
+
+namespace softscope::cuda {
+
+/// Machine: as WarpRun has it.
+template <class Machine>
+class ComparisonRun final : public FrameComparer {
+ public:
+  template <class... Arguments>
+  explicit ComparisonRun(const PinholeCamera& left, Arguments&&... arguments)
+      : machine_(std::forward<Arguments>(arguments)...), passes_(machine_.executor()) {
+    Arena counting;
+    const ComparisonFrameLayout planned(counting, left.width_px, left.height_px);
+    frame_memory_ = Memory(counting.bytes(), kWhat);
+    Arena arena(frame_memory_.data());
+    frame_ = ComparisonFrameLayout(arena, left.width_px, left.height_px);
+    totals_.resize(frame_.totals_bytes);
+    reserveModel(static_cast<std::size_t>(left.width_px) *
+                 static_cast<std::size_t>(left.height_px) / 4);
+    std::vector<std::int16_t> bins(256 * 256, -1);
+    for (int seen = 0; seen < 256; ++seen)
+      for (int known = 1; known < 256; ++known)
+        bins[static_cast<std::size_t>(seen * 256 + known)] = static_cast<std::int16_t>(
+            gainBin(static_cast<std::uint8_t>(seen), static_cast<std::uint8_t>(known)));
+    send(frame_.gain_bins, bins);
+    machine_.wait();
+  }
+  /// Tells other stages what lies on the device.
+  void share(std::shared_ptr<SharedRasters> shared) { shared_ = std::move(shared); }
+  ~ComparisonRun() override {
+    if (sending_.valid()) sending_.wait();
+  }
+
+  void beginFrame(const Observation& frame, const Raster<PixelState>& states) override {
+    endFrame();
+    has_frame_ = true;
+    sending_ = std::async(std::launch::async, [this, depth = &frame.depth, normals = &frame.normals,
+                                               colour = &frame.colour, states = &states] {
+      sendFrame(*depth, *normals, *colour, *states);
+    });
+  }
+  void endFrame() override {
+    if (sending_.valid()) sending_.wait();  // what went wrong is of no interest any more
+    sending_ = {};
+    has_frame_ = false;
+    if (shared_) *shared_ = {};
+  }
+
+  std::vector<std::int32_t> seenPoints(const PointModel& model, const Observation& observation,
+                                       const Raster<PixelState>& states,
+                                       const VisibilityOptions& options) override {
+    needFrame(observation, states);
+    sendShape(model);
+    const bool draws = false;
+    passes_.findSight(frame_, model_, cameraOf(observation), sightLimits(options), draws);
+    seen_.resize(model.size());
+    machine_.fromDevice(seen_.data(), model_.seen, seen_.size());
+    machine_.wait();
+    std::vector<std::int32_t> indices;
+    indices.reserve(model.size());
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      if (seen_[i] != 0) indices.push_back(static_cast<std::int32_t>(i));
+    return indices;
+  }
+
+  FrameComparison compare(const PointModel& model, const WarpGraph& graph,
+                          const Observation& observation, const Raster<PixelState>& states,
+                          const FusionOptions& options) override {
+    options.validate();
+    needFrame(observation, states);
+    sendShape(model);
+    send(model_.colours, model.colours);
+    const PosedCamera camera = cameraOf(observation);
+    const bool draws = true, compares_images = true;
+    passes_.findSight(frame_, model_, camera, sightLimits(options.visibility), draws);
+    passes_.comparePixels(frame_, model_, camera, compares_images);
+    send(model_.anchors, model.anchors);  // beside the kernels
+    const SeenQuestions asked = questionsOf(options, model.size());
+    if (asked.innovation) {
+      send(model_.bindings, model.bindings);
+      sendGraph(graph);
+    }
+    passes_.askSeen(frame_, model_, graph_, asked);
+    FrameComparison found;
+    std::vector<PointSight>& sights = found.model.visibility.points;
+    sights.resize(model.size());
+    machine_.fromDevice(sights.data(), model_.sights, sights.size() * sizeof(PointSight));
+    std::vector<InnovationSums> nodes(asked.innovation ? graph.size() : 0);
+    if (!nodes.empty())
+      machine_.fromDevice(nodes.data(), graph_.sums, nodes.size() * sizeof(InnovationSums));
+    fetchTotals();
+    found.predicted = errorOf(totals());
+    found.view = viewOf();
+    if (asked.gain)
+      found.model.gain = {gainOf(totals().gain[0]), gainOf(totals().gain[1]),
+                          gainOf(totals().gain[2])};
+    if (asked.anchors)
+      found.model.anchored =
+          AnchorAgreement(frame_.width, frame_.height, blocksAt(totals_.data(), frame_.anchors));
+    if (totals().frame.weight != 0) found.model.innovation = innovationOf(nodes, totals().frame);
+    return found;
+  }
+
+  BackProjectionError error(const PointModel& model, const Observation& observation,
+                            const Raster<PixelState>& states) override {
+    needFrame(observation, states);
+    sendShape(model);
+    const PosedCamera camera = cameraOf(observation);
+    const bool draws = true, compares_images = false;
+    passes_.findSight(frame_, model_, camera, sightLimits({}), draws);
+    passes_.comparePixels(frame_, model_, camera, compares_images);
+    fetchTotals();
+    return errorOf(totals());
+  }
+
+ private:
+  using Memory = typename Machine::Memory;
+  static constexpr const char* kWhat = "memory for comparing model and frame";
+
+  void needFrame(const Observation& observation, const Raster<PixelState>& states) {
+    observation.validate();
+    if (sending_.valid()) sending_.get();
+    if (has_frame_) return;
+    sendFrame(observation.depth, observation.normals, observation.colour, states);
+    has_frame_ = true;
+  }
+  void sendFrame(const DepthMap& depth, const NormalMap& normals, const ColourImage& colour,
+                 const Raster<PixelState>& states) {
+    frame_.has_sigma = !depth.sigma_mm.empty();
+    frame_.has_colour = !colour.empty();
+    send(frame_.states, states.values);
+    send(frame_.depth_mm, depth.depth_mm.values);
+    send(frame_.normals, normals.values);
+    send(frame_.sigma_mm, depth.sigma_mm.values);
+    send(frame_.colour, colour.values);
+    machine_.wait();
+    if (shared_)
+      *shared_ = {depth.depth_mm.values.data(), frame_.depth_mm, frame_.sigma_mm, frame_.normals};
+  }
+  void sendShape(const PointModel& model) {
+    reserveModel(model.size());
+    model_.count = static_cast<int>(model.size());
+    send(model_.positions_mm, model.positions_mm);
+    send(model_.normals, model.normals);
+  }
+  void sendGraph(const WarpGraph& graph) {
+    Arena counting;
+    const ComparisonGraphLayout planned(counting, graph.size(), graph.stencils.size());
+    if (graph_memory_.bytes() < counting.bytes()) {
+      graph_memory_ = Memory();
+      graph_memory_ = Memory(2 * counting.bytes(), kWhat);
+    }
+    Arena arena(graph_memory_.data());
+    graph_ = ComparisonGraphLayout(arena, graph.size(), graph.stencils.size());
+    send(graph_.stencils, graph.stencils);
+  }
+  /// Twice the points at a time, so that a growing model rarely reallocates.
+  void reserveModel(std::size_t points) {
+    if (points <= capacity_) return;
+    capacity_ = capacity_ == 0 ? points : 2 * points;
+    Arena counting;
+    const ComparisonModelLayout planned(counting, capacity_);
+    model_memory_ = Memory();
+    model_memory_ = Memory(counting.bytes(), kWhat);
+    Arena arena(model_memory_.data());
+    model_ = ComparisonModelLayout(arena, capacity_);
+    ResetKernel reset;  // sights have padding, which is copied with them
+    reset.add(model_.sights, capacity_ * sizeof(PointSight) / sizeof(std::uint32_t), 0);
+    machine_.executor().launch("reset", reset, reset.blocks());
+  }
+
+  SeenQuestions questionsOf(const FusionOptions& options, std::size_t points) const {
+    SeenQuestions asked;
+    asked.colour = options.colour;
+    asked.gain = options.colour.compensate_gain && frame_.has_colour;
+    asked.gain_stride = static_cast<int>(gainStride(points));
+    asked.anchors = options.colour.hold_anchors && frame_.has_colour;
+    asked.innovation = options.points.follow_innovation && frame_.has_sigma &&
+                       options.points.reference_sigma_mm > 0;
+    asked.reference_mm = static_cast<float>(options.points.reference_sigma_mm);
+    asked.largest_weight = static_cast<float>(options.points.max_measurement_weight);
+    return asked;
+  }
+
+  void fetchTotals() {
+    machine_.fromDevice(totals_.data(), frame_.totals, totals_.size());
+    machine_.wait();
+  }
+  const ComparisonTotals& totals() const {
+    return *reinterpret_cast<const ComparisonTotals*>(totals_.data());
+  }
+  /// Of what was fetched; `blocks` are those on the device.
+  const BlockSums* blocksAt(const char* fetched, const BlockSums* blocks) const {
+    const auto offset =
+        reinterpret_cast<const char*>(blocks) - reinterpret_cast<const char*>(frame_.totals);
+    return reinterpret_cast<const BlockSums*>(fetched + offset);
+  }
+
+  static BackProjectionError errorOf(const ComparisonTotals& totals) {
+    BackProjectionError error;
+    error.compared_px = static_cast<int>(totals.differences);
+    if (error.compared_px == 0) return error;
+    error.mean_mm = fromFixed(totals.absolute_mm) / error.compared_px;
+    error.bias_mm = fromFixed(totals.difference_mm) / error.compared_px;
+    error.p95_mm = bitsAsFloat(totals.rank.bits);
+    return error;
+  }
+  ViewEvidence viewOf() const {
+    EvidenceVotes votes;
+    votes.compared_px = totals().compared_px;
+    votes.agreeing_px = totals().agreeing_px;
+    const BlockSums* blocks = blocksAt(totals_.data(), frame_.evidence);
+    for (std::size_t b = 0; b < frame_.blocks(); ++b) votes.add(BlockCorrelation(blocks[b]));
+    return evidenceOf(votes);
+  }
+  static InnovationField innovationOf(const std::vector<InnovationSums>& nodes,
+                                      const InnovationSums& frame) {
+    const double weight = fromFixed(frame.weight);
+    std::vector<Innovation> field;
+    field.reserve(nodes.size());
+    for (const InnovationSums& node : nodes) {
+      const auto mean = [&](FixedSum InnovationSums::*sum) {
+        return innovationMean(fromFixed(node.*sum), fromFixed(node.weight), fromFixed(frame.*sum),
+                              weight);
+      };
+      const double square_mm2 = mean(&InnovationSums::square_mm2);
+      const double excess_mm2 = square_mm2 - mean(&InnovationSums::expected_mm2);
+      field.push_back(
+          {static_cast<float>(square_mm2), static_cast<float>(std::max(0.0, excess_mm2))});
+    }
+    return InnovationField(std::move(field));
+  }
+
+  static PosedCamera cameraOf(const Observation& observation) {
+    return posedCamera(observation.left, observation.world_from_left);
+  }
+  template <class T>
+  void send(T* to, const std::vector<T>& from) {
+    if (!from.empty()) machine_.toDevice(to, from.data(), from.size() * sizeof(T));
+  }
+
+  Memory frame_memory_, model_memory_, graph_memory_;
+  Machine machine_;
+  ComparisonPasses<typename Machine::Executor> passes_;
+  ComparisonFrameLayout frame_;
+  ComparisonModelLayout model_;
+  ComparisonGraphLayout graph_;
+  std::size_t capacity_ = 0;
+  std::vector<std::uint8_t> seen_;
+  std::vector<char> totals_;
+  std::shared_ptr<SharedRasters> shared_;
+  std::future<void> sending_;
+  bool has_frame_ = false;
+};
+
+}  // namespace softscope::cuda

@@ -1,0 +1,19 @@
+// cuda/device/shared_rasters.h: rasters of the frame at hand that one stage has copied to the
+// device already.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace softscope::cuda {
+
+/// Known by their place in the host's memory. Whoever copies them sets this once they are there,
+/// and clears it before that memory changes; no other stage may look at the same time.
+struct SharedRasters {
+  const float* host_depth_mm = nullptr;
+  const float *depth_mm = nullptr, *sigma_mm = nullptr;  // on the device
+  const Eigen::Vector3f* normals = nullptr;
+
+  bool holds(const float* depth) const { return depth != nullptr && depth == host_depth_mm; }
+};
+
+}  // namespace softscope::cuda

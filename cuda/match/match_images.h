@@ -1,0 +1,85 @@
+// cuda/match/match_images.h: kernel bodies that prepare the images of matching: masks, pyramid,
+// smoothing.
+#pragma once
+
+#include "core/image.h"
+#include "cuda/device/kernel.h"
+#include "features/match_formulas.h"
+#include "features/subpixel_formulas.h"
+
+namespace softscope::cuda {
+
+/// What a frame brings besides its images.
+struct MatchInputs {
+  int has_anchor;  // 0: the anchor image is not in use
+  int masked[2];   // of the model image, of the live image; 0: the mask is not in use
+};
+
+/// 1 where a pixel of the row within the reach is dark; z: model, live.
+struct DarkInRowBody {
+  View<const std::uint8_t> gray[2];
+  View<std::uint8_t> out[2];
+  int darkest_gray, reach;
+  SOFTSCOPE_HD void operator()(int u, int v, int image) const {
+    std::uint8_t found = 0;
+    for (int x = u - reach; x <= u + reach; ++x)
+      if (x >= 0 && x < gray[image].width)
+        found |= isDark(gray[image].at(x, v), darkest_gray) ? 1 : 0;
+    out[image].at(u, v) = found;
+  }
+};
+/// Adds the mask that came with the image.
+struct IgnoreBody {
+  View<const std::uint8_t> dark_in_row[2], mask[2];
+  View<std::uint8_t> ignore[2];
+  const MatchInputs* inputs;
+  int reach;
+  SOFTSCOPE_HD void operator()(int u, int v, int image) const {
+    std::uint8_t found = 0;
+    for (int y = v - reach; y <= v + reach; ++y)
+      if (y >= 0 && y < ignore[image].height) found |= dark_in_row[image].at(u, y);
+    if (inputs->masked[image] != 0 && mask[image].at(u, v) != 0) found = 1;
+    ignore[image].at(u, v) = found;
+  }
+};
+
+constexpr int kMostMatchLevels = 10;
+
+/// The images that matching needs at a level; the third is the model's anchor.
+constexpr int kMatchImages = 3;
+
+/// Half as wide and high; z: model, live, anchor.
+struct HalveMatchBody {
+  View<const std::uint8_t> gray[kMatchImages], ignore[2];
+  View<std::uint8_t> half_gray[kMatchImages], half_ignore[2];
+  const MatchInputs* inputs;
+  SOFTSCOPE_HD void operator()(int u, int v, int image) const {
+    if (image == 2 && inputs->has_anchor == 0) return;
+    const std::uint8_t* a = gray[image].row(2 * v) + 2 * u;
+    const std::uint8_t* b = gray[image].row(2 * v + 1) + 2 * u;
+    half_gray[image].at(u, v) = meanOfFour(a[0], a[1], b[0], b[1]);
+    if (image == 2) return;
+    const std::uint8_t* c = ignore[image].row(2 * v) + 2 * u;
+    const std::uint8_t* d = ignore[image].row(2 * v + 1) + 2 * u;
+    half_ignore[image].at(u, v) = (c[0] | c[1] | d[0] | d[1]) != 0 ? 1 : 0;
+  }
+};
+
+/// 3 x 3 binomial filter; z: model, live, anchor.
+struct BinomialBody {
+  View<const std::uint8_t> gray[kMatchImages];
+  View<float> smooth[kMatchImages];
+  const MatchInputs* inputs;
+  SOFTSCOPE_HD void operator()(int u, int v, int image) const {
+    if (image == 2 && inputs->has_anchor == 0) return;
+    const View<const std::uint8_t>& in = gray[image];
+    const std::uint8_t* above = in.row(v > 0 ? v - 1 : 0);
+    const std::uint8_t* here = in.row(v);
+    const std::uint8_t* below = in.row(v + 1 < in.height ? v + 1 : v);
+    const auto column = [&](int x) { return above[x] + 2 * here[x] + below[x]; };
+    smooth[image].at(u, v) =
+        binomial(column(u > 0 ? u - 1 : 0), column(u), column(u + 1 < in.width ? u + 1 : u));
+  }
+};
+
+}  // namespace softscope::cuda

@@ -1,0 +1,331 @@
+// cuda/pose/pose_search.h: kernel bodies of the search for the scope's pose.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "core/small_solve.h"
+#include "cuda/device/block_median.h"
+#include "cuda/device/kernel.h"
+#include "pose/pose_search.h"
+
+namespace softscope::cuda {
+
+constexpr int kPoseThreads = 256, kPairsEach = 6, kMostPosePairs = kPoseThreads * kPairsEach;
+using PoseMedian = BlockMedian<kPoseThreads, kPairsEach>;
+
+/// Where searches begin.
+enum PoseStart { kFittedPose, kOldPose, kPoseBefore, kPoseStarts };
+
+struct PoseInputs {
+  RectifiedRig rig;
+  PairRegions regions;
+  PoseRows starts[kPoseStarts];
+  double scale_factor;  // of the median square: the robust scale
+  int pairs;
+};
+
+/// Where a search ended.
+struct PoseEnd {
+  PoseRows pose;
+  double cost;
+};
+
+/// PoseFindings in plain numbers.
+struct PoseFacts {
+  PoseRows best;
+  double medians[3];  // shift, length, old length
+  double gains[kRegions];
+  double normal[triangleSize(6)];
+  double scores[kRegions][6];
+  int counts[kRegions], score_counts[kRegions];
+  int explained, compared;
+};
+
+/// The better end of both searches with one kind of places: the first of equals.
+SOFTSCOPE_HD inline const PoseRows& betterEnd(const PoseEnd* ends) {
+  return ends[1].cost < ends[0].cost ? ends[1].pose : ends[0].pose;
+}
+
+/// Sums of kCount numbers a thread, over a block, in one order. kSteps phases.
+template <int kCount>
+struct PoseSums {
+  static constexpr int kSteps = 4, kHalf = kPoseThreads / 2, kParts = 8;
+  static_assert(kCount * kParts <= kPoseThreads);
+  struct Shared {
+    double half[kCount][kHalf], parts[kCount][kParts], total[kCount];
+  };
+
+  template <int kStep>
+  SOFTSCOPE_HD static void run(int thread, const double (&own)[kCount], Shared& shared) {
+    if constexpr (kStep == 0) {
+      if (thread >= kHalf)
+        for (int i = 0; i < kCount; ++i) shared.half[i][thread - kHalf] = own[i];
+    } else if constexpr (kStep == 1) {
+      if (thread < kHalf)
+        for (int i = 0; i < kCount; ++i) shared.half[i][thread] += own[i];
+    } else if constexpr (kStep == 2) {
+      if (thread >= kCount * kParts) return;
+      const int i = thread / kParts, part = thread % kParts;
+      double sum = 0;
+      for (int k = part; k < kHalf; k += kParts) sum += shared.half[i][k];
+      shared.parts[i][part] = sum;
+    } else {
+      if (thread >= kCount) return;
+      double sum = 0;
+      for (int part = 0; part < kParts; ++part) sum += shared.parts[thread][part];
+      shared.total[thread] = sum;
+    }
+  }
+};
+
+/// Normal matrix (lower triangle, by rows) and right-hand side.
+constexpr int kPoseSums = triangleSize(6) + 6;
+
+SOFTSCOPE_HD inline void addToSums(const PairResidual& residual, double weight,
+                                   double (&sums)[kPoseSums]) {
+  int at = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j <= i; ++j, ++at)
+      for (int k = 0; k < 3; ++k) sums[at] += weight * residual.slope[k][i] * residual.slope[k][j];
+  for (int i = 0; i < 6; ++i, ++at)
+    for (int k = 0; k < 3; ++k) sums[at] -= weight * residual.slope[k][i] * residual.value[k];
+}
+
+/// A block per search; a step of Gauss-Newton a repeat, the cost of the end in the last one.
+struct SearchPoseKernel {
+  static constexpr int kThreads = kPoseThreads;
+  static constexpr int kSumStep = PoseMedian::kSteps, kStep = kSumStep + PoseSums<1>::kSteps;
+  static constexpr int kPhases = kStep + 1;
+  struct Shared {
+    PoseMedian::Shared median;
+    PoseSums<kPoseSums>::Shared sums;
+    PoseRows pose;
+    bool has_converged;
+  };
+  struct Local {
+    std::uint64_t keys[kPairsEach];
+    double sums[kPoseSums];
+  };
+  const PoseInputs* inputs;
+  const SeenPair* pairs;
+  PairPlace place;
+  PoseEnd* ends;  // of both searches with the places of now, then of both since
+  int iterations;
+
+  SOFTSCOPE_HD int repeats(const Place&) const { return iterations + 1; }
+
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
+    if constexpr (kPhase == 0) {
+      if (at.repeat == 0 && at.thread == 0) {
+        shared.pose = startOf(at.x);
+        shared.has_converged = false;
+      }
+      PoseMedian::run<0>(at.thread, local.keys, shared.median);
+    } else if constexpr (kPhase < kSumStep) {
+      if (at.repeat == iterations || shared.has_converged) return;
+      if constexpr (kPhase == 1) findKeys(at, shared.pose, local.keys);
+      PoseMedian::run<kPhase>(at.thread, local.keys, shared.median);
+    } else if constexpr (kPhase < kStep) {
+      if (at.repeat < iterations && shared.has_converged) return;
+      if constexpr (kPhase == kSumStep) addUp(at, shared, local.sums);
+      PoseSums<kPoseSums>::run<kPhase - kSumStep>(at.thread, local.sums, shared.sums);
+    } else {
+      if (at.thread != 0) return;
+      if (at.repeat == iterations)
+        ends[2 * static_cast<int>(place) + at.x] = {shared.pose, meanCost(shared.sums.total)};
+      else if (!shared.has_converged)
+        step(shared);
+    }
+  }
+
+ private:
+  SOFTSCOPE_HD PoseRows startOf(int search) const {
+    if (place == PairPlace::kNow) return inputs->starts[search == 0 ? kFittedPose : kOldPose];
+    return search == 0 ? betterEnd(ends) : inputs->starts[kPoseBefore];
+  }
+  SOFTSCOPE_HD PairResidual residualAt(int i, const PoseRows& pose) const {
+    return pairResidual(pairs[i], place, inputs->rig, pose);
+  }
+  SOFTSCOPE_HD void findKeys(const Place& at, const PoseRows& pose,
+                             std::uint64_t (&keys)[kPairsEach]) const {
+    for (int k = 0; k < kPairsEach; ++k) {
+      keys[k] = PoseMedian::kNoKey;
+      const int i = k * kThreads + at.thread;
+      if (i >= inputs->pairs) continue;
+      const PairResidual residual = residualAt(i, pose);
+      if (residual.usable) keys[k] = PoseMedian::keyOf(residual.squared());
+    }
+  }
+  /// The last repeat sums costs and counts in place of a normal matrix.
+  SOFTSCOPE_HD void addUp(const Place& at, const Shared& shared, double (&sums)[kPoseSums]) const {
+    for (double& sum : sums) sum = 0;
+    const bool is_step = at.repeat < iterations;
+    if (is_step && shared.median.count < 3) return;
+    const double scale_sq = is_step ? inputs->scale_factor * shared.median.value() : 1;
+    for (int k = 0; k < kPairsEach; ++k) {
+      const int i = k * kThreads + at.thread;
+      if (i >= inputs->pairs) continue;
+      const PairResidual residual = residualAt(i, shared.pose);
+      if (!residual.usable) continue;
+      if (is_step) {
+        addToSums(residual, pairWeight(residual.squared(), scale_sq > 1 ? scale_sq : 1), sums);
+      } else {
+        sums[0] += pairCost(residual.squared());
+        sums[1] += 1;
+      }
+    }
+  }
+  SOFTSCOPE_HD static double meanCost(const double (&total)[kPoseSums]) {
+    return total[1] > 0 ? total[0] / total[1] : 1;
+  }
+
+  SOFTSCOPE_HD static void step(Shared& shared) {
+    double normal[triangleSize(6)], twist[6];
+    for (int i = 0; i < triangleSize(6); ++i) normal[i] = shared.sums.total[i];
+    for (int i = 0; i < 6; ++i) twist[i] = shared.sums.total[triangleSize(6) + i];
+    bool is_finite = shared.median.count >= 3 && factorSymmetric<6>(normal);
+    if (is_finite) solveSymmetric<6>(normal, twist);
+    for (const double value : twist) is_finite = is_finite && std::isfinite(value);
+    shared.has_converged = !is_finite;
+    if (!is_finite) return;
+    const Eigen::Vector3d turn(twist[0], twist[1], twist[2]), shift(twist[3], twist[4], twist[5]);
+    move(turn, shift, &shared.pose);
+    shared.has_converged =
+        shift.norm() + PoseSearch::kTypicalDepthMm * turn.norm() < PoseSearch::kConvergedMm;
+  }
+  SOFTSCOPE_HD static void move(const Eigen::Vector3d& turn, const Eigen::Vector3d& shift,
+                                PoseRows* pose) {
+    Eigen::Matrix3d by = Eigen::Matrix3d::Identity();
+    const double angle = turn.norm();
+    if (angle > 0) by = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+    const PoseRows from = *pose;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 4; ++j)
+        pose->at[i][j] = by(i, 0) * from.at[0][j] + by(i, 1) * from.at[1][j] +
+                         by(i, 2) * from.at[2][j] + (j == 3 ? shift(i) : 0);
+  }
+};
+
+/// Contribution of a pair, kept for the sums of regions.
+struct PairSaying {
+  double gain, score[6];
+  std::int32_t region;   // below 0: not seen from the best pose
+  std::int32_t is_both;  // seen from the old one, too
+};
+
+/// A block per kind of places: three medians, then the sums of regions.
+struct JudgePoseKernel {
+  static constexpr int kThreads = kPoseThreads;
+  static constexpr int kSumStep = PoseMedian::kSteps, kEnd = kSumStep + PoseSums<1>::kSteps;
+  static constexpr int kPhases = kEnd + 1;
+  struct Shared {
+    PoseMedian::Shared median;
+    PoseSums<kPoseSums>::Shared sums;
+    int explained;
+  };
+  struct Local {
+    std::uint64_t keys[kPairsEach];
+    double sums[kPoseSums];
+  };
+  const PoseInputs* inputs;
+  const SeenPair* pairs;
+  const PoseEnd* ends;
+  PairSaying* sayings;  // kMostPosePairs a kind of places
+  PoseFacts* facts;
+
+  static constexpr int kMedians = 3;
+  SOFTSCOPE_HD int repeats(const Place&) const { return kMedians; }
+
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
+    const bool is_last = at.repeat == kMedians - 1;
+    if constexpr (kPhase == 0) {
+      if (at.repeat == 0 && at.thread == 0) shared.explained = 0;
+      PoseMedian::run<0>(at.thread, local.keys, shared.median);
+    } else if constexpr (kPhase < kSumStep) {
+      if constexpr (kPhase == 1) lookAt(at, shared, local);
+      PoseMedian::run<kPhase>(at.thread, local.keys, shared.median);
+    } else if constexpr (kPhase < kEnd) {
+      if (is_last) PoseSums<kPoseSums>::run<kPhase - kSumStep>(at.thread, local.sums, shared.sums);
+    } else {
+      PoseFacts& out = facts[at.x];
+      if (at.thread == 0) {
+        out.medians[at.repeat] = shared.median.count > 0 ? shared.median.value() : 0;
+        out.compared = shared.median.count;
+      }
+      if (!is_last) return;
+      if (at.thread == 0) {
+        out.best = betterEnd(ends + 2 * at.x);
+        out.explained = shared.explained;
+      }
+      if (at.thread < triangleSize(6)) out.normal[at.thread] = shared.sums.total[at.thread];
+      if (at.thread < kRegions * 7) sumRegion(at, &out);
+    }
+  }
+
+ private:
+  SOFTSCOPE_HD void lookAt(const Place& at, Shared& shared, Local& local) const {
+    const PairPlace place = static_cast<PairPlace>(at.x);
+    const PoseRows& best = betterEnd(ends + 2 * at.x);
+    const PoseRows& old = inputs->starts[place == PairPlace::kNow ? kOldPose : kPoseBefore];
+    for (double& sum : local.sums) sum = 0;
+    int explained = 0;
+    for (int k = 0; k < kPairsEach; ++k) {
+      local.keys[k] = PoseMedian::kNoKey;
+      const int i = k * kThreads + at.thread;
+      if (i >= inputs->pairs) continue;
+      const PairResidual here = pairResidual(pairs[i], place, inputs->rig, best);
+      const PairResidual there = pairResidual(pairs[i], place, inputs->rig, old);
+      const double squared = here.squared(), old_squared = there.squared();
+      const double weight = pairWeight(squared, kCostScaleSq);
+      if (here.usable && there.usable) {
+        double between = 0;
+        for (int c = 0; c < 3; ++c)
+          between += (here.value[c] - there.value[c]) * (here.value[c] - there.value[c]);
+        const double of[kMedians] = {between, squared, old_squared};
+        local.keys[k] = PoseMedian::keyOf(std::sqrt(of[at.repeat]));
+      }
+      if (at.repeat < kMedians - 1) continue;
+      PairSaying& saying = sayings[at.x * kMostPosePairs + i];
+      saying.region = here.usable ? inputs->regions.of(pairs[i].live_px) : -1;
+      saying.is_both = here.usable && there.usable ? 1 : 0;
+      saying.gain = pairCost(old_squared) - pairCost(squared);
+      for (int j = 0; j < 6; ++j) {
+        saying.score[j] = 0;
+        for (int c = 0; c < 3; ++c) saying.score[j] += weight * here.slope[c][j] * here.value[c];
+      }
+      if (!here.usable) continue;
+      explained += squared < kCostScaleSq ? 1 : 0;
+      addToSums(here, weight, local.sums);
+    }
+    if (explained > 0) atomicPlus(&shared.explained, explained);
+  }
+
+  /// A thread per region and sum, in the pairs' order.
+  SOFTSCOPE_HD void sumRegion(const Place& at, PoseFacts* out) const {
+    const int region = at.thread / 7, what = at.thread % 7;
+    const PairSaying* first = sayings + at.x * kMostPosePairs;
+    double sum = 0;
+    int count = 0, both = 0;
+    for (const PairSaying* saying = first; saying != first + inputs->pairs; ++saying) {
+      if (saying->region != region) continue;
+      ++count;
+      both += saying->is_both;
+      if (what < 6)
+        sum += saying->score[what];
+      else if (saying->is_both != 0)
+        sum += saying->gain;
+    }
+    if (what < 6) {
+      out->scores[region][what] = sum;
+      if (what == 0) out->score_counts[region] = count;
+    } else {
+      out->gains[region] = sum;
+      out->counts[region] = both;
+    }
+  }
+};
+
+}  // namespace softscope::cuda

@@ -1,0 +1,307 @@
+#include <algorithm>
+#include <cstring>
+#include <future>
+#include <limits>
+#include <optional>
+
+#include "cuda/device/device_executor.cuh"
+#include "cuda/device/device_stream.h"
+#include "cuda/device/event_clock.h"
+#include "cuda/stereo/stereo.h"
+#include "cuda/stereo/stereo_passes.h"
+
+namespace softscope::cuda {
+namespace {
+
+std::size_t bytesFor(const StereoOptions& options, int width_px, int height_px) {
+  Arena counting;
+  StereoLayout(counting, options, width_px, height_px);
+  return counting.bytes();
+}
+
+/// What crosses between host and device; pinned.
+struct Exchange {
+  FrameInputs inputs;
+  OpenShare shares[16];
+  int point_count;  // of the prior from the host
+};
+
+}  // namespace
+
+class Stereo::Device {
+ public:
+  Device(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
+         HostPriorFunction host_prior)
+      : host_prior_(std::move(host_prior)),
+        memory_((check(options, width_px, host_prior_), bytesFor(options, width_px, height_px)),
+                "memory for stereo"),
+        arena_(memory_.data()),
+        layout_(arena_, options, width_px, height_px),
+        rig_(rig),
+        pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
+        staging_(4 * pixels_, "pinned memory for images"),
+        exchange_memory_(sizeof(Exchange), "pinned memory"),
+        points_memory_(pointBytes(full()), "pinned memory for support points"),
+        results_memory_(pixels_ * (kRasters * sizeof(float) + sizeof(NormalPixel)),
+                        "pinned memory for depth"),
+        executor_(stream_, nullptr),
+        passes_(executor_, layout_),
+        side_executor_(side_stream_, nullptr),
+        side_passes_(side_executor_, layout_),
+        timed_executor_(stream_, &clock_),
+        timed_passes_(timed_executor_, layout_),
+        levels_(layout_.levels.size()),
+        level_ends_(layout_.levels.size()),
+        shares_(layout_.levels.size()),
+        ascents_(layout_.levels.size()) {
+    std::memset(exchange_memory_.data(), 0, sizeof(Exchange));
+    passes_.initialise();
+    for (cudaEvent_t* event : {&share_read_, &level_done_})
+      cuda::check(cudaEventCreateWithFlags(event, cudaEventDisableTiming), "an event");
+    wait();
+  }
+  ~Device() {
+    cudaStreamSynchronize(side_stream_);
+    cudaStreamSynchronize(stream_);
+    cudaEventDestroy(share_read_);
+    cudaEventDestroy(level_done_);
+  }
+
+  void upload(const MatchableViews& views) {
+    requireShape(views.left);
+    requireShape(views.right);
+    auto* staged = static_cast<std::uint8_t*>(stage());
+    const GrayImage* images[] = {&views.left, &views.right};
+    for (int view = 0; view < 2; ++view) {
+      std::memcpy(staged + view * pixels_, images[view]->values.data(), pixels_);
+      stream_.toDevice(full().gray[view].data, staged + view * pixels_, pixels_);
+    }
+    const bool ignores = !views.ignored.left.empty() || !views.ignored.right.empty();
+    if (ignores || has_ignored_) uploadIgnored(views.ignored, staged + 2 * pixels_);
+    has_ignored_ = ignores;
+  }
+  void setMask(const Mask& mask) {
+    wait();
+    if (!mask.empty()) requireShape(mask);
+    exchange().inputs.masked = mask.empty() ? 0 : 1;
+    if (mask.empty()) return;
+    stream_.toDevice(layout_.mask.data, mask.values.data(), pixels_);
+    wait();
+  }
+
+  void compute(double roll_rad) {
+    if (is_enqueued_) wait();  // the exchange is in use
+    exchange().inputs.roll_rad = roll_rad;
+    is_enqueued_ = true;
+    if (is_timed_) {
+      clock_.restart(stream_);
+      run(timed_passes_, [](Graph&, cudaStream_t, const auto& enqueue) { enqueue(); });
+      stage_times_ = clock_.laps();
+    } else {
+      run(passes_, [](Graph& graph, cudaStream_t stream, const auto& enqueue) {
+        graph.launch(stream, enqueue);
+      });
+    }
+  }
+  void wait() {
+    stream_.wait();
+    is_enqueued_ = false;
+  }
+
+  StereoDepth download() {
+    wait();
+    StereoDepth found;
+    const int width = full().width, height = full().height;
+    auto* arrived = static_cast<float*>(results_memory_.data());
+    const View<float> rasters[] = {layout_.disparity, layout_.sigma, layout_.depth,
+                                   layout_.depth_sigma};
+    for (int i = 0; i < kRasters; ++i) fetch(rasters[i], arrived + i * pixels_);
+    auto* normals = reinterpret_cast<NormalPixel*>(arrived + kRasters * pixels_);
+    fetch(layout_.normals, normals);
+    wait();
+    Raster<float>* places[] = {&found.disparity.disparity_px, &found.disparity.sigma_px,
+                               &found.depth.depth_mm, &found.depth.sigma_mm};
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();  // one of many, as on the CPU
+    std::future<void> copies[kRasters];
+    for (int i = 0; i < kRasters; ++i)
+      copies[i] = std::async(std::launch::async, [&, i] {
+        *places[i] = Raster<float>(width, height);
+        std::transform(arrived + i * pixels_, arrived + (i + 1) * pixels_, places[i]->values.data(),
+                       [](float value) { return value == value ? value : kNan; });
+      });
+    found.normals = NormalMap(width, height, Eigen::Vector3f::Zero());
+    static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
+    std::memcpy(static_cast<void*>(found.normals.values.data()), normals,
+                pixels_ * sizeof(NormalPixel));
+    for (std::future<void>& copy : copies) copy.get();
+    found.levels = levels_run_;
+    return found;
+  }
+
+  void timeStages(bool on) { is_timed_ = on; }
+  const std::vector<std::pair<std::string, double>>& stageTimes() const { return stage_times_; }
+  std::size_t deviceBytes() const { return memory_.bytes(); }
+
+ private:
+  static constexpr int kRasters = 4;  // of floats, that download() fetches beside the normals
+
+  /// Checks come before any memory is taken.
+  static void check(const StereoOptions& options, int width_px,
+                    const HostPriorFunction& host_prior) {
+    requireDeviceLimits(options, width_px);
+    if (options.elas.prior == PriorMethod::kPlanes && host_prior == nullptr)
+      throw OptionError("the prior by planes comes from the host: give planePrior(), or take rows");
+    requireDevice();
+  }
+  const StereoLevel& full() const { return layout_.levels.front(); }
+  const StereoLevel& level(int k) const { return layout_.levels[static_cast<std::size_t>(k)]; }
+  Exchange& exchange() { return *static_cast<Exchange*>(exchange_memory_.data()); }
+
+  template <class Image>
+  void requireShape(const Image& image) const {
+    if (image.width_px == full().width && image.height_px == full().height) return;
+    throw InputError("the image has " + std::to_string(image.width_px) + " x " +
+                     std::to_string(image.height_px) + " pixels, but the GPU was prepared for " +
+                     std::to_string(full().width) + " x " + std::to_string(full().height));
+  }
+  void uploadIgnored(const ViewMasks& ignored, std::uint8_t* staged) {
+    const Mask* masks[] = {&ignored.left, &ignored.right};
+    for (int view = 0; view < 2; ++view) {
+      const Mask& mask = *masks[view];
+      std::uint8_t* to = staged + static_cast<std::size_t>(view) * pixels_;
+      if (mask.empty()) {
+        std::fill_n(to, pixels_, std::uint8_t{0});
+      } else {
+        requireShape(mask);
+        std::transform(mask.values.begin(), mask.values.end(), to, ignoredBits);
+      }
+      stream_.toDevice(full().ignored[view].data, to, pixels_);
+    }
+  }
+  /// The staging memory, free again.
+  void* stage() {
+    wait();
+    return staging_.data();
+  }
+  template <class T>
+  void fetch(const View<T>& from, T* to) {
+    stream_.fromDevice(to, from.data, pixels_ * sizeof(T));
+  }
+
+  static std::size_t pointBytes(const StereoLevel& level) {
+    return sizeof(float) * static_cast<std::size_t>(level.grid.columns) *
+           static_cast<std::size_t>(level.grid.rows);
+  }
+  /// Fetches the level's support points and brings their prior.
+  void priorFromHost(const StereoLevel& level) {
+    auto* points = static_cast<float*>(points_memory_.data());
+    stream_.fromDevice(points, level.kept, pointBytes(level));
+    stream_.wait();
+    Raster<float> confirmed(level.grid.columns, level.grid.rows);
+    std::memcpy(confirmed.values.data(), points, pointBytes(level));
+    const HostPrior prior = host_prior_(confirmed, level.options, level.width, level.height);
+    std::memcpy(points, prior.support.values.data(), pointBytes(level));
+    stream_.toDevice(level.kept, points, pointBytes(level));
+    exchange().point_count = prior.point_count;
+    stream_.toDevice(&level.counters->point_count, &exchange().point_count, sizeof(int));
+    auto* staged = static_cast<std::int16_t*>(staging_.data());
+    for (const Raster<std::int16_t>* px8 : {&prior.left_px8, &prior.right_px8}) {
+      std::memcpy(staged, px8->values.data(), px8->size() * sizeof(std::int16_t));
+      stream_.toDevice(level.prior[px8 == &prior.left_px8 ? 0 : 1].data, staged,
+                       px8->size() * sizeof(std::int16_t));
+      staged += px8->size();
+    }
+  }
+
+  /// Beside the main stream, whose next kernels don't change what is measured.
+  template <class Launch>
+  void measureShare(int k, const Launch& launch) {
+    if (layout_.levels.size() == 1) return;
+    cuda::check(cudaEventRecord(level_done_, stream_), "recording an event");
+    cuda::check(cudaStreamWaitEvent(side_stream_, level_done_, 0), "waiting for a level");
+    launch(shares_[static_cast<std::size_t>(k)], side_stream_, [this, k] {
+      side_passes_.measureShare(level(k));
+      side_stream_.fromDevice(&exchange().shares[k], &level(k).counters->share, sizeof(OpenShare));
+    });
+    cuda::check(cudaEventRecord(share_read_, side_stream_), "recording an event");
+  }
+
+  /// `launch(graph, stream, enqueue)`: enqueues, or launches the graph of it.
+  template <class Passes, class Launch>
+  void run(Passes& passes, const Launch& launch) {
+    const auto finish = [&] { launch(finish_, stream_, [&] { passes.finish(rig_); }); };
+    const auto matchLevel = [&](int k, const auto& begin) {
+      const bool by_rows = full().options.elas.prior == PriorMethod::kRows;
+      const auto end = [&] { passes.finishLevel(level(k)); };
+      launch(levels_[static_cast<std::size_t>(k)], stream_, [&] {
+        begin();
+        passes.startLevel(level(k));
+        if (by_rows) end();
+      });
+      if (by_rows) return;
+      priorFromHost(level(k));
+      launch(level_ends_[static_cast<std::size_t>(k)], stream_, end);
+    };
+    matchLevel(0,
+               [&] { stream_.toDevice(layout_.inputs, &exchange().inputs, sizeof(FrameInputs)); });
+    // In most frames the full size is enough: the rest follows while the host looks.
+    measureShare(0, launch);
+    finish();
+    levels_run_ = runCoarserLevels(
+        layout_,
+        [&](int k) {
+          cuda::check(cudaEventSynchronize(share_read_), "waiting for a level");
+          return exchange().shares[k];
+        },
+        [&](int k) {
+          matchLevel(k, [&] { passes.halve(level(k - 1), level(k)); });
+          measureShare(k, launch);
+        },
+        [&](int k) {
+          launch(ascents_[static_cast<std::size_t>(k)], stream_,
+                 [&] { passes.fillFromHalf(level(k + 1), level(k)); });
+        });
+    if (levels_run_ > 1) finish();
+  }
+
+  using Executor = DeviceExecutor<EventClock>;
+  HostPriorFunction host_prior_;
+  DeviceMemory memory_;
+  Arena arena_;
+  StereoLayout layout_;
+  RectifiedRig rig_;
+  std::size_t pixels_;
+  PinnedMemory staging_, exchange_memory_, points_memory_, results_memory_;
+  Stream stream_, side_stream_;
+  EventClock clock_;
+  Executor executor_;
+  StereoPasses<Executor> passes_;
+  Executor side_executor_;
+  StereoPasses<Executor> side_passes_;
+  Executor timed_executor_;
+  StereoPasses<Executor> timed_passes_;
+  std::vector<Graph> levels_, level_ends_, shares_, ascents_;
+  Graph finish_;
+  cudaEvent_t share_read_ = nullptr, level_done_ = nullptr;
+  bool is_enqueued_ = false, is_timed_ = false, has_ignored_ = false;
+  int levels_run_ = 0;
+  std::vector<std::pair<std::string, double>> stage_times_;
+};
+
+Stereo::Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
+               HostPriorFunction host_prior)
+    : device_(std::make_unique<Device>(options, rig, width_px, height_px, std::move(host_prior))) {}
+Stereo::~Stereo() = default;
+
+void Stereo::upload(const MatchableViews& views) { device_->upload(views); }
+void Stereo::setMask(const Mask& mask) { device_->setMask(mask); }
+void Stereo::compute(double roll_rad) { device_->compute(roll_rad); }
+void Stereo::wait() { device_->wait(); }
+StereoDepth Stereo::download() { return device_->download(); }
+void Stereo::timeStages(bool on) { device_->timeStages(on); }
+const std::vector<std::pair<std::string, double>>& Stereo::stageTimes() const {
+  return device_->stageTimes();
+}
+std::size_t Stereo::deviceBytes() const { return device_->deviceBytes(); }
+
+}  // namespace softscope::cuda

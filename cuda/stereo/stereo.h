@@ -1,0 +1,64 @@
+// cuda/stereo/stereo.h: stereo depth of rectified pairs on the GPU.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/depth_map.h"
+#include "core/image.h"
+#include "core/rectified_rig.h"
+#include "stereo/images/view_masks.h"
+#include "stereo/matching/host_prior.h"
+#include "stereo/options/stereo_options.h"
+
+namespace softscope::cuda {
+
+/// Of the rectified left image; the same bytes as ElasMatcher, removeRoll(), depthFromDisparity(),
+/// the mask and normalsFromDepth() give on the CPU; NaN in normals may have another payload.
+struct StereoDepth {
+  DisparityMap disparity;
+  DepthMap depth;
+  NormalMap normals;
+  int levels = 0;  // of the pyramid that were needed
+};
+
+/// The stage for one image size; memory is taken once, at the start. One frame at a time:
+/// upload(), compute(), download().
+class Stereo {
+ public:
+  /// Throws BackendError without a device that runs this build, or with too little memory;
+  /// OptionError where an option has no GPU version. `host_prior` (planePrior()) computes the prior
+  /// by planes, which has none: two waits and some milliseconds a level; the prior by rows needs it
+  /// not.
+  Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
+         HostPriorFunction host_prior);
+  ~Stereo();
+  Stereo(const Stereo&) = delete;
+  Stereo& operator=(const Stereo&) = delete;
+
+  /// Rectified, rows aligned (matchableViews()). Throws InputError for another shape.
+  void upload(const MatchableViews& views);
+  /// Dropped from what was found. Empty: none. Holds for the frames that follow.
+  void setMask(const Mask& mask);
+
+  /// Returns when everything is enqueued; with the prior by rows that is mostly before it is done.
+  void compute(double roll_rad = 0);
+  void wait();
+  StereoDepth download();
+
+  /// With stage times, kernels are launched one by one and compute() waits; without, as graphs.
+  void timeStages(bool on);
+  /// Of the last compute() with stage times: stage, ms.
+  const std::vector<std::pair<std::string, double>>& stageTimes() const;
+
+  std::size_t deviceBytes() const;
+
+ private:
+  class Device;
+  std::unique_ptr<Device> device_;
+};
+
+}  // namespace softscope::cuda

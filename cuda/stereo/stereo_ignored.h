@@ -1,0 +1,65 @@
+// cuda/stereo/stereo_ignored.h: kernel bodies for pixels that must not be matched, and windows that
+// reach them.
+#pragma once
+
+#include "cuda/device/kernel.h"
+#include "stereo/kernels/matching_formulas.h"
+
+namespace softscope::cuda {
+
+/// Bits of a pixel. From outside a raster has 0 and kMasked alone.
+struct Ignored {
+  static constexpr std::uint8_t kMasked = 1, kDense = 2, kSupport = 4;  // the window reaches one
+  static constexpr int kDenseReach = kDenseWindowReach + kSobelReach;
+  static constexpr int kSupportReach = kSupportMargin + kSobelReach;
+  static constexpr int kFar = kSupportReach + 1;
+};
+
+/// Of a mask's value.
+inline std::uint8_t ignoredBits(std::uint8_t value) { return value != 0 ? Ignored::kMasked : 0; }
+
+/// Masked where one of the 2 x 2 pixels is.
+struct HalveIgnoredBody {
+  View<const std::uint8_t> whole[2];
+  View<std::uint8_t> half[2];
+  SOFTSCOPE_HD void operator()(int u, int v, int view) const {
+    const std::uint8_t *upper = whole[view].row(2 * v) + 2 * u,
+                       *lower = whole[view].row(2 * v + 1) + 2 * u;
+    half[view].at(u, v) = (upper[0] | upper[1] | lower[0] | lower[1]) & Ignored::kMasked;
+  }
+};
+
+/// Columns to the next masked pixel of the row, at most kFar.
+struct IgnoredRowBody {
+  View<const std::uint8_t> ignored[2];
+  View<std::uint8_t> out[2];
+  SOFTSCOPE_HD void operator()(int u, int v, int view) const {
+    const View<const std::uint8_t>& from = ignored[view];
+    int nearest = Ignored::kFar;
+    for (int x = -Ignored::kSupportReach; x <= Ignored::kSupportReach; ++x)
+      if (u + x >= 0 && u + x < from.width && (from.at(u + x, v) & Ignored::kMasked) != 0) {
+        const int apart = x < 0 ? -x : x;
+        nearest = apart < nearest ? apart : nearest;
+      }
+    out[view].at(u, v) = static_cast<std::uint8_t>(nearest);
+  }
+};
+
+/// Adds the bits of windows.
+struct IgnoredColumnBody {
+  View<const std::uint8_t> rows[2];
+  View<std::uint8_t> ignored[2];
+  SOFTSCOPE_HD void operator()(int u, int v, int view) const {
+    const View<const std::uint8_t>& from = rows[view];
+    std::uint8_t bits = ignored[view].at(u, v) & Ignored::kMasked;
+    for (int y = -Ignored::kSupportReach; y <= Ignored::kSupportReach; ++y) {
+      if (v + y < 0 || v + y >= from.height) continue;
+      const int beside = from.at(u, v + y), apart = y < 0 ? -y : y;
+      if (beside <= Ignored::kSupportReach) bits |= Ignored::kSupport;
+      if (beside <= Ignored::kDenseReach && apart <= Ignored::kDenseReach) bits |= Ignored::kDense;
+    }
+    ignored[view].at(u, v) = bits;
+  }
+};
+
+}  // namespace softscope::cuda

@@ -1,0 +1,15 @@
+// cuda/warp/warp.h: the warp's least-squares problem on the GPU.
+#pragma once
+
+#include <memory>
+
+#include "cuda/device/shared_rasters.h"
+#include "deform/solver/warp_device.h"
+
+namespace softscope::cuda {
+
+/// On the first GPU. Throws BackendError without a device that runs this build.
+std::unique_ptr<WarpDevice> makeWarpDevice(const WarpWeights& weights,
+                                           std::shared_ptr<const SharedRasters> shared = nullptr);
+
+}  // namespace softscope::cuda

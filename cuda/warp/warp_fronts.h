@@ -1,0 +1,366 @@
+// cuda/warp/warp_fronts.h: kernel bodies of the multifrontal Cholesky factorisation, level by
+// level.
+#pragma once
+
+#include "cuda/device/kernel.h"
+#include "cuda/warp/warp_layout.h"
+
+namespace softscope::cuda {
+
+constexpr int kMostColumns = kMostPivots * kUnknowns;
+
+/// A thread per row and node of a front's pivots: the matrix's entries, damped, and the children's
+/// updates. The right-hand side is the last row.
+struct AssembleFrontsKernel {
+  static constexpr int kThreads = 128, kPhases = 1;
+  using Shared = Nothing;
+  using Local = Nothing;
+  WarpStructureLayout graph;
+  int first_front;
+  double damping, floor;
+
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
+    const FrontShape front = graph.fronts[first_front + at.y];
+    const int rows = front.blocks * kUnknowns + 1, i = at.x * kThreads + at.thread;
+    const int node = i / rows, r = i % rows;
+    if (node >= front.pivots || r < node * kUnknowns) return;
+    double row[kUnknowns];
+    addMatrix(front, r, node, row);
+    for (int c = front.child_begin; c < front.child_end; ++c)
+      addChild(front, graph.children[c], r, node, row);
+    double* to = graph.factor + front.factor + r +
+                 static_cast<std::ptrdiff_t>(node * kUnknowns) * front.factor_leading;
+    for (int j = 0; j < kUnknowns; ++j)
+      to[static_cast<std::ptrdiff_t>(j) * front.factor_leading] = row[j];
+  }
+
+ private:
+  SOFTSCOPE_HD void addMatrix(const FrontShape& front, int r, int block_column,
+                              double (&row)[kUnknowns]) const {
+    const int block_row = r / kUnknowns, i = r % kUnknowns;
+    if (block_row == front.blocks) {
+      const int node = graph.front_nodes[front.nodes + block_column];
+      for (int j = 0; j < kUnknowns; ++j) row[j] = graph.gradient[node * kUnknowns + j];
+      return;
+    }
+    const int entry = graph.look_up[front.look_up + block_column * front.blocks + block_row];
+    const int number = entry > 0 ? entry - 1 : entry < 0 ? -entry - 1 : 0;
+    const double* block = graph.matrix + number * std::ptrdiff_t{kBlockEntries};
+    for (int j = 0; j < kUnknowns; ++j) {
+      const double value = block[entry > 0 ? i + kUnknowns * j : j + kUnknowns * i];
+      row[j] = entry == 0 ? 0 : value;
+    }
+    if (block_row == block_column)
+      for (int j = 0; j < kUnknowns; ++j) row[j] = row[j] * (1 + damping) + (i == j ? floor : 0);
+  }
+  SOFTSCOPE_HD void addChild(const FrontShape& front, const FrontChild& link, int r,
+                             int block_column, double (&row)[kUnknowns]) const {
+    const FrontShape child = graph.fronts[link.front];
+    const int block_row = r / kUnknowns;
+    const int from_column = graph.maps[link.map + block_column];
+    const int from_row =
+        block_row == front.blocks ? child.blocks - child.pivots : graph.maps[link.map + block_row];
+    if (from_column < 0 || from_row < 0) return;
+    const double* update =
+        graph.updates + child.update + from_row * kUnknowns + r % kUnknowns +
+        static_cast<std::ptrdiff_t>(from_column * kUnknowns) * child.update_leading;
+    for (int j = 0; j < kUnknowns; ++j)
+      row[j] += update[static_cast<std::ptrdiff_t>(j) * child.update_leading];
+  }
+};
+
+/// A block per front of a level: its pivot columns, six at a time, left-looking.
+struct FactorFrontsKernel {
+  static constexpr int kThreads = 512, kPhases = 3;
+  struct Shared {
+    double others[kMostColumns][kUnknowns];  // rows of the corner, left of it
+    double corner[kUnknowns][kUnknowns];
+  };
+  struct Local {
+    double own[kMostColumns];  // the thread's first row
+  };
+  WarpStructureLayout graph;
+  int first_front;
+
+  SOFTSCOPE_HD int repeats(const Place& at) const {
+    return graph.fronts[first_front + at.x].pivots;
+  }
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
+    const FrontShape front = graph.fronts[first_front + at.x];
+    const int column = at.repeat * kUnknowns, rows = front.blocks * kUnknowns + 1;
+    double* base = graph.factor + front.factor;
+    const std::ptrdiff_t leading = front.factor_leading;
+    if constexpr (kPhase == 0) {
+      for (int i = at.thread; i < column * kUnknowns; i += kThreads)
+        shared.others[i / kUnknowns][i % kUnknowns] =
+            base[column + i % kUnknowns + i / kUnknowns * leading];
+    } else if constexpr (kPhase == 1) {
+      for (int r = at.thread; r < rows; r += kThreads) {
+        if (r < column) continue;
+        double row[kUnknowns];
+        for (int j = 0; j < kUnknowns; ++j) row[j] = base[r + (column + j) * leading];
+        if (r == at.thread)
+          subtractColumns(
+              column, shared, [&](int k) { return local.own[k]; }, row);
+        else
+          subtractColumns(
+              column, shared, [&](int k) { return base[r + k * leading]; }, row);
+        if (r < column + kUnknowns)
+          for (int j = 0; j < kUnknowns; ++j) shared.corner[r - column][j] = row[j];
+        if (r == at.thread)
+          for (int j = 0; j < kUnknowns; ++j) local.own[column + j] = row[j];
+        else
+          for (int j = 0; j < kUnknowns; ++j) base[r + (column + j) * leading] = row[j];
+      }
+    } else {
+      if (at.thread >= rows) return;
+      double corner[kUnknowns][kUnknowns], inverse[kUnknowns];
+      factorCorner(shared, corner, inverse);
+      if (at.thread == 0)  // 0 for a pivot that is not above 0
+        for (int j = 0; j < kUnknowns; ++j)
+          graph.inverse_pivots[front.first * kUnknowns + column + j] = inverse[j];
+      for (int r = at.thread; r < rows; r += kThreads) {
+        if (r < column) continue;
+        double row[kUnknowns];
+        for (int j = 0; j < kUnknowns; ++j)
+          row[j] = r == at.thread ? local.own[column + j] : base[r + (column + j) * leading];
+        for (int j = 0; j < kUnknowns; ++j) {
+          for (int k = 0; k < j; ++k) row[j] -= row[k] * corner[j][k];
+          row[j] *= inverse[j];
+        }
+        for (int j = 0; j < kUnknowns; ++j) base[r + (column + j) * leading] = row[j];
+        if (r == at.thread)
+          for (int j = 0; j < kUnknowns; ++j) local.own[column + j] = row[j];
+      }
+    }
+  }
+
+ private:
+  /// `own(k)`: the row's entry in column k.
+  template <class Own>
+  SOFTSCOPE_HD static void subtractColumns(int column, const Shared& shared, const Own& own,
+                                           double (&row)[kUnknowns]) {
+    for (int first = 0; first < column; first += kUnknowns)
+      for (int k = first; k < first + kUnknowns; ++k) {
+        const double value = own(k);
+        for (int j = 0; j < kUnknowns; ++j) row[j] -= value * shared.others[k][j];
+      }
+  }
+
+  SOFTSCOPE_HD static void factorCorner(const Shared& shared,
+                                        double (&corner)[kUnknowns][kUnknowns],
+                                        double (&inverse)[kUnknowns]) {
+    for (int i = 0; i < kUnknowns; ++i)
+      for (int j = 0; j <= i; ++j) corner[i][j] = shared.corner[i][j];
+    for (int j = 0; j < kUnknowns; ++j) {
+      double pivot = corner[j][j];
+      for (int k = 0; k < j; ++k) pivot -= corner[j][k] * corner[j][k];
+      inverse[j] = pivot > 0 ? inverseRoot(pivot) : 0;
+      for (int i = j + 1; i < kUnknowns; ++i) {
+        double value = corner[i][j];
+        for (int k = 0; k < j; ++k) value -= corner[i][k] * corner[j][k];
+        corner[i][j] = value * inverse[j];
+      }
+    }
+  }
+};
+
+/// A block per tile of an update: the children's updates less L L^T of the border's rows.
+struct UpdateFrontsKernel {
+  static constexpr int kThreads = 256, kPhases = 2, kColumns = 36, kSide = 16, kEach = 3;
+  static_assert(kSide * kSide == kThreads && kSide * kEach == kUpdateTile);
+  struct Shared {
+    double rows[kColumns][kUpdateTile], columns[kColumns][kUpdateTile];
+  };
+  struct Local {
+    double total[kEach][kEach];
+  };
+  WarpStructureLayout graph;
+  int first_front;
+
+  SOFTSCOPE_HD int repeats(const Place& at) const {
+    const FrontShape front = graph.fronts[first_front + at.y];
+    if (at.x >= updateTiles(front.blocks - front.pivots)) return 0;
+    return (front.pivots * kUnknowns + kColumns - 1) / kColumns;
+  }
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
+    const FrontShape front = graph.fronts[first_front + at.y];
+    const int border = (front.blocks - front.pivots) * kUnknowns, pivots = front.pivots * kUnknowns;
+    int tile_row = 0, tile_column = at.x;
+    const int tile_columns = (border + kUpdateTile - 1) / kUpdateTile;
+    while (tile_column > tile_row || tile_column >= tile_columns) {
+      tile_column -= tile_row < tile_columns ? tile_row + 1 : tile_columns;
+      ++tile_row;
+    }
+    const int row0 = tile_row * kUpdateTile, column0 = tile_column * kUpdateTile;
+    const int x = at.thread % kSide, y = at.thread / kSide;
+    if constexpr (kPhase == 0) {
+      if (at.repeat == 0) addChildren(front, row0 + x, column0 + y, local);
+      load(front, at, row0, border + 1, shared.rows);
+      load(front, at, column0, border, shared.columns);
+    } else {
+      for (int k = 0; k < kColumns; ++k) SOFTSCOPE_UNROLL(3)
+      for (int i = 0; i < kEach; ++i) SOFTSCOPE_UNROLL(3)
+      for (int j = 0; j < kEach; ++j)
+        local.total[i][j] -= shared.rows[k][x + i * kSide] * shared.columns[k][y + j * kSide];
+      if ((at.repeat + 1) * kColumns < pivots) return;
+      SOFTSCOPE_UNROLL(3)
+      for (int i = 0; i < kEach; ++i) SOFTSCOPE_UNROLL(3)
+      for (int j = 0; j < kEach; ++j) {
+        const int r = row0 + x + i * kSide, c = column0 + y + j * kSide;
+        if (r <= border && c < border)
+          graph.updates[front.update + r + static_cast<std::ptrdiff_t>(c) * front.update_leading] =
+              local.total[i][j];
+      }
+    }
+  }
+
+ private:
+  SOFTSCOPE_HD void load(const FrontShape& front, const Place& at, int first, int limit,
+                         double (&to)[kColumns][kUpdateTile]) const {
+    const int pivots = front.pivots * kUnknowns;
+    for (int i = at.thread; i < kColumns * kUpdateTile; i += kThreads) {
+      const int k = at.repeat * kColumns + i / kUpdateTile, r = first + i % kUpdateTile;
+      to[i / kUpdateTile][i % kUpdateTile] =
+          k < pivots && r < limit
+              ? graph.factor[front.factor + pivots + r +
+                             static_cast<std::ptrdiff_t>(k) * front.factor_leading]
+              : 0;
+    }
+  }
+  /// The children's updates for the entries of a thread, from (row, column) on.
+  SOFTSCOPE_HD void addChildren(const FrontShape& front, int row, int column, Local& local) const {
+    const int border_blocks = front.blocks - front.pivots;
+    local = {};
+    for (int number = front.child_begin; number < front.child_end; ++number) {
+      const FrontShape child = graph.fronts[graph.children[number].front];
+      const int* map = graph.maps + graph.children[number].map + front.pivots;
+      int from_row[kEach], from_column[kEach];
+      SOFTSCOPE_UNROLL(3)
+      for (int i = 0; i < kEach; ++i) {
+        const int r = row + i * kSide, c = column + i * kSide;
+        from_row[i] = r / kUnknowns == border_blocks  ? child.blocks - child.pivots
+                      : r / kUnknowns < border_blocks ? map[r / kUnknowns]
+                                                      : -1;
+        from_column[i] = c / kUnknowns < border_blocks ? map[c / kUnknowns] : -1;
+      }
+      const double* update = graph.updates + child.update;
+      SOFTSCOPE_UNROLL(3)
+      for (int i = 0; i < kEach; ++i) SOFTSCOPE_UNROLL(3)
+      for (int j = 0; j < kEach; ++j) {
+        const bool is_there = from_column[j] >= 0 && from_row[i] >= from_column[j] &&
+                              row + i * kSide <= border_blocks * kUnknowns;
+        const std::ptrdiff_t place = from_row[i] * kUnknowns + (row + i * kSide) % kUnknowns +
+                                     static_cast<std::ptrdiff_t>(from_column[j] * kUnknowns +
+                                                                 (column + j * kSide) % kUnknowns) *
+                                         child.update_leading;
+        local.total[i][j] += is_there ? update[place] : 0;
+      }
+    }
+  }
+};
+
+/// A block per front of a level, from the roots down: x = L^-T (y - L^T x of the border).
+struct SolveFrontsKernel {
+  static constexpr int kThreads = 256, kPhases = 3, kParts = 8, kStagedBorder = 1024;
+  struct Shared {
+    double corner[kMostColumns * (kMostColumns + 1) / 2];  // rows of the lower triangle
+    double inverse[kMostColumns];
+    double border[kStagedBorder];
+    double partial[kMostColumns][kParts];
+    double x[kMostColumns];
+  };
+  struct Local {
+    double x[kUnknowns];
+  };
+  WarpStructureLayout graph;
+  int first_front;
+
+  /// The first one takes the border's share away.
+  SOFTSCOPE_HD int repeats(const Place& at) const {
+    return graph.fronts[first_front + at.x].pivots + 1;
+  }
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
+    const FrontShape front = graph.fronts[first_front + at.x];
+    const int pivots = front.pivots * kUnknowns;
+    if (at.repeat == 0) {
+      if constexpr (kPhase == 0) {
+        stage(front, at.thread, shared);
+      } else if constexpr (kPhase == 1) {
+        for (int i = at.thread; i < pivots * kParts; i += kThreads)
+          shared.partial[i / kParts][i % kParts] =
+              borderPart(front, i / kParts, i % kParts, shared);
+      } else {
+        for (int k = at.thread; k < pivots; k += kThreads) {
+          double sum = entry(front, front.blocks * kUnknowns, k);
+          for (int part = 0; part < kParts; ++part) sum -= shared.partial[k][part];
+          shared.x[k] = sum;
+        }
+      }
+      return;
+    }
+    const int column = pivots - at.repeat * kUnknowns;
+    if constexpr (kPhase == 0) {
+      solveCorner(column, shared, local.x);
+    } else if constexpr (kPhase == 1) {
+      if (at.thread == kThreads - 1)
+        for (int j = 0; j < kUnknowns; ++j) shared.x[column + j] = local.x[j];
+      for (int k = at.thread; k < column; k += kThreads) {
+        double value = shared.x[k];
+        for (int j = 0; j < kUnknowns; ++j)
+          value -= shared.corner[cornerAt(column + j, k)] * local.x[j];
+        shared.x[k] = value;
+      }
+    } else if (column == 0) {
+      for (int k = at.thread; k < pivots; k += kThreads) unknown(front, k) = shared.x[k];
+    }
+  }
+
+ private:
+  SOFTSCOPE_HD static int cornerAt(int row, int column) { return row * (row + 1) / 2 + column; }
+  SOFTSCOPE_HD double entry(const FrontShape& front, int row, int column) const {
+    return graph
+        .factor[front.factor + row + static_cast<std::ptrdiff_t>(column) * front.factor_leading];
+  }
+  SOFTSCOPE_HD double& unknown(const FrontShape& front, int row) const {
+    return graph
+        .solution[graph.front_nodes[front.nodes + row / kUnknowns] * kUnknowns + row % kUnknowns];
+  }
+  SOFTSCOPE_HD void stage(const FrontShape& front, int thread, Shared& shared) const {
+    const int pivots = front.pivots * kUnknowns, border = front.blocks * kUnknowns - pivots;
+    constexpr int kLanes = 32;
+    for (int column = thread / kLanes; column < pivots; column += kThreads / kLanes)
+      for (int row = column + thread % kLanes; row < pivots; row += kLanes)
+        shared.corner[cornerAt(row, column)] = entry(front, row, column);
+    for (int i = thread; i < pivots; i += kThreads)
+      shared.inverse[i] = graph.inverse_pivots[front.first * kUnknowns + i];
+    for (int i = thread; i < border && i < kStagedBorder; i += kThreads)
+      shared.border[i] = unknown(front, pivots + i);
+  }
+  SOFTSCOPE_HD double borderPart(const FrontShape& front, int column, int part,
+                                 const Shared& shared) const {
+    const int pivots = front.pivots * kUnknowns, border = front.blocks * kUnknowns - pivots;
+    const int staged = border < kStagedBorder ? border : kStagedBorder;
+    double sum = 0;
+    int i = part;
+    SOFTSCOPE_UNROLL(8)
+    for (; i < staged; i += kParts) sum += entry(front, pivots + i, column) * shared.border[i];
+    for (; i < border; i += kParts)
+      sum += entry(front, pivots + i, column) * unknown(front, pivots + i);
+    return sum;
+  }
+  SOFTSCOPE_HD static void solveCorner(int column, const Shared& shared, double (&x)[kUnknowns]) {
+    for (int j = kUnknowns - 1; j >= 0; --j) {
+      double value = shared.x[column + j];
+      for (int i = j + 1; i < kUnknowns; ++i)
+        value -= shared.corner[cornerAt(column + i, column + j)] * x[i];
+      x[j] = value * shared.inverse[column + j];
+    }
+  }
+};
+
+}  // namespace softscope::cuda

@@ -1,0 +1,89 @@
+// cuda/warp/warp_passes.h: the order of the kernels of the warp's least-squares problem, for any
+// executor.
+#pragma once
+
+#include "cuda/warp/warp_fronts.h"
+#include "cuda/warp/warp_nodes.h"
+#include "cuda/warp/warp_stencils.h"
+
+namespace softscope::cuda {
+
+/// What the kernels need besides the arrays.
+struct WarpInputs {
+  WarpWeights weights;
+  DepthLookUp surface;  // pointers of the device
+  int points = 0;
+  float points_each = 1;
+  double lever_mm = 1;
+};
+
+/// How the diagonal is raised: docs/energy.md (17).
+struct WarpDamping {
+  double relative = 0, floor = 0;
+};
+
+template <class Executor>
+class WarpPasses {
+ public:
+  explicit WarpPasses(Executor& executor) : executor_(executor) {}
+
+  /// Targets, normal equations and energy at these transforms.
+  void linearise(const WarpStructureLayout& graph, const WarpPointLayout& points,
+                 const PlaneConstraint* matches, const WarpInputs& inputs,
+                 const NodeTransform* transforms) {
+    launch("pack nodes", PackNodesKernel{graph, transforms});
+    launch("associate", AssociateKernel{graph, points, inputs.surface, inputs.points,
+                                        inputs.points_each, inputs.weights.data});
+    executor_.mark("associate");
+    constexpr bool kAssembles = true;
+    launch("stencils",
+           StencilKernel<kAssembles>{graph, points, matches, transforms, inputs.weights.data_robust,
+                                     inputs.weights.correspondence_robust});
+    launch("edges", EdgeKernel<kAssembles>{graph, transforms, inputs.weights.regularisation});
+    launch("gather", GatherKernel{graph, transforms, inputs.weights.rest});
+    executor_.launch("sums", SumKernel{graph, /*with_step=*/false}, Grid{});
+    executor_.mark("assemble");
+  }
+
+  void factor(const WarpStructureLayout& graph, const FrontTables& fronts, WarpDamping damping) {
+    for (int level = 0; level < fronts.levels(); ++level) {
+      const int first = fronts.level_start[level], count = fronts.level_start[level + 1] - first;
+      executor_.launch(
+          "assemble fronts", AssembleFrontsKernel{graph, first, damping.relative, damping.floor},
+          Grid{blocksFor(fronts.level_rows[level], AssembleFrontsKernel::kThreads), count, 1});
+      executor_.launch("factor fronts", FactorFrontsKernel{graph, first}, Grid{count, 1, 1});
+      executor_.launch("update fronts", UpdateFrontsKernel{graph, first},
+                       Grid{fronts.level_tiles[level], count, 1});
+    }
+    executor_.mark("factor");
+  }
+
+  /// After factor(): the solution, the transforms that it leads to, and their energy.
+  void step(const WarpStructureLayout& graph, const FrontTables& fronts,
+            const WarpPointLayout& points, const PlaneConstraint* matches, const WarpInputs& inputs,
+            double damping, const NodeTransform* transforms, NodeTransform* trial) {
+    for (int level = fronts.levels() - 1; level >= 0; --level) {
+      const int first = fronts.level_start[level], count = fronts.level_start[level + 1] - first;
+      executor_.launch("solve fronts", SolveFrontsKernel{graph, first}, Grid{count, 1, 1});
+    }
+    executor_.mark("solve");
+    launch("step", StepKernel{graph, transforms, trial, damping, inputs.lever_mm});
+    constexpr bool kAssembles = false;
+    launch("stencils",
+           StencilKernel<kAssembles>{graph, points, matches, trial, inputs.weights.data_robust,
+                                     inputs.weights.correspondence_robust});
+    launch("edges", EdgeKernel<kAssembles>{graph, trial, inputs.weights.regularisation});
+    executor_.launch("sums", SumKernel{graph, /*with_step=*/true}, Grid{});
+    executor_.mark("trial");
+  }
+
+ private:
+  template <class Kernel>
+  void launch(const char* name, const Kernel& kernel) {
+    executor_.launch(name, kernel, kernel.blocks());
+  }
+
+  Executor& executor_;
+};
+
+}  // namespace softscope::cuda

@@ -1,0 +1,188 @@
+// cuda/warp/warp_run.h: memory, copies and launches of the warp's least-squares problem, on any
+// machine.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cuda/device/shared_rasters.h"
+#include "cuda/warp/warp_passes.h"
+#include "deform/solver/warp_device.h"
+
+namespace softscope::cuda {
+
+/// A Machine has an executor(), a Memory(bytes, what) with data() and bytes(), and toDevice(),
+/// fromDevice(), wait() as a Stream has.
+template <class Machine>
+class WarpRun final : public WarpDevice {
+ public:
+  template <class... Arguments>
+  explicit WarpRun(const WarpWeights& weights, Arguments&&... arguments)
+      : machine_(std::forward<Arguments>(arguments)...), passes_(machine_.executor()) {
+    inputs_.weights = weights;
+  }
+  /// Rasters that lie on the device already are not copied again.
+  void share(std::shared_ptr<const SharedRasters> shared) { shared_ = std::move(shared); }
+  ~WarpRun() override = default;
+
+  void setStructure(const WarpStructure& structure) override {
+    fronts_ = structure.fronts;
+    Arena counting;
+    WarpStructureLayout planned(counting, structure);
+    reserve(counting.bytes(), &structure_memory_);
+    Arena arena(structure_memory_.data());
+    graph_ = WarpStructureLayout(arena, structure);
+    const FrontTables& fronts = structure.fronts;
+    send(graph_.stencil_nodes, structure.stencils);
+    send(graph_.edge_nodes, structure.edges);
+    send(graph_.diagonal_of, structure.diagonal_of);
+    send(graph_.block_start, structure.parts.blocks.start);
+    send(graph_.block_list, structure.parts.blocks.parts);
+    send(graph_.gradient_start, structure.parts.gradients.start);
+    send(graph_.gradient_list, structure.parts.gradients.parts);
+    send(graph_.fronts, fronts.fronts);
+    send(graph_.front_nodes, fronts.nodes);
+    send(graph_.look_up, fronts.look_up);
+    send(graph_.children, fronts.children);
+    send(graph_.maps, fronts.maps);
+    machine_.wait();
+  }
+
+  void setSurface(const DepthLookUp& surface) override {
+    inputs_.surface = surface;
+    if (shared_ && shared_->holds(surface.depth_mm)) {
+      inputs_.surface.depth_mm = shared_->depth_mm;
+      inputs_.surface.normals = shared_->normals;
+      inputs_.surface.sigma_mm = shared_->sigma_mm;
+      return;
+    }
+    const bool has_depth = surface.depth_mm != nullptr;
+    const auto pixels = has_depth ? static_cast<std::size_t>(surface.width_px) *
+                                        static_cast<std::size_t>(surface.height_px)
+                                  : 0;
+    Arena counting;
+    WarpSurfaceLayout planned(counting, pixels);
+    reserve(counting.bytes(), &surface_memory_);
+    Arena arena(surface_memory_.data());
+    const WarpSurfaceLayout to(arena, pixels);
+    if (!has_depth) inputs_.surface.width_px = inputs_.surface.height_px = 0;  // nothing is hit
+    send(to.depth_mm, surface.depth_mm, pixels);
+    send(to.normals, surface.normals, pixels);
+    if (surface.use_sigma) send(to.sigma_mm, surface.sigma_mm, pixels);
+    inputs_.surface.depth_mm = to.depth_mm;
+    inputs_.surface.normals = to.normals;
+    inputs_.surface.sigma_mm = to.sigma_mm;
+    machine_.wait();
+  }
+
+  void setPoints(const WarpPoints& points) override {
+    const auto count = static_cast<std::size_t>(points.count);
+    Arena counting;
+    WarpPointLayout planned(counting, count);
+    reserve(counting.bytes(), &point_memory_);
+    Arena arena(point_memory_.data());
+    points_ = WarpPointLayout(arena, count);
+    send(points_.positions_mm, points.positions_mm, count);
+    send(points_.normals, points.normals, count);
+    send(points_.bindings, points.bindings, count);
+    send(graph_.point_start, points.start, static_cast<std::size_t>(graph_.stencils) + 1);
+    inputs_.points = points.count;
+    inputs_.points_each = points.points_each;
+    machine_.wait();
+  }
+
+  void setMatches(const WarpMatches& matches) override {
+    const auto rows = static_cast<std::size_t>(matches.rows);
+    Arena counting;
+    counting.array<PlaneConstraint>(rows);
+    reserve(counting.bytes(), &match_memory_);
+    Arena arena(match_memory_.data());
+    matches_ = arena.array<PlaneConstraint>(rows);
+    send(matches_, matches.constraints, rows);
+    send(graph_.match_start, matches.start, static_cast<std::size_t>(graph_.stencils) + 1);
+    machine_.wait();
+  }
+
+  void setNodes(const WarpNodes& from) override {
+    const auto nodes = static_cast<std::size_t>(graph_.nodes);
+    const auto edges = static_cast<std::size_t>(graph_.edges);
+    accepted_ = 0;
+    send(graph_.rest_mm, from.rest_mm, nodes);
+    send(graph_.transforms[accepted_], from.transforms, nodes);
+    send(graph_.hidden, from.hidden, nodes);
+    send(graph_.edge_weights, from.edge_weights, edges);
+    send(graph_.expected, from.expected, edges);
+    inputs_.lever_mm = from.lever_mm;
+    machine_.wait();
+  }
+
+  WarpSums linearise() override {
+    passes_.linearise(graph_, points_, matches_, inputs_, accepted());
+    const WarpSums sums = fetchSums();
+    floor_ = SolverOptions::kDiagonalFloor * sums.largest_diagonal;
+    return sums;
+  }
+  std::vector<int> targetCounts() override {
+    std::vector<StencilSums> sums(static_cast<std::size_t>(graph_.stencils));
+    machine_.fromDevice(sums.data(), graph_.stencil_sums, sums.size() * sizeof(StencilSums));
+    machine_.wait();
+    std::vector<int> counts;
+    for (const StencilSums& one : sums) counts.push_back(one.targets);
+    return counts;
+  }
+  WarpSums tryStep(double damping) override {
+    passes_.factor(graph_, fronts_, {damping, floor_});
+    passes_.step(graph_, fronts_, points_, matches_, inputs_, damping, accepted(), trial());
+    return fetchSums();
+  }
+  void acceptStep() override { accepted_ = 1 - accepted_; }
+  std::vector<NodeTransform> transforms() override {
+    std::vector<NodeTransform> found(static_cast<std::size_t>(graph_.nodes));
+    machine_.fromDevice(found.data(), accepted(), found.size() * sizeof(NodeTransform));
+    machine_.wait();
+    return found;
+  }
+
+ private:
+  using Memory = typename Machine::Memory;
+
+  NodeTransform* accepted() const { return graph_.transforms[accepted_]; }
+  NodeTransform* trial() const { return graph_.transforms[1 - accepted_]; }
+  /// Half as much again, so that a growing graph rarely reallocates.
+  void reserve(std::size_t bytes, Memory* memory) {
+    if (memory->bytes() >= bytes) return;
+    *memory = Memory();
+    *memory = Memory(bytes + bytes / 2, "memory for the warp");
+  }
+  template <class T>
+  void send(T* to, const T* from, std::size_t count) {
+    if (count > 0) machine_.toDevice(to, from, count * sizeof(T));
+  }
+  template <class T>
+  void send(T* to, const std::vector<T>& from) {
+    send(to, from.data(), from.size());
+  }
+  WarpSums fetchSums() {
+    WarpSums sums;
+    machine_.fromDevice(&sums, graph_.sums, sizeof sums);
+    machine_.wait();
+    return sums;
+  }
+
+  Memory structure_memory_, surface_memory_, point_memory_, match_memory_;
+  Machine machine_;
+  WarpPasses<typename Machine::Executor> passes_;
+  FrontTables fronts_;
+  WarpStructureLayout graph_;
+  WarpPointLayout points_;
+  PlaneConstraint* matches_ = nullptr;
+  std::shared_ptr<const SharedRasters> shared_;
+  WarpInputs inputs_;
+  int accepted_ = 0;
+  double floor_ = 0;
+};
+
+}  // namespace softscope::cuda

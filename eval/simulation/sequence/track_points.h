@@ -1,0 +1,26 @@
+// eval/simulation/sequence/track_points.h: material points, chosen in the first image.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/raster.h"
+#include "core/triangle_mesh.h"
+#include "eval/simulation/surface/ray_tree.h"
+
+namespace softscope {
+
+/// A point that stays where it is on its triangle.
+struct TrackPoint {
+  int u_px = 0, v_px = 0;  // where the first left image shows it
+  std::int32_t triangle = -1;
+  double u = 0, v = 0;  // a + u (b - a) + v (c - a)
+};
+
+/// A grid of pixels, a fifth of the image off its border, as far as tissue is there.
+std::vector<TrackPoint> chooseTrackPoints(const Raster<RayHit>& first_hits, int spacing_px);
+
+Eigen::Vector3d positionOf(const TrackPoint& point, const std::vector<Eigen::Vector3f>& vertices_mm,
+                           const std::vector<Triangle>& triangles);
+
+}  // namespace softscope

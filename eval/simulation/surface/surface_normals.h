@@ -1,0 +1,16 @@
+// eval/simulation/surface/surface_normals.h: vertex normals.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace softscope {
+
+/// Unit normals, outward, one a vertex, weighted by the triangles' areas; zero for a vertex without
+/// triangles.
+std::vector<Eigen::Vector3f> vertexNormals(const std::vector<Eigen::Vector3f>& vertices_mm,
+                                           const std::vector<Triangle>& triangles);
+
+}  // namespace softscope

@@ -1,0 +1,37 @@
+// eval/simulation/texture/vessel_map.h: look-up of the vessel at a surface point.
+#pragma once
+
+#include <vector>
+
+#include "eval/simulation/texture/vessel_growth.h"
+
+namespace softscope {
+
+/// Of the vessels near a place the one that covers it most.
+struct VesselCover {
+  float artery = 0;  // 0 (beside it) to 1 (on its axis)
+  float vein = 0;
+  float raised_mm = 0;  // how far the vessel lifts the surface
+};
+
+/// Finds segments by a grid over their box.
+class VesselMap {
+ public:
+  explicit VesselMap(std::vector<VesselSegment> segments);
+
+  VesselCover coverAt(const Eigen::Vector3f& place_mm) const;
+
+ private:
+  Eigen::Array3i cellOf(const Eigen::Vector3f& place_mm) const;
+  std::size_t indexOf(const Eigen::Array3i& cell) const;
+  void countAndFill();
+
+  std::vector<VesselSegment> segments_;
+  Eigen::Vector3f low_mm_ = Eigen::Vector3f::Zero();
+  float cell_mm_ = 1;
+  Eigen::Array3i cells_ = Eigen::Array3i::Zero();
+  std::vector<std::int32_t> begins_;  // of each cell in entries_, and the end of the last
+  std::vector<std::int32_t> entries_;
+};
+
+}  // namespace softscope

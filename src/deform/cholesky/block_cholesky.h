@@ -1,0 +1,107 @@
+// src/deform/cholesky/block_cholesky.h: sparse block Cholesky solver of the normal equations.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "deform/cholesky/block_pattern.h"
+#include "deform/cholesky/elimination_tree.h"
+
+namespace softscope {
+
+/// Sparse Cholesky of a symmetric positive definite block matrix, multifrontal: each supernode is a
+/// dense front whose update its parent adds. The symbolic part is done once a pattern. Independent
+/// subtrees are eliminated at the same time; every sum has a fixed order, so the result is the
+/// same, to the byte, whatever the number of threads.
+class BlockCholesky {
+ public:
+  static constexpr int kTileColumns = 6;  // what the kernels take at a time
+
+  /// How the diagonal is raised before factorising: H(jj) (1 + relative) + absolute I.
+  struct Damping {
+    double relative = 0;
+    double absolute = 0;
+  };
+
+  /// block_size: unknowns of a node, a multiple of 6. Throws OptionError otherwise.
+  void analyse(const BlockPattern& pattern, int block_size);
+
+  /// `values`: the pattern's blocks, column-major, one after the other.
+  /// Returns false where the matrix is not positive definite, or not finite; then don't solve.
+  bool factor(const std::vector<double>& values, const Damping& damping);
+
+  /// x = H^-1 rhs, node by node. Throws Error unless the last factor() returned true.
+  Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const;
+
+  double operations() const;        // multiply-adds of one factorisation
+  std::size_t storedBytes() const;  // of the factor and the fronts' updates
+  /// Smallest and largest diagonal entry of the factor: its ratio squared bounds the condition
+  /// number from below.
+  double pivotRatio() const;
+
+ private:
+  /// A dense trapezoid, column-major: the factor's columns, and the update for the parent.
+  struct Front {
+    int pivots = 0;          // scalar columns that are eliminated here
+    int rows = 0;            // scalar rows
+    std::size_t factor = 0;  // offset into factor_
+    int factor_leading = 0;  // distance between columns
+    std::size_t update = 0;  // offset into updates_[pool]
+    int update_leading = 0;
+    int pool = 0;
+    std::vector<int> parent_block;  // where each update block goes in the parent's front
+
+    int updateRows() const { return rows - pivots; }
+  };
+  /// Subtrees that hang below one supernode (or are roots), dealt to two threads.
+  struct Deal {
+    std::array<std::vector<int>, 2> hands;
+    bool parallel = false;
+  };
+  /// Where one block of the matrix goes.
+  struct Entry {
+    int block = 0;  // number in the pattern
+    int row = 0;    // scalar position in the front
+    int column = 0;
+    bool transposed = false;
+    bool diagonal = false;
+  };
+  using PoolTops = std::array<std::size_t, 2>;
+
+  void layOutFactor();
+  void mapEntries(const BlockPattern& pattern);
+  Deal deal(const std::vector<int>& subtrees) const;
+  PoolTops placeUpdates(const Deal& deal, PoolTops base, int depth);
+  int blockInFront(int supernode, int position) const;
+
+  struct Input {
+    const double* values;
+    Damping damping;
+  };
+  bool eliminateAll(const Deal& deal, const Input& input);
+  bool eliminateFront(int supernode, const Input& input);
+  double* at(int supernode, int row, int column);
+  void clearFront(int supernode);
+  void addEntries(int supernode, const Input& input);
+  void addChild(int child, int supernode);
+  bool factorPivots(int supernode);
+  void computeUpdate(int supernode);
+  void forward(int supernode, double* x, double* gathered) const;
+  void backward(int supernode, double* x, double* gathered) const;
+
+  int block_size_ = 0;
+  bool factored_ = false;
+  EliminationTree tree_;
+  std::vector<Front> fronts_;
+  std::vector<Deal> deals_;  // per supernode: its children
+  Deal root_deal_;
+  std::vector<int> entry_start_;  // per supernode
+  std::vector<Entry> entries_;
+  std::vector<double> factor_;
+  std::array<std::vector<double>, 2> updates_;
+  int largest_update_ = 0;
+};
+
+}  // namespace softscope

@@ -1,0 +1,17 @@
+// src/deform/energy/node_sight.h: visibility of nodes: stiffness of visible tissue, rest position
+// of hidden tissue.
+#pragma once
+
+#include "core/point_model.h"
+#include "core/warp_graph.h"
+#include "deform/energy/constraints.h"
+
+namespace softscope {
+
+/// docs/energy.md (7a), (7b). A point is in sight if it is a candidate. Sets how far each node is
+/// hidden, and the stiffness of each edge: 1 where a node's points are hidden, down to
+/// `seen_stiffness` where all points of both nodes are in sight.
+void judgeSight(const PointModel& model, const WarpGraph& graph, const CandidatePoints& candidates,
+                double seen_stiffness, ConstraintSet* constraints);
+
+}  // namespace softscope

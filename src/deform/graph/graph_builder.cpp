@@ -1,0 +1,239 @@
+#include "deform/graph/graph_builder.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+#include "deform/graph/carrier_finder.h"
+#include "deform/graph/graph_edges.h"
+#include "deform/graph/node_reach.h"
+#include "deform/graph/shape_memory.h"
+#include "deform/graph/surface_cells.h"
+
+namespace softscope {
+namespace {
+
+using Positions = std::vector<Eigen::Vector3f>;
+using Bindings = std::vector<PointBinding>;
+
+std::vector<int> unboundPoints(const Bindings& bindings) {
+  std::vector<int> points;
+  for (std::size_t i = 0; i < bindings.size(); ++i)
+    if (!bindings[i].bound()) points.push_back(static_cast<int>(i));
+  return points;
+}
+
+/// Cubes of one reach around unbound points: beyond two of them nothing can change.
+CellNumbering changingRegion(const Positions& positions_mm, const std::vector<int>& unbound,
+                             double reach_mm) {
+  constexpr int kAround = 2;
+  CellNumbering centres(reach_mm), region(reach_mm);
+  std::uint64_t key = 0;
+  for (const int point : unbound)
+    if (region.keyOf(positions_mm[point], &key)) centres.findOrAdd(key);
+  for (int c = 0; c < centres.size(); ++c)
+    for (int dz = -kAround; dz <= kAround; ++dz)
+      for (int dy = -kAround; dy <= kAround; ++dy)
+        for (int dx = -kAround; dx <= kAround; ++dx)
+          region.findOrAdd(CellNumbering::shifted(centres.key(c), dx, dy, dz));
+  return region;
+}
+
+bool inside(const CellNumbering& region, const Eigen::Vector3f& position_mm) {
+  return CellFinder(region).find(position_mm) >= 0;
+}
+
+std::vector<int> pointsInside(const Positions& positions_mm, const CellNumbering& region) {
+  std::vector<char> is_inside(positions_mm.size());
+  const int count = static_cast<int>(positions_mm.size());
+  parallelRanges(count, kPointsATask, [&](int begin, int end) {
+    CellFinder finder(region);
+    for (int i = begin; i < end; ++i) is_inside[i] = finder.find(positions_mm[i]) >= 0;
+  });
+  std::vector<int> points;
+  points.reserve(is_inside.size());
+  for (int i = 0; i < count; ++i)
+    if (is_inside[i]) points.push_back(i);
+  return points;
+}
+
+/// Gives every set of nodes its number; drops the numbers that no point uses any more.
+class StencilBook {
+ public:
+  explicit StencilBook(std::vector<NodeStencil>* stencils) : stencils_(stencils) {
+    makeTable(4 * stencils->size());
+  }
+
+  std::int32_t numberOf(const NodeStencil& stencil) {
+    std::int32_t& held = slotOf(stencil);
+    if (held >= 0) return held;
+    const std::int32_t number = held = static_cast<std::int32_t>(stencils_->size());
+    stencils_->push_back(stencil);
+    if (2 * stencils_->size() > slots_.size()) makeTable(2 * slots_.size());
+    return number;
+  }
+
+  void dropUnused(Bindings* bindings) {
+    std::vector<std::int32_t> renumbered(stencils_->size(), -1);
+    for (const PointBinding& binding : *bindings)
+      if (binding.bound()) renumbered[binding.stencil] = 0;
+    std::int32_t next = 0;
+    for (std::size_t s = 0; s < stencils_->size(); ++s) {
+      if (renumbered[s] < 0) continue;
+      (*stencils_)[next] = (*stencils_)[s];
+      renumbered[s] = next++;
+    }
+    if (next == static_cast<std::int32_t>(renumbered.size())) return;
+    stencils_->resize(static_cast<std::size_t>(next));
+    for (PointBinding& binding : *bindings)
+      if (binding.bound()) binding.stencil = renumbered[binding.stencil];
+  }
+
+ private:
+  void makeTable(std::size_t room) {
+    std::size_t size = 64;
+    while (size < room) size *= 2;
+    slots_.assign(size, -1);
+    for (std::size_t s = 0; s < stencils_->size(); ++s) {
+      std::int32_t& held = slotOf((*stencils_)[s]);
+      if (held < 0) held = static_cast<std::int32_t>(s);  // of equal ones the first
+    }
+  }
+  /// The number of the stencil, or -1 in the place where it belongs.
+  std::int32_t& slotOf(const NodeStencil& stencil) {
+    std::uint64_t hash = 0;
+    for (const std::int32_t node : stencil)
+      hash = (hash ^ static_cast<std::uint32_t>(node)) * 0x9E3779B97F4A7C15ULL;
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = static_cast<std::size_t>(hash >> 32) & mask;
+    while (slots_[slot] >= 0 && (*stencils_)[slots_[slot]] != stencil) slot = (slot + 1) & mask;
+    return slots_[slot];
+  }
+
+  std::vector<NodeStencil>* stencils_;
+  std::vector<std::int32_t> slots_;  // open addressing; number of a stencil, or -1
+};
+
+/// One growth of the graph over the region around unbound points.
+class Growth {
+ public:
+  Growth(const GraphOptions& options, const Positions& positions_mm,
+         const std::vector<int>& unbound, Bindings* bindings, WarpGraph* graph)
+      : options_(options),
+        positions_mm_(positions_mm),
+        bindings_(*bindings),
+        graph_(*graph),
+        region_(changingRegion(positions_mm, unbound, NodeReach::reachMm(options))),
+        points_(pointsInside(positions_mm, region_)),
+        cells_(positions_mm, points_, options.cell_mm),
+        reach_(cells_, options),
+        near_new_node_(static_cast<std::size_t>(cells_.size()), 0) {}
+
+  GraphGrowth run() {
+    const std::vector<NodeStencil> stencils_before = graph_.stencils;
+    std::vector<NodeReach::Start> starts;
+    for (std::size_t j = 0; j < graph_.size(); ++j) {
+      const Eigen::Vector3f position_mm = graph_.positions_mm[j].cast<float>();
+      if (inside(region_, position_mm)) starts.push_back({static_cast<int>(j), position_mm});
+    }
+    reach_.spreadAll(starts);
+    addNodes();
+    bindPoints();
+    result_.structure_changed =
+        result_.nodes_added > 0 || graph_.stencils != stencils_before || graph_.edges.empty();
+    if (result_.structure_changed) {
+      const std::vector<GraphEdge> before =
+          std::exchange(graph_.edges, makeEdges(graph_, options_));
+      keepMemory(before, &graph_.edges);
+    }
+    return result_;
+  }
+
+ private:
+  /// New tissue has moved as the nearest known tissue has: the scope saw neither before.
+  Eigen::Vector3d movedNear(const Eigen::Vector3d& position_mm) const {
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < graph_.size(); ++j) {
+      const double distance = (graph_.positions_mm[j] - position_mm).squaredNorm();
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      moved = graph_.moved_mm[j];
+    }
+    return moved;
+  }
+
+  /// In the order of the points: as the image was read, row by row.
+  void addNodes() {
+    graph_.moved_mm.resize(graph_.size(), Eigen::Vector3d::Zero());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const int cell = cells_.cellOf(static_cast<int>(i));
+      if (cell < 0 || bindings_[points_[i]].bound() || reach_.covered(cell)) continue;
+      const int node = static_cast<int>(graph_.size());
+      const Eigen::Vector3f position_mm = positions_mm_[cells_.representative(cell)];
+      graph_.moved_mm.push_back(movedNear(position_mm.cast<double>()));
+      graph_.positions_mm.push_back(position_mm.cast<double>());
+      graph_.transforms.emplace_back();
+      for (const int reached : reach_.spread(node, position_mm)) near_new_node_[reached] = 1;
+      ++result_.nodes_added;
+    }
+  }
+
+  /// Of points_, those without a binding and those that a new node is near to.
+  std::vector<int> pointsToBind() const {
+    std::vector<int> to_bind;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const int cell = cells_.cellOf(static_cast<int>(i));
+      if (cell >= 0 && (!bindings_[points_[i]].bound() || near_new_node_[cell]))
+        to_bind.push_back(static_cast<int>(i));
+    }
+    return to_bind;
+  }
+
+  void bindPoints() {
+    const std::vector<int> to_bind = pointsToBind();
+    std::vector<Carriers> carriers(to_bind.size());
+    parallelRanges(static_cast<int>(to_bind.size()), kPointsATask / 8, [&](int begin, int end) {
+      CarrierFinder finder(reach_, graph_, options_.node_spacing_mm);
+      for (int k = begin; k < end; ++k)
+        carriers[k] = finder.find(cells_.cellOf(to_bind[k]), positions_mm_[points_[to_bind[k]]]);
+    });
+    StencilBook book(&graph_.stencils);
+    for (std::size_t k = 0; k < to_bind.size(); ++k) {
+      PointBinding& binding = bindings_[points_[to_bind[k]]];
+      ++(binding.bound() ? result_.points_rebound : result_.points_bound);
+      binding.stencil = book.numberOf(carriers[k].stencil);
+      binding.weights = carriers[k].weights;
+    }
+    book.dropUnused(&bindings_);
+  }
+
+  GraphOptions options_;
+  const Positions& positions_mm_;
+  Bindings& bindings_;
+  WarpGraph& graph_;
+  CellNumbering region_;
+  std::vector<int> points_;
+  SurfaceCells cells_;
+  NodeReach reach_;
+  std::vector<char> near_new_node_;
+  GraphGrowth result_;
+};
+
+}  // namespace
+
+GraphGrowth growGraph(const GraphOptions& options, const std::vector<Eigen::Vector3f>& positions_mm,
+                      std::vector<PointBinding>* bindings, WarpGraph* graph) {
+  options.validate();
+  const std::vector<int> unbound = unboundPoints(*bindings);
+  if (unbound.empty()) return GraphGrowth();
+  return Growth(options, positions_mm, unbound, bindings, graph).run();
+}
+
+GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph* graph) {
+  return growGraph(options, model->positions_mm, &model->bindings, graph);
+}
+
+}  // namespace softscope

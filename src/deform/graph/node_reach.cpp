@@ -1,0 +1,94 @@
+#include "deform/graph/node_reach.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/parallel.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kWalksATask = 8;
+
+}  // namespace
+
+NodeReach::NodeReach(const SurfaceCells& cells, const GraphOptions& options)
+    : cells_(cells),
+      options_(options),
+      near_(static_cast<std::size_t>(cells.size())),
+      visits_(cells.size()) {}
+
+/// Walks need nothing of each other; a cell's list takes its nodes in their order.
+void NodeReach::spreadAll(const std::vector<Start>& starts) {
+  std::vector<std::vector<Reached>> walks(starts.size());
+  parallelRanges(static_cast<int>(starts.size()), kWalksATask, [&](int begin, int end) {
+    Visits visits(cells_.size());
+    for (int i = begin; i < end; ++i) walks[i] = walk(starts[i].position_mm, &visits);
+  });
+  parallelRanges(cells_.size(), cellsAThread(cells_.size()), [&](int begin, int end) {
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      for (const Reached& reached : walks[i])
+        if (reached.cell >= begin && reached.cell < end)
+          enter(starts[i].node, reached.distance_mm, &near_[reached.cell]);
+  });
+}
+
+std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm) {
+  std::vector<int> entered;
+  for (const Reached& reached : walk(position_mm, &visits_))
+    if (enter(node, reached.distance_mm, &near_[reached.cell]) <= kNodesPerPoint)
+      entered.push_back(reached.cell);
+  return entered;
+}
+
+std::vector<NodeReach::Reached> NodeReach::walk(const Eigen::Vector3f& position_mm,
+                                                Visits* visits) const {
+  std::vector<Reached> reached;
+  const int start = cells_.cellNear(position_mm);
+  if (start < 0) return reached;
+  std::vector<int>& visited = visits->last_walk;
+  const int walk = ++visits->walk;
+  visited[start] = walk;
+  std::vector<int>&ring = visits->ring, &next = visits->next;
+  ring.assign(1, start);
+  const double reach_mm = reachMm(options_);
+  for (int steps = 0; !ring.empty(); ++steps, ring.swap(next)) {
+    next.clear();
+    for (const int cell : ring) {
+      const float straight_mm = (cells_.centre(cell) - position_mm).norm();
+      if (straight_mm > reach_mm) continue;
+      // On an even surface a walk takes about one step a cell of straight line, never many more.
+      if (steps <= 2 + options_.kDetourRatio * straight_mm / cells_.cellMm())
+        reached.push_back({cell, straight_mm});
+      for (int i = cells_.neighboursBegin(cell); i < cells_.neighboursEnd(cell); ++i) {
+        const int other = cells_.neighbour(i);
+        if (visited[other] == walk) continue;
+        visited[other] = walk;
+        next.push_back(other);
+      }
+    }
+  }
+  return reached;
+}
+
+/// Insertion into a short sorted list; equal distances keep the lower node first. Returns where.
+int NodeReach::enter(int node, float distance_mm, Near* near) const {
+  int at = near->count;
+  while (at > 0 && near->distance_mm[at - 1] > distance_mm) --at;
+  if (at == kNearest) return at;
+  near->count = std::min(near->count + 1, kNearest);
+  for (int i = near->count - 1; i > at; --i) {
+    near->nodes[i] = near->nodes[i - 1];
+    near->distance_mm[i] = near->distance_mm[i - 1];
+  }
+  near->nodes[at] = node;
+  near->distance_mm[at] = distance_mm;
+  return at;
+}
+
+bool NodeReach::covered(int cell) const {
+  const Near& near = near_[cell];
+  return near.count > 0 && near.distance_mm[0] <= static_cast<float>(options_.node_spacing_mm);
+}
+
+}  // namespace softscope

@@ -1,0 +1,96 @@
+// src/deform/graph/surface_cells.h: voxel grid of the model's surface, for geodesic distances.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace softscope {
+
+/// A grain for loops over cells.
+inline constexpr int kCellsATask = 512;
+
+/// A grain for loops over cells in which each task looks at everything and takes what is its own:
+/// no more tasks than threads.
+int cellsAThread(int cells);
+
+/// From cubes of a regular grid to numbers 0, 1, 2 … in order of first use.
+class CellNumbering {
+ public:
+  explicit CellNumbering(double cell_mm, int expected_cells = 1024);
+
+  /// False where the point is not finite, or too far out for the grid (2^20 cells).
+  bool keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const;
+  /// The key of the cube that lies (dx, dy, dz) further.
+  static std::uint64_t shifted(std::uint64_t key, int dx, int dy, int dz);
+
+  int find(std::uint64_t key) const;  // -1 where the cube has no number yet
+  int findOrAdd(std::uint64_t key);
+  int size() const { return static_cast<int>(keys_.size()); }
+  std::uint64_t key(int cell) const { return keys_[cell]; }
+
+ private:
+  std::size_t slotOf(std::uint64_t key) const;
+  void grow();
+
+  double inverse_cell_;
+  std::vector<int> slots_;  // cell number, or -1
+  std::vector<std::uint64_t> keys_;
+};
+
+/// Looks points up one after the other. Neighbours in the list mostly share a cube: then the table
+/// isn't asked again.
+class CellFinder {
+ public:
+  explicit CellFinder(const CellNumbering& table) : table_(table) {}
+  /// The point's cell, -1 where it has none.
+  int find(const Eigen::Vector3f& point_mm) {
+    std::uint64_t key = 0;
+    if (!table_.keyOf(point_mm, &key)) return -1;
+    if (key != last_key_) last_cell_ = table_.find(key);
+    last_key_ = key;
+    return last_cell_;
+  }
+
+ private:
+  const CellNumbering& table_;
+  std::uint64_t last_key_ = ~std::uint64_t{0};  // no cube has it: keys take 63 bits
+  int last_cell_ = -1;
+};
+
+/// The cubes that some points lie in; cubes that touch (also at a corner) are neighbours.
+class SurfaceCells {
+ public:
+  /// Points that the grid can't hold get cell -1.
+  SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm, const std::vector<int>& points,
+               double cell_mm);
+
+  int size() const { return table_.size(); }
+  double cellMm() const { return cell_mm_; }
+  /// Cell of points[i].
+  int cellOf(int i) const { return cell_of_[i]; }
+  /// The cell at, or else next to, a position; -1 where there is none.
+  int cellNear(const Eigen::Vector3f& position_mm) const;
+  const Eigen::Vector3f& centre(int cell) const { return centres_[cell]; }
+  /// The model point closest to the cell's centre.
+  int representative(int cell) const { return representatives_[cell]; }
+  /// Neighbours of a cell: [begin, end) of neighbour().
+  int neighboursBegin(int cell) const { return neighbour_start_[cell]; }
+  int neighboursEnd(int cell) const { return neighbour_start_[cell + 1]; }
+  int neighbour(int index) const { return neighbours_[index]; }
+
+ private:
+  void findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
+                   const std::vector<int>& points);
+  void findNeighbours();
+
+  double cell_mm_;
+  CellNumbering table_;
+  std::vector<int> cell_of_;
+  std::vector<Eigen::Vector3f> centres_;
+  std::vector<int> representatives_;
+  std::vector<int> neighbour_start_;
+  std::vector<int> neighbours_;
+};
+
+}  // namespace softscope

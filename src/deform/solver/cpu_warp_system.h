@@ -1,0 +1,14 @@
+// src/deform/solver/cpu_warp_system.h: the least-squares problem of one frame on the processor's
+// cores.
+#pragma once
+
+#include <memory>
+
+#include "deform/options/deform_options.h"
+#include "deform/solver/warp_system.h"
+
+namespace softscope {
+
+std::unique_ptr<WarpSystem> makeCpuWarpSystem(const DeformOptions& options);
+
+}  // namespace softscope

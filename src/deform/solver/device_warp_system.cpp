@@ -1,0 +1,147 @@
+#include "deform/solver/device_warp_system.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "deform/energy/graph_facts.h"
+#include "deform/energy/node_sight.h"
+#include "deform/graph/shape_memory.h"
+#include "deform/solver/stopwatch.h"
+
+namespace softscope {
+namespace {
+
+class DeviceWarpSystem final : public WarpSystem {
+ public:
+  DeviceWarpSystem(const DeformOptions& options, std::unique_ptr<WarpDevice> device)
+      : options_(options), device_(std::move(device)) {}
+
+  void analyse(const WarpGraph& graph) override {
+    if (graph.empty() || structure_.sameAs(graph)) return;
+    device_->setStructure(makeWarpStructure(graph));
+    structure_.take(graph);
+  }
+
+  MatchCounts begin(const PointModel& model, const DeformObservation& seen,
+                    const WarpGraph& graph) override {
+    times_ = DeformTimes();
+    const Stopwatch watch(&times_.prepare_ms);
+    analyse(graph);
+    graph_ = graph;
+    // Neither needs the other.
+    parallelInvoke([&] { device_->setSurface(surfaceOf(seen)); },
+                   [&] {
+                     parallelInvoke([&] { takePoints(model, seen); },
+                                    [&] { takeMatches(model, seen); });
+                   });
+    takeNodes(model);
+    return {constraints_.matches, constraints_.matches_dropped};
+  }
+
+  /// The device assembles the normal equations with the energy.
+  AssociatedEnergy associate() override {
+    const Stopwatch watch(&times_.associate_ms);
+    const WarpSums sums = device_->linearise();
+    largest_diagonal_ = sums.largest_diagonal;
+    const int points = static_cast<int>(sums.points);
+    return {energyOf(sums), points, points > 0 || constraints_.matches > 0};
+  }
+  void assemble() override {}
+
+  std::vector<char> constrainedNodes() override {
+    const std::vector<int> targets = device_->targetCounts();
+    for (std::size_t s = 0; s < targets.size(); ++s) constraints_.stencils[s].points = targets[s];
+    listActive(&constraints_);
+    return nodesWithData(graph_, constraints_);
+  }
+
+  std::optional<TrialStep> tryStep(double damping) override {
+    const Stopwatch watch(&times_.factor_ms);
+    if (!(largest_diagonal_ > 0)) return std::nullopt;
+    const WarpSums sums = device_->tryStep(damping);
+    if (sums.failures > 0) return std::nullopt;
+    pivot_ratio_ = sums.least_inverse_pivot / sums.largest_inverse_pivot;
+    return TrialStep{sums.predicted_decrease, sums.furthest_mm, energyOf(sums)};
+  }
+
+  void acceptStep() override { device_->acceptStep(); }
+  double pivotRatio() override { return pivot_ratio_; }
+  std::vector<NodeTransform> transforms() override { return device_->transforms(); }
+  DeformTimes times() const override { return times_; }
+
+ private:
+  DepthLookUp surfaceOf(const DeformObservation& seen) const {
+    if (seen.surface == nullptr || !(options_.data_weight > 0)) return {};
+    const auto* depth = dynamic_cast<const DepthTarget*>(seen.surface);
+    if (depth == nullptr) throw Error("the device takes its targets from a DepthTarget alone");
+    return depth->formula();
+  }
+
+  void takePoints(const PointModel& model, const DeformObservation& seen) {
+    if (seen.surface != nullptr && options_.data_weight > 0)
+      collectCandidates(model, graph_, seen.visible, options_.association.max_points, &candidates_);
+    else
+      candidates_ = noCandidates(graph_);
+    WarpPoints points;
+    points.count = static_cast<int>(candidates_.bindings.size());
+    points.positions_mm = candidates_.positions_mm.data();
+    points.normals = candidates_.normals.data();
+    points.bindings = candidates_.bindings.data();
+    points.start = candidates_.stencil_start.data();
+    points.points_each = candidates_.points_each;
+    device_->setPoints(points);
+  }
+
+  /// The constraints hold no rows of points: the device makes those.
+  void takeMatches(const PointModel& model, const DeformObservation& seen) {
+    makeConstraints(model, graph_, noCandidates(graph_), seen.matches,
+                    options_.correspondence_weight, &constraints_);
+    std::vector<int> start;
+    for (const StencilRows& rows : constraints_.stencils) start.push_back(rows.first);
+    start.push_back(3 * constraints_.matches);
+    device_->setMatches({start.back(), constraints_.rows.data(), start.data()});
+    expectShape(graph_, options_.shape_memory, &constraints_.expected);
+  }
+
+  void takeNodes(const PointModel& model) {
+    judgeSight(model, graph_, candidates_, options_.seen_stiffness, &constraints_);
+    std::vector<double> edge_weights;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+      edge_weights.push_back(constraints_.stiffness[e] * graph_.edges[e].weight);
+    device_->setNodes({graph_.positions_mm.data(), graph_.transforms.data(),
+                       constraints_.hidden.data(), edge_weights.data(),
+                       constraints_.expected.data(), meanEdgeLength(graph_)});
+  }
+
+  EnergySums energyOf(const WarpSums& sums) const {
+    EnergySums energy;
+    energy.terms.regularisation = options_.regularisation_weight * sums.edges;
+    energy.terms.rest = options_.rest_weight * sums.rest;
+    energy.terms.data = sums.data;
+    energy.terms.correspondence = sums.correspondence;
+    energy.data_abs_sum_mm = sums.data_abs_mm;
+    return energy;
+  }
+
+  DeformOptions options_;
+  std::unique_ptr<WarpDevice> device_;
+  GraphStructure structure_;
+  WarpGraph graph_;
+  CandidatePoints candidates_;
+  ConstraintSet constraints_;  // matches, and what holds edges and nodes
+  double largest_diagonal_ = 0, pivot_ratio_ = 1;
+  DeformTimes times_;
+};
+
+}  // namespace
+
+std::unique_ptr<WarpSystem> makeDeviceWarpSystem(const DeformOptions& options,
+                                                 std::unique_ptr<WarpDevice> device) {
+  require(options.node_model == NodeModel::kRigid, "deform.node_model", "affine",
+          "a device takes rigid nodes alone");
+  return std::make_unique<DeviceWarpSystem>(options, std::move(device));
+}
+
+}  // namespace softscope

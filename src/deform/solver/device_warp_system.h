@@ -1,0 +1,18 @@
+// src/deform/solver/device_warp_system.h: the least-squares problem of one frame, computed by a
+// device.
+#pragma once
+
+#include <memory>
+
+#include "deform/options/deform_options.h"
+#include "deform/solver/warp_device.h"
+#include "deform/solver/warp_system.h"
+
+namespace softscope {
+
+/// For rigid nodes and targets from a DepthTarget (or none). The energy of makeCpuWarpSystem() up
+/// to rounding. Throws OptionError for affine nodes.
+std::unique_ptr<WarpSystem> makeDeviceWarpSystem(const DeformOptions& options,
+                                                 std::unique_ptr<WarpDevice> device);
+
+}  // namespace softscope

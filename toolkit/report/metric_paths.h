@@ -1,0 +1,36 @@
+// toolkit/report/metric_paths.h: where the numbers that several parts of a report read stand in
+// evaluation.json and comparison.json.
+#pragma once
+
+namespace softscope::metric_paths {
+
+// Of ReportCase::main(), of frames and of cohorts; mm.
+constexpr const char* kMean = "mean_mm";
+constexpr const char* kMedian = "median_mm";
+constexpr const char* kP95 = "p95_mm";
+constexpr const char* kMax = "max_mm";
+
+// Against ground truth.
+constexpr const char* kCompleteness = "surface.completeness_1mm";
+constexpr const char* kSignedMean = "surface.signed.mean_mm";
+constexpr const char* kSignedMeanOfPair = "signed.mean_mm";
+constexpr const char* kHausdorff = "surface.hausdorff.";  // keys of hausdorffMetrics() follow
+constexpr const char* kHausdorffOfPair = "hausdorff.";
+
+// Without ground truth.
+constexpr const char* kPsnr = "view.psnr_db";
+constexpr const char* kPsnrOverAll = "view.psnr_over_all_pixels_db";
+constexpr const char* kSsim = "view.ssim";
+constexpr const char* kJudgedShare = "view.judged_share";
+constexpr const char* kBackProjection = "backprojection";  // statistics
+constexpr const char* kBackProjectionMean = "backprojection.mean_mm";
+constexpr const char* kDepthShare = "coverage.mean_share";
+constexpr const char* kScopeMoved = "camera.moved_mm";
+constexpr const char* kScopeStep = "camera.step";  // statistics
+
+// Keys of a cohort.
+constexpr const char* kCohortSignedMean = "signed_mean_mm";
+constexpr const char* kCohortPsnr = "psnr_db";
+constexpr const char* kCohortBackProjection = "backprojection_mean_mm";
+
+}  // namespace softscope::metric_paths
