@@ -19,6 +19,8 @@ const char* const kDetails =
     "Writes into DIR, for a sequence with the frame's number before each name:\n"
     "  disparity.pfm, disparity.png   px; the png has 16 bits, 256 steps a px, 0 = none\n"
     "  depth.pfm, depth.png           mm along the optical axis; png 16 bits, 0.01 mm a step\n"
+    "  dense.pfm, dense.png           with --dense: mm, gaps between the measured pixels filled\n"
+    "  dense_sigma.pfm                with --dense: predicted standard error, mm\n"
     "  confidence.png                 255 x probability that the error is below 0.5 px\n"
     "  cloud.ply                      points with normals and colours, mm\n"
     "  picture.png                    the depth beside the left image, with its scale\n"
@@ -54,7 +56,7 @@ class DepthCommand : public Command {
   SequenceArguments source_;
   std::string out_, range_text_, write_;
   std::string frame_ = "left", backend_ = "auto";
-  bool force_ = false;
+  bool dense_ = false, force_ = false;
   RecordPaths paths_;
   SettingsArguments settings_;
 };
@@ -70,9 +72,12 @@ void DepthCommand::declare(ArgumentList& arguments) {
                    "frame of the point cloud: left (rectified, the default) or raw-left");
   arguments.option("--range", "A:B", range_text_, "mm that the image's colour bar spans");
   arguments.option("--backend", "NAME", backend_, "auto (the default), cpu or cuda");
-  arguments.option("--write", "LIST", write_,
-                   "some of disparity,depth,confidence,cloud,picture (default: all of a pair, "
-                   "depth.png alone of several)");
+  arguments.option(
+      "--write", "LIST", write_,
+      "some of disparity,depth,confidence,cloud,picture,dense (default: all of a pair, "
+      "depth.png alone of several)");
+  arguments.flag("--dense", dense_,
+                 "depth and its standard error for every pixel of tissue, gaps filled, besides");
   arguments.flag("--force", force_, "overwrite what is there");
   softscope::declare(paths_, arguments);
   settings_.declare(arguments);
@@ -102,6 +107,7 @@ MeasureOptions DepthCommand::readOptions() const {
   options.backend = backend_;
   options.out = out_;
   options.raw_left = frame_ == "raw-left";
+  options.dense = dense_;
   options.overwrite = force_;
   options.paths = paths_;
   return options;

@@ -11,6 +11,7 @@
 #include "io/geometry/depth_files.h"
 #include "io/geometry/ply_writer.h"
 #include "io/images/image_writer.h"
+#include "stereo/depth/dense_depth.h"
 #include "toolkit/depth/frame_statistics.h"
 #include "toolkit/record/fact_sheet.h"
 
@@ -34,10 +35,11 @@ std::string noteOf(const DepthResult& measured) {
 
 DepthOutputKinds DepthOutputKinds::parse(const std::string& list) {
   if (list.empty()) return {};
-  DepthOutputKinds kinds{false, false, false, false, false, true};
-  const std::vector<std::string> names{"disparity", "depth", "confidence", "cloud", "picture"};
-  bool* const fields[] = {&kinds.disparity, &kinds.depth, &kinds.confidence, &kinds.cloud,
-                          &kinds.picture};
+  DepthOutputKinds kinds{false, false, false, false, false, true, false};
+  const std::vector<std::string> names{"disparity", "depth",   "confidence",
+                                       "cloud",     "picture", "dense"};
+  bool* const fields[] = {&kinds.disparity, &kinds.depth,   &kinds.confidence,
+                          &kinds.cloud,     &kinds.picture, &kinds.dense};
   std::istringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
     const auto found = std::find(names.begin(), names.end(), word);
@@ -45,7 +47,7 @@ DepthOutputKinds DepthOutputKinds::parse(const std::string& list) {
       const std::string nearest = nearestName(word, names);
       throw OptionError("`write=`: `" + word + "` is no kind of output" +
                         (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)") +
-                        ". Give some of disparity,depth,confidence,cloud,picture");
+                        ". Give some of disparity,depth,confidence,cloud,picture,dense");
     }
     *fields[found - names.begin()] = true;
   }
@@ -61,6 +63,8 @@ std::vector<std::string> DepthOutputs::names() const {
   if (options_.kinds.disparity) addRaster("disparity");
   if (options_.kinds.depth) addRaster("depth");
   if (options_.kinds.confidence) names.emplace_back("confidence.png");
+  if (options_.kinds.dense)
+    names.insert(names.end(), {"dense.pfm", "dense.png", "dense_sigma.pfm"});
   if (options_.kinds.cloud) names.emplace_back("cloud.ply");
   if (options_.kinds.picture) names.emplace_back("picture.png");
   return names;
@@ -99,6 +103,15 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
       make(prefix, "confidence.png",
            [&](const auto& path) { writePng(path, confidenceImage(measured.disparity), force); });
   };
+  const auto filled = [&] {
+    if (!options_.kinds.dense) return;
+    const DepthMap dense = denseDepth(measured.depth, measured.mask);
+    make(prefix, "dense.pfm", [&](const auto& path) { writePfm(path, dense.depth_mm, force); });
+    make(prefix, "dense.png",
+         [&](const auto& path) { writeDepthPng(path, dense.depth_mm, kDepthStepMm, force); });
+    make(prefix, "dense_sigma.pfm",
+         [&](const auto& path) { writePfm(path, dense.sigma_mm, force); });
+  };
   const auto drawings = [&] {
     if (options_.kinds.cloud)
       make(prefix, "cloud.ply", [&](const auto& path) {
@@ -112,7 +125,10 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
                  force);
       });
   };
-  parallelInvoke(rasters, drawings);
+  parallelInvoke(rasters, [&] {
+    filled();
+    drawings();
+  });
 }
 
 std::vector<std::string> DepthOutputs::told(int frames) const {

@@ -16,15 +16,16 @@ namespace softscope {
 struct DepthOutputKinds {
   bool disparity = true, depth = true, confidence = true, cloud = true, picture = true;
   bool floats = true;  // disparity and depth as PFM too
+  bool dense = false;  // depth and its standard error for every pixel, measured or filled
 
   /// What is written of several frames unless asked for more: depth.png alone. All kinds take some
   /// 10 MB per frame of 640 x 480 pixels.
-  static DepthOutputKinds ofSequence() { return {false, true, false, false, false, false}; }
+  static DepthOutputKinds ofSequence() { return {false, true, false, false, false, false, false}; }
 
   /// Whether nothing in mm is written, so that no calibration is needed.
-  bool onlyPixels() const { return !depth && !cloud && !picture; }
+  bool onlyPixels() const { return !depth && !cloud && !picture && !dense; }
 
-  /// "depth,picture"; empty = all. Throws OptionError with the nearest name.
+  /// "depth,picture"; empty = all but dense. Throws OptionError with the nearest name.
   static DepthOutputKinds parse(const std::string& list);
 };
 

@@ -103,9 +103,10 @@ MeasuredSequence SequenceMeasurement::measure() {
   SequenceReader reader(options_.sequence, options_.settings.sequence);
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
   options_.numbered = options_.numbered || reader.totalCount() > 1;
-  const DepthOutputKinds kinds = options_.kinds            ? *options_.kinds
-                                 : reader.frameCount() > 1 ? DepthOutputKinds::ofSequence()
-                                                           : DepthOutputKinds();
+  DepthOutputKinds kinds = options_.kinds            ? *options_.kinds
+                           : reader.frameCount() > 1 ? DepthOutputKinds::ofSequence()
+                                                     : DepthOutputKinds();
+  kinds.dense = kinds.dense || options_.dense;
   const DepthOutputs outputs({options_.out, kinds, options_.overwrite, options_.raw_left});
   requireApart(options_.out, options_.sequence);
   requireFree(outputs, reader.frameCount());

@@ -24,6 +24,7 @@ struct MeasureOptions {
   DepthOptions settings;
   std::string backend = "auto";           // or cpu, cuda; auto measures one pair on the CPU
   std::optional<DepthOutputKinds> kinds;  // none: all of one pair, depth.png of several
+  bool dense = false;                     // depth of every pixel besides
   std::optional<DepthRange> range;        // of the colour bar; none: of the first depth
   std::filesystem::path out;              // folder
   bool raw_left = false;                  // frame of the point cloud: as the camera took it
@@ -31,7 +32,7 @@ struct MeasureOptions {
   RecordPaths paths;
 
   /// Without a result in mm no calibration is needed.
-  bool uncalibrated() const { return kinds && kinds->onlyPixels(); }
+  bool uncalibrated() const { return kinds && kinds->onlyPixels() && !dense; }
 };
 
 struct MeasuredSequence {

@@ -1,0 +1,239 @@
+#include "stereo/depth/dense_depth.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "stereo/images/opencv_view.h"
+
+namespace softscope {
+namespace {
+
+constexpr int kSweeps = 24;            // of a level of the pyramid
+constexpr int kBins = 16;              // of distance from the measured pixels
+constexpr int kLeastInBin = 30;        // trials that make a standard error
+constexpr double kKeptForTrial = 0.5;  // share of the measured pixels that a trial leaves
+constexpr double kFarthestShare = 2;   // filled depth stays within this factor of the measured
+
+using Field = Raster<double>;
+
+/// 1 where a value is known.
+using Known = Raster<std::uint8_t>;
+
+/// Plane a + b u + c v through the known values, by least squares.
+Eigen::Vector3d planeThrough(const Field& field, const Known& known) {
+  Eigen::Matrix3d normal = 1e-12 * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (int v = 0; v < field.height_px; ++v)
+    for (int u = 0; u < field.width_px; ++u) {
+      if (known.at(u, v) == 0) continue;
+      const Eigen::Vector3d row(1, u, v);
+      normal += row * row.transpose();
+      right += row * field.at(u, v);
+    }
+  return normal.ldlt().solve(right);
+}
+
+struct Level {
+  Field values;
+  Known known;
+};
+
+/// Half the size; a value is the mean of the known ones below it.
+Level halved(const Level& fine) {
+  const int width = (fine.values.width_px + 1) / 2, height = (fine.values.height_px + 1) / 2;
+  Level coarse{Field(width, height), Known(width, height)};
+  Raster<int> counts(width, height);
+  for (int v = 0; v < fine.values.height_px; ++v)
+    for (int u = 0; u < fine.values.width_px; ++u) {
+      if (fine.known.at(u, v) == 0) continue;
+      coarse.values.at(u / 2, v / 2) += fine.values.at(u, v);
+      ++counts.at(u / 2, v / 2);
+    }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts.values[i] == 0) continue;
+    coarse.values.values[i] /= counts.values[i];
+    coarse.known.values[i] = 1;
+  }
+  return coarse;
+}
+
+/// Mean of the neighbours inside the raster.
+double meanAround(const Field& field, int u, int v) {
+  double sum = 0;
+  int count = 0;
+  const auto take = [&](int x, int y) {
+    if (!field.contains(x, y)) return;
+    sum += field.at(x, y);
+    ++count;
+  };
+  take(u - 1, v), take(u + 1, v), take(u, v - 1), take(u, v + 1);
+  return count > 0 ? sum / count : field.at(u, v);
+}
+
+/// A membrane: every unknown value becomes the mean of its four neighbours (Gauss-Seidel), from
+/// the values of the level above.
+void relax(const Level* coarse, Level* level) {
+  Field& field = level->values;
+  std::vector<std::pair<int, int>> unknown;
+  for (int v = 0; v < field.height_px; ++v)
+    for (int u = 0; u < field.width_px; ++u) {
+      if (level->known.at(u, v) != 0) continue;
+      unknown.emplace_back(u, v);
+      if (coarse != nullptr) field.at(u, v) = coarse->values.at(u / 2, v / 2);
+    }
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (const auto& [u, v] : unknown) field.at(u, v) = meanAround(field, u, v);
+}
+
+/// The plane through all that is known, and a membrane for what differs from it.
+Field filled(const Field& field, const Known& known) {
+  const Eigen::Vector3d plane = planeThrough(field, known);
+  const auto planeAt = [&](int u, int v) { return plane.dot(Eigen::Vector3d(1, u, v)); };
+  std::vector<Level> levels{{field, known}};
+  for (int v = 0; v < field.height_px; ++v)
+    for (int u = 0; u < field.width_px; ++u) levels[0].values.at(u, v) -= planeAt(u, v);
+  while (std::max(levels.back().values.width_px, levels.back().values.height_px) > 2)
+    levels.push_back(halved(levels.back()));
+  for (std::size_t k = levels.size(); k-- > 0;)
+    relax(k + 1 < levels.size() ? &levels[k + 1] : nullptr, &levels[k]);
+  Field result = std::move(levels[0].values);
+  for (int v = 0; v < result.height_px; ++v)
+    for (int u = 0; u < result.width_px; ++u) result.at(u, v) += planeAt(u, v);
+  return result;
+}
+
+/// Of each pixel from the nearest one that is set, px.
+Raster<float> distanceFrom(const Known& set) {
+  Raster<std::uint8_t> clear(set.width_px, set.height_px);
+  std::transform(set.values.begin(), set.values.end(), clear.values.begin(),
+                 [](std::uint8_t is_set) { return is_set != 0 ? 0 : 1; });
+  Raster<float> distance_px(set.width_px, set.height_px);
+  const cv::Mat from(set.height_px, set.width_px, CV_8U, clear.values.data());
+  cv::Mat to(set.height_px, set.width_px, CV_32F, distance_px.values.data());
+  cv::distanceTransform(from, to, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  return distance_px;
+}
+
+/// Root mean square error of a fill by distance from what it was filled from; never falls.
+class FillError {
+ public:
+  FillError(const std::vector<float>& distances_px, const std::vector<double>& errors) {
+    if (distances_px.empty()) return;
+    step_px_ = *std::max_element(distances_px.begin(), distances_px.end()) / kBins;
+    std::vector<double> sums(kBins), places(kBins);
+    std::vector<int> counts(kBins);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const std::size_t bin =
+          std::min<std::size_t>(kBins - 1, std::size_t(distances_px[i] / step_px_));
+      sums[bin] += errors[i] * errors[i];
+      places[bin] += distances_px[i];
+      ++counts[bin];
+    }
+    double sum = 0, place = 0, largest = 0;
+    int count = 0;
+    for (std::size_t bin = 0; bin < kBins; ++bin) {
+      sum += sums[bin], place += places[bin], count += counts[bin];
+      const bool last = bin + 1 == kBins && places_px_.empty();
+      if (count < kLeastInBin && !(last && count > 0)) continue;
+      largest = std::max(largest, std::sqrt(sum / count));
+      places_px_.push_back(place / count);
+      errors_.push_back(largest);
+      sum = place = 0, count = 0;
+    }
+  }
+
+  /// In proportion to the distance beyond the farthest trial; NaN without any.
+  double at(double distance_px) const {
+    if (places_px_.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const auto above = std::upper_bound(places_px_.begin(), places_px_.end(), distance_px);
+    if (above == places_px_.begin()) return errors_.front();
+    if (above == places_px_.end()) return errors_.back() * distance_px / places_px_.back();
+    const std::size_t k = std::size_t(above - places_px_.begin());
+    const double share = (distance_px - places_px_[k - 1]) / (places_px_[k] - places_px_[k - 1]);
+    return errors_[k - 1] + share * (errors_[k] - errors_[k - 1]);
+  }
+
+ private:
+  double step_px_ = 0;
+  std::vector<double> places_px_, errors_;  // rising
+};
+
+/// Takes the measured pixels nearest to the gaps away, as far as the gaps reach, and fills again.
+FillError triedAround(const Known& gaps, const Field& field, const Known& known,
+                      double farthest_px) {
+  const Raster<float> from_gap_px = distanceFrom(gaps);
+  std::vector<float> distances;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known.values[i] != 0) distances.push_back(from_gap_px.values[i]);
+  const auto middle =
+      distances.begin() + std::ptrdiff_t((1 - kKeptForTrial) * double(distances.size()));
+  std::nth_element(distances.begin(), middle, distances.end());
+  const double reach_px = std::min<double>(farthest_px, *middle);
+
+  Known kept = known;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (from_gap_px.values[i] <= reach_px) kept.values[i] = 0;
+  const Field again = filled(field, kept);
+  const Raster<float> from_kept_px = distanceFrom(kept);
+  std::vector<float> places;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known.values[i] == 0 || kept.values[i] != 0) continue;
+    places.push_back(from_kept_px.values[i]);
+    errors.push_back(again.values[i] - field.values[i]);
+  }
+  return {places, errors};
+}
+
+}  // namespace
+
+DepthMap denseDepth(const DepthMap& measured, const Mask& ignored) {
+  const Raster<float>& depth_mm = measured.depth_mm;
+  // Inverse depth is linear in the pixel on any plane.
+  Field inverse(depth_mm.width_px, depth_mm.height_px);
+  Known known(depth_mm.width_px, depth_mm.height_px), gaps = known;
+  double nearest = 0, farthest = std::numeric_limits<double>::infinity();
+  long count = 0;
+  for (std::size_t i = 0; i < depth_mm.size(); ++i) {
+    if (!ignored.empty() && ignored.values[i] != 0) continue;
+    known.values[i] = depth_mm.values[i] > 0 && std::isfinite(depth_mm.values[i]);
+    gaps.values[i] = known.values[i] == 0;
+    if (known.values[i] == 0) continue;
+    inverse.values[i] = 1 / double(depth_mm.values[i]);
+    nearest = std::max(nearest, inverse.values[i]);
+    farthest = std::min(farthest, inverse.values[i]);
+    ++count;
+  }
+  if (count < kLeastMeasured)
+    throw InputError("dense depth: " + std::to_string(count) + " pixels were measured, but " +
+                     std::to_string(kLeastMeasured) +
+                     " are needed to fill the others. Leave `dense` out");
+  DepthMap dense = measured;
+  if (std::find(gaps.values.begin(), gaps.values.end(), 1) == gaps.values.end()) return dense;
+
+  const Raster<float> distance_px = distanceFrom(known);
+  double reach_px = 0;
+  for (std::size_t i = 0; i < gaps.size(); ++i)
+    if (gaps.values[i] != 0) reach_px = std::max<double>(reach_px, distance_px.values[i]);
+  const FillError error = triedAround(gaps, inverse, known, reach_px);
+  const Field whole = filled(inverse, known);
+  if (dense.sigma_mm.empty())
+    dense.sigma_mm = Raster<float>(depth_mm.width_px, depth_mm.height_px,
+                                   std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (gaps.values[i] == 0) continue;
+    const double z_mm =
+        1 / std::clamp(whole.values[i], farthest / kFarthestShare, nearest * kFarthestShare);
+    dense.depth_mm.values[i] = float(z_mm);
+    dense.sigma_mm.values[i] = float(z_mm * z_mm * error.at(distance_px.values[i]));
+  }
+  return dense;
+}
+
+}  // namespace softscope
