@@ -1,6 +1,8 @@
 // eval/motion/track_errors.cpp: one pass over the estimates.
 #include "eval/motion/track_errors.h"
 
+#include <cmath>
+
 namespace softscope {
 namespace {
 
@@ -22,6 +24,23 @@ void summarise(TrackErrors& errors, int last_frame) {
   errors.last_frame_mm = statistics(last);
 }
 
+PredictedTrackErrors overSigma(const std::vector<TrackError>& each) {
+  PredictedTrackErrors result;
+  double squares = 0;
+  std::size_t within = 0;
+  for (const TrackError& e : each) {
+    if (!(e.sigma_mm > 0)) continue;
+    const double ratio = e.errorMm() / e.sigma_mm;
+    squares += ratio * ratio;
+    within += ratio <= 2;
+    ++result.count;
+  }
+  if (result.count == 0) return result;
+  result.error_over_sigma = std::sqrt(squares / static_cast<double>(result.count));
+  result.within_2_sigma_share = static_cast<double>(within) / static_cast<double>(result.count);
+  return result;
+}
+
 }  // namespace
 
 TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
@@ -40,13 +59,14 @@ TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>&
       errors.each.push_back(
           {sample.frame, sample.id, move->second * sample.position_mm - found->second,
            start == truth.end() ? Statistics::kNone : (found->second - start->second).norm(),
-           sample.visible, unseen.count({sample.frame, sample.id}) > 0});
+           sample.visible, unseen.count({sample.frame, sample.id}) > 0, sample.sigma_mm});
     }
   }
   if (!truth.empty())
     errors.reported_share =
         static_cast<double>(errors.each.size()) / static_cast<double>(truth.size());
   summarise(errors, moves.rbegin()->first);
+  errors.sigma = overSigma(errors.each);
   return errors;
 }
 

@@ -141,6 +141,7 @@ void visit(Archive& archive, Whole& checkpoint) {
   visitGraph(archive, checkpoint.state.model.graph);
   visitMemory(archive, checkpoint.state.model.memory);
   archive.array(checkpoint.state.model.tracked.points);
+  archive.value(checkpoint.state.model.tracked.drift_mm2);
   visitLast(archive, checkpoint.state.model.last);
   archive.value(checkpoint.state.model.exposure.red);
   archive.value(checkpoint.state.model.exposure.green);

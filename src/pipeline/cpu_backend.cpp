@@ -82,6 +82,8 @@ class CpuBackend : public ReconstructionBackend {
               PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
+  /// As measured in this frame where it sees the point; NaN where not.
+  double depthVarianceMm2(const Eigen::Vector3d& point_left) const;
   std::vector<TrackedPosition> tracked(const Eigen::Isometry3d& world_from_left) const;
 
   ReconstructionOptions options_;
@@ -315,7 +317,9 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   parallelInvoke(
       [&] {
         state_.tracked.renumber(update.index_map, state_.model);
-        state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left);
+        if (!first)
+          state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left,
+                               [&](const Eigen::Vector3d& point) { return visible(point); });
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
       },
@@ -353,12 +357,24 @@ bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
   return !(behind_mm > limit_mm || -behind_mm > kFloatingLimits * limit_mm);
 }
 
+double CpuBackend::depthVarianceMm2(const Eigen::Vector3d& point_left) const {
+  const Raster<float>& sigma_mm = frame_.measured.depth.sigma_mm;
+  if (sigma_mm.empty()) return kUnknown;
+  const Eigen::Vector2d pixel = projectPoint(left(), point_left);
+  const double sigma = sigma_mm.at(static_cast<int>(std::lround(pixel.x())),
+                                   static_cast<int>(std::lround(pixel.y())));
+  return sigma * sigma;
+}
+
 std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_from_left) const {
   std::vector<TrackedPosition> positions;
-  for (const MaterialPoints::Point& point : state_.tracked.points)
-    positions.push_back(
-        {point.id, point.position_mm,
-         point.position_mm.allFinite() && visible(world_from_left.inverse() * point.position_mm)});
+  for (const MaterialPoints::Point& point : state_.tracked.points) {
+    const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
+    TrackedPosition tracked{point.id, point.position_mm, centre.allFinite() && visible(centre)};
+    if (tracked.visible)
+      tracked.sigma_mm = std::sqrt(2 * point.variance_mm2 + depthVarianceMm2(centre));
+    positions.push_back(tracked);
+  }
   return positions;
 }
 

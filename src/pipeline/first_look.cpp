@@ -12,11 +12,10 @@ constexpr int kSteps = 15;
 constexpr int kRounds = 3;
 constexpr double kConvergedPx = 0.005;
 constexpr double kLeastCorrelation = 0.8;
-constexpr double kLeastContrast = 1;     // standard deviation of the window, gray levels
-constexpr double kLargestShiftPx = 4;    // from where it is expected
-constexpr double kLargestSigmaPx = 0.2;  // of a place
-constexpr double kBendSigma = 0.1;  // of the affine map's four numbers around the expected ones
-constexpr double kAlike = 9;        // neighbouring pixels err alike: of so many one counts
+constexpr double kLeastContrast = 1;   // standard deviation of the window, gray levels
+constexpr double kLargestShiftPx = 4;  // from where it is expected
+constexpr double kBendSigma = 0.1;     // of the affine map's four numbers around the expected ones
+constexpr double kAlike = 9;           // neighbouring pixels err alike: of so many one counts
 
 using Row = Eigen::Matrix<double, 6, 1>;
 using Window = Eigen::Matrix<double, kPixels, 1>;
@@ -216,7 +215,7 @@ FoundLook findLook(const FirstLook& look, const GrayImage& image, const Mask& ig
   }
   result.correlation = search.correlation;
   result.sigma_px = search.sigma_px;
-  result.found = search.correlation >= kLeastCorrelation && search.sigma_px <= kLargestSigmaPx;
+  result.found = search.correlation >= kLeastCorrelation;
   if (result.found) result.pixel = search.pixel;
   return result;
 }

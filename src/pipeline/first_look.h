@@ -18,7 +18,7 @@ struct FirstLook {
   std::array<std::uint8_t, kPixels> gray{};
   std::array<std::uint8_t, kPixels> ignore{};  // non-zero: no tissue, or a highlight
   std::uint8_t taken = 0;                      // 0: the rest means nothing
-  std::array<std::uint8_t, 13> unused{};       // in place of padding: checkpoints hold all bytes
+  std::array<std::uint8_t, 5> unused{};        // in place of padding: checkpoints hold all bytes
 
   /// Of the window around `pixel`; bilinear, pixels outside the image are ignored. Not taken where
   /// less than `kLeastShare` of the window is tissue.

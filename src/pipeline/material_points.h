@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/camera.h"
@@ -22,11 +23,13 @@ struct TrackSeed {
   double u_px = 0, v_px = 0;
 };
 
-/// Where a piece of tissue is. position_mm: world frame; NaN where it was never found.
+/// Where a piece of tissue is. position_mm: world frame; NaN where it was never found. sigma_mm:
+/// predicted root mean square error of the position in the scope's frame; NaN where unknown.
 struct TrackedPosition {
   int id = 0;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool visible = false;
+  double sigma_mm = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Follows points by the warp that carries the model point beside them; after fusion they are
@@ -43,6 +46,8 @@ class MaterialPoints {
     /// carries them.
     Eigen::Matrix<double, 3, 2> pixels_mm = Eigen::Matrix<double, 3, 2>::Zero();
     FirstLook look;
+    /// Predicted, of the place along the surface, in each of two directions; NaN where unknown.
+    double variance_mm2 = 0;
   };
 
   /// A seed in the rectified left camera: lies where its ray meets the depth around the pixel.
@@ -58,17 +63,22 @@ class MaterialPoints {
   /// model's around them.
   void look(const GrayImage& image, const Mask& ignore, const PointModel& model,
             const PinholeCamera& left, const Eigen::Isometry3d& world_from_left);
-  /// Moves them along the surface to where the image shows their first looks: docs/fusion.md (F29).
+  /// Moves them along the surface towards where the image shows their first looks, and predicts how
+  /// far off they are: docs/fusion.md (F29). `inSight`: whether the image shows a point of the left
+  /// camera's frame.
   void align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
-             const Eigen::Isometry3d& world_from_left);
+             const Eigen::Isometry3d& world_from_left,
+             const std::function<bool(const Eigen::Vector3d&)>& inSight);
   /// Lays them onto the surface that the model's points around them make, along the rays of the
   /// scope at `scope_mm`, as fusion moves the model's points: docs/fusion.md (F8). `limit_scale`:
   /// DepthSummary::limit_scale of the frame.
   void settle(const PointModel& model, const Eigen::Vector3d& scope_mm, double limit_scale);
 
   std::vector<Point> points;
+  /// How far a frame's warp leads astray, per direction: what first looks said last; NaN before.
+  double drift_mm2 = std::numeric_limits<double>::quiet_NaN();
 };
-static_assert(sizeof(MaterialPoints::Point) == 8 + 9 * sizeof(double) + 2 * FirstLook::kPixels + 14,
+static_assert(sizeof(MaterialPoints::Point) == 8 + 10 * sizeof(double) + 2 * FirstLook::kPixels + 6,
               "no padding between or behind the members");
 
 }  // namespace softscope

@@ -73,7 +73,8 @@ void Reconstructor::finish(FrameRecord& record) {
   unfused_frames_ = record.fused() ? 0 : unfused_frames_ + 1;
   if (record.fused()) searches_ = 0;
   if (record.fused()) return;
-  for (TrackedPosition& point : record.tracked) point.visible = false;
+  for (TrackedPosition& point : record.tracked)
+    point = {point.id, point.position_mm, false, kUnknown};
 }
 
 // Song et al. 2018, section III, in its order: depth, visible model, matches, rigid pose, warp

@@ -33,6 +33,17 @@ TEST(TrackErrors, MovesEstimatesIntoTheTrueWorldAndSetsTheControlBesideThem) {
   EXPECT_NEAR(errors.reported_share, 1, kTrackRounding);
 }
 
+TEST(TrackErrors, HoldsErrorsAgainstTheirPrediction) {
+  const TrueTracks truth{{{0, 0}, {0, 0, 0}}, {{0, 1}, {0, 0, 0}}, {{0, 2}, {0, 0, 0}}};
+  const std::vector<TrackSample> estimate{{0, 0, {0, 0, 1}, true, 0.5},  // exactly twice
+                                          {0, 1, {0, 3, 4}, true, 2.0},  // 2.5 times
+                                          {0, 2, {0, 0, 1}, true}};      // nothing predicted
+  const TrackErrors errors = trackErrors(truth, estimate, {{0, shift(0)}});
+  EXPECT_EQ(errors.sigma.count, 2u);
+  EXPECT_NEAR(errors.sigma.error_over_sigma, std::sqrt((4 + 6.25) / 2), kTrackRounding);
+  EXPECT_NEAR(errors.sigma.within_2_sigma_share, 0.5, kTrackRounding);
+}
+
 TEST(TrackErrors, CountsWhatItCannotJudge) {
   const TrueTracks truth{{{5, 0}, {0, 0, 0}}, {{6, 0}, {0, 0, 0}}};
   const std::vector<TrackSample> estimate{{5, 0, {0, 0, 1}, true},

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "deform/graph/graph_builder.h"
 
@@ -112,31 +114,66 @@ TEST(MaterialPoints, DoNotSlideAlongAGrazingRay) {
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(0, 0, 50.2)).norm(), 1e-5);
 }
 
+bool everywhere(const Eigen::Vector3d&) { return true; }
+
+/// Waves, 10 to 13 px long.
+GrayImage texture() {
+  GrayImage image(100, 80);
+  for (int v = 0; v < 80; ++v)
+    for (int u = 0; u < 100; ++u)
+      image.at(u, v) = static_cast<std::uint8_t>(
+          std::lround(120 + 40 * std::sin(0.6 * u) + 40 * std::cos(0.5 * v + 0.1 * u)));
+  return image;
+}
+
 // The warp has carried the point two pixels off; the texture stayed.
 TEST(MaterialPoints, GoToWhereTheImageShowsTheirFirstLook) {
-  const auto imageOf = [](double shift_px) {
-    GrayImage image(100, 80);
-    for (int v = 0; v < 80; ++v)
-      for (int u = 0; u < 100; ++u)
-        image.at(u, v) = static_cast<std::uint8_t>(std::lround(
-            120 + 40 * std::sin(0.6 * (u - shift_px)) + 40 * std::cos(0.5 * v + 0.1 * u)));
-    return image;
-  };
   const auto still = Eigen::Isometry3d::Identity();
   MaterialPoints tracked;
   tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), still);
   tracked.anchor(flatModel());
-  tracked.look(imageOf(0), Mask(), flatModel(), kLeft, still);
+  tracked.look(texture(), Mask(), flatModel(), kLeft, still);
   // A pixel at 50 mm is half a millimetre wide.
   EXPECT_LT((tracked.points[0].pixels_mm.col(0) - Eigen::Vector3d(0.5, 0, 0)).norm(), 1e-9);
   EXPECT_LT((tracked.points[0].pixels_mm.col(1) - Eigen::Vector3d(0, 0.5, 0)).norm(), 1e-9);
   const Eigen::Vector3d warped(1, 0, 50);
   tracked.points[0].position_mm = warped;
-  tracked.align(GrayImage(100, 80, 120), Mask(), kLeft, still);
+  tracked.align(GrayImage(100, 80, 120), Mask(), kLeft, still, everywhere);
   EXPECT_EQ(tracked.points[0].position_mm, warped) << "nothing to be seen";
   MaterialPoints there = tracked;
-  there.align(imageOf(0), Mask(), kLeft, still);
+  there.align(texture(), Mask(), kLeft, still, everywhere);
   EXPECT_LT((there.points[0].position_mm - Eigen::Vector3d(0, 0, 50)).norm(), 0.03);
+}
+
+// Twenty points that chance has moved by 0.3 mm in each direction.
+TEST(MaterialPoints, PredictHowFarTheirWarpLeadsAstray) {
+  const auto still = Eigen::Isometry3d::Identity();
+  MaterialPoints tracked;
+  for (int k = 0; k < 20; ++k)
+    tracked.add(k, {30.0 + 10 * (k % 5), 25.0 + 10 * (k / 5)}, kLeft, Raster<float>(100, 80, 50.0f),
+                still);
+  tracked.anchor(flatModel());
+  tracked.look(texture(), Mask(), flatModel(), kLeft, still);
+  std::mt19937 random(3);
+  std::normal_distribution<double> deviate_mm(0, 0.3);
+  const std::vector<MaterialPoints::Point> truth = tracked.points;
+  for (MaterialPoints::Point& point : tracked.points)
+    point.position_mm += Eigen::Vector3d(deviate_mm(random), deviate_mm(random), 0);
+  tracked.align(texture(), Mask(), kLeft, still, everywhere);
+  EXPECT_GT(std::sqrt(tracked.drift_mm2), 0.2);
+  EXPECT_LT(std::sqrt(tracked.drift_mm2), 0.45);
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    EXPECT_LT((tracked.points[k].position_mm - truth[k].position_mm).norm(), 0.03) << k;
+    EXPECT_LT(std::sqrt(tracked.points[k].variance_mm2), 0.1) << k;
+  }
+  // An image without texture confirms nothing; what it does not show is not known.
+  MaterialPoints unsure = tracked;
+  unsure.align(GrayImage(100, 80, 120), Mask(), kLeft, still, everywhere);
+  EXPECT_NEAR(unsure.points[7].variance_mm2, tracked.points[7].variance_mm2 + tracked.drift_mm2,
+              1e-12);
+  tracked.align(texture(), Mask(), kLeft, still, [](const Eigen::Vector3d&) { return false; });
+  EXPECT_TRUE(std::isnan(tracked.points[7].variance_mm2));
+  EXPECT_LT((tracked.points[7].position_mm - truth[7].position_mm).norm(), 0.03);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(RunTables, WhatIsUnknownIsEmptyOrNan) {
   record.frame = 4;
   EXPECT_EQ(framesCsvLine(record).rfind("4,,unreadable,0,0,0,0,,", 0), 0u);
   record.tracked.push_back({7, Eigen::Vector3d::Constant(kUnknown), false});
-  EXPECT_EQ(tracksCsvLines(record), "4,7,nan,nan,nan,0\n");
+  EXPECT_EQ(tracksCsvLines(record), "4,7,nan,nan,nan,0,nan\n");
 }
 
 }  // namespace

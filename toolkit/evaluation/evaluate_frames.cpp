@@ -236,10 +236,11 @@ FactSheet::Json FrameTable::json() const {
 }
 
 std::string tracksCsv(const TrackErrors& tracks) {
-  std::string text = "frame,id,error_mm,no_motion_mm,visible\n";
+  std::string text = "frame,id,error_mm,no_motion_mm,visible,sigma_mm\n";
   for (const TrackError& e : tracks.each)
     text += std::to_string(e.frame) + "," + std::to_string(e.id) + "," + csvCell(e.errorMm()) +
-            "," + csvCell(e.control_mm) + "," + (e.visible ? "1\n" : "0\n");
+            "," + csvCell(e.control_mm) + "," + (e.visible ? "1," : "0,") + csvCell(e.sigma_mm) +
+            "\n";
   return text;
 }
 

@@ -23,7 +23,7 @@ struct FrameTable {
 /// columns.
 FrameTable frameTable(const EvaluationResult& result);
 
-/// frame,id,error_mm,no_motion_mm,visible
+/// frame,id,error_mm,no_motion_mm,visible,sigma_mm
 std::string tracksCsv(const TrackErrors& tracks);
 
 }  // namespace softscope

@@ -101,6 +101,9 @@ Json tracksJson(const TrackErrors& tracks) {
   json["hidden"] = statisticsJson(tracks.hidden_mm, "_mm");
   json["observed"] = statisticsJson(tracks.observed_mm, "_mm");
   json["predicted"] = statisticsJson(tracks.predicted_mm, "_mm");
+  json["sigma"] = {{"points", tracks.sigma.count},
+                   {"error_over_sigma_rms", tracks.sigma.error_over_sigma},
+                   {"within_2_sigma_share", tracks.sigma.within_2_sigma_share}};
   json["reported"] = tracks.reported_share;
   json["lost"] = tracks.lost;
   json["without_truth"] = tracks.without_truth;
@@ -212,6 +215,10 @@ void addCameraFacts(const CameraResult& camera, FactSheet& facts) {
 void addTrackFacts(const TrackErrors& tracks, FactSheet& facts) {
   facts.addLine("tracks", spreadText(tracks.error_mm) + "; " + percent(tracks.reported_share) +
                               " of the true positions reported");
+  if (tracks.sigma.count > 0)
+    facts.addLine("  sigma", "errors are " + fixed(tracks.sigma.error_over_sigma, 2) +
+                                 " times what was predicted (root mean square); " +
+                                 percent(tracks.sigma.within_2_sigma_share) + " within twice that");
   facts.addLine("  no motion", spreadText(tracks.control_mm) + ", had nothing been tracked");
 }
 

@@ -112,7 +112,7 @@ std::string framesCsvHeading() {
   return heading + ",total_ms,reason";
 }
 
-std::string tracksCsvHeading() { return "frame,id,x_mm,y_mm,z_mm,visible"; }
+std::string tracksCsvHeading() { return "frame,id,x_mm,y_mm,z_mm,visible,sigma_mm"; }
 
 std::string imagesCsvHeading() { return "frame,number,left,right"; }
 
@@ -209,9 +209,9 @@ std::string tracksCsvLines(const FrameRecord& record) {
   std::string lines;
   for (const TrackedPosition& point : record.tracked) {
     char line[160];
-    std::snprintf(line, sizeof line, "%d,%d,%.4f,%.4f,%.4f,%d\n", record.frame, point.id,
+    std::snprintf(line, sizeof line, "%d,%d,%.4f,%.4f,%.4f,%d,%.4f\n", record.frame, point.id,
                   point.position_mm.x(), point.position_mm.y(), point.position_mm.z(),
-                  point.visible ? 1 : 0);
+                  point.visible ? 1 : 0, point.sigma_mm);
     lines += line;
   }
   return lines;

@@ -109,12 +109,13 @@ Eigen::Vector3d NumberTable::placeAt(std::size_t row, std::size_t column) const 
 
 std::vector<TrackSample> readTracks(const std::filesystem::path& file) {
   const NumberTable table(readBytes(file), shown(file), {"frame", "id", "x_mm", "y_mm", "z_mm"},
-                          {"visible"});
+                          {"visible", "sigma_mm"});
   std::vector<TrackSample> tracks;
   tracks.reserve(table.rows());
   for (std::size_t i = 0; i < table.rows(); ++i)
     tracks.push_back({table.indexAt(i, 0), table.indexAt(i, 1), table.placeAt(i, 2),
-                      !table.has(5) || table.at(i, 5) != 0});
+                      !table.has(5) || table.at(i, 5) != 0,
+                      table.has(6) ? table.at(i, 6) : Statistics::kNone});
   return tracks;
 }
 
