@@ -179,7 +179,7 @@ TEST_F(Report, WithoutTruthTheFirstPictureIsTheModelBesideTheImage) {
   EXPECT_LT(picture, html.find("<h2>What was compared"));
   EXPECT_THAT(html, HasSubstr("image of frame 30"));
   EXPECT_THAT(html, HasSubstr("It covers 75.0 % of the tissue in sight. It is 2 frames old"));
-  EXPECT_THAT(html, HasSubstr("the model's of the moments for which a model was saved"))
+  EXPECT_THAT(html, HasSubstr("of the moments for which a model was saved"))
       << "why it is not the share that has depth";
   write("real/drawn_view.png", "none");
   expectRefused({"drawn_view.png", "is no PNG"}, report({at("real"), "--force"}));
