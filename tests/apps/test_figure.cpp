@@ -192,11 +192,11 @@ TEST_F(Slice, ObliquePlanesAndSideRulesAreHonoured) {
   EXPECT_NEAR(view["centre_mm"][1], 2 + std::sqrt(2.0), 1e-9);
   EXPECT_EQ(outcome.json()["sides"], "neurological");
   ASSERT_EQ(slice({at("ct.mha"), "--plane", "oblique", "--normal", "0,1,1", "--at", "1,2,-3",
-                   "--plane", "axial", "--out", at("o.svg")})
+                   "--plane", "axial", "--out", at("through.svg")})
                 .exit_code,
             0);
-  EXPECT_THAT(textOf(at("o.svg")), HasSubstr("Oblique plane through L 1.0, P 2.0, I 3.0 mm; "
-                                             "normal L 0.00, P 0.71, S 0.71"));
+  EXPECT_THAT(textOf(at("through.svg")), HasSubstr("Oblique plane through L 1.0, P 2.0, I 3.0 mm; "
+                                                   "normal L 0.00, P 0.71, S 0.71"));
   EXPECT_EQ(view["side_right"], "R");
 }
 
