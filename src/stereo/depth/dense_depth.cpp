@@ -91,21 +91,42 @@ void relax(const Level* coarse, Level* level) {
     for (const auto& [u, v] : unknown) field.at(u, v) = meanAround(field, u, v);
 }
 
-/// The plane through all that is known, and a membrane for what differs from it.
-Field filled(const Field& field, const Known& known) {
-  const Eigen::Vector3d plane = planeThrough(field, known);
-  const auto planeAt = [&](int u, int v) { return plane.dot(Eigen::Vector3d(1, u, v)); };
-  std::vector<Level> levels{{field, known}};
-  for (int v = 0; v < field.height_px; ++v)
-    for (int u = 0; u < field.width_px; ++u) levels[0].values.at(u, v) -= planeAt(u, v);
+/// Spans what is known over the rest.
+Field membrane(Field field, const Known& known) {
+  std::vector<Level> levels{{std::move(field), known}};
   while (std::max(levels.back().values.width_px, levels.back().values.height_px) > 2)
     levels.push_back(halved(levels.back()));
   for (std::size_t k = levels.size(); k-- > 0;)
     relax(k + 1 < levels.size() ? &levels[k + 1] : nullptr, &levels[k]);
-  Field result = std::move(levels[0].values);
-  for (int v = 0; v < result.height_px; ++v)
-    for (int u = 0; u < result.width_px; ++u) result.at(u, v) += planeAt(u, v);
-  return result;
+  return std::move(levels[0].values);
+}
+
+/// A filled field. A membrane's value is a weighted mean of the known values around a gap; `spread`
+/// is their weighted variance: large where a gap lies between a near and a far surface.
+struct Fill {
+  Field values, spread;
+};
+
+/// The plane through all that is known, and a membrane for what differs from it.
+Fill filled(const Field& field, const Known& known) {
+  const Eigen::Vector3d plane = planeThrough(field, known);
+  Fill fill{field, Field(field.width_px, field.height_px)};
+  const auto visit = [&](const auto& change) {
+    for (int v = 0; v < field.height_px; ++v)
+      for (int u = 0; u < field.width_px; ++u)
+        change(plane.dot(Eigen::Vector3d(1, u, v)), &fill.values.at(u, v), &fill.spread.at(u, v));
+  };
+  visit([](double on_plane, double* value, double* square) {
+    *value -= on_plane;
+    *square = *value * *value;
+  });
+  fill.values = membrane(std::move(fill.values), known);
+  fill.spread = membrane(std::move(fill.spread), known);
+  visit([](double on_plane, double* value, double* square) {
+    *square = std::max(0.0, *square - *value * *value);
+    *value += on_plane;
+  });
+  return fill;
 }
 
 /// Of each pixel from the nearest one that is set, px.
@@ -179,7 +200,7 @@ FillError triedAround(const Known& gaps, const Field& field, const Known& known,
   Known kept = known;
   for (std::size_t i = 0; i < known.size(); ++i)
     if (from_gap_px.values[i] <= reach_px) kept.values[i] = 0;
-  const Field again = filled(field, kept);
+  const Field again = filled(field, kept).values;
   const Raster<float> from_kept_px = distanceFrom(kept);
   std::vector<float> places;
   std::vector<double> errors;
@@ -222,16 +243,18 @@ DepthMap denseDepth(const DepthMap& measured, const Mask& ignored) {
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (gaps.values[i] != 0) reach_px = std::max<double>(reach_px, distance_px.values[i]);
   const FillError error = triedAround(gaps, inverse, known, reach_px);
-  const Field whole = filled(inverse, known);
+  const Fill whole = filled(inverse, known);
   if (dense.sigma_mm.empty())
     dense.sigma_mm = Raster<float>(depth_mm.width_px, depth_mm.height_px,
                                    std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     if (gaps.values[i] == 0) continue;
     const double z_mm =
-        1 / std::clamp(whole.values[i], farthest / kFarthestShare, nearest * kFarthestShare);
+        1 / std::clamp(whole.values.values[i], farthest / kFarthestShare, nearest * kFarthestShare);
     dense.depth_mm.values[i] = float(z_mm);
-    dense.sigma_mm.values[i] = float(z_mm * z_mm * error.at(distance_px.values[i]));
+    const double sigma =
+        std::hypot(error.at(distance_px.values[i]), std::sqrt(whole.spread.values[i]));
+    dense.sigma_mm.values[i] = float(z_mm * z_mm * sigma);
   }
   return dense;
 }

@@ -8,9 +8,10 @@ namespace softscope {
 
 /// Keeps what was measured and fills the gaps between and beside it: docs/stereo.md §9. `ignored`
 /// pixels (no tissue; may be empty, else of the same shape) stay NaN. The standard error of a
-/// filled pixel is what the same fill errs by at the same distance from the measured pixels; it
-/// is found by taking measured pixels around the gaps away. Same input, same bytes. Throws
-/// InputError where fewer than `kLeastMeasured` pixels were measured.
+/// filled pixel is what the same fill errs by at the same distance from measured pixels, found by
+/// taking measured pixels around the gaps away, and the spread of the values that it is filled
+/// from. Same input, same bytes. Throws InputError where fewer than `kLeastMeasured` pixels were
+/// measured.
 DepthMap denseDepth(const DepthMap& measured, const Mask& ignored);
 
 constexpr int kLeastMeasured = 100;
