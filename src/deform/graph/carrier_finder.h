@@ -1,4 +1,4 @@
-// src/deform/carrier_finder.h: the nodes that carry a point, and their weights.
+// src/deform/graph/carrier_finder.h: the nodes that carry a point, and their weights.
 #pragma once
 
 #include <Eigen/Core>

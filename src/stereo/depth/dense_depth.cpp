@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "stereo/images/opencv_view.h"
 
 namespace softscope {
 namespace {
