@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 namespace softscope {
 namespace {
@@ -12,10 +13,11 @@ constexpr int kSteps = 15;
 constexpr int kRounds = 3;
 constexpr double kConvergedPx = 0.005;
 constexpr double kLeastCorrelation = 0.8;
-constexpr double kLeastContrast = 1;   // standard deviation of the window, gray levels
-constexpr double kLargestShiftPx = 4;  // from where it is expected
-constexpr double kBendSigma = 0.1;     // of the affine map's four numbers around the expected ones
-constexpr double kAlike = 9;           // neighbouring pixels err alike: of so many one counts
+constexpr double kLeastContrast = 1;     // standard deviation of the window, gray levels
+constexpr double kLargestShiftPx = 4;    // from where it is expected
+constexpr double kLargestSigmaPx = 0.3;  // of a place; what is less sure is often another one
+constexpr double kBendSigma = 0.1;  // of the affine map's four numbers around the expected ones
+constexpr double kAlike = 9;        // neighbouring pixels err alike: of so many one counts
 
 using Row = Eigen::Matrix<double, 6, 1>;
 using Window = Eigen::Matrix<double, kPixels, 1>;
@@ -172,7 +174,10 @@ bool converge(Window first, const Window& weights, const GrayImage& image,
     if (change.head<2>().norm() < kConvergedPx) break;
   }
   const Eigen::Matrix2d covariance = information.inverse().topLeftCorner<2, 2>();
-  search->sigma_px = std::sqrt(covariance.diagonal().maxCoeff());
+  // Singular where the look is the same all along a line.
+  search->sigma_px = covariance.allFinite() && covariance.diagonal().minCoeff() >= 0
+                         ? std::sqrt(covariance.diagonal().maxCoeff())
+                         : std::numeric_limits<double>::infinity();
   return true;
 }
 
@@ -215,7 +220,7 @@ FoundLook findLook(const FirstLook& look, const GrayImage& image, const Mask& ig
   }
   result.correlation = search.correlation;
   result.sigma_px = search.sigma_px;
-  result.found = search.correlation >= kLeastCorrelation;
+  result.found = search.correlation >= kLeastCorrelation && search.sigma_px <= kLargestSigmaPx;
   if (result.found) result.pixel = search.pixel;
   return result;
 }

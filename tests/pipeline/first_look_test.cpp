@@ -100,6 +100,19 @@ TEST(FirstLook, IsNotFoundWhereItIsNot) {
   expectNothing(findLook(look, noise, Mask(), kMiddle, same), "another tissue");
 }
 
+// Stripes do not tell how far they have moved along themselves.
+TEST(FirstLook, IsNotFoundWhereItsPlaceIsUnsure) {
+  GrayImage stripes(120, 100);
+  for (int v = 0; v < 100; ++v)
+    for (int u = 0; u < 120; ++u)
+      stripes.at(u, v) = static_cast<std::uint8_t>(std::lround(120 + 40 * std::sin(0.4 * u)));
+  const FoundLook found = findLook(FirstLook::take(stripes, Mask(), kMiddle), stripes, Mask(),
+                                   kMiddle, Eigen::Matrix2d::Identity());
+  EXPECT_GT(found.correlation, 0.99);
+  EXPECT_GT(found.sigma_px, 0.3);
+  EXPECT_FALSE(found.found);
+}
+
 TEST(FirstLook, StaysInsideTheImage) {
   const GrayImage image = imageOf(kMiddle, Eigen::Matrix2d::Identity());
   EXPECT_EQ(FirstLook::take(image, Mask(), {1, 50}).taken, 0);
