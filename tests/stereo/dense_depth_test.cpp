@@ -102,7 +102,7 @@ TEST(DenseDepth, PredictsItsErrors) {
   EXPECT_LT(within_one, 0.93 * count) << "wider than it need be";
 }
 
-// Where the step lies in the gap nobody knows: both surfaces are within two standard errors.
+// The step may lie anywhere in the gap: both surfaces are within two standard errors.
 TEST(DenseDepth, IsUnsureBetweenANearAndAFarSurface) {
   DepthMap depth = measuredOf([](int u, int) { return u < 80 ? 45.0 : 60.0; });
   cut(depth, 70, 0, 20, 120);

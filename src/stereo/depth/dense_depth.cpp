@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/median.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kSweeps = 24;            // of a level of the pyramid
-constexpr int kBins = 16;              // of distance from the measured pixels
-constexpr int kLeastInBin = 30;        // trials that make a standard error
-constexpr double kKeptForTrial = 0.5;  // share of the measured pixels that a trial leaves
-constexpr double kFarthestShare = 2;   // filled depth stays within this factor of the measured
+constexpr int kSweeps = 24;           // of a level of the pyramid
+constexpr int kBins = 16;             // of distance from the measured pixels
+constexpr int kLeastInBin = 30;       // trials that make a standard error
+constexpr double kFarthestShare = 2;  // filled depth stays within this factor of the measured
 
 using Field = Raster<double>;
 
@@ -145,12 +145,12 @@ class FillError {
  public:
   FillError(const std::vector<float>& distances_px, const std::vector<double>& errors) {
     if (distances_px.empty()) return;
-    step_px_ = *std::max_element(distances_px.begin(), distances_px.end()) / kBins;
+    const double step_px = *std::max_element(distances_px.begin(), distances_px.end()) / kBins;
     std::vector<double> sums(kBins), places(kBins);
     std::vector<int> counts(kBins);
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const std::size_t bin =
-          std::min<std::size_t>(kBins - 1, std::size_t(distances_px[i] / step_px_));
+          std::min<std::size_t>(kBins - 1, std::size_t(distances_px[i] / step_px));
       sums[bin] += errors[i] * errors[i];
       places[bin] += distances_px[i];
       ++counts[bin];
@@ -180,7 +180,6 @@ class FillError {
   }
 
  private:
-  double step_px_ = 0;
   std::vector<double> places_px_, errors_;  // rising
 };
 
@@ -191,10 +190,8 @@ FillError triedAround(const Known& gaps, const Field& field, const Known& known,
   std::vector<float> distances;
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known.values[i] != 0) distances.push_back(from_gap_px.values[i]);
-  const auto middle =
-      distances.begin() + std::ptrdiff_t((1 - kKeptForTrial) * double(distances.size()));
-  std::nth_element(distances.begin(), middle, distances.end());
-  const double reach_px = std::min<double>(farthest_px, *middle);
+  // About half of the measured pixels stay, or more.
+  const double reach_px = std::min<double>(farthest_px, medianOf(std::move(distances)));
 
   Known kept = known;
   for (std::size_t i = 0; i < known.size(); ++i)
