@@ -244,7 +244,6 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   growth_.grow(options_.graph, &state_.model, &state_.graph);
-  state_.tracked.anchor(state_.model);
   clock_.lap("graph");
   const std::vector<std::int32_t> visible = comparer_->seenPoints(
       state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility);
