@@ -318,6 +318,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
         state_.tracked.renumber(update.index_map, state_.model);
         if (!first)
           state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left,
+                               options_.graph.node_spacing_mm,
                                [&](const Eigen::Vector3d& point) { return visible(point); });
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);

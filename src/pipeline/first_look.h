@@ -9,22 +9,37 @@
 
 namespace softscope {
 
-/// The window of the first image around a point; its pixels are numbered row by row.
+/// An image, its half and its quarter.
+struct LookPicture {
+  static constexpr int kLevels = 3;
+
+  LookPicture(const GrayImage& image, const Mask& ignore);
+
+  std::array<GrayImage, kLevels> gray;
+  std::array<Mask, kLevels> ignore;
+};
+
+/// The windows of the first image around a point, one of each size of the image: the smaller ones
+/// see more of the tissue, through less noise and blur.
 struct FirstLook {
   static constexpr int kHalfPx = 10;
   static constexpr int kSidePx = 2 * kHalfPx + 1;
   static constexpr int kPixels = kSidePx * kSidePx;
-
-  std::array<std::uint8_t, kPixels> gray{};
-  std::array<std::uint8_t, kPixels> ignore{};  // non-zero: no tissue, or a highlight
-  std::uint8_t taken = 0;                      // 0: the rest means nothing
-  std::array<std::uint8_t, 5> unused{};        // in place of padding: checkpoints hold all bytes
-
-  /// Of the window around `pixel`; bilinear, pixels outside the image are ignored. Not taken where
-  /// less than `kLeastShare` of the window is tissue.
-  static FirstLook take(const GrayImage& image, const Mask& ignore, const Eigen::Vector2d& pixel);
-
   static constexpr double kLeastShare = 0.6;
+
+  /// Its pixels are numbered row by row.
+  struct Window {
+    std::array<std::uint8_t, kPixels> gray{};
+    std::array<std::uint8_t, kPixels> ignore{};  // non-zero: no tissue, or a highlight
+    std::uint8_t taken = 0;                      // 0: the rest means nothing
+    std::uint8_t unused = 0;                     // in place of padding: checkpoints hold all bytes
+  };
+  std::array<Window, LookPicture::kLevels> windows;
+  std::array<std::uint8_t, 12> unused{};  // in place of padding
+
+  /// Of the windows around `pixel`; bilinear, pixels outside the image are ignored. A window is not
+  /// taken where less than `kLeastShare` of it is tissue.
+  static FirstLook take(const LookPicture& picture, const Eigen::Vector2d& pixel);
 };
 
 /// Where a look is in an image.
@@ -36,10 +51,10 @@ struct FoundLook {
 };
 
 /// Looks for it near `pixel`, where the window is expected turned and stretched by
-/// `image_from_look`. Inverse compositional Gauss-Newton (Baker and Matthews, IJCV 2004) over six
-/// parameters of an affine map; gain and offset of brightness are free. `image` is smooth where it
-/// is noisy: bilinear.
-FoundLook findLook(const FirstLook& look, const GrayImage& image, const Mask& ignore,
-                   const Eigen::Vector2d& pixel, const Eigen::Matrix2d& image_from_look);
+/// `image_from_look`: in the whole picture and, where that does not show it, from the smallest
+/// picture on. Inverse compositional Gauss-Newton (Baker and Matthews, IJCV 2004) over six
+/// parameters of an affine map; gain, offset and slope of brightness are free.
+FoundLook findLook(const FirstLook& look, const LookPicture& picture, const Eigen::Vector2d& pixel,
+                   const Eigen::Matrix2d& image_from_look);
 
 }  // namespace softscope

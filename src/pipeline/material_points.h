@@ -63,11 +63,11 @@ class MaterialPoints {
   /// model's around them.
   void look(const GrayImage& image, const Mask& ignore, const PointModel& model,
             const PinholeCamera& left, const Eigen::Isometry3d& world_from_left);
-  /// Moves them along the surface towards where the image shows their first looks, and predicts how
-  /// far off they are: docs/fusion.md (F29). `inSight`: whether the image shows a point of the left
-  /// camera's frame.
+  /// Moves them along the surface towards where the image shows their first looks, or with their
+  /// neighbours, and predicts how far off they are: docs/fusion.md (F29). `node_spacing_mm`: of the
+  /// graph that warped them. `inSight`: whether the image shows a point of the left camera's frame.
   void align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
-             const Eigen::Isometry3d& world_from_left,
+             const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
              const std::function<bool(const Eigen::Vector3d&)>& inSight);
   /// Lays them onto the surface that the model's points around them make, along the rays of the
   /// scope at `scope_mm`, as fusion moves the model's points: docs/fusion.md (F8). `limit_scale`:
@@ -78,7 +78,7 @@ class MaterialPoints {
   /// How far a frame's warp leads astray, per direction: what first looks said last; NaN before.
   double drift_mm2 = std::numeric_limits<double>::quiet_NaN();
 };
-static_assert(sizeof(MaterialPoints::Point) == 8 + 10 * sizeof(double) + 2 * FirstLook::kPixels + 6,
+static_assert(sizeof(MaterialPoints::Point) == 8 + 10 * sizeof(double) + sizeof(FirstLook),
               "no padding between or behind the members");
 
 }  // namespace softscope

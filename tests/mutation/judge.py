@@ -71,7 +71,7 @@ def meta_spacing(data):
 
 
 def nrrd_spacing(data):
-    head = re.split(rb"\r?\n\r?\n", data)[0]
+    head = re.split(rb"\r?\n\r?\n", data)[0].lower()  # names of fields may be in capitals
     scale = [{b"m": 1000.0, b"cm": 10.0, b"um": 0.001}.get(unit, 1.0)
              for unit in re.findall(rb'"(\w*)"', head.partition(b"space units:")[2].split(b"\n")[0])]
     for line in head.split(b"\n"):

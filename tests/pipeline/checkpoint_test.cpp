@@ -24,7 +24,7 @@ Checkpoint someCheckpoint() {
   point.model_point = 0;
   point.position_mm = {1, 2, 3};
   point.pixels_mm(2, 1) = 0.5;
-  point.look.gray.back() = 77;
+  point.look.windows.back().gray.back() = 77;
   model.tracked.points.push_back(point);
   model.last.left = ColourImage(2, 1, {7, 8, 9});
   model.exposure = {0.9f, 1.1f, 1.2f};
@@ -55,7 +55,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.memory.unexplained_mm.at(2, 1), 8.0f);
   EXPECT_EQ(after.state.model.tracked.points[0].id, 9);
   EXPECT_EQ(after.state.model.tracked.points[0].pixels_mm(2, 1), 0.5);
-  EXPECT_EQ(after.state.model.tracked.points[0].look.gray.back(), 77);
+  EXPECT_EQ(after.state.model.tracked.points[0].look.windows.back().gray.back(), 77);
   EXPECT_EQ(after.state.model.exposure.green, 1.1f);
   EXPECT_EQ(after.state.model.last.left.at(1, 0), (Rgb8{7, 8, 9}));
   EXPECT_TRUE(after.state.lost);

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <random>
+#include <utility>
+#include <vector>
 
 namespace softscope {
 namespace {
@@ -30,8 +35,15 @@ GrayImage imageOf(const Eigen::Vector2d& at, const Eigen::Matrix2d& map, double 
   return image;
 }
 
-FirstLook firstLook() {
-  return FirstLook::take(imageOf(kMiddle, Eigen::Matrix2d::Identity()), Mask(), kMiddle);
+FirstLook takeLook(const GrayImage& image, const Eigen::Vector2d& pixel = kMiddle) {
+  return FirstLook::take(LookPicture(image, Mask()), pixel);
+}
+
+FirstLook firstLook() { return takeLook(imageOf(kMiddle, Eigen::Matrix2d::Identity())); }
+
+FoundLook find(const FirstLook& look, const GrayImage& image, const Mask& ignore,
+               const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map) {
+  return findLook(look, LookPicture(image, ignore), pixel, map);
 }
 
 TEST(FirstLook, IsFoundWhereItIsToATwentiethOfAPixel) {
@@ -39,8 +51,7 @@ TEST(FirstLook, IsFoundWhereItIsToATwentiethOfAPixel) {
   map << 1.1, 0.05, -0.08, 0.95;
   const Eigen::Vector2d at(63.3, 48.6);
   const GrayImage image = imageOf(at, map);
-  const FoundLook found =
-      findLook(firstLook(), image, Mask(), at + Eigen::Vector2d(1.4, -1.1), map);
+  const FoundLook found = find(firstLook(), image, Mask(), at + Eigen::Vector2d(1.4, -1.1), map);
   ASSERT_TRUE(found.found);
   EXPECT_LT((found.pixel - at).norm(), 0.05);
   EXPECT_GT(found.correlation, 0.99);
@@ -52,7 +63,7 @@ TEST(FirstLook, IsFoundThoughItTurnsAndStretchesUnexpectedly) {
   map << 1.08, 0.1, -0.06, 0.94;
   const Eigen::Vector2d at(61.2, 50.7);
   const FoundLook found =
-      findLook(firstLook(), imageOf(at, map), Mask(), kMiddle, Eigen::Matrix2d::Identity());
+      find(firstLook(), imageOf(at, map), Mask(), kMiddle, Eigen::Matrix2d::Identity());
   ASSERT_TRUE(found.found);
   EXPECT_LT((found.pixel - at).norm(), 0.05);
 }
@@ -60,7 +71,7 @@ TEST(FirstLook, IsFoundThoughItTurnsAndStretchesUnexpectedly) {
 TEST(FirstLook, BearsOtherLight) {
   const Eigen::Vector2d at(60.8, 49.5);
   const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
-  const FoundLook found = findLook(firstLook(), imageOf(at, same, 0.6, 30), Mask(), kMiddle, same);
+  const FoundLook found = find(firstLook(), imageOf(at, same, 0.6, 30), Mask(), kMiddle, same);
   ASSERT_TRUE(found.found);
   EXPECT_LT((found.pixel - at).norm(), 0.05);
 }
@@ -76,7 +87,7 @@ TEST(FirstLook, LeavesOutWhatIsMasked) {
       image.at(u, v) = 255;
       mask.at(u, v) = 1;
     }
-  const FoundLook found = findLook(firstLook(), image, mask, kMiddle, same);
+  const FoundLook found = find(firstLook(), image, mask, kMiddle, same);
   ASSERT_TRUE(found.found);
   EXPECT_LT((found.pixel - at).norm(), 0.05);
 }
@@ -89,15 +100,14 @@ TEST(FirstLook, IsNotFoundWhereItIsNot) {
     EXPECT_FALSE(found.found) << why;
     EXPECT_EQ(found.pixel, kMiddle) << why;
   };
-  expectNothing(findLook(look, GrayImage(120, 100, 90), Mask(), kMiddle, same), "no texture");
-  expectNothing(findLook(look, image, Mask(120, 100, 1), kMiddle, same), "all masked");
-  expectNothing(findLook(look, imageOf({66, 53}, same), Mask(), kMiddle, same), "too far");
-  expectNothing(findLook(FirstLook(), image, Mask(), kMiddle, same), "no look");
-  expectNothing(findLook(look, image, Mask(), kMiddle, Eigen::Matrix2d::Zero()), "no area");
+  expectNothing(find(look, GrayImage(120, 100, 90), Mask(), kMiddle, same), "no texture");
+  expectNothing(find(look, image, Mask(120, 100, 1), kMiddle, same), "all masked");
+  expectNothing(find(FirstLook(), image, Mask(), kMiddle, same), "no look");
+  expectNothing(find(look, image, Mask(), kMiddle, Eigen::Matrix2d::Zero()), "no area");
   GrayImage noise(120, 100);
   unsigned state = 1;
   for (std::uint8_t& value : noise.values) value = (state = state * 1664525u + 1013904223u) >> 24;
-  expectNothing(findLook(look, noise, Mask(), kMiddle, same), "another tissue");
+  expectNothing(find(look, noise, Mask(), kMiddle, same), "another tissue");
 }
 
 // Stripes do not tell how far they have moved along themselves.
@@ -106,21 +116,95 @@ TEST(FirstLook, IsNotFoundWhereItsPlaceIsUnsure) {
   for (int v = 0; v < 100; ++v)
     for (int u = 0; u < 120; ++u)
       stripes.at(u, v) = static_cast<std::uint8_t>(std::lround(120 + 40 * std::sin(0.4 * u)));
-  const FoundLook found = findLook(FirstLook::take(stripes, Mask(), kMiddle), stripes, Mask(),
-                                   kMiddle, Eigen::Matrix2d::Identity());
+  const FoundLook found =
+      find(takeLook(stripes), stripes, Mask(), kMiddle, Eigen::Matrix2d::Identity());
   EXPECT_GT(found.correlation, 0.99);
   EXPECT_GT(found.sigma_px, 0.3);
   EXPECT_FALSE(found.found);
 }
 
+const Eigen::Vector2d kBlob(80, 80);
+
+/// Blobs of `width_px` (standard deviation), nowhere alike, moved by `shift`; of contrast 1.
+Raster<double> blobs(const Eigen::Vector2d& shift, double width_px) {
+  std::mt19937 places(7);
+  std::uniform_real_distribution<double> across(-20, 180);
+  std::normal_distribution<double> deviate(0, 1);
+  Raster<double> brightness(160, 160, 0.0);
+  for (int k = 0; k < 5500 / (width_px * width_px); ++k) {
+    const double x = across(places) + shift.x(), y = across(places) + shift.y();
+    const double height = deviate(places);
+    for (int v = std::max(0, static_cast<int>(y) - 30); v < std::min(160.0, y + 30); ++v)
+      for (int u = std::max(0, static_cast<int>(x) - 30); u < std::min(160.0, x + 30); ++u)
+        brightness.at(u, v) +=
+            height * std::exp(-((u - x) * (u - x) + (v - y) * (v - y)) / (2 * width_px * width_px));
+  }
+  return brightness;
+}
+
+GrayImage photograph(const Raster<double>& brightness, double contrast_gray, double noise_gray,
+                     unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> deviate(0, 1);
+  GrayImage image(brightness.width_px, brightness.height_px);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const double gray = 120 + contrast_gray * brightness.values[i] + noise_gray * deviate(random);
+    image.values[i] = static_cast<std::uint8_t>(std::lround(std::clamp(gray, 0.0, 255.0)));
+  }
+  return image;
+}
+
+TEST(FirstLook, IsFoundFromATenthOfTheImageAway) {
+  const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d shift(9.3, -6.8);
+  const FirstLook look = takeLook(photograph(blobs({0, 0}, 5), 20, 0, 1), kBlob);
+  const FoundLook found = find(look, photograph(blobs(shift, 5), 20, 0, 1), Mask(), kBlob, same);
+  ASSERT_TRUE(found.found);
+  EXPECT_LT((found.pixel - kBlob - shift).norm(), 0.05);
+  EXPECT_FALSE(find(look, photograph(blobs({30, 0}, 5), 20, 0, 1), Mask(), kBlob, same).found);
+}
+
+/// Root mean square of its errors over what it predicted, under noise of both images.
+double errorOverSigma(double contrast_gray, double noise_gray) {
+  constexpr unsigned kTrials = 40;
+  const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
+  double squares = 0;
+  int found = 0;
+  for (const Eigen::Vector2d& shift : {Eigen::Vector2d(0.25, -0.3), {0.6, 0.4}}) {
+    const Raster<double> first = blobs({0, 0}, 2.5), now = blobs(shift, 2.5);
+    for (unsigned seed = 0; seed < kTrials; ++seed) {
+      const FoundLook at =
+          find(takeLook(photograph(first, contrast_gray, noise_gray, 2 * seed), kBlob),
+               photograph(now, contrast_gray, noise_gray, 2 * seed + 1), Mask(), kBlob, same);
+      if (!at.found) continue;
+      ++found;
+      squares += (at.pixel - kBlob - shift).squaredNorm() / (2 * at.sigma_px * at.sigma_px);
+    }
+  }
+  EXPECT_GE(found, 70) << contrast_gray << ", " << noise_gray;
+  return std::sqrt(squares / found);
+}
+
+// Noise passes neither for texture nor for certainty. sigma_px is that of the worse direction.
+TEST(FirstLook, PredictsItsErrorUnderNoise) {
+  for (const auto& [contrast_gray, noise_gray] :
+       {std::pair(20.0, 1.0), {20.0, 4.0}, {8.0, 4.0}, {5.0, 5.0}}) {
+    const double ratio = errorOverSigma(contrast_gray, noise_gray);
+    std::printf("contrast %2.0f, noise %1.0f gray levels: errors are %.2f sigma\n", contrast_gray,
+                noise_gray, ratio);
+    EXPECT_GT(ratio, 0.6) << contrast_gray << ", " << noise_gray;
+    EXPECT_LT(ratio, 1.25) << contrast_gray << ", " << noise_gray;
+  }
+}
+
 TEST(FirstLook, StaysInsideTheImage) {
   const GrayImage image = imageOf(kMiddle, Eigen::Matrix2d::Identity());
-  EXPECT_EQ(FirstLook::take(image, Mask(), {1, 50}).taken, 0);
-  EXPECT_EQ(FirstLook::take(image, Mask(), {8, 50}).taken, 1);
+  EXPECT_EQ(takeLook(image, {1, 50}).windows[0].taken, 0);
+  EXPECT_EQ(takeLook(image, {8, 50}).windows[0].taken, 1);
   const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
   for (const Eigen::Vector2d& outside :
        {Eigen::Vector2d(-30, 50), Eigen::Vector2d(119, 99), Eigen::Vector2d(1e30, 1e30)})
-    EXPECT_FALSE(findLook(firstLook(), image, Mask(), outside, same).found);
+    EXPECT_FALSE(find(firstLook(), image, Mask(), outside, same).found);
 }
 
 }  // namespace

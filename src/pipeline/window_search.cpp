@@ -1,0 +1,255 @@
+#include "pipeline/window_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+namespace softscope {
+namespace {
+
+constexpr int kHalf = FirstLook::kHalfPx, kSide = FirstLook::kSidePx, kPixels = FirstLook::kPixels;
+constexpr int kSteps = 15;
+constexpr int kRounds = 3;
+constexpr double kConvergedPx = 0.005;
+constexpr double kLeastCorrelation = 0.8;
+constexpr double kLeastContrast = 1;     // standard deviation of the window, gray levels
+constexpr double kLargestShiftPx = 4;    // from where it is expected
+constexpr double kLargestSigmaPx = 0.3;  // of a place; what is less sure is often another one
+constexpr double kBendSigma = 0.1;  // of the affine map's four numbers around the expected ones
+constexpr double kAlike = 9;        // neighbouring pixels err alike: of so many one counts
+constexpr int kAlikeHalfPx = 2;     // how far they do
+constexpr double kLeastVariance = 1e-4;  // of a pixel's difference, the window's contrast being 1
+
+using Row = Eigen::Matrix<double, 6, 1>;
+using Normal = Eigen::Matrix<double, 6, 6>;
+using Window = Eigen::Matrix<double, kPixels, 1>;
+using Changes = Eigen::Matrix<double, kPixels, 6>;  // of a window under an affine map
+
+/// Light that falls off across the window: a plane of brightness that is no texture.
+class Shading {
+ public:
+  explicit Shading(const Window& weights) : weights_(weights) {
+    for (int i = 0; i < kPixels; ++i) basis_.row(i) << 1, windowOffset(i).transpose();
+    for (int k = 0; k < kTerms; ++k) {
+      for (int l = 0; l < k; ++l) basis_.col(k) -= basis_.col(l) * product(l, k);
+      basis_.col(k) /= std::sqrt(product(k, k));
+    }
+  }
+  template <class Columns>
+  void remove(Columns* columns) const {
+    const Eigen::MatrixXd share = basis_.transpose() * weights_.asDiagonal() * *columns;
+    *columns -= basis_ * share;
+  }
+  /// Removes it and divides by the standard deviation of what is left, which it returns.
+  double normalise(Window* values) const {
+    remove(values);
+    const double deviation = std::sqrt(weights_.dot(values->cwiseAbs2()) / weights_.sum());
+    *values /= deviation;
+    return deviation;
+  }
+
+ private:
+  static constexpr int kTerms = 3;
+  double product(int k, int l) const {
+    return weights_.cwiseProduct(basis_.col(k)).dot(basis_.col(l));
+  }
+
+  Window weights_;                                // 0 or 1
+  Eigen::Matrix<double, kPixels, kTerms> basis_;  // orthonormal
+};
+
+/// Samples the image; false where a pixel that counts lies outside.
+bool sampleWindow(const GrayImage& image, const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map,
+                  const Window& weights, Window* values) {
+  for (int i = 0; i < kPixels; ++i) {
+    (*values)[i] = 0;
+    if (weights[i] == 0) continue;
+    const Eigen::Vector2d place = pixel + map * windowOffset(i);
+    if (!sampleable(image, place)) return false;
+    (*values)[i] = sampleAt(image, place);
+  }
+  return true;
+}
+
+/// 1 where neither the look nor the image ignores the pixel.
+Window countedPixels(const FirstLook::Window& look, const GrayImage& image, const Mask& ignore,
+                     const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map) {
+  constexpr double kRoomPx = kLargestShiftPx + 1;
+  Window weights = Window::Zero();
+  for (int i = 0; i < kPixels; ++i) {
+    const Eigen::Vector2d place = pixel + map * windowOffset(i);
+    const bool room = place.minCoeff() > kRoomPx && place.x() < image.width_px - 1 - kRoomPx &&
+                      place.y() < image.height_px - 1 - kRoomPx;
+    if (look.ignore[static_cast<std::size_t>(i)] == 0 && room && !ignoredAt(ignore, place))
+      weights[i] = 1;
+  }
+  return weights;
+}
+
+/// Slope of the look at each pixel, in gray levels a pixel; none at its edges, where one-sided
+/// differences would be alike with the pixel's own noise.
+Eigen::Matrix<double, kPixels, 2> slopesOf(const Window& look) {
+  Eigen::Matrix<double, kPixels, 2> slopes = Eigen::Matrix<double, kPixels, 2>::Zero();
+  for (int y = 1; y < kSide - 1; ++y)
+    for (int i = y * kSide + 1; i < (y + 1) * kSide - 1; ++i)
+      slopes.row(i) << (look[i + 1] - look[i - 1]) / 2, (look[i + kSide] - look[i - kSide]) / 2;
+  return slopes;
+}
+
+/// The six columns of the look's change under an affine map, without shading, per gray level of
+/// contrast.
+Changes changesOf(const Eigen::Matrix<double, kPixels, 2>& slopes, double contrast,
+                  const Shading& shading) {
+  Changes rows;
+  for (int i = 0; i < kPixels; ++i) {
+    const Eigen::Vector2d at = windowOffset(i);
+    const double du = slopes(i, 0) / contrast, dv = slopes(i, 1) / contrast;
+    rows.row(i) << du, dv, du * at.x(), du * at.y(), dv * at.x(), dv * at.y();
+  }
+  shading.remove(&rows);
+  return rows;
+}
+
+/// Covariance of the sum of what the pixels say where those within 2 kAlikeHalfPx err alike: sums
+/// over squares of pixels, squared (triangular kernel: Newey and West, Econometrica 1987).
+Eigen::Matrix2d covarianceOfSum(const Eigen::Matrix<double, kPixels, 2>& said) {
+  constexpr int kBorder = 2 * kAlikeHalfPx, kBox = kBorder + 1, kWide = kSide + kBorder;
+  constexpr int kSums = kSide * kWide;  // of five pixels beside each other
+  using Sums = Eigen::Matrix<double, 2, kSums>;
+  Sums across = Sums::Zero();
+  for (int v = 0; v < kSide; ++v)
+    for (int u = 0; u < kSide; ++u)
+      for (int x = u; x < u + kBox; ++x)
+        across.col(v * kWide + x) += said.row(v * kSide + u).transpose();
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (int y = 0; y < kWide; ++y)
+    for (int x = 0; x < kWide; ++x) {
+      Eigen::Vector2d box = Eigen::Vector2d::Zero();
+      for (int v = std::max(0, y - kBorder); v <= std::min(kSide - 1, y); ++v)
+        box += across.col(v * kWide + x);
+      sum += box * box.transpose();
+    }
+  return sum / (kBox * kBox);
+}
+
+/// Of a pixel's difference, as one of so few that it counts alone.
+double varianceOf(double correlation) {
+  return std::max(2 * (1 - correlation), kLeastVariance) * kAlike;
+}
+
+/// What the last step of the search knows.
+struct Fit {
+  const Window& weights;
+  const Changes& rows;
+  const Normal& normal;
+  const Window& residual;
+  double variance;  // of a pixel's difference, as the search took it
+};
+
+/// The search's information about the six parameters: what the pixels say, and that the map bends
+/// little.
+Normal informationOf(const Normal& normal, double variance) {
+  Normal information = normal / variance;
+  information.diagonal().tail<4>().array() += 1 / (kBendSigma * kBendSigma);
+  return information;
+}
+
+/// Predicted standard error of the place along its worst direction, from what the difference of the
+/// windows says; infinite where nothing holds it. Half of the difference is the look's own noise,
+/// whose slopes passed for texture.
+double sigmaOf(const Fit& fit, const Shading& shading) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const Changes noise = changesOf(slopesOf(fit.residual), 1, shading);
+  const Normal texture = fit.normal - 0.5 * noise.transpose() * fit.weights.asDiagonal() * noise;
+  const Normal spread = informationOf(texture, fit.variance).inverse();
+  if (!(spread(0, 0) > 0 && spread.topLeftCorner<2, 2>().determinant() > 0)) return kInfinite;
+  const Eigen::Matrix<double, 2, 6> place = spread.topRows<2>() / fit.variance;
+  const Eigen::Matrix<double, kPixels, 2> said =
+      fit.residual.asDiagonal() * fit.rows * place.transpose();
+  const Eigen::Matrix<double, 2, 4> bend = place.rightCols<4>() * fit.variance / kBendSigma;
+  const Eigen::Matrix2d covariance =
+      covarianceOfSum(said) + bend * bend.transpose() +
+      kLeastVariance * kAlike * place * fit.normal * place.transpose();
+  return covariance.allFinite() ? std::sqrt(covariance.diagonal().maxCoeff()) : kInfinite;
+}
+
+/// By how much the map found so far differs from the expected one, row by row.
+Eigen::Vector4d bendOf(const LookSearch& search, const LookSearch& expected) {
+  const Eigen::Matrix2d bend = expected.map.inverse() * search.map - Eigen::Matrix2d::Identity();
+  return {bend(0, 0), bend(0, 1), bend(1, 0), bend(1, 1)};
+}
+
+/// Moves the search to where the counted pixels look alike; false where they do so nowhere near
+/// `expected`.
+bool converge(Window first, const Window& weights, const GrayImage& image,
+              const LookSearch& expected, LookSearch* search) {
+  const Shading shading(weights);
+  const Eigen::Matrix<double, kPixels, 2> slopes = slopesOf(first);
+  const double contrast = shading.normalise(&first);
+  if (!(contrast >= kLeastContrast)) return false;
+  const Changes rows = changesOf(slopes, contrast, shading);
+  const Normal normal = rows.transpose() * weights.asDiagonal() * rows;
+  Window residual;
+  for (int step = 0;; ++step) {
+    Window seen;
+    if (!sampleWindow(image, search->pixel, search->map, weights, &seen)) return false;
+    if (!(shading.normalise(&seen) * contrast > 0)) return false;
+    search->correlation = weights.cwiseProduct(seen).dot(first) / weights.sum();
+    residual = weights.cwiseProduct(seen - first);
+    if (step == kSteps) break;
+    const double variance = varianceOf(search->correlation);
+    Row right = rows.transpose() * residual / variance;
+    right.tail<4>() += bendOf(*search, expected) / (kBendSigma * kBendSigma);
+    const Row change = informationOf(normal, variance).ldlt().solve(right);
+    Eigen::Matrix2d bend;
+    bend << 1 + change[2], change[3], change[4], 1 + change[5];
+    if (!(std::abs(bend.determinant()) > 0.1)) return false;
+    search->map = search->map * bend.inverse();
+    search->pixel -= search->map * change.head<2>();
+    if (!((search->pixel - expected.pixel).norm() < kLargestShiftPx)) return false;
+    if (change.head<2>().norm() < kConvergedPx) break;
+  }
+  search->sigma_px =
+      sigmaOf({weights, rows, normal, residual, varianceOf(search->correlation)}, shading);
+  return true;
+}
+
+}  // namespace
+
+double sampleAt(const GrayImage& image, const Eigen::Vector2d& pixel) {
+  const int u0 = static_cast<int>(pixel.x()), v0 = static_cast<int>(pixel.y());
+  const double across = pixel.x() - u0, down = pixel.y() - v0;
+  const std::uint8_t* above = image.row(v0) + u0;
+  const std::uint8_t* below = above + image.width_px;
+  const double first = above[0] + across * (above[1] - above[0]);
+  const double second = below[0] + across * (below[1] - below[0]);
+  return first + down * (second - first);
+}
+
+bool ignoredAt(const Mask& ignore, const Eigen::Vector2d& pixel) {
+  if (ignore.empty()) return false;
+  const int u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());
+  return (ignore.at(u, v) | ignore.at(u + 1, v) | ignore.at(u, v + 1) | ignore.at(u + 1, v + 1)) !=
+         0;
+}
+
+bool findWindow(const FirstLook::Window& look, const GrayImage& image, const Mask& ignore,
+                const Eigen::Matrix2d& image_from_look, LookSearch* search) {
+  if (look.taken == 0) return false;
+  const LookSearch expected{search->pixel, image_from_look};
+  Window first;
+  for (int i = 0; i < kPixels; ++i) first[i] = look.gray[static_cast<std::size_t>(i)];
+  Window weights = countedPixels(look, image, ignore, search->pixel, search->map);
+  // Another round where other pixels are masked at the place found than at the one expected.
+  for (int round = 0; round < kRounds; ++round) {
+    if (weights.sum() < FirstLook::kLeastShare * kPixels) return false;
+    if (!converge(first, weights, image, expected, search)) return false;
+    const Window now = countedPixels(look, image, ignore, search->pixel, search->map);
+    if (now == weights) break;
+    weights = now;
+  }
+  return search->correlation >= kLeastCorrelation && search->sigma_px <= kLargestSigmaPx;
+}
+
+}  // namespace softscope
