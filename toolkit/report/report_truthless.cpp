@@ -33,7 +33,7 @@ ReportTable viewTable(const ReportCase& c) {
   ReportTable table =
       valueTable("Model drawn from the run's own pose, beside the image", "mean", c.record,
                  {{"PSNR over the pixels that the model covers [dB]", metric_paths::kPsnr},
-                  {"PSNR over all pixels [dB]", metric_paths::kPsnrOverAll},
+                  {"the same, every other pixel counted as right [dB]", metric_paths::kPsnrOverAll},
                   {"SSIM", metric_paths::kSsim}});
   if (const double share = numberAt(c.record, metric_paths::kJudgedShare); std::isfinite(share))
     table.rows.push_back({"tissue that the model covers", percentText(share)});
