@@ -208,50 +208,65 @@ FillError triedAround(const Known& gaps, const Field& field, const Known& known,
   return {places, errors};
 }
 
-}  // namespace
-
-DepthMap denseDepth(const DepthMap& measured, const Mask& ignored) {
-  const Raster<float>& depth_mm = measured.depth_mm;
-  // Inverse depth is linear in the pixel on any plane.
-  Field inverse(depth_mm.width_px, depth_mm.height_px);
-  Known known(depth_mm.width_px, depth_mm.height_px), gaps = known;
-  double nearest = 0, farthest = std::numeric_limits<double>::infinity();
+/// What was measured of the tissue, and where it was not.
+struct Measured {
+  Field inverse;  // of the depth, 1/mm: linear in the pixel on any plane
+  Known known, gaps;
+  double nearest = 0, farthest = std::numeric_limits<double>::infinity();  // inverse
   long count = 0;
+};
+
+Measured measuredOf(const Raster<float>& depth_mm, const Mask& ignored) {
+  const int width = depth_mm.width_px, height = depth_mm.height_px;
+  Measured all{Field(width, height), Known(width, height), Known(width, height)};
   for (std::size_t i = 0; i < depth_mm.size(); ++i) {
     if (!ignored.empty() && ignored.values[i] != 0) continue;
-    known.values[i] = depth_mm.values[i] > 0 && std::isfinite(depth_mm.values[i]);
-    gaps.values[i] = known.values[i] == 0;
-    if (known.values[i] == 0) continue;
-    inverse.values[i] = 1 / double(depth_mm.values[i]);
-    nearest = std::max(nearest, inverse.values[i]);
-    farthest = std::min(farthest, inverse.values[i]);
-    ++count;
+    all.known.values[i] = depth_mm.values[i] > 0 && std::isfinite(depth_mm.values[i]);
+    all.gaps.values[i] = all.known.values[i] == 0;
+    if (all.known.values[i] == 0) continue;
+    all.inverse.values[i] = 1 / double(depth_mm.values[i]);
+    all.nearest = std::max(all.nearest, all.inverse.values[i]);
+    all.farthest = std::min(all.farthest, all.inverse.values[i]);
+    ++all.count;
   }
-  if (count < kLeastMeasured)
-    throw InputError("dense depth: " + std::to_string(count) + " pixels were measured, but " +
-                     std::to_string(kLeastMeasured) +
-                     " are needed to fill the others. Leave `dense` out");
-  DepthMap dense = measured;
-  if (std::find(gaps.values.begin(), gaps.values.end(), 1) == gaps.values.end()) return dense;
+  return all;
+}
 
-  const Raster<float> distance_px = distanceFrom(known);
+/// Gives each gap a depth and its standard error.
+void fillGaps(const Measured& measured, DepthMap* dense) {
+  const Known& gaps = measured.gaps;
+  const Raster<float> distance_px = distanceFrom(measured.known);
   double reach_px = 0;
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (gaps.values[i] != 0) reach_px = std::max<double>(reach_px, distance_px.values[i]);
-  const FillError error = triedAround(gaps, inverse, known, reach_px);
-  const Fill whole = filled(inverse, known);
-  if (dense.sigma_mm.empty())
-    dense.sigma_mm = Raster<float>(depth_mm.width_px, depth_mm.height_px,
-                                   std::numeric_limits<float>::quiet_NaN());
+  const FillError error = triedAround(gaps, measured.inverse, measured.known, reach_px);
+  const Fill whole = filled(measured.inverse, measured.known);
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     if (gaps.values[i] == 0) continue;
-    const double z_mm =
-        1 / std::clamp(whole.values.values[i], farthest / kFarthestShare, nearest * kFarthestShare);
-    dense.depth_mm.values[i] = float(z_mm);
+    const double z_mm = 1 / std::clamp(whole.values.values[i], measured.farthest / kFarthestShare,
+                                       measured.nearest * kFarthestShare);
+    dense->depth_mm.values[i] = float(z_mm);
     const double sigma =
         std::hypot(error.at(distance_px.values[i]), std::sqrt(whole.spread.values[i]));
-    dense.sigma_mm.values[i] = float(z_mm * z_mm * sigma);
+    dense->sigma_mm.values[i] = float(z_mm * z_mm * sigma);
   }
+}
+
+}  // namespace
+
+DepthMap denseDepth(const DepthMap& measured, const Mask& ignored) {
+  const Measured all = measuredOf(measured.depth_mm, ignored);
+  if (all.count < kLeastMeasured)
+    throw InputError("dense depth: " + std::to_string(all.count) + " pixels were measured, but " +
+                     std::to_string(kLeastMeasured) +
+                     " are needed to fill the others. Leave `dense` out");
+  DepthMap dense = measured;
+  if (std::find(all.gaps.values.begin(), all.gaps.values.end(), 1) == all.gaps.values.end())
+    return dense;
+  if (dense.sigma_mm.empty())
+    dense.sigma_mm = Raster<float>(measured.depth_mm.width_px, measured.depth_mm.height_px,
+                                   std::numeric_limits<float>::quiet_NaN());
+  fillGaps(all, &dense);
   return dense;
 }
 
