@@ -125,19 +125,11 @@ std::vector<ModelOnDisk> findModelsOnDisk(const fs::path& run,
   std::map<int, const ModelOnDisk*> by_frame;
   for (const ModelOnDisk& model : known) by_frame[model.frame] = &model;
   std::vector<ModelOnDisk> models;
-  if (fs::is_directory(run / "models"))
-    for (const fs::path& file : filesIn(run / "models", {".ply"})) {
-      const std::string stem = file.stem().string();
-      if (stem.size() < 6 || stem.size() > 9 ||
-          stem.find_first_not_of("0123456789") != std::string::npos)
-        continue;
-      const int frame = std::stoi(stem);
-      const auto found = by_frame.find(frame);
-      models.push_back(found != by_frame.end() ? *found->second : readModelHead(frame, file));
-    }
+  for (const auto& [frame, file] : numberedFiles(run / "models", ".ply")) {
+    const auto found = by_frame.find(frame);
+    models.push_back(found != by_frame.end() ? *found->second : readModelHead(frame, file));
+  }
   if (models.empty()) return lastModelAlone(run);
-  std::sort(models.begin(), models.end(),
-            [](const ModelOnDisk& a, const ModelOnDisk& b) { return a.frame < b.frame; });
   addFromTables(run, models);
   return models;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "core/decimal_number.h"
 #include "core/error.h"
 #include "io/files/file_bytes.h"
 #include "io/files/folder.h"
@@ -22,19 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path fileOrNone(const fs::path& file) { return isThere(file) ? file : fs::path(); }
-
-/// NNNNNN.ext by number; names of other forms are left out. Empty where the folder is missing.
-FrameFiles numberedFiles(const fs::path& folder, std::string_view extension) {
-  FrameFiles files;
-  if (!isThere(folder)) return files;
-  for (const fs::path& file : filesIn(folder, {extension})) {
-    const std::string stem = file.stem().string();
-    if (stem.size() >= 6 && stem.size() <= 9 &&
-        stem.find_first_not_of("0123456789") == std::string::npos)
-      files[std::stoi(stem)] = file;
-  }
-  return files;
-}
 
 Trajectory readRunTrajectory(const fs::path& folder) {
   requireFolder(folder);
@@ -66,6 +54,18 @@ bool measuresBackProjection(const FrameRows& rows, std::size_t k) {
 }
 
 }  // namespace
+
+FrameFiles numberedFiles(const fs::path& folder, std::string_view extension) {
+  FrameFiles files;
+  if (!isThere(folder)) return files;
+  for (const fs::path& file : filesIn(folder, {extension})) {
+    const std::string stem = file.stem().string();
+    const auto number = decimalNumber<int>(stem);
+    const bool digits = stem.find_first_not_of("0123456789") == std::string::npos;
+    if (digits && number && stem.size() >= 6) files[*number] = file;
+  }
+  return files;
+}
 
 std::vector<std::string> JudgedRun::warnings() const {
   if (!stopped) return {};

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/stereo_rig.h"
@@ -14,6 +15,9 @@
 namespace softscope {
 
 using FrameFiles = std::map<int, std::filesystem::path>;
+
+/// NNNNNN.ext by number; names of other forms are left out. Empty where the folder is missing.
+FrameFiles numberedFiles(const std::filesystem::path& folder, std::string_view extension);
 
 /// A folder that `reconstruct` wrote (docs/formats.md).
 struct JudgedRun {
