@@ -9,7 +9,6 @@
 #include "apps/interrupt.h"
 #include "apps/result_output.h"
 #include "apps/work_progress.h"
-#include "core/decimal_number.h"
 #include "core/error.h"
 #include "io/files/atomic_file.h"
 #include "io/files/folder.h"
@@ -102,8 +101,9 @@ double lengthOf(const std::string& option, const std::string& text) {
 
 /// A whole number of 1 to 999, else 0.
 int countOf(const std::string& text) {
-  const auto count = decimalNumber<int>(text);
-  return count && *count >= 1 && *count <= 999 ? *count : 0;
+  const bool digits = !text.empty() && text.size() <= 3 &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
+  return digits ? std::stoi(text) : 0;
 }
 
 BoardFilmOptions CalibrateCommand::filmOptions() const {

@@ -47,11 +47,13 @@ struct FirstLookFinder {
   }
 
   /// From a level down to the whole picture, each from where the one before found it; the last that
-  /// finds it counts.
+  /// finds it counts. The whole picture alone is searched from `pixel` only if it is asked for
+  /// alone.
   FoundLook findFrom(std::size_t coarsest) const {
     FoundLook result = nothing();
     Eigen::Matrix2d map = image_from_look;
     for (std::size_t level = coarsest + 1; level-- > 0;) {
+      if (level == 0 && coarsest > 0 && !result.found) break;
       const double scale = 1 << level;
       LookSearch search{inLevel(result.pixel, scale), map};
       const bool found = findWindow(look.windows[level], picture.gray[level], picture.ignore[level],
@@ -92,8 +94,10 @@ FoundLook findLook(const FirstLook& look, const LookPicture& picture, const Eige
                    const Eigen::Matrix2d& image_from_look) {
   const FirstLookFinder finder{look, picture, pixel, image_from_look};
   if (!pixel.allFinite() || !image_from_look.allFinite()) return finder.nothing();
-  const FoundLook found = finder.findFrom(0);
-  return found.found ? found : finder.findFrom(LookPicture::kLevels - 1);
+  const FoundLook whole = finder.findFrom(0);
+  if (whole.found) return whole;
+  const FoundLook smaller = finder.findFrom(LookPicture::kLevels - 1);
+  return smaller.found ? smaller : whole;
 }
 
 }  // namespace softscope

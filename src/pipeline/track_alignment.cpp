@@ -115,6 +115,7 @@ Eigen::Vector3d moveOfNeighbours(const std::vector<FoundMove>& found,
 
 void MaterialPoints::look(const GrayImage& image, const Mask& ignore, const PointModel& model,
                           const PinholeCamera& left, const Eigen::Isometry3d& world_from_left) {
+  if (points.empty()) return;
   const Eigen::Isometry3d left_from_world = world_from_left.inverse();
   const LookPicture picture(image, ignore);
   for (Point& point : points) {
@@ -137,6 +138,7 @@ void MaterialPoints::align(const GrayImage& image, const Mask& ignore, const Pin
                            const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
                            const std::function<bool(const Eigen::Vector3d&)>& inSight) {
   constexpr int kLooksATask = 8;
+  if (points.empty()) return;
   const LookPicture picture(image, ignore);
   const FirstLookSearch search{picture, left, world_from_left};
   std::vector<SeenLook> seen(points.size());

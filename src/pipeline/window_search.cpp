@@ -139,7 +139,7 @@ double varianceOf(double correlation) {
 }
 
 /// What the last step of the search knows.
-struct Fit {
+struct WindowFit {
   const Window& weights;
   const Changes& rows;
   const Normal& normal;
@@ -158,7 +158,7 @@ Normal informationOf(const Normal& normal, double variance) {
 /// Predicted standard error of the place along its worst direction, from what the difference of the
 /// windows says; infinite where nothing holds it. Half of the difference is the look's own noise,
 /// whose slopes passed for texture.
-double sigmaOf(const Fit& fit, const Shading& shading) {
+double sigmaOf(const WindowFit& fit, const Shading& shading) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Changes noise = changesOf(slopesOf(fit.residual), 1, shading);
   const Normal texture = fit.normal - 0.5 * noise.transpose() * fit.weights.asDiagonal() * noise;

@@ -147,15 +147,22 @@ TEST(MaterialPoints, GoToWhereTheImageShowsTheirFirstLook) {
   EXPECT_LT((there.points[0].position_mm - Eigen::Vector3d(0, 0, 50)).norm(), 0.03);
 }
 
+/// Points of a flat wall, `step_px` apart, with their looks.
+MaterialPoints lookedAt(int columns, int rows, const Eigen::Vector2d& step_px) {
+  const auto still = Eigen::Isometry3d::Identity();
+  MaterialPoints tracked;
+  for (int k = 0; k < columns * rows; ++k)
+    tracked.add(k, {30 + step_px.x() * (k % columns), 25 + step_px.y() * (k / columns)}, kLeft,
+                Raster<float>(100, 80, 50.0f), still);
+  tracked.anchor(flatModel());
+  tracked.look(texture(), Mask(), flatModel(), kLeft, still);
+  return tracked;
+}
+
 // Twenty points that chance has moved by 0.3 mm in each direction.
 TEST(MaterialPoints, PredictHowFarTheirWarpLeadsAstray) {
   const auto still = Eigen::Isometry3d::Identity();
-  MaterialPoints tracked;
-  for (int k = 0; k < 20; ++k)
-    tracked.add(k, {30.0 + 10 * (k % 5), 25.0 + 10 * (k / 5)}, kLeft, Raster<float>(100, 80, 50.0f),
-                still);
-  tracked.anchor(flatModel());
-  tracked.look(texture(), Mask(), flatModel(), kLeft, still);
+  MaterialPoints tracked = lookedAt(5, 4, {10, 10});
   std::mt19937 random(3);
   std::normal_distribution<double> deviate_mm(0, 0.3);
   const std::vector<MaterialPoints::Point> truth = tracked.points;
@@ -183,12 +190,7 @@ TEST(MaterialPoints, PredictHowFarTheirWarpLeadsAstray) {
 // nothing.
 TEST(MaterialPoints, GoWithTheirNeighboursWhereTheyAreNotSeen) {
   const auto still = Eigen::Isometry3d::Identity();
-  MaterialPoints tracked;
-  for (int k = 0; k < 40; ++k)
-    tracked.add(k, {30.0 + 5 * (k % 8), 25.0 + 6 * (k / 8)}, kLeft, Raster<float>(100, 80, 50.0f),
-                still);
-  tracked.anchor(flatModel());
-  tracked.look(texture(), Mask(), flatModel(), kLeft, still);
+  MaterialPoints tracked = lookedAt(8, 5, {5, 6});
   const std::vector<MaterialPoints::Point> truth = tracked.points;
   const Eigen::Vector3d astray_mm(0.4, -0.3, 0);
   for (MaterialPoints::Point& point : tracked.points) point.position_mm += astray_mm;

@@ -125,10 +125,11 @@ std::vector<ModelOnDisk> findModelsOnDisk(const fs::path& run,
   std::map<int, const ModelOnDisk*> by_frame;
   for (const ModelOnDisk& model : known) by_frame[model.frame] = &model;
   std::vector<ModelOnDisk> models;
-  for (const auto& [frame, file] : numberedFiles(run / "models", ".ply")) {
-    const auto found = by_frame.find(frame);
-    models.push_back(found != by_frame.end() ? *found->second : readModelHead(frame, file));
-  }
+  if (fs::is_directory(run / "models"))
+    for (const auto& [frame, file] : numberedFiles(run / "models", ".ply")) {
+      const auto found = by_frame.find(frame);
+      models.push_back(found != by_frame.end() ? *found->second : readModelHead(frame, file));
+    }
   if (models.empty()) return lastModelAlone(run);
   addFromTables(run, models);
   return models;

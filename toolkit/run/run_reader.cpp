@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "core/decimal_number.h"
 #include "core/error.h"
 #include "io/files/file_bytes.h"
 #include "io/files/folder.h"
@@ -60,9 +59,9 @@ FrameFiles numberedFiles(const fs::path& folder, std::string_view extension) {
   if (!isThere(folder)) return files;
   for (const fs::path& file : filesIn(folder, {extension})) {
     const std::string stem = file.stem().string();
-    const auto number = decimalNumber<int>(stem);
-    const bool digits = stem.find_first_not_of("0123456789") == std::string::npos;
-    if (digits && number && stem.size() >= 6) files[*number] = file;
+    if (stem.size() >= 6 && stem.size() <= 9 &&
+        stem.find_first_not_of("0123456789") == std::string::npos)
+      files[std::stoi(stem)] = file;
   }
   return files;
 }
