@@ -74,6 +74,17 @@ TEST_F(Compare, PointsAreComparedToo) {
   EXPECT_TRUE(result["scores"][0]["surface_dice"].is_null());
 }
 
+TEST_F(Compare, WithoutASideThereIsNoSignedMean) {
+  PointCloud cloud;
+  for (int i = 100; i < 105; ++i) cloud.points_mm.emplace_back(float(i), 10.0f, -0.5f);
+  writePly(at("aside.ply"), cloud, {"world", ""});
+  const Outcome told = compare("aside.ply", {"--out", at("aside"), "--errors", "signed"});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_NE(told.out.find("5 vertices at the reference's border have no side"), std::string::npos);
+  EXPECT_EQ(told.out.find("nan"), std::string::npos) << told.out;
+  EXPECT_EQ(textOf(at("aside/error_map.svg")).find("nan"), std::string::npos);
+}
+
 TEST_F(Compare, WhatWasObservedIsJudgedByItself) {
   // The test is 0.75 mm off where x < 10 and 3 mm off beyond; only x <= 9 was seen.
   std::string step;

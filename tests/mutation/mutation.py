@@ -136,6 +136,7 @@ class Tally:
         self.lock = threading.Lock()
 
     def add(self, trial, outcome, found):
+        found = [f"run {trial.number}: {what}" for what in found]
         with self.lock:
             self.runs += 1
             self.codes[outcome.code] += 1
@@ -166,7 +167,7 @@ class Tally:
         part.replace(file)
 
     def text(self):
-        kinds = collections.Counter(what.split(":")[0] for what in self.findings)
+        kinds = collections.Counter(what.split(": ")[1] for what in self.findings)
         lines = [f"{self.runs} runs in {time.monotonic() - self.started:.0f} s; {self.exit_codes()}",
                  "forms: " + ", ".join(f"{name} {n}" for name, n in sorted(self.of_form.items())),
                  f"largest processor time of one run: {self.slowest_ms / 1000:.1f} s",
@@ -224,7 +225,7 @@ def work(options, forms, root, folder, numbers, tally, is_over):
                   f"{' '.join(trial.words)}\n  again: {repeat_line(options, trial)}", flush=True)
     if not server.close():
         print(KEPT_END, flush=True)
-        tally.findings.append(KEPT_END)
+        tally.findings.append(f"last run: {KEPT_END}")
 
 
 def run_all(options, forms, root, scratch):

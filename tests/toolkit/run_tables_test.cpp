@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+#include "tests/io/temporary_folder.h"
+
 namespace softscope {
 namespace {
 
@@ -39,6 +42,19 @@ TEST(RunTables, WhatIsUnknownIsEmptyOrNan) {
   EXPECT_EQ(framesCsvLine(record).rfind("4,,unreadable,0,0,0,0,,", 0), 0u);
   record.tracked.push_back({7, Eigen::Vector3d::Constant(kUnknown), false});
   EXPECT_EQ(tracksCsvLines(record), "4,7,nan,nan,nan,0,nan\n");
+}
+
+TEST(RunTables, ANumberThatNoFrameHasIsRefusedWithItsFile) {
+  FrameRecord record;
+  record.times.emplace_back("check", 5.25);
+  std::string line = framesCsvLine(record);
+  line.pop_back();  // its end
+  EXPECT_EQ(readFramesCsvLine(line, "run/frames.csv").times.back().second, 5.25);
+  const std::size_t at = line.find("5.25");
+  for (const std::string wrong : {"inf", "nan", "1e300", "5,25x"})
+    test::expectError<InputError>(
+        [&] { readFramesCsvLine(std::string(line).replace(at, 4, wrong), "run/frames.csv"); },
+        {"run/frames.csv"});
 }
 
 }  // namespace

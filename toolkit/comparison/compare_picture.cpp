@@ -86,8 +86,9 @@ VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh&
   panels.foot.legend = {{"reference", scene.surfaces[0].colour, /*filled=*/true}};
   const Statistics& errors = result.comparison.accuracy.vertices_mm;
   const Statistics& with_sign = result.comparison.signed_mm;
+  const bool has_bias = map.colours.with_sign && with_sign.count > 0;
   const std::string bias =
-      map.colours.with_sign ? "signed mean " + fixed(with_sign.mean, 3) + " mm; absolute: " : "";
+      has_bias ? "signed mean " + fixed(with_sign.mean, 3) + " mm; absolute: " : "";
   panels.foot.notes = {bias + spreadText(errors), std::to_string(errors.count) +
                                                       " vertices; alignment: " + result.fit.method +
                                                       ". Research use only."};

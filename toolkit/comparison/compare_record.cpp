@@ -43,6 +43,14 @@ Json observedJson(const ObservedSplit& split) {
           {"hausdorff", metricsJson(hausdorffMetrics(), split.hausdorff)}};
 }
 
+/// Of a vertex whose nearest place is the reference's border nobody knows the side.
+std::string signedText(const Statistics& signed_mm) {
+  const std::string without =
+      std::to_string(signed_mm.nan_count) + " vertices at the reference's border have no side";
+  if (signed_mm.count == 0) return without;
+  return "mean " + fixed(signed_mm.mean, 3) + " mm, + = outside; " + without;
+}
+
 void addObservedFacts(const ObservedSplit& split, FactSheet& facts) {
   facts.addLine("observed", fixed(100 * split.test_share, 1) + " % of the test, " +
                                 fixed(100 * split.reference_share, 1) + " % of the reference");
@@ -86,9 +94,7 @@ FactSheet comparisonFacts(const ComparisonResult& result) {
   addFitFacts(result.fit, facts);
   facts.addLine("accuracy", spreadText(c.accuracy.vertices_mm) + ", of the test's vertices");
   if (c.accuracy.area_mm.count > 0) facts.addLine("  by area", spreadText(c.accuracy.area_mm));
-  facts.addLine("  signed", "mean " + fixed(c.signed_mm.mean, 3) + " mm, + = outside; " +
-                                std::to_string(c.signed_mm.nan_count) +
-                                " vertices at the reference's border have no side");
+  facts.addLine("  signed", signedText(c.signed_mm));
   facts.addLine("completeness",
                 spreadText(c.completeness.vertices_mm) + ", of the reference's vertices");
   facts.addLine("HD95", fixed(c.hausdorff.hd95_max_of_directed_mm, 2) +

@@ -66,12 +66,15 @@ std::vector<std::string> cellsOfLine(std::string_view line) {
   return cells;
 }
 
+/// A frame's numbers are small; larger ones (and infinite) would spoil the sums of the run.
 template <class Number>
 Number numberIn(const std::string& cell, Number otherwise, const std::string& file) {
+  constexpr double kLargest = 1e12;
   if (cell.empty()) return otherwise;
-  if (const auto value = decimalNumber<Number>(cell)) return *value;
+  if (const auto value = decimalNumber<Number>(cell); value && std::abs(double(*value)) <= kLargest)
+    return *value;
   throw InputError(file + ": a cell holds `" + cell +
-                   "`, but a number is expected; start again without `resume=`");
+                   "`, but a number of at most 1e12 is expected; start again without `resume=`");
 }
 
 FrameStatus statusNamed(const std::string& name, const std::string& file) {
