@@ -1,7 +1,6 @@
 #include "pipeline/window_search.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
@@ -38,8 +37,11 @@ class Shading {
   }
   template <class Columns>
   void remove(Columns* columns) const {
-    const Eigen::MatrixXd share = basis_.transpose() * weights_.asDiagonal() * *columns;
-    *columns -= basis_ * share;
+    for (int k = 0; k < kTerms; ++k) {
+      const Window term = basis_.col(k), counted = weights_.cwiseProduct(term);
+      for (int c = 0; c < columns->cols(); ++c)
+        columns->col(c) -= counted.dot(columns->col(c)) * term;
+    }
   }
   /// Removes it and divides by the standard deviation of what is left, which it returns.
   double normalise(Window* values) const {
@@ -138,6 +140,15 @@ double varianceOf(double correlation) {
   return std::max(2 * (1 - correlation), kLeastVariance) * kAlike;
 }
 
+Normal normalOf(const Changes& rows, const Window& weights) {
+  Normal normal;
+  for (int k = 0; k < 6; ++k) {
+    const Window counted = weights.cwiseProduct(rows.col(k));
+    for (int l = k; l < 6; ++l) normal(k, l) = normal(l, k) = counted.dot(rows.col(l));
+  }
+  return normal;
+}
+
 /// What the last step of the search knows.
 struct WindowFit {
   const Window& weights;
@@ -161,16 +172,19 @@ Normal informationOf(const Normal& normal, double variance) {
 double sigmaOf(const WindowFit& fit, const Shading& shading) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Changes noise = changesOf(slopesOf(fit.residual), 1, shading);
-  const Normal texture = fit.normal - 0.5 * noise.transpose() * fit.weights.asDiagonal() * noise;
-  const Normal spread = informationOf(texture, fit.variance).inverse();
-  if (!(spread(0, 0) > 0 && spread.topLeftCorner<2, 2>().determinant() > 0)) return kInfinite;
-  const Eigen::Matrix<double, 2, 6> place = spread.topRows<2>() / fit.variance;
+  const Normal texture = fit.normal - 0.5 * normalOf(noise, fit.weights);
+  const Eigen::LDLT<Normal> information(informationOf(texture, fit.variance));
+  const Row right = information.solve(Row::Unit(0)), down = information.solve(Row::Unit(1));
+  if (!(right[0] > 0 && right[0] * down[1] > right[1] * down[0])) return kInfinite;
+  Eigen::Matrix<double, 2, 6> place;  // how far it moves for what the pixels say
+  place << right.transpose(), down.transpose();
+  place /= fit.variance;
   const Eigen::Matrix<double, kPixels, 2> said =
-      fit.residual.asDiagonal() * fit.rows * place.transpose();
+      (fit.residual.asDiagonal() * fit.rows).lazyProduct(place.transpose());
   const Eigen::Matrix<double, 2, 4> bend = place.rightCols<4>() * fit.variance / kBendSigma;
   const Eigen::Matrix2d covariance =
       covarianceOfSum(said) + bend * bend.transpose() +
-      kLeastVariance * kAlike * place * fit.normal * place.transpose();
+      kLeastVariance * kAlike * (place.lazyProduct(fit.normal)).lazyProduct(place.transpose());
   return covariance.allFinite() ? std::sqrt(covariance.diagonal().maxCoeff()) : kInfinite;
 }
 
@@ -189,7 +203,7 @@ bool converge(Window first, const Window& weights, const GrayImage& image,
   const double contrast = shading.normalise(&first);
   if (!(contrast >= kLeastContrast)) return false;
   const Changes rows = changesOf(slopes, contrast, shading);
-  const Normal normal = rows.transpose() * weights.asDiagonal() * rows;
+  const Normal normal = normalOf(rows, weights);
   Window residual;
   for (int step = 0;; ++step) {
     Window seen;
@@ -199,7 +213,7 @@ bool converge(Window first, const Window& weights, const GrayImage& image,
     residual = weights.cwiseProduct(seen - first);
     if (step == kSteps) break;
     const double variance = varianceOf(search->correlation);
-    Row right = rows.transpose() * residual / variance;
+    Row right = rows.transpose().lazyProduct(residual) / variance;
     right.tail<4>() += bendOf(*search, expected) / (kBendSigma * kBendSigma);
     const Row change = informationOf(normal, variance).ldlt().solve(right);
     Eigen::Matrix2d bend;
