@@ -121,7 +121,7 @@ class KeptProcess(unittest.TestCase):
         tally.save(file)
         record = json.loads(file.read_text())
         self.assertEqual((record["runs"], record["exit_codes"], record["forms"], record["findings"]),
-                         (1, {"3": 1}, {"mha": 1}, ["hang"]))
+                         (1, {"3": 1}, {"mha": 1}, ["run 1: hang"]))
         self.assertIn("1 with 3", tally.line())
 
 
