@@ -81,6 +81,7 @@ class CpuBackend : public ReconstructionBackend {
   void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, bool maybe_static,
               PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
+  void alignTracks(const Eigen::Isometry3d& world_from_left);
   bool visible(const Eigen::Vector3d& point_left) const;
   /// As measured in this frame where it sees the point; NaN where not.
   double depthVarianceMm2(const Eigen::Vector3d& point_left) const;
@@ -299,11 +300,19 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   if (!comparison_)
     comparison_ =
         compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
-  const ModelUpdateSummary update =
-      updateModel(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
-                  &state_.memory, &state_.model);
+  ModelUpdateSummary update;
+  // Neither needs the other.
+  parallelInvoke(
+      [&] {
+        update = updateModel(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
+                             &state_.memory, &state_.model);
+        if (worksAhead())
+          growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
+      },
+      [&] {
+        if (!first) alignTracks(world_from_left);
+      });
   comparison_.reset();
-  if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
@@ -312,14 +321,9 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
     state_.tracked.look(frame_.live.gray, frame_.live.ignore, state_.model, left(),
                         world_from_left);
   }
-  // Neither needs the other.
   parallelInvoke(
       [&] {
         state_.tracked.renumber(update.index_map, state_.model);
-        if (!first)
-          state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left,
-                               options_.graph.node_spacing_mm,
-                               [&](const Eigen::Vector3d& point) { return visible(point); });
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
       },
@@ -342,6 +346,12 @@ void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
   for (const TrackSeed& seed : seeds_)
     state_.tracked.add(seed.id, frames_.depth().rectifier().rectifiedPixel({seed.u_px, seed.v_px}),
                        left(), frame_.measured.depth.depth_mm, world_from_left);
+}
+
+void CpuBackend::alignTracks(const Eigen::Isometry3d& world_from_left) {
+  state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left,
+                       options_.graph.node_spacing_mm,
+                       [&](const Eigen::Vector3d& point) { return visible(point); });
 }
 
 bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {

@@ -137,7 +137,7 @@ void MaterialPoints::look(const GrayImage& image, const Mask& ignore, const Poin
 void MaterialPoints::align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
                            const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
                            const std::function<bool(const Eigen::Vector3d&)>& inSight) {
-  constexpr int kLooksATask = 8;
+  constexpr int kLooksATask = 2;
   if (points.empty()) return;
   const LookPicture picture(image, ignore);
   const FirstLookSearch search{picture, left, world_from_left};
