@@ -27,7 +27,7 @@ struct StereoSurface {
 class StereoStage {
  public:
   virtual ~StereoStage() = default;
-  /// Of the matcher: "elas", "sgbm" or "onnx"; written into every report.
+  /// Of the matcher, one of stereoMethods(); written into every report.
   virtual std::string name() const = 0;
   /// No disparity and no depth under `mask`, which may be empty.
   virtual StereoSurface measure(const AlignedPair& aligned, const Mask& mask) = 0;

@@ -1,5 +1,7 @@
 #include "stereo/matching/stereo_matcher.h"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "core/error.h"
@@ -8,6 +10,28 @@
 #include "stereo/matching/sgbm_matcher.h"
 
 namespace softscope {
+namespace {
+
+template <class Matcher>
+std::unique_ptr<StereoMatcher> make(const StereoOptions& options) {
+  return std::make_unique<Matcher>(options);
+}
+
+/// All of them, by the name that a setting gives.
+struct NamedMatcher {
+  const char* name;
+  std::unique_ptr<StereoMatcher> (*make)(const StereoOptions&);
+};
+constexpr NamedMatcher kMatchers[] = {
+    {"elas", make<ElasMatcher>}, {"sgbm", make<SgbmMatcher>}, {"onnx", make<OnnxMatcher>}};
+
+}  // namespace
+
+std::vector<std::string> stereoMethods() {
+  std::vector<std::string> names;
+  for (const NamedMatcher& matcher : kMatchers) names.emplace_back(matcher.name);
+  return names;
+}
 
 void requireRectifiedPair(const GrayImage& left, const GrayImage& right) {
   if (left.sameShape(right) && left.width_px >= kSmallestPicturePx &&
@@ -23,9 +47,8 @@ void requireRectifiedPair(const GrayImage& left, const GrayImage& right) {
 
 std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options) {
   options.validate();
-  if (options.method == "sgbm") return std::make_unique<SgbmMatcher>(options);
-  if (options.method == "onnx") return std::make_unique<OnnxMatcher>(options);
-  return std::make_unique<ElasMatcher>(options);
+  const auto named = [&](const NamedMatcher& matcher) { return options.method == matcher.name; };
+  return std::find_if(std::begin(kMatchers), std::end(kMatchers), named)->make(options);
 }
 
 }  // namespace softscope

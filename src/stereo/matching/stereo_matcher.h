@@ -21,7 +21,7 @@ class StereoMatcher {
  public:
   virtual ~StereoMatcher() = default;
 
-  /// "elas", "sgbm" or "onnx"; written into every report.
+  /// Of stereoMethods(); written into every report.
   virtual std::string name() const = 0;
 
   /// Both images rectified and of one shape, else Error. Result: the left image's shape, NaN

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace softscope {
 
@@ -99,9 +100,12 @@ struct NetworkOptions {
   static constexpr double left_right_px = 1.0;   // left and right disparity agree to this
 };
 
+/// Names of the matchers, from the one list that makeStereoMatcher() has of them.
+std::vector<std::string> stereoMethods();
+
 /// What any matcher needs.
 struct StereoOptions {
-  std::string method = "elas";         // "elas", "sgbm" or "onnx"
+  std::string method = "elas";         // one of stereoMethods()
   std::string model;                   // of "onnx": the network's file
   std::string model_input = "levels";  // what it takes for a level of 0 to 255
   int disparity_min_px = 0;

@@ -20,8 +20,7 @@ void describe(Visitor& v, SmoothingOptions& o) {
 
 template <class Visitor>
 void describe(Visitor& v, StereoOptions& o) {
-  v("stereo.method", o.method, oneOf({"elas", "sgbm", "onnx"}),
-    "disparity by ELAS, OpenCV's SGBM or a network");
+  v("stereo.method", o.method, oneOf(stereoMethods()), "how disparity is found: docs/stereo.md");
   v("stereo.model", o.model, FreeText{"empty or a file"}, "the network of onnx, an ONNX file");
   v("stereo.model_input", o.model_input, oneOf({"levels", "unit", "imagenet"}),
     "the network takes 0 to 255, 0 to 1, or ImageNet's mean 0 and deviation 1");
