@@ -323,7 +323,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   }
   parallelInvoke(
       [&] {
-        state_.tracked.renumber(update.index_map, state_.model);
+        if (!first) state_.tracked.renumber(update.index_map, state_.model);
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
       },
