@@ -103,6 +103,23 @@ TEST_P(EveryBackend, GivesTheModelOfTheCpu) {
   expectModelOfTheCpu(reconstructor, GetParam());
 }
 
+/// Tracked points must not take the numbers that model points had before thinning.
+TEST_P(EveryBackend, TracksHoldTheModelPointBesideThemWhereTheFirstModelIsThinned) {
+  ReconstructionOptions options = smallOptions();
+  options.fusion.insertion.spacing_mm = 1;  // cells of which many hold two new points
+  Reconstructor reconstructor{makeBackend(GetParam(), shortClip().calibration, options).part,
+                              options};
+  reconstructor.track(shortClip().seeds);
+  run(reconstructor, 0, 2);
+  const ModelState& state = reconstructor.model();
+  for (const MaterialPoints::Point& point : state.tracked.points) {
+    ASSERT_GE(point.model_point, 0);
+    const Eigen::Vector3f beside_mm =
+        state.model.positions_mm[static_cast<std::size_t>(point.model_point)];
+    EXPECT_LT((beside_mm.cast<double>() - point.position_mm).norm(), 2) << "point " << point.id;
+  }
+}
+
 TEST_P(EveryBackend, GivesTheSameBytesAgainAndAcrossItsOwnCheckpoint) {
   Reconstructor whole = reconstructorOn(GetParam()), first = reconstructorOn(GetParam()),
                 second = reconstructorOn(GetParam());
