@@ -7,7 +7,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kHalf = FirstLook::kHalfPx, kSide = FirstLook::kSidePx, kPixels = FirstLook::kPixels;
+constexpr int kSide = FirstLook::kSidePx, kPixels = FirstLook::kPixels;
 constexpr int kSteps = 15;
 constexpr int kRounds = 3;
 constexpr double kConvergedPx = 0.005;
