@@ -316,14 +316,14 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
-  if (first) {
-    state_.tracked.anchor(state_.model);
-    state_.tracked.look(frame_.live.gray, frame_.live.ignore, state_.model, left(),
-                        world_from_left);
-  }
   parallelInvoke(
       [&] {
-        if (!first) state_.tracked.renumber(update.index_map, state_.model);
+        state_.tracked.renumber(update.index_map, state_.model);
+        if (first) {
+          state_.tracked.anchor(state_.model);
+          state_.tracked.look(frame_.live.gray, frame_.live.ignore, state_.model, left(),
+                              world_from_left);
+        }
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
       },

@@ -43,7 +43,7 @@ Json observedJson(const ObservedSplit& split) {
           {"hausdorff", metricsJson(hausdorffMetrics(), split.hausdorff)}};
 }
 
-/// Of a vertex whose nearest place is the reference's border nobody knows the side.
+/// A vertex that lies nearest to the reference's border is neither inside nor outside of it.
 std::string signedText(const Statistics& signed_mm) {
   const std::string without =
       std::to_string(signed_mm.nan_count) + " vertices at the reference's border have no side";
