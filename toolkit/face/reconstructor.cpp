@@ -9,7 +9,6 @@
 #include "toolkit/face/image_copies.h"
 #include "toolkit/face/model_copy.h"
 #include "toolkit/face/run_options_of.h"
-#include "toolkit/record/json_text.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_record.h"
 #include "toolkit/run/run_tables.h"
@@ -94,7 +93,7 @@ Run Reconstructor::finish() {
     throw InputError(impl_->out + ": not one frame could be used; the reports say why");
   impl_->folder->saveLastModel(impl_->loop.model());
   impl_->folder->flush({"", impl_->frames, impl_->loop.state()});
-  impl_->folder->writeRecord(jsonText(impl_->record->json()), /*complete=*/true);
+  impl_->folder->writeRecord(impl_->record->json(), /*complete=*/true);
   impl_->folder.reset();
   return Run(impl_->out);
 }

@@ -1,8 +1,6 @@
 // toolkit/run/reconstruct_sequence.cpp: frame by frame, with checkpoints.
 #include "toolkit/run/reconstruct_sequence.h"
 
-#include <array>
-#include <ctime>
 #include <optional>
 
 #include "core/error.h"
@@ -14,10 +12,8 @@
 #include "io/text/message.h"
 #include "pipeline/backends.h"
 #include "pipeline/reconstructor.h"
-#include "toolkit/record/json_text.h"
 #include "toolkit/run/out_folder.h"
 #include "toolkit/run/repeated_warnings.h"
-#include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_reader.h"
 #include "toolkit/run/run_record.h"
@@ -60,16 +56,6 @@ std::vector<TrackSeed> seedsOf(const std::filesystem::path& tracks) {
   for (const TrackPixel& pixel : readTrackPixels(tracks))
     seeds.push_back({pixel.id, pixel.u_px, pixel.v_px});
   return seeds;
-}
-
-/// ISO 8601, universal time.
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::array<char, 16> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%d", &parts);
-  return text.data();
 }
 
 class SequenceRun {
@@ -228,8 +214,7 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   const auto outcomes = checkThresholds(options_.thresholds, all, kOutcomes);
   if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
   const Json written = options_.paths.applyTo(all);
-  if (!nothing) folder.writeRecord(jsonText(written), /*complete=*/!interrupted_);
-  if (!nothing) folder.writeCrate(jsonText(roCrate(options_.out, written, today())));
+  if (!nothing) folder.writeRecord(written, /*complete=*/!interrupted_);
   if (!failure_.empty())
     throw BackendError(failure_ + (nothing ? ". `backend=` cpu needs no GPU"
                                            : ". What is finished stays; go on with `resume=`, "

@@ -22,7 +22,12 @@ const CrateFile kCrateFiles[] = {
     {"frames.csv", "text/csv", "what became of each frame, and why"},
     {"images.csv", "text/csv", "which files each frame was made of"},
     {"tracks.csv", "text/csv", "paths of the tracked points, mm"},
-    {"run.json", "application/json", "version, configuration, input hashes, timings, summary"}};
+    {kRecordFile, "application/json", "version, configuration, input hashes, timings, summary"}};
+
+/// The record is written last: it says that all else is there.
+bool isInFolder(const std::filesystem::path& folder, const CrateFile& file) {
+  return std::string(file.name) == kRecordFile || isThere(folder / file.name);
+}
 
 Json reference(const std::string& id) { return {{"@id", id}}; }
 
@@ -37,7 +42,7 @@ Json roCrate(const std::filesystem::path& folder, const Json& record, const std:
                    {"conformsTo", reference("https://w3id.org/ro/crate/1.1")},
                    {"about", reference("./")}});
   for (const CrateFile& file : kCrateFiles)
-    if (isThere(folder / file.name)) parts.push_back(reference(file.name));
+    if (isInFolder(folder, file)) parts.push_back(reference(file.name));
   for (const auto& [part, input] : sources.items()) inputs.push_back(reference("#input-" + part));
   graph.push_back(
       {{"@id", "./"},
@@ -50,7 +55,7 @@ Json roCrate(const std::filesystem::path& folder, const Json& record, const std:
        {"mentions", reference("#reconstruction")}});
   for (const CrateFile& file : kCrateFiles) {
     const std::string name = file.name;
-    if (!isThere(folder / name)) continue;
+    if (!isInFolder(folder, file)) continue;
     Json entity{{"@id", name},
                 {"@type", name.back() == '/' ? "Dataset" : "File"},
                 {"name", name},

@@ -1,9 +1,11 @@
 #include "toolkit/run/run_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "core/error.h"
 #include "fusion/colour_levels.h"
@@ -14,6 +16,7 @@
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
+#include "toolkit/record/json_text.h"
 #include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_tables.h"
 #include "vtk_views/files/point_cloud_vtp.h"
@@ -24,7 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCheckpoint = "checkpoint.bin";
-constexpr const char* kRecord = "run.json";
 constexpr const char* kModels = "models";
 constexpr const char* kNodes = "nodes";
 constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
@@ -33,7 +35,7 @@ constexpr const char* kImages = "images.csv";
 constexpr const char* kKitti = "trajectory_kitti.txt";
 
 const char* const kFiles[] = {"model.ply", "frames.csv", "trajectory.txt", kKitti,
-                              kImages,     "tracks.csv", "models.pvd",     kRecord,
+                              kImages,     "tracks.csv", "models.pvd",     kRecordFile,
                               kCheckpoint, kCrateFile};
 
 /// Of a model, or of its nodes.
@@ -115,6 +117,16 @@ std::string nodesCsv(const WarpGraph& graph) {
 
 int countLines(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// ISO 8601, universal time.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 16> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d", &parts);
+  return text.data();
 }
 
 }  // namespace
@@ -250,13 +262,12 @@ void RunFolder::saveLastModel(const ModelState& state) {
     saveModel(last_frame_, trajectory_.back().time_s, state);
 }
 
-void RunFolder::writeRecord(const std::string& json, bool complete) {
+void RunFolder::writeRecord(const FactSheet::Json& record, bool complete) {
   begin();
-  writeFile(file(kRecord), json, true);
+  writeFile(file(kCrateFile), jsonText(roCrate(options_.folder, record, today())), true);
+  writeFile(file(kRecordFile), jsonText(record), true);
   if (complete) fs::remove(file(kCheckpoint));
   fs::remove(file(kRunLock));
 }
-
-void RunFolder::writeCrate(const std::string& json) { writeFile(file(kCrateFile), json, true); }
 
 }  // namespace softscope

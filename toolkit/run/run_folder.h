@@ -14,6 +14,7 @@
 #include "io/sequences/frame_names.h"
 #include "pipeline/checkpoint.h"
 #include "pipeline/frame_record.h"
+#include "toolkit/record/fact_sheet.h"
 
 namespace softscope {
 
@@ -62,10 +63,9 @@ class RunFolder {
   void flush(const CheckpointView& checkpoint);
   /// Of the last frame, where it wasn't its turn.
   void saveLastModel(const ModelState& state);
-  /// run.json. `complete`: nothing is left to resume, so the checkpoint goes.
-  void writeRecord(const std::string& json, bool complete);
-  /// What data repositories read of the folder; after everything else.
-  void writeCrate(const std::string& json);
+  /// What data repositories read of the folder, then run.json. `complete`: nothing is left to
+  /// resume, so the checkpoint goes.
+  void writeRecord(const FactSheet::Json& record, bool complete);
 
  private:
   struct SavedModel {
