@@ -92,11 +92,6 @@ SOFTSCOPE_HD inline void addToBlock(const ComparisonFrameLayout& frame, std::uin
   }
 }
 
-SOFTSCOPE_HD inline bool isCarried(const PointBinding& binding,
-                                   const ComparisonGraphLayout& graph) {
-  return binding.stencil != PointBinding::kUnbound && binding.stencil < graph.stencil_count;
-}
-
 /// Inputs of the visible points.
 struct SeenQuestions {
   bool gain = false, anchors = false, innovation = false;
@@ -154,7 +149,7 @@ struct SeenKernel {
   }
   SOFTSCOPE_HD void addDifference(int i, int pixel, InnovationSums* all) const {
     const PointBinding& binding = model.bindings[i];
-    if (!isCarried(binding, graph)) return;
+    if (!isCarried(binding, graph.stencil_count)) return;
     const double sigma_mm = frame.sigma_mm[pixel];
     const double weight =
         depthWeight(frame.sigma_mm[pixel], asked.reference_mm, asked.largest_weight);
@@ -213,7 +208,7 @@ struct SquareDifferenceKernel {
     } else if constexpr (kPhase == 1) {
       if (i >= model.count || model.seen[i] == 0) return;
       const PointBinding& binding = model.bindings[i];
-      if (!isCarried(binding, graph)) return;
+      if (!isCarried(binding, graph.stencil_count)) return;
       const NodeStencil& stencil = graph.stencils[binding.stencil];
       double around_mm = 0;
       for (int k = 0; k < kNodesPerPoint; ++k)

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "fusion/colour_levels.h"
 
 namespace softscope {
 namespace {
@@ -70,10 +69,6 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
     red += own_red, green += own_green, blue += own_blue;
   });
   return {red.median(), green.median(), blue.median()};
-}
-
-Rgb8 modelColour(Rgb8 seen, const ColourGain& gain) {
-  return scaled(seen, 1 / gain.red, 1 / gain.green, 1 / gain.blue);
 }
 
 }  // namespace softscope

@@ -6,6 +6,7 @@
 
 #include "core/hd.h"
 #include "core/point_model.h"
+#include "fusion/colour_levels.h"
 #include "fusion/fusion_options.h"
 #include "fusion/observation.h"
 #include "fusion/visibility.h"
@@ -23,7 +24,9 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
                         const Visibility& visibility, const ColourOptions& options);
 
 /// The pixel's colour as the model keeps it: without gain.
-Rgb8 modelColour(Rgb8 seen, const ColourGain& gain);
+SOFTSCOPE_HD inline Rgb8 modelColour(Rgb8 seen, const ColourGain& gain) {
+  return scaled(seen, 1 / gain.red, 1 / gain.green, 1 / gain.blue);
+}
 
 /// Whether the pixel shows the light, not the tissue: (F13).
 SOFTSCOPE_HD inline bool isHighlight(Rgb8 seen, const ColourOptions& options) {

@@ -6,43 +6,35 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fusion/cell_table.h"
-#include "fusion/point_spacing.h"
+#include "fusion/density_formulas.h"
 
 namespace softscope {
 namespace {
 
 constexpr int kMostParts = 8;  // every one looks at all points
-constexpr int kWidthBit = 60;  // of a key; cells less than 2^18 from the origin leave it free
 
-/// Cells of all points; kNoCell for those that can't stay. Cells of different widths have
-/// different keys.
+/// Cells of all points; kNoCell for those that can't stay.
 std::vector<CellKey> cellsOf(const PointModel& model, const PosedCamera& camera, float cell_mm) {
   std::vector<CellKey> keys(model.size());
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const float length = model.normals[i].squaredNorm();
-      const bool stays = model.weights[i] > 0 && length > 0.25f && length < 4;
-      const int halvings =
-          halvingsAt(camera.toLeft(model.positions_mm[i]).z(), camera.fx_px, cell_mm);
-      keys[i] = stays ? cellKey(model.positions_mm[i],
-                                Eigen::Vector3f::Constant(std::ldexp(cell_mm, -halvings)))
-                      : kNoCell;
-      if (keys[i] != kNoCell) keys[i] ^= static_cast<CellKey>(halvings) << kWidthBit;
-    }
+    for (int i = begin; i < end; ++i)
+      keys[i] = staysInModel(model.normals[i], model.weights[i])
+                    ? densityCell(model.positions_mm[i], camera, cell_mm)
+                    : kNoCell;
   });
   return keys;
 }
 
 /// docs/fusion.md (F18).
-void mergeInto(PointModel* model, std::int32_t survivor, std::int32_t other) {
-  Eigen::Vector3f& position = model->positions_mm[survivor];
-  Eigen::Vector3f& normal = model->normals[survivor];
-  const float own = model->weights[survivor], others = model->weights[other];
-  const float share = others / (own + others);
-  const float height_mm = normal.dot(model->positions_mm[other] - position);
-  position += normal * (share * height_mm);
-  normal = ((1 - share) * normal + share * model->normals[other]).normalized();
-  model->weights[survivor] = std::max(own, others);
+void mergePoints(PointModel* model, std::int32_t survivor, std::int32_t other) {
+  const auto shapeOf = [model](std::int32_t i) {
+    return ModelPoint{model->positions_mm[i], model->normals[i], {}, 0, model->weights[i]};
+  };
+  ModelPoint merged = shapeOf(survivor);
+  mergeInto(shapeOf(other), &merged);
+  model->positions_mm[survivor] = merged.position_mm;
+  model->normals[survivor] = merged.normal;
+  model->weights[survivor] = merged.weight;
   if (!model->bindings[survivor].bound()) model->bindings[survivor] = model->bindings[other];
 }
 
@@ -63,16 +55,16 @@ void mergePart(unsigned part, unsigned parts, const std::vector<CellKey>& keys, 
   for (const std::int32_t i : own) {
     const std::size_t k = static_cast<std::size_t>(i);
     std::int32_t& held = table.find(keys[k], [&](std::int32_t j) {
-      return keys[j] == keys[k] && model->normals[j].dot(model->normals[i]) > cosine;
+      return keys[j] == keys[k] && onSameSide(model->normals[j], model->normals[i], cosine);
     });
     if (held == CellHashTable::kEmpty) {
       held = i;
     } else if (model->weights[i] > model->weights[held]) {
-      mergeInto(model, i, held);
+      mergePoints(model, i, held);
       heir[held] = i;
       held = i;
     } else {
-      mergeInto(model, held, i);
+      mergePoints(model, held, i);
       heir[k] = held;
     }
   }

@@ -12,7 +12,7 @@ namespace {
 constexpr int kNodesATask = 48;
 
 bool carries(const WarpGraph& graph, const PointBinding& binding) {
-  return binding.bound() && binding.stencil < static_cast<std::int32_t>(graph.stencils.size());
+  return isCarried(binding, static_cast<std::int32_t>(graph.stencils.size()));
 }
 
 /// One visible point: its binding, and its difference from the measurement.
@@ -121,15 +121,9 @@ InnovationField::InnovationField(const PointModel& model, const WarpGraph& graph
 }
 
 Innovation InnovationField::at(const WarpGraph& graph, const PointBinding& binding) const {
-  Innovation here;
-  if (nodes_.empty() || !carries(graph, binding)) return here;
-  const NodeStencil& stencil = graph.stencils[static_cast<std::size_t>(binding.stencil)];
-  for (int k = 0; k < kNodesPerPoint; ++k) {
-    const Innovation& node = nodes_[static_cast<std::size_t>(stencil[k])];
-    here.difference_mm2 += binding.weights[k] * node.difference_mm2;
-    here.excess_mm2 += binding.weights[k] * node.excess_mm2;
-  }
-  return here;
+  if (nodes_.empty() || !carries(graph, binding)) return {};
+  return innovationAt(graph.stencils[static_cast<std::size_t>(binding.stencil)], binding,
+                      nodes_.data());
 }
 
 }  // namespace softscope

@@ -1,6 +1,7 @@
 // src/fusion/innovation.h: innovation: distance of a frame's depth from the warped model.
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,22 @@ struct Innovation {
   float difference_mm2 = 0;  // of measurement and warped model, along the ray
   float excess_mm2 = 0;  // of it, what the depth's own errors don't explain: the model's variance
 };
+
+/// Whether nodes of a graph with that many stencils carry the point.
+SOFTSCOPE_HD inline bool isCarried(const PointBinding& binding, std::int32_t stencils) {
+  return binding.stencil != PointBinding::kUnbound && binding.stencil < stencils;
+}
+
+/// Of the nodes that carry a point, in the proportion in which they carry it.
+SOFTSCOPE_HD inline Innovation innovationAt(const NodeStencil& stencil, const PointBinding& binding,
+                                            const Innovation* nodes) {
+  Innovation here;
+  for (int k = 0; k < kNodesPerPoint; ++k) {
+    here.difference_mm2 += binding.weights[k] * nodes[stencil[k]].difference_mm2;
+    here.excess_mm2 += binding.weights[k] * nodes[stencil[k]].excess_mm2;
+  }
+  return here;
+}
 
 /// The mean of some quantity around a node, from its weighted total there and over the frame. A
 /// node with few points takes the value of the whole frame.
@@ -50,8 +67,11 @@ class InnovationField {
   /// From the means around each node.
   explicit InnovationField(std::vector<Innovation> nodes) : nodes_(std::move(nodes)) {}
 
-  /// Of the nodes that carry a point, in the proportion in which they carry it.
+  /// innovationAt() of a point; 0 where no node carries it.
   Innovation at(const WarpGraph& graph, const PointBinding& binding) const;
+
+  /// One per node; may be empty.
+  const std::vector<Innovation>& nodes() const { return nodes_; }
 
  private:
   std::vector<Innovation> nodes_;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "fusion/pixel_formulas.h"
 
 namespace softscope {
 namespace {
@@ -50,18 +51,6 @@ void spanColumn(const Raster<float>& row_nearest, const Raster<float>& row_farth
   }
 }
 
-/// Whether depth, its error and its normal are good enough; edges and masks aside.
-bool isSure(const Observation& observation, const PosedCamera& camera, int u, int v,
-            const PixelOptions& options) {
-  if (!observation.depth.sigma_mm.empty()) {
-    const float sigma_mm = observation.depth.sigma_mm.at(u, v);
-    if (!(sigma_mm > 0 && sigma_mm <= static_cast<float>(options.max_sigma_mm))) return false;
-  }
-  const Eigen::Vector3f ray = camera.ray(u, v);
-  const float towards = -observation.normals.at(u, v).dot(ray);  // NaN where there is no normal
-  return towards >= static_cast<float>(options.kMinCosine) * ray.norm();
-}
-
 }  // namespace
 
 void Observation::validate() const {
@@ -101,24 +90,16 @@ Raster<PixelState> judgePixels(const Observation& observation, const PixelOption
     spanRow(depth_mm.row(v), width, options.kEdgeRadiusPx, nearest.row(v), farthest.row(v));
   });
   Raster<PixelState> states(width, height, PixelState::kUnmeasured);
-  const float step = static_cast<float>(options.kEdgeStep);
-  const float max_depth_mm = static_cast<float>(options.kMaxDepthMm);
+  const FrameRasters rasters = frameRasters(observation);
+  const float max_sigma_mm = static_cast<float>(options.max_sigma_mm);
   parallelRanges(height, 8, [&](int begin, int end) {
     std::vector<float> low(static_cast<std::size_t>(width)), high(low.size());
     for (int v = begin; v < end; ++v) {
       spanColumn(nearest, farthest, v, options.kEdgeRadiusPx, low.data(), high.data());
       for (int u = 0; u < width; ++u) {
-        const float z = depth_mm.at(u, v);
-        PixelState& state = states.at(u, v);
-        if (!observation.mask.empty() && observation.mask.at(u, v) != 0)
-          state = PixelState::kMasked;
-        else if (!(z > 0 && z < max_depth_mm))
-          state = PixelState::kUnmeasured;
-        else if (!(high[u] - z <= step * z && z - low[u] <= step * z))
-          state = PixelState::kEdge;
-        else
-          state =
-              isSure(observation, camera, u, v, options) ? PixelState::kSure : PixelState::kUnsure;
+        const bool is_masked = !observation.mask.empty() && observation.mask.at(u, v) != 0;
+        states.at(u, v) =
+            pixelState(u, v, is_masked, {low[u], high[u]}, rasters, camera, max_sigma_mm);
       }
     }
   });

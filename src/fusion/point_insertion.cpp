@@ -3,31 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "fusion/cell_table.h"
-#include "fusion/colour_levels.h"
-#include "fusion/fusion_weights.h"
+#include "fusion/insertion_formulas.h"
 #include "fusion/nearest_surface.h"
-#include "fusion/point_spacing.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kMostFootprint = 10;  // pixels
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-/// Pixels nearer to a point than this get no new one: (F14).
-int footprintPx(float depth_mm, float focal_px, float spacing_mm) {
-  const float spacing_px = spacingAt(depth_mm, focal_px, spacing_mm) * focal_px / depth_mm;
-  // In double precision, the sum is exact: truncation rounds.
-  const int rounded = static_cast<int>(static_cast<double>(std::min(spacing_px, 100.0f)) + 0.5);
-  return std::clamp(rounded, 1, kMostFootprint);
-}
 
 /// The model's nearest depth in every pixel.
 NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
@@ -49,8 +37,8 @@ class DepthsAround {
  public:
   DepthsAround(const NearestSurface& drawn, const PosedCamera& camera, int begin, int end)
       : width_(camera.width_px),
-        top_(std::max(0, begin - kMostFootprint)),
-        depths_mm_(width_, std::min(camera.height_px, end + kMostFootprint) - top_) {
+        top_(std::max(0, begin - kMostFootprintPx)),
+        depths_mm_(width_, std::min(camera.height_px, end + kMostFootprintPx) - top_) {
     for (int v = 0; v < depths_mm_.height_px; ++v)
       for (int u = 0; u < width_; ++u) depths_mm_.at(u, v) = drawn.depthAt(u, v + top_);
   }
@@ -84,14 +72,12 @@ class UnexplainedDepths {
  public:
   UnexplainedDepths(const Observation& observation, const Raster<PixelState>& states,
                     const NearestSurface& drawn, const PosedCamera& camera,
-                    const InsertionOptions& options)
+                    const InsertionLimits& limits)
       : depth_(observation.depth),
         states_(states),
         drawn_(drawn),
         camera_(camera),
-        max_sigma_mm_(static_cast<float>(options.max_sigma_mm)),
-        band_mm_(static_cast<float>(options.band_mm)),
-        spacing_mm_(static_cast<float>(options.spacing_mm)) {}
+        limits_(limits) {}
 
   Raster<float> find() const {
     Raster<float> unexplained(states_.width_px, states_.height_px, kNaN);
@@ -105,51 +91,35 @@ class UnexplainedDepths {
  private:
   void findRow(const DepthsAround& around, int v, float* unexplained) const {
     std::vector<int> reaches(static_cast<std::size_t>(states_.width_px), 0);
-    std::array<bool, kMostFootprint + 1> is_asked{};
+    std::array<bool, kMostFootprintPx + 1> is_asked{};
+    const float* sigma_mm = depth_.sigma_mm.empty() ? nullptr : depth_.sigma_mm.row(v);
     for (int u = 0; u < states_.width_px; ++u) {
-      if (!isSure(u, v)) continue;
+      if (!mayMakePoint(states_.at(u, v), sigma_mm, u, limits_.max_sigma_mm)) continue;
       const float depth_mm = depth_.depth_mm.at(u, v);
-      if (around.at(u, v) < depth_mm + band_mm_) continue;
-      const int reach = footprintPx(depth_mm, camera_.fx_px, spacing_mm_);
+      if (isExplained(around.at(u, v), depth_mm, limits_.band_mm)) continue;
+      const int reach = footprintPx(depth_mm, camera_.fx_px, limits_.spacing_mm);
       reaches[static_cast<std::size_t>(u)] = reach;
       is_asked[static_cast<std::size_t>(reach)] = true;
     }
     std::vector<float> least_mm;
-    for (int reach = 1; reach <= kMostFootprint; ++reach) {
+    for (int reach = 1; reach <= kMostFootprintPx; ++reach) {
       if (!is_asked[static_cast<std::size_t>(reach)]) continue;
       around.leastWithin(v, reach, &least_mm);
       for (int u = 0; u < states_.width_px; ++u) {
         const float depth_mm = depth_.depth_mm.at(u, v);
         if (reaches[static_cast<std::size_t>(u)] == reach &&
-            !(least_mm[static_cast<std::size_t>(u)] < depth_mm + band_mm_))
+            !isExplained(least_mm[static_cast<std::size_t>(u)], depth_mm, limits_.band_mm))
           unexplained[u] = depth_mm;
       }
     }
-  }
-
-  bool isSure(int u, int v) const {
-    return states_.at(u, v) == PixelState::kSure &&
-           (depth_.sigma_mm.empty() || depth_.sigma_mm.at(u, v) <= max_sigma_mm_);
   }
 
   const DepthMap& depth_;
   const Raster<PixelState>& states_;
   const NearestSurface& drawn_;
   const PosedCamera& camera_;
-  const float max_sigma_mm_, band_mm_, spacing_mm_;
+  const InsertionLimits limits_;
 };
-
-/// Whether the last frame saw something unexplained there as well: (F15).
-bool confirmed(const Eigen::Vector3f& point_world, const PosedCamera& last_camera,
-               const Raster<float>& last_mm, float band_mm) {
-  const Eigen::Vector3f left = last_camera.toLeft(point_world);
-  int u0, v0;
-  if (!last_camera.findPixel(left, &u0, &v0)) return false;
-  for (int v = v0 - 1; v <= v0 + 1; ++v)
-    for (int u = u0 - 1; u <= u0 + 1; ++u)
-      if (last_mm.contains(u, v) && std::abs(last_mm.at(u, v) - left.z()) < band_mm) return true;
-  return false;
-}
 
 /// Those that are allowed, in the image's order.
 std::vector<std::int32_t> candidatePixels(const Raster<float>& unexplained_mm,
@@ -180,19 +150,15 @@ int countAboveZero(const Raster<float>& depth_mm) {
 std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
                                        const PosedCamera& camera,
                                        const std::vector<std::uint8_t>& allowed,
-                                       const InsertionOptions& options) {
+                                       const InsertionLimits& limits) {
   const std::vector<std::int32_t> candidates = candidatePixels(unexplained_mm, allowed);
-  const float spacing_mm = static_cast<float>(options.spacing_mm);
-  const float band_mm = static_cast<float>(options.band_mm);
   std::vector<CellKey> keys(candidates.size());
   parallelRanges(static_cast<int>(candidates.size()), kPointsATask, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const std::int32_t i = candidates[k];
       const Eigen::Vector3f ray =
           camera.ray(i % unexplained_mm.width_px, i / unexplained_mm.width_px);
-      const float depth_mm = unexplained_mm.values[i];
-      const float side_mm = spacingAt(depth_mm, camera.fx_px, spacing_mm);
-      keys[k] = cellKey(ray * depth_mm, {side_mm, side_mm, band_mm});
+      keys[k] = insertionCell(ray, unexplained_mm.values[i], camera.fx_px, limits);
     }
   });
   std::vector<std::int32_t> chosen;
@@ -207,23 +173,6 @@ std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
   return chosen;
 }
 
-void addPoint(std::int32_t pixel, const Observation& observation, const PosedCamera& camera,
-              const ColourGain& gain, const FusionOptions& options, PointModel* model) {
-  const std::size_t i = static_cast<std::size_t>(pixel);
-  const Eigen::Vector3f left = camera.ray(pixel % camera.width_px, pixel / camera.width_px) *
-                               observation.depth.depth_mm.values[i];
-  const Eigen::Vector3f& normal = observation.normals.values[i];
-  const Rgb8 colour =
-      observation.colour.empty() ? Rgb8{} : modelColour(observation.colour.values[i], gain);
-  const float weight = observation.depth.sigma_mm.empty()
-                           ? 1.0f
-                           : depthWeight(observation.depth.sigma_mm.values[i],
-                                         static_cast<float>(options.points.reference_sigma_mm),
-                                         static_cast<float>(options.points.max_measurement_weight));
-  model->add(camera.toWorld(left), camera.left_from_world.transpose() * normal, colour,
-             std::min(weight, static_cast<float>(options.points.max_weight)));
-}
-
 /// Makes room by a quarter more at a time: doubling would waste too much on a large model.
 void makeRoom(std::size_t more, PointModel* model) {
   const std::size_t needed = model->size() + more;
@@ -235,15 +184,17 @@ void makeRoom(std::size_t more, PointModel* model) {
 std::vector<std::uint8_t> allowedPixels(const Raster<float>& unexplained_mm,
                                         const PosedCamera& camera, const InsertionMemory& last,
                                         bool at_once, float band_mm) {
-  const PosedCamera last_camera = posedCamera(last.left, last.world_from_left);
+  const LastUnexplained unexplained_last{
+      last.unexplained_mm.values.data(), last.unexplained_mm.width_px,
+      last.unexplained_mm.height_px, posedCamera(last.left, last.world_from_left)};
   std::vector<std::uint8_t> allowed(unexplained_mm.size(), 0);
   parallelRows(unexplained_mm.height_px, [&](int v) {
     for (int u = 0; u < unexplained_mm.width_px; ++u) {
       const float depth_mm = unexplained_mm.at(u, v);
       if (!(depth_mm > 0)) continue;
       allowed[static_cast<std::size_t>(v) * unexplained_mm.width_px + u] =
-          at_once || confirmed(camera.toWorld(camera.ray(u, v) * depth_mm), last_camera,
-                               last.unexplained_mm, band_mm);
+          at_once ||
+          isConfirmed(camera.toWorld(camera.ray(u, v) * depth_mm), unexplained_last, band_mm);
     }
   });
   return allowed;
@@ -259,18 +210,21 @@ InsertionSummary insertPoints(const Observation& observation, const Raster<Pixel
   observation.validate();
   requireStates(states, observation);
   requireVisibility(visibility, *model);
-  const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);
+  const FusingFrame frame = fusingFrame(observation, gain, options.points, options.colour);
+  const PosedCamera& camera = frame.camera;
+  const InsertionLimits limits = insertionLimits(options.insertion);
   const NearestSurface drawn = drawModel(*model, visibility, camera);
   Raster<float> unexplained_mm =
-      UnexplainedDepths(observation, states, drawn, camera, options.insertion).find();
+      UnexplainedDepths(observation, states, drawn, camera, limits).find();
   const bool at_once = !options.insertion.confirm || model->empty();
-  const std::vector<std::uint8_t> allowed = allowedPixels(
-      unexplained_mm, camera, *memory, at_once, static_cast<float>(options.insertion.band_mm));
-  const std::vector<std::int32_t> chosen =
-      choosePixels(unexplained_mm, camera, allowed, options.insertion);
+  const std::vector<std::uint8_t> allowed =
+      allowedPixels(unexplained_mm, camera, *memory, at_once, limits.band_mm);
+  const std::vector<std::int32_t> chosen = choosePixels(unexplained_mm, camera, allowed, limits);
   makeRoom(chosen.size(), model);
-  for (const std::int32_t pixel : chosen)
-    addPoint(pixel, observation, camera, gain, options, model);
+  for (const std::int32_t pixel : chosen) {
+    const ModelPoint point = newPoint(pixel, frame);
+    model->add(point.position_mm, point.normal, point.colour, point.weight);
+  }
   InsertionSummary summary;
   summary.inserted = static_cast<int>(chosen.size());
   summary.unexplained_px = countAboveZero(unexplained_mm);

@@ -55,6 +55,10 @@ class ComparisonScene {
 
   static PinholeCamera camera() { return smallCamera(241, 178, 280); }
   Observation observation() const { return shot_.observation(); }
+  const FusionOptions& options() const { return options_; }
+  const PointModel& model() const { return model_; }
+  const WarpGraph& graph() const { return graph_; }
+  const Raster<PixelState>& states() const { return states_; }
 
   struct Found {
     std::vector<std::int32_t> seen;
