@@ -16,13 +16,12 @@
 #include "pipeline/graph_ahead.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/relocaliser.h"
+#include "pipeline/track_sight.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
 
 namespace softscope {
 namespace {
-
-constexpr double kFloatingLimits = 3;  // before the surface, in units of the limit behind it
 
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
@@ -82,10 +81,6 @@ class CpuBackend : public ReconstructionBackend {
               PoseSummary* summary);
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
-  bool visible(const Eigen::Vector3d& point_left) const;
-  /// As measured in this frame where it sees the point; NaN where not.
-  double depthVarianceMm2(const Eigen::Vector3d& point_left) const;
-  std::vector<TrackedPosition> tracked(const Eigen::Isometry3d& world_from_left) const;
 
   ReconstructionOptions options_;
   std::string name_, device_;
@@ -337,7 +332,9 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
 }
 
 FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
-  FrameOutcome outcome{std::exchange(fused_, {}), tracked(world_from_left), clock_.laps()};
+  const TrackSight sight(frame_, rig());
+  FrameOutcome outcome{std::exchange(fused_, {}), sight.positions(state_.tracked, world_from_left),
+                       clock_.laps()};
   clock_ = StageClock();
   return outcome;
 }
@@ -349,43 +346,10 @@ void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
 }
 
 void CpuBackend::alignTracks(const Eigen::Isometry3d& world_from_left) {
+  const TrackSight sight(frame_, rig());
   state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left,
                        options_.graph.node_spacing_mm,
-                       [&](const Eigen::Vector3d& point) { return visible(point); });
-}
-
-bool CpuBackend::visible(const Eigen::Vector3d& point_left) const {
-  if (!(point_left.z() > 0)) return false;
-  const Eigen::Vector2d pixel = projectPoint(left(), point_left);
-  const int u = static_cast<int>(std::lround(pixel.x())),
-            v = static_cast<int>(std::lround(pixel.y()));
-  if (!frame_.not_tissue.contains(u, v) || frame_.not_tissue.at(u, v) != 0) return false;
-  const float depth_mm = frame_.measured.depth.depth_mm.at(u, v);
-  const double behind_mm = point_left.z() - depth_mm;
-  const double limit_mm = VisibilityOptions::kOcclusionMm * frame_.summary.limit_scale;
-  // Errors of tracks and of depth stay below the second limit; what floats beyond it was lost.
-  return !(behind_mm > limit_mm || -behind_mm > kFloatingLimits * limit_mm);
-}
-
-double CpuBackend::depthVarianceMm2(const Eigen::Vector3d& point_left) const {
-  const Raster<float>& sigma_mm = frame_.measured.depth.sigma_mm;
-  if (sigma_mm.empty()) return kUnknown;
-  const Eigen::Vector2d pixel = projectPoint(left(), point_left);
-  const double sigma = sigma_mm.at(static_cast<int>(std::lround(pixel.x())),
-                                   static_cast<int>(std::lround(pixel.y())));
-  return sigma * sigma;
-}
-
-std::vector<TrackedPosition> CpuBackend::tracked(const Eigen::Isometry3d& world_from_left) const {
-  std::vector<TrackedPosition> positions;
-  for (const MaterialPoints::Point& point : state_.tracked.points) {
-    const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
-    TrackedPosition tracked{point.id, point.position_mm, centre.allFinite() && visible(centre)};
-    if (tracked.visible)
-      tracked.sigma_mm = std::sqrt(2 * point.variance_mm2 + depthVarianceMm2(centre));
-    positions.push_back(tracked);
-  }
-  return positions;
+                       [&](const Eigen::Vector3d& point) { return sight.shows(point); });
 }
 
 }  // namespace

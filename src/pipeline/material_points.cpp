@@ -7,27 +7,14 @@
 #include "core/parallel.h"
 #include "deform/graph/warp.h"
 #include "fusion/cell_table.h"
+#include "pipeline/nearest_depth.h"
 
 namespace softscope {
 namespace {
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-constexpr int kSearchPx = 6;          // a seed without depth takes it from pixels this near …
-constexpr int kGapShare = 40;         // … or, where many are measured, this share of the width
 constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
 constexpr double kMaxSettleMm = 0.5;  // of near tissue; further off is another surface
-
-/// Calls visit(x, y, depth) for the measured pixels within `radius_px`, x and y from `pixel`.
-template <class Visit>
-void visitMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, int radius_px,
-                   const Visit& visit) {
-  const int u0 = static_cast<int>(std::lround(pixel.x()));
-  const int v0 = static_cast<int>(std::lround(pixel.y()));
-  for (int v = v0 - radius_px; v <= v0 + radius_px; ++v)
-    for (int u = u0 - radius_px; u <= u0 + radius_px; ++u)
-      if (depth_mm.contains(u, v) && std::isfinite(depth_mm.at(u, v)))
-        visit(u - pixel.x(), v - pixel.y(), depth_mm.at(u, v));
-}
 
 /// Depth at the pixel by a plane fitted to the inverse depth of the measured pixels within
 /// `radius_px`. NaN where fewer than `least` are measured.
@@ -46,33 +33,17 @@ double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
   return 1 / normal.ldlt().solve(right).x();
 }
 
-struct NearestDepth {
-  double depth_mm = kNotKnown;
-  double distance_px = 0;
-};
-
-/// Of the measured pixel that is nearest; NaN where none lies within `radius_px`.
-NearestDepth nearestDepth(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel,
-                          int radius_px) {
-  NearestDepth nearest{kNotKnown, radius_px + 1.0};
-  visitMeasured(depth_mm, pixel, radius_px, [&](double x, double y, float depth) {
-    const double distance_px = std::hypot(x, y);
-    if (distance_px < nearest.distance_px) nearest = {depth, distance_px};
-  });
-  return nearest;
-}
-
 /// Depth of the surface at the pixel: of its 5 x 5 neighbours; in a gap or beside an instrument, of
 /// what is measured around, going on from the nearest pixel at 45 degrees at most. NaN where there
 /// is none.
 double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, double focal_px) {
   const double here_mm = planeAround(depth_mm, pixel, 2, 13);
   if (std::isfinite(here_mm)) return here_mm;
-  const int gap_px = std::max(kSearchPx, depth_mm.width_px / kGapShare);
+  const int gap_px = gapPx(depth_mm.width_px);
   const double around_mm = planeAround(depth_mm, pixel, gap_px, gap_px * gap_px);
-  if (!std::isfinite(around_mm)) return nearestDepth(depth_mm, pixel, kSearchPx).depth_mm;
+  if (!std::isfinite(around_mm)) return nearestDepth(depth_mm, pixel, kSmallGapPx).depth_mm;
   const NearestDepth nearest = nearestDepth(depth_mm, pixel, gap_px);
-  const double limit_mm = nearest.distance_px * nearest.depth_mm / focal_px;
+  const double limit_mm = nearest.slackMm(focal_px);
   return std::clamp(around_mm, nearest.depth_mm - limit_mm, nearest.depth_mm + limit_mm);
 }
 

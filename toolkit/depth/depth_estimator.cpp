@@ -2,6 +2,7 @@
 #include "toolkit/depth/depth_estimator.h"
 
 #include "stereo/depth/depth_from_disparity.h"
+#include "stereo/depth/relief_error.h"
 #include "stereo/matching/stage_clock.h"
 
 namespace softscope {
@@ -17,6 +18,8 @@ void turn(PointCloud& cloud, const Eigen::Matrix3f& rotation) {
 DepthResult DepthEstimator::measure(const Frame& frame) {
   DepthResult result{depth_->measure(frame), {}};
   StageClock clock;
+  addReliefError(rig(), &result.disparity, &result.depth);
+  clock.lap("relief");
   result.cloud =
       pointCloud(result.depth.depth_mm, result.normals, result.left, rig().left, result.mask);
   if (raw_left_) turn(result.cloud, rig().rectified_from_raw_left.transpose().cast<float>());

@@ -1,0 +1,74 @@
+#include "pipeline/track_sight.h"
+
+#include <cmath>
+#include <limits>
+
+#include "fusion/fusion_options.h"
+#include "stereo/depth/relief_error.h"
+
+namespace softscope {
+namespace {
+
+constexpr double kFarthestPx = 1e6;    // beyond it lies no image
+constexpr double kFloatingLimits = 3;  // before the surface, in units of the limit behind it
+
+/// Of the pixel that a point is seen at; far outside of every image where there is none.
+Eigen::Vector2d pixelOf(const PinholeCamera& left, const Eigen::Vector3d& point_left) {
+  const Eigen::Vector2d nowhere(-kFarthestPx, -kFarthestPx);
+  if (!point_left.allFinite() || !(point_left.z() > 0)) return nowhere;
+  const Eigen::Vector2d pixel = projectPoint(left, point_left).array().round();
+  return pixel.allFinite() && pixel.cwiseAbs().maxCoeff() < kFarthestPx ? pixel : nowhere;
+}
+
+/// Variance of the depth at a pixel that takes its surface from one beside it.
+double depthVarianceMm2(const Raster<float>& sigma_mm, const Eigen::Vector2d& pixel,
+                        const NearestDepth& surface, double focal_px) {
+  if (sigma_mm.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Vector2d at = (pixel + surface.away_px).array().round();
+  const double sigma = sigma_mm.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  const double slack_mm = surface.slackMm(focal_px);
+  return sigma * sigma + slack_mm * slack_mm;
+}
+
+}  // namespace
+
+NearestDepth TrackSight::surfaceAt(const Eigen::Vector3d& point_left, int gap_px) const {
+  const Raster<float>& depth_mm = frame_.measured.depth.depth_mm;
+  const Eigen::Vector2d pixel = pixelOf(rig_.left, point_left);
+  const NearestDepth here = nearestDepth(depth_mm, pixel, 0);
+  return here.found() ? here : nearestDepth(depth_mm, pixel, gap_px);
+}
+
+bool TrackSight::shows(const Eigen::Vector3d& point_left, const NearestDepth& surface) const {
+  const Eigen::Vector2d pixel = pixelOf(rig_.left, point_left);
+  const int u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());
+  if (!frame_.not_tissue.contains(u, v) || frame_.not_tissue.at(u, v) != 0) return false;
+  if (!surface.found()) return true;
+  const double behind_mm = point_left.z() - surface.depth_mm;
+  const double slack_mm = surface.slackMm(rig_.left.fx_px);
+  const double limit_mm = VisibilityOptions::kOcclusionMm * frame_.summary.limit_scale;
+  // Errors of tracks and of depth stay below the second limit; what floats beyond it was lost.
+  return behind_mm <= limit_mm + slack_mm && -behind_mm <= kFloatingLimits * limit_mm + slack_mm;
+}
+
+std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked,
+                                                   const Eigen::Isometry3d& world_from_left) const {
+  std::vector<TrackedPosition> positions;
+  if (tracked.points.empty()) return positions;
+  DepthMap depth = frame_.measured.depth;  // stages weigh it by its noise alone
+  addReliefError(rig_, nullptr, &depth);
+  for (const MaterialPoints::Point& point : tracked.points) {
+    const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
+    const NearestDepth surface = surfaceAt(centre, gapPx(depth.depth_mm.width_px));
+    TrackedPosition position{point.id, point.position_mm,
+                             surface.found() && shows(centre, surface)};
+    if (position.visible)
+      position.sigma_mm = std::sqrt(
+          2 * point.variance_mm2 +
+          depthVarianceMm2(depth.sigma_mm, pixelOf(rig_.left, centre), surface, rig_.left.fx_px));
+    positions.push_back(position);
+  }
+  return positions;
+}
+
+}  // namespace softscope
