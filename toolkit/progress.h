@@ -1,4 +1,4 @@
-// toolkit/progress.h: progress callback of long work.
+// toolkit/progress.h: progress callback.
 #pragma once
 
 #include <functional>
@@ -6,24 +6,24 @@
 
 namespace softscope {
 
-/// Called before the first part of long work with `done` 0, and after each part. False: stop
-/// cleanly.
+/// Called with `done` 0 at the start, and after
+/// each part. False requests a clean stop.
 using Progress = std::function<bool(int done, int total)>;
 
-/// Without a callback work runs to its end.
+/// True without a callback.
 inline bool goesOn(const Progress& progress, int done, int total) {
   return !progress || progress(done, total);
 }
 
-/// What long work tells while it runs. Each callback may be empty.
+/// Callbacks of long work. Each may be empty.
 struct WorkListener {
   Progress progress;
-  std::function<void(const std::string&)> warning, note, failure;  // one line each
+  std::function<void(const std::string&)> warning, note, failure;  // one line per call
 
   void warn(const std::string& text) const {
     if (warning) warning(text);
   }
-  /// Of a part of the work; the rest goes on.
+  /// Failure of one part of the work; the other parts continue.
   void fail(const std::string& text) const {
     if (failure) failure(text);
   }

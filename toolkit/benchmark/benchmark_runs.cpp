@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDeepestClip = 4;  // folders below the data set's
+constexpr int kDeepestClip = 4;  // levels below the folder of the data set
 
 std::string lastLineOf(const fs::path& log) {
   std::ifstream file(log);
@@ -44,7 +44,7 @@ BenchmarkRun runOf(std::vector<std::string> words, const fs::path& run, bool is_
   return {words, run.parent_path() / "log.txt", is_complete && !options.force, {}};
 }
 
-/// Work of several threads on one list of runs.
+/// Queue of runs shared by several threads.
 class RunQueue {
  public:
   RunQueue(std::vector<BenchmarkRun>* runs, const RunSoftscope& run_softscope,

@@ -1,5 +1,5 @@
-// toolkit/benchmark/benchmark_runs.h: what the benchmarks of all data sets share: clips, runs of
-// softscope on them, tracks and latencies of these runs.
+// toolkit/benchmark/benchmark_runs.h: common parts of all benchmarks: search
+// of clips, runs of softscope, and reading of their tracks and latencies.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,18 +16,18 @@
 
 namespace softscope {
 
-inline constexpr std::uint64_t kBenchmarkSeed = 2026;  // of every bootstrap
+inline constexpr std::uint64_t kBenchmarkSeed = 2026;  // of all bootstraps
 
 struct BenchmarkOptions {
   std::filesystem::path data;  // one clip, or a folder of clips
   std::filesystem::path out;
-  std::vector<std::string> settings;  // KEY=VALUE for the command that is run
-  bool force = false;                 // do clips again that are done
-  int jobs = 1;                       // clips at the same time
+  std::vector<std::string> settings;  // KEY=VALUE arguments of the command
+  bool force = false;                 // repeat clips that are complete
+  int jobs = 1;                       // clips processed in parallel
 };
 
-/// Runs softscope with these words, its output appended to a log; returns its exit code. May be
-/// called from several threads at once.
+/// Runs softscope with these arguments and appends its
+/// output to a log. Returns the exit code. Thread-safe.
 using RunSoftscope =
     std::function<int(const std::vector<std::string>& words, const std::filesystem::path& log)>;
 
@@ -35,18 +35,18 @@ using RunSoftscope =
 struct BenchmarkRun {
   std::vector<std::string> words;
   std::filesystem::path log;
-  bool done = false;    // by an earlier benchmark: not run again
-  std::string failure;  // set by runAll(): why it has no result
+  bool done = false;    // complete since an earlier benchmark: skipped
+  std::string failure;  // set by runAll(): reason for the missing result
 };
 
-/// Runs all that aren't done, `jobs` at the same time. Returns false where `progress` stopped it.
+/// Executes all runs that are not done, `jobs` in parallel. Returns false if `progress` stops it.
 bool runAll(std::vector<BenchmarkRun>* runs, int jobs, const RunSoftscope& run_softscope,
             const Progress& progress);
 
-/// `reconstruct CLIP --out RUN`, with `more` words and the settings.
+/// `reconstruct CLIP --out RUN` with the `more` arguments and the settings.
 BenchmarkRun reconstruction(const std::filesystem::path& clip, const std::filesystem::path& run,
                             const std::vector<std::string>& more, const BenchmarkOptions& options);
-/// `depth INPUT… --out RUN --write depth`, likewise.
+/// `depth INPUT… --out RUN --write depth` with the settings.
 BenchmarkRun depthMeasurement(const std::vector<std::string>& input,
                               const std::filesystem::path& run, const BenchmarkOptions& options);
 
@@ -55,27 +55,27 @@ struct BenchmarkClip {
   std::filesystem::path folder;
 };
 
-/// The folders below `data`, itself included, that `is_clip` takes, in natural order; none inside
-/// another. A clip's name is its path below `data`, `_` for `/`. Throws InputError with `expected`
-/// where there is none.
+/// Folders at or below `data` for which `is_clip` is true, in natural order;
+/// clips are not nested. The name of a clip is its path relative to `data`,
+/// with `_` for `/`. Throws InputError with `expected` if there is none.
 std::vector<BenchmarkClip> findClips(
     const std::filesystem::path& data,
     const std::function<bool(const std::filesystem::path&)>& is_clip, const std::string& expected);
 
-/// Followed points of a run in the frame of the rectified left camera, by frame of the clip and
-/// number of the point; NaN where the run has none.
+/// Tracked points of a run in the frame of the rectified left camera, by
+/// frame of the clip and index of the point; NaN without a measurement.
 struct RunTracks {
   std::vector<std::vector<Eigen::Vector3d>> positions_mm;
   std::vector<std::vector<bool>> visible;
 };
 
-/// Throws InputError where the run can't be read.
+/// Throws InputError for an unreadable run.
 RunTracks readRunTracks(const std::filesystem::path& run, std::size_t points, int frames);
 
-/// Of each frame of frames.csv, ms.
+/// Total time per row of frames.csv, ms.
 std::vector<double> readLatencies(const std::filesystem::path& run);
 
-/// What is wrong with a clip excludes it: its InputError becomes the reason.
+/// An InputError excludes the clip; its text becomes the reason.
 template <class Work>
 void excludeOnError(std::string* reason, const Work& work) {
   try {
@@ -85,7 +85,7 @@ void excludeOnError(std::string* reason, const Work& work) {
   }
 }
 
-/// Throws InputError with the first reason where all clips (name, excluded) are excluded.
+/// Throws InputError with the first reason if all clips (name, excluded) are excluded.
 template <class Clip>
 void requireOneJudged(const std::vector<Clip>& clips, const std::filesystem::path& data) {
   for (const Clip& clip : clips)
@@ -94,21 +94,21 @@ void requireOneJudged(const std::vector<Clip>& clips, const std::filesystem::pat
                        " clips could be judged; the first: ", clips[0].excluded));
 }
 
-/// A clip that has no part in a table, and why.
+/// Clip excluded from a table, with the reason.
 struct ExcludedClip {
   std::string name, why;
 };
 
-/// Lines that every table begins and ends with.
+/// First and last lines of every table.
 void addClips(const std::vector<std::string>& judged, const std::vector<ExcludedClip>& excluded,
               FactSheet* facts);
 void addLatency(const std::vector<double>& latency_ms, const std::string& of_what,
                 FactSheet* facts);
 
-/// null for NaN.
+/// NaN becomes null.
 FactSheet::Json orNull(double value);
-/// "key": mean over the clusters (clips, groups) that `over` names and 95 % interval of a bootstrap
-/// over them, for people in one line; without the line for fewer than three.
+/// "key": mean over the clusters (clips, groups) named by `over`, with the 95 % interval of
+/// a bootstrap over clusters, as one line of text; no line for fewer than three clusters.
 void addClusterMean(const std::string& label, const std::string& key, const std::string& unit,
                     const std::string& over, const std::vector<double>& values, FactSheet* facts);
 

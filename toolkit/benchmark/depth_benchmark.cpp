@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True depth on the rectified left image, and the rig that it holds for.
+/// True depth of the rectified left image, with its rig.
 struct DepthTruth {
   Raster<float> depth_mm;
   RectifiedRig rig;
 };
 
-/// A stereo pair, the words that measure it, its truth.
+/// Stereo pair, the arguments of its measurement, its ground truth.
 struct BenchmarkPair {
   std::string name, group;
   std::function<BenchmarkRun(const fs::path& run)> prepare;
@@ -37,7 +37,7 @@ Raster<float> measuredDepth(const fs::path& run) {
   throw InputError(shown(run) + ": holds no depth.pfm. Run again with `overwrite=`.");
 }
 
-/// Of a pair, all that `depth` does but writing.
+/// Processing time per pair without writing, ms.
 double depthLatency(const fs::path& run) {
   std::ifstream stream(run / "summary.json");
   const auto json = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
@@ -99,7 +99,7 @@ DepthTruth scaredTruth(const fs::path& keyframe) {
   return {rectifiedDepth(points, rig), rig};
 }
 
-/// Its folder names the data set: dataset_8/keyframe_1.
+/// The name of the parent folder is the data set: dataset_8/keyframe_1.
 std::string parentName(const fs::path& folder) {
   const fs::path own = folder.has_filename() ? folder : folder.parent_path();
   const std::string name = fs::absolute(own).parent_path().filename().string();
@@ -112,7 +112,7 @@ bool isServCtExperiment(const fs::path& folder) {
   return isFolder(folder / "Left_rectified") && isFolder(folder / "Right_rectified");
 }
 
-/// Every pair has a calibration and a truth of its own name.
+/// Calibration and truth have the name of the pair.
 BenchmarkPair servCtPair(const fs::path& experiment, const std::string& name,
                          const std::string& group, const fs::path& left, const fs::path& reference,
                          const BenchmarkOptions& options) {

@@ -1,5 +1,5 @@
-// toolkit/benchmark/depth_benchmark.h: SCARED and SERV-CT: stereo pairs to depth, depth to the
-// table.
+// toolkit/benchmark/depth_benchmark.h: depth benchmarks of SCARED and
+// SERV-CT.
 #pragma once
 
 #include "toolkit/benchmark/benchmark_runs.h"
@@ -7,14 +7,14 @@
 
 namespace softscope {
 
-/// Runs `depth` on each keyframe of SCARED, then writes OUT/benchmark.json. Pairs that are done are
-/// not run again. A pair that fails is excluded and named; all of them: InputError.
+/// Runs `depth` on each keyframe of SCARED, then writes OUT/benchmark.json. Complete
+/// pairs are not repeated. A failed pair is excluded and named; if all fail: InputError.
 DepthBenchmarkResult benchmarkScared(const BenchmarkOptions& options,
                                      const RunSoftscope& run_softscope,
                                      const Progress& progress = {});
 
-/// The same of each pair of SERV-CT's experiments, against Reference_CT, where that is missing
-/// Reference_RGB.
+/// The same for the pairs of SERV-CT, against
+/// Reference_CT, or Reference_RGB if there is no CT.
 DepthBenchmarkResult benchmarkServCt(const BenchmarkOptions& options,
                                      const RunSoftscope& run_softscope,
                                      const Progress& progress = {});

@@ -13,9 +13,9 @@ namespace {
 
 using PairValue = std::function<double(const DepthPairResult&)>;
 
-constexpr std::size_t kBad2 = 1, kBad3 = 2;  // of the thresholds 1, 2, 3
+constexpr std::size_t kBad2 = 1, kBad3 = 2;  // indices into the thresholds 1, 2, 3 px
 
-/// Mean of each group, NaNs left out, in the order of their names.
+/// Mean per group without NaNs, in the order of the names.
 std::vector<double> groupMeans(const std::vector<DepthPairResult>& pairs, const PairValue& value) {
   std::map<std::string, std::vector<double>> groups;
   for (const DepthPairResult& pair : pairs)
@@ -88,7 +88,7 @@ void addPairs(const std::vector<DepthPairResult>& pairs, FactSheet* facts) {
   facts->addQuietly("pairs", list);
 }
 
-/// Over groups where there are three or more: pairs of one group are not independent.
+/// Over groups if there are three or more: the pairs of one group are not independent.
 void addDepthIntervals(const std::vector<DepthPairResult>& pairs, FactSheet* facts) {
   const PairValue mae = [](const DepthPairResult& pair) { return pair.measured.absolute_mm.mean; };
   const PairValue gain = [](const DepthPairResult& pair) {

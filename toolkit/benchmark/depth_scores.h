@@ -1,4 +1,4 @@
-// toolkit/benchmark/depth_scores.h: the table of stereo depth benchmarks (SCARED, SERV-CT).
+// toolkit/benchmark/depth_scores.h: table of the stereo depth benchmarks (SCARED, SERV-CT).
 #pragma once
 
 #include <string>
@@ -12,33 +12,33 @@
 
 namespace softscope {
 
-/// One pair: what was measured, every pixel filled, and the control.
+/// Errors of one pair: measured pixels, all pixels after filling, control.
 struct DepthPairResult {
   std::string name;
   std::string group;       // data set of SCARED, experiment of SERV-CT
-  std::string excluded;    // why; empty where it counts
-  double known_share = 0;  // of the pixels
+  std::string excluded;    // reason; empty for a pair that counts
+  double known_share = 0;  // share of pixels with truth
   DepthErrors measured;
   DisparityErrors measured_px;
-  DepthErrors dense;    // holes take the nearest measured pixel's depth
-  DepthErrors visible;  // measured pixels that both cameras see
-  DepthErrors hidden;   // dense, pixels that the left camera alone sees
+  DepthErrors dense;    // holes filled with the depth of the nearest measured pixel
+  DepthErrors visible;  // measured pixels visible to both cameras
+  DepthErrors hidden;   // dense; pixels visible to the left camera only
   DepthErrors control;  // every pixel at the median true depth
   double latency_ms = Statistics::kNone;
 };
 
 struct DepthBenchmarkResult {
   std::string title;     // "SCARED"
-  std::string protocol;  // what is particular to the data set
+  std::string protocol;  // properties of the data set
   std::vector<DepthPairResult> pairs;
   std::vector<std::string> warnings;
   bool stopped = false;
 };
 
-/// Below this share of pixels with truth a pair is left out, as by SCARED's protocol.
+/// Pairs with a smaller share of pixels with truth are excluded (protocol of SCARED).
 inline constexpr double kLeastKnownShare = 0.1;
 
-/// Fills all errors of a pair; excludes it where too little truth is known.
+/// Computes all errors of a pair; excludes it if too few pixels have truth.
 void judgeDepthPair(const Raster<float>& measured_mm, const Raster<float>& truth_mm,
                     const RectifiedRig& rig, DepthPairResult* result);
 

@@ -142,7 +142,7 @@ EndPointBenchmarkResult benchmarkStirEnds(const BenchmarkOptions& options,
     clips.emplace_back(clip, options.out);
   std::vector<BenchmarkRun> runs(clips.size());
   for (std::size_t i = 0; i < clips.size(); ++i) {
-    runs[i].done = true;  // unless there is something to run
+    runs[i].done = true;  // set to false below if there is work
     excludeOnError(&clips[i].result.excluded, [&] { runs[i] = clips[i].prepare(options); });
   }
   EndPointBenchmarkResult result;

@@ -1,5 +1,5 @@
-// toolkit/benchmark/end_point_benchmark.h: STIR to 2025: tattoos of the first image to the last
-// one.
+// toolkit/benchmark/end_point_benchmark.h: benchmark of STIR
+// up to 2025: positions of the tattoos in the last image.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,10 +14,10 @@ namespace softscope {
 
 struct EndPointClipResult {
   std::string name;
-  std::string excluded;                      // why; empty where it counts
-  std::vector<double> found_px, control_px;  // distance from the nearest true end point
-  int points = 0;                            // of the first image
-  int measured = 0;  // of these, with a position in the last frame; the others stay
+  std::string excluded;                      // reason; empty for a sequence that counts
+  std::vector<double> found_px, control_px;  // distance to the nearest true end point
+  int points = 0;                            // in the first image
+  int measured = 0;  // with a position in the last frame; the others keep their first position
   std::vector<double> latency_ms;
 };
 
@@ -29,9 +29,9 @@ struct EndPointBenchmarkResult {
 /// Centres of the bounding boxes of connected (8 neighbours) non-zero parts, px.
 std::vector<Eigen::Vector2d> markCentres(const Mask& marks);
 
-/// Runs `reconstruct` on each sequence with the tattoos of icgstartseg.png as --track, then writes
-/// OUT/benchmark.json. Sequences that are done are not run again. One that fails is excluded and
-/// named; all of them: InputError.
+/// Runs `reconstruct` on each sequence with the tattoos of icgstartseg.png as
+/// --track, then writes OUT/benchmark.json. Complete sequences are not
+/// repeated. A failed sequence is excluded and named; if all fail: InputError.
 EndPointBenchmarkResult benchmarkStirEnds(const BenchmarkOptions& options,
                                           const RunSoftscope& run_softscope,
                                           const Progress& progress = {});

@@ -23,13 +23,13 @@ bool isStereoMisSequence(const fs::path& folder) {
 
 struct PathClip {
   BenchmarkClip sequence;
-  std::string words;  // of --frames; empty: all
+  std::string words;  // argument of --frames; empty: all
   fs::path run;
 };
 
 void judgePath(const PathClip& clip, PathClipResult* result) {
   const auto truth = readStereoMisPath(clip.sequence.folder / "groundtruth.txt");
-  // True poses are of the raw camera, those of a run of the rectified one.
+  // True poses are those of the raw camera, poses of a run those of the rectified camera.
   const StereoCalibration calibration =
       SequenceReader(findSequence(clip.sequence.folder), {}).calibration();
   const Eigen::Isometry3d rectified_from_raw(Rectifier(calibration).rig().rectified_from_raw_left);

@@ -1,4 +1,4 @@
-// toolkit/benchmark/path_benchmark.h: StereoMIS: films to the scope's path, paths to the table.
+// toolkit/benchmark/path_benchmark.h: trajectory benchmark of StereoMIS.
 #pragma once
 
 #include "toolkit/benchmark/benchmark_runs.h"
@@ -6,9 +6,9 @@
 
 namespace softscope {
 
-/// Runs `reconstruct --frames START:END` on each range of each sequence, then writes
-/// OUT/benchmark.json. Ranges that are done are not run again. A range that fails is excluded and
-/// named; all of them: InputError.
+/// Runs `reconstruct --frames START:END` on each range of each sequence,
+/// then writes OUT/benchmark.json. Complete ranges are not repeated. A
+/// failed range is excluded and named; if all fail: InputError.
 PathBenchmarkResult benchmarkStereoMis(const BenchmarkOptions& options,
                                        const RunSoftscope& run_softscope,
                                        const Progress& progress = {});

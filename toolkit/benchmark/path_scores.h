@@ -1,4 +1,4 @@
-// toolkit/benchmark/path_scores.h: the table of benchmarks of the scope's path (StereoMIS).
+// toolkit/benchmark/path_scores.h: table of the trajectory benchmark (StereoMIS).
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace softscope {
 
-/// One range of one sequence.
+/// Scores of one range of a sequence.
 struct PathClipResult {
   std::string name;                 // P2_3_000100
   std::string sequence;             // P2_3
-  std::string excluded;             // why; empty where it counts
-  TrajectoryErrors found, control;  // the control stays at one place
+  std::string excluded;             // reason; empty for a range that counts
+  TrajectoryErrors found, control;  // control: constant pose
   int frames = 0;                   // with a true pose
-  int lost = 0;                     // of these, whose pose the run holds for wrong: not judged
+  int lost = 0;                     // frames that the run reports as lost: excluded
   std::vector<double> latency_ms;
 };
 

@@ -25,12 +25,12 @@ bool isStirClip(const fs::path& folder) {
   return isFile(folder / "calib.json") && isFile(folder / "annotations.json");
 }
 
-/// What a clip says of its cameras; truth is in the frame of the raw left one.
+/// Cameras of a clip; the truth is in the frame of the raw left camera.
 struct ClipCameras {
   StereoCalibration calibration;
   Eigen::Matrix3d raw_from_rectified = Eigen::Matrix3d::Identity();
 
-  /// As the challenge's script: pinhole, disparity along the row.
+  /// Pinhole camera and disparity along the row, as in the script of the challenge.
   Eigen::Vector3d lift(const StirPoint& point) const {
     const PinholeCamera& left = calibration.left.pinhole;
     const double baseline_mm = -calibration.right_from_left.translation().x();
@@ -54,7 +54,7 @@ ClipCameras camerasOf(const fs::path& clip) {
   return cameras;
 }
 
-/// Of the run, turned into the raw left camera's frame.
+/// Tracks of the run, transformed into the frame of the raw left camera.
 RunTracks tracksOf(const fs::path& run, const ClipCameras& cameras, std::size_t queries,
                    int frames) {
   RunTracks tracks = readRunTracks(run, queries, frames);
@@ -63,8 +63,8 @@ RunTracks tracksOf(const fs::path& run, const ClipCameras& cameras, std::size_t 
   return tracks;
 }
 
-/// Gives every query a position in every frame: a query that is not measured moves as the nearest
-/// measured one, at its depth; a frame without any repeats the one before. Returns how many.
+/// Fills missing positions: an unmeasured query moves with the nearest measured one, at its depth;
+/// a frame without measurement repeats the previous one. Returns the number of filled positions.
 std::size_t extrapolate(const std::vector<Eigen::Vector2d>& queries_px, const ClipCameras& cameras,
                         RunTracks* tracks) {
   std::size_t count = 0;
@@ -98,7 +98,7 @@ void judge(const StirAnnotations& truth, const ClipCameras& cameras, const RunTr
            StirClipResult* result) {
   const std::vector<StirPoint>& start = truth.begin()->second;
   for (const auto& [frame, points] : truth) {
-    if (frame == 0) continue;  // the reference
+    if (frame == 0) continue;  // reference frame
     const std::size_t f = std::min(static_cast<std::size_t>(frame), tracks.positions_mm.size() - 1);
     for (std::size_t q = 0; q < points.size(); ++q) {
       const Eigen::Vector3d is_mm = cameras.lift(points[q]);
@@ -139,7 +139,7 @@ void addErrors(const StirAnnotations& truth, const ClipCameras& cameras, const R
     }
 }
 
-/// One clip's folder of results, before and after its run.
+/// Result folder of one clip, before and after its run.
 class StirClip {
  public:
   StirClip(BenchmarkClip clip, const fs::path& out)
@@ -194,7 +194,7 @@ StirBenchmarkResult benchmarkStir(const BenchmarkOptions& options,
     clips.emplace_back(clip, options.out);
   std::vector<BenchmarkRun> runs(clips.size());
   for (std::size_t i = 0; i < clips.size(); ++i) {
-    runs[i].done = true;  // unless there is something to run
+    runs[i].done = true;  // set to false below if there is work
     excludeOnError(&clips[i].result.excluded, [&] { runs[i] = clips[i].prepare(options); });
   }
   StirBenchmarkResult result;

@@ -1,4 +1,4 @@
-// toolkit/benchmark/stir_benchmark.h: STIR 2026: clips to predictions, predictions to the table.
+// toolkit/benchmark/stir_benchmark.h: STIR 2026 benchmark: predictions of all clips, and table.
 #pragma once
 
 #include "toolkit/benchmark/benchmark_runs.h"
@@ -6,9 +6,9 @@
 
 namespace softscope {
 
-/// Runs `reconstruct` on each clip, then writes OUT/preds.json, OUT/benchmark.json. Clips whose run
-/// is complete are not run again. A clip that fails is excluded and named; all that fail:
-/// InputError.
+/// Runs `reconstruct` on each clip, then writes OUT/preds.json
+/// and OUT/benchmark.json. Complete clips are not repeated. A
+/// failed clip is excluded and named; if all fail: InputError.
 StirBenchmarkResult benchmarkStir(const BenchmarkOptions& options,
                                   const RunSoftscope& run_softscope, const Progress& progress = {});
 

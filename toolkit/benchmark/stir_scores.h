@@ -1,4 +1,4 @@
-// toolkit/benchmark/stir_scores.h: STIR 2026's table, of points that were judged.
+// toolkit/benchmark/stir_scores.h: table of the STIR 2026 benchmark.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace softscope {
 
-inline constexpr int kStirWarmUpFrames = 10;  // whose latency is left out
+inline constexpr int kStirWarmUpFrames = 10;  // excluded from the latency
 
-/// One clip's scores, of predictions and of the control, which stays where the truth begins.
+/// Scores of one clip, for the predictions and for the control (constant first true position).
 struct StirClipResult {
   std::string name;
-  std::string excluded;  // why; empty where it counts
+  std::string excluded;  // reason; empty for a clip that counts
   std::vector<JudgedPoint> points_mm, control_mm, points_px, control_px;
-  std::vector<double> error_mm;    // of measured points in frames with a pose, all frames
+  std::vector<double> error_mm;    // measured points of all frames with a pose
   std::vector<double> latency_ms;  // without the first ten frames
-  std::size_t extrapolated = 0;    // predictions that no track measured
+  std::size_t extrapolated = 0;    // predictions without a measured track
 };
 
 struct StirBenchmarkResult {

@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kStartEvery = 50;     // frames, as the challenge's configuration
-constexpr int kPixelsPerSide = 5;   // followed pixels of a box: a grid over its middle
-constexpr double kGridShare = 0.7;  // of the box's sides
+constexpr int kStartEvery = 50;     // frames; as in the configuration of the challenge
+constexpr int kPixelsPerSide = 5;   // tracked pixels per box: a centred grid
+constexpr double kGridShare = 0.7;  // extent of the grid, as a share of the sides of the box
 constexpr std::size_t kPixelsPerBox = std::size_t{kPixelsPerSide} * kPixelsPerSide;
 
 bool isSurgtCase(const fs::path& folder) {
@@ -49,7 +49,7 @@ bool isInside(const PixelBox& box, const PinholeCamera& camera) {
          box.v_px + box.height_px < camera.height_px;
 }
 
-/// For every 50th frame the first from there on whose true boxes can start a tracker; -1: none.
+/// For every 50th frame the first frame from there on with usable true boxes; -1: none.
 std::vector<int> startsOf(const std::vector<BoxTruth>& truth, const PinholeCamera& camera) {
   std::vector<int> starts;
   const int frames = static_cast<int>(truth.size());
@@ -65,14 +65,14 @@ std::vector<int> startsOf(const std::vector<BoxTruth>& truth, const PinholeCamer
   return starts;
 }
 
-/// A target that starts in a frame; its pixels are points [first_point, + kPixelsPerBox) of the
-/// run that begins there.
+/// Tracker of one target from a start frame; its pixels are points
+/// [first_point, + kPixelsPerBox) of the run that begins there.
 struct StartedTarget {
   std::size_t target = 0;
   std::size_t first_point = 0;
 };
 
-/// One video: its truth, its starts, its runs.
+/// One video with its truth, start frames and runs.
 class SurgtCase {
  public:
   SurgtCase(BenchmarkClip clip, const fs::path& out)
@@ -124,7 +124,7 @@ class SurgtCase {
     return runs;
   }
 
-  /// `failures`: of prepare()'s runs, in their order.
+  /// `failures`: one entry per run of prepare(), in their order.
   void score(const std::vector<std::string>& failures) {
     const ValidRectification valid(calibration_);
     std::vector<std::vector<JudgedBoxTrack>> found(truths_.size()), still(truths_.size());
@@ -200,9 +200,9 @@ class SurgtCase {
     return tracks;
   }
 
-  /// The box moves with the median of its points and scales with the inverse of their depth. A
-  /// frame without pose repeats the box before; a target of which less than half of the points are
-  /// visible has none.
+  /// The box moves with the median of its points and scales with the
+  /// inverse of their depth. A frame without a pose repeats the previous
+  /// box; a target with less than half of its points visible has no box.
   BoxTrack trackOf(const StartedTarget& target, int start, const RunTracks& points,
                    const RectifiedRig& rig) const {
     const StereoBoxes& first = boxAt(target.target, start);
@@ -252,7 +252,7 @@ class SurgtCase {
         each.push_back(track.scores);
         overlaps.push_back(track.overlaps);
       }
-      if (each.empty()) continue;  // a target that never has a usable box
+      if (each.empty()) continue;  // target without a usable box
       scores.targets.push_back(mergeBoxScores(each));
       scores.overlaps.push_back(overlapCurve(overlaps));
     }

@@ -1,4 +1,4 @@
-// toolkit/benchmark/surgt_benchmark.h: SurgT: videos to tracked boxes, boxes to the table.
+// toolkit/benchmark/surgt_benchmark.h: SurgT benchmark: bounding box tracks, and their table.
 #pragma once
 
 #include "toolkit/benchmark/benchmark_runs.h"
@@ -6,9 +6,9 @@
 
 namespace softscope {
 
-/// Runs `reconstruct` from each start of each video (every 50 frames, the next with a usable true
-/// box), follows pixels of the true box, and writes OUT/benchmark.json. Runs that are complete are
-/// not run again. A video that can't be judged is excluded and named; all of them: InputError.
+/// Runs `reconstruct` from each start of each video (every 50 frames, or the next frame with a
+/// true box), tracks pixels of the box, and writes OUT/benchmark.json. Complete runs are not
+/// repeated. Videos that cannot be evaluated are excluded and named; all of them: InputError.
 SurgtBenchmarkResult benchmarkSurgt(const BenchmarkOptions& options,
                                     const RunSoftscope& run_softscope,
                                     const Progress& progress = {});

@@ -7,7 +7,7 @@
 namespace softscope {
 namespace {
 
-/// All videos of one tracker.
+/// Scores over all videos of one tracker.
 struct SurgtPool {
   std::vector<BoxScores> videos;
   std::vector<std::vector<double>> overlaps;

@@ -1,4 +1,4 @@
-// toolkit/benchmark/surgt_scores.h: SurgT's table, of tracks of boxes that were judged.
+// toolkit/benchmark/surgt_scores.h: table of the SurgT benchmark.
 #pragma once
 
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace softscope {
 
-/// A tracker's scores in one video.
+/// Scores of a tracker in one video.
 struct SurgtVideoScores {
-  std::vector<BoxScores> targets;             // of each target, its starts merged
-  std::vector<std::vector<double>> overlaps;  // of each target: overlapCurve()
+  std::vector<BoxScores> targets;             // per target; its starts are merged
+  std::vector<std::vector<double>> overlaps;  // per target: overlapCurve()
 };
 
 struct SurgtClipResult {
   std::string name;
-  std::string excluded;  // why; empty where it counts
+  std::string excluded;  // reason; empty for a video that counts
   SurgtVideoScores found, control;
-  int starts = 0;          // of trackers, over all targets
-  int missing_starts = 0;  // whose run failed: judged as no estimate at all
-  std::size_t boxes = 0;   // estimates given
-  std::size_t frames = 0;  // judged frames of all starts
+  int starts = 0;          // start frames over all targets
+  int missing_starts = 0;  // failed runs: evaluated as missing estimates
+  std::size_t boxes = 0;   // estimated boxes
+  std::size_t frames = 0;  // evaluated frames over all starts
   std::vector<double> latency_ms;
 };
 

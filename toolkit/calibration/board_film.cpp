@@ -14,14 +14,14 @@ namespace softscope {
 namespace {
 
 constexpr int kUsualFrames = 300;
-constexpr int kBatch = 8;  // frames that are held and searched together
+constexpr int kBatch = 8;  // frames in memory, searched in parallel
 
 struct GrayPair {
   int frame = 0;
   GrayImage left, right;
 };
 
-/// Frames in rising order.
+/// Source of frame pairs in ascending order.
 class PairSource {
  public:
   explicit PairSource(const BoardFilmOptions& options) : options_(options) {

@@ -1,4 +1,4 @@
-// toolkit/calibration/board_film.h: the boards in two films, or in one with both views.
+// toolkit/calibration/board_film.h: detection of a board in two videos, or in one.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@
 namespace softscope {
 
 struct BoardFilmOptions {
-  std::filesystem::path left, right;  // folders of images or videos; no right: both views in one
-  std::string layout = "auto";        // of both views in one image: io/sequences/stereo_packing.h
+  std::filesystem::path left, right;  // folders of images or videos; empty right: both views in one
+  std::string layout = "auto";        // packing of both views: io/sequences/stereo_packing.h
   bool right_first = false;
-  int every = 0;  // each n-th frame; 0: as many as give 300 frames at most
+  int every = 0;  // every n-th frame; 0: at most 300 frames
   BoardOptions board;
 
   /// Throws OptionError.
@@ -23,15 +23,15 @@ struct BoardFilmOptions {
 
 struct BoardFilm {
   int width_px = 0, height_px = 0;
-  int frames = 0;  // that were looked at
+  int frames = 0;  // searched frames
   int in_left = 0, in_right = 0;
-  std::vector<BoardSighting> sightings;  // boards in both views
-  std::vector<std::string> unreadable;   // why, a line a frame
-  bool stopped = false;                  // by `progress`
+  std::vector<BoardSighting> sightings;  // boards found in both views
+  std::vector<std::string> unreadable;   // one reason per unreadable frame
+  bool stopped = false;                  // stopped by `progress`
 };
 
-/// Throws InputError where a film is missing or broken, sizes differ, or no frame shows the board
-/// in both views.
+/// Throws InputError for a missing or damaged video,
+/// different sizes, or no frame with the board in both views.
 BoardFilm readBoardFilm(const BoardFilmOptions& options, const Progress& progress = {});
 
 }  // namespace softscope

@@ -19,7 +19,7 @@ Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Js
 
 std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
 
-/// As many digits as the half width has meaning.
+/// Number of digits according to the half width of the interval.
 std::string withInterval(const ParameterInterval& one) {
   const int digits =
       one.half_width > 0

@@ -1,5 +1,5 @@
-// toolkit/calibration/calibration_result.h: a calibration with its quality, as file, image and
-// facts.
+// toolkit/calibration/calibration_result.h: stereo
+// calibration with its quality, as YAML, image and facts.
 #pragma once
 
 #include <string>
@@ -15,26 +15,26 @@ namespace softscope {
 
 struct CalibrationReport {
   CalibrationSolution solution;
-  std::vector<LeftOutView> left_out;  // before and by the solution, by frame
+  std::vector<LeftOutView> left_out;  // views excluded before or during the solution, by frame
   std::vector<ParameterInterval> intervals;
   RowErrors rows;
   RowOutlook row_outlook;
   BoardCoverage coverage;
   std::vector<DepthOutlook> depths;
-  std::vector<std::string> advice;    // what to film more of
-  std::vector<std::string> warnings;  // of the calibration's own checks
+  std::vector<std::string> advice;    // which views are missing
+  std::vector<std::string> warnings;  // from the checks of the calibration
 };
 
-/// Chooses views, solves, judges. Throws InputError where the views are too few or alike, or the
-/// result is no calibration of a stereo endoscope (io/calibrations/calibration_check.h).
+/// Selects views, solves, evaluates. Throws InputError for too few or too similar views, or
+/// a result outside the limits of a stereo endoscope (io/calibrations/calibration_check.h).
 CalibrationReport calibrateFromFilm(const BoardFilm& film, const BoardOptions& board,
                                     const SolveOptions& options,
                                     const std::vector<double>& distances_mm);
 
-/// calibration.yaml of docs/formats.md, with a map `quality` that readers pass over.
+/// calibration.yaml of docs/formats.md, with an additional map `quality`, which readers ignore.
 std::string calibrationText(const CalibrationReport& report);
 
-/// Both views side by side: each corner that was used as a dot, cells without one in red.
+/// Both views side by side: each corner used as a dot, empty cells in red.
 ColourImage coverageImage(const CalibrationReport& report);
 
 FactSheet calibrationFacts(const CalibrationReport& report, const BoardFilm& film);

@@ -1,4 +1,4 @@
-// toolkit/calibration/calibration_template.cpp: one text per kind.
+// toolkit/calibration/calibration_template.cpp: text of each template.
 #include "toolkit/calibration/calibration_template.h"
 
 #include "core/error.h"

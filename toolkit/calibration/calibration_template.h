@@ -1,4 +1,4 @@
-// toolkit/calibration/calibration_template.h: commented calibration files to fill in.
+// toolkit/calibration/calibration_template.h: commented templates of calibration files.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace softscope {
 /// stereo, rectified, rgb-d.
 const std::vector<std::string>& calibrationTemplateNames();
 
-/// YAML that reads as it is, with plausible numbers to replace and what each means. Throws
-/// OptionError with the nearest name.
+/// Valid YAML with plausible example values and the meaning
+/// of each. Throws OptionError with the nearest name.
 std::string calibrationTemplate(const std::string& kind);
 
 }  // namespace softscope

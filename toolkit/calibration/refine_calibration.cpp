@@ -20,27 +20,27 @@ namespace softscope {
 namespace {
 
 constexpr int kUnknowns = 4;      // pitch, roll, yaw, scale
-constexpr int kRobustRounds = 6;  // of reweighting
-constexpr double kTukeyPx = 1.5;  // beyond, a match is taken to be wrong
+constexpr int kRobustRounds = 6;  // iterations of reweighting
+constexpr double kTukeyPx = 1.5;  // rejection limit for a match
 constexpr int kResamples = 200;
 constexpr std::uint64_t kRefineSeed = 15;
 constexpr double kMilli = 1000;
-constexpr double kNearestDepthMm = 15, kFarthestDepthMm = 250;  // of tissue in front of a scope
-constexpr double kNarrowestDeg = 35, kWidestDeg = 120;          // diagonal view of a scope
+constexpr double kNearestDepthMm = 15, kFarthestDepthMm = 250;  // of tissue from an endoscope
+constexpr double kNarrowestDeg = 35, kWidestDeg = 120;          // diagonal field of view
 constexpr double kDoubtfulScale = 0.5;                          // per cent
 
 using RowMatches = std::vector<RowMatch>;
 using RowMotion = Eigen::Matrix<double, kUnknowns, 1>;
 
-/// Difference of rows over the focal length, by each unknown, at a pixel of the right image: a
-/// point at (x, y, 1) moves by omega x (x, y, 1).
+/// Derivative of the vertical disparity, divided by the focal length, with respect to each
+/// unknown, at a pixel of the right image: a point (x, y, 1) moves by omega x (x, y, 1).
 RowMotion rowDerivative(const PinholeCamera& right, const RowMatch& match) {
   const double x = (match.u_right_px - right.cx_px) / right.fx_px;
   const double y = (match.v_right_px - right.cy_px) / right.fy_px;
   return {-(1 + y * y), x, x * y, y};
 }
 
-/// Least squares with Tukey's weights, from the median difference of rows on.
+/// Least squares with Tukey weights, initialised at the median vertical disparity.
 RowMotion fitMotion(const PinholeCamera& right, const std::vector<const RowMatches*>& frames) {
   std::vector<double> differences;
   for (const RowMatches* matches : frames)
@@ -66,8 +66,8 @@ RowMotion fitMotion(const PinholeCamera& right, const std::vector<const RowMatch
   return motion;
 }
 
-/// Mean absolute difference of rows that `motion` leaves, of matches it explains to 3 times the
-/// robust limit.
+/// Mean absolute vertical disparity after `motion`,
+/// over matches within 3 times the robust limit.
 double rowError(const PinholeCamera& right, const std::vector<RowMatches>& frames,
                 const RowMotion& motion, const RowMotion& removed) {
   std::vector<double> errors_px;
@@ -80,7 +80,7 @@ double rowError(const PinholeCamera& right, const std::vector<RowMatches>& frame
   return statistics(errors_px).mean;
 }
 
-/// 2.5 and 97.5 % of fits to frames that are drawn again.
+/// 2.5 and 97.5 % percentiles of fits to resampled frames (bootstrap).
 std::array<Interval, kUnknowns> motionIntervals(const PinholeCamera& right,
                                                 const std::vector<RowMatches>& frames) {
   std::array<Interval, kUnknowns> intervals;
@@ -113,13 +113,13 @@ PinholeCamera rectifiedRight(const RectifiedRig& rig) {
   return right;
 }
 
-/// p_right turned as rows show: C = exp(pitch, 0, roll) in the rectified right frame.
+/// p_right corrected by vertical disparity: C = exp(pitch, 0, roll) in the rectified right frame.
 StereoCalibration corrected(const StereoCalibration& calibration, const Rectifier& rectifier,
                             const RowMotion& motion) {
   const Eigen::Vector3d axis(motion[0], 0, motion[1]);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (axis.norm() > 0) turn = Eigen::AngleAxisd(axis.norm(), axis.normalized()).toRotationMatrix();
-  // Both rectified frames are parallel.
+  // Both rectified cameras are parallel.
   const Eigen::Matrix3d rectified_from_raw_right =
       rectifier.rig().rectified_from_raw_left * calibration.right_from_left.linear().transpose();
   StereoCalibration out = calibration;
@@ -130,10 +130,10 @@ StereoCalibration corrected(const StereoCalibration& calibration, const Rectifie
   return out;
 }
 
-/// Frames of a clip that are looked at.
+/// Frames selected from a clip.
 struct ClipFrames {
-  std::vector<RowMatches> matches;  // one entry a frame with enough
-  std::vector<Frame> kept;          // for their depth
+  std::vector<RowMatches> matches;  // one entry per frame with enough matches
+  std::vector<Frame> kept;          // frames used for depth
   StereoCalibration calibration;
   bool stopped = false;
 };

@@ -1,4 +1,4 @@
-// toolkit/calibration/refine_calibration.h: a calibration judged and corrected by a clip of tissue.
+// toolkit/calibration/refine_calibration.h: check and correction of a calibration on tissue.
 #pragma once
 
 #include <filesystem>
@@ -15,41 +15,41 @@
 namespace softscope {
 
 struct RefineOptions {
-  int frames = 40;             // at most, spread over the clip
-  int depth_frames = 3;        // of these, whose depth is measured
-  int disparity_max_px = 256;  // of rows and depth; cut to half the width
+  int frames = 40;             // upper limit; evenly spread over the clip
+  int depth_frames = 3;        // subset with measured depth
+  int disparity_max_px = 256;  // for vertical disparity and depth; limited to half of the width
 
   /// Throws OptionError.
   void validate() const;
 };
 
-/// A value and its 95 % interval, bootstrapped over frames; NaN interval for fewer than three.
+/// Value with 95 % interval, bootstrapped over frames; NaN interval for fewer than three frames.
 struct RefinedValue {
   double value = 0;
   Interval interval;
 };
 
-/// How the right camera is turned against the calibration, from differences of rows alone: docs/
-/// calibrate.md.
+/// Rotation of the right camera relative to the calibration,
+/// from vertical disparity alone: docs/calibrate.md.
 struct RefinedCalibration {
-  StereoCalibration calibration;                 // the right camera turned by pitch and roll
-  int frames = 0, matches = 0;                   // with enough matches; of all of them
-  double row_error_px = 0;                       // mean absolute difference of rows, as calibrated
+  StereoCalibration calibration;                 // right camera corrected by pitch and roll
+  int frames = 0, matches = 0;                   // frames with enough matches; all matches
+  double row_error_px = 0;                       // mean absolute vertical disparity, before
   double row_error_left_px = 0;                  // the same after the correction
   RefinedValue offset_px;                        // v_right - v_left at the principal point
-  RefinedValue pitch_mrad, roll_mrad, yaw_mrad;  // of the right camera about x, z, y
-  RefinedValue scale_percent;  // focal length of the right rows over the left ones, less 1
-  double median_depth_mm = Statistics::kNone;  // of the tissue, after the correction
-  double diagonal_view_deg = 0;                // field of view of the rectified image
-  std::vector<std::string> doubts;             // why focal length or baseline are implausible
-  bool stopped = false;                        // by progress
+  RefinedValue pitch_mrad, roll_mrad, yaw_mrad;  // right camera about x, z, y
+  RefinedValue scale_percent;                    // vertical focal length, right over left, minus 1
+  double median_depth_mm = Statistics::kNone;    // of the tissue, after the correction
+  double diagonal_view_deg = 0;                  // of the rectified image
+  std::vector<std::string> doubts;               // reasons for implausible focal length or baseline
+  bool stopped = false;                          // by progress
 };
 
-/// Throws InputError where the clip can't be read, or no frame has enough matches.
+/// Throws InputError for an unreadable clip, or if no frame has enough matches.
 RefinedCalibration refineCalibration(const SequencePaths& clip, const SequenceOptions& sequence,
                                      const RefineOptions& options, const Progress& progress = {});
 
-/// calibration.yaml with a map `quality`, which readers pass over.
+/// calibration.yaml with an additional map `quality`, which readers ignore.
 std::string refinedCalibrationText(const RefinedCalibration& refined);
 FactSheet refinedCalibrationFacts(const RefinedCalibration& refined);
 

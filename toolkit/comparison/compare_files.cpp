@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_files.cpp: read, align, measure.
+// toolkit/comparison/compare_files.cpp: alignment and measurement of two surfaces from files.
 #include "toolkit/comparison/compare_files.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace softscope {
 namespace {
 
-constexpr const char* kAccuracy = "accuracy";  // where a bare metric is looked for
+constexpr const char* kAccuracy = "accuracy";  // part of the record for metrics without path
 
 void addMeshWarnings(const TriangleMesh& mesh, const std::string& name,
                      std::vector<std::string>& warnings) {
@@ -32,7 +32,7 @@ ObservedSplit split(const CompareOptions& options, const FileComparison& compare
                          options.observed_reach_mm);
 }
 
-/// The test's file: of a run the model asked for.
+/// File of the test surface; for a run its selected model.
 std::string testFile(const CompareOptions& options, std::vector<std::string>& warnings) {
   if (!isFolder(options.test)) return options.test;
   const JudgedRun run = openJudgedRun(options.test);

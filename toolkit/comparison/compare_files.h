@@ -14,12 +14,12 @@ namespace softscope {
 
 struct CompareOptions {
   std::string reference;  // mesh file
-  std::string test;       // mesh, or points as `reconstruct` writes them, or the folder of a run
-  int frame = -1;         // of a run; -1: its last model
+  std::string test;       // mesh, point cloud of `reconstruct`, or folder of a run
+  int frame = -1;         // frame of a run; -1: last model
   SurfaceFitOptions fit;
-  std::vector<double> taus_mm{0.5, 1, 2};  // of precision, recall, F and surface Dice
-  std::string observed;                    // file of what was seen; empty: no split
-  double observed_reach_mm = 2;            // the reference counts as seen this near to it
+  std::vector<double> taus_mm{0.5, 1, 2};  // for precision, recall, F-score and surface Dice
+  std::string observed;                    // file of the observed region; empty: no split
+  double observed_reach_mm = 2;            // distance within which the reference is observed
   double reference_unit_mm = 1, test_unit_mm = 1;
   std::vector<Threshold> thresholds;
   RecordPaths paths;
@@ -30,9 +30,9 @@ struct CompareOptions {
 
 struct FileComparison {
   ComparisonResult result;
-  TriangleMesh reference, test;  // the test in the reference's place
+  TriangleMesh reference, test;  // test: aligned to the reference
   std::vector<ThresholdOutcome> outcomes;
-  FactSheet::Json record;  // of comparison.json
+  FactSheet::Json record;  // content of comparison.json
 };
 
 /// Throws InputError, and OptionError as validate() does.

@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_inputs.cpp: by content, as everywhere; VTK's own files by their name.
+// toolkit/comparison/compare_inputs.cpp: formats by content; VTK files by extension.
 #include "toolkit/comparison/compare_inputs.h"
 
 #include "core/error.h"
@@ -13,7 +13,7 @@
 namespace softscope {
 namespace {
 
-/// LPS or RAS where the header's comments say so.
+/// LPS or RAS from the comments of the header.
 std::string spaceOf(std::string_view header) {
   for (const char* space : {"LPS", "RAS"})
     if (header.find(std::string("SPACE=") + space) != std::string_view::npos) return space;

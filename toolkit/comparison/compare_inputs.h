@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_inputs.h: surfaces, points and landmarks to compare.
+// toolkit/comparison/compare_inputs.h: input files of a comparison: surfaces, points and landmarks.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,21 +10,21 @@
 
 namespace softscope {
 
-/// STL, PLY, OBJ, VTP or VTK; a PLY without faces, as `reconstruct` writes its models, becomes a
-/// mesh without triangles. Throws InputError.
+/// STL, PLY, OBJ, VTP or VTK; a PLY without faces, as written by
+/// `reconstruct`, becomes a mesh without triangles. Throws InputError.
 TriangleMesh readSurfaceOrPoints(const std::filesystem::path& file, double unit_mm);
 
-/// Pairs of points, mm.
+/// Corresponding points, mm.
 struct Landmarks {
   std::vector<Eigen::Vector3d> test_mm, reference_mm;
 };
 
-/// CSV: test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm; other columns,
-/// such as names, are left out. Throws InputError: too few, or a coordinate that lacks.
+/// CSV: test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm;
+/// other columns are ignored. Throws InputError: too few pairs, a missing coordinate.
 Landmarks readLandmarks(const std::filesystem::path& file);
 
-/// Brings the test into the reference's space where both headers say theirs and they differ (LPS
-/// and RAS: x and y change sign). Returns a line that says what was done or assumed.
+/// Transforms the test into the space of the reference if both headers name one and they differ
+/// (LPS and RAS: opposite signs of x and y). Returns a description of the change or assumption.
 std::string matchSpaces(const TriangleMesh& reference, TriangleMesh& test);
 
 }  // namespace softscope

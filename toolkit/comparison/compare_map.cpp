@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_map.cpp: fewer vertices, from the side that most of the test faces.
+// toolkit/comparison/compare_map.cpp: decimation of both surfaces, and the initial view direction.
 #include "toolkit/comparison/compare_map.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostOfTest = 60000, kMostOfReference = 8000;
 
-/// Of points every so-manyth, of a surface what keeps its shape.
+/// Every n-th point of a point cloud; a decimated surface of a mesh.
 CoarseMesh fewer(const TriangleMesh& test) {
   const std::size_t count = test.vertices_mm.size();
   if (!test.empty() || count <= kMostOfTest) return coarsen(test, kMostOfTest);
@@ -37,7 +37,7 @@ ErrorMap comparisonMap(const ComparisonResult& result, const TriangleMesh& refer
   map.reference = coarsen(reference, kMostOfReference).at(reference.vertices_mm);
   const Eigen::Vector3d eye = comparisonEye(reference, result.comparison.closest);
   map.look = -eye.normalized().cast<float>();
-  // Head up; where that is the line of sight, what a camera has above.
+  // Up is the patient's head; for a view along that axis, the camera's up direction.
   if (std::abs(map.look.z()) > 0.9f) map.up = {0, -1, 0};
   return map;
 }

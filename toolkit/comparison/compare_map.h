@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// The test with its errors, at most 60 000 vertices of its own, and beside it the reference with
-/// at most 8000. Both in the reference's place.
+/// Test surface with its errors (at most 60 000 vertices) and the
+/// reference (at most 8000), both in the space of the reference.
 ErrorMap comparisonMap(const ComparisonResult& result, const TriangleMesh& reference,
                        const TriangleMesh& test);
 

@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_outputs.cpp: numbers, the surface with its errors, a figure.
+// toolkit/comparison/compare_outputs.cpp: record, coloured surface and figure.
 #include "toolkit/comparison/compare_outputs.h"
 
 #include <cmath>
@@ -78,7 +78,7 @@ std::string CompareOutputs::write(const ComparisonResult& result, const Triangle
   } catch (const BackendError& error) {
     not_drawn = std::string("no error_map: ") + error.what();
   }
-  put("comparison.json", jsonText(record));  // last: where it is, the others are
+  put("comparison.json", jsonText(record));  // last file: all others are complete
   new_files_.keep();
   return not_drawn;
 }

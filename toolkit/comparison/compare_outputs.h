@@ -12,15 +12,15 @@
 
 namespace softscope {
 
-/// Each file appears whole or not at all, and a failure takes back those that were written.
+/// Files are written atomically; a failure removes the files written before.
 class CompareOutputs {
  public:
-  /// Throws OptionError where `folder` is a file, or a file to be written is there and `overwrite`
-  /// is false.
+  /// Throws OptionError if `folder` is a file, or an
+  /// output file exists and `overwrite` is false.
   CompareOutputs(std::filesystem::path folder, bool overwrite);
 
-  /// `test`: in the reference's place. Returns what could not be drawn, empty where all was: a
-  /// machine without a renderer still gets the numbers.
+  /// `test`: in the space of the reference. Returns the reason for a missing figure,
+  /// empty if all were drawn: without a renderer the numbers are still written.
   std::string write(const ComparisonResult& result, const TriangleMesh& reference,
                     const TriangleMesh& test, const ErrorColourOptions& picture,
                     const FactSheet::Json& record) const;
@@ -34,7 +34,7 @@ class CompareOutputs {
   mutable NewFiles new_files_;
 };
 
-/// metric,value: every number by its path in the record; an empty cell where it wasn't measured.
+/// metric,value: every number by its path in the record; an empty cell without a measurement.
 std::string metricsCsv(const FactSheet::Json& record);
 
 }  // namespace softscope

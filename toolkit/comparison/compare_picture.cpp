@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_picture.cpp: two views, one bar, one line of numbers.
+// toolkit/comparison/compare_picture.cpp: two views with one colour bar and one line of statistics.
 #include "toolkit/comparison/compare_picture.h"
 
 #include <Eigen/Geometry>
@@ -11,9 +11,9 @@ namespace softscope {
 namespace {
 
 const Eigen::Vector3d kFromTheFront(0.45, -0.8, 0.4);
-constexpr double kFacesOneSide = 0.3;  // mean of unit normals: 0 of a closed surface, 1 of a plane
+constexpr double kFacesOneSide = 0.3;  // length of the mean normal: 0 closed surface, 1 plane
 
-/// The way that the part of the reference near the test faces; nothing of a surface all around.
+/// Mean normal of the part of the reference near the test; zero for a closed surface.
 Eigen::Vector3d facing(const TriangleMesh& reference, const std::vector<ClosestPoint>& closest) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t count = 0;
@@ -29,7 +29,7 @@ Eigen::Vector3d facing(const TriangleMesh& reference, const std::vector<ClosestP
   return count == 0 ? kFromTheFront : Eigen::Vector3d(sum / double(count));
 }
 
-/// Both spaces are the reference's by now; drawings of patients are in LPS.
+/// Both surfaces are in the space of the reference here; patient views are drawn in LPS.
 TriangleMesh inLps(TriangleMesh mesh) {
   if (mesh.space == "RAS")
     for (Eigen::Vector3f& p : mesh.vertices_mm) p.head<2>() = -p.head<2>();
@@ -48,7 +48,7 @@ Scene sceneOf(const TriangleMesh& reference, const TriangleMesh& test,
   return scene;
 }
 
-/// Grey where nothing was observed, if the user said what was.
+/// Unobserved points are grey if an observed region is given.
 SurfaceErrorMap mapOf(const ComparisonResult& result, const ErrorColourOptions& options) {
   std::vector<double> distance_mm, signed_mm;
   const auto& closest = result.comparison.closest;

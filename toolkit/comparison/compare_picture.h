@@ -9,14 +9,14 @@
 
 namespace softscope {
 
-/// From where a comparison is best looked at: before the part of the reference near the test, or,
-/// of a surface all around, before a patient.
+/// Initial view direction: onto the part of the reference near the
+/// test, or, for a closed surface, from the front of the patient.
 Eigen::Vector3d comparisonEye(const TriangleMesh& reference,
                               const std::vector<ClosestPoint>& closest);
 
-/// The test, in the reference's place, coloured by its distances, over the reference in grey: seen
-/// from the side that most of it faces, and from the other. Throws BackendError where nothing
-/// renders.
+/// Test surface (in the space of the reference) coloured by its distances,
+/// over the reference in grey, from the side of its mean normal and from
+/// the opposite side. Throws BackendError without a renderer.
 VectorDrawing drawComparison(const ComparisonResult& result, const TriangleMesh& reference,
                              const TriangleMesh& test, const ErrorColourOptions& options,
                              const FigureStyle& style);

@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_record.cpp: names, units, nesting.
+// toolkit/comparison/compare_record.cpp: keys, units and structure of the record.
 #include "toolkit/comparison/compare_record.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ Json directedJson(const DirectedErrors& errors) {
   return json;
 }
 
-/// In the order in which they were asked for.
+/// In the order of the options.
 Json scoresJson(const std::vector<ThresholdScores>& scores) {
   Json list = Json::array();
   for (const ThresholdScores& s : scores)
@@ -43,7 +43,7 @@ Json observedJson(const ObservedSplit& split) {
           {"hausdorff", metricsJson(hausdorffMetrics(), split.hausdorff)}};
 }
 
-/// A vertex that lies nearest to the reference's border is neither inside nor outside of it.
+/// A vertex whose closest point is on the border of the reference has no sign.
 std::string signedText(const Statistics& signed_mm) {
   const std::string without =
       std::to_string(signed_mm.nan_count) + " vertices at the reference's border have no side";

@@ -1,4 +1,4 @@
-// toolkit/comparison/compare_record.h: a comparison as JSON and as lines for people.
+// toolkit/comparison/compare_record.h: record of a comparison as JSON and as text.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@
 namespace softscope {
 
 struct ComparisonResult {
-  std::string reference, test;  // as the user named them
-  std::string space;            // what was done or assumed
+  std::string reference, test;  // paths as given
+  std::string space;            // change or assumption about the space
   SurfaceFit fit;
   SurfaceComparison comparison;
-  std::optional<ObservedSplit> observed;  // where the user said what was seen
+  std::optional<ObservedSplit> observed;  // set if an observed region is given
   std::vector<std::string> warnings;
 };
 

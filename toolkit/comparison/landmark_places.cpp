@@ -1,4 +1,4 @@
-// toolkit/comparison/landmark_places.cpp: two kinds of tables, one heading each.
+// toolkit/comparison/landmark_places.cpp: reader of two kinds of tables.
 #include "toolkit/comparison/landmark_places.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Cells cellsOf(std::string_view line) {
 
 constexpr double kFarthestMm = 1e6;
 
-/// Where name, x, y and z stand; -1 where they don't.
+/// Column indices of name, x, y and z; -1: missing.
 using Columns = std::array<std::ptrdiff_t, 4>;
 
 Columns columnsOf(const Cells& heading) {
@@ -50,13 +50,13 @@ bool complete(const Columns& columns) {
   return *std::min_element(columns.begin(), columns.end()) >= 0;
 }
 
-/// What a Slicer head says; a later version writes words, an earlier one numbers (0 is RAS).
+/// Space in the header of a Slicer file: words in later versions, numbers in earlier ones (0: RAS).
 bool saysRas(std::string_view line) {
   const std::string_view value = trimmed(line.substr(line.find('=') + 1));
   return value == "RAS" || value == "0";
 }
 
-/// Reads one file; `where_` begins every complaint.
+/// Reader of one file; every error message begins with `where_`.
 class PlacesReader {
  public:
   explicit PlacesReader(std::string where) : where_(std::move(where)) {}

@@ -8,12 +8,12 @@
 
 namespace softscope {
 
-/// By name, LPS, mm.
+/// By name; LPS, mm.
 using LandmarkPlaces = std::map<std::string, Eigen::Vector3d>;
 
-/// A CSV with a heading: name and x_mm,y_mm,z_mm (or reference_x_mm …, as `compare --landmarks`
-/// takes them), in LPS; or a Slicer fiducial list (.fcsv), in the space that its head says. Throws
-/// InputError: no names, no coordinates, a name twice.
+/// CSV with a heading: name and x_mm,y_mm,z_mm (or reference_x_mm …, as for `compare
+/// --landmarks`), in LPS; or a Slicer fiducial list (.fcsv), in the space of its
+/// header. Throws InputError: missing names or coordinates, a duplicate name.
 LandmarkPlaces readLandmarkPlaces(const std::filesystem::path& file);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/comparison/surface_fit.cpp: landmarks first, the closest points after them.
+// toolkit/comparison/surface_fit.cpp: landmark alignment followed by ICP.
 #include "toolkit/comparison/surface_fit.h"
 
 #include "core/error.h"

@@ -13,20 +13,20 @@
 namespace softscope {
 
 struct SurfaceFitOptions {
-  std::string landmarks;  // file of pairs; empty: none
+  std::string landmarks;  // file of point pairs; empty: none
   bool closest_points = false;
   std::string transform;  // file of reference_from_test (readTransform()); empty: none
 
   bool moves() const { return closest_points || !landmarks.empty() || !transform.empty(); }
 };
 
-/// A rigid motion, mm: a matrix of 3 or 4 rows of 4 numbers, row by row; # begins a comment.
-/// Throws InputError: other numbers, a rotation that is none, a last row other than 0 0 0 1.
+/// Rigid transform, mm: 3 or 4 rows of 4 numbers; # begins a comment. Throws InputError:
+/// a wrong count of numbers, an invalid rotation, a last row other than 0 0 0 1.
 Eigen::Isometry3d readTransform(const std::string& file);
 
-/// From --align, which may be empty, and the option of that name with a file of landmarks: these
-/// alone mean landmarks, with icp that it begins at them. Throws OptionError: an unknown way,
-/// landmarks without a file, none with one.
+/// From --align (may be empty) and --landmarks: a landmark file without
+/// --align means landmarks, with icp it gives the initial alignment. Throws
+/// OptionError: an unknown method, landmarks without a file, none with a file.
 SurfaceFitOptions parseFit(const std::string& align, const std::string& landmarks,
                            const std::string& landmarks_option);
 
@@ -34,13 +34,13 @@ struct SurfaceFit {
   // none, landmarks, given, icp, "landmarks, then icp", "given, then icp"
   std::string method = "none";
   Eigen::Isometry3d reference_from_test = Eigen::Isometry3d::Identity();
-  std::optional<Statistics> before_mm;  // the test's distances before it
+  std::optional<Statistics> before_mm;  // distances of the test before alignment
   std::optional<LandmarkErrors> landmarks;
   std::optional<SurfaceAlignment> icp;
   std::vector<std::string> warnings;
 };
 
-/// Doesn't move anything. Throws InputError where the landmarks can't be read.
+/// Computes the alignment only. Throws InputError for unreadable landmarks.
 SurfaceFit fitSurface(const TriangleMesh& reference, const std::vector<Eigen::Vector3f>& test_mm,
                       const SurfaceFitOptions& options);
 

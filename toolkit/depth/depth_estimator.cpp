@@ -1,4 +1,4 @@
-// toolkit/depth/depth_estimator.cpp: measured depth, and its points in the frame asked for.
+// toolkit/depth/depth_estimator.cpp: measured depth with its point cloud in the selected frame.
 #include "toolkit/depth/depth_estimator.h"
 
 #include "stereo/depth/depth_from_disparity.h"

@@ -14,12 +14,12 @@ namespace softscope {
 
 /// All rasters have the shape of the rectified left image.
 struct DepthResult : MeasuredFrame {
-  PointCloud cloud;  // mm, in the frame asked for
+  PointCloud cloud;  // mm, in the selected frame
 };
 
 class DepthEstimator {
  public:
-  /// `raw_left`: the cloud is turned from the rectified into the raw left camera's frame.
+  /// `raw_left`: the point cloud is in the frame of the raw instead of the rectified left camera.
   DepthEstimator(std::unique_ptr<FrameDepth> depth, std::string backend, bool raw_left)
       : depth_(std::move(depth)), backend_(std::move(backend)), raw_left_(raw_left) {}
 
@@ -27,7 +27,7 @@ class DepthEstimator {
   /// "cpu" or "cuda".
   const std::string& backend() const { return backend_; }
 
-  /// Throws InputError where the frame doesn't fit.
+  /// Throws InputError for a frame that does not fit the calibration.
   DepthResult measure(const Frame& frame);
 
  private:

@@ -1,4 +1,4 @@
-// toolkit/depth/depth_outputs.cpp: rasters, cloud and image to disk.
+// toolkit/depth/depth_outputs.cpp: files of rasters, point cloud and image.
 #include "toolkit/depth/depth_outputs.h"
 
 #include <cmath>
@@ -81,7 +81,7 @@ void DepthOutputs::requireFree(const std::vector<std::string>& prefixes) const {
 void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
                          const DepthRange& range, const std::string& title) const {
   const bool force = options_.overwrite;
-  const bool matched = !measured.disparity.disparity_px.empty();  // else depth came from a file
+  const bool matched = !measured.disparity.disparity_px.empty();  // else depth is from a file
   new_files_.makeFolder(options_.folder);
   const auto rasters = [&] {
     if (options_.kinds.disparity && matched) {

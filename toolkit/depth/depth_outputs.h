@@ -1,4 +1,4 @@
-// toolkit/depth/depth_outputs.h: files of `softscope depth`, per frame.
+// toolkit/depth/depth_outputs.h: output files of `softscope depth`, per frame.
 #pragma once
 
 #include <filesystem>
@@ -12,17 +12,17 @@
 
 namespace softscope {
 
-/// Which kinds are written.
+/// Selection of output files.
 struct DepthOutputKinds {
   bool disparity = true, depth = true, confidence = true, cloud = true, picture = true;
-  bool floats = true;  // disparity and depth as PFM too
+  bool floats = true;  // also disparity and depth as PFM
   bool dense = false;  // depth and its standard error for every pixel, measured or filled
 
-  /// What is written of several frames unless asked for more: depth.png alone. All kinds take some
-  /// 10 MB per frame of 640 x 480 pixels.
+  /// Default for several frames: depth.png only. All kinds
+  /// take about 10 MB per frame of 640 x 480 pixels.
   static DepthOutputKinds ofSequence() { return {false, true, false, false, false, false, false}; }
 
-  /// Whether nothing in mm is written, so that no calibration is needed.
+  /// True if no output is in mm: no calibration is needed.
   bool onlyPixels() const { return !depth && !cloud && !picture && !dense; }
 
   /// "depth,picture"; empty = all but dense. Throws OptionError with the nearest name.
@@ -33,22 +33,22 @@ struct DepthOutputOptions {
   std::filesystem::path folder;
   DepthOutputKinds kinds;
   bool overwrite = false;
-  bool raw_left = false;  // the frame that the cloud's header names
+  bool raw_left = false;  // camera frame in the header of the point cloud
 };
 
-/// Without keep() its destructor takes back what it wrote.
+/// Without keep() the destructor removes the written files.
 class DepthOutputs {
  public:
   explicit DepthOutputs(DepthOutputOptions options) : options_(std::move(options)) {}
 
-  /// Throws OptionError naming the first file that exists already, unless overwriting is allowed.
+  /// Throws OptionError with the first existing file, unless overwriting is allowed.
   void requireFree(const std::vector<std::string>& prefixes) const;
 
-  /// Files named <prefix>depth.png and so on, each whole or not at all.
+  /// Files <prefix>depth.png and so on, written atomically.
   void write(const std::string& prefix, const DepthResult& measured, const DepthRange& range,
              const std::string& title) const;
 
-  /// What was written, for people: the folder, then the files of `frames` frames.
+  /// Description of the output for the user: the folder, then the files of `frames` frames.
   std::vector<std::string> told(int frames) const;
 
   void writeSummary(const std::string& json) const;
@@ -69,8 +69,8 @@ class DepthOutputs {
   mutable NewFiles new_files_;
 };
 
-/// 255 times the probability that a pixel's error is below half a pixel, were it normally
-/// distributed with the predicted standard error; 0 where nothing was measured.
+/// 255 times the probability of an error below half a pixel, for a normal
+/// distribution with the predicted standard error; 0 for unmeasured pixels.
 GrayImage confidenceImage(const DisparityMap& disparity);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/depth/depth_record.cpp: options, frames, failures, warnings.
+// toolkit/depth/depth_record.cpp: options, frames, failures and warnings as JSON.
 #include "toolkit/depth/depth_record.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ void DepthRecord::addFrame(int index, double time_s, const DepthResult& measured
   Json frame{{"frame", index}};
   if (std::isfinite(time_s)) frame["time_s"] = time_s;
   frame.update(frameJson(measured));
-  if (json_["calibration"].is_null()) {  // lengths would mean nothing
+  if (json_["calibration"].is_null()) {  // lengths are undefined
     frame["depth_mm"] = nullptr;
     frame["median_predicted_error_mm"] = nullptr;
   }

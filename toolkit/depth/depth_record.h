@@ -14,7 +14,7 @@ namespace softscope {
 
 class DepthRecord {
  public:
-  /// `inputs`: what was given, by role.
+  /// `inputs`: paths by role.
   DepthRecord(const std::map<std::string, std::string>& inputs,
               const StereoCalibration& calibration, const DepthEstimator& estimator, bool raw_left);
 
@@ -27,7 +27,7 @@ class DepthRecord {
   int goodFrames() const { return int(frames_.size()); }
   int failures() const { return int(failed_.size()); }
   FactSheet::Json json() const;
-  /// A few lines for people.
+  /// Short summary as text.
   FactSheet text() const;
 
  private:

@@ -1,4 +1,4 @@
-// toolkit/depth/frame_statistics.cpp: counting and sorting.
+// toolkit/depth/frame_statistics.cpp: percentiles and warnings.
 #include "toolkit/depth/frame_statistics.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kLeastCoverage = 0.05;  // of tissue in view, half and more is usual
+constexpr double kLeastCoverage = 0.05;  // half of the tissue and more is usual
 
 std::vector<float> sortedFinite(const Raster<float>& raster) {
   std::vector<float> values;
@@ -20,7 +20,7 @@ std::vector<float> sortedFinite(const Raster<float>& raster) {
   return values;
 }
 
-/// Linear between neighbours, as most tools have it.
+/// Linear interpolation between neighbours.
 double quantile(const std::vector<float>& sorted, double part) {
   if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double place = part * double(sorted.size() - 1);

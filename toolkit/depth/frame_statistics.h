@@ -7,21 +7,21 @@
 namespace softscope {
 
 struct FrameStatistics {
-  double coverage = 0;  // measured pixels / pixels that the mask leaves
+  double coverage = 0;  // measured pixels / unmasked pixels
   long measured_pixels = 0;
   double p1_mm = 0, p5_mm = 0, median_mm = 0, p95_mm = 0, p99_mm = 0;  // NaN without depth
-  double median_sigma_mm = 0;  // predicted standard error; NaN where unknown
+  double median_sigma_mm = 0;  // predicted standard error; NaN if unknown
 };
 
 FrameStatistics statisticsOf(const DepthResult& measured);
 
-/// Coverage, depth percentiles, rows, milliseconds a stage; units in key names.
+/// Coverage, depth percentiles, vertical disparity, milliseconds per stage; units in key names.
 FactSheet::Json frameJson(const DepthResult& measured);
 
-/// One line if hardly a pixel was measured; else empty. Throws InputError where none was.
+/// Warning for a very small coverage, else empty. Throws InputError if no pixel was measured.
 std::string coverageWarning(const DepthResult& measured);
 
-/// One line if rows are off by more than RowAlignment::kWarnAbovePx and stay so; else empty.
+/// Warning for a lasting vertical disparity above RowAlignment::kWarnAbovePx, else empty.
 std::string rowWarning(const DepthResult& measured);
 
 }  // namespace softscope

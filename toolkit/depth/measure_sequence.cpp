@@ -1,4 +1,4 @@
-// toolkit/depth/measure_sequence.cpp: the loop over the frames, and what each came to.
+// toolkit/depth/measure_sequence.cpp: loop over frames and collection of results.
 #include "toolkit/depth/measure_sequence.h"
 
 #include <algorithm>
@@ -24,15 +24,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One range for all images of a run: of a sequence the first frame's, a tenth wider on either
-/// side, since tissue moves.
+/// One colour range for all images of a run: for a sequence that of the
+/// first frame, extended by a tenth at each end because tissue moves.
 DepthRange rangeForAll(const DepthRange& first, bool is_sequence) {
   if (!is_sequence) return first;
   const double margin_mm = std::ceil(0.1 * (first.farthest_mm - first.nearest_mm));
   return {std::max(0.0, first.nearest_mm - margin_mm), first.farthest_mm + margin_mm};
 }
 
-/// Above the image: the method, the path's last part, and the frame unless it is negative.
+/// Title of the image: method, last part of the path, frame number unless negative.
 std::string pictureTitle(const std::string& method, const std::string& path, int frame) {
   fs::path place = fs::path(path).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
@@ -65,10 +65,10 @@ class SequenceMeasurement {
   RepeatedWarnings failures_{[this](const std::string& text) { listener_.fail(text); }};
   RepeatedWarnings warnings_{[this](const std::string& text) { listener_.warn(text); }};
   bool interrupted_ = false;
-  std::string failure_;  // of the back end in the middle of the sequence
+  std::string failure_;  // failure of the back end during the sequence
 };
 
-/// As reconstruct does, where there is more than one pair and stereo measures the depth.
+/// As in reconstruct, for more than one pair with stereo depth.
 void SequenceMeasurement::settleOffset() {
   DepthOptions& settings = options_.settings;
   if (settings.measurement.source != "stereo" && !options_.sequence.depth.empty()) return;
@@ -88,7 +88,7 @@ void SequenceMeasurement::requireFree(const DepthOutputs& outputs, int frames) c
 }
 
 DepthEstimator SequenceMeasurement::estimatorFor(const SequenceReader& reader) const {
-  // Starting a GPU takes longer than one pair on the CPU.
+  // The start of a GPU takes longer than one pair on the CPU.
   const bool one_pair = options_.backend == "auto" && reader.frameCount() == 1;
   auto chosen = makeFrameDepth(one_pair ? "cpu" : options_.backend, reader.calibration(),
                                options_.settings.measurement);

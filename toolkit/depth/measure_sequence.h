@@ -18,35 +18,35 @@ namespace softscope {
 
 struct MeasureOptions {
   SequencePaths sequence;
-  std::string name;                           // of the sequence in messages and titles
-  std::map<std::string, std::string> inputs;  // by role, for the record
-  bool numbered = false;                      // names of files begin with the frame, also of one
+  std::string name;                           // name of the sequence in messages and titles
+  std::map<std::string, std::string> inputs;  // paths by role, for the record
+  bool numbered = false;                      // file names begin with the frame, even for one
   DepthOptions settings;
-  std::string backend = "auto";           // or cpu, cuda; auto measures one pair on the CPU
-  std::optional<DepthOutputKinds> kinds;  // none: all of one pair, depth.png of several
-  bool dense = false;                     // depth of every pixel besides
-  std::optional<DepthRange> range;        // of the colour bar; none: of the first depth
+  std::string backend = "auto";           // or cpu, cuda; auto: CPU for one pair
+  std::optional<DepthOutputKinds> kinds;  // default: all for one pair, depth.png for several
+  bool dense = false;                     // additionally depth of every pixel
+  std::optional<DepthRange> range;        // of the colour bar; default: range of the first depth
   std::filesystem::path out;              // folder
-  bool raw_left = false;                  // frame of the point cloud: as the camera took it
+  bool raw_left = false;                  // point cloud in the frame of the raw left camera
   bool overwrite = false;
   RecordPaths paths;
 
-  /// Without a result in mm no calibration is needed.
+  /// No calibration is needed without output in mm.
   bool uncalibrated() const { return kinds && kinds->onlyPixels() && !dense; }
 };
 
 struct MeasuredSequence {
-  FactSheet::Json record;          // of summary.json
-  FactSheet facts{""};             // for people
-  std::vector<std::string> files;  // what was written, for people
-  bool interrupted = false;        // what was finished stays
+  FactSheet::Json record;          // content of summary.json
+  FactSheet facts{""};             // summary as text
+  std::vector<std::string> files;  // description of the output, as text
+  bool interrupted = false;        // finished frames are kept
 };
 
 /// "40:80", mm. Throws OptionError.
 DepthRange parseDepthRange(const std::string& text);
 
-/// `listener.progress` counts frames; one that can't be measured is a failure, and the others go
-/// on. Throws OptionError; InputError where not one frame could be measured; BackendError.
+/// `listener.progress` counts frames; a failed frame is recorded and processing
+/// continues. Throws OptionError; InputError if no frame could be measured; BackendError.
 MeasuredSequence measureSequence(MeasureOptions options, const WorkListener& listener = {});
 
 }  // namespace softscope

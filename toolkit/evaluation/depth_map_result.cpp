@@ -1,4 +1,4 @@
-// toolkit/evaluation/depth_map_result.cpp: pairs of files, one judgement each, means over them.
+// toolkit/evaluation/depth_map_result.cpp: evaluation of pairs of maps, and means over them.
 #include "toolkit/evaluation/depth_map_result.h"
 
 #include <algorithm>
@@ -31,13 +31,13 @@ bool isMapName(const fs::path& file) {
   return std::find(kMapFiles.begin(), kMapFiles.end(), extension) != kMapFiles.end();
 }
 
-/// "000012" of 000012_disparity.pfm; empty where the name begins with no digit.
+/// "000012" of 000012_disparity.pfm; empty for a name without leading digits.
 std::string frameDigits(const fs::path& file) {
   const std::string stem = file.stem().string();
   return stem.substr(0, std::min(stem.find_first_not_of("0123456789"), stem.size()));
 }
 
-/// Of a folder its maps whose names hold `part`, once per number: `depth` writes PFM and PNG.
+/// Maps of a folder whose names contain `part`, one per number: `depth` writes PFM and PNG.
 std::vector<fs::path> depthMapsIn(const fs::path& path, const std::string& part) {
   if (!isFolder(path)) return {path};
   std::vector<fs::path> named, all;
@@ -66,11 +66,11 @@ const fs::path& partnerOfMap(const fs::path& map, std::size_t index, std::size_t
                        partners.size(), " maps; names must begin with the same frame number"));
 }
 
-/// What confidenceImage() was made of; NaN where nothing was measured. Its ends hold no number.
+/// Inverse of confidenceImage(); NaN for 0 and 255, which do not determine a sigma.
 double sigmaOf(std::uint8_t confidence) {
   if (confidence == 0 || confidence == 255) return Statistics::kNone;
   const double wanted = confidence / 255.0;
-  double low = 1e-3, high = 1e3;  // px; the share within half a pixel falls as sigma grows
+  double low = 1e-3, high = 1e3;  // px; the share within half a pixel falls with sigma
   for (int i = 0; i < 60; ++i) {
     const double middle = std::sqrt(low * high);
     (std::erf(0.5 / (middle * std::sqrt(2.0))) > wanted ? low : high) = middle;
@@ -180,13 +180,13 @@ Json mapMeans(const DepthMapResult& result, const std::vector<MapColumn>& column
 
 void keepWorst(const std::string& name, const Raster<float>& measured, const Raster<float>& truth,
                double mean_error, WorstMap* worst) {
-  if (!(mean_error > worst->mean_error)) return;  // NaN: nothing was judged
+  if (!(mean_error > worst->mean_error)) return;  // NaN: no pixel evaluated
   *worst = {name, mean_error, measured};
   for (std::size_t i = 0; i < measured.size(); ++i)
     worst->error.values[i] = std::abs(measured.values[i] - truth.values[i]);
 }
 
-/// The first tells enough.
+/// Later warnings repeat the first.
 void addWarning(const std::string& warning, DepthMapResult* result) {
   if (!warning.empty() && result->warnings.empty()) result->warnings.push_back(warning);
 }

@@ -1,4 +1,4 @@
-// toolkit/evaluation/depth_map_result.h: disparity or depth maps against true ones.
+// toolkit/evaluation/depth_map_result.h: evaluation of disparity or depth maps against true maps.
 #pragma once
 
 #include <filesystem>
@@ -18,17 +18,17 @@
 namespace softscope {
 
 struct DepthMapOptions {
-  std::string measured;     // a map, or a folder of maps
-  std::string reference;    // the true map, or as many in a folder; of the same kind
-  std::string kind;         // disparity, depth; empty: by the names of the measured maps
-  std::string calibration;  // of the rectified views: gives errors of disparity in mm, too
-  std::string confidence;   // confidence.png of `depth`, or a folder of as many; empty: none
+  std::string measured;     // map, or folder of maps
+  std::string reference;    // true map, or folder of as many; of the same kind
+  std::string kind;         // disparity, depth; empty: from the names of the measured maps
+  std::string calibration;  // of the rectified views: adds errors of disparity in mm
+  std::string confidence;   // confidence.png of `depth`, or folder of as many; empty: none
 
   /// Throws OptionError.
   MapKind mapKind() const;
 };
 
-/// One map. Values over NaN are left out; px of disparity, mm of depth.
+/// Errors of one map: px for disparity, mm for depth. Means without NaNs.
 struct JudgedMap {
   std::string name;
   std::optional<DisparityErrors> disparity;
@@ -37,36 +37,36 @@ struct JudgedMap {
   Sparsification sparse;
 };
 
-/// The map with the largest mean error, to be looked at.
+/// Map with the largest mean error.
 struct WorstMap {
   std::string name;
-  double mean_error = -1;  // px or mm; below 0: none yet
-  Raster<float> error;     // magnitude, NaN where not judged
+  double mean_error = -1;  // px or mm; negative: none yet
+  Raster<float> error;     // absolute error; NaN for excluded pixels
 };
 
-/// Means over the maps; a map counts once, however many pixels it has.
+/// Means over the maps; each map has the same weight.
 struct DepthMapResult {
   std::string measured, reference;
   MapKind kind = MapKind::kDepth;
   std::vector<JudgedMap> maps;
   WorstMap worst;
-  std::string measured_unit, true_unit;  // what the values of the files were taken for
+  std::string measured_unit, true_unit;  // assumed units of the files
   std::vector<std::string> warnings;
   bool interrupted = false;
 };
 
-/// True where `path` is a map, or a folder that holds maps and no run.
+/// True for a map, or a folder with maps and without a run.
 bool holdsDepthMaps(const std::filesystem::path& path);
 
-/// Maps of folders belong together by the frame number that their names begin with, else by their
-/// order. Throws InputError where a partner is missing, sizes differ, or a map's name or values say
-/// that it is of the other kind; warns where the values of both maps run against each other, as
-/// those of a depth and of a disparity map do.
+/// Maps of folders are paired by the leading frame number of their names,
+/// else by their order. Throws InputError for a missing partner, different
+/// sizes, or a map of the other kind by its name or values; warns for a
+/// negative correlation of both maps, typical of depth against disparity.
 DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& progress = {});
 
 FactSheet::Json depthMapJson(const DepthMapResult& result);
 FactSheet depthMapFacts(const DepthMapResult& result);
-/// The errors of the worst map, pixel by pixel. Of a result with a map that has errors.
+/// Error image of the worst map. Requires a map with errors.
 VectorDrawing depthMapFigure(const DepthMapResult& result);
 /// One line per map.
 std::string depthMapCsv(const DepthMapResult& result);

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_depth.cpp: a file read, or a ray cast through every pixel.
+// toolkit/evaluation/evaluate_depth.cpp: depth from a file, or by ray casting.
 #include "toolkit/evaluation/evaluate_depth.h"
 
 #include <algorithm>
@@ -22,13 +22,13 @@ Raster<float> castDepth(const TriangleMesh& mesh_world, const PinholeCamera& lef
   constexpr int kRays = std::tuple_size_v<RayPacket>;
   parallelRows(left.height_px, [&](int v) {
     for (int begin = 0; begin < left.width_px; begin += kRays) {
-      RayPacket rays;  // the last ones of a row may point beyond the image
+      RayPacket rays;  // the last rays of a row may be outside the image
       for (int i = 0; i < kRays; ++i)
         rays[std::size_t(i)] = liftPixel<double>(left, begin + i, v, 1).cast<float>();
       const PacketHits hits = tree.cast(Eigen::Vector3f::Zero(), rays);
       for (int u = begin; u < std::min(begin + kRays, left.width_px); ++u)
         if (const RayHit& hit = hits[std::size_t(u - begin)]; hit.met())
-          depth_mm.at(u, v) = hit.distance;  // the direction's z is 1
+          depth_mm.at(u, v) = hit.distance;  // the direction has z = 1
     }
   });
   return depth_mm;
@@ -40,7 +40,7 @@ Raster<float> trueDepth(const SequenceTruth& truth, int frame, const TriangleMes
   const PinholeCamera& left = truth.rig.left;
   const auto& pose = truth.trajectory[static_cast<std::size_t>(frame)];
   const auto file = truth.depths.find(frame);
-  if (file == truth.depths.end() || !truth.rectified)  // such a file is of the raw image's pixels
+  if (file == truth.depths.end() || !truth.rectified)  // the file has the pixels of the raw image
     return castDepth(mesh_world, left, pose.world_from_left.inverse());
   Raster<float> depth_mm = readDepth(file->second, truth.depth_unit_mm);
   if (depth_mm.width_px != left.width_px || depth_mm.height_px != left.height_px)

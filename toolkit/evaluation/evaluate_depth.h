@@ -1,5 +1,5 @@
-// toolkit/evaluation/evaluate_depth.h: the true depth of a frame, from its file or from the true
-// surface.
+// toolkit/evaluation/evaluate_depth.h: true depth of a
+// frame, from its file or rendered from the true surface.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace softscope {
 
-/// Of the rectified left image, mm; NaN where there is no tissue. Without a file in
-/// groundtruth/depth, the depth of `mesh_world` as the true camera of this frame would see it.
-/// Throws InputError where the file's size isn't the camera's.
+/// For the rectified left image, mm; NaN outside of the tissue. Without a
+/// file in groundtruth/depth, `mesh_world` is rendered from the true pose of
+/// this frame. Throws InputError for a file of another size than the camera.
 Raster<float> trueDepth(const SequenceTruth& truth, int frame, const TriangleMesh& mesh_world);
 
 }  // namespace softscope

@@ -1,5 +1,5 @@
-// toolkit/evaluation/evaluate_frames.cpp: gathers by frame what was judged by model, pose and
-// track.
+// toolkit/evaluation/evaluate_frames.cpp: results
+// of model, pose and track, joined by frame.
 #include "toolkit/evaluation/evaluate_frames.h"
 
 #include <cmath>
@@ -13,9 +13,9 @@ namespace softscope {
 namespace {
 
 constexpr double kNone = Statistics::kNone;
-constexpr std::size_t kOutcomeAt = 2;  // behind frame and time_s
+constexpr std::size_t kOutcomeAt = 2;  // after frame and time_s
 
-/// What is known of one frame; null or NaN where it isn't.
+/// Results of one frame; null or NaN if unknown.
 struct FrameFacts {
   int frame = 0;
   double time_s = kNone;
@@ -144,7 +144,7 @@ void addCamera(const CameraResult& camera, FactsByFrame& facts) {
     frame.pose_deg = camera.errors.unaligned.each_deg[k];
     frame.ate_mm = camera.errors.absolute.each_mm[k];
     frame.ate_deg = camera.errors.absolute.each_deg[k];
-    if (k == 0) continue;  // a step leads to its frame
+    if (k == 0) continue;  // a step belongs to its second frame
     frame.rpe_mm = camera.errors.relative.each_mm[k - 1];
     frame.rpe_deg = camera.errors.relative.each_deg[k - 1];
   }

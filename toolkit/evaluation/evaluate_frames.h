@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_frames.h: one row a frame, for CSV and JSON alike.
+// toolkit/evaluation/evaluate_frames.h: table with one row per frame, for CSV and JSON.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace softscope {
 
-/// Units are in the headings; NaN = not measured, an empty cell and null.
+/// Units are in the headings; NaN = not measured: an empty cell, null.
 struct FrameTable {
-  std::vector<std::string> headings;  // the first is "frame"
+  std::vector<std::string> headings;  // first heading: "frame"
   std::vector<std::vector<double>> rows;
-  std::vector<std::string> outcomes;  // of each row: fused, skipped, lost; empty if not known
+  std::vector<std::string> outcomes;  // per row: fused, skipped, lost; empty if unknown
 
   std::string csv() const;
   FactSheet::Json json() const;
 };
 
-/// Every frame of the run (of a mesh: with a judged model), rising; docs/evaluation.md explains the
-/// columns.
+/// All frames of the run (for a mesh: with an evaluated
+/// model), ascending; columns: docs/evaluation.md.
 FrameTable frameTable(const EvaluationResult& result);
 
 /// frame,id,error_mm,no_motion_mm,visible,sigma_mm

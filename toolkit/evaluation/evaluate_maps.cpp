@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_maps.cpp: models and points sampled evenly for maps of the error.
+// toolkit/evaluation/evaluate_maps.cpp: even sampling of models and points for error maps.
 #include "toolkit/evaluation/evaluate_maps.h"
 
 #include <algorithm>
@@ -8,15 +8,15 @@ namespace {
 
 constexpr std::size_t kMostMoments = 24, kMostPoints = 20000, kMostOfReference = 3000;
 
-/// A number that looks random but is the same every time (the finaliser of MurmurHash3).
+/// Deterministic hash (finaliser of MurmurHash3).
 std::uint64_t scrambled(std::uint64_t value) {
   value = (value ^ (value >> 33)) * 0xff51afd7ed558ccdULL;
   value = (value ^ (value >> 33)) * 0xc4ceb9fe1a85ec53ULL;
   return value ^ (value >> 33);
 }
 
-/// One index out of each of `kept` equal stretches of [0, count). Points stand in the order of
-/// pixels: a fixed place in each stretch would show as stripes.
+/// One index per `kept` equal intervals of [0, count). Points are in pixel
+/// order: a constant position within each interval would appear as stripes.
 std::vector<std::size_t> spreadIndices(std::size_t count, std::size_t kept) {
   std::vector<std::size_t> indices;
   for (std::size_t k = 0; k < kept; ++k) {
@@ -36,7 +36,7 @@ bool ErrorMaps::keepsNext() const {
   if (next_ >= moments_) return false;
   const std::size_t wanted = std::min(moments_, kMostMoments);
   const auto keptUpTo = [&](std::size_t count) { return count * wanted / moments_; };
-  return keptUpTo(next_ + 1) != keptUpTo(next_);  // the last always is
+  return keptUpTo(next_ + 1) != keptUpTo(next_);  // the last model is always kept
 }
 
 void ErrorMaps::add(int frame, double time_s, const std::vector<Eigen::Vector3f>& points_mm,

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_maps.h: error maps of some evaluated models, for interactive views.
+// toolkit/evaluation/evaluate_maps.h: error maps of selected models, for interactive views.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace softscope {
 
-/// Which points of a model with `count` points its map keeps, in the map's order.
+/// Indices of the points kept in the map of a model with `count` points, in the order of the map.
 std::vector<std::size_t> indicesOfMap(std::size_t count);
 
-/// Keeps at most 24 of `moments` models, evenly spread and the last among them, of each at most
-/// 20 000 points, evenly spread over its order, and beside them the true surface, coarse.
+/// Keeps at most 24 of `moments` models, evenly spread and including the last,
+/// each with at most 20 000 evenly spread points, and the decimated true surface.
 class ErrorMaps {
  public:
   explicit ErrorMaps(std::size_t moments) : moments_(moments) {}
 
-  /// Whether the next model that is added will be kept.
+  /// True if the next added model is kept.
   bool keepsNext() const;
-  /// `points_mm` and `truth` in one frame; `world_from_left`: the camera's pose there. For every
-  /// model in turn, kept or not.
+  /// `points_mm` and `truth` in the same frame; `world_from_left`:
+  /// camera pose in it. Called for every model.
   void add(int frame, double time_s, const std::vector<Eigen::Vector3f>& points_mm,
            const ModelErrors& errors, const TriangleMesh& truth,
            const Eigen::Isometry3d& world_from_left);
@@ -35,7 +35,7 @@ class ErrorMaps {
 
   std::size_t moments_, next_ = 0;
   std::vector<ErrorMap> kept_;
-  CoarseMesh coarse_;  // of the first truth; holds as long as its triangles are the same
+  CoarseMesh coarse_;  // of the first truth; valid while the triangles are unchanged
   TriangleMesh first_truth_;
 };
 

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_outputs.cpp: numbers first, figures after them.
+// toolkit/evaluation/evaluate_outputs.cpp: record, tables, figures and error maps.
 #include "toolkit/evaluation/evaluate_outputs.h"
 
 #include <cmath>
@@ -42,7 +42,7 @@ const char* const kFiles[] = {"evaluation.json",
                               "quality_series.pdf",
                               "quality_series.png"};
 
-/// With a white gap between them.
+/// Separated by a white gap.
 ColourImage besideEachOther(const DrawnPair& pair) {
   const int width_px = pair.image.width_px, height_px = pair.image.height_px;
   const int gap_px = std::max(4, width_px / 60);
@@ -56,7 +56,7 @@ ColourImage besideEachOther(const DrawnPair& pair) {
 
 std::string mapName(const ErrorMap& map) { return "errors/" + numberedName(map.frame, ".vtp"); }
 
-/// ParaView's list of the maps over time, or over frames where no time is known.
+/// ParaView collection of the maps over time, or over frames without timestamps.
 std::string mapsPvd(const std::vector<ErrorMap>& maps) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
@@ -91,7 +91,7 @@ void EvaluateOutputs::putFigure(const std::string& name, const VectorDrawing& fi
       png, [&] { writePng(png, rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_); });
 }
 
-/// What an earlier evaluation left is removed, for it may have judged other frames.
+/// Maps of an earlier evaluation are removed: they may belong to other frames.
 void EvaluateOutputs::putMaps(const std::vector<ErrorMap>& maps) const {
   if (overwrite_ && fs::is_directory(folder_ / "errors"))
     for (const fs::path& file : filesIn(folder_ / "errors", {".vtp"}))
@@ -106,7 +106,7 @@ void EvaluateOutputs::putMaps(const std::vector<ErrorMap>& maps) const {
 void EvaluateOutputs::write(const RunEvaluation& evaluation) const {
   new_files_.makeFolder(folder_);
   std::visit([&](const auto& result) { write(result); }, evaluation.result);
-  put("evaluation.json", jsonText(evaluation.record));  // last: where it is, the others are
+  put("evaluation.json", jsonText(evaluation.record));  // last file: all others are complete
   new_files_.keep();
 }
 

@@ -9,18 +9,18 @@
 
 namespace softscope {
 
-/// Each file appears whole or not at all, and a failure takes back those that were written.
+/// Files are written atomically; a failure removes the files written before.
 class EvaluateOutputs {
  public:
-  /// Throws OptionError where `folder` is a file, or a file to be written is there and `overwrite`
-  /// is false.
+  /// Throws OptionError if `folder` is a file, or an
+  /// output file exists and `overwrite` is false.
   EvaluateOutputs(std::filesystem::path folder, bool overwrite);
 
-  /// evaluation.json, frames.csv, tracks.csv where tracks were judged, and the figures
-  /// error_series, error_histogram and worst_frames as SVG, PDF and PNG where a surface was, with
-  /// errors/NNNNNN.vtp of some of its moments.
-  /// Without truth: evaluation.json, frames.csv, and the figure quality_series.
-  /// Of maps: evaluation.json, maps.csv, and error_map of the worst of them.
+  /// evaluation.json, frames.csv, tracks.csv for evaluated tracks, and, for an
+  /// evaluated surface, the figures error_series, error_histogram and
+  /// worst_frames as SVG, PDF and PNG and errors/NNNNNN.vtp of selected frames.
+  /// Without truth: evaluation.json, frames.csv and the figure quality_series.
+  /// For maps: evaluation.json, maps.csv and error_map of the worst map.
   void write(const RunEvaluation& evaluation) const;
 
  private:

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_plots.cpp: picks, counts and names.
+// toolkit/evaluation/evaluate_plots.cpp: selection of values, bins and titles.
 #include "toolkit/evaluation/evaluate_plots.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::string lastPart(const std::string& path) {
   return place.filename().string();
 }
 
-/// Whether every frame of the plots has a time.
+/// True if every frame of the plots has a timestamp.
 bool hasTimes(const EvaluationResult& result) {
   const auto& models = result.surface.models;
   return std::all_of(result.times_s.begin(), result.times_s.end(),
@@ -29,7 +29,7 @@ bool hasTimes(const EvaluationResult& result) {
                      [](const JudgedModel& model) { return std::isfinite(model.time_s); });
 }
 
-/// 1, 2 or 5 times a power of ten, and its halves in between.
+/// 1, 2 or 5 times a power of ten, and the midpoints between them.
 double binEnd(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double leading : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
@@ -44,10 +44,10 @@ ErrorSeriesData seriesData(const EvaluationResult& result) {
   data.title = comparisonTitle(result.run, result.reference);
   const bool over_time = hasTimes(result);
   if (!over_time) data.time_label = "frame";
-  std::map<int, const JudgedModel*> rows;  // null: nothing was judged
+  std::map<int, const JudgedModel*> rows;  // null: no evaluated model
   for (const auto& [frame, time_s] : result.times_s)
     if (!result.outcomes.fused(frame) || frame == result.times_s.begin()->first ||
-        frame == result.times_s.rbegin()->first)  // the axis spans the run
+        frame == result.times_s.rbegin()->first)  // the axis covers the run
       rows[frame] = nullptr;
   for (const JudgedModel& model : result.surface.models) rows[model.frame] = &model;
   for (const auto& [frame, model] : rows) {

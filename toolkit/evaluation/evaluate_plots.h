@@ -11,23 +11,23 @@
 
 namespace softscope {
 
-/// Of all judged models, over time, or over frames where no time is known; a frame that was not
-/// fused leaves a gap. At least one model.
+/// All evaluated models over time, or over frames without timestamps;
+/// a frame that was not fused is a gap. Requires one model.
 ErrorSeriesData seriesData(const EvaluationResult& result);
 
-/// Which frames were fused, over the same axis; of no frame where that is not known.
+/// Fused frames over the same axis; empty if unknown.
 OutcomeStripData outcomeStrip(const EvaluationResult& result);
 
-/// The ten models with the largest mean, worst first. At least one model.
+/// The ten models with the largest mean, in descending order. Requires one model.
 WorstFramesData worstFramesData(const EvaluationResult& result);
 
-/// From 0 to a round number above the 99th percentile. At least one value is a number.
+/// From 0 to a round number above the 99th percentile. Requires one value that is not NaN.
 ErrorHistogramData histogramOf(const std::vector<double>& errors_mm, const std::string& title);
 
-/// The same bins as JSON, for reports; null where no value is a number.
+/// The same bins as JSON, for reports; null if all values are NaN.
 FactSheet::Json histogramJson(const std::vector<double>& errors_mm);
 
-/// "run against reference", by the last parts of their paths.
+/// "run against reference", from the last parts of the paths.
 std::string comparisonTitle(const std::string& test, const std::string& reference);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_record.h: an evaluation as JSON and as lines for people.
+// toolkit/evaluation/evaluate_record.h: record of an evaluation as JSON and as text.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace softscope {
 
-/// What evaluation.json holds, without frames and thresholds. Every metric that this kind of
-/// evaluation can have is there, null where it wasn't measured: so the record of an empty result
-/// tells which names --fail-if may use.
+/// Content of evaluation.json, without frames and thresholds. Contains
+/// every metric of this kind of evaluation, null without a measurement:
+/// the record of an empty result lists the names allowed in --fail-if.
 FactSheet::Json evaluationJson(const EvaluationResult& result);
 
 FactSheet evaluationFacts(const EvaluationResult& result);

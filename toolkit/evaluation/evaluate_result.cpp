@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_result.cpp: from folders to eval's functions.
+// toolkit/evaluation/evaluate_result.cpp: calls of the functions of eval for a run.
 #include "toolkit/evaluation/evaluate_result.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kForeignMm = 20;  // a model this far off shows no tissue of this sequence
+constexpr double kForeignMm = 20;  // a model at a larger distance belongs to another sequence
 
 double valueOf(const std::map<int, double>& values, int frame) {
   const auto found = values.find(frame);

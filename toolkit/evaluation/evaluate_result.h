@@ -15,58 +15,58 @@
 
 namespace softscope {
 
-/// The scope's path against the true one; values are in the order of `frames`.
+/// Camera path against the true path; values in the order of `frames`.
 struct CameraResult {
   std::vector<int> frames;
   TrajectoryErrors errors;
 };
 
-/// Errors when the scope is back where it was: of what it sees, and of tracks.
+/// Errors at revisits of an earlier camera pose: of the visible surface and of tracks.
 struct RevisitResult {
   Revisits surface, tracks;
 };
 
 struct EvaluationResult {
-  std::string run, reference;  // as the user named them
-  bool against_mesh = false;   // else against a sequence's ground truth
+  std::string run, reference;  // paths as given
+  bool against_mesh = false;   // else against the ground truth of a sequence
   MeshAlignment alignment = MeshAlignment::kNone;
   std::vector<SurfaceAlignment> alignments;
   SurfaceSeries surface;
   std::optional<CameraResult> camera;
   std::optional<TrackErrors> tracks;
   RevisitResult revisits;
-  std::vector<JudgedFrame> judged_frames;  // those that were fused
+  std::vector<JudgedFrame> judged_frames;  // fused frames
   HeldOutResult held_out;
   FrameOutcomes outcomes;                   // of the run
   std::map<int, double> times_s;            // of all frames of the run; NaN without timestamps
-  std::map<int, double> backprojection_mm;  // by frame, as the run itself measured it
+  std::map<int, double> backprojection_mm;  // by frame, as reported by the run
   std::vector<std::string> warnings;
 };
 
-/// Of the frames that were fused. Poses of a run that doesn't begin at frame 0 are taken from its
-/// first frame on, as its own world begins there.
+/// Over the fused frames. For a run that begins after frame 0, true
+/// poses are relative to its first frame, the origin of its world.
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth);
 
-/// Empty where the sequence has no tracks.csv.
+/// Empty for a sequence without tracks.csv.
 std::vector<TrackSample> readTrueTracks(const SequenceTruth& truth);
 
-/// Throws InputError where the run's tracks have nothing in common with the true ones. None where
-/// either lacks tracks.csv.
+/// Throws InputError if the tracks of the run and the true
+/// tracks have no common point. None without both tracks.csv.
 std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth,
                                        const std::vector<TrackSample>& true_samples);
 
-/// Of a result that holds surface and tracks already.
+/// Requires surface and tracks in the result.
 RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
                             const EvaluationResult& result);
 
-/// Of a result that holds surface, camera and tracks already: what the run claims of each fused
-/// frame.
+/// Requires surface, camera and tracks in the result. Confidence
+/// reported by the run for each fused frame, with its true errors.
 std::vector<JudgedFrame> judgeClaims(const JudgedRun& run,
                                      const std::vector<TrackSample>& true_samples,
                                      const EvaluationResult& result);
 
-/// Warnings for the reader of a result: frames without a model, parts that lack, a model that
-/// is suspiciously far away. Nothing of it keeps the rest from being right.
+/// Warnings about a result: frames without a model, missing parts, an
+/// implausibly distant model. They do not invalidate the other values.
 std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTruth& truth,
                                           const EvaluationResult& result);
 

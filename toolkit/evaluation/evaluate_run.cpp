@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_run.cpp: by the kind of reference.
+// toolkit/evaluation/evaluate_run.cpp: evaluation by the kind of reference.
 #include "toolkit/evaluation/evaluate_run.h"
 
 #include <filesystem>
@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
 
-constexpr const char* kSurface = "surface";  // where a bare metric is looked for
-constexpr const char* kView = "view";        // the same without truth
+constexpr const char* kSurface = "surface";  // part of the record for metrics without path
+constexpr const char* kView = "view";        // the same for an evaluation without truth
 
 enum class ReferenceKind { kTruth, kSequence, kMesh, kMaps };
 
@@ -33,7 +33,7 @@ ReferenceKind kindOf(const EvaluateOptions& options) {
   return hasTruth(options.reference) ? ReferenceKind::kTruth : ReferenceKind::kSequence;
 }
 
-/// Counts the models of a series of `total`.
+/// Progress over a series of `total` models.
 AfterModel counting(const Progress& progress, std::size_t total) {
   const auto count = static_cast<int>(total);
   goesOn(progress, 0, count);
@@ -106,7 +106,7 @@ EvaluationResult againstMesh(const EvaluateOptions& options, const JudgedRun& ru
   return result;
 }
 
-/// Of run.json, which has those of the run's inputs, and of a mesh; a sequence has too many bytes.
+/// Hashes of run.json, with the inputs of the run, and of a mesh; a sequence is too large.
 Json hashesOf(const EvaluateOptions& options) {
   Json hashes = Json::object();
   const fs::path record = fs::path(options.run) / "run.json";
@@ -121,7 +121,7 @@ RunEvaluation interrupted() {
   return evaluation;
 }
 
-/// The record with its thresholds, of which bare metrics are looked for in `part`, and `details`.
+/// Record with its thresholds and `details`; metrics without a path are searched in `part`.
 template <class Result>
 RunEvaluation finished(const EvaluateOptions& options, const char* part, Json record,
                        const Json& details, const FactSheet& facts, Result result) {
@@ -153,7 +153,7 @@ DepthMapOptions mapOptionsOf(const EvaluateOptions& options) {
           options.confidence};
 }
 
-/// Where a bare metric of maps is looked for.
+/// Part of the record in which metrics of maps without a path are searched.
 const char* mapPart(const DepthMapOptions& options) {
   return options.mapKind() == MapKind::kDepth ? "depth" : "disparity";
 }

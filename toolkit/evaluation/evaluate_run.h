@@ -16,35 +16,35 @@
 namespace softscope {
 
 struct EvaluateOptions {
-  std::string run;        // folder that reconstructSequence() wrote; or a map, a folder of maps
-  std::string reference;  // sequence folder, best with groundtruth/, or a mesh file; of maps maps
+  std::string run;        // folder written by reconstructSequence(), or a map, or a folder of maps
+  std::string reference;  // sequence folder, best with groundtruth/, or a mesh; for maps: true maps
   MeshAlignment alignment = MeshAlignment::kNone;  // of a mesh
-  bool each_model = false;                         // of a mesh: all models, not the last alone
-  int frame = -1;                                  // of a mesh: this frame's model; -1: the last
-  double reference_unit_mm = 1;                    // of a mesh file: 1000 for metres
-  bool views = true;                               // draw each model for depth, PSNR and SSIM
-  std::string map_kind, calibration, confidence;   // of maps alone: DepthMapOptions
+  bool each_model = false;                         // for a mesh: all models instead of the last
+  int frame = -1;                                  // for a mesh: model of this frame; -1: last
+  double reference_unit_mm = 1;                    // for a mesh file: 1000 for metres
+  bool views = true;                               // render each model for depth, PSNR and SSIM
+  std::string map_kind, calibration, confidence;   // for maps only: DepthMapOptions
   std::vector<Threshold> thresholds;
   RecordPaths paths;
 
-  /// Throws OptionError: an option that the reference excludes, a threshold of an unknown metric.
+  /// Throws OptionError: an option excluded by the kind of reference, an unknown metric.
   void validate() const;
 };
 
-/// none, rigid or icp. Throws OptionError naming the option.
+/// none, rigid or icp. Throws OptionError with the name of the option.
 MeshAlignment meshAlignmentNamed(const std::string& name, const std::string& option);
 
-/// Where it was interrupted, `interrupted` alone is right.
+/// After an interruption, only `interrupted` is valid.
 struct RunEvaluation {
-  /// TruthlessResult: no truth beside the run. DepthMapResult: of maps.
+  /// TruthlessResult: without ground truth. DepthMapResult: for maps.
   std::variant<EvaluationResult, TruthlessResult, DepthMapResult> result;
   std::vector<ThresholdOutcome> outcomes;
-  FactSheet::Json record;  // of evaluation.json
-  FactSheet facts{""};     // for people
+  FactSheet::Json record;  // content of evaluation.json
+  FactSheet facts{""};     // summary as text
   bool interrupted = false;
 };
 
-/// Progress counts models, or maps. Throws InputError, and OptionError as validate() does.
+/// Progress counts models or maps. Throws InputError, and OptionError as validate() does.
 RunEvaluation evaluateRun(const EvaluateOptions& options, const Progress& progress = {});
 
 }  // namespace softscope

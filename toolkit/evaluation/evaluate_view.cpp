@@ -1,4 +1,4 @@
-// toolkit/evaluation/evaluate_view.cpp: one drawing, one photograph.
+// toolkit/evaluation/evaluate_view.cpp: rendered model against the image of its frame.
 #include "toolkit/evaluation/evaluate_view.h"
 
 #include <cmath>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr Rgb8 kNothingDrawn{176, 176, 176};
 
-/// Empty for a video, a single image, or nothing at all.
+/// Empty for a video, a single image or a missing folder.
 std::vector<fs::path> picturesIn(const fs::path& folder) {
   std::error_code ignored;
   if (folder.empty() || !fs::is_directory(folder, ignored)) return {};
@@ -31,7 +31,7 @@ std::vector<fs::path> picturesIn(const fs::path& folder) {
 SequencePaths pathsOrNone(const fs::path& sequence) {
   try {
     return findSequence(sequence);
-  } catch (const InputError&) {  // truth without images
+  } catch (const InputError&) {  // ground truth without images
     return {};
   }
 }

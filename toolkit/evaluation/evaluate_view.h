@@ -15,35 +15,35 @@
 
 namespace softscope {
 
-/// Of one moment, drawn from the run's own pose.
+/// Of one frame, rendered from the pose of the run.
 struct ViewErrors {
-  DepthErrors depth;  // of the drawn model, against the true depth
-  /// Against the left image; NaN where the sequence has none, or the model no colours.
+  DepthErrors depth;  // rendered model against true depth
+  /// Against the left image; NaN for a sequence without images or a model without colours.
   PictureErrors picture;
 };
 
-/// The moment's left image, rectified, and the model drawn from the same place; mid-grey where it
-/// shows nothing. Empty where there is no image, or the model has no colours.
+/// Rectified left image, and the model rendered from the same pose,
+/// mid-grey without a model. Empty without an image or without colours.
 struct DrawnPair {
   ColourImage image, model;
 };
 
-/// In words: which pixels PSNR and SSIM are of.
+/// Description of the pixels compared by PSNR and SSIM.
 inline constexpr const char* kPsnrMask =
     "pixels that the model covers, without masks and black borders";
 
-/// Draws models and compares them with the sequence's left images. Pixels where the model shows
-/// nothing, and masked ones, aren't judged. Frames must be asked for in rising order.
+/// Renders models and compares them with the left images of the sequence. Excludes masked
+/// pixels and pixels without a model. Frames must be requested in ascending order.
 class ViewJudge {
  public:
   explicit ViewJudge(const SequenceTruth& truth);
 
-  /// Throws InputError where an image can't be read or has another size. `drawn`: what was
-  /// compared, unless null.
+  /// Throws InputError for an unreadable image or one of
+  /// another size. `drawn`: the compared images; may be null.
   ViewErrors judge(const ModelFile& file, const Eigen::Isometry3d& run_from_left, int frame,
                    const Raster<float>& true_depth_mm, DrawnPair* drawn = nullptr);
-  /// The same pixels of the image of `other`, an earlier frame, against that of `frame`, which was
-  /// judged last: what a model that shows the earlier frame for good would get.
+  /// Control: the image of `other`, an earlier frame, against that of
+  /// `frame`, which must be the last evaluated frame, over the same pixels.
   PictureErrors judgeImage(const ModelFile& file, const Eigen::Isometry3d& run_from_left, int other,
                            int frame);
 
@@ -53,8 +53,8 @@ class ViewJudge {
 
   RectifiedRig rig_;
   Rectifier rectifier_;
-  std::vector<std::filesystem::path> pictures_, masks_;  // in the order of frames
-  std::unique_ptr<FrameLoader> video_;                   // in place of pictures_
+  std::vector<std::filesystem::path> pictures_, masks_;  // by frame
+  std::unique_ptr<FrameLoader> video_;                   // instead of pictures_
 };
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/evaluation/held_out_views.cpp: one model, one image of the next frame.
+// toolkit/evaluation/held_out_views.cpp: rendered model against the image of the next frame.
 #include "toolkit/evaluation/held_out_views.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ HeldOutResult judgeHeldOut(const JudgedRun& run, const SequenceTruth& pictures,
     view.frame = frame;
     if (drawOne(run, no_depth, judge, view))
       result.views.push_back(view);
-    else if (frame < run.frames.back())  // else the clip may end before it
+    else if (frame < run.frames.back())  // else the clip may end before that frame
       result.not_drawn.push_back(frame);
     if (!goes_on()) break;
   }

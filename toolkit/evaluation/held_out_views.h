@@ -1,4 +1,4 @@
-// toolkit/evaluation/held_out_views.h: the model rendered for frames that were held out of the run.
+// toolkit/evaluation/held_out_views.h: evaluation on frames that were held out of the run.
 #pragma once
 
 #include <functional>
@@ -13,28 +13,28 @@ namespace softscope {
 
 struct HeldOutView {
   int frame = 0;
-  PictureErrors picture;  // of the model as the frame before left it, drawn from that frame's pose
-  PictureErrors control;  // of the image of the frame before, over the same pixels
+  PictureErrors picture;  // of the model and pose of the previous frame
+  PictureErrors control;  // of the previous image, over the same pixels
 };
 
-/// The usual split of EndoNeRF's clips (frames 1, n + 1, 2n + 1, … for the test), for a method that
-/// looks back alone: nothing of a held-out frame, and nothing later, is in the model that is
-/// compared with it.
+/// The usual split of EndoNeRF clips (frames 1, n + 1, 2n +
+/// 1, … are tested), for a causal method: the compared model
+/// contains neither the held-out frame nor later frames.
 struct HeldOutResult {
-  int every = 0;  // 0: the run held no frame out
+  int every = 0;  // 0: no frame held out
   std::vector<HeldOutView> views;
   std::vector<int> not_drawn;  // held out, but without a model, a pose or an image
 };
 
-/// `pictures`: rig and folder of the sequence. Throws InputError as ViewJudge does. `goes_on` is
-/// asked after each view.
+/// `pictures`: rig and folder of the sequence. Throws InputError as ViewJudge
+/// does. `goes_on` is called after each view; false requests a stop.
 HeldOutResult judgeHeldOut(
     const JudgedRun& run, const SequenceTruth& pictures,
     const std::function<bool()>& goes_on = [] { return true; });
 
-/// Means over the views; null where there are none.
+/// Means over the views; null without views.
 FactSheet::Json heldOutJson(const HeldOutResult& result);
-/// Nothing where no frame was held out.
+/// Adds nothing if no frame was held out.
 void addHeldOutFacts(const HeldOutResult& result, FactSheet& facts);
 std::vector<std::string> heldOutWarnings(const HeldOutResult& result);
 

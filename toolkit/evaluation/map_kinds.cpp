@@ -1,4 +1,4 @@
-// toolkit/evaluation/map_kinds.cpp: what names and values of maps say.
+// toolkit/evaluation/map_kinds.cpp: checks of names and values of maps.
 #include "toolkit/evaluation/map_kinds.h"
 
 #include <cmath>
@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kOpposite = -0.5;  // correlation of a measured map and the truth
-constexpr double kConstant = 1e-9;  // relative variance that is rounding
+constexpr double kOpposite = -0.5;  // correlation of measured and true map
+constexpr double kConstant = 1e-9;  // relative variance due to rounding
 
-/// Over pixels that both maps measured; NaN if one of them is constant.
+/// Over pixels measured in both maps; NaN if one map is constant.
 double correlation(const Raster<float>& a, const Raster<float>& b) {
   double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

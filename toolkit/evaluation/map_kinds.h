@@ -12,18 +12,18 @@ enum class MapKind { kDisparity, kDepth };
 
 const char* nameOf(MapKind kind);
 
-/// Throws InputError where the name of a file says the other kind, or that of its folder.
+/// Throws InputError if the name of the file or of its folder means the other kind.
 void requireNamedAs(MapKind kind, const std::filesystem::path& file);
 
-/// Throws InputError where a value is larger than the width of the image.
+/// Throws InputError for a value above the width of the image.
 void requireDisparities(const Raster<float>& disparity_px, const std::filesystem::path& file);
 
-/// Near is a small depth and a large disparity, so that maps of the two kinds run against each
-/// other: a line where `measured` falls while `truth` rises, else nothing.
+/// Near is a small depth and a large disparity, so maps of different kinds have
+/// a negative correlation. Returns a warning in that case, else an empty string.
 std::string oppositesWarning(const std::string& name, const Raster<float>& measured,
                              const Raster<float>& truth);
 
-/// What the values of a file are taken for: no file says its unit.
+/// Assumed unit of the values: files do not state their unit.
 std::string unitOfMap(const std::filesystem::path& file, MapKind kind);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/evaluation/run_moment.cpp: the pieces of `evaluate`, for one frame.
+// toolkit/evaluation/run_moment.cpp: evaluation of a single frame.
 #include "toolkit/evaluation/run_moment.h"
 
 #include <algorithm>
@@ -18,9 +18,9 @@
 namespace softscope {
 namespace {
 
-constexpr int kScanStepPx = 3;  // every so many columns and rows of the depth become a point
+constexpr int kScanStepPx = 3;  // distance of columns and rows of depth that become points
 
-/// Neighbours whose depths differ by more than this many times their distance are of two sides.
+/// Limit of the depth difference of neighbours on one surface, as a multiple of their distance.
 constexpr double kSteepest = 3;
 
 TriangleMesh scanOf(const Raster<float>& depth_mm, const PinholeCamera& left) {
@@ -57,7 +57,7 @@ TriangleMesh scanOf(const Raster<float>& depth_mm, const PinholeCamera& left) {
   return scan;
 }
 
-/// NaN where the scope doesn't see the point.
+/// NaN for points that the scope does not see.
 std::vector<double> onlyObserved(std::vector<double> values, const ModelErrors& errors) {
   for (std::size_t i = 0; i < errors.each_observed.size(); ++i)
     if (errors.each_observed[i] == 0) values[i] = std::nan("");

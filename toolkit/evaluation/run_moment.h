@@ -1,4 +1,4 @@
-// toolkit/evaluation/run_moment.h: one model of a run beside the truth of its moment, for figures.
+// toolkit/evaluation/run_moment.h: one model of a run with the truth of its frame, for figures.
 #pragma once
 
 #include <string>
@@ -11,40 +11,40 @@
 
 namespace softscope {
 
-/// All in the left camera's frame of that moment: a motion of the whole scene can be tissue or
-/// scope, so both are compared as the camera sees them.
+/// All in the left camera frame of that time: a motion of the whole scene can
+/// be due to tissue or scope, so both are compared in camera coordinates.
 struct RunMoment {
   int frame = 0;
   double time_s = 0;
   TriangleMesh truth;
-  TriangleMesh model;  // with its colours; points, or on demand a surface
-  TriangleMesh scan;   // the tissue that the scope sees, from the true depth
+  TriangleMesh model;  // with its colours; points, or a surface on request
+  TriangleMesh scan;   // visible tissue, from the true depth
   ModelErrors errors;
   Eigen::Isometry3d left_from_true_world = Eigen::Isometry3d::Identity();
   std::filesystem::path truth_file, model_file, scan_file;
 
-  /// Of all points, or with NaN for those that the scope doesn't see now.
+  /// Of all points, or with NaN for points that the scope does not see now.
   std::vector<double> distances(bool observed_only) const;
   std::vector<double> signedDistances(bool observed_only) const;
 };
 
-/// "frame 20, 0.80 s"; `time_s` is NaN where the clip has no timestamps.
+/// "frame 20, 0.80 s"; `time_s` is NaN for a clip without timestamps.
 std::string momentText(int frame, double time_s);
 
-/// A run and the sequence that it was made from.
+/// Run with its sequence.
 struct JudgedPair {
   JudgedRun run;
   SequenceTruth truth;
   std::vector<std::string> warnings;
 
-  /// Throws InputError where either can't be used, or they don't belong together, or no frame has
-  /// both a model and a true mesh.
+  /// Throws InputError for unusable folders, folders that do not
+  /// belong together, or no frame with both a model and a true mesh.
   JudgedPair(const std::string& run_folder, const std::string& sequence);
 
   std::vector<int> frames() const;
-  /// `wanted`, or the last one where that is -1. Throws OptionError for a frame that isn't there.
+  /// `wanted`, or the last frame for -1. Throws OptionError for a missing frame.
   int chooseFrame(int wanted) const;
-  /// `surface`: with triangles between the model's points.
+  /// `surface`: with triangles between the points of the model.
   RunMoment moment(int frame, bool surface) const;
 };
 

@@ -1,4 +1,4 @@
-// toolkit/evaluation/surface_error_map.cpp: one range, stated; what lies beyond it has an arrow.
+// toolkit/evaluation/surface_error_map.cpp: colour range with arrows for values outside of it.
 #include "toolkit/evaluation/surface_error_map.h"
 
 #include <cmath>

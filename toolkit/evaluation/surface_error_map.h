@@ -10,26 +10,26 @@
 
 namespace softscope {
 
-/// What the user asked for.
+/// Options of the colours.
 struct ErrorColourOptions {
   std::string kind = "absolute";  // or "signed" or "none"
-  double range_mm = 0;            // 0: a round number, not below the 95th percentile
+  double range_mm = 0;            // 0: a round number, at least the 95th percentile
 
   /// Throws OptionError.
   void validate() const;
 };
 
 struct SurfaceErrorMap {
-  std::vector<double> each_mm;  // one a vertex; NaN = not observed, or no side is outside
+  std::vector<double> each_mm;  // one per vertex; NaN = not observed, or without a sign
   ErrorColours colours;
   ColourBarText bar;
   FactSheet::Json json;  // kind, range, statistics
 
-  /// Gives the colours and their bar to a figure.
+  /// Adds the colours and their bar to a figure.
   void explainIn(FigureFoot& foot) const;
 };
 
-/// Of distances and signed distances, one a vertex.
+/// From distances and signed distances, one per vertex.
 SurfaceErrorMap colourErrors(const std::vector<double>& distance_mm,
                              const std::vector<double>& signed_mm,
                              const ErrorColourOptions& options);

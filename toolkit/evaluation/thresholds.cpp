@@ -1,4 +1,4 @@
-// toolkit/evaluation/thresholds.cpp: splits the text, looks the metric up, compares.
+// toolkit/evaluation/thresholds.cpp: parsing, search of metrics, comparison.
 #include "toolkit/evaluation/thresholds.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// toolkit/evaluation/thresholds.h: `--fail-if 'p95_mm>2'`: limits that decide the exit code.
+// toolkit/evaluation/thresholds.h: `--fail-if 'p95_mm>2'`: limits that determine the exit code.
 #pragma once
 
 #include <string>
@@ -9,35 +9,35 @@
 
 namespace softscope {
 
-/// One limit: the evaluation fails where `metric relation limit` holds.
+/// The evaluation fails if `metric relation limit` is true.
 struct Threshold {
-  std::string metric;    // as the user wrote it
+  std::string metric;    // as given
   std::string relation;  // >, >=, < or <=
   double limit = 0;
-  bool percent = false;  // written as such: the metric is a share, the limit its hundredth
+  bool percent = false;  // given in percent: the metric is a share, the limit is divided by 100
 
   std::string text() const;
-  /// As it is looked up: `lost>10%` asks for lost_share.
+  /// Name of the metric in the record: `lost>10%` means lost_share.
   std::string name() const;
-  bool fails(double value) const;  // a value that is NaN fails: what wasn't measured isn't good
+  bool fails(double value) const;  // true for NaN: a missing measurement fails
 };
 
-/// Throws OptionError where the text is no `name relation number`, maybe with % at its end.
+/// Throws OptionError unless the text is `name relation number`, with an optional %.
 Threshold parseThreshold(const std::string& text);
 
-/// What a threshold came to.
+/// Result of a threshold.
 struct ThresholdOutcome {
   Threshold threshold;
-  std::string path;  // of the metric, "surface.p95_mm"
-  double value = 0;  // NaN where it wasn't measured
+  std::string path;  // path of the metric, "surface.p95_mm"
+  double value = 0;  // NaN without a measurement
   bool failed = false;
 };
 
-/// Every number (or null) of a result by its path, with dots; lists are left out.
+/// Every number (or null) of a result by its path, with dots; without lists.
 std::vector<std::pair<std::string, double>> metricsOf(const FactSheet::Json& result);
 
-/// Finds each metric by its path, by its name in the part `preferred`, or by a last part that only
-/// one path has. Throws OptionError with the nearest name where there is none, or several.
+/// Searches each metric by its path, by its name in the part `preferred`, or by a unique last
+/// part of a path. Throws OptionError with the nearest name if there is none or several.
 std::vector<ThresholdOutcome> checkThresholds(const std::vector<Threshold>& thresholds,
                                               const FactSheet::Json& result,
                                               const std::string& preferred);

@@ -1,4 +1,4 @@
-// toolkit/evaluation/truthless_result.cpp: the run's own words, and the model beside the image.
+// toolkit/evaluation/truthless_result.cpp: values reported by the run, models against images.
 #include "toolkit/evaluation/truthless_result.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using Value = std::function<double(const TruthlessFrame&)>;
 
 constexpr double kDegPerRad = 57.29577951308232;
 
-/// What no measurement without truth can say.
+/// Values that cannot be measured without truth.
 const std::vector<std::string> kMissing{
     "surface errors: they take true meshes, groundtruth/mesh/NNNNNN.ply, or a mesh as --reference",
     "errors of material points: they take groundtruth/tracks.csv",
@@ -167,8 +167,8 @@ Json viewJson(const TruthlessResult& result) {
   return json;
 }
 
-/// The image drawn_view.png: which moment, how much of the tissue the model covers, and how many
-/// frames of the run came after it.
+/// Facts of drawn_view.png: its frame, the share of tissue
+/// covered by the model, and the number of later frames.
 Json drawnViewJson(const TruthlessResult& result) {
   if (result.drawn.empty()) return nullptr;
   const int frame = result.drawn.back();
@@ -198,7 +198,7 @@ Json framesJson(const TruthlessResult& result) {
 
 TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::path& sequence,
                                   bool views, const std::function<bool()>& after_model) {
-  findSequence(sequence);  // throws where it is none
+  findSequence(sequence);  // throws without a sequence
   TruthlessResult result;
   result.outcomes = run.outcomes;
   result.warnings = run.warnings();

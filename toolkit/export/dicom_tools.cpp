@@ -1,4 +1,4 @@
-// toolkit/export/dicom_tools.cpp: search along PATH, one child process a file.
+// toolkit/export/dicom_tools.cpp: search in PATH, one child process per file.
 #include "toolkit/export/dicom_tools.h"
 
 #include <sys/stat.h>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Along PATH. Throws BackendError.
+/// In PATH. Throws BackendError.
 fs::path findTool(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);

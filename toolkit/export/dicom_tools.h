@@ -1,4 +1,4 @@
-// toolkit/export/dicom_tools.h: dcmtk's tools, started without a shell.
+// toolkit/export/dicom_tools.h: tools of dcmtk, started without a shell.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// A folder that is gone with its scope.
+/// Folder that the destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder();  // throws Error
@@ -21,9 +21,9 @@ class TemporaryFolder {
   std::filesystem::path folder_;
 };
 
-/// The bytes of the DICOM file that `tool` makes of `source`. `words`: its options; nothing of them
-/// is ever read by a shell. Throws BackendError where the tool isn't installed, InputError that
-/// begins with `name` where it refuses. `interrupted` stops it.
+/// DICOM file made by `tool` from `source`. `words`: its arguments, never
+/// interpreted by a shell. Throws BackendError if the tool is not installed,
+/// InputError that begins with `name` if it fails. `interrupted` stops it.
 std::string dicomBytes(const std::string& tool, std::vector<std::string> words,
                        const std::filesystem::path& source, const std::filesystem::path& name,
                        const std::function<bool()>& interrupted);

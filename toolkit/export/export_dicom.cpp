@@ -1,4 +1,4 @@
-// toolkit/export/export_dicom.cpp: what dcmtk's tools are given for each kind of file.
+// toolkit/export/export_dicom.cpp: arguments of the tools of dcmtk for each kind of file.
 #include "toolkit/export/export_dicom.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestText = 64;  // characters of PN (a group), LO and of a title we allow
+constexpr std::size_t kLongestText = 64;  // characters of PN (a group) and LO; limit of a title
 
 std::string endingOf(const fs::path& file) {
   std::string ending = file.extension().string();
@@ -33,7 +33,7 @@ void appendNumber(std::string& out, std::uint32_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xFF);
 }
 
-/// Windows bitmap, 24 bits: the one form without loss that img2dcm reads.
+/// Windows bitmap, 24 bits: the only lossless format that img2dcm reads.
 std::string bmpBytes(const ColourImage& image) {
   constexpr std::uint32_t kHeadersBytes = 54, kInfoBytes = 40;
   const auto row_bytes = std::uint32_t((3 * image.width_px + 3) / 4 * 4);
@@ -45,8 +45,8 @@ std::string bmpBytes(const ColourImage& image) {
        {kHeadersBytes, kInfoBytes, std::uint32_t(image.width_px), std::uint32_t(image.height_px)})
     appendNumber(out, value, 4);
   appendNumber(out, 1, 2);   // plane
-  appendNumber(out, 24, 2);  // bits a pixel
-  appendNumber(out, 0, 4);   // not compressed
+  appendNumber(out, 24, 2);  // bits per pixel
+  appendNumber(out, 0, 4);   // no compression
   appendNumber(out, data_bytes, 4);
   out.append(16, '\0');  // resolution and palette: none
   for (int v = image.height_px - 1; v >= 0; --v) {
@@ -61,7 +61,7 @@ std::string bmpBytes(const ColourImage& image) {
   return out;
 }
 
-/// NAME=value words.
+/// Arguments NAME=value.
 std::vector<std::string> keysOf(const DicomTexts& texts, const std::string& title_name) {
   std::vector<std::string> words;
   const auto add = [&](const std::string& name, const std::string& value) {
@@ -84,7 +84,7 @@ void writeMade(const std::string& tool, std::vector<std::string> words, const fs
             target.overwrite);
 }
 
-/// The JSON that a report holds for programs. Throws InputError.
+/// JSON embedded in a report. Throws InputError.
 FactSheet::Json metricsOfReport(const fs::path& report) {
   const std::string begin = "<script type=\"application/json\" id=\"metrics\">";
   const std::string html = readBytes(report);
@@ -136,7 +136,7 @@ void writeDicomPicture(const fs::path& picture, const DicomTarget& target) {
   const TemporaryFolder folder;
   const fs::path source = folder / "picture.bmp";
   writeFile(source, bmpBytes(readColourImage(picture)), true);
-  // Laterality: of an unpaired part of the body it is empty, not absent.
+  // Laterality of an unpaired body part is empty, not absent.
   std::vector<std::string> words{"-i", "BMP",         "-k", "ConversionType=WSD",
                                  "-k", "Modality=OT", "-k", "Laterality="};
   for (std::string& word : keysOf(target.texts, "SeriesDescription"))
@@ -150,7 +150,7 @@ int writeDicomMeasurements(const fs::path& report, const DicomTarget& target) {
   const TemporaryFolder folder;
   const fs::path source = folder / "report.xml";
   writeFile(source, made.xml, true);
-  // New UIDs in the place of those that the XML must hold.
+  // Replaces the placeholder UIDs of the XML.
   writeMade("xml2dsr", {"--generate-new-uids", "--overwrite-uids"}, source, report, target);
   return made.numbers;
 }
@@ -161,7 +161,7 @@ void writeDicomModel(const std::string& stl, const fs::path& name, const DicomTa
   writeFile(source, stl, true);
   std::vector<std::string> words{"--manufacturer-model", "softscope",  "--device-serial", "none",
                                  "--software-versions",  versionText()};
-  words.insert(words.end(), {"--measurement-units", "UCUM", "mm", "mm"});  // its default is um
+  words.insert(words.end(), {"--measurement-units", "UCUM", "mm", "mm"});  // the default is um
   for (std::string& word : keysOf(target.texts, "DocumentTitle")) words.push_back(std::move(word));
   writeMade("stl2dcm", std::move(words), source, name, target);
 }

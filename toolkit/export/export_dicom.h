@@ -1,4 +1,4 @@
-// toolkit/export/export_dicom.h: reports, images and models as DICOM, by dcmtk's tools.
+// toolkit/export/export_dicom.h: reports, images and models as DICOM, by the tools of dcmtk.
 #pragma once
 
 #include <filesystem>
@@ -7,20 +7,20 @@
 
 namespace softscope {
 
-/// What the DICOM file says of its patient and itself; empty: nothing.
+/// Texts about patient and document; empty: omitted.
 struct DicomTexts {
   std::string patient_name, patient_id, title;
 
-  /// Throws OptionError for characters that a DICOM text can't hold, or more than it takes.
+  /// Throws OptionError for characters that a DICOM text cannot contain, or for too long a text.
   void validate() const;
 };
 
-/// What a file becomes, by its ending.
+/// Kind of DICOM file, by the file extension of the input.
 enum class DicomKind { kDocument, kPicture, kMeasurements, kModel };
 DicomKind dicomKindOf(const std::filesystem::path& file);
 
-/// Where a DICOM file goes. Every file is a study of its own. The patient's name and ID stay empty
-/// unless given. `interrupted` stops dcmtk's tool.
+/// Output of a DICOM file. Every file is its own study. Name and ID of the
+/// patient are empty by default. `interrupted` stops the tool of dcmtk.
 struct DicomTarget {
   std::filesystem::path out;
   DicomTexts texts;
@@ -28,15 +28,15 @@ struct DicomTarget {
   std::function<bool()> interrupted;
 };
 
-/// Each throws BackendError where dcmtk isn't installed, InputError for a file that it refuses.
-/// A PDF becomes an Encapsulated PDF.
+/// Throws BackendError if dcmtk is not installed, InputError
+/// for a file that it refuses. PDF to Encapsulated PDF.
 void writeDicomDocument(const std::filesystem::path& pdf, const DicomTarget& target);
-/// An image becomes a Secondary Capture.
+/// Image to Secondary Capture.
 void writeDicomPicture(const std::filesystem::path& picture, const DicomTarget& target);
-/// The numbers of a report (.html of `softscope report`) become a Structured Report, TID 1500
-/// (toolkit/export/structured_report.h). Returns how many.
+/// Numbers of a report (.html of `softscope report`) to a Structured Report,
+/// TID 1500 (toolkit/export/structured_report.h). Returns their count.
 int writeDicomMeasurements(const std::filesystem::path& report, const DicomTarget& target);
-/// A surface becomes an Encapsulated STL in mm. `stl`: a binary STL; `name`: of its file in errors.
+/// Surface to Encapsulated STL in mm. `stl`: a binary STL; `name`: file name in errors.
 void writeDicomModel(const std::string& stl, const std::filesystem::path& name,
                      const DicomTarget& target);
 

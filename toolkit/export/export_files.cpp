@@ -1,4 +1,4 @@
-// toolkit/export/export_files.cpp: endings to writers.
+// toolkit/export/export_files.cpp: writers by file extension.
 #include "toolkit/export/export_files.h"
 
 #include <algorithm>

@@ -10,16 +10,16 @@ namespace softscope {
 
 enum class ModelFormat { kPly, kVtp, kObj, kStl, kGlb, kGltf };
 
-/// By the ending, in any case. Throws OptionError naming the endings that there are.
+/// By the file extension, case-insensitive. Throws OptionError with the known extensions.
 ModelFormat formatOf(const std::filesystem::path& file);
 
-/// Whether the format can hold points without triangles.
+/// True if the format supports points without triangles.
 bool holdsPoints(ModelFormat format);
-/// How it keeps colours, for people; empty where it doesn't.
+/// Representation of colours, as text; empty without colours.
 std::string colourKeeping(ModelFormat format);
 
-/// mm, cm or m; empty: what the format has by itself, m for glTF and mm for all others. Throws
-/// OptionError, also for glTF in anything but m.
+/// mm, cm or m; empty: default of the format, m for glTF and mm for all
+/// others. Throws OptionError, also for glTF with another unit than m.
 LengthUnit unitOf(const std::string& name, ModelFormat format);
 
 std::string modelBytes(const ModelSurface& surface, ModelFormat format, const LengthUnit& unit);

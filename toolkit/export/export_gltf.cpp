@@ -1,4 +1,4 @@
-// toolkit/export/export_gltf.cpp: one buffer, four views, by the specification.
+// toolkit/export/export_gltf.cpp: one buffer with four views, as in the specification.
 #include "toolkit/export/export_gltf.h"
 
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers that the specification gives to kinds of data.
+// Constants of the specification.
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kVertexData = 34962, kIndexData = 34963;
 constexpr int kPointMode = 0, kTriangleMode = 4;
@@ -25,18 +25,18 @@ constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F53
 constexpr double kMetre_mm = 1000;
 
 template <class Number>
-void append(std::string& out, Number value) {  // little-endian, as the machines we build for are
+void append(std::string& out, Number value) {  // little-endian, as all supported machines
   char bytes[sizeof value];
   std::memcpy(bytes, &value, sizeof value);
   out.append(bytes, sizeof value);
 }
 
-/// The buffer and what describes it.
+/// Buffer with its descriptions.
 struct Parts {
   std::string buffer;
   Json views = Json::array(), accessors = Json::array();
 
-  /// Describes what was appended since `begin`; returns the accessor's number.
+  /// Describes the data appended since `begin`; returns the index of the accessor.
   int describe(std::size_t begin, int target, int component, const char* type, std::size_t count) {
     views.push_back({{"buffer", 0},
                      {"byteOffset", begin},
@@ -73,7 +73,7 @@ int addPositions(const std::vector<Eigen::Vector3f>& points_mm, Parts& parts) {
   return accessor;
 }
 
-/// Unit length is demanded: what has none points to the viewer.
+/// Unit length is required: a zero normal becomes the direction to the viewer.
 int addNormals(std::vector<Eigen::Vector3f> normals, Parts& parts) {
   for (Eigen::Vector3f& normal : normals)
     normal = normal.allFinite() && normal.norm() > 0.5f ? normal.normalized().eval()
@@ -81,7 +81,7 @@ int addNormals(std::vector<Eigen::Vector3f> normals, Parts& parts) {
   return addVectors(normals, parts);
 }
 
-/// Images are in sRGB, the standard's colours in linear light: 16 bits keep the dark ones apart.
+/// Images are in sRGB, glTF in linear light: 16 bits keep dark colours distinct.
 std::array<std::uint16_t, 256> linearLight() {
   std::array<std::uint16_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -98,7 +98,7 @@ int addColours(const std::vector<Rgb8>& colours, Parts& parts) {
   for (const Rgb8& colour : colours) {
     for (const std::uint8_t channel : {colour.red, colour.green, colour.blue})
       append(parts.buffer, light[channel]);
-    append(parts.buffer, std::uint16_t(65535));  // opaque; keeps every colour at a multiple of 4
+    append(parts.buffer, std::uint16_t(65535));  // opaque; keeps each colour aligned to 4 bytes
   }
   const int accessor = parts.describe(begin, kVertexData, kUnsignedShort, "VEC4", colours.size());
   parts.accessors[std::size_t(accessor)]["normalized"] = true;
@@ -112,7 +112,7 @@ int addIndices(const std::vector<Triangle>& triangles, Parts& parts) {
   return parts.describe(begin, kIndexData, kUnsignedInt, "SCALAR", 3 * triangles.size());
 }
 
-/// x y z w of the turn into the standard's axes: y up, the front towards +z.
+/// Quaternion x y z w of the rotation into the axes of glTF: y up, front towards +z.
 Json uprightTurn(const ModelSurface& surface) {
   const double half = std::sqrt(0.5);
   if (!surface.frame.empty()) return {1, 0, 0, 0};        // y down, z away: half a turn about x

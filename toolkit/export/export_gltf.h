@@ -7,14 +7,14 @@
 
 namespace softscope {
 
-// glTF 2.0: metres, as the standard demands; POSITION, NORMAL and COLOR_0 (linear light, 16 bits a
-// channel) of the vertices as they are. A node turns them so that viewers show them upright: what
-// the scope saw as it saw it, a patient from the front. `extras` of the asset tell space and frame.
+// glTF 2.0 in metres, as the standard requires; POSITION, NORMAL and COLOR_0 (linear light,
+// 16 bits per channel) of the vertices. A node rotates them upright: camera views as seen
+// by the scope, a patient from the front. `extras` of the asset name space and frame.
 
 /// Binary, one file.
 std::string glbFile(const ModelSurface& surface);
 
-/// The same as JSON with the data inside.
+/// JSON with embedded data.
 std::string gltfFile(const ModelSurface& surface);
 
 }  // namespace softscope

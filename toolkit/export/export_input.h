@@ -9,23 +9,23 @@
 
 namespace softscope {
 
-/// A model of a run, and when it was so.
+/// Model of a run with its time.
 struct SavedModel {
   std::filesystem::path file;
   int frame = -1;  // -1: the last
   double time_s = 0;
 };
 
-/// All saved models of a run, every `every`-th of them. Throws InputError where there is none,
-/// OptionError unless `every` is 1 or more.
+/// Every `every`-th saved model of a run. Throws InputError
+/// if there is none, OptionError for `every` below 1.
 std::vector<SavedModel> savedModels(const std::filesystem::path& run, int every);
 
-/// The run's model of `frame`, or its last one where that is -1. Throws InputError; OptionError for
-/// a frame that wasn't saved, naming those that were.
+/// Model of `frame`, or the last model for -1. Throws InputError; OptionError
+/// for a frame without a saved model, with the list of saved frames.
 SavedModel savedModel(const std::filesystem::path& run, int frame);
 
-/// Points (a PLY, as `reconstruct` and `depth` write it) with all they have, or a mesh (PLY, STL,
-/// OBJ, VTP, VTK) with its colours. mm. Throws InputError.
+/// Points (a PLY of `reconstruct` or `depth`) with all attributes, or a
+/// mesh (PLY, STL, OBJ, VTP, VTK) with its colours. mm. Throws InputError.
 ModelSurface readModelSurface(const std::filesystem::path& file, double unit_mm);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/export/export_model.cpp: by the ending of the file.
+// toolkit/export/export_model.cpp: export by file extension.
 #include "toolkit/export/export_model.h"
 
 #include <cctype>
@@ -33,7 +33,7 @@ ModelSurface surfaceOf(const ExportRequest& request, const fs::path& file, FactS
   return model;
 }
 
-/// Of a run the model of its frame.
+/// For a run the model of the selected frame.
 fs::path modelFile(const ExportRequest& request) {
   return fs::is_directory(request.input) ? savedModel(request.input, request.frame).file
                                          : fs::path(request.input);
@@ -102,7 +102,7 @@ ExportResult exportSeries(const ExportRequest& request, const Progress& progress
   return {facts, false};
 }
 
-/// The model's surface as an Encapsulated STL.
+/// Surface of the model as Encapsulated STL.
 void exportModelDicom(const ExportRequest& request, const DicomTarget& target, FactSheet& facts) {
   const fs::path file = modelFile(request);
   const ModelSurface model = surfaceOf(request, file, facts);

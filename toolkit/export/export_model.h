@@ -11,14 +11,14 @@
 namespace softscope {
 
 struct ExportRequest {
-  std::string input;         // a run, points or a mesh; for .dcm also a report or an image
-  std::string out;           // file; its ending is the format, .pvd a series of .vtp
-  std::string unit;          // mm, cm or m; empty: the format's own
-  SurfaceOptions surface;    // from points to triangles
+  std::string input;         // run, points or mesh; for .dcm also a report or an image
+  std::string out;           // file; its extension is the format, .pvd is a series of .vtp
+  std::string unit;          // mm, cm or m; empty: default of the format
+  SurfaceOptions surface;    // triangulation of points
   DicomTexts dicom;          // of .dcm
-  int frame = -1;            // of a run; -1: its last model
-  int every = 1;             // of a series: each n-th saved model
-  double input_unit_mm = 1;  // length of a unit of the input
+  int frame = -1;            // frame of a run; -1: last model
+  int every = 1;             // for a series: every n-th saved model
+  double input_unit_mm = 1;  // unit of the input
   bool points = false;       // points instead of triangles
   bool overwrite = false;
 
@@ -29,11 +29,11 @@ struct ExportRequest {
 
 struct ExportResult {
   FactSheet facts{""};
-  bool interrupted = false;  // then nothing is written
+  bool interrupted = false;  // then no file is written
 };
 
-/// `progress` counts the models of a series. Throws OptionError, InputError; BackendError where
-/// DICOM's tools are missing.
+/// `progress` counts the models of a series. Throws OptionError,
+/// InputError; BackendError without the tools of DICOM.
 ExportResult exportModel(const ExportRequest& request, const Progress& progress = {});
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/export/export_surface.h: from points to a surface, with a record of what became of them.
+// toolkit/export/export_surface.h: surface from points, with facts about holes and drops.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace softscope {
 
-/// The points joined by triangles; adds what was closed and dropped to the facts. Throws InputError
-/// that begins with `name`.
+/// Triangulates the points; adds closed holes and dropped points
+/// to the facts. Throws InputError that begins with `name`.
 ModelSurface makeSurface(const ModelSurface& points, const SurfaceOptions& options,
                          const std::string& name, FactSheet& facts);
 

@@ -1,4 +1,4 @@
-// toolkit/export/structured_report.cpp: record to content items.
+// toolkit/export/structured_report.cpp: conversion of the record to content items.
 #include "toolkit/export/structured_report.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ const Code kNoUnit{"1", "UCUM", "no units"};
 constexpr std::size_t kLongestMeaning = 64;  // characters of LO
 const char* const kOwnScheme = "99SOFTSCOPE";
 
-/// Of DICOM's own codes (PS3.16, annex D).
+/// Code of DICOM itself (PS3.16, annex D).
 Code dcm(const char* value, const char* meaning) { return {value, "DCM", meaning}; }
 
 std::string escaped(const std::string& text) {
@@ -55,7 +55,7 @@ std::string codeXml(const Code& code) {
          element("meaning", escaped(code.meaning));
 }
 
-/// A content item: how it belongs to its parent, what it is, and the rest.
+/// Content item: relationship to its parent, concept, content.
 std::string item(const std::string& kind, const std::string& relationship, const Code& concept_name,
                  const std::string& rest) {
   return element(kind, element("relationship", relationship) +
@@ -78,14 +78,14 @@ bool endsWith(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// By the endings that keys of records have: docs/evaluation.md.
+/// Unit from the suffix of the key: docs/evaluation.md.
 bool unitOfKey(const std::string& key, Code* unit) {
   static const std::vector<std::pair<const char*, Code>> kUnits{
       {"_mm_per_s", {"mm/s", "UCUM", "mm/s"}},
       {"_mm_per_frame", {"mm/{frame}", "UCUM", "mm per frame"}},
       {"_deg_per_frame", {"deg/{frame}", "UCUM", "degrees per frame"}},
       {"_mm2", {"mm2", "UCUM", "square mm"}},
-      {"_1mm", kNoUnit},  // a share within 1 mm
+      {"_1mm", kNoUnit},  // share within 1 mm
       {"_mm", {"mm", "UCUM", "mm"}},
       {"_px", {"{pixels}", "UCUM", "pixels"}},
       {"_deg", {"deg", "UCUM", "degrees"}},
@@ -107,7 +107,7 @@ bool unitOfKey(const std::string& key, Code* unit) {
   return false;
 }
 
-/// The last key of the path that names a unit: of `mean_mm.sd` the SD is in mm.
+/// The last key of the path with a unit: the SD in `mean_mm.sd` is in mm.
 Code unitOfPath(const std::vector<std::string>& path) {
   Code unit = kNoUnit;
   for (auto key = path.rbegin(); key != path.rend(); ++key)
@@ -115,7 +115,7 @@ Code unitOfPath(const std::vector<std::string>& path) {
   return unit;
 }
 
-/// The standard's word for how a value comes from others (CID 7464), as a modifier; else nothing.
+/// Modifier for the derivation of a value (CID 7464), or empty.
 std::string derivationXml(const std::string& key) {
   static const std::vector<std::pair<const char*, Code>> kDerivations{
       {"mean", {"373098007", "SCT", "Mean"}},
@@ -130,17 +130,17 @@ std::string derivationXml(const std::string& key) {
   return "";
 }
 
-/// Sixteen bytes are what DICOM keeps of a decimal number.
+/// A DICOM decimal has at most sixteen bytes.
 std::string decimalText(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.9g", value);
   return text.data();
 }
 
-/// A UID of 128 bits (ISO/IEC 9834-8): the same for the same text.
+/// UID of 128 bits (ISO/IEC 9834-8), deterministic in the text.
 std::string uidOf(const std::string& text) {
   const std::string hex = sha256OfBytes(text).substr(0, 32);
-  std::string decimal;  // last digit first
+  std::string decimal;  // least significant digit first
   for (const char c : hex) {
     int carry = c <= '9' ? c - '0' : c - 'a' + 10;
     for (char& digit : decimal) {
@@ -158,7 +158,7 @@ class Measurements {
  public:
   int count() const { return count_; }
 
-  /// A group: `identity` tells it from others of the same name.
+  /// Measurement group; `identity` distinguishes groups of the same name.
   std::string group(const std::string& name, const std::string& identity, const Json& numbers) {
     std::string content = item("text", "HAS OBS CONTEXT", dcm("112039", "Tracking Identifier"),
                                element("value", escaped(name)));
@@ -199,7 +199,7 @@ class Measurements {
   }
 };
 
-/// Language, observer (this program) and procedure: what TID 1500 asks for before its numbers.
+/// Language, observer (this program) and procedure, required by TID 1500 before measurements.
 std::string contextXml() {
   return item("code", "HAS CONCEPT MOD", dcm("121049", "Language of Content Item and Descendants"),
               codeXml({"en", "RFC5646", "English"})) +
@@ -222,7 +222,7 @@ std::string nowText(const char* form) {
   return text.data();
 }
 
-/// Family^Given^Middle^Prefix^Suffix, a part an element.
+/// Family^Given^Middle^Prefix^Suffix, one element per part.
 std::string personXml(const std::string& name) {
   std::istringstream parts(name);
   std::map<std::string, std::string> of;
@@ -234,7 +234,7 @@ std::string personXml(const std::string& name) {
   return element("name", xml);
 }
 
-/// All of the document but its content; the UIDs are place holders.
+/// Document without its content; the UIDs are placeholders.
 std::string headXml(const DicomTexts& texts) {
   const std::string uid = " uid=\"" + uidOf("") + "\"";
   const std::string series =

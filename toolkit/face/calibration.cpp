@@ -1,4 +1,4 @@
-// toolkit/face/calibration.cpp: of include/softscope/calibration.h.
+// toolkit/face/calibration.cpp: implementation of include/softscope/calibration.h.
 #include "softscope/calibration.h"
 
 #include "io/calibrations/calibration_check.h"

@@ -1,4 +1,4 @@
-// toolkit/face/calibration_data.h: what a Calibration of the public face holds.
+// toolkit/face/calibration_data.h: content of a Calibration of the public interface.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// toolkit/face/compare.cpp: of include/softscope/compare.h.
+// toolkit/face/compare.cpp: implementation of include/softscope/compare.h.
 #include "softscope/compare.h"
 
 #include "toolkit/comparison/compare_files.h"

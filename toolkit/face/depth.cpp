@@ -1,4 +1,4 @@
-// toolkit/face/depth.cpp: of include/softscope/depth.h.
+// toolkit/face/depth.cpp: implementation of include/softscope/depth.h.
 #include "softscope/depth.h"
 
 #include "pipeline/backends.h"

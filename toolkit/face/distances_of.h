@@ -1,4 +1,4 @@
-// toolkit/face/distances_of.h: statistics and metrics as the public face has them.
+// toolkit/face/distances_of.h: conversion of statistics and metrics to the public interface.
 #pragma once
 
 #include <map>

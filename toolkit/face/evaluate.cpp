@@ -1,4 +1,4 @@
-// toolkit/face/evaluate.cpp: of include/softscope/evaluate.h.
+// toolkit/face/evaluate.cpp: implementation of include/softscope/evaluate.h.
 #include "softscope/evaluate.h"
 
 #include <optional>

@@ -1,4 +1,4 @@
-// toolkit/face/figure.cpp: of include/softscope/figure.h.
+// toolkit/face/figure.cpp: implementation of include/softscope/figure.h.
 #include "softscope/figure.h"
 
 #include "toolkit/figures/draw_figure.h"

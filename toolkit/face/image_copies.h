@@ -1,4 +1,4 @@
-// toolkit/face/image_copies.h: images of the public face to those of core, and back.
+// toolkit/face/image_copies.h: conversion of images between the public interface and core.
 #pragma once
 
 #include "core/frame.h"
@@ -8,20 +8,20 @@
 
 namespace softscope::api {
 
-/// One channel becomes three equal ones. Throws InputError naming `what`: no values, no such count
-/// of channels.
+/// One channel becomes three equal channels. Throws InputError
+/// with `what`: no values, an unsupported number of channels.
 ColourImage colourImageOf(const ImageView& view, const char* what);
-/// Empty where the view is. Throws InputError where it has more than one channel.
+/// Empty for an empty view. Throws InputError for more than one channel.
 Mask maskOf(const ImageView& view);
 
 Image imageOf(const ColourImage& image);
 Image imageOf(const Mask& mask);
 
-/// Checks both images and the mask. Throws InputError where one does not fit the calibration:
-/// stages themselves would skip such a frame, as they do a damaged file.
+/// Checks both images and the mask. Throws InputError if one does not fit
+/// the calibration: the stages would skip such a frame like a damaged file.
 softscope::Frame frameOf(const FrameView& view, const StereoCalibration& calibration, int index);
 
-/// The same calibration. Throws InputError where it does not say how large the images are.
+/// Returns its argument. Throws InputError if the image size is unknown.
 const StereoCalibration& sized(const StereoCalibration& calibration);
 
 }  // namespace softscope::api

@@ -1,4 +1,4 @@
-// toolkit/face/options.cpp: of include/softscope/options.h.
+// toolkit/face/options.cpp: implementation of include/softscope/options.h.
 #include "softscope/options.h"
 
 #include "io/settings/settings.h"

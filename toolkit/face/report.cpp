@@ -1,4 +1,4 @@
-// toolkit/face/report.cpp: of include/softscope/report.h.
+// toolkit/face/report.cpp: implementation of include/softscope/report.h.
 #include "softscope/report.h"
 
 #include "toolkit/report/write_report.h"

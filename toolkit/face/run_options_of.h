@@ -1,4 +1,4 @@
-// toolkit/face/run_options_of.h: options of the public face to those of the pipeline.
+// toolkit/face/run_options_of.h: conversion of options of the public interface to the pipeline.
 #pragma once
 
 #include "pipeline/run_options.h"

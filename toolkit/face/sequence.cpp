@@ -1,4 +1,4 @@
-// toolkit/face/sequence.cpp: of include/softscope/sequence.h.
+// toolkit/face/sequence.cpp: implementation of include/softscope/sequence.h.
 #include "softscope/sequence.h"
 
 #include "io/sequences/sequence_reader.h"
@@ -10,7 +10,7 @@
 namespace softscope::api {
 namespace {
 
-/// As `softscope reconstruct` opens it.
+/// Opened as by `softscope reconstruct`.
 SequenceReader openSequence(const SequencePaths& paths) {
   RunOptions options;
   settleRightOffset(paths, options.sequence, options.method.depth.stereo.disparity_max_px);

@@ -1,4 +1,4 @@
-// toolkit/face/simulate.cpp: of include/softscope/simulate.h.
+// toolkit/face/simulate.cpp: implementation of include/softscope/simulate.h.
 #include "softscope/simulate.h"
 
 #include "toolkit/simulation/simulate_sequence.h"

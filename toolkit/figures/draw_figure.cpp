@@ -1,4 +1,4 @@
-// toolkit/figures/draw_figure.cpp: reads, aligns, colours, draws.
+// toolkit/figures/draw_figure.cpp: reading, alignment, colours and rendering.
 #include "toolkit/figures/draw_figure.h"
 
 #include <filesystem>
@@ -54,7 +54,7 @@ void FigureMaker::readFiles(SceneInputs& inputs) const {
     inputs.addSurface(path, "scan", "scan", kScanRed).mesh.triangles.clear();
 }
 
-/// The test is moved; what --surface and --scan name stays.
+/// Moves the test surface; the files of --surface and --scan keep their position.
 void FigureMaker::fit(SceneInputs& inputs, FigureFoot& foot, Json& record) const {
   if (!request_.fit.moves()) return;
   const SurfaceFit fit = fitSurface(requireSurface(inputs.scene()).mesh,
@@ -87,7 +87,7 @@ void FigureMaker::addErrors(Scene& scene, FigureFoot& foot, Json& record) const 
   for (std::size_t i = 2; i < scene.surfaces.size(); ++i) scene.surfaces[i].in_3d = false;
 }
 
-/// What --at model means: the test, or what a run reconstructed.
+/// Target of --at model: the test surface, or the model of a run.
 const SceneSurface* modelIn(const Scene& scene) {
   for (const SceneSurface& surface : scene.surfaces)
     if (surface.name == "model") return &surface;

@@ -1,4 +1,4 @@
-// toolkit/figures/draw_figure.h: CT, reference, model and scans, or whole runs, as one figure.
+// toolkit/figures/draw_figure.h: figure of CT, reference, model and scans, or of whole runs.
 #pragma once
 
 #include <optional>
@@ -14,21 +14,21 @@
 namespace softscope {
 
 struct FigureRequest {
-  FigureOptions page;                  // files, style, planes
-  std::string kind = "four";           // or of a run: frames, series, compare, matches
+  FigureOptions page;                  // output files, style, planes
+  std::string kind = "four";           // or for a run: frames, series, compare, matches
   std::string run;                     // folder; excludes ct and test
-  std::string ct, reference, test;     // files; of a run `reference` is its sequence
-  std::vector<std::string> surfaces;   // further surfaces or models
+  std::string ct, reference, test;     // files; for a run `reference` is its sequence
+  std::vector<std::string> surfaces;   // additional surfaces or models
   std::vector<std::string> scans;      // points, drawn in red
-  SurfaceFitOptions fit;               // the test to the reference
-  ErrorColourOptions errors;           // of the test from the reference
-  std::string other;                   // of kind compare: the second run
-  std::vector<std::string> names;      // of kind compare: of both runs
-  std::vector<int> frames;             // of the panels, rising; empty: up to four, evenly spread
-  int frame = -1;                      // of a run; -1: the last one that can be judged
-  bool observed_only = false;          // of a run: errors of the points that the scope sees now
-  std::optional<Eigen::Vector3d> eye;  // direction that the 3-D panel is seen from
-  int columns = 0;                     // 1, 2 or 4 panels in a row; 0: as the style has it
+  SurfaceFitOptions fit;               // alignment of the test to the reference
+  ErrorColourOptions errors;           // distance of the test to the reference
+  std::string other;                   // for kind compare: second run
+  std::vector<std::string> names;      // for kind compare: names of both runs
+  std::vector<int> frames;             // of the panels, ascending; empty: up to four, evenly spread
+  int frame = -1;                      // frame of a run; -1: the last frame with a truth
+  bool observed_only = false;          // for a run: errors of currently visible points only
+  std::optional<Eigen::Vector3d> eye;  // view direction of the 3-D panel
+  int columns = 0;                     // 1, 2 or 4 panels per row; 0: from the style
 
   /// Throws OptionError.
   void validate() const;
@@ -36,11 +36,11 @@ struct FigureRequest {
 
 struct DrawnFigure {
   VectorDrawing drawing;
-  FactSheet::Json record;  // beside the figure
+  FactSheet::Json record;  // written next to the figure
   std::vector<std::string> warnings;
 };
 
-/// Writes nothing: writeFigure() does. Throws OptionError, InputError, BackendError.
+/// Writes no file: see writeFigure(). Throws OptionError, InputError, BackendError.
 DrawnFigure drawFigure(const FigureRequest& request);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/figures/figure_kinds.cpp: a scene a panel, one scale, one range.
+// toolkit/figures/figure_kinds.cpp: one scene per panel, with common scale and colour range.
 #include "toolkit/figures/figure_kinds.h"
 
 #include <algorithm>
@@ -22,10 +22,10 @@ namespace {
 
 using Json = FactSheet::Json;
 
-constexpr std::size_t kPanels = 4;  // where the user names no frames
+constexpr std::size_t kPanels = 4;  // default number of panels
 const Eigen::Vector3d kFromTheScope(0.25, -0.3, -0.9);
 
-/// Up to kPanels of them, the first and the last among them.
+/// Up to kPanels frames, including the first and the last.
 std::vector<int> spread(const std::vector<int>& frames) {
   if (frames.size() <= kPanels) return frames;
   std::vector<int> some;
@@ -48,13 +48,13 @@ Eigen::Vector3d eyeOf(const RunFigureOptions& options) {
   return options.eye.norm() > 0 ? options.eye : kFromTheScope;
 }
 
-/// What keeps the model at that frame from being one of that moment.
+/// Reason if the model at that frame is an older one.
 std::string unfusedText(const JudgedRun& run, int frame) {
   const auto outcome = run.outcomes.each().find(frame);
   return run.counts(frame) ? "" : std::string(", ") + toString(outcome->second);
 }
 
-/// The frames to show, each of which `there` must hold.
+/// Frames to show; all must be in `there`.
 std::vector<int> framesFor(const RunFigureOptions& options, const std::vector<int>& there) {
   for (const int frame : options.frames)
     if (!std::binary_search(there.begin(), there.end(), frame))
@@ -84,7 +84,7 @@ RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
     inputs.note("model", run.models.at(frame).string());
     scenes.push_back(sceneOf(modelMesh(run.models.at(frame))));
   }
-  const Eigen::Vector3d centre_mm = sceneCentre(scenes.back());  // one place for all
+  const Eigen::Vector3d centre_mm = sceneCentre(scenes.back());  // common for all panels
   auto scene = scenes.begin();
   for (const int frame : frames)
     panels.push_back({&*scene++, cameraView(centre_mm, eyeOf(options), SceneFrame::kCamera),
@@ -92,7 +92,7 @@ RunFigure drawFrames(const RunFigureOptions& options, SceneInputs& inputs) {
   return {drawScenes(panels, options.panels), {{"run", options.run}, {"frames", frames}}};
 }
 
-/// The truth in grey, the model coloured by its errors.
+/// Truth in grey, model coloured by its errors.
 Scene errorScene(const RunMoment& moment, const SurfaceErrorMap& map) {
   Scene scene = sceneOf(moment.model);
   scene.surfaces[0].errors_mm = map.each_mm;
@@ -104,7 +104,7 @@ ScenePanel panelOf(const Scene& scene, const Eigen::Vector3d& eye, std::string c
   return {&scene, cameraView(sceneCentre(scene), eye, scene.frame), std::move(caption)};
 }
 
-/// One range for all of them.
+/// Common range for all panels.
 ErrorColourOptions sharedRange(const RunFigureOptions& options,
                                const std::vector<const RunMoment*>& moments) {
   ErrorColourOptions errors = options.errors;
@@ -117,7 +117,7 @@ ErrorColourOptions sharedRange(const RunFigureOptions& options,
   return errors;
 }
 
-/// Adds the map's bar to a foot that already has others' of the same range.
+/// Adds the bar of the map to a foot that contains other bars of the same range.
 void explainToo(const SurfaceErrorMap& map, FigureFoot& foot) {
   ColourBarText bar = map.bar;
   bar.any_above |= foot.bar.any_above;
@@ -203,7 +203,7 @@ std::pair<std::string, std::string> namesOf(const RunFigureOptions& options) {
               : std::pair{shown(a.filename()), shown(b.filename())};
 }
 
-/// Without a wish the last frame of both.
+/// Default: the last frame of both runs.
 int frameOfBoth(const RunFigureOptions& options, const std::vector<int>& first,
                 const std::vector<int>& second) {
   std::vector<int> both;
@@ -220,7 +220,7 @@ int frameOfBoth(const RunFigureOptions& options, const std::vector<int>& first,
   return frame;
 }
 
-/// By frame; the last model stands where none was saved.
+/// By frame; the last model if none was saved.
 FrameFiles allModels(const JudgedRun& run) {
   FrameFiles models = run.models;
   if (!run.last_model.empty() && !run.frames.empty())
@@ -228,7 +228,7 @@ FrameFiles allModels(const JudgedRun& run) {
   return models;
 }
 
-/// What run.json says of the left images; empty where it says nothing.
+/// Path of the left images from run.json; empty if absent.
 std::string clipOf(const std::string& run) {
   const std::filesystem::path file = std::filesystem::path(run) / "run.json";
   if (!isFile(file)) return {};

@@ -1,5 +1,5 @@
-// toolkit/figures/figure_kinds.h: figures of whole runs: models at frames, errors over time, two
-// runs.
+// toolkit/figures/figure_kinds.h: figures of whole runs: models
+// at selected frames, errors over time, comparison of two runs.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ namespace softscope {
 
 struct RunFigureOptions {
   std::string kind;                // "frames", "series" or "compare"
-  std::string run, other;          // folders that reconstruct wrote; `other` for "compare"
-  std::vector<std::string> names;  // of run and other; empty: what tells their folders apart
-  std::string sequence;            // with the truth; may be empty for "frames" and "compare"
+  std::string run, other;          // folders written by reconstruct; `other` for "compare"
+  std::vector<std::string> names;  // of run and other; empty: the distinct parts of their paths
+  std::string sequence;            // with ground truth; optional for "frames" and "compare"
   std::vector<int> frames;         // of the panels; empty: up to four, evenly spread
-  bool observed_only = false;      // points that the scope doesn't see then are grey
+  bool observed_only = false;      // currently invisible points are grey
   ErrorColourOptions errors;
-  Eigen::Vector3d eye{0, 0, 0};  // zeros: the kind's own
-  PanelOptions panels;           // style, columns; width 0: as the models need it
+  Eigen::Vector3d eye{0, 0, 0};  // zero: default of the kind
+  PanelOptions panels;           // style, columns; width 0: according to the models
 };
 
 struct RunFigure {
@@ -29,10 +29,10 @@ struct RunFigure {
   FactSheet::Json record;
 };
 
-/// frames: the coloured model at some frames, in the world, from one place. series: error maps at
-/// some frames with one range, and under them mean, median and P95 of all frames. compare: two runs
-/// of one sequence at one frame, in colour, and with the truth their error maps with one range.
-/// What is read is noted in `inputs`. Throws InputError, OptionError, BackendError.
+/// frames: coloured model at selected frames, in the world, from one viewpoint. series: error maps
+/// at selected frames with a common range, above mean, median and P95 of all frames. compare: two
+/// runs of one sequence at one frame, in colour, and their error maps with a common range if there
+/// is truth. Input files are recorded in `inputs`. Throws InputError, OptionError, BackendError.
 RunFigure drawRunFigure(const RunFigureOptions& options, SceneInputs& inputs);
 
 }  // namespace softscope

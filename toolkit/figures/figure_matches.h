@@ -5,11 +5,11 @@
 
 namespace softscope {
 
-/// The run's model, drawn into the camera that it was last seen by, against the rectified left
-/// image of a frame after it: dense SURF above, SIFT below, with the run's own settings and the
-/// pipeline's own functions. `options.frames`: that frame; empty: the last one that comes right
-/// after a saved model. `options.sequence`: where the run's images are. Throws InputError,
-/// OptionError.
+/// Matches between the model, rendered from its last pose, and the rectified
+/// left image of the next frame: dense SURF above, SIFT below, with the
+/// settings of the run and the functions of the pipeline. `options.frames`:
+/// that frame; empty: the last frame directly after a saved model.
+/// `options.sequence`: images of the run. Throws InputError, OptionError.
 RunFigure drawMatchFigure(const RunFigureOptions& options, SceneInputs& inputs);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/figures/figure_options.cpp: names, ranges, endings.
+// toolkit/figures/figure_options.cpp: checks of names, ranges and file extensions.
 #include "toolkit/figures/figure_options.h"
 
 #include <algorithm>

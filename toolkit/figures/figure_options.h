@@ -1,4 +1,4 @@
-// toolkit/figures/figure_options.h: what `slice` and `figure` have in common on the command line.
+// toolkit/figures/figure_options.h: common options of `slice` and `figure`.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace softscope {
 
-/// As the user wrote them; the members below read them.
+/// Texts as given; the member functions parse them.
 struct FigureOptions {
   std::vector<std::string> out;
   std::string window = "auto", at, landmarks, style = "ieee";
@@ -24,26 +24,26 @@ struct FigureOptions {
   VolumeArguments volume;
   RecordPaths paths;
 
-  /// Throws OptionError: a value out of its range, an unknown ending, a file that is there.
+  /// Throws OptionError: a value out of range, an unknown file extension, an existing file.
   void validate() const;
 
-  /// The style with its width and resolution as asked for. Throws OptionError.
+  /// Style with the given width and resolution. Throws OptionError.
   FigureStyle figureStyle() const;
   SideRule sideRule() const {
     return neurological ? SideRule::kNeurological : SideRule::kRadiological;
   }
-  /// Of --at: a point, a landmark, the middle of `model` (null where there is none), or, where
-  /// nothing was asked, the middle of the scene. Throws OptionError, InputError.
+  /// From --at: a point, a landmark or the centre of `model` (null if absent);
+  /// by default the centre of the scene. Throws OptionError, InputError.
   Eigen::Vector3d centreIn(const Scene& scene, const SceneSurface* model) const;
-  /// Beside the first figure.
+  /// Next to the first figure.
   std::filesystem::path recordFile() const;
 
  private:
-  /// The point or landmark that --at names; none for "model" and where it is empty.
+  /// Point or landmark of --at; none for "model" and an empty text.
   std::optional<Eigen::Vector3d> namedPlace() const;
 };
 
-/// "1,2,-3.5". Throws OptionError naming the option.
+/// "1,2,-3.5". Throws OptionError with the name of the option.
 Eigen::Vector3d parseVector(const std::string& text, const std::string& option);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/figures/figure_outputs.cpp: one drawing, three formats.
+// toolkit/figures/figure_outputs.cpp: one drawing in three formats.
 #include "toolkit/figures/figure_outputs.h"
 
 #include <filesystem>

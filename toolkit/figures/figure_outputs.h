@@ -1,4 +1,4 @@
-// toolkit/figures/figure_outputs.h: writing of a figure in each format, with a record.
+// toolkit/figures/figure_outputs.h: writer of a figure in each format, with a record.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace softscope {
 
-/// As PNG, PDF or SVG, by the ending of each --out; the record last.
+/// PNG, PDF or SVG, by the file extension of each --out; the record is written last.
 void writeFigure(const VectorDrawing& drawing, const FigureOptions& options,
                  const FactSheet::Json& record);
 
-/// Name, centre, right, up and letters of a view.
+/// Name, centre, right, up and orientation letters of a view.
 FactSheet::Json viewJson(const ViewPlane& view, SceneFrame frame, double width_mm);
 
-/// What every figure's record begins with.
+/// Common first part of the record of a figure.
 FactSheet::Json figureRecord(const std::string& command, const FigureOptions& options);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/figures/figure_run.cpp: truth, scan and model, later ones over earlier ones.
+// toolkit/figures/figure_run.cpp: truth, scan and model, in drawing order.
 #include "toolkit/figures/figure_run.h"
 
 #include <utility>
@@ -11,7 +11,7 @@ namespace {
 
 using Json = FactSheet::Json;
 
-constexpr double kScanLine = 2.6;  // under the model's, so wider
+constexpr double kScanLine = 2.6;  // drawn below the contour of the model, so wider
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// toolkit/figures/figure_run.h: a run's model at one moment beside the truth, as a scene.
+// toolkit/figures/figure_run.h: scene of one model of a run with the truth of its frame.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ namespace softscope {
 
 struct RunMomentOptions {
   std::string run, sequence;   // folders
-  int frame = -1;              // -1: the last one with a model and a true mesh
-  bool observed_only = false;  // points that the scope doesn't see now count as not observed
+  int frame = -1;              // -1: the last frame with a model and a true mesh
+  bool observed_only = false;  // currently invisible points count as not observed
   ErrorColourOptions errors;
 };
 
-/// Adds the true surface, the model with its errors, and the tissue that the scope sees now (the
-/// scan, in red), all in the left camera's frame of that moment: a motion of the whole scene can be
-/// tissue or scope, so they are compared as the camera sees them. Explains the errors in `foot`,
-/// and returns what the record says of run, frame and errors. Throws InputError, OptionError.
+/// Adds the true surface, the model with its errors, and the visible tissue (scan, red),
+/// all in the left camera frame of that time: a motion of the whole scene can be due to
+/// tissue or scope, so they are compared in camera coordinates. Adds the colour bar to
+/// `foot` and returns run, frame and errors for the record. Throws InputError, OptionError.
 FactSheet::Json addRunMoment(const RunMomentOptions& options, SceneInputs& inputs,
                              FigureFoot& foot);
 

@@ -1,4 +1,4 @@
-// toolkit/figures/scene_inputs.cpp: spaces, units, overlaps.
+// toolkit/figures/scene_inputs.cpp: checks of spaces, units and overlap.
 #include "toolkit/figures/scene_inputs.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using Json = FactSheet::Json;
 
-/// What was done to bring the mesh into LPS.
+/// Description of the transform of the mesh into LPS.
 std::string bringToLps(TriangleMesh& mesh) {
   if (mesh.space.empty()) return "not said; taken as LPS";
   if (mesh.space == "LPS") return "LPS";
@@ -29,7 +29,7 @@ std::string bringToLps(TriangleMesh& mesh) {
   return was + "; x and y negated";
 }
 
-/// "world", "left" …, where a PLY that softscope wrote says so; these are a scope's frames.
+/// "world", "left" …: camera frame in the header of a PLY of softscope.
 std::string frameOf(const std::string& path) {
   char head[512] = {};
   std::ifstream(path, std::ios::binary).read(head, sizeof head - 1);
@@ -41,12 +41,12 @@ std::string frameOf(const std::string& path) {
   return std::string(rest.substr(0, rest.find('\n')));
 }
 
-/// A model that reconstruct wrote is cut as a surface; what else consists of points stays points.
+/// A model of reconstruct is drawn as a surface; other point clouds remain points.
 void addTriangles(const std::string& path, TriangleMesh& mesh) {
   try {
     const TriangleMesh surface = modelSurface(readModel(path));
     if (surface.vertices_mm.size() == mesh.vertices_mm.size()) mesh.triangles = surface.triangles;
-  } catch (const InputError&) {  // another program's points
+  } catch (const InputError&) {  // point cloud of another program
   }
 }
 

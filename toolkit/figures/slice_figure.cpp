@@ -1,4 +1,4 @@
-// toolkit/figures/slice_figure.cpp: planes and their places, scene, record.
+// toolkit/figures/slice_figure.cpp: planes with their positions, scene and record.
 #include "toolkit/figures/slice_figure.h"
 
 #include <cmath>
@@ -82,7 +82,7 @@ Eigen::Vector3d centreOf(const SliceRequest& request, const Scene& scene) {
                                           : &scene.surfaces[(request.reference.empty() ? 0 : 1)]);
 }
 
-/// What the captions have no room for: where the oblique planes lie. Empty where there is none.
+/// Positions of oblique planes, which do not fit into the captions. Empty without oblique planes.
 std::vector<std::string> notesOnPlanes(const SliceRequest& request,
                                        const Eigen::Vector3d& centre_mm, SceneFrame frame) {
   if (std::count(request.planes.begin(), request.planes.end(), "oblique") == 0) return {};

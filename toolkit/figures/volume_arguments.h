@@ -1,5 +1,5 @@
-// toolkit/figures/volume_arguments.h: options of a CT or MR volume, for every command that reads
-// one.
+// toolkit/figures/volume_arguments.h: options
+// of a CT or MR volume, common to all commands.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace softscope {
 
-/// As the user wrote it.
+/// Text as given.
 struct VolumeArguments {
   std::string spacing;
   bool allow_missing_slices = false;
 
-  /// Throws OptionError where the spacing is not three lengths above 0.
+  /// Throws OptionError unless the spacing is three positive lengths.
   VolumeOptions options() const;
 };
 

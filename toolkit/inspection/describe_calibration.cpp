@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_calibration.cpp: how the two cameras see.
+// toolkit/inspection/describe_calibration.cpp: facts about both cameras.
 #include <cmath>
 
 #include "io/calibrations/calibration_reader.h"
@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kReferenceDepthMm = 50;  // where endoscopes usually look
+constexpr double kReferenceDepthMm = 50;  // typical working distance of an endoscope
 
 double viewDeg(double size_px, double focal_px) {
   return 2 * std::atan(0.5 * size_px / focal_px) * 180 / M_PI;

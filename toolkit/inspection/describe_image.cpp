@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_image.cpp: an image, a depth file, a video.
+// toolkit/inspection/describe_image.cpp: facts about an image, a depth file or a video.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_mesh.cpp: a surface, or points without one.
+// toolkit/inspection/describe_mesh.cpp: facts about a surface or a point cloud.
 #include <algorithm>
 
 #include "io/files/file_bytes.h"

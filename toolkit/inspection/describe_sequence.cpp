@@ -1,5 +1,5 @@
-// toolkit/inspection/describe_sequence.cpp: a sequence folder: what is there, what isn't, is it
-// plausible?
+// toolkit/inspection/describe_sequence.cpp: facts,
+// missing parts and plausibility of a sequence folder.
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -20,7 +20,7 @@ namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kSlowestRate = 0.2;  // frames a second, before the unit of time is doubted
+constexpr double kSlowestRate = 0.2;  // frames per second; below, the unit of time is doubtful
 
 std::string layoutOf(const SequencePaths& paths) {
   if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
@@ -56,7 +56,7 @@ void addCount(const fs::path& folder, const std::string& label, const std::strin
   facts.add(label, key, int(filesIn(folder, kinds).size()));
 }
 
-/// Of a clip of a known data set: which, and its ground truth.
+/// For a clip of a known data set: its name and ground truth.
 void addDataset(const DatasetClip& clip, FactSheet& facts) {
   facts.add("data set", "dataset", clip.form);
   std::string names;
@@ -72,7 +72,7 @@ void addDataset(const DatasetClip& clip, FactSheet& facts) {
     facts.addLine("ground truth", names);
 }
 
-/// Optional parts: masks, depth, truth.
+/// Optional parts: masks, depth, ground truth.
 void addExtras(const std::string& folder, const SequencePaths& paths, FactSheet& facts) {
   const fs::path truth = fs::path(folder) / "groundtruth";
   if (paths.mask.empty()) facts.missing("mask/: instruments are not masked");
@@ -107,7 +107,7 @@ void addRows(const Frame& frame, const StereoCalibration& calibration, FactSheet
                "`softscope depth` removes what it can");
 }
 
-/// Every frame that can't be read, a warning each.
+/// One warning per unreadable frame.
 void checkFrames(SequenceReader& reader, FactSheet& facts) {
   int bad = 0;
   while (const auto result = reader.next()) {
@@ -121,7 +121,7 @@ void checkFrames(SequenceReader& reader, FactSheet& facts) {
                " frames can't be read; the warnings name them. Copy or export them again");
 }
 
-/// What can be said of a sequence that can't be opened as a whole.
+/// Facts about one view of a sequence that cannot be opened.
 void addView(const fs::path& view, const std::string& key, FactSheet& facts) {
   if (view.empty()) return;
   try {

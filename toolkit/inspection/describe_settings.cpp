@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_settings.cpp: a settings file, key by key.
+// toolkit/inspection/describe_settings.cpp: facts about a settings file, per key.
 #include "core/error.h"
 #include "pipeline/run_options.h"
 #include "toolkit/inspection/describe_file.h"
@@ -6,7 +6,7 @@
 namespace softscope {
 namespace {
 
-/// What the file changes; unknown keys and wrong types are problems.
+/// Value set by the file; unknown keys and wrong types are problems.
 void addSetting(const std::string& key, const Setting& setting, SettingsBinder& binder,
                 FactSheet& facts) {
   try {

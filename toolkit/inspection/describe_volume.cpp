@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_volume.cpp: a CT or MR volume.
+// toolkit/inspection/describe_volume.cpp: facts about a CT or MR volume.
 #include "toolkit/inspection/describe_file.h"
 #include "vtk_views/volumes/volume_summary.h"
 

@@ -1,4 +1,4 @@
-// toolkit/record/fact_sheet.cpp: one source, two readers.
+// toolkit/record/fact_sheet.cpp: text and JSON from one list.
 #include "toolkit/record/fact_sheet.h"
 
 #include <algorithm>

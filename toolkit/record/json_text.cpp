@@ -7,7 +7,7 @@ namespace softscope {
 
 namespace {
 
-/// JSON escapes controls below U+0020 alone; DEL and U+0080 to U+009F stand only in its texts.
+/// JSON requires escapes only below U+0020; DEL and U+0080 to U+009F are escaped as well.
 std::string escapedControls(const std::string& json) {
   std::string out;
   for (std::size_t i = 0; i < json.size(); ++i) {

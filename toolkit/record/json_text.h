@@ -1,4 +1,4 @@
-// toolkit/record/json_text.h: JSON as bytes of a file or of the terminal.
+// toolkit/record/json_text.h: JSON text for files and the terminal.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Indented, with a newline; bytes that are no UTF-8 (old file names, DICOM texts) are replaced.
+/// Indented, with a final newline; invalid UTF-8 (old file names, DICOM texts) is replaced.
 std::string jsonText(const FactSheet::Json& json);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/record/machine.cpp: Linux's own words.
+// toolkit/record/machine.cpp: facts from the files of Linux.
 #include "toolkit/record/machine.h"
 
 #include <sched.h>

@@ -1,4 +1,4 @@
-// toolkit/record/metric_lists.h: the numbers of each result struct with their keys, listed once.
+// toolkit/record/metric_lists.h: metrics of each result struct with their keys, declared once.
 #pragma once
 
 #include <string>
@@ -13,26 +13,26 @@
 
 namespace softscope {
 
-/// A number of a result. Records, tables and reports walk the lists below, in their order.
+/// Metric of a result. Records, tables and reports iterate over the lists below in their order.
 template <class Result>
 struct Metric {
-  const char* key;  // with its unit, but for Statistics
+  const char* key;  // with its unit, except for Statistics
   double (*of)(const Result&);
-  const char* name = "";  // in tables of the report; empty where none has it alone
+  const char* name = "";  // in tables of the report; empty if unused there
 };
 template <class Result>
 using MetricList = std::vector<Metric<Result>>;
 
-/// The unit follows each key: "mean" + "_mm".
+/// The unit is appended to each key: "mean" + "_mm".
 const MetricList<Statistics>& statisticsMetrics();
 const MetricList<HausdorffDistances>& hausdorffMetrics();
-/// How much of the tissue the model covers.
+/// Completeness of the model.
 const MetricList<ModelErrors>& completenessMetrics();
-/// Of the model drawn into the image.
+/// Of the rendered model.
 const MetricList<DepthErrors>& drawnDepthMetrics();
 const MetricList<PictureErrors>& drawnViewMetrics();
 
-/// An object of all numbers; `value` gives that of a metric.
+/// JSON object of all metrics; `value` returns the value of a metric.
 template <class Result, class Value>
 FactSheet::Json metricsJson(const MetricList<Result>& metrics, const Value& value) {
   FactSheet::Json json = FactSheet::Json::object();
@@ -40,7 +40,7 @@ FactSheet::Json metricsJson(const MetricList<Result>& metrics, const Value& valu
   return json;
 }
 
-/// Of one result.
+/// For one result.
 template <class Result>
 FactSheet::Json metricsJson(const MetricList<Result>& metrics, const Result& result) {
   return metricsJson(metrics, [&](const Metric<Result>& metric) { return metric.of(result); });

@@ -1,4 +1,4 @@
-// toolkit/record/path_words.cpp: words that look like files, and the words that belong to them.
+// toolkit/record/path_words.cpp: recognition of paths with blanks.
 #include "toolkit/record/path_words.h"
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace softscope {
 namespace {
 
-/// Of a text: [begin, end) without punctuation around it, which stays.
+/// Part [begin, end) of a text, without surrounding punctuation.
 struct Word {
   std::size_t begin = 0, end = 0;
   std::string core;
-  char after = ' ';  // the character behind it
+  char after = ' ';  // following character
 };
 
 template <std::size_t N>
@@ -31,7 +31,7 @@ bool isUnit(const std::string& word) {
   return isOneOf(word, kUnits) || word == "and/or" || word == "LPS/RAS";
 }
 
-/// What softscope itself calls its files tells nothing of anyone.
+/// File names of softscope contain no personal data.
 bool isOurName(const std::string& word) {
   constexpr std::array<const char*, 7> kOurs{
       "tracks.csv",     "frames.csv",       "model.ply",        "run.json",
@@ -64,7 +64,7 @@ bool isAbsolute(const std::string& word) {
          (drive && word.size() > 2) || word.rfind("file:", 0) == 0;
 }
 
-/// As names of people, and numbers of visits, begin.
+/// Typical start of personal names and of visit numbers.
 bool couldBeName(const std::string& word) {
   const auto first = static_cast<unsigned char>(word.empty() ? 'a' : word[0]);
   return first >= 0x80 || std::isupper(first) != 0 || std::isdigit(first) != 0;
@@ -96,12 +96,12 @@ bool endsClause(const Word& word) {
   return word.after == ':' || word.after == ';' || word.after == '`' || word.after == '"';
 }
 
-/// Words [first, last] that are one name.
+/// Words [first, last] of one name.
 struct Span {
   std::size_t first, last;
 };
 
-/// Of the name that word `at`, the first of its clause that looks like a file, belongs to.
+/// Extent of the name that contains word `at`, the first word of its clause that resembles a file.
 Span spanAround(const std::vector<Word>& words, std::size_t clause_begin, std::size_t at) {
   std::size_t end = at;
   while (end + 1 < words.size() && !endsClause(words[end])) ++end;

@@ -1,4 +1,4 @@
-// toolkit/record/path_words.h: paths within texts, for their removal.
+// toolkit/record/path_words.h: removal of paths from texts.
 #pragma once
 
 #include <functional>
@@ -6,14 +6,14 @@
 
 namespace softscope {
 
-/// The text with each part that looks like a path or a file replaced by what `instead` makes of it.
-/// Names may hold blanks: what stands before the colon of "Jane Doe.ply: is empty" is one name, and
-/// so is an absolute path up to its last part. Where a name's end can't be known, more is taken
-/// rather than less. Units (mm/s) and the files that softscope itself names (model.ply) stay.
+/// Replaces each part of a text that resembles a path or file by the result of `instead`.
+/// Names may contain blanks: the text before the colon of "Jane Doe.ply: is empty" is one
+/// name, and so is an absolute path up to its last part. If the end of a name is ambiguous,
+/// the longer part is replaced. Units (mm/s) and file names of softscope (model.ply) are kept.
 std::string replacePaths(const std::string& text,
                          const std::function<std::string(const std::string&)>& instead);
 
-/// Absolute paths become their last part, those in `folder` become relative to it.
+/// Absolute paths become their last part, paths in `folder` become relative to it.
 std::string withoutFolders(std::string text, const std::string& folder);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/record/record_paths.cpp: paths by their key, those within texts by their looks.
+// toolkit/record/record_paths.cpp: paths by their key, and paths within texts.
 #include "toolkit/record/record_paths.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
-/// A path as it was given, and the name that stands for it.
+/// Path as given, and the name that replaces it.
 using KnownPath = std::pair<std::string, std::string>;
 
 template <std::size_t N>
@@ -23,7 +23,7 @@ bool isAmong(const std::string& key, const char* const (&names)[N]) {
   return std::find(std::begin(names), std::end(names), key) != std::end(names);
 }
 
-/// Keys whose texts are paths; below `inputs` every text is one but for these two.
+/// Keys whose texts are paths; below `inputs` all but these two.
 bool holdsPath(const std::string& key, bool in_inputs) {
   if (in_inputs) return !isAmong(key, {"sha256", "role"});
   return isAmong(key, {"path", "run", "runs", "sequence", "stereo.model"});
@@ -31,7 +31,7 @@ bool holdsPath(const std::string& key, bool in_inputs) {
 
 bool staysAsItIs(const std::string& key) { return isAmong(key, {"softscope", "machine", "style"}); }
 
-/// Of a record's settings, those that are no path stay as they are.
+/// Settings of a record that are not paths are kept.
 bool staysWithin(const std::string& parent, const std::string& key) {
   return parent == "configuration" && !holdsPath(key, false);
 }
@@ -47,8 +47,8 @@ std::string recordedName(const std::string& text) {
   return path.filename().string();
 }
 
-/// `visit` gets each text with its key (an array's elements have the array's) and whether it lies
-/// below `inputs`.
+/// `visit` receives each text with its key (elements of an array
+/// have the key of the array) and whether it is below `inputs`.
 template <class Visit>
 void forEachText(Json& part, const std::string& key, bool in_inputs, const Visit& visit) {
   if (part.is_string()) visit(part, key, in_inputs);
@@ -81,7 +81,7 @@ std::string sentence(std::string text, const std::vector<KnownPath>& known) {
   for (const KnownPath& one : known) replaceKnown(one, text);
   return replacePaths(text, [&](const std::string& path) {
     for (const KnownPath& one : known)
-      if (path.rfind(one.second + "/", 0) == 0) return path;  // within a folder that has its name
+      if (path.rfind(one.second + "/", 0) == 0) return path;  // inside a folder of that name
     return recordedName(path);
   });
 }

@@ -1,4 +1,4 @@
-// toolkit/record/setting_json.cpp: numbers stay numbers, texts stay texts.
+// toolkit/record/setting_json.cpp: numbers as JSON numbers, texts as JSON strings.
 #include "toolkit/record/setting_json.h"
 
 namespace softscope {

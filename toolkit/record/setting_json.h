@@ -1,4 +1,4 @@
-// toolkit/record/setting_json.h: settings as records keep them.
+// toolkit/record/setting_json.h: settings in records.
 #pragma once
 
 #include "io/settings/settings_binder.h"
@@ -6,7 +6,7 @@
 
 namespace softscope {
 
-/// A setting's text as the JSON value that it stands for.
+/// JSON value of the text of a setting.
 FactSheet::Json valueOf(const SettingInfo& setting);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/record/shell_word.cpp: single quotes, and what to do about single quotes.
+// toolkit/record/shell_word.cpp: single quotes and their escape.
 #include "toolkit/record/shell_word.h"
 
 #include <algorithm>

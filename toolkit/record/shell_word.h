@@ -1,12 +1,12 @@
-// toolkit/record/shell_word.h: an argument as it must be typed.
+// toolkit/record/shell_word.h: quoting of an argument for a shell.
 #pragma once
 
 #include <string>
 
 namespace softscope {
 
-/// `word` as a POSIX shell reads it back: in single quotes where it holds anything that the shell
-/// would not take for itself.
+/// `word` as a POSIX shell parses it back: in
+/// single quotes if it contains special characters.
 std::string shellWord(const std::string& word);
 
 }  // namespace softscope

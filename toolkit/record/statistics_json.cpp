@@ -1,4 +1,4 @@
-// toolkit/record/statistics_json.cpp: one wording for all records.
+// toolkit/record/statistics_json.cpp: common keys of all records.
 #include "toolkit/record/statistics_json.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// toolkit/record/statistics_json.h: what records of evaluate and compare share.
+// toolkit/record/statistics_json.h: common parts of the records of evaluate and compare.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace softscope {
 
-/// mean, sd, rmse, median, p95, max with the unit behind each name, and n; null for NaN.
+/// mean, sd, rmse, median, p95, max with the unit as suffix, and n; null for NaN.
 FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit);
 
 /// x, y, z.
 FactSheet::Json vectorJson(const Eigen::Vector3d& v);
 
-/// Four rows of four.
+/// Four rows of four numbers.
 FactSheet::Json matrixJson(const Eigen::Isometry3d& pose);
 
-/// Nine digits of a value of a CSV file; empty where it is not finite.
+/// Nine digits of a value of a CSV file; empty if it is not finite.
 std::string csvCell(double value);
 
 const char* stopText(AlignmentStop stop);

@@ -1,4 +1,4 @@
-// toolkit/record/version.cpp: the build system's words.
+// toolkit/record/version.cpp: values from the build system.
 #include "toolkit/record/version.h"
 
 namespace softscope {

@@ -1,4 +1,4 @@
-// toolkit/record/version.h: which softscope this is.
+// toolkit/record/version.h: version and compiler of softscope.
 #pragma once
 
 #include <string>

@@ -1,10 +1,10 @@
-// toolkit/report/metric_paths.h: where the numbers that several parts of a report read stand in
-// evaluation.json and comparison.json.
+// toolkit/report/metric_paths.h: paths of metrics in evaluation.json
+// and comparison.json that several parts of a report use.
 #pragma once
 
 namespace softscope::metric_paths {
 
-// Of ReportCase::main(), of frames and of cohorts; mm.
+// In ReportCase::main(), frames and cohorts; mm.
 constexpr const char* kMean = "mean_mm";
 constexpr const char* kMedian = "median_mm";
 constexpr const char* kP95 = "p95_mm";
@@ -14,7 +14,7 @@ constexpr const char* kMax = "max_mm";
 constexpr const char* kCompleteness = "surface.completeness_1mm";
 constexpr const char* kSignedMean = "surface.signed.mean_mm";
 constexpr const char* kSignedMeanOfPair = "signed.mean_mm";
-constexpr const char* kHausdorff = "surface.hausdorff.";  // keys of hausdorffMetrics() follow
+constexpr const char* kHausdorff = "surface.hausdorff.";  // plus a key of hausdorffMetrics()
 constexpr const char* kHausdorffOfPair = "hausdorff.";
 
 // Without ground truth.

@@ -1,4 +1,4 @@
-// toolkit/report/report_alignment.cpp: the motion in words, errors before and after it.
+// toolkit/report/report_alignment.cpp: description of the transform, errors before and after it.
 #include "toolkit/report/report_alignment.h"
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ namespace {
 
 using Kind = ReportCase::Kind;
 
-/// The matrix that moved the model, where the record has one.
+/// Transform of the model, if the record contains one.
 std::string motionText(const ReportCase& c) {
   const auto pointer = FactSheet::Json::json_pointer(
       c.kind == Kind::kPair ? "/alignment/reference_from_test"
@@ -30,7 +30,7 @@ std::string motionText(const ReportCase& c) {
   const double angle_rad = Eigen::AngleAxisd(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).angle();
   const std::string turn = "turned by " + fixed(angle_rad * 180 / M_PI, 2) + " degrees";
   if (c.maps.empty()) return turn;
-  // About the origin a turn would look like a shift: of the model's middle it doesn't.
+  // Rotation about the centre of the model: about the origin it would include a translation.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& p : c.maps.front().surface.vertices_mm) middle += p.cast<double>();
   middle /= double(c.maps.front().surface.vertices_mm.size());
@@ -38,14 +38,14 @@ std::string motionText(const ReportCase& c) {
   return turn + ", and its middle shifted by " + millimetresText((middle - before).norm());
 }
 
-/// How well the error at places without a landmark is known; empty where it isn't.
+/// Estimated target registration error; empty if unknown.
 std::string targetErrorText(const ReportCase& c) {
   const auto value = [&](const char* key) {
     return numberAt(c.record, std::string("alignment.tre_leave_one_out.") + key);
   };
   const double n = value("n"), mean_mm = value("mean_mm"), sd_mm = value("sd_mm");
   if (!(n >= 2 && n < 1e9) || !std::isfinite(mean_mm) || !std::isfinite(sd_mm)) return {};
-  const double half_mm = studentQuantile(0.975, n - 1) * sd_mm / std::sqrt(n - 1);  // sd is over n
+  const double half_mm = studentQuantile(0.975, n - 1) * sd_mm / std::sqrt(n - 1);  // sd: over n
   return "At a place that was not fitted the error is " + millimetresText(mean_mm) +
          " on average (TRE over " + std::to_string(std::llround(n)) +
          " landmarks, 95 % confidence " + intervalText({mean_mm - half_mm, mean_mm + half_mm}) +

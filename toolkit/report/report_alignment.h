@@ -1,5 +1,5 @@
-// toolkit/report/report_alignment.h: how the model came to its place, and what that did to its
-// errors.
+// toolkit/report/report_alignment.h: alignment
+// of the model, and its effect on the errors.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 namespace softscope {
 
 bool wasAligned(const ReportCase& c);
-/// One line for the table of what was compared.
+/// One row of the table of compared items.
 std::string alignmentText(const ReportCase& c);
-/// Before and after; empty where nothing was aligned.
+/// Before and after; empty without alignment.
 std::vector<ReportPart> alignmentParts(const ReportCase& c);
 
 }  // namespace softscope

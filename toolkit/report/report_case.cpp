@@ -1,4 +1,4 @@
-// toolkit/report/report_case.cpp: a record, its maps, its images.
+// toolkit/report/report_case.cpp: record, error maps and images of a case.
 #include "toolkit/report/report_case.h"
 
 #include <algorithm>
@@ -68,9 +68,9 @@ Json readRecord(const fs::path& file, const std::string& bytes) {
 }
 
 std::vector<fs::path> mapFiles(const fs::path& folder, ReportCase::Kind kind) {
-  if (kind == ReportCase::Kind::kPictures) return {};  // what lies there is of something else
+  if (kind == ReportCase::Kind::kPictures) return {};  // its maps are of another case
   if (kind == ReportCase::Kind::kPair) {
-    for (const char* name : {"error_map.vtp", "errors.vtp"})  // with the reference, or without
+    for (const char* name : {"error_map.vtp", "errors.vtp"})  // with or without the reference
       if (isThere(folder / name)) return {folder / name};
     return {};
   }
@@ -80,7 +80,7 @@ std::vector<fs::path> mapFiles(const fs::path& folder, ReportCase::Kind kind) {
 
 constexpr std::uintmax_t kPictureLimitBytes = std::uintmax_t{64} << 20;
 
-/// Throws InputError where the file is no PNG.
+/// Throws InputError unless the file is a PNG.
 std::string readPng(const fs::path& file) {
   std::string png = readBytes(file, kPictureLimitBytes);
   if (png.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0)
@@ -108,7 +108,7 @@ void keepOnly(const std::vector<std::int32_t>& indices, std::vector<Value>& valu
   values = std::move(kept);
 }
 
-/// A surface keeps its shape, points are thinned evenly over their order.
+/// Decimates a surface, or selects evenly spread points.
 void shrink(ErrorMap& map, std::size_t most) {
   const std::size_t count = map.surface.vertices_mm.size();
   if (count <= most) return;
@@ -126,7 +126,7 @@ void shrink(ErrorMap& map, std::size_t most) {
   keepOnly(coarse.vertices, map.observed);
 }
 
-/// What lies at "a.b.c"; null where there is nothing.
+/// Value at "a.b.c"; null if absent.
 const Json* valueAt(const Json& record, const std::string& path) {
   const Json* at = &record;
   for (std::size_t begin = 0; begin <= path.size();) {
@@ -165,7 +165,7 @@ std::vector<std::pair<double, double>> CaseFrames::series(const std::string& key
   for (std::size_t i = 0; i < x.size(); ++i) {
     const bool counts = outcomes[i].empty() || outcomes[i] == "fused";
     const double value = counts ? numberAt(rows[i], key) : Statistics::kNone;
-    const bool at_end = i == 0 || i + 1 == x.size();  // all plots of a case span the same frames
+    const bool at_end = i == 0 || i + 1 == x.size();  // all plots of a case cover the same frames
     if (std::isfinite(value) || !counts || at_end) values.emplace_back(x[i], value);
   }
   return values;
@@ -199,7 +199,7 @@ ReportCase readReportCase(const fs::path& path) {
   const std::string bytes = readBytes(file, kTextLimitBytes);
   ReportCase result;
   result.record = readRecord(file, bytes);
-  result.hashes.emplace_back("metrics", sha256OfBytes(bytes));  // names of files may name people
+  result.hashes.emplace_back("metrics", sha256OfBytes(bytes));  // file names may name people
   result.kind = kindOf(result.record);
   requirePart(result.mainPart(), result.record, file);
   for (const fs::path& map : mapFiles(folder, result.kind)) {

@@ -1,4 +1,4 @@
-// toolkit/report/report_case.h: what `evaluate` and `compare` left, ready to be reported.
+// toolkit/report/report_case.h: results of `evaluate` and `compare` as input of a report.
 #pragma once
 
 #include <filesystem>
@@ -12,59 +12,59 @@
 
 namespace softscope {
 
-/// A number by its path with dots; NaN where it isn't there, or is none.
+/// Number at a dotted path; NaN if absent or another type.
 double numberAt(const FactSheet::Json& record, const std::string& path);
-/// A text by its path; empty where it isn't there, or is none.
+/// Text at a path; empty if absent or another type.
 std::string textAt(const FactSheet::Json& record, const std::string& path);
 
 struct ReportCase {
-  /// evaluate against truth, a mesh, images alone (no truth); compare
+  /// evaluate against truth, a mesh, images only (no truth); compare
   enum class Kind { kSequence, kMesh, kPictures, kPair };
 
-  std::string name;  // as the report calls it
+  std::string name;  // in the report
   Kind kind = Kind::kPair;
-  FactSheet::Json record;      // evaluation.json or comparison.json, as it was written
-  std::vector<ErrorMap> maps;  // of a series one a moment; may be empty
+  FactSheet::Json record;      // evaluation.json or comparison.json, unchanged
+  std::vector<ErrorMap> maps;  // of a series one per frame; may be empty
   std::vector<std::pair<std::string, std::string>> pictures;  // caption, PNG
-  std::string drawn_view;  // PNG: the image beside the model drawn from its place; may be empty
-  std::vector<std::pair<std::string, std::string>> hashes;  // what, SHA-256
+  std::string drawn_view;  // PNG: image and rendered model side by side; may be empty
+  std::vector<std::pair<std::string, std::string>> hashes;  // description, SHA-256
 
   bool hasTruth() const { return kind != Kind::kPictures; }
-  /// Where distances of the model stand in the record, or else what there is.
+  /// Part of the record with distances of the model, or the main part without truth.
   std::string mainPart() const {
     return kind == Kind::kPair ? "accuracy" : hasTruth() ? "surface" : "view";
   }
   double main(const std::string& key) const { return numberAt(record, mainPart() + "." + key); }
-  /// How the model was aligned to the reference; empty or "none" where it was not.
+  /// Method of alignment to the reference; empty or "none" without alignment.
   std::string alignment() const {
     return textAt(record, kind == Kind::kPair ? "alignment.method" : "comparison.alignment");
   }
-  /// One value a judged moment; empty for a pair.
+  /// One value per evaluated frame; empty for a pair.
   std::vector<double> overFrames(const std::string& key) const;
 };
 
-/// The frames of a record, over time where the clip has a clock, else over their numbers.
+/// Frames of a record over time, or over frame numbers without timestamps.
 struct CaseFrames {
   std::string x_label;
-  std::vector<double> x;              // rising
+  std::vector<double> x;              // ascending
   std::vector<FactSheet::Json> rows;  // one per x
-  std::vector<std::string> outcomes;  // fused, skipped, lost; empty where the record says nothing
+  std::vector<std::string> outcomes;  // fused, skipped, lost; empty if unknown
 
-  /// Of the frames that were fused and have the value; NaN for those that were not fused, and for
-  /// the first and the last one, so that all series span the same frames; the others are left out.
+  /// Values of the fused frames that have one; NaN for frames that were not fused and for the
+  /// first and last frame, so that all series cover the same frames. Other frames are omitted.
   std::vector<std::pair<double, double>> series(const std::string& key) const;
   std::size_t fused() const;
 };
 
-/// Without rows where the record has no frames, or they are not in order.
+/// Empty if the record has no frames, or they are not in order.
 CaseFrames framesOf(const ReportCase& c);
 
-/// `path`: the folder, or the JSON file in it. Throws InputError: neither, broken, of another
-/// version; for a run that wasn't evaluated it says what to do.
+/// `path`: the folder, or its JSON file. Throws InputError: neither, damaged,
+/// another version; for a run without evaluation with the command to use.
 ReportCase readReportCase(const std::filesystem::path& path);
 
-/// Thins points, coarsens surfaces and leaves moments out until all maps together are small enough
-/// for a page (300 000 vertices).
+/// Selects points, decimates surfaces and drops frames until
+/// all maps together fit into a page (300 000 vertices).
 void fitIntoPage(std::vector<ReportCase>& cases);
 
 }  // namespace softscope

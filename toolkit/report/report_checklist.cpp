@@ -1,5 +1,5 @@
-// toolkit/report/report_checklist.cpp: CLAIM (Mongan, Moy, Kahn 2020) and STARD-AI (Sounderajah et
-// al., Nature Medicine 2025), item by item.
+// toolkit/report/report_checklist.cpp: items of CLAIM (Mongan, Moy,
+// Kahn 2020) and STARD-AI (Sounderajah et al., Nature Medicine 2025).
 #include "toolkit/report/report_checklist.h"
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace softscope {
 namespace {
 
 struct ChecklistItem {
-  const char *number, *asks, *here, *author;  // empty: nothing
+  const char *number, *asks, *here, *author;  // null: none
 };
 
 const char* const kMethodsHere = "Methods";
@@ -65,7 +65,7 @@ const std::vector<ChecklistItem> kClaim{
     {"41", "where the protocol lies", "", "write"},
     {"42", "funding", "", "write"}};
 
-/// The index test is the reconstructed model; the reference standard what it is compared with.
+/// The index test is the reconstructed model; the reference standard is its reference.
 const std::vector<ChecklistItem> kStardAi{
     {"1", "title or abstract names an accuracy study of such a method, and a measure", "title",
      "name the measure (mean distance, P95)"},

@@ -1,4 +1,4 @@
-// toolkit/report/report_checklist.h: what a reporting guideline asks for, and where it stands here.
+// toolkit/report/report_checklist.h: items of reporting guidelines, and their place here.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace softscope {
 /// Throws OptionError unless empty (none), "claim" or "stard-ai".
 void requireChecklist(const std::string& name);
 
-/// A row per item: its number, what it asks for in our words, where this report says it, and what
-/// is left to the author.
+/// One row per item: its number, its requirement in our
+/// words, the place in this report, the part for the author.
 ReportTable checklistTable(const std::string& name);
 
 }  // namespace softscope

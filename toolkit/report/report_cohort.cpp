@@ -1,4 +1,4 @@
-// toolkit/report/report_cohort.cpp: every case counts once, however many points it has.
+// toolkit/report/report_cohort.cpp: statistics over cases with equal weights.
 #include "toolkit/report/report_cohort.h"
 
 #include <algorithm>
@@ -78,7 +78,7 @@ ReportTable agreementTable(const std::string& caption, const BlandAltman& b) {
   return table;
 }
 
-/// Nothing for fewer than two differences.
+/// Adds nothing for fewer than two differences.
 void addAgreement(AgreementData data, const std::string& caption, const std::string& figure_caption,
                   std::vector<ReportPart>& parts) {
   for (std::size_t i = 0; i < data.x.size(); ++i)
@@ -117,7 +117,7 @@ Json agreementJson(const BlandAltman& b) {
           {"high_limit_ci_mm", intervalJson(b.high_limit_ci)}};
 }
 
-/// Of cases none of which can be judged by its distance.
+/// For cases that all lack distances.
 std::vector<ReportPart> truthlessCohortParts(const Cases& cases, const ReportChoices& choices) {
   const auto summary = [&](const char* key) {
     return summariseCohort(valuesOf(cases, metricNamed(key)), choices.seed);
@@ -136,7 +136,7 @@ std::vector<ReportPart> truthlessCohortParts(const Cases& cases, const ReportCho
           casesTable(cases)};
 }
 
-/// By P95; a case without one is neither better nor worse. Null where none has one.
+/// By P95; cases without P95 are excluded. Null if none has one.
 const ReportCase* worstOf(const Cases& cases) {
   const ReportCase* worst = nullptr;
   for (const ReportCase& c : cases)

@@ -1,4 +1,4 @@
-// toolkit/report/report_cohort.h: several cases together.
+// toolkit/report/report_cohort.h: report of several cases.
 #pragma once
 
 #include <vector>
@@ -9,36 +9,36 @@
 
 namespace softscope {
 
-/// One number of a case, wherever its kind of record has it.
+/// Metric of a case, for each kind of record.
 struct CohortMetric {
   const char* key;      // in JSON
   const char* name;     // with its unit
-  const char* of_run;   // its place in evaluation.json
-  const char* of_pair;  // in comparison.json; empty where that has none
+  const char* of_run;   // path in evaluation.json
+  const char* of_pair;  // path in comparison.json; empty if absent
 };
 
 const std::vector<CohortMetric>& cohortMetrics();
 
-/// Whether any case was measured against something that is known.
+/// True if any case has a reference.
 bool anyTruth(const std::vector<ReportCase>& cases);
 
-/// What was compared, a row a case.
+/// Compared items, one row per case.
 ReportTable cohortComparedTable(const std::vector<ReportCase>& cases);
 
-/// The sentence, the large numbers, a row a case, a row a metric with mean +- SD, median [IQR] and
-/// bootstrap interval, and the agreement of the surfaces.
+/// Summary sentence, main numbers, one row per case, one row per metric with mean
+/// +- SD, median [IQR] and bootstrap interval, and the agreement of the surfaces.
 std::vector<ReportPart> cohortParts(const std::vector<ReportCase>& cases,
                                     const ReportChoices& choices);
 
-/// Case by case against a second method's results for the same cases; as many as `cases`.
+/// Paired comparison with the results of a second method for the same cases; as many as `cases`.
 std::vector<ReportPart> pairedParts(const std::vector<ReportCase>& cases,
                                     const std::vector<ReportCase>& versus,
                                     const ReportChoices& choices);
 
-/// How cohorts are summed up.
+/// Statistical methods for cohorts.
 ReportList cohortMethods(bool paired);
 
-/// The same numbers for programs.
+/// The same numbers as JSON.
 FactSheet::Json cohortJson(const std::vector<ReportCase>& cases,
                            const std::vector<ReportCase>& versus, const ReportChoices& choices);
 

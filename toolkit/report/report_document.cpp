@@ -24,8 +24,8 @@ using Json = FactSheet::Json;
 
 const char* const kNotice = "Research use only, not for diagnosis.";
 
-/// A round number at or above the largest 95th percentile: the colours then end where the reader's
-/// interest does, the same for all cases.
+/// Round number at or above the largest
+/// 95th percentile, common to all cases.
 double colourLimit(const std::vector<ReportCase>& cases) {
   double largest_mm = 0;
   for (const ReportCase& c : cases)
@@ -72,8 +72,8 @@ ReportMapPlace mapPlace(const std::vector<ReportCase>& cases, double limit_mm) {
               "before it."};
 }
 
-/// Of one case both kinds of distance, of several each one's distance; none, and a warning,
-/// where nothing on this machine renders.
+/// Both kinds of distance for one case, absolute distances
+/// for several; none, with a warning, without a renderer.
 std::optional<VectorDrawing> mapFigure(const std::vector<ReportMap>& maps, double limit_mm,
                                        std::vector<std::string>* warnings) {
   constexpr std::size_t kMostCells = 12;
@@ -95,7 +95,7 @@ std::optional<VectorDrawing> mapFigure(const std::vector<ReportMap>& maps, doubl
   }
 }
 
-/// Headings with nothing below them.
+/// Removes headings without content.
 void removeEmpty(std::vector<ReportSection>& sections) {
   sections.erase(std::remove_if(sections.begin(), sections.end(),
                                 [](const ReportSection& section) { return section.parts.empty(); }),
@@ -140,7 +140,7 @@ void addLimits(const ReportCase& c, const ReportChoices& choices, ReportList& li
       list.items.push_back(item);
 }
 
-/// Once for each kind of comparison among the cases.
+/// Once per kind of comparison.
 ReportList methodsOf(const ReportRequest& request) {
   ReportList list;
   for (const ReportCase& c : request.cases)
@@ -208,7 +208,7 @@ Json metricsOf(const ReportRequest& request, double limit_mm) {
   }
   if (request.cases.size() > 1)
     metrics["cohort"] = cohortJson(request.cases, request.versus, request.choices);
-  // Of all above: a saved review names the report that it is of.
+  // identifies this report in a saved review
   metrics["content_sha256"] =
       sha256OfBytes(metrics.dump(-1, ' ', false, Json::error_handler_t::replace));
   return metrics;

@@ -1,4 +1,4 @@
-// toolkit/report/report_document.h: cases to page, metrics and lines.
+// toolkit/report/report_document.h: page, metrics and text of a report.
 #pragma once
 
 #include <string>
@@ -15,18 +15,18 @@ namespace softscope {
 struct ReportRequest {
   std::vector<ReportCase> cases;                        // one or more
   std::vector<ReportCase> versus;                       // empty, or as many as the cases
-  std::vector<std::vector<ThresholdOutcome>> outcomes;  // one list a case
-  std::string title;                                    // empty: by what was compared
-  double limit_mm = 0;                                  // of colours; 0: chosen
+  std::vector<std::vector<ThresholdOutcome>> outcomes;  // one list per case
+  std::string title;                                    // empty: derived from the comparison
+  double limit_mm = 0;                                  // of colours; 0: automatic
   ReportChoices choices;
 };
 
 struct ReportDocument {
   ReportPage page;
-  FactSheet::Json metrics;  // schema_version 1; without paths unless they were asked for
+  FactSheet::Json metrics;  // schema_version 1; without paths by default
   FactSheet facts{"report"};
   std::vector<ThresholdOutcome> outcomes;  // of all cases
-  std::vector<std::string> warnings;       // of what the page lacks
+  std::vector<std::string> warnings;       // about missing parts of the page
 };
 
 ReportDocument makeReport(ReportRequest request);

@@ -1,4 +1,4 @@
-// toolkit/report/report_plots.cpp: as evaluate draws them, without the names of runs.
+// toolkit/report/report_plots.cpp: plots of evaluate, without names of runs.
 #include "toolkit/report/report_plots.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-/// Empty where the list isn't one of numbers.
+/// Empty unless a list of numbers.
 std::vector<double> numbersAt(const FactSheet::Json& list) {
   std::vector<double> numbers;
   if (!list.is_array()) return numbers;

@@ -1,4 +1,4 @@
-// toolkit/report/report_plots.h: the plots of one case, from its record.
+// toolkit/report/report_plots.h: plots of one case from its record.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ namespace softscope {
 
 using CaptionedFigure = std::pair<VectorDrawing, std::string>;
 
-/// Which frames were fused, skipped, lost; of no frame where the record says nothing.
+/// Fused, skipped and lost frames; empty if unknown.
 OutcomeStripData outcomeStrip(const CaseFrames& frames);
 
-/// Error over the judged moments; none for a pair, a single moment, or a record without frames.
+/// Error over the evaluated frames; none for a pair, a single frame, or a record without frames.
 std::optional<CaptionedFigure> seriesFigure(const ReportCase& c);
 
-/// How the distances are spread; none where the record has no histogram.
+/// Histogram of distances; none without a histogram in the record.
 std::optional<CaptionedFigure> histogramFigure(const ReportCase& c);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/report/report_privacy.cpp: known paths by their role, others by their looks.
+// toolkit/report/report_privacy.cpp: known paths by their role, others by pattern.
 #include "toolkit/report/report_privacy.h"
 
 #include <cctype>
@@ -13,8 +13,8 @@ using Json = FactSheet::Json;
 
 bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-/// Where `what` stands alone; a plain word ("run") only where a colon or slash shows that it is a
-/// path.
+/// Replaces `what` as a separate word; a plain word ("run")
+/// only before a colon or slash, where it is a path.
 void replaceInput(const std::string& what, const std::string& role, std::string& text) {
   if (what.empty()) return;
   const bool plain = what.find_first_of("/\\.") == std::string::npos;

@@ -1,4 +1,4 @@
-// toolkit/report/report_privacy.h: what files say of people and machines stays out of a report.
+// toolkit/report/report_privacy.h: removal of personal data and paths from a report.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace softscope {
 
-/// The text without the record's inputs ("the run", "the reference", "the model" stand instead) and
-/// without anything else that looks like a path or a file ("[file]").
+/// Text in which "the run", "the reference" and "the model" replace
+/// the inputs of the record, and "[file]" any other path or file.
 std::string withoutPaths(std::string text, const FactSheet::Json& record);
 
-/// The record with every text treated so, and without `inputs`.
+/// Applied to every text of the record; `inputs` is removed.
 FactSheet::Json withoutPaths(const FactSheet::Json& record);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/report/report_sections.cpp: wording by kind of comparison.
+// toolkit/report/report_sections.cpp: texts by kind of comparison.
 #include "toolkit/report/report_sections.h"
 
 #include <cmath>
@@ -104,7 +104,7 @@ ReportTable scoresTable(const ReportCase& c) {
   return table;
 }
 
-/// How many frames the numbers stand on, before any number; none for a pair.
+/// Number of frames, before any metric; none for a pair.
 void addFrames(const ReportCase& c, std::vector<ReportPart>& parts) {
   const double all = numberAt(c.record, "outcomes.frames");
   const auto count = [&](const char* outcome) {
@@ -133,7 +133,7 @@ ReportParagraph headline(const ReportCase& c) {
   return {text, /*important=*/true};
 }
 
-/// The share of the model within the distance asked for that is nearest to 1 mm.
+/// Share of the model within the requested distance nearest to 1 mm.
 std::optional<ReportTile> withinTile(const ReportCase& c) {
   if (!c.record.contains("scores") || !c.record["scores"].is_array()) return std::nullopt;
   double best_mm = Statistics::kNone, precision = Statistics::kNone;

@@ -1,5 +1,5 @@
-// toolkit/report/report_sections.h: one case in words, tables and plots, in the order in which it
-// is read.
+// toolkit/report/report_sections.h: texts, tables
+// and plots of one case, in reading order.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 namespace softscope {
 
 struct ReportChoices {
-  bool with_paths = false;  // else files and folders stay out
+  bool with_paths = false;  // else files and folders are removed
   std::uint64_t seed = 1;   // of resampling
-  std::string checklist;    // of a reporting guideline; empty: none
+  std::string checklist;    // reporting guideline; empty: none
 };
 
-/// What was compared and how it was aligned, as rows of a table.
+/// Compared items and their alignment, as a table.
 ReportTable comparedTable(const ReportCase& c, const ReportChoices& choices);
-/// The sentence, the large numbers, the tables; what the numbers rest on.
+/// Summary sentence, main numbers, tables and number of frames.
 std::vector<ReportPart> resultParts(const ReportCase& c);
-/// Mean, SD and so on of every part that was measured.
+/// Mean, SD and other statistics of every measured part.
 ReportTable distancesTable(const ReportCase& c, const std::string& caption);
 /// Error over time, histogram.
 std::vector<ReportPart> plotParts(const ReportCase& c);
-/// What the numbers don't say.
+/// Limits of the metrics.
 ReportList limitsList(const ReportCase& c, const ReportChoices& choices);
-/// Definitions of what is in the tables.
+/// Definitions of the metrics in the tables.
 ReportList methodsList(const ReportCase& c);
-/// Program, settings, hashes.
+/// Program, settings and hashes.
 ReportTable provenanceTable(const ReportCase& c, const ReportChoices& choices);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/report/report_truthless.cpp: resemblance and steadiness, which are not accuracy.
+// toolkit/report/report_truthless.cpp: similarity and stability, which are not accuracy.
 #include "toolkit/report/report_truthless.h"
 
 #include <cmath>
@@ -49,7 +49,7 @@ ReportTable pathTable(const ReportCase& c) {
                      {"jitter, rms of second differences [mm]", "camera.jitter_rms_mm"}});
 }
 
-/// "surface errors; errors of material points": what stands before each colon of `missing`.
+/// "surface errors; errors of material points": the text before each colon of `missing`.
 std::string missingText(const ReportCase& c) {
   std::string text;
   if (!c.record.contains("missing") || !c.record["missing"].is_array()) return text;

@@ -1,4 +1,4 @@
-// toolkit/report/report_truthless.h: what a report says of a run without ground truth.
+// toolkit/report/report_truthless.h: report of a run without ground truth.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace softscope {
 
-/// Which moment drawn_view.png shows, how much the model covers, how old it is.
+/// Caption of drawn_view.png: frame, completeness and age of the model.
 std::string drawnViewCaption(const ReportCase& c);
-/// That nothing is known of the distance from the tissue; then what is known.
+/// States that the distance to the tissue is unknown, then the known values.
 ReportParagraph truthlessHeadline(const ReportCase& c);
-/// The same in a few words.
+/// Short form of the headline.
 std::string truthlessSummary(const ReportCase& c);
 ReportTiles truthlessTiles(const ReportCase& c);
-/// The drawn view, back-projection, the scope's path; those that weren't measured are left out.
+/// Rendered view, back-projection and camera path, without missing values.
 std::vector<ReportTable> truthlessTables(const ReportCase& c);
-/// PSNR, SSIM, back-projection and the scope's steps over time.
+/// PSNR, SSIM, back-projection and camera steps over time.
 std::vector<CaptionedFigure> truthlessFigures(const ReportCase& c);
 std::vector<std::string> truthlessLimits(const ReportCase& c);
 std::vector<std::string> truthlessMethods();

@@ -1,4 +1,4 @@
-// toolkit/report/report_words.cpp: the same digits everywhere.
+// toolkit/report/report_words.cpp: common number format.
 #include "toolkit/report/report_words.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace softscope {
 namespace {
 
 const char* const kDash = "\xE2\x80\x93";
-constexpr double kThreeDecimals = 0.0005;  // smaller values round to 0 in three decimals
+constexpr double kThreeDecimals = 0.0005;  // smaller values would be 0 in three decimals
 
 std::string countText(double count) {
   return std::isfinite(count) ? std::to_string(std::llround(count)) : kDash;
@@ -25,7 +25,7 @@ const char* const kBackProjectionMeaning =
 std::string numberText(double value) {
   if (!std::isfinite(value)) return kDash;
   const double size = std::abs(value);
-  if (size > 1e-9 && size < kThreeDecimals)  // else a drift of micrometres would be 0.000
+  if (size > 1e-9 && size < kThreeDecimals)  // else a drift of micrometres would appear as 0.000
     return fixed(value, 1 - static_cast<int>(std::floor(std::log10(size))));
   return fixed(value + 0.0, size < 1 ? 3 : size < 100 ? 2 : 1);
 }

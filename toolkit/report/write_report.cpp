@@ -1,4 +1,4 @@
-// toolkit/report/write_report.cpp: cases in, files out.
+// toolkit/report/write_report.cpp: report of cases as files.
 #include "toolkit/report/write_report.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::vector<ReportCase> readCases(const ReportOptions& options) {
   return cases;
 }
 
-/// Throws where a file would hold something else than its name says.
+/// Throws for a file extension that contradicts the content.
 void requireEnding(const std::filesystem::path& file, const char* option,
                    const std::vector<std::string>& endings, const char* content) {
   const std::string found = lowerCase(file.extension().string());

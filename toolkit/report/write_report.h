@@ -1,4 +1,4 @@
-// toolkit/report/write_report.h: folders of evaluations and comparisons to a page.
+// toolkit/report/write_report.h: page from folders of evaluations and comparisons.
 #pragma once
 
 #include <filesystem>
@@ -10,23 +10,23 @@
 namespace softscope {
 
 struct ReportOptions {
-  std::vector<std::string> cases;   // folders that an evaluation or a comparison wrote
-  std::vector<std::string> versus;  // another method's result of each case; empty: none
-  std::vector<std::string> names;   // of each case; empty: numbered
+  std::vector<std::string> cases;   // folders written by an evaluation or comparison
+  std::vector<std::string> versus;  // results of another method, one per case; empty: none
+  std::vector<std::string> names;   // one per case; empty: numbered
   std::string title;
-  double limit_mm = 0;  // where the colours end; 0: a round number above the largest P95
-  int seed = 1;         // of resampling for confidence intervals
+  double limit_mm = 0;  // end of the colour range; 0: a round number above the largest P95
+  int seed = 1;         // of the bootstrap
   bool with_paths = false;
   std::string checklist;  // claim, stard-ai; empty: none
   std::vector<Threshold> thresholds;
-  std::filesystem::path html, pdf;  // files; `pdf` may be empty
+  std::filesystem::path html, pdf;  // output files; `pdf` may be empty
   bool overwrite = false;
 
   /// Throws OptionError.
   void validate() const;
 };
 
-/// Both files appear, or neither. Throws OptionError and InputError.
+/// Both files are written, or neither. Throws OptionError and InputError.
 ReportDocument writeReport(const ReportOptions& options);
 
 }  // namespace softscope

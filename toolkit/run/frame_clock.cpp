@@ -1,4 +1,4 @@
-// toolkit/run/frame_clock.cpp: rising, and not the frames' own numbers.
+// toolkit/run/frame_clock.cpp: comparison of times with frame numbers.
 #include "toolkit/run/frame_clock.h"
 
 #include <cmath>

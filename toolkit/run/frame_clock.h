@@ -1,4 +1,4 @@
-// toolkit/run/frame_clock.h: whether the times of frames are times.
+// toolkit/run/frame_clock.h: validity of frame times.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// A clip without timestamps counts frames as seconds: then a time says nothing. False as well
-/// where times are missing or don't rise. Throws Error where the lengths differ.
+/// False if the times are frame numbers (clip without timestamps),
+/// missing or not ascending. Throws Error for different lengths.
 bool hasClock(const std::vector<int>& frames, const std::vector<double>& times_s);
 bool hasClock(const std::vector<int>& frames, const Trajectory& trajectory);
 

@@ -1,4 +1,4 @@
-// toolkit/run/model_surface.h: triangles between the points of a reconstructed model.
+// toolkit/run/model_surface.h: triangulation of a reconstructed model.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -6,9 +6,9 @@
 
 namespace softscope {
 
-/// All points of the model in their order, with colours where it has them, and the triangles of
-/// surfaceFromPoints() between them; without triangles where the points have no normals or make no
-/// surface. Vertices that no triangle uses are outliers.
+/// All points of the model in their order, with available colours, and the
+/// triangles of surfaceFromPoints(); no triangles for points without
+/// normals or without a surface. Vertices without a triangle are outliers.
 TriangleMesh modelSurface(const ModelFile& file);
 
 }  // namespace softscope

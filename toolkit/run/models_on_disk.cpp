@@ -1,4 +1,4 @@
-// toolkit/run/models_on_disk.cpp: headers of PLY files, and tables where these say nothing.
+// toolkit/run/models_on_disk.cpp: headers of PLY files, with tables as fallback.
 #include "toolkit/run/models_on_disk.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kHeadBytes = 2048;
 
-/// Numbers after a comment's name; empty where one of them is none.
+/// Numbers after the name of a comment; empty if one is invalid.
 std::vector<double> numbersAfter(std::string_view line, std::string_view name) {
   std::vector<double> numbers;
   const std::string begin = "comment " + std::string(name) + " ";
@@ -53,7 +53,7 @@ void readCamera(const std::vector<double>& n, ModelOnDisk& model) {
   model.left = {int(n[0]), int(n[1]), n[2], n[3], n[4], n[5]};
 }
 
-/// The rig that run.json tells, for models that don't.
+/// Rig of run.json, for models without one.
 PinholeCamera readRecordedCamera(const fs::path& run) {
   if (!runHasEnded(run)) return {};
   const auto json = nlohmann::json::parse(readBytes(run / "run.json"), nullptr, false);
@@ -63,13 +63,13 @@ PinholeCamera readRecordedCamera(const fs::path& run) {
     return {rig.at("width_px"), rig.at("height_px"),       focal_px,
             focal_px,           rig.at("centre_px").at(0), rig.at("centre_px").at(1)};
   } catch (const nlohmann::json::exception&) {
-    return {};  // a record of another version: then there is no frustum
+    return {};  // a record of another version: no frustum
   }
 }
 
 bool hasTables(const fs::path& run) { return fs::exists(run / "trajectory.txt"); }
 
-/// For models whose headers say nothing.
+/// For models without these header entries.
 void addFromTables(const fs::path& run, std::vector<ModelOnDisk>& models) {
   const auto silent = [](const ModelOnDisk& model) { return !model.world_from_left; };
   if (std::none_of(models.begin(), models.end(), silent) || !hasTables(run)) return;

@@ -1,5 +1,5 @@
-// toolkit/run/models_on_disk.h: the models that a run has saved so far, without reading their
-// points.
+// toolkit/run/models_on_disk.h: saved
+// models of a run, without their points.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,29 +14,29 @@ namespace softscope {
 struct ModelOnDisk {
   int frame = 0;
   std::filesystem::path file;
-  double time_s = 0;  // equals `frame` where the run has no clock
+  double time_s = 0;  // equals `frame` for a run without timestamps
   std::optional<Eigen::Isometry3d> world_from_left;
-  PinholeCamera left;  // width_px 0: the file doesn't say it
+  PinholeCamera left;  // width_px 0: unknown
 };
 
-/// What the header of a model tells of its moment (docs/formats.md); models of earlier versions
-/// don't. Throws InputError where the file can't be read.
+/// Frame data in the header of a model (docs/formats.md); missing in
+/// models of earlier versions. Throws InputError for an unreadable file.
 ModelOnDisk readModelHead(int frame, const std::filesystem::path& file);
 
-/// Every models/NNNNNN.ply in the order of frames, else model.ply alone; `known` ones are taken as
-/// they are. What a header doesn't say, trajectory.txt, frames.csv and run.json do where they are
-/// there. Empty where there is no model yet. Throws InputError.
+/// Every models/NNNNNN.ply in the order of frames, else model.ply only; `known` models
+/// are not read again. Missing header entries are taken from trajectory.txt, frames.csv
+/// and run.json if present. Empty for a run without a model. Throws InputError.
 std::vector<ModelOnDisk> findModelsOnDisk(const std::filesystem::path& run,
                                           const std::vector<ModelOnDisk>& known);
 
-/// Whether the run has ended: then its record is there.
+/// True for a finished run: its record exists.
 bool runHasEnded(const std::filesystem::path& run);
 
-/// Whether its writer is gone without having ended it: killed, or its machine went down.
+/// True if the writing process ended without finishing the run.
 bool runHasStopped(const std::filesystem::path& run);
 
-/// Every place of the scope that the run's tables tell, with its frame; empty while they aren't
-/// there.
+/// Camera positions in the tables of the run,
+/// with their frames; empty without tables.
 std::vector<std::pair<int, Eigen::Vector3f>> readScopePath(const std::filesystem::path& run);
 
 }  // namespace softscope

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Without links and dots; of what isn't there yet, as far as it is.
+/// Without links and dots; for a missing path, of its existing part.
 fs::path settled(const fs::path& path) {
   std::error_code problem;
   const fs::path found = fs::weakly_canonical(fs::absolute(path), problem);

@@ -1,4 +1,4 @@
-// toolkit/run/out_folder.h: results apart from what they are made of.
+// toolkit/run/out_folder.h: separation of results from their inputs.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace softscope {
 
-/// Throws OptionError where `out` is, or lies in, a folder of images, masks or depth of the
-/// sequence: results among them would be read as its frames.
+/// Throws OptionError if `out` is, or is inside, a folder of images,
+/// masks or depth of the sequence: results would be read as frames.
 void requireApart(const std::filesystem::path& out, const SequencePaths& sequence);
 
-/// The same, and where `out` is the sequence's own folder, whose files would be replaced.
+/// Also throws if `out` is the folder of the sequence itself, whose files would be replaced.
 void requireOutside(const std::filesystem::path& out, const SequencePaths& sequence);
 
 }  // namespace softscope

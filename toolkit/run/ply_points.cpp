@@ -1,4 +1,4 @@
-// toolkit/run/ply_points.cpp: header by src/mesh, coordinates straight from the bytes.
+// toolkit/run/ply_points.cpp: header parsed by src/mesh, coordinates read from the bytes.
 #include "toolkit/run/ply_points.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ const PlyElement* elementNamed(const PlyHeader& header, const char* name) {
   return nullptr;
 }
 
-/// x, y or z of one binary point.
+/// One coordinate of a binary point.
 double valueAt(const char* bytes, PlyType type, bool little_endian, const std::string& name) {
   char ordered[8];
   const auto size = std::size_t(sizeOf(type));
@@ -35,7 +35,7 @@ double valueAt(const char* bytes, PlyType type, bool little_endian, const std::s
   return value;
 }
 
-constexpr double kFarthestPointMm = 1e7;  // as in a surface
+constexpr double kFarthestPointMm = 1e7;  // the same limit as for surfaces
 
 void add(const Eigen::Vector3d& point, PlyPoints& points) {
   if (point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestPointMm)

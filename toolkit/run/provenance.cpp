@@ -1,4 +1,4 @@
-// toolkit/run/provenance.cpp: sizes, lengths, hashes.
+// toolkit/run/provenance.cpp: comparison of sizes, lengths and hashes.
 #include "toolkit/run/provenance.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
 
-constexpr double kSameLength = 0.01;  // rectification moves a focal length by less
+constexpr double kSameLength = 0.01;  // rectification changes a focal length by less
 
 Json readRecord(const fs::path& file) {
   const Json record = Json::parse(readBytes(file, kTextLimitBytes), nullptr, false);
@@ -26,7 +26,7 @@ Json readRecord(const fs::path& file) {
   return record;
 }
 
-/// A number that may lack, or be something else in a record of another version.
+/// NaN if absent or of another type, as in records of other versions.
 double numberAt(const Json& record, const char* path) {
   const Json::json_pointer place(path);
   if (!record.contains(place) || !record.at(place).is_number()) return std::nan("");
@@ -47,14 +47,14 @@ void requireSameSize(const Json& record, const PinholeCamera& left, const fs::pa
                        "; a run of another sequence?"));
 }
 
-/// Empty where the images are the recorded ones, or either isn't known.
+/// Empty if the images are the recorded ones, or either is unknown.
 std::string pictureWarning(const Json& record, const SequenceTruth& truth) {
   const Json::json_pointer place("/inputs/left/sha256");
   if (!record.contains(place) || !record.at(place).is_string()) return {};
   SequencePaths paths;
   try {
     paths = findSequence(truth.folder);
-  } catch (const InputError&) {  // truth without images is enough to judge by
+  } catch (const InputError&) {  // ground truth without images is sufficient
     return {};
   }
   if (paths.left.empty() || sha256Of(paths.left) == record.at(place).get<std::string>()) return {};

@@ -1,4 +1,4 @@
-// toolkit/run/provenance.h: check that a run was made from the given sequence.
+// toolkit/run/provenance.h: check that a run belongs to a sequence.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// By what run.json says of the cameras and images; a run without one passes. Returns a line for
-/// what may be meant that way: another focal length or baseline, other images. Throws InputError
-/// where run.json is broken or its images have another size.
+/// Compares cameras and images with run.json; passes without one. Returns
+/// warnings about another focal length or baseline, or other images, which may
+/// be intended. Throws InputError for a damaged run.json or another image size.
 std::vector<std::string> checkOrigin(const JudgedRun& run, const SequenceTruth& truth);
 
 }  // namespace softscope

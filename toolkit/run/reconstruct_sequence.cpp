@@ -1,4 +1,4 @@
-// toolkit/run/reconstruct_sequence.cpp: frame by frame, with checkpoints.
+// toolkit/run/reconstruct_sequence.cpp: loop over the frames, with checkpoints.
 #include "toolkit/run/reconstruct_sequence.h"
 
 #include <optional>
@@ -25,9 +25,9 @@ namespace {
 
 using Json = FactSheet::Json;
 
-constexpr const char* kOutcomes = "outcomes";  // where a bare metric is looked for
+constexpr const char* kOutcomes = "outcomes";  // part of the record for metrics without path
 
-/// Whether images that the run began with are there no longer.
+/// True if images of the run were deleted.
 bool isGone(const SequencePaths& sequence) {
   for (const std::filesystem::path& view :
        {sequence.left, sequence.right, sequence.stereo, sequence.depth})
@@ -35,7 +35,7 @@ bool isGone(const SequencePaths& sequence) {
   return false;
 }
 
-/// Everything that decides the result; a run goes on only with the same.
+/// Hash of all inputs and settings that determine the result; a resumed run must have the same.
 std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& settings,
                      const std::filesystem::path& tracks, const FrameRange& frames) {
   std::string all;
@@ -79,12 +79,12 @@ class SequenceRun {
 
   ReconstructOptions options_;
   const WorkListener& listener_;
-  RepeatedWarnings rejections_;  // of frames, by status
+  RepeatedWarnings rejections_;  // of rejected frames, by status
   bool interrupted_ = false, all_done_ = false, input_gone_ = false;
-  std::string failure_;  // of the back end in the middle of the run
+  std::string failure_;  // failure of the back end during the run
 };
 
-/// The state to go on from; nothing for a run that starts. Throws OptionError.
+/// State of an interrupted run; none for a new run. Throws OptionError.
 std::optional<Checkpoint> SequenceRun::earlierState(const RunFolder& folder,
                                                     const std::string& settings) const {
   if (!options_.resume) return std::nullopt;
@@ -110,7 +110,7 @@ std::unique_ptr<ReconstructionBackend> SequenceRun::backendOf(
   return std::move(chosen.part);
 }
 
-/// Where no frame is left, the run was stopped between its last one and its record.
+/// No frame remains if the run was interrupted between its last frame and its record.
 void SequenceRun::skipDone(const Checkpoint& earlier) {
   SequenceOptions& sequence = options_.settings.sequence;
   FrameRange done = sequence.frames;
@@ -141,14 +141,14 @@ ReconstructedRun SequenceRun::run() {
   if (earlier) skipDone(*earlier);
 
   SequenceReader reader(options_.sequence, sequence);
-  FrameWindow frames(reader);  // outlives the back end, which looks ahead in it
+  FrameWindow frames(reader);  // declared before the back end, which reads ahead in it
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
   Reconstructor reconstructor(backendOf(reader.calibration()), method);
   reconstructor.track(tracked);
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
   if (sequence.frames.hold_out_every > 0) record.set(kHoldOutKey, sequence.frames.hold_out_every);
-  checkThresholds(options_.thresholds, record.json(), kOutcomes);  // before the work
+  checkThresholds(options_.thresholds, record.json(), kOutcomes);  // reports errors before the work
   if (earlier) {
     folder.takeOver(earlier->next_frame);
     reconstructor.restore(earlier->state);
@@ -202,7 +202,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     listener_.warn("interrupted: what is finished stays; `resume=` goes on");
   if (reconstructor.backend().empty()) return;
   if (!interrupted_) folder.saveLastModel(reconstructor.model());
-  folder.flush({digest, next_frame, reconstructor.state()});  // resumable until run.json is there
+  folder.flush({digest, next_frame, reconstructor.state()});  // resumable until run.json is written
 }
 
 ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord& record) const {

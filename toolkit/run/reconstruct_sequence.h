@@ -1,4 +1,4 @@
-// toolkit/run/reconstruct_sequence.h: a stereo sequence to a run folder.
+// toolkit/run/reconstruct_sequence.h: run folder from a stereo sequence.
 #pragma once
 
 #include <filesystem>
@@ -16,16 +16,16 @@ namespace softscope {
 
 struct ReconstructOptions {
   SequencePaths sequence;
-  std::string name;  // of the sequence in messages
+  std::string name;  // name of the sequence in messages
   RunOptions settings;
   std::string backend = "auto";       // or cpu, cuda
-  std::filesystem::path tracks;       // CSV id,u_px,v_px of the first left image; empty: none
+  std::filesystem::path tracks;       // CSV id,u_px,v_px in the first left image; empty: none
   std::filesystem::path out;          // folder of the run
-  int save_every = 10;                // frames between saved models; 0: only the last
-  int checkpoint_every = 100;         // frames after which all files are brought up to date
-  bool resume = false;                // go on with an interrupted run
+  int save_every = 10;                // frames between saved models; 0: only the last model
+  int checkpoint_every = 100;         // frames between updates of all files
+  bool resume = false;                // continue an interrupted run
   bool overwrite = false;             // replace an earlier run
-  std::vector<Threshold> thresholds;  // of run.json; a bare metric is one of `outcomes`
+  std::vector<Threshold> thresholds;  // on run.json; metrics without a path are those of `outcomes`
   RecordPaths paths;
 
   /// Throws OptionError.
@@ -33,15 +33,15 @@ struct ReconstructOptions {
 };
 
 struct ReconstructedRun {
-  FactSheet::Json record;  // of run.json
-  FactSheet facts{""};     // for people
+  FactSheet::Json record;  // content of run.json
+  FactSheet facts{""};     // summary as text
   std::vector<ThresholdOutcome> outcomes;
   bool interrupted = false;
 };
 
-/// `listener.progress` counts frames; a stopped run can be resumed. Frames that are not fused are
-/// warnings. Throws OptionError; InputError where not one frame could be used, or the sequence was
-/// removed meanwhile; BackendError.
+/// `listener.progress` counts frames; a stopped run can be resumed. Frames
+/// that are not fused cause warnings. Throws OptionError; InputError if no
+/// frame was usable, or the sequence was deleted during the run; BackendError.
 ReconstructedRun reconstructSequence(ReconstructOptions options, const WorkListener& listener = {});
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/run/repeated_warnings.cpp: counting by kind.
+// toolkit/run/repeated_warnings.cpp: counts by kind.
 #include "toolkit/run/repeated_warnings.h"
 
 namespace softscope {

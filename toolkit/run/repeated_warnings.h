@@ -1,4 +1,4 @@
-// toolkit/run/repeated_warnings.h: warnings of many frames, one line per kind and its count.
+// toolkit/run/repeated_warnings.h: one line with a count per kind of warning.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,16 @@ class RepeatedWarnings {
   explicit RepeatedWarnings(std::function<void(const std::string&)> tell)
       : tell_(std::move(tell)) {}
 
-  /// Tells the first warning of a kind at once: "frame 4: TEXT"; counts the others.
+  /// Reports the first warning of a kind immediately: "frame 4: TEXT"; counts the others.
   void add(const std::string& kind, int frame, const std::string& text);
 
-  /// A line per kind that came again: how often, and in which frames. `where` says what lists them
-  /// all.
+  /// One line per repeated kind: count and
+  /// frames. `where`: file with the full list.
   void conclude(const std::string& where);
 
  private:
   struct Repeated {
-    int count = 0, second = 0, last = 0;  // the frames that were not told
+    int count = 0, second = 0, last = 0;  // frames that were not reported
   };
 
   std::function<void(const std::string&)> tell_;

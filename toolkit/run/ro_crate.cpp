@@ -24,7 +24,7 @@ const CrateFile kCrateFiles[] = {
     {"tracks.csv", "text/csv", "paths of the tracked points, mm"},
     {kRecordFile, "application/json", "version, configuration, input hashes, timings, summary"}};
 
-/// The record is written last: it says that all else is there.
+/// The record is written last, when all other files exist.
 bool isInFolder(const std::filesystem::path& folder, const CrateFile& file) {
   return std::string(file.name) == kRecordFile || isThere(folder / file.name);
 }

@@ -1,4 +1,4 @@
-// toolkit/run/ro_crate.h: a run folder described for data repositories.
+// toolkit/run/ro_crate.h: metadata of a run folder for data repositories.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@ namespace softscope {
 inline constexpr const char* kRecordFile = "run.json";
 inline constexpr const char* kCrateFile = "ro-crate-metadata.json";
 
-/// RO-Crate 1.1 (JSON-LD): the folder, each file that is in it with its form and meaning, the
-/// program with its version and the action that made them. `record`: of run.json as it will be
-/// written, after this, so that nothing is named here that it leaves out. `date`: ISO 8601, of the
-/// run.
+/// RO-Crate 1.1 (JSON-LD): the folder, each of its files with
+/// format and meaning, the program with its version, and the action
+/// that made them. `record`: of run.json, which is written later;
+/// no other names are used here. `date`: ISO 8601, of the run.
 FactSheet::Json roCrate(const std::filesystem::path& folder, const FactSheet::Json& record,
                         const std::string& date);
 

@@ -1,4 +1,4 @@
-// toolkit/run/run_folder.h: writer of the folder of `softscope reconstruct`.
+// toolkit/run/run_folder.h: writer of the output folder of `softscope reconstruct`.
 #pragma once
 
 #include <filesystem>
@@ -18,53 +18,53 @@
 
 namespace softscope {
 
-/// Held by the process that writes the run, gone when the run has ended.
+/// Locked by the writing process, removed at the end of the run.
 inline constexpr const char* kRunLock = "writing.lock";
 
 struct RunFolderOptions {
   std::filesystem::path folder;
   int save_every = 10;  // frames between models/NNNNNN.ply; 0: none
-  FrameRange frames;    // those that are reconstructed
+  FrameRange frames;    // reconstructed frames
   bool tracks = false;
   bool overwrite = false;
 };
 
-/// Tables and models of one run. Files appear whole; flush() brings all of them up to date, so that
-/// what was computed survives whatever comes next.
+/// Tables and models of one run. Files are written atomically; flush()
+/// updates all of them, so that the results survive a later failure.
 class RunFolder {
  public:
-  /// Throws OptionError where the folder can't be used: a file, a run that is being written, or an
-  /// earlier run and no --force.
-  /// What an earlier run left is removed with the first flush() or model.
+  /// Throws OptionError for an unusable folder: a file, a run
+  /// in progress, or an earlier run without --force. The first
+  /// flush() or model removes the files of an earlier run.
   RunFolder(RunFolderOptions options, bool resume);
 
-  /// The state that an interrupted run left; nothing where there is none. Throws InputError.
+  /// State of an interrupted run; none if absent. Throws InputError.
   std::optional<Checkpoint> readCheckpoint() const;
-  /// Whether the process that wrote the run died: its lock file exists, and no process holds it.
+  /// True if the lock file exists without a lock: the writing process was killed.
   bool wasKilled() const;
-  /// Takes over the tables of the frames before `next_frame`.
+  /// Keeps the rows of frames before `next_frame`.
   void takeOver(int next_frame);
-  /// What takeOver() found in frames.csv, as readFramesCsvLine() has it.
+  /// Kept rows of frames.csv, as parsed by readFramesCsvLine().
   std::vector<FrameRecord> earlierFrames() const;
 
-  /// `names` without a left one: the images came from no files.
+  /// `names` without a left name: images not from files.
   void add(const FrameRecord& record, const FrameNames& names = {});
-  /// Whether it is this frame's turn to have its model saved, or the next one is held out and will
-  /// be compared with it.
+  /// True if the model of this frame is saved: by its number, or
+  /// because the next frame is held out and compared with it.
   bool savesModel(int frame) const {
     return options_.frames.holdsOut(frame + 1) ||
            (options_.save_every > 0 && frame / options_.frames.step % options_.save_every == 0);
   }
-  /// Which camera models say that they were seen by.
+  /// Camera written into the header of models.
   void tellCamera(const PinholeCamera& left) { left_ = left; }
-  /// models/NNNNNN.ply, which says its moment, and .vtp; nodes/NNNNNN.csv. Of the frame that was
-  /// added last.
+  /// models/NNNNNN.ply with its frame data, and .vtp;
+  /// nodes/NNNNNN.csv. For the frame added last.
   void saveModel(int frame, double time_s, const ModelState& state);
   void flush(const CheckpointView& checkpoint);
-  /// Of the last frame, where it wasn't its turn.
+  /// Saves the model of the last frame unless saved before.
   void saveLastModel(const ModelState& state);
-  /// What data repositories read of the folder, then run.json. `complete`: nothing is left to
-  /// resume, so the checkpoint goes.
+  /// Writes the metadata for repositories, then
+  /// run.json. `complete`: the checkpoint is removed.
   void writeRecord(const FactSheet::Json& record, bool complete);
 
  private:
@@ -79,7 +79,7 @@ class RunFolder {
 
   RunFolderOptions options_;
   bool begun_ = false;
-  int last_frame_ = -1;  // that was added
+  int last_frame_ = -1;  // frame added last
   std::string frames_csv_, tracks_csv_, images_csv_;
   Trajectory trajectory_;
   PinholeCamera left_;
@@ -87,7 +87,7 @@ class RunFolder {
   std::optional<FileLock> lock_;
 };
 
-/// The model as a point cloud with weights, world frame, in the light of the last fused image.
+/// Point cloud with weights, in the world frame, in the illumination of the last fused image.
 PointCloud cloudOf(const ModelState& state);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/run/run_reader.cpp: looks for files, checks that they belong together.
+// toolkit/run/run_reader.cpp: search of files and consistency checks.
 #include "toolkit/run/run_reader.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ FrameRows frameRows(const fs::path& file, std::size_t poses) {
   return rows;
 }
 
-/// The model of the first frame is that frame's depth.
+/// The model of the first frame is the depth of that frame.
 bool measuresBackProjection(const FrameRows& rows, std::size_t k) {
   return rows.statuses.empty() || (outcomeOf(rows.statuses[k]) == FusionOutcome::kFused &&
                                    rows.statuses[k] != FrameStatus::kStarted);

@@ -1,4 +1,4 @@
-// toolkit/run/run_reader.h: reader of a run and of its ground truth.
+// toolkit/run/run_reader.h: reader of a run and its ground truth.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,71 +16,71 @@ namespace softscope {
 
 using FrameFiles = std::map<int, std::filesystem::path>;
 
-/// NNNNNN.ext by number; names of other forms are left out. Empty where the folder is missing.
+/// Files NNNNNN.ext by number; others are ignored. Empty for a missing folder.
 FrameFiles numberedFiles(const std::filesystem::path& folder, std::string_view extension);
 
-/// A folder that `reconstruct` wrote (docs/formats.md).
+/// Folder written by `reconstruct` (docs/formats.md).
 struct JudgedRun {
   std::filesystem::path folder;
   Trajectory trajectory;                    // world_from_left
-  std::vector<int> frames;                  // the frame of each pose, rising
+  std::vector<int> frames;                  // frame of each pose, ascending
   FrameOutcomes outcomes;                   // of frames.csv
-  std::map<int, double> backprojection_mm;  // of frames that were fused into the model, not the
-                                            // first one, whose value is zero by construction
-  std::map<int, double> coverage;           // share of the tissue that has depth, of all frames
-  std::map<int, double> confidence;         // of pose and warp, as the run says
+  std::map<int, double> backprojection_mm;  // of fused frames, without the first one,
+                                            // whose value is zero by construction
+  std::map<int, double> coverage;           // share of tissue with depth, of all frames
+  std::map<int, double> confidence;         // of pose and warp, as reported by the run
   FrameFiles models;                        // models/NNNNNN.ply
-  int hold_out_every = 0;                   // frames 1, n + 1, … were held out; 0: none
-  bool stopped = false;                     // before its end: the clip's last frames lack
-  std::filesystem::path last_model;         // model.ply; empty where it is missing
-  std::filesystem::path tracks;             // tracks.csv; empty where it is missing
+  int hold_out_every = 0;                   // frames 1, n + 1, … are held out; 0: none
+  bool stopped = false;                     // before the end of the clip
+  std::filesystem::path last_model;         // model.ply; empty if missing
+  std::filesystem::path tracks;             // tracks.csv; empty if missing
 
-  /// Warning for readers of its numbers; empty for a run that reached its end.
+  /// Warning about an unfinished run; else empty.
   std::vector<std::string> warnings() const;
-  /// NaN where the frame has no pose, and for all frames of a clip without timestamps.
+  /// NaN for a frame without a pose, and for clips without timestamps.
   double timeOf(int frame) const;
-  /// Whether the frame's pose, model and tracks say something of it: it was fused.
+  /// True if pose, model and tracks describe the frame: it was fused.
   bool counts(int frame) const { return outcomes.fused(frame); }
-  /// Of the models, those that count.
+  /// Models of fused frames.
   FrameFiles countedModels() const;
-  /// The frame that the last model shows: the last that counts.
+  /// Frame of the last model: the last fused frame.
   int lastCounted() const;
 };
 
-/// Of run.json, what JudgedRun has; 0 where it doesn't say.
+/// Key in run.json of the member of JudgedRun; 0 if absent.
 inline constexpr const char* kHoldOutKey = "hold_out_every";
 int holdOutEvery(const std::filesystem::path& run_folder);
 
-/// Throws InputError: no such folder, no trajectory, or a table of frames that doesn't fit it.
+/// Throws InputError: no such folder, no trajectory, or an inconsistent table of frames.
 JudgedRun openJudgedRun(const std::filesystem::path& folder);
 
-/// Whether there is a folder groundtruth in it, whatever that holds.
+/// True if the folder contains a folder groundtruth.
 bool hasTruth(const std::filesystem::path& sequence);
 
-/// The ground truth of a sequence folder.
+/// Ground truth of a sequence folder.
 struct SequenceTruth {
-  std::filesystem::path folder;  // of the sequence
-  Trajectory trajectory;         // world_from_left; pose i is that of frame i
+  std::filesystem::path folder;  // sequence folder
+  Trajectory trajectory;         // world_from_left; pose i belongs to frame i
   FrameFiles meshes, depths;     // groundtruth/mesh, groundtruth/depth
-  std::filesystem::path tracks;  // groundtruth/tracks.csv; empty where it is missing
+  std::filesystem::path tracks;  // groundtruth/tracks.csv; empty if missing
   RectifiedRig rig;
   double depth_unit_mm = 0.01;
-  bool rectified = true;  // so are the images, and what is given for their pixels
+  bool rectified = true;  // whether images and pixel coordinates are rectified
 
-  /// NaN where the clip has no timestamps.
+  /// NaN for a clip without timestamps.
   double timeOf(int frame) const;
 };
 
 /// Throws InputError: no such folder, no groundtruth in it, no true trajectory, no calibration.
 SequenceTruth openSequenceTruth(const std::filesystem::path& sequence);
 
-/// Throws InputError where the run can't be one of this sequence: more frames, or models of frames
-/// that the sequence lacks.
+/// Throws InputError if the run cannot belong to this
+/// sequence: more frames, or models of other frames.
 void requireSameSequence(const JudgedRun& run, const SequenceTruth& truth);
 
-/// For every pose of the run that has a true one, what brings a point of the run's world into the
-/// true world by way of that moment's camera: a motion of the whole scene can be tissue or scope,
-/// so both are compared as the camera sees them.
+/// For every pose of the run with a true pose: transform from the world of the run
+/// into the true world through the camera of that frame. A motion of the whole
+/// scene can be due to tissue or scope, so both are compared in camera coordinates.
 std::map<int, Eigen::Isometry3d> truthFromRun(const JudgedRun& run, const SequenceTruth& truth);
 
 }  // namespace softscope

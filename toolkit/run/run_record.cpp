@@ -1,4 +1,4 @@
-// toolkit/run/run_record.cpp: inputs with their hashes, settings, frames, times.
+// toolkit/run/run_record.cpp: inputs with hashes, settings, frames and times.
 #include "toolkit/run/run_record.h"
 
 #include <cmath>
@@ -36,7 +36,7 @@ Json rigJson(const RectifiedRig& rig, bool one_camera) {
 }
 
 constexpr double kDoubtful = 0.5;   // confidence of a frame
-constexpr double kToldShare = 0.1;  // of the frames; fewer are not worth a warning
+constexpr double kToldShare = 0.1;  // smallest share of frames for a warning
 
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -132,7 +132,7 @@ Json RunRecord::json() const {
   all["mean_backprojection_mm"] = numberOrNull(meanOf(backprojection_mm_));
   all["mean_prediction_mm"] = numberOrNull(meanOf(prediction_mm_));
   all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
-  std::vector<double> ms(4, Statistics::kNone);  // a limit finds the names before the first frame
+  std::vector<double> ms(4, Statistics::kNone);  // the metrics exist before the first frame
   if (!frame_ms_.empty()) ms = percentiles(frame_ms_, {50, 95, 99, 100});
   all["frame_ms"] = {{"p50", numberOrNull(ms[0])},
                      {"p95", numberOrNull(ms[1])},

@@ -15,12 +15,12 @@
 
 namespace softscope {
 
-/// Path and SHA-256 of every part that there is. Throws InputError.
+/// Path and SHA-256 of every existing part. Throws InputError.
 FactSheet::Json inputsJson(const SequencePaths& paths, const std::filesystem::path& stereo_model);
 
 class RunRecord {
  public:
-  /// `inputs`: of inputsJson().
+  /// `inputs`: from inputsJson().
   RunRecord(const FactSheet::Json& inputs, const StereoCalibration& calibration,
             const ReconstructionBackend& backend, const std::vector<SettingInfo>& settings);
 
@@ -28,11 +28,11 @@ class RunRecord {
   void addWarning(const std::string& text) { warnings_.push_back(text); }
   void set(const std::string& key, const FactSheet::Json& value) { json_[key] = value; }
 
-  /// Warnings about the whole run: frames that were not fused, or fused with little
-  /// evidence, a static scope. In json() among the warnings.
+  /// Warnings about the whole run: frames not fused or fused
+  /// with little evidence, a static scope. Included in json().
   std::vector<std::string> conclusions() const;
   FactSheet::Json json() const;
-  /// A few lines for people.
+  /// Short summary as text.
   FactSheet text(const std::string& folder) const;
 
  private:
@@ -43,7 +43,7 @@ class RunRecord {
   FactSheet::Json warnings_ = FactSheet::Json::array();
   std::map<std::string, int> frames_of_status_;
   FrameOutcomes outcomes_;
-  std::map<std::string, double> elapsed_ms_;  // of every stage, over all frames
+  std::map<std::string, double> elapsed_ms_;  // per stage, over all frames
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
   int frames_ = 0, points_ = 0, nodes_ = 0;
   int located_ = 0, scope_static_ = 0, doubtful_ = 0;

@@ -19,7 +19,7 @@ constexpr const char* kColumns =
     "residual_before_mm,"
     "residual_mm,in_sight,seen,fused,inserted,contradicted";
 
-/// Cells of one line, separated by commas.
+/// Cells of one row, separated by commas.
 class Line {
  public:
   void add(int value) { addText(std::to_string(value)); }
@@ -43,7 +43,7 @@ class Line {
   bool begun_ = false;
 };
 
-/// Quoted, as RFC 4180 has it; one line.
+/// Quoted as in RFC 4180; one line.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -66,7 +66,7 @@ std::vector<std::string> cellsOfLine(std::string_view line) {
   return cells;
 }
 
-/// A frame's numbers are small; larger ones (and infinite) would spoil the sums of the run.
+/// Limits implausibly large and infinite values, which would distort the sums of the run.
 template <class Number>
 Number numberIn(const std::string& cell, Number otherwise, const std::string& file) {
   constexpr double kLargest = 1e12;
@@ -204,7 +204,7 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
 
 FrameRecord asTabled(const FrameRecord& record) {
   std::string line = framesCsvLine(record);
-  line.pop_back();  // its end
+  line.pop_back();  // final comma
   return readFramesCsvLine(line, "frames.csv");
 }
 

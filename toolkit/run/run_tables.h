@@ -1,4 +1,4 @@
-// toolkit/run/run_tables.h: frames.csv, images.csv and tracks.csv, line by line.
+// toolkit/run/run_tables.h: rows of frames.csv, images.csv and tracks.csv.
 #pragma once
 
 #include <string>
@@ -10,30 +10,30 @@
 
 namespace softscope {
 
-/// Headings, without the newline. What a frame doesn't have is an empty cell of frames.csv; a
-/// tracked point that was never found has nan in tracks.csv. docs/formats.md explains the columns.
+/// Headings, without the newline. Missing values are empty cells
+/// in frames.csv and nan in tracks.csv. Columns: docs/formats.md.
 std::string framesCsvHeading();
 std::string tracksCsvHeading();
 std::string imagesCsvHeading();
 
-/// One line, with its newline.
+/// One row with its newline.
 std::string framesCsvLine(const FrameRecord& record);
 
-/// Of such a line what sums over a run need: frame, status, points, nodes, inliers, mean
-/// back-projection and prediction, times. Throws InputError naming `name`.
+/// Values of a row that sums over a run need: frame, status, points, nodes, inliers,
+/// mean back-projection and prediction, times. Throws InputError with `name`.
 FrameRecord readFramesCsvLine(std::string_view line, const std::string& name);
 
-/// What frames.csv keeps of it: a run that goes on after a stop then sums the same numbers as one
-/// that was never stopped.
+/// Record rounded as in frames.csv: a resumed run
+/// has the same sums as an uninterrupted one.
 FrameRecord asTabled(const FrameRecord& record);
 
-/// Which files the frame was made of.
+/// Image files of the frame.
 std::string imagesCsvLine(int frame, const FrameNames& names);
 
-/// One line a tracked point.
+/// One row per tracked point.
 std::string tracksCsvLines(const FrameRecord& record);
 
-/// The stages that frames.csv has times of, in its order.
+/// Timed stages of frames.csv, in its order.
 const std::vector<std::string>& timedStages();
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/run/sequence_calibration.cpp: the first frame settles the size.
+// toolkit/run/sequence_calibration.cpp: image size from the first frame.
 #include "toolkit/run/sequence_calibration.h"
 
 #include "core/error.h"
@@ -12,7 +12,7 @@ StereoCalibration sequenceCalibration(const std::filesystem::path& sequence) {
   if (calibration.left.pinhole.width_px > 0) return calibration;
   try {
     return SequenceReader(sequence).calibration();
-  } catch (const InputError&) {  // truth without images
+  } catch (const InputError&) {  // ground truth without images
     return calibration;
   }
 }

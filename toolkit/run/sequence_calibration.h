@@ -1,4 +1,4 @@
-// toolkit/run/sequence_calibration.h: the calibration of a sequence folder.
+// toolkit/run/sequence_calibration.h: calibration of a sequence folder.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// With the size of the images where the file leaves it out and there are images. Throws
-/// InputError.
+/// If the file has no image size, it is
+/// taken from the images. Throws InputError.
 StereoCalibration sequenceCalibration(const std::filesystem::path& sequence);
 
 }  // namespace softscope

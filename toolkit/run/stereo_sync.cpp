@@ -13,11 +13,11 @@
 namespace softscope {
 namespace {
 
-constexpr int kFrames = 120;  // looked at: some seconds, breathing moves tissue in them
-constexpr int kMoments = 12;  // compared among these
+constexpr int kFrames = 120;  // length of the search; tissue moves by breathing within some seconds
+constexpr int kMoments = 12;  // compared times within the search
 constexpr std::size_t kReach = SynchronyMeter::kReach;
 
-/// Successive pairs; the one in the middle is compared with all right images.
+/// Consecutive pairs; the left image of the middle one is compared with all right images.
 using Window = std::deque<StereoPair>;
 
 void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter& meter) {
@@ -33,7 +33,7 @@ void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter&
 
 ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options,
                       int disparity_max_px) {
-  SequenceOptions successive = options;  // as many frames for every command and every range
+  SequenceOptions successive = options;  // the same frames for every command and range
   successive.frames.end = -1;
   successive.frames.step = 1;
   SequenceReader reader(paths, successive);

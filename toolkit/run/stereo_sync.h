@@ -8,11 +8,11 @@
 
 namespace softscope {
 
-/// Where sequence.right_offset is auto and there are two views to compare, finds it from the frames
-/// that follow the first one asked for, whatever the range's end and step are, and writes it into
-/// `options`. Returns a warning where it isn't 0, else
-/// nothing. What can't be read or matched changes nothing: the reconstruction reports it. Throws
-/// InputError as the reader does.
+/// For sequence.right_offset=auto and two views: estimates the offset
+/// from the frames after the first requested one, independent of end and
+/// step of the range, and writes it into `options`. Returns a warning if
+/// it is not 0. Unreadable or unmatched images change nothing: the
+/// reconstruction reports them. Throws InputError as the reader does.
 std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& options,
                               int disparity_max_px);
 

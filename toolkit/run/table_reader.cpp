@@ -1,4 +1,4 @@
-// toolkit/run/table_reader.cpp: CSV as RFC 4180 has it, one line a row.
+// toolkit/run/table_reader.cpp: CSV as in RFC 4180, one line per row.
 #include "toolkit/run/table_reader.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFarthestPlaceMm = 1e6;
 
-/// Commas between quotes part nothing.
+/// Commas inside quotes do not separate cells.
 std::vector<std::string_view> commaCells(std::string_view line) {
   std::vector<std::string_view> cells;
   bool quoted = false;

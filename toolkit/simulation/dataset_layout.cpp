@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSurgtTargets = 3;
-constexpr double kSurgtTargetMm = 6;  // side of the square of tissue that a box bounds
+constexpr double kSurgtTargetMm = 6;  // side of the square of tissue inside a box
 
 void requirePinhole(const std::string& name, const SimulateOptions& options) {
   require(options.simulation.scope.lens().distortion.isZero(), "`layout=`", name,
@@ -108,7 +108,7 @@ class SurgtLayout : public DatasetLayout {
     std::vector<SurgtFrame> frames;
   };
 
-  /// Spread over the tracked points.
+  /// Evenly spread over the tracked points.
   void chooseTargets(std::size_t points) {
     for (std::size_t i = 0; i < kSurgtTargets && i < points; ++i)
       targets_.push_back({points * (2 * i + 1) / (2 * kSurgtTargets), {}});

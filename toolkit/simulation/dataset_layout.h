@@ -1,4 +1,4 @@
-// toolkit/simulation/dataset_layout.h: a simulated clip in the form that a data set ships.
+// toolkit/simulation/dataset_layout.h: simulated clip in the folder layout of a data set.
 #pragma once
 
 #include <filesystem>
@@ -11,24 +11,24 @@
 
 namespace softscope {
 
-/// One clip. Each file appears whole or not at all; without finish() the destructor takes back what
-/// was written.
+/// One clip. Files are written atomically;
+/// without finish() the destructor removes them.
 class DatasetLayout {
  public:
   virtual ~DatasetLayout() = default;
-  /// Of `frames` that were asked for, as many as the form holds.
+  /// Number of frames supported by the layout, at most `frames`.
   virtual int frameCount(int frames) const { return frames; }
   virtual void addFrame(int index, const SimulatedFrame& frame, const Simulator& simulator) = 0;
-  /// For the frames that were added.
+  /// Completes the clip after the last frame.
   virtual void finish(const Simulator& simulator) = 0;
 };
 
-/// "stir2026", "surgt", "scared", …: every name of --layout.
+/// "stir2026", "surgt", "scared", …: values of --layout.
 std::vector<std::string> datasetLayoutNames();
 
-/// `folder`: of the clip (of SCARED: of the keyframe, whose images are those of the first frame).
-/// Throws OptionError for an unknown name, a folder that isn't empty, and options that the form
-/// can't hold (a lens that bends, in STIR 2026 and SurgT, whose truth lies on rectified images).
+/// `folder`: of the clip (for SCARED: of the keyframe, with the images of the first frame). Throws
+/// OptionError for an unknown name, a folder that is not empty, and options that the layout does
+/// not support (lens distortion in STIR 2026 and SurgT, whose truth is on rectified images).
 std::unique_ptr<DatasetLayout> makeDatasetLayout(const std::string& name,
                                                  const std::filesystem::path& folder,
                                                  const SimulateOptions& options);

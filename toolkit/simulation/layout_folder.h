@@ -1,5 +1,5 @@
-// toolkit/simulation/layout_folder.h: what the layouts of data sets share: their folder, points as
-// both cameras see them.
+// toolkit/simulation/layout_folder.h: common parts of all
+// layouts: output folder, projection of points into both cameras.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-/// The folder, which must be new or empty, and what is written into it; taken back without keep().
+/// New or empty output folder; its files are removed without keep().
 class LayoutFolder {
  public:
   /// Throws OptionError.
@@ -20,7 +20,7 @@ class LayoutFolder {
 
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
 
-  /// Calls `write(file)`; makes the folders of `name` first.
+  /// Calls `write(file)` after creation of the folders of `name`.
   template <class Write>
   void make(const std::string& name, const Write& write) {
     const std::filesystem::path file = folder_ / name;
@@ -38,7 +38,7 @@ class LayoutFolder {
   NewFiles files_;
 };
 
-/// A tracked point in both rectified images.
+/// Tracked point in both rectified images.
 struct SeenPoint {
   Eigen::Vector2d left_px;
   double disparity_px = 0;
@@ -46,10 +46,10 @@ struct SeenPoint {
   bool in_left = false, in_right = false;
 };
 
-/// Throws InputError where one lies behind the camera.
+/// Throws InputError for a point behind the camera.
 std::vector<SeenPoint> seenPoints(const SimulatedFrame& frame, const RectifiedRig& rig);
 
-/// Left above right.
+/// Left image above the right one.
 ColourImage stackedViews(const StereoPair& pair);
 
 }  // namespace softscope

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr double kServCtStepMm = 1.0 / 256;
 constexpr double kC3vdStepMm = 100.0 / 65535;
-constexpr long long kFirstStampS = 1700000000;  // of D4D's names
-constexpr double kTattooMm = 1;                 // radius of STIR's infrared marks
+constexpr long long kFirstStampS = 1700000000;  // time stamp in the names of D4D
+constexpr double kTattooMm = 1;                 // radius of the infrared marks of STIR
 
 std::string digits(long long number, int count) {
   std::ostringstream text;
@@ -94,7 +94,7 @@ class StereoMisLayout : public DatasetLayout {
   int count_ = 0;
 };
 
-/// A recording with one clip.
+/// Recording with one clip.
 class D4dLayout : public DatasetLayout {
  public:
   explicit D4dLayout(const fs::path& folder) : folder_(folder) {}
@@ -158,7 +158,7 @@ class StirEndsLayout : public DatasetLayout {
   }
 
  private:
-  /// Discs on the tissue at the tracked points that are seen.
+  /// Discs on the tissue at the visible tracked points.
   static GrayImage marks(const SimulatedFrame& frame, const RectifiedRig& rig) {
     GrayImage image(rig.left.width_px, rig.left.height_px, 0);
     for (const SeenPoint& point : seenPoints(frame, rig)) {
@@ -196,7 +196,7 @@ class HamlynLayout : public DatasetLayout {
   LayoutFolder folder_;
 };
 
-/// The left view alone, with its depth.
+/// Left view only, with its depth.
 class C3vdLayout : public DatasetLayout {
  public:
   explicit C3vdLayout(const fs::path& folder) : folder_(folder) {}

@@ -1,5 +1,5 @@
-// toolkit/simulation/shipped_layouts.h: simulated clips as SERV-CT, StereoMIS, D4D, STIR (to 2025),
-// Hamlyn's mirror and C3VD ship theirs.
+// toolkit/simulation/shipped_layouts.h: folder layouts of SERV-CT,
+// StereoMIS, D4D, STIR (up to 2025), Hamlyn's mirror and C3VD.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace softscope {
 
-/// servct, stereomis, d4d, stir, hamlyn, c3vd; null for another name. All of them with rectified
-/// pinholes.
+/// servct, stereomis, d4d, stir, hamlyn, c3vd; null for
+/// another name. All with rectified pinhole cameras.
 std::unique_ptr<DatasetLayout> makeShippedLayout(const std::string& name,
                                                  const std::filesystem::path& folder,
                                                  const SimulateOptions& options);

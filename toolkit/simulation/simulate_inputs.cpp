@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_inputs.cpp: meshes and images, looked at before work starts.
+// toolkit/simulation/simulate_inputs.cpp: checks of meshes and images before the simulation.
 #include "toolkit/simulation/simulate_inputs.h"
 
 #include "core/error.h"

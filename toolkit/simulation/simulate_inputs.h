@@ -9,18 +9,18 @@
 
 namespace softscope {
 
-/// A closed surface, and what was repaired of its file or couldn't be.
+/// Closed surface, with the repaired and the remaining defects of its file.
 struct OrganFile {
   TriangleMesh mesh;
   std::vector<std::string> warnings;
 };
 
-/// The built-in organ, or the one that `organ.mesh` names (STL, PLY, OBJ, VTP or VTK), repaired.
-/// Throws InputError.
+/// Built-in organ, or that of `organ.mesh` (STL, PLY,
+/// OBJ, VTP or VTK), repaired. Throws InputError.
 OrganFile readOrgan(const SimulateOptions& options);
 
-/// Reads the image that `texture.picture` names, if any, into the simulation's options. Throws
-/// InputError, and OptionError where `texture.picture_mm` doesn't suit it.
+/// Reads the image of `texture.picture`, if set, into the options of the simulation.
+/// Throws InputError, and OptionError for an unsuitable `texture.picture_mm`.
 void readTexture(SimulateOptions& options);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_options.cpp: the keys of a scenario.
+// toolkit/simulation/simulate_options.cpp: keys of a scenario.
 #include "toolkit/simulation/simulate_options.h"
 
 #include <algorithm>

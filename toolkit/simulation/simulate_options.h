@@ -10,14 +10,14 @@ namespace softscope {
 
 struct SimulateOptions {
   int frames = 40;
-  int truth_every = 5;            // mesh and depth of every so manieth frame, and of the last
+  int truth_every = 5;            // mesh and depth of every n-th and the last frame
   std::string organ = "builtin";  // or a mesh file
   double organ_unit_mm = 1;       // of a mesh file
   std::string texture = "";       // an image file; empty: procedural tissue
   std::string pictures = "png";   // or jpg, mp4
   int jpeg_quality = 95;          // of jpg
-  bool masks = true;              // mask/, where there is an instrument
-  bool input_depth = false;       // write the true depth of every frame as the sequence's own
+  bool masks = true;              // mask/, for a scene with an instrument
+  bool input_depth = false;       // also write the true depth as input of the sequence
   SimulationOptions simulation;
 
   /// Throws OptionError.
@@ -28,15 +28,15 @@ struct SimulateOptions {
 /// Every key of a scenario. The options must outlive the binder.
 SettingsBinder settingsOf(SimulateOptions& options);
 
-/// "640x480" to width and height. Throws OptionError.
+/// "640x480" as width and height. Throws OptionError.
 void setPictureSize(const std::string& text, ScopeOptions& scope);
 
-/// Which truth is written.
+/// Selection of ground truth files.
 struct TruthKinds {
   bool mesh = true, depth = true, trajectory = true, tracks = true;
   bool normals = false, flow = false;
 
-  /// "mesh,depth"; empty = the usual four, "none" = none. Throws OptionError with the nearest name.
+  /// "mesh,depth"; empty = the four usual, "none" = none. Throws OptionError with the nearest name.
   static TruthKinds parse(const std::string& list);
 };
 

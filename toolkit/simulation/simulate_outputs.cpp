@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_outputs.cpp: images, calibration, truth.
+// toolkit/simulation/simulate_outputs.cpp: images, calibration and ground truth.
 #include "toolkit/simulation/simulate_outputs.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void removeEarlierFrames(const fs::path& folder) {
     fs::remove(folder / name);
 }
 
-/// Folders alone are what a stopped simulation leaves.
+/// A stopped simulation leaves folders without files.
 bool holdsFile(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (!entry.is_directory()) return true;

@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_outputs.h: a simulated sequence as a folder.
+// toolkit/simulation/simulate_outputs.h: writer of a simulated sequence folder.
 #pragma once
 
 #include <filesystem>
@@ -24,13 +24,13 @@ struct SimulateOutputOptions {
   bool overwrite = false;
 };
 
-/// Each file appears whole or not at all. Frames first, files about all frames last. Without
-/// finish() the destructor takes back what was written.
+/// Files are written atomically: per frame first, then those of
+/// all frames. Without finish() the destructor removes them.
 class SimulateOutputs {
  public:
-  /// With `overwrite`, frames of an earlier simulation in the folder are removed. Throws
-  /// OptionError where the folder holds anything and `overwrite` is false, or holds something else
-  /// than a simulation.
+  /// With `overwrite`, frames of an earlier simulation are removed. Throws
+  /// OptionError for a folder that is not empty without `overwrite`, or
+  /// that contains other files than those of a simulation.
   SimulateOutputs(SimulateOutputOptions options, const std::string& record_json);
 
   void addFrame(int index, const SimulatedFrame& frame, const std::vector<Triangle>& triangles,
@@ -38,7 +38,7 @@ class SimulateOutputs {
 
   bool wantsFlow() const { return options_.truth.flow; }
 
-  /// For the frames that were added.
+  /// Completes the sequence after the last frame.
   void finish(const Simulator& simulator);
 
  private:
@@ -59,14 +59,14 @@ class SimulateOutputs {
   SimulateOutputOptions options_;
   mutable NewFiles new_files_;
   Trajectory trajectory_;
-  std::vector<VideoWriter> videos_;  // left, right; of images as mp4
+  std::vector<VideoWriter> videos_;  // left, right; for images as mp4
   std::string tracks_csv_ = "frame,id,x_mm,y_mm,z_mm,visible\n";
 };
 
-/// Three floats a pixel, "PF", lowest row first.
+/// Three floats per pixel, "PF", lowest row first.
 std::string vectorPfm(const Raster<Eigen::Vector3f>& vectors);
 
-/// Middlebury's .flo: two floats a pixel; 1e10 where there is none.
+/// Middlebury .flo: two floats per pixel; 1e10 for unknown flow.
 std::string flowBytes(const Raster<Eigen::Vector2f>& flow_px);
 
 /// Binary little-endian PLY, float x y z, in the world frame.

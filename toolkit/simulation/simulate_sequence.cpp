@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_sequence.cpp: inputs, frames, truth.
+// toolkit/simulation/simulate_sequence.cpp: inputs, frames and ground truth.
 #include "toolkit/simulation/simulate_sequence.h"
 
 #include "eval/simulation/sequence/simulator.h"
@@ -21,7 +21,7 @@ std::string recordOf(SimulateOptions& options) {
   return jsonText(json);
 }
 
-/// Adds frames 0, 1, … `frames` - 1 until `progress` stops. Returns how many were added.
+/// Adds frames 0, 1, … `frames` - 1 until `progress` stops. Returns the number of added frames.
 template <class Add>
 int addFrames(int frames, const Progress& progress, const Add& add) {
   for (int i = 0; i < frames; ++i) {

@@ -1,4 +1,4 @@
-// toolkit/simulation/simulate_sequence.h: an organ to a stereo sequence with ground truth.
+// toolkit/simulation/simulate_sequence.h: stereo sequence with ground truth from an organ.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +11,21 @@
 namespace softscope {
 
 struct SimulatedSequence {
-  int frames = 0;  // fewer than asked for where it was interrupted; 0: nothing was written
+  int frames = 0;  // smaller than requested after an interruption; 0: no output
   int width_px = 0, height_px = 0;
   int tracked_points = 0;
   bool interrupted = false;
 };
 
-/// Writes the sequence folder `out` (docs/formats.md), whose frames are counted by
-/// `listener.progress`. Without `overwrite` the folder must be new or empty. Throws OptionError and
-/// InputError.
+/// Writes the sequence folder `out` (docs/formats.md);
+/// `listener.progress` counts frames. Without `overwrite` the
+/// folder must be new or empty. Throws OptionError and InputError.
 SimulatedSequence simulateSequence(SimulateOptions options, const TruthKinds& truth,
                                    const std::filesystem::path& out, bool overwrite,
                                    const WorkListener& listener = {});
 
-/// One clip as the data set `layout` ships it (toolkit/simulation/dataset_layout.h), into the new
-/// or empty folder `out`. Throws OptionError and InputError.
+/// Writes one clip in the layout `layout` of a data set (toolkit/simulation/dataset_layout.h)
+/// into the new or empty folder `out`. Throws OptionError and InputError.
 SimulatedSequence simulateLayout(SimulateOptions options, const std::string& layout,
                                  const std::filesystem::path& out,
                                  const WorkListener& listener = {});

@@ -1,4 +1,4 @@
-// toolkit/study/study_case.cpp: three commands, one record.
+// toolkit/study/study_case.cpp: simulation, reconstruction and evaluation of a case.
 #include "toolkit/study/study_case.h"
 
 #include <unistd.h>
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
 
-constexpr std::size_t kFolderLetters = 12;  // of a sequence's hash
+constexpr std::size_t kFolderLetters = 12;  // length of the hash prefix in the name of a sequence
 
 struct Interrupted {};
 
@@ -38,7 +38,7 @@ Json readJson(const fs::path& file) {
   return Json::parse(stream, nullptr, /*allow_exceptions=*/false);
 }
 
-/// Content of a sequence, or of one file: whatever lies in it, truth included.
+/// Hash of all files of a sequence, including truth, or of one file.
 std::string sequenceDigest(const fs::path& sequence) {
   std::string all = sha256Of(sequence);
   for (const char* name :
@@ -56,7 +56,7 @@ std::string simulationDigest(const StudyCase& study_case) {
   return sha256OfBytes(all);
 }
 
-/// The last line of a log that says `error`, else its last line.
+/// Last line of a log with `error`, else its last line.
 std::string lastComplaint(const fs::path& log) {
   std::ifstream file(log);
   std::string last, complaint;
@@ -67,7 +67,7 @@ std::string lastComplaint(const fs::path& log) {
   return complaint.empty() ? last : complaint;
 }
 
-/// What a table may show; the rest stays in the case's own folder.
+/// Values available to tables; the others remain in the folder of the case.
 Json withoutDetails(Json json) {
   if (!json.is_object()) return json;
   for (const char* name : {"frames", "configuration", "inputs", "thresholds"})
@@ -87,8 +87,8 @@ Json recordWithStatus(const StudyCase& one, const char* status, const std::strin
   return record;
 }
 
-/// Of processes that were killed. The caller holds the sequence's lock, so that no other one
-/// writes.
+/// Removes files of killed processes. The caller holds
+/// the lock of the sequence, so there is no other writer.
 void removeParts(const fs::path& target) {
   const std::string prefix = target.filename().string() + ".part-";
   std::vector<fs::path> parts;
@@ -152,7 +152,7 @@ void CaseRunner::waitFor(const FileLock& lock) const {
   }
 }
 
-/// Under a name of its own first: what another process finds is complete.
+/// Written under a temporary name first: other processes see complete sequences only.
 void CaseRunner::simulate(const fs::path& target) {
   const fs::path part = target.string() + ".part-" + std::to_string(getpid());
   try {
@@ -161,7 +161,7 @@ void CaseRunner::simulate(const fs::path& target) {
     fs::remove_all(part);
     throw;
   }
-  std::error_code taken;  // by a process that didn't see the lock: the same bytes
+  std::error_code taken;  // another process, which missed the lock, has written the same bytes
   fs::rename(part, target, taken);
   if (taken) fs::remove_all(part);
 }
@@ -238,7 +238,7 @@ void StudyFolder::requireUsable() const {
     throw OptionError("`out=`: " + shown(root) + " is a file, but must be a folder");
   if (fs::exists(marker())) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(root))
-    if (entry.path().filename() != "cases")  // workflows make it before us
+    if (entry.path().filename() != "cases")  // workflow tools create it before the study
       throw OptionError("`out=`: " + shown(root) + " holds " + shown(entry.path().filename()) +
                         ", but is no folder of a study; choose another one");
 }
@@ -264,7 +264,7 @@ Json recordOf(const StudyCase& study_case, const StudyFolder& folder) {
   const Json record = readJson(folder.record(study_case.name));
   if (!record.is_object() || !record.contains("status")) return {};
   for (const char* key : {"status", "reason", "digest", "name", "softscope"})
-    if (record.contains(key) && !record[key].is_string()) return {};  // damaged: as if never run
+    if (record.contains(key) && !record[key].is_string()) return {};  // damaged: repeated
   return record;
 }
 
@@ -276,7 +276,7 @@ Json currentRecord(const StudyCase& study_case, const StudyFolder& folder) {
   std::string now;
   try {
     now = digestOf(study_case);
-  } catch (const Error&) {  // an input that can't be read: the run failed for it, or did so before
+  } catch (const Error&) {  // unreadable input: the run has failed or would fail
   }
   if (digest == now) return record;
   return recordWithStatus(study_case, "outdated",

@@ -1,4 +1,4 @@
-// toolkit/study/study_case.h: one case of a study, from its sequence to its errors.
+// toolkit/study/study_case.h: execution of one case of a study.
 #pragma once
 
 #include <filesystem>
@@ -13,29 +13,29 @@
 
 namespace softscope {
 
-/// SHA-256 of everything that decides a case's result: settings with their defaults, the bytes of
-/// what it reads, softscope's version. Throws InputError where something can't be read.
+/// SHA-256 of everything that determines the result of a case: settings with defaults,
+/// bytes of the inputs, version of softscope. Throws InputError for an unreadable input.
 std::string digestOf(const StudyCase& study_case);
 
-/// What case.json says of a case, done, failed or skipped; null where there is none.
+/// Content of case.json (done, failed or skipped); null if missing.
 FactSheet::Json recordOf(const StudyCase& study_case, const StudyFolder& folder);
 
-/// The same where it still holds. Of a case whose settings or inputs changed since: "status" is
-/// "outdated", with a reason and no values; of one that can't be run here: skipped.
+/// Checked record: if settings or inputs of the case have changed, "status" is
+/// "outdated" with a reason and without values; a case that cannot run here is skipped.
 FactSheet::Json currentRecord(const StudyCase& study_case, const StudyFolder& folder);
 
-/// The same of a case that is done with the digest that it has now; else null.
+/// Record of a complete case with the current digest; else null.
 FactSheet::Json finishedRecord(const StudyCase& study_case, const StudyFolder& folder);
 
-/// Runs a softscope command to its end, its output appended to `log`. Returns its exit code,
-/// nothing where it was interrupted. The first word is the command ("reconstruct"), the others its
-/// arguments.
+/// Runs a softscope command and appends its output to `log`. Returns
+/// its exit code, none after an interruption. The first word is the
+/// command ("reconstruct"), the others are its arguments.
 using RunCommand = std::function<std::optional<int>(const std::vector<std::string>& words,
                                                     const std::filesystem::path& log)>;
 
-/// Simulates where it must, reconstructs, evaluates, each by `run_command`; their output is
-/// log.txt. Writes case.json ("status": done, failed or skipped) and returns it; null where
-/// `interrupted` stopped it, then nothing is written.
+/// Simulates if needed, reconstructs and evaluates, each by `run_command`; their
+/// output is log.txt. Writes case.json ("status": done, failed or skipped) and
+/// returns it; after an interruption returns null and writes nothing.
 FactSheet::Json runCase(const StudyCase& study_case, const StudyFolder& folder, int threads,
                         const std::function<bool()>& interrupted, const RunCommand& run_command);
 

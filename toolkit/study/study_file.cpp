@@ -1,4 +1,4 @@
-// toolkit/study/study_file.cpp: cases times variants times levels of sweeps.
+// toolkit/study/study_file.cpp: expansion of cases, variants and levels of sweeps.
 #include "toolkit/study/study_file.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ using Json = FactSheet::Json;
 
 const std::vector<std::string> kParts{"simulate", "reconstruct", "evaluate"};
 
-/// For the table: an absolute path by its last part.
+/// For the table: last part of an absolute path.
 std::string notHere(const fs::path& path) {
   return shown(path.is_absolute() ? path.filename() : path) + " is not here";
 }
 
-/// Reads one study; `where_` begins every complaint.
+/// Reader of one study; every error message begins with `where_`.
 class StudyReader {
  public:
   explicit StudyReader(const fs::path& file)
@@ -75,7 +75,7 @@ std::string StudyReader::textAt(const Json& table, const std::string& key,
   return table[key];
 }
 
-/// Names become parts of folders.
+/// Names are parts of folder names.
 std::string StudyReader::nameAt(const Json& table, const std::string& at) const {
   const std::string name = table.is_object() ? textAt(table, "name", "") : "";
   const bool plain =
@@ -92,7 +92,7 @@ std::vector<Json> StudyReader::listAt(const std::string& key) const {
   return {tree_[key].begin(), tree_[key].end()};
 }
 
-/// Replaces ${NAME}; `known` becomes false where the environment lacks one.
+/// Replaces ${NAME}; `known` becomes false for an undefined variable.
 std::string StudyReader::expanded(std::string text, bool& known) const {
   for (std::size_t begin = text.find("${"); begin != std::string::npos;
        begin = text.find("${", begin)) {
@@ -116,7 +116,7 @@ std::string StudyReader::valueText(const Json& value, const std::string& key) co
   fail(key + " must be true, false, a number or a text (lists are for [[sweep]])");
 }
 
-/// Nested tables to dotted keys.
+/// Nested tables as dotted keys.
 StudyValues StudyReader::flat(const Json& table, const std::string& head) const {
   StudyValues values;
   for (const auto& [key, value] : table.items()) {
@@ -144,7 +144,7 @@ void StudyReader::overlay(StudyCase& target, const Json& table) const {
   }
 }
 
-/// A sweep's keys hold lists, a value for each level.
+/// Keys of a sweep have lists with one value per level.
 void StudyReader::overlayLevel(StudyCase& target, const Json& sweep, std::size_t index) const {
   const auto pick = [&](const Json& table, const std::string& path, const auto& self) -> Json {
     if (table.is_object()) {
@@ -165,7 +165,7 @@ void StudyReader::overlayLevel(StudyCase& target, const Json& sweep, std::size_t
   overlay(target, table);
 }
 
-/// Relative paths are relative to the study file; what isn't there makes the case one to skip.
+/// Relative paths are relative to the study file; a case with a missing file is skipped.
 void StudyReader::resolvePaths(StudyCase& target) const {
   const auto resolved = [&](const std::string& text) {
     bool known = true;
@@ -183,7 +183,7 @@ void StudyReader::resolvePaths(StudyCase& target) const {
   if (target.sequence.empty()) resolveOrgan(target);
 }
 
-/// `organ.otherwise` stands in where the mesh isn't here, and the table says so.
+/// `organ.otherwise` replaces a missing mesh, with a note in the table.
 void StudyReader::resolveOrgan(StudyCase& target) const {
   const auto mesh = target.simulate.find("organ.mesh");
   const auto other = target.simulate.find("organ.otherwise");

@@ -12,34 +12,34 @@
 
 namespace softscope {
 
-/// Key to value as TOML writes it, without the quotes of a text.
+/// Key and value in TOML syntax, texts without quotes.
 using StudyValues = std::map<std::string, std::string>;
 
-/// One sequence, one reconstruction, one judgement.
+/// One sequence, one reconstruction, one evaluation.
 struct StudyCase {
-  std::string name;           // of its folder: "heart-depth-blur-2"
-  std::string base, variant;  // of the study file; empty where it names none
+  std::string name;           // name of its folder: "heart-depth-blur-2"
+  std::string base, variant;  // names in the study file; empty if unnamed
   std::string sweep;          // name of the sweep, or empty
   double level = 0;           // of the sweep
-  std::string sequence;       // an existing folder; empty: simulated
+  std::string sequence;       // existing folder; empty: simulated
   StudyValues simulate, reconstruct, evaluate;
-  std::map<std::string, double> beside;  // published values to stand beside ours, by heading
+  std::map<std::string, double> beside;  // published values for comparison, by heading
   std::vector<std::string> notes;        // notes below the table
-  std::string skip;                      // why it can't be run here; empty: it can
+  std::string skip;                      // reason to skip the case here; empty: none
 };
 
-/// A column of the table, or what a plot shows.
+/// Column of the table, or metric of a plot.
 struct StudyMetric {
-  std::string path;  // in a case's values: "evaluation.tracks.mean_mm"
+  std::string path;  // path in the values of a case: "evaluation.tracks.mean_mm"
   std::string label;
   int decimals = 3;
 };
 
 struct StudyPlot {
-  std::string name;  // of the file
+  std::string name;  // file name
   StudyMetric metric;
-  std::string p95_path;  // drawn above the metric; may be empty
-  double limit = 0;      // a level whose metric is above it breaks; 0: none
+  std::string p95_path;  // second curve; may be empty
+  double limit = 0;      // a level with a larger metric fails; 0: no limit
 };
 
 struct StudySweep {
@@ -59,9 +59,9 @@ struct Study {
   const StudyCase& caseNamed(const std::string& name) const;
 };
 
-/// ${NAME} is the environment's. Throws InputError where the file is missing or no TOML,
-/// OptionError where it asks for what there isn't: every key of every case is checked here, before
-/// any work.
+/// ${NAME} is an environment variable. Throws InputError for a
+/// missing file or invalid TOML, OptionError for unknown keys or
+/// values: every key of every case is checked before any work.
 Study readStudy(const std::filesystem::path& file);
 
 }  // namespace softscope

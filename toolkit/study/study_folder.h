@@ -6,8 +6,8 @@
 
 namespace softscope {
 
-/// DIR/study.json, table.*, report.html, plots/; DIR/cases/NAME/case.json, log.txt, run/,
-/// evaluation/; DIR/sequences/HASH of what was simulated, shared by cases.
+/// DIR/study.json, table.*, report.html, plots/; DIR/cases/NAME/case.json, log.txt,
+/// run/, evaluation/; DIR/sequences/HASH for simulated sequences, shared by cases.
 struct StudyFolder {
   std::filesystem::path root;
 
@@ -18,9 +18,9 @@ struct StudyFolder {
 
   std::filesystem::path marker() const { return root / "cases" / ".softscope_study"; }
 
-  /// Throws OptionError where it is a file, or holds something that no study wrote.
+  /// Throws OptionError for a file, or a folder with files of another origin.
   void requireUsable() const;
-  /// Makes it a study's, so that later calls may replace what lies in it.
+  /// Marks the folder as that of a study, so that later calls may replace its files.
   void claim() const;
 };
 

@@ -12,15 +12,15 @@
 
 namespace softscope {
 
-/// "blur_points" and its drawing.
+/// "blur_points" with its drawing.
 using StudyFigure = std::pair<std::string, VectorDrawing>;
 
-/// A curve a series for each sweep and plot; bars for each plot of a study without sweeps. What has
-/// no value at all has no figure.
+/// One curve per series for each sweep and plot; bars for each plot
+/// of a study without sweeps. Figures without any value are omitted.
 std::vector<StudyFigure> studyFigures(const Study& study,
                                       const std::vector<FactSheet::Json>& records);
 
-/// One HTML page that opens from disk: the table, the figures inside it, how it was made.
+/// One self-contained HTML page: table, figures, command.
 std::string studyPage(const Study& study, const StudyTable& table,
                       const std::vector<StudyFigure>& figures, const FactSheet::Json& record);
 

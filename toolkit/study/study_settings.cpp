@@ -1,4 +1,4 @@
-// toolkit/study/study_settings.cpp: options by their flags, settings by --set.
+// toolkit/study/study_settings.cpp: options as arguments, settings as --set.
 #include "toolkit/study/study_settings.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ void requireOneOf(const StudyCase& study_case, const std::string& key, const std
                     (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)"));
 }
 
-/// What `reconstruct` would refuse only when its turn comes.
+/// Checks values in advance that `reconstruct` would refuse later.
 void checkReconstructValues(const StudyCase& study_case) {
   const StudyValues& values = study_case.reconstruct;
   requireOneOf(study_case, "reconstruct.backend", valueOr(values, "backend", "auto"),

@@ -9,45 +9,45 @@
 
 namespace softscope {
 
-/// Of one sweep of one case and variant: the first level that breaks.
+/// First failed level of one sweep of a case and variant.
 struct StudyBreak {
   std::string plot, series, sweep;
   bool broken = false;
-  double level = 0;                   // if broken
-  std::vector<double> held, not_run;  // levels that pass; levels that were not run
+  double level = 0;                   // if failed
+  std::vector<double> held, not_run;  // passed levels; levels without a result
 };
 
-/// The whole study as study.json: its cases' records as they are, what breaks where, how and on
-/// what machine it was made. `records`: one a case, null where it hasn't been run.
+/// Content of study.json: records of the cases, failed levels, version
+/// and machine. `records`: one per case, null without a result.
 FactSheet::Json studyJson(const Study& study, const std::vector<FactSheet::Json>& records,
                           const std::string& command);
 
-/// Of a study that names none.
+/// Default columns.
 const std::vector<StudyMetric>& usualColumns();
 
-/// Number at a dotted path of a case's record; NaN where there is none.
+/// Number at a dotted path of the record of a case; NaN if absent.
 double valueAt(const FactSheet::Json& record, const std::string& path);
 
-/// Done or failed, so that it says something; not skipped, outdated or never begun.
+/// True for done or failed; false for skipped, outdated or not started.
 bool wasRun(const FactSheet::Json& record);
 
-/// "heart, paper": what a curve or bar stands for.
+/// "heart, paper": label of a curve or bar.
 std::string seriesName(const StudyCase& study_case);
 
-/// Series of which no level was run are left out. Where a level's metric is missing, above the
-/// plot's limit, or fewer than half of the frames were fused, the level breaks.
+/// Series without any result are omitted. A level fails if its metric is missing
+/// or above the limit of the plot, or if fewer than half of the frames were fused.
 std::vector<StudyBreak> breaksOf(const Study& study, const std::vector<FactSheet::Json>& records);
 
 struct StudyTable {
   std::vector<std::string> headings;
-  std::vector<std::vector<std::string>> rows;  // one a case, as many cells as headings
+  std::vector<std::vector<std::string>> rows;  // one per case, as many cells as headings
   std::vector<std::string> notes;              // below the table
 
   std::string csv() const;
   std::string markdown() const;
 };
 
-/// Columns that no case has a value for are left out.
+/// Columns without any value are omitted.
 StudyTable studyTable(const Study& study, const std::vector<FactSheet::Json>& records);
 
 }  // namespace softscope

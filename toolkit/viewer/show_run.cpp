@@ -1,4 +1,4 @@
-// toolkit/viewer/show_run.cpp: checks, moments, files.
+// toolkit/viewer/show_run.cpp: checks, frames and output files.
 #include "toolkit/viewer/show_run.h"
 
 #include <chrono>
@@ -98,7 +98,7 @@ void ViewRequest::validate() const {
     throw OptionError("`size=` is `" + size + "`, but a movie's width and height must be even");
 }
 
-/// The last moment that isn't after `frame`.
+/// Last saved frame at or before `frame`.
 int ViewRequest::firstMoment(const ViewSource& source, bool last_by_default) const {
   if (frame < 0) return last_by_default ? source.count() - 1 : 0;
   if (frame < source.frameOf(0) || frame > source.frameOf(source.count() - 1))

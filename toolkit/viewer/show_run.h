@@ -1,4 +1,4 @@
-// toolkit/viewer/show_run.h: what the viewer shows of a run, in a window, an image or a movie.
+// toolkit/viewer/show_run.h: window, image or movie of a run.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,15 @@ namespace softscope {
 struct ViewRequest {
   ViewRunOptions run;
   std::string screenshot;          // PNG; empty: none
-  ViewMovieOptions movie;          // without a file: none; speed and turn hold for all
+  ViewMovieOptions movie;          // without a file: none; speed and turn apply to all outputs
   std::string size = "960x720";    // in pixels
   std::string colour = "texture";  // or errors, weights
   std::string look = "free";       // or scope, front, above, right
-  int frame = -1;                  // begin with it, or the last one saved before it
+  int frame = -1;                  // initial frame, or the last saved frame before it
   bool nodes = false, arrows = false, no_scope = false;
   bool overwrite = false;
 
-  /// Neither a screenshot nor a movie.
+  /// True without screenshot and movie.
   bool opensWindow() const { return screenshot.empty() && movie.file.empty(); }
   /// Throws OptionError.
   void validate() const;
@@ -32,28 +32,28 @@ struct ViewRequest {
   int widthPx() const;
   int heightPx() const;
   ViewState state() const;
-  /// The moment to begin with. Throws OptionError for a frame that the source has not.
+  /// Index of the initial model. Throws OptionError for a missing frame.
   int firstMoment(const ViewSource& source, bool last_by_default) const;
 };
 
-/// Until the run has a model, or `stopped`.
+/// Waits until the run has a model, or until `stopped`.
 void waitForModel(const std::string& run, const std::function<bool()>& stopped,
                   const WorkListener& listener = {});
 
-/// What was asked for and can't be shown, and what the source warns of.
+/// Requested content that cannot be shown, and warnings of the source.
 std::vector<std::string> viewWarnings(const ViewRequest& request, const RunSource& source);
 
 struct WrittenView {
   FactSheet::Json record;
-  bool interrupted = false;  // then there is no movie
+  bool interrupted = false;  // then no movie was written
 };
 
-/// The screenshot and the movie. `listener.progress` counts the movie's frames.
+/// Writes the screenshot and the movie. `listener.progress` counts the frames of the movie.
 WrittenView writeView(const ViewRequest& request, RunSource& source,
                       const WorkListener& listener = {});
 
-/// view_000038.png in the current folder, or the next free name. Returns it; empty where there is
-/// none.
+/// view_000038.png in the current folder, or the next
+/// unused name. Returns it; empty if there is none.
 std::string saveViewPicture(const ColourImage& picture, int frame);
 
 }  // namespace softscope

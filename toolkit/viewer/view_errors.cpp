@@ -1,4 +1,4 @@
-// toolkit/viewer/view_errors.cpp: distances to a surface, or maps that were measured before.
+// toolkit/viewer/view_errors.cpp: distances to a surface, or error maps of an evaluation.
 #include "toolkit/viewer/view_errors.h"
 
 #include <Eigen/Geometry>
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSameMm = 0.01;  // a map is its model moved, to the rounding of floats
+constexpr double kSameMm = 0.01;  // tolerance of the match of map and model: rounding of floats
 
 void distances(const TriangleTree& tree, bool with_sign, ViewMoment& moment) {
   moment.judged.vertices_mm = moment.model.vertices_mm;
@@ -30,7 +30,7 @@ void distances(const TriangleTree& tree, bool with_sign, ViewMoment& moment) {
     moment.errors_mm.push_back(with_sign ? closest.signed_distance_mm : closest.distance_mm);
 }
 
-/// A mesh that stays as it is.
+/// Static mesh.
 class StillReference : public MomentErrors {
  public:
   explicit StillReference(TriangleMesh mesh)
@@ -44,7 +44,7 @@ class StillReference : public MomentErrors {
   TriangleTree tree_;
 };
 
-/// True meshes of some frames, as the scope of that moment sees them.
+/// True meshes of selected frames, in the camera frame of each.
 class TrueReference : public MomentErrors {
  public:
   explicit TrueReference(const fs::path& sequence) : truth_(openSequenceTruth(sequence)) {
@@ -76,7 +76,7 @@ class TrueReference : public MomentErrors {
  private:
   SequenceTruth truth_;
   int frame_ = -1;
-  std::shared_ptr<const TriangleMesh> mesh_;  // of that frame
+  std::shared_ptr<const TriangleMesh> mesh_;  // mesh of that frame
 };
 
 class Evaluated : public MomentErrors {
@@ -105,8 +105,8 @@ class Evaluated : public MomentErrors {
   }
 
  private:
-  /// The model's own points that the map has, in the run's world. The map lies in the reference's,
-  /// moved as a whole: if it isn't the model that was judged, no motion makes them meet.
+  /// Points of the model that the map contains, in the world of the run. The map is in the
+  /// space of the reference: if no rigid transform aligns them, it belongs to another model.
   static std::vector<Eigen::Vector3f> pointsOf(const ErrorMap& map,
                                                const std::vector<Eigen::Vector3f>& model_mm,
                                                const std::string& name) {

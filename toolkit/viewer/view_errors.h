@@ -1,4 +1,4 @@
-// toolkit/viewer/view_errors.h: errors of a viewed model: measured now or before.
+// toolkit/viewer/view_errors.h: errors of a viewed model: computed now, or read from an evaluation.
 #pragma once
 
 #include <filesystem>
@@ -13,25 +13,25 @@
 
 namespace softscope {
 
-/// All in the run's own world.
+/// All in the world of the run.
 class MomentErrors {
  public:
   virtual ~MomentErrors() = default;
-  /// The surface that the model is to be compared with at that moment; null where none is known.
+  /// Reference surface at that frame; null if unknown.
   virtual std::shared_ptr<const TriangleMesh> reference(const ViewMoment& moment) = 0;
-  /// Points and errors of the moment, with sign or without; none where none are known.
+  /// Adds points and (signed) errors of the frame; none if unknown.
   virtual void judge(bool with_sign, ViewMoment& moment) = 0;
 };
 
-/// A mesh that stands still in the run's world, or the truth of the sequence that the run was made
-/// from. Throws InputError.
+/// From a static mesh in the world of the run, or
+/// from the truth of its sequence. Throws InputError.
 std::unique_ptr<MomentErrors> errorsFromReference(const std::filesystem::path& reference,
                                                   const Eigen::Isometry3d& reference_from_run);
 
-/// What `softscope evaluate` left: errors/NNNNNN.vtp. Throws InputError where there are none.
+/// From errors/NNNNNN.vtp of `softscope evaluate`. Throws InputError if there are none.
 std::unique_ptr<MomentErrors> errorsFromEvaluation(const std::filesystem::path& folder);
 
-/// Colours and their bar's label. `errors_mm` decide the range unless the options do.
+/// Colours, with the label of their bar. `errors_mm` determine the default range.
 void chooseErrorColours(const std::vector<double>& errors_mm, const ErrorColourOptions& options,
                         ViewWorld& world);
 

@@ -1,4 +1,4 @@
-// toolkit/viewer/view_movie.cpp: times of the clip, one image a video frame.
+// toolkit/viewer/view_movie.cpp: clip time and image of each video frame.
 #include "toolkit/viewer/view_movie.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kTurnOfOne_s = 8;  // a single model that is only turned
+constexpr double kTurnOfOne_s = 8;  // duration for a single model
 
 double movieSeconds(const ViewSource& source, const ViewMovieOptions& options) {
   if (options.seconds > 0) return options.seconds;
@@ -24,7 +24,7 @@ std::vector<double> movieTimes(const ViewSource& source, const ViewMovieOptions&
   const double movie_s = movieSeconds(source, options);
   const auto count = std::max<long>(1, std::lround(movie_s * options.frames_per_second));
   std::vector<double> times;
-  // A little later than the frame begins: rounding must not show the moment before.
+  // Shifted slightly after the start of the frame: rounding must not select the previous one.
   for (long k = 0; k < count; ++k)
     times.push_back(source.secondsOf(0) + (double(k) + 1e-3) / double(count) * clip_s);
   return times;
@@ -39,7 +39,7 @@ int writeMovie(ViewSource& source, const ViewMovieOptions& options, const Progre
   ViewState state = options.state;
   state.turning = options.turn_deg != 0;
   Playback playback(source);
-  playback.playing = true;  // as the foot says
+  playback.playing = true;  // as shown in the foot line
   playback.speed = options.speed;
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (!goesOn(progress, static_cast<int>(k), count)) return 0;

@@ -1,4 +1,4 @@
-// toolkit/viewer/view_movie.h: a run as a video, without a display.
+// toolkit/viewer/view_movie.h: video of a run, rendered off-screen.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@ struct ViewMovieOptions {
   std::filesystem::path file;
   int width_px = 960, height_px = 720;
   double frames_per_second = 25;
-  double speed = 1;     // seconds of the clip a second
-  double seconds = 0;   // how long the video is; 0: as long as the clip at that speed
-  double turn_deg = 0;  // by which the camera turns about the model, all in all
+  double speed = 1;     // seconds of the clip per second
+  double seconds = 0;   // length of the video; 0: length of the clip at that speed
+  double turn_deg = 0;  // total rotation of the camera about the model
   ViewState state;
-  bool clean = false;  // without slider and words
+  bool clean = false;  // without slider and texts
   bool overwrite = false;
 };
 
-/// The time of the clip that each of the video's frames shows.
+/// Clip time of each video frame.
 std::vector<double> movieTimes(const ViewSource& source, const ViewMovieOptions& options);
 
-/// Returns how many frames the video has; 0 where `progress` stopped it, and nothing is written.
+/// Returns the number of video frames; 0 after a stop by `progress`, without output.
 int writeMovie(ViewSource& source, const ViewMovieOptions& options, const Progress& progress);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// toolkit/viewer/view_run.cpp: files of a run to moments, the last few kept.
+// toolkit/viewer/view_run.cpp: models of a run, with a cache of the last ones.
 #include "toolkit/viewer/view_run.h"
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostKept = 12;    // moments; 5 MB each with 100 000 points
-constexpr double kFramesPerSecond = 25;  // of clips without a clock
-constexpr double kUsualWeight = 10;      // the largest, unless settings say otherwise
+constexpr std::size_t kMostKept = 12;    // models in the cache; 5 MB each with 100 000 points
+constexpr double kFramesPerSecond = 25;  // of clips without timestamps
+constexpr double kUsualWeight = 10;      // default limit of the weight
 
-/// nodes/NNNNNN.csv beside models/; empty for runs that didn't save them.
+/// nodes/NNNNNN.csv next to models/; empty for runs that did not save them.
 std::vector<Eigen::Vector3f> readNodes(const ModelOnDisk& model) {
   const fs::path file =
       model.file.parent_path().parent_path() / "nodes" / (model.file.stem().string() + ".csv");
@@ -85,7 +85,7 @@ RunSource::RunSource(const ViewRunOptions& options) : options_(options), run_(op
                      ": holds no model (models/NNNNNN.ply or model.ply); give a folder that "
                      "softscope reconstruct wrote, or `wait=` for the first one");
   describeModels();
-  const ViewMoment last = read(count() - 1, false);  // the first one has no nodes yet
+  const ViewMoment last = read(count() - 1, false);  // the first model has no nodes
   world_.has_nodes = !last.nodes_mm.empty();
   world_.has_weights = !last.weights.empty();
   if (world_.has_weights)
@@ -95,7 +95,7 @@ RunSource::RunSource(const ViewRunOptions& options) : options_(options), run_(op
   addErrors();
 }
 
-/// What follows from the list of models; again when it has grown.
+/// Data derived from the list of models; repeated after new models.
 void RunSource::describeModels() {
   live_ = !runHasEnded(run_);
   stopped_ = runHasStopped(run_);

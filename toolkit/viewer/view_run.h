@@ -1,4 +1,4 @@
-// toolkit/viewer/view_run.h: models of a finished or growing run, for the viewer.
+// toolkit/viewer/view_run.h: models of a finished or running reconstruction, for the viewer.
 #pragma once
 
 #include <filesystem>
@@ -14,21 +14,21 @@
 
 namespace softscope {
 
-/// As the user wrote them; empty: not given.
+/// Texts as given; empty: not given.
 struct ViewRunOptions {
   std::string run;
   std::string reference;   // mesh, or sequence with truth
-  std::string evaluation;  // folder of `evaluate`
+  std::string evaluation;  // folder written by `evaluate`
   std::string ct, window = "auto";
   VolumeArguments volume;
   std::string ct_from_run;  // file
   ErrorColourOptions errors;
 };
 
-/// Reads models when they are shown and keeps the last few: memory stays flat in long runs.
+/// Reads models on demand and caches the last few: memory is constant for long runs.
 class RunSource : public ViewSource {
  public:
-  /// Throws InputError: no run, no model in it, or what else is asked for can't be read.
+  /// Throws InputError: no run, no model in it, or another unreadable input.
   explicit RunSource(const ViewRunOptions& options);
 
   const ViewWorld& world() const override { return world_; }
@@ -61,16 +61,16 @@ class RunSource : public ViewSource {
   bool live_ = true, stopped_ = false, clock_ = false;
   ViewWorld world_;
   Eigen::Isometry3d scene_from_run_ = Eigen::Isometry3d::Identity();
-  std::unique_ptr<MomentErrors> errors_, reference_;  // where both are there, reference_ is shown
-  /// The reference that moveToPatient() moved last, before and after.
+  std::unique_ptr<MomentErrors> errors_, reference_;  // if both are set, reference_ is shown
+  /// Last reference transformed by moveToPatient(), before and after.
   mutable std::pair<std::shared_ptr<const TriangleMesh>, std::shared_ptr<const TriangleMesh>>
       moved_reference_;
-  std::list<Kept> kept_;  // the last one used first
+  std::list<Kept> kept_;  // most recently used first
   std::vector<std::string> warnings_;
 };
 
-/// A rigid motion from a file: four rows of four numbers, or the evaluation.json of an alignment
-/// (its mesh_from_run). Throws InputError.
+/// Rigid transform from a file: four rows of four numbers, or
+/// evaluation.json with an alignment (its mesh_from_run). Throws InputError.
 Eigen::Isometry3d readMotion(const std::filesystem::path& file);
 
 }  // namespace softscope
