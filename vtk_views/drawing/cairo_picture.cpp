@@ -1,5 +1,5 @@
-// vtk_views/drawing/cairo_picture.cpp: cairo's RGB24 is one 32-bit word a pixel, blue in the lowest
-// byte.
+// vtk_views/drawing/cairo_picture.cpp: conversion to and from
+// cairo's RGB24, one 32-bit word per pixel, blue in the lowest byte.
 #include "vtk_views/drawing/cairo_picture.h"
 
 #include <cstring>

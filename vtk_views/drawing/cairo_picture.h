@@ -1,4 +1,4 @@
-// vtk_views/drawing/cairo_picture.h: pixels to cairo and back.
+// vtk_views/drawing/cairo_picture.h: conversion between images and cairo surfaces.
 #pragma once
 
 #include <cairo/cairo.h>
@@ -17,18 +17,18 @@ struct DestroyCairo {
 using CairoSurface = std::unique_ptr<cairo_surface_t, DestroyCairo>;
 using CairoContext = std::unique_ptr<cairo_t, DestroyCairo>;
 
-/// Throws Error in cairo's words unless all went well.
+/// Throws Error with the message of cairo unless the status is success.
 void requireGoodCairo(cairo_status_t status);
 
-/// Black, without transparency. Throws Error where cairo refuses the size.
+/// Black, opaque. Throws Error for an unsupported size.
 CairoSurface newCairoPixels(int width_px, int height_px);
 
 CairoSurface toCairo(const ColourImage& picture);
 
-/// Of a surface that newCairoPixels() made.
+/// Requires a surface of newCairoPixels().
 ColourImage fromCairo(cairo_surface_t* surface);
 
-/// A PNG file of the image. The same image gives the same bytes.
+/// PNG file of the image; deterministic.
 std::string pngBytes(const ColourImage& picture);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/drawing/canvas.cpp: cairo behind our own words.
+// vtk_views/drawing/canvas.cpp: drawing with cairo.
 #include "vtk_views/drawing/canvas.h"
 
 #include <cmath>
@@ -75,7 +75,7 @@ void Canvas::picture(const ColourImage& picture, const Box& box, bool smooth) {
   cairo_scale(context, double(box.width_px) / picture.width_px,
               double(box.height_px) / picture.height_px);
   cairo_set_source_surface(context, source.get(), 0, 0);
-  cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);  // no pale rim
+  cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);  // avoids a pale border
   cairo_pattern_set_filter(cairo_get_source(context),
                            smooth ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
   cairo_paint(context);

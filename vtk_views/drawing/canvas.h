@@ -22,24 +22,24 @@ struct TextStyle {
   double size_px = 14;
   Align align = Align::kLeft;
   bool bold = false;
-  bool upwards = false;  // reads from the bottom to the top
+  bool upwards = false;  // rotated, from bottom to top
   Rgb8 colour{20, 20, 20};
 };
 
-/// Draws with cairo: lines and text are smooth, fills of whole pixels are exact.
+/// Drawing with cairo: smooth lines and text, exact fills of whole pixels.
 class Canvas {
  public:
   Canvas(int width_px, int height_px);
   ~Canvas();
 
   void fill(const Box& box, Rgb8 colour);
-  /// A line of one pixel around the box, outside it.
+  /// Line of one pixel around the outside of the box.
   void frame(const Box& box, Rgb8 colour = {60, 60, 60});
   void line(double x0_px, double y0_px, double x1_px, double y1_px, double width_px, Rgb8 colour);
   void triangle(double x0, double y0, double x1, double y1, double x2, double y2, Rgb8 colour);
-  /// Scales the image to the box; smooth for photographs, pixel by pixel for measured values.
+  /// Scales the image to the box; `smooth` interpolates (photographs), else pixels stay sharp.
   void picture(const ColourImage& picture, const Box& box, bool smooth);
-  /// (x, y) is on the text's baseline: its left end, middle or right end.
+  /// (x, y): left end, middle or right end of the baseline.
   void text(double x_px, double y_px, const std::string& text, const TextStyle& style);
 
   double textWidth(const std::string& text, const TextStyle& style) const;

@@ -1,5 +1,5 @@
-// vtk_views/drawing/colour_map.cpp: seventeen anchors, straight lines between them (within 6 of 255
-// steps).
+// vtk_views/drawing/colour_map.cpp: seventeen colours
+// with linear interpolation (within 6 of 255 steps).
 #include "vtk_views/drawing/colour_map.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// vtk_views/drawing/error_colours.cpp: colour by value, a bar of thin strips.
+// vtk_views/drawing/error_colours.cpp: colour by value, colour bar of thin strips.
 #include "vtk_views/drawing/error_colours.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace softscope {
 namespace {
 
 constexpr int kStrips = 128;
-constexpr double kBarHeight = 0.9, kHeight = 3.7, kTip = 0.8;  // in heights of letters
+constexpr double kBarHeight = 0.9, kHeight = 3.7, kTip = 0.8;  // in units of the font size
 
 struct Bar {
   double left, right, top, bottom;
@@ -82,7 +82,7 @@ double widestNumberPt(const ErrorColours& colours, double font_pt) {
   return widest_pt;
 }
 
-/// A grey patch at the right end; returns the width it took.
+/// Grey patch at the right end; returns its width.
 double drawMissing(const std::string& meaning, PointPt top_right, double font_pt,
                    VectorDrawing& drawing) {
   DrawnText text;

@@ -1,5 +1,5 @@
-// vtk_views/drawing/figure_style.cpp: widths and sizes of letters as the publishers' guides give
-// them.
+// vtk_views/drawing/figure_style.cpp: widths and
+// font sizes from the guides of the publishers.
 #include "vtk_views/drawing/figure_style.h"
 
 #include <vector>

@@ -9,7 +9,7 @@ struct FigureStyle {
   std::string name = "ieee";
   double width_mm = 89;
   double font_pt = 7.5;
-  double line_pt = 0.9;  // of contours; frames and bars follow it
+  double line_pt = 0.9;  // width of contours; frames and bars are proportional
   double dots_per_inch = 600;
 };
 

@@ -1,4 +1,4 @@
-// vtk_views/drawing/fonts.cpp: asks fontconfig, as cairo will.
+// vtk_views/drawing/fonts.cpp: query of fontconfig, as in cairo.
 #include "vtk_views/drawing/fonts.h"
 
 #include <fontconfig/fontconfig.h>
@@ -13,7 +13,7 @@ constexpr const char* kLastResort = "DejaVu Sans";
 
 std::string chooseFont() {
   for (const char* family : kWithArialsWidths)
-    if (findFont(family).family == family) return family;  // else fontconfig names a stand-in
+    if (findFont(family).family == family) return family;  // else fontconfig returned a substitute
   return kLastResort;
 }
 

@@ -6,18 +6,18 @@
 namespace softscope {
 
 struct FontFile {
-  std::string family;  // what fontconfig answers with; may differ from what was asked
-  std::string path;    // empty where the machine has no font at all
+  std::string family;  // result of fontconfig; may differ from the requested family
+  std::string path;    // empty without any font
 };
 
-/// The file that fontconfig takes for `family`. Never throws.
+/// Font file that fontconfig selects for `family`. Never throws.
 FontFile findFont(const std::string& family);
 
-/// The family that every figure is set in: Arial or Helvetica, as journals ask, where installed;
-/// else Liberation Sans, whose letters are as wide; else DejaVu Sans. All have Greek, arrows and ±.
-/// The same for the whole life of the process.
+/// Font family of all figures: Arial or Helvetica, as journals require, if
+/// installed; else Liberation Sans, which has the same widths; else DejaVu
+/// Sans. All have Greek, arrows and ±. Constant during the process.
 const std::string& figureFont();
-/// Whether it is one of those that journals ask for, or as wide: figures then look alike.
+/// True for a family with the widths of Arial.
 bool figureFontHasArialsWidths();
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/drawing/html_text.cpp: byte by byte.
+// vtk_views/drawing/html_text.cpp: escaping byte by byte.
 #include "vtk_views/drawing/html_text.h"
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kReplacement = "\xEF\xBF\xBD";
 
-/// How many bytes the UTF-8 character at the text's start has; 0 where it is none.
+/// Number of bytes of the first UTF-8 character; 0 if invalid.
 std::size_t lengthOfCharacter(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t first = byte(0);

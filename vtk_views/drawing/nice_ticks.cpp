@@ -40,9 +40,9 @@ Ticks niceTicks(double low, double high, int wanted) {
   const double step = niceStep((high - low) / std::max(wanted, 1));
   Ticks ticks;
   ticks.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  const double slack = 1e-9 * step;  // a bound that is a multiple of the step keeps its tick
+  const double slack = 1e-9 * step;  // tolerance for a bound that is a multiple of the step
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; ++k)
-    ticks.values.push_back(k * step + 0.0);  // + 0.0: zero is never written as -0
+    ticks.values.push_back(k * step + 0.0);  // + 0.0 avoids -0
   return ticks;
 }
 

@@ -1,4 +1,4 @@
-// vtk_views/drawing/paper_sheet.cpp: a cursor that moves down.
+// vtk_views/drawing/paper_sheet.cpp: cursor from top to bottom.
 #include "vtk_views/drawing/paper_sheet.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kLeading = 1.32;  // from line to line, in heights of letters
+constexpr double kLeading = 1.32;  // line spacing, in units of the font size
 constexpr Rgb8 kGrey{100, 100, 100}, kNoticeRed{150, 20, 20};
 
 double widthOf(const std::string& words, double size_pt, bool bold) {
@@ -19,7 +19,7 @@ double widthOf(const std::string& words, double size_pt, bool bold) {
   return textWidthPt(text);
 }
 
-/// The longest beginning of a word that fits, at least one character.
+/// Length of the longest prefix of a word that fits, at least one character.
 std::size_t fittingLength(const std::string& word, double width_pt, double size_pt, bool bold) {
   std::size_t length = word.size();
   while (length > 1 && widthOf(word.substr(0, length), size_pt, bold) > width_pt) {
@@ -29,7 +29,7 @@ std::size_t fittingLength(const std::string& word, double width_pt, double size_
   return length;
 }
 
-/// The same part, moved.
+/// Translates a part of a drawing.
 struct Mover {
   PointPt by;
 

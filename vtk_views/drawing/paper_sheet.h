@@ -1,5 +1,5 @@
-// vtk_views/drawing/paper_sheet.h: text, tables and drawings, one below the other, on as many pages
-// as needed.
+// vtk_views/drawing/paper_sheet.h: layout
+// of text, tables and drawings on pages.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct SheetText {
   double size_pt = 9;
   bool bold = false;
   double indent_pt = 0;
-  double after_pt = 4;  // left free below
+  double after_pt = 4;  // space below
   Rgb8 colour{20, 20, 20};
 };
 
-/// A4, upright. Whatever doesn't fit goes to the next page.
+/// A4, portrait. Content that does not fit begins on the next page.
 class PaperSheet {
  public:
   static constexpr double kWidthPt = 595.28, kHeightPt = 841.89;
@@ -27,19 +27,19 @@ class PaperSheet {
   PaperSheet() { newPage(); }
 
   void newPage();
-  /// A new page unless `height_pt` is left on this one.
+  /// Begins a new page unless `height_pt` is free on this one.
   void ensure(double height_pt);
   void skip(double height_pt) { y_pt_ += height_pt; }
 
-  /// Breaks at blanks; words too long for a line are cut.
+  /// Breaks lines at blanks; splits words longer than a line.
   void text(const std::string& words, const SheetText& style);
-  /// `top_left` of the drawing; its own white is not drawn.
+  /// Places a drawing with its `top_left`, without its white background.
   void put(const VectorDrawing& drawing, PointPt top_left);
   void rule(Rgb8 colour, double width_pt);
 
   double y() const { return y_pt_; }
   VectorDrawing& page() { return pages_.back(); }
-  /// With `notice` at the top and numbers at the bottom of each.
+  /// Pages with `notice` at the top and page numbers at the bottom.
   std::vector<VectorDrawing> finished(const std::string& notice) const;
 
  private:
@@ -47,10 +47,10 @@ class PaperSheet {
   double y_pt_ = 0;
 };
 
-/// Parted by blanks; bytes that are no UTF-8 replaced.
+/// Words separated by blanks; invalid UTF-8 is replaced.
 std::vector<std::string> wordsOfText(const std::string& text);
 
-/// Lines no wider than `width_pt`.
+/// Lines of at most `width_pt`.
 std::vector<std::string> brokenLines(const std::string& words, double width_pt, double size_pt,
                                      bool bold);
 

@@ -1,5 +1,5 @@
-// vtk_views/drawing/vector_drawing.cpp: SVG in our own words, for cairo's would have no text; PDF
-// and pixels by cairo.
+// vtk_views/drawing/vector_drawing.cpp: own SVG writer, because
+// cairo's SVG contains no text; PDF and pixels by cairo.
 #include "vtk_views/drawing/vector_drawing.h"
 
 #include <cairo/cairo-pdf.h>
@@ -17,7 +17,7 @@ namespace softscope {
 namespace {
 
 constexpr double kDashOnPt = 3, kDashOffPt = 1.5;
-constexpr double kRimShare = 0.22;  // of the letters' height; half of it lies under them
+constexpr double kRimShare = 0.22;  // share of the font size; half of it is below the letters
 
 void requireSize(const VectorDrawing& drawing) {
   if (!(drawing.width_pt > 0 && drawing.height_pt > 0 && drawing.width_pt < 1e5 &&
@@ -68,7 +68,7 @@ std::string pathOf(const std::vector<PointPt>& points) {
   return path;
 }
 
-/// Writes each part as one element.
+/// Writes one element per part.
 struct SvgWriter {
   std::string text;
 
@@ -97,7 +97,7 @@ struct SvgWriter {
       text += " transform=\"rotate(-90 " + number(t.at.x_pt) + " " + number(t.at.y_pt) + ")\"";
     text += ">" + escaped(validUtf8(t.text)) + "</text>\n";
   }
-  /// Lines of no length with round ends: the shortest way to say it.
+  /// Lines of zero length with round ends are the shortest form.
   void operator()(const DrawnDots& dots) {
     text += "<path d=\"";
     for (const PointPt& p : dots.centres)
@@ -151,7 +151,7 @@ double setFont(cairo_t* context, const DrawnText& text) {
   return extents.x_advance;
 }
 
-/// Draws each part; a pixel of the context is a point.
+/// Draws each part; one pixel of the context is one point.
 struct CairoPainter {
   cairo_t* context;
 
@@ -217,7 +217,7 @@ struct CairoPainter {
     cairo_translate(context, p.top_left.x_pt, p.top_left.y_pt);
     cairo_scale(context, width_pt / p.picture.width_px, height_pt / p.picture.height_px);
     cairo_set_source_surface(context, source.get(), 0, 0);
-    cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);  // no pale rim
+    cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);  // avoids a pale border
     cairo_pattern_set_filter(cairo_get_source(context), CAIRO_FILTER_GOOD);
     cairo_paint(context);
     cairo_restore(context);
@@ -227,7 +227,7 @@ struct CairoPainter {
 void paint(const VectorDrawing& drawing, cairo_surface_t* surface, double scale) {
   const CairoContext context(cairo_create(surface));
   cairo_font_options_t* options = cairo_font_options_create();
-  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);  // widths scale
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);  // widths scale linearly
   cairo_set_font_options(context.get(), options);
   cairo_font_options_destroy(options);
   cairo_scale(context.get(), scale, scale);
@@ -285,7 +285,7 @@ std::string pdfOfPages(const std::vector<VectorDrawing>& pages) {
   std::string bytes;
   const CairoSurface surface(
       cairo_pdf_surface_create_for_stream(appendTo, &bytes, pages[0].width_pt, pages[0].height_pt));
-  // The time of day would make every file another one.
+  // A creation time would make the file differ on each run.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2000-01-01T00:00:00Z");
   for (const VectorDrawing& page : pages) {

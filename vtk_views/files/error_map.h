@@ -1,4 +1,4 @@
-// vtk_views/files/error_map.h: a surface at one moment, each of its vertices with its error.
+// vtk_views/files/error_map.h: surface with an error per vertex, for one frame.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,27 +12,27 @@
 
 namespace softscope {
 
-/// Errors were computed elsewhere. All lengths mm, all places in one frame.
+/// Computed elsewhere. All lengths in mm, all positions in one frame.
 struct ErrorMap {
-  TriangleMesh surface;                // without triangles: points
-  std::vector<float> absolute_mm;      // one a vertex
-  std::vector<float> signed_mm;        // one a vertex, NaN where no side is outside
-  std::vector<std::uint8_t> observed;  // one a vertex, 0 = unseen and carried along; may be empty
-  TriangleMesh reference;              // coarse, for orientation; may be empty
+  TriangleMesh surface;                // without triangles: a point cloud
+  std::vector<float> absolute_mm;      // one per vertex
+  std::vector<float> signed_mm;        // one per vertex, NaN without a sign
+  std::vector<std::uint8_t> observed;  // one per vertex, 0 = currently not observed; may be empty
+  TriangleMesh reference;              // decimated, for orientation; may be empty
 
-  int frame = -1;  // -1 = no moment of a series
+  int frame = -1;  // -1 = not part of a series
   double time_s = std::nan("");
-  Eigen::Vector3f look{0, 1, 0};  // where an image is best taken: along `look`, `up` upwards
+  Eigen::Vector3f look{0, 1, 0};  // initial view direction, with `up`
   Eigen::Vector3f up{0, 0, 1};    // (defaults: the front of a patient in LPS)
 };
 
-/// A VTP file: the surface's vertices (as points where it has no triangles) with the arrays
-/// Absolute, Signed and Observed, then the reference's triangles, whose errors are NaN; field
-/// arrays ModelPoints (how many vertices are the surface's), Frame, TimeValue, Look, Up, SPACE.
-/// Throws Error where counts differ.
+/// VTP file: vertices of the surface (as points without triangles) with the
+/// arrays Absolute, Signed and Observed, then the triangles of the reference with
+/// NaN as error; field arrays ModelPoints (number of vertices of the surface),
+/// Frame, TimeValue, Look, Up, SPACE. Throws Error for inconsistent sizes.
 std::string errorMapVtp(const ErrorMap& map);
 
-/// Reads what errorMapVtp or errorSurfaceVtp made. `name`: in messages. Throws InputError.
+/// Parses the result of errorMapVtp() or errorSurfaceVtp(). `name`: in messages. Throws InputError.
 ErrorMap parseErrorMap(const std::string& bytes, const std::string& name);
 
 }  // namespace softscope

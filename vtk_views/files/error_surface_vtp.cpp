@@ -1,4 +1,4 @@
-// vtk_views/files/error_surface_vtp.cpp: arrays by name, then VTK's writer.
+// vtk_views/files/error_surface_vtp.cpp: arrays by name, written by VTK.
 #include "vtk_views/files/error_surface_vtp.h"
 
 #include <vtkCellArray.h>

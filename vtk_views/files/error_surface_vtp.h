@@ -1,5 +1,5 @@
-// vtk_views/files/error_surface_vtp.h: a surface with its errors, as ParaView and 3D Slicer read
-// it.
+// vtk_views/files/error_surface_vtp.h: surface
+// with errors for ParaView and 3D Slicer.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,16 @@
 
 namespace softscope {
 
-/// Computed elsewhere, one a vertex, mm.
+/// Computed elsewhere; one per vertex, mm.
 struct VertexErrors {
-  std::vector<double> signed_mm;  // NaN where no side is outside
+  std::vector<double> signed_mm;  // NaN without a sign
   std::vector<double> absolute_mm;
   std::vector<Eigen::Vector3f> to_reference_mm;  // from the vertex to the closest point
 };
 
-/// A VTP file (appended, compressed) of the triangles, or of points where there are none, with the
-/// arrays `Signed`, `Absolute` (the names that Slicer's scripts look for), `ToReference`, and the
-/// field array `SPACE` where the mesh says it. Throws Error where counts differ or VTK can't write.
+/// VTP file (appended, compressed) of the triangles, or of points without triangles, with the
+/// arrays `Signed`, `Absolute` (names that scripts of Slicer expect), `ToReference`, and the field
+/// array `SPACE` if the mesh has one. Throws Error for inconsistent sizes or a failure of VTK.
 std::string errorSurfaceVtp(const TriangleMesh& mesh, const VertexErrors& errors);
 
 }  // namespace softscope

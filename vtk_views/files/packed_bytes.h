@@ -1,5 +1,5 @@
-// vtk_views/files/packed_bytes.h: plain values one after the other, between processes of one
-// program.
+// vtk_views/files/packed_bytes.h: binary
+// serialisation between processes of one program.
 #pragma once
 
 #include <cstring>
@@ -34,7 +34,7 @@ class BytePacker {
   }
 };
 
-/// Takes them out again in the same order. Throws Error where there are fewer.
+/// Reads them in the same order. Throws Error for missing bytes.
 class ByteUnpacker {
  public:
   explicit ByteUnpacker(std::string_view bytes) : rest_(bytes) {}

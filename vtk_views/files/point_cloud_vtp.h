@@ -1,4 +1,4 @@
-// vtk_views/files/point_cloud_vtp.h: a point cloud as ParaView reads it.
+// vtk_views/files/point_cloud_vtp.h: point cloud for ParaView.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// A VTP file (appended, compressed): points in mm, one vertex each, with the arrays Normals,
-/// RGB and weight where the cloud has them. Throws Error where VTK can't write it.
+/// VTP file (appended, compressed): points in mm, one vertex each, with the
+/// arrays Normals, RGB and weight if present. Throws Error if VTK fails.
 std::string pointCloudVtp(const PointCloud& cloud);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/files/surface_vtp.h: a model as ParaView and 3D Slicer read it.
+// vtk_views/files/surface_vtp.h: model for ParaView and 3D Slicer.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace softscope {
 
-/// A VTP file (appended, compressed): triangles, or one vertex a point where there are none; the
-/// arrays Normals, RGB and weight where the model has them; the field arrays UNIT, and SPACE or
-/// FRAME where they are known. Throws Error where VTK can't write it.
+/// VTP file (appended, compressed): triangles, or one vertex per point
+/// without triangles; the arrays Normals, RGB and weight if present; the
+/// field arrays UNIT, and SPACE or FRAME if known. Throws Error if VTK fails.
 std::string surfaceVtp(const ModelSurface& surface, const LengthUnit& unit = {});
 
 }  // namespace softscope

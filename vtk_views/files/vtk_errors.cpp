@@ -1,5 +1,5 @@
-// vtk_views/files/vtk_errors.cpp: listens to errors of a reader and of the executive that drives
-// it.
+// vtk_views/files/vtk_errors.cpp: observer of
+// the errors of a reader and its executive.
 #include "vtk_views/files/vtk_errors.h"
 
 #include <vtkCallbackCommand.h>
@@ -57,7 +57,7 @@ class ErrorListener {
   unsigned long warning_tag_ = 0;
 };
 
-/// Hears what readers say without an event (vtkGenericWarningMacro): so they report short files.
+/// Captures messages without an event (vtkGenericWarningMacro): readers report short files by them.
 class SilentOutput : public vtkOutputWindow {
  public:
   static SilentOutput* New();
@@ -71,7 +71,7 @@ class SilentOutput : public vtkOutputWindow {
 };
 vtkStandardNewMacro(SilentOutput);
 
-/// In its scope, VTK's warnings go neither to its window nor to its log.
+/// Suppresses VTK's warnings in its scope.
 class Silence {
  public:
   Silence()

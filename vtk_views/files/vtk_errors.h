@@ -1,4 +1,4 @@
-// vtk_views/files/vtk_errors.h: turns what VTK would print into exceptions.
+// vtk_views/files/vtk_errors.h: conversion of VTK errors to exceptions.
 #pragma once
 
 #include <vtkAlgorithm.h>
@@ -7,9 +7,9 @@
 
 namespace softscope {
 
-/// Runs a reader and its pipeline. VTK reports failures as events and still hands out data, so they
-/// are collected instead of printed. Throws InputError with `source` and VTK's first complaint, and
-/// Error outside guardedRead(): readers of other libraries crash on some damaged files.
+/// Runs a reader with its pipeline. VTK reports failures as events and still returns data, so
+/// the events are collected. Throws InputError with `source` and the first message of VTK, and
+/// Error outside of guardedRead(): readers of other libraries crash on some damaged files.
 void updateOrThrow(vtkAlgorithm& reader, const std::string& source);
 
 }  // namespace softscope

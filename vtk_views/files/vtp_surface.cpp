@@ -1,4 +1,4 @@
-// vtk_views/files/vtp_surface.cpp: VTK reads, we take what a mesh has.
+// vtk_views/files/vtp_surface.cpp: conversion from vtkPolyData.
 #include "vtk_views/files/vtp_surface.h"
 
 #include <vtkCellArray.h>
@@ -52,7 +52,7 @@ void addPoints(vtkPolyData* data, const std::string& path, TriangleMesh& mesh) {
   }
 }
 
-/// Each polygon as a fan around its first corner.
+/// Polygons are split into fans around their first corner.
 void addTriangles(vtkCellArray* polygons, const std::string& path, TriangleMesh& mesh) {
   const auto count = static_cast<vtkIdType>(mesh.vertices_mm.size());
   vtkNew<vtkIdList> corners;

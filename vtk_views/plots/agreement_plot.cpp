@@ -35,7 +35,7 @@ void drawBand(const AgreementLevel& level, const PlotAxes& axes, Rgb8 colour,
                                         colour});
 }
 
-/// The line across, with its name and number beside the frame.
+/// Horizontal line with its name and value next to the frame.
 void drawLevel(const AgreementLevel& level, const char* name, const PlotAxes& axes,
                const DrawnLine& style, double font_pt, VectorDrawing& drawing) {
   if (!std::isfinite(level.value)) return;

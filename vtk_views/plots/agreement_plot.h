@@ -1,5 +1,5 @@
-// vtk_views/plots/agreement_plot.h: differences and the limits that nearly all of them keep (Bland,
-// Altman).
+// vtk_views/plots/agreement_plot.h: differences
+// with their limits of agreement (Bland, Altman).
 #pragma once
 
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace softscope {
 
-/// A level with its confidence interval; NaN where it is not defined.
+/// Level with its confidence interval; NaN if undefined.
 struct AgreementLevel {
   double value = 0, low = 0, high = 0;
 };
 
-/// One difference a case; computed elsewhere.
+/// One difference per case; computed elsewhere.
 struct AgreementData {
   std::string title, x_label, y_label;
   std::vector<double> x, differences;
   AgreementLevel bias, low_limit, high_limit;
 };
 
-/// Dots, the bias as a line and the limits dashed, each in the band of its confidence interval.
-/// Throws Error where the lengths differ or there is no finite pair.
+/// Dots, bias as a solid and limits as dashed lines, each in the band of its
+/// confidence interval. Throws Error for different lengths or no finite pair.
 VectorDrawing drawAgreement(const AgreementData& data, const PlotStyle& style = {});
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/plots/depth_picture.cpp: two panels, a bar, a legend.
+// vtk_views/plots/depth_picture.cpp: two panels, colour bar, legend.
 #include "vtk_views/plots/depth_picture.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kLeastPanelPx = 400, kLargestPanelPx = 900;  // height; below, text gets too small
+constexpr int kLeastPanelPx = 400, kLargestPanelPx = 900;  // height; text is too small below
 
 double positionIn(const DepthRange& range, double depth_mm) {
   return (depth_mm - range.nearest_mm) / (range.farthest_mm - range.nearest_mm);
@@ -84,7 +84,7 @@ void drawBar(Canvas& canvas, const DepthPictureLayout& layout, const DepthRange&
   drawTicks(canvas, layout, range);
 }
 
-/// A patch of grey and its meaning, right-aligned at x; returns where the next one ends.
+/// Grey patch with its meaning, right-aligned at x; returns the right end of the next entry.
 double drawLegendEntry(Canvas& canvas, const DepthPictureLayout& layout, double right_px,
                        double baseline_px, Rgb8 grey, const std::string& meaning) {
   TextStyle style;

@@ -1,5 +1,5 @@
-// vtk_views/plots/depth_picture.h: one stereo frame as a figure: the photograph, its depth, the
-// scale.
+// vtk_views/plots/depth_picture.h: figure of a
+// stereo frame: left image, depth, colour bar.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace softscope {
 
-/// What the colour bar spans; nearest_mm < farthest_mm.
+/// Range of the colour bar; nearest_mm < farthest_mm.
 struct DepthRange {
   double nearest_mm = 0;
   double farthest_mm = 1;
 };
 
-/// Spans the middle 98 % of the measured depths and a little more, to round numbers; at least 1 mm.
-/// A frame without any depth gives 0 to 100 mm.
+/// Central 98 % of the measured depths, extended to round
+/// numbers; at least 1 mm. 0 to 100 mm without any depth.
 DepthRange depthRangeToShow(const Raster<float>& depth_mm);
 
 struct DepthPictureText {
@@ -25,7 +25,7 @@ struct DepthPictureText {
   std::string note;   // below them, e.g. coverage
 };
 
-/// Where things are drawn, for images of a given size.
+/// Layout for images of a given size.
 struct DepthPictureLayout {
   int width_px = 0;
   int height_px = 0;
@@ -37,9 +37,9 @@ struct DepthPictureLayout {
 
 DepthPictureLayout layoutDepthPicture(int picture_width_px, int picture_height_px);
 
-/// Photograph beside depth in viridis, dark = near; not measured and masked pixels in greys that
-/// the legend names; arrows on the bar where depths lie beyond it. All three rasters have one
-/// shape, or the mask is empty; else Error.
+/// Left image and depth in viridis, dark = near; unmeasured and masked
+/// pixels in greys with a legend; arrows on the bar for depths outside of
+/// it. All rasters have the same shape, or the mask is empty; else Error.
 ColourImage drawDepthPicture(const ColourImage& left, const Raster<float>& depth_mm,
                              const Mask& mask, const DepthRange& range,
                              const DepthPictureText& text);

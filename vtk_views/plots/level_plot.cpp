@@ -1,4 +1,4 @@
-// vtk_views/plots/level_plot.cpp: colours that the colour-blind tell apart (Okabe and Ito).
+// vtk_views/plots/level_plot.cpp: curves in colours safe for colour blindness (Okabe and Ito).
 #include "vtk_views/plots/level_plot.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<Rgb8, 6> kColours{
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 constexpr Rgb8 kLimit{140, 140, 140};
-constexpr double kMostLimits = 3;  // the axis ends here
+constexpr double kMostLimits = 3;  // end of the axis, in limits
 
 double largest(double so_far, const std::vector<double>& values) {
   for (const double value : values)
@@ -23,7 +23,7 @@ double largest(double so_far, const std::vector<double>& values) {
   return so_far;
 }
 
-/// What the crosses mean, at the right above the frame.
+/// Legend of the crosses, right-aligned above the frame.
 void drawCrossMeaning(const LevelPlotData& data, const PlotAxes& axes, double font_pt,
                       VectorDrawing& drawing) {
   const bool any = std::any_of(data.curves.begin(), data.curves.end(), [](const LevelCurve& c) {
@@ -38,7 +38,7 @@ void drawCrossMeaning(const LevelPlotData& data, const PlotAxes& axes, double fo
   drawing.parts.emplace_back(std::move(meaning));
 }
 
-/// A filled regular shape of `corners` around a point.
+/// Filled regular polygon with `corners`.
 void drawSpot(PointPt at, double radius_pt, int corners, Rgb8 colour, VectorDrawing& drawing) {
   DrawnShape spot;
   spot.colour = colour;
@@ -108,7 +108,7 @@ DrawnText nameBelow(const PlotAxes& axes, double middle, const std::string& name
   return text;
 }
 
-/// A frame that leaves room for upright names below it.
+/// Frame with space for vertical names below.
 PlotAxes axesAbove(const VectorDrawing& drawing, double names_pt, AxisRange x, AxisRange y,
                    double font_pt) {
   const PlotAxes plain = plotAxes(drawing, x, y, font_pt, {});

@@ -1,5 +1,5 @@
-// vtk_views/plots/level_plot.h: an error against how hard a case was, or side by side for several
-// cases.
+// vtk_views/plots/level_plot.h: error over the
+// level of difficulty, or bars for several cases.
 #pragma once
 
 #include <string>
@@ -10,28 +10,28 @@
 
 namespace softscope {
 
-/// One curve; values are in the order of `levels`.
+/// Curve; values in the order of `levels`.
 struct LevelCurve {
-  std::string name;            // for the legend; may be empty where there is one curve
-  std::vector<double> levels;  // rising
-  std::vector<double> mean;    // NaN: lost, marked by a cross at the top of the frame
-  std::vector<double> p95;     // drawn dashed; NaN leaves a gap
+  std::string name;            // for the legend; may be empty for a single curve
+  std::vector<double> levels;  // ascending
+  std::vector<double> mean;    // NaN: lost, drawn as a cross at the top of the frame
+  std::vector<double> p95;     // dashed; NaN is a gap
 };
 
 struct LevelPlotData {
   std::string title, level_label, error_label;
   std::vector<LevelCurve> curves;
-  double limit = 0;  // a line across; 0: none
+  double limit = 0;  // horizontal line; 0: none
 };
 
-/// Mean as a line with a dot a level, P95 dashed above it. The axis begins at 0 and ends at three
-/// limits where values go beyond. Throws Error where lengths differ or there is no curve.
+/// Mean as a line with one dot per level, P95 dashed. The axis begins at 0 and ends at
+/// three limits if values exceed that. Throws Error for different lengths or no curve.
 VectorDrawing drawLevels(const LevelPlotData& data, const PlotStyle& style = {});
 
-/// One bar a case: mean inside a wider one up to P95, and a diamond at a published value.
+/// One bar per case: mean inside a wider bar up to P95; published value as a diamond.
 struct CaseBar {
   std::string name;
-  double mean = 0, p95 = 0, published = 0;  // NaN: not there
+  double mean = 0, p95 = 0, published = 0;  // NaN: missing
 };
 
 struct CaseBarsData {
@@ -39,7 +39,7 @@ struct CaseBarsData {
   std::vector<CaseBar> bars;
 };
 
-/// Names stand upright below the bars. Throws Error where there is no bar.
+/// Names are vertical below the bars. Throws Error without a bar.
 VectorDrawing drawCaseBars(const CaseBarsData& data, const PlotStyle& style = {});
 
 }  // namespace softscope

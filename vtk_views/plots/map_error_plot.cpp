@@ -12,10 +12,10 @@
 namespace softscope {
 namespace {
 
-constexpr double kMargin = 0.4;  // in heights of letters
+constexpr double kMargin = 0.4;  // in units of the font size
 constexpr double kBarShare = 0.8;
 
-/// The 95th percentile of what was judged, rounded up; 1 where nothing was.
+/// 95th percentile of the evaluated pixels, rounded up; 1 without any.
 double limitOf(const Raster<float>& error) {
   std::vector<float> known;
   std::copy_if(error.values.begin(), error.values.end(), std::back_inserter(known),

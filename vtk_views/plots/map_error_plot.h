@@ -1,4 +1,4 @@
-// vtk_views/plots/map_error_plot.h: the errors of a depth or disparity map, pixel by pixel.
+// vtk_views/plots/map_error_plot.h: error image of a depth or disparity map.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace softscope {
 
 struct MapErrorData {
   std::string title;    // above the map
-  Raster<float> error;  // magnitude; NaN: not measured, or no truth
+  Raster<float> error;  // absolute; NaN: not measured, or no truth
   std::string label;    // of the colour bar, with the unit
 };
 
-/// The map as wide as the sheet, its colour bar below it; style.height_mm does not count. The bar
-/// ends at the 95th percentile, rounded up; an arrow says that some errors are larger.
+/// Map of the width of the sheet, colour bar below; style.height_mm is ignored.
+/// The bar ends at the 95th percentile, rounded up; an arrow marks larger errors.
 VectorDrawing drawMapErrors(const MapErrorData& data, const PlotStyle& style = {});
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/plots/match_figure.cpp: images, dots, lines, words, in this order.
+// vtk_views/plots/match_figure.cpp: images, dots, lines and texts, in drawing order.
 #include "vtk_views/plots/match_figure.h"
 
 #include <algorithm>
@@ -26,9 +26,9 @@ class MatchSheet {
   void text(PointPt at, const std::string& words, double size_pt, TextAnchor anchor, Rgb8 colour);
 
   const MatchFigure& figure_;
-  double font_pt_, picture_pt_, scale_;  // width of an image; pt a pixel
+  double font_pt_, picture_pt_, scale_;  // width of an image; pt per pixel
   std::size_t lines_;
-  double top_pt_ = 0;  // of the row at hand
+  double top_pt_ = 0;  // top of the current row
   VectorDrawing drawing_;
 };
 

@@ -1,4 +1,4 @@
-// vtk_views/plots/match_figure.h: which pixel of one image was found where in another.
+// vtk_views/plots/match_figure.h: matches between two images.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,22 +16,22 @@ struct DrawnMatch {
   bool inlier = false;
 };
 
-/// One row of the figure: two images side by side and what joins them.
+/// Row of the figure: two images side by side with lines between matches.
 struct MatchPanel {
-  std::string caption;  // below, after its letter
+  std::string caption;  // below the row, after its letter
   std::vector<DrawnMatch> matches;
 };
 
 struct MatchFigure {
-  ColourImage left, right;  // of one size, the same in every row
+  ColourImage left, right;  // equal size in all rows
   std::string left_title, right_title;
   std::vector<MatchPanel> panels;
-  std::string note;  // small, at the bottom, in as many lines as it takes
+  std::string note;  // small text at the bottom, with line breaks
 };
 
-/// Every match is a dot in both images; of each row at most `lines` are joined by a line, evenly
-/// spread over the given order, inliers and outliers in their true proportion. Outliers lie on top.
-/// Throws Error where there is no panel or the images differ in size.
+/// Every match is a dot in both images; at most `lines` per row are connected by a line,
+/// evenly spread over the given order, with the true proportion of inliers and outliers.
+/// Outliers are drawn on top. Throws Error without a panel or for images of different sizes.
 VectorDrawing drawMatches(const MatchFigure& figure, const FigureStyle& style, int lines = 24);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/plots/outcome_strip.cpp: frames of one outcome in a row are one shape.
+// vtk_views/plots/outcome_strip.cpp: one shape per run of equal states.
 #include "vtk_views/plots/outcome_strip.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-/// From pale to dark, so that a grey print tells them apart as well.
+/// From pale to dark, distinguishable in grey.
 Rgb8 colourOf(FusionOutcome outcome) {
   switch (outcome) {
     case FusionOutcome::kFused:
@@ -22,7 +22,7 @@ Rgb8 colourOf(FusionOutcome outcome) {
   return {};
 }
 
-/// Half way to the neighbour; at the ends as far out as inwards.
+/// Midpoint to the previous neighbour; symmetric at the ends.
 double borderBefore(const std::vector<double>& x, std::size_t i) {
   if (x.size() == 1) return i == 0 ? x[0] - 0.5 : x[0] + 0.5;
   if (i == 0) return x[0] - (x[1] - x[0]) / 2;

@@ -14,16 +14,16 @@ const char* toString(FusionOutcome outcome);
 
 /// One cell per frame, in the order of `x`.
 struct OutcomeStripData {
-  std::vector<double> x;  // rising: frame numbers, or seconds
+  std::vector<double> x;  // ascending: frame numbers, or seconds
   std::vector<FusionOutcome> outcomes;
 };
 
-/// Cells over the same x axis as a plot of this style that spans the same frames; the legend above
-/// them names each outcome with its count. Throws Error where the lengths differ or there is no
-/// frame.
+/// Cells over the x axis of a plot with this style and the
+/// same frames; the legend above names each state with its
+/// count. Throws Error for different lengths or no frame.
 VectorDrawing drawOutcomeStrip(const OutcomeStripData& data, const PlotStyle& style = {});
 
-/// The strip over the plot; the plot alone where there is no frame.
+/// Strip above the plot; the plot only without frames.
 VectorDrawing withOutcomeStrip(const OutcomeStripData& data, const VectorDrawing& plot,
                                const PlotStyle& style = {});
 

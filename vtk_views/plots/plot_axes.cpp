@@ -1,4 +1,4 @@
-// vtk_views/plots/plot_axes.cpp: round numbers at the ticks, names at the sides.
+// vtk_views/plots/plot_axes.cpp: ticks with round numbers, axis labels.
 #include "vtk_views/plots/plot_axes.h"
 
 #include <algorithm>
@@ -24,13 +24,13 @@ DrawnText label(PointPt at, const std::string& text, double size_pt, TextAnchor 
   return label;
 }
 
-/// Takes letters out of the middle until it fits: names of files differ at both ends.
+/// Removes characters from the middle until it fits: file names differ at both ends.
 void shorten(DrawnText& text, double width_pt) {
   std::string left = text.text.substr(0, text.text.size() / 2);
   std::string right = text.text.substr(left.size());
   const auto inside = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
   while (!left.empty() && !right.empty() && textWidthPt(text) > width_pt) {
-    while (inside(left.back()) && left.size() > 1) left.pop_back();  // UTF-8: whole letters
+    while (inside(left.back()) && left.size() > 1) left.pop_back();  // UTF-8: whole characters
     left.pop_back();
     do right.erase(0, 1);
     while (!right.empty() && inside(right.front()));
@@ -72,7 +72,7 @@ void PlotAxes::drawLeftNumbers(VectorDrawing& drawing) const {
   }
 }
 
-/// Fewer where their numbers would touch.
+/// Fewer if their numbers would overlap.
 Ticks PlotAxes::bottomTicks() const {
   for (int wanted = 6;; --wanted) {
     Ticks ticks = niceTicks(x_.low, x_.high, wanted);
@@ -131,7 +131,7 @@ void PlotAxes::drawCurve(const std::vector<double>& x, const std::vector<double>
                          const DrawnLine& style, VectorDrawing& drawing) const {
   DrawnLine piece = style;
   const auto finishPiece = [&] {
-    if (piece.points.size() == 1)  // a lone sample: a short stroke, else it would not be seen
+    if (piece.points.size() == 1)  // single sample: drawn as a short line, else invisible
       piece.points = {{piece.points[0].x_pt - 1, piece.points[0].y_pt},
                       {piece.points[0].x_pt + 1, piece.points[0].y_pt}};
     if (!piece.points.empty()) drawing.parts.emplace_back(piece);

@@ -1,4 +1,4 @@
-// vtk_views/plots/plot_axes.h: a frame with numbers at its sides, inside a drawing.
+// vtk_views/plots/plot_axes.h: axes of a plot inside a drawing.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace softscope {
 
-/// What one side of the frame spans.
+/// Range of one axis.
 struct AxisRange {
   double low = 0, high = 1;
 
-  /// A little wider than [low, high], so that a curve doesn't touch the frame.
+  /// [low, high] with a margin.
   static AxisRange around(double low, double high);
 };
 
-/// The frame of one plot: where values lie on the page.
+/// Mapping of values to the page for one plot.
 class PlotAxes {
  public:
   PlotAxes(PointPt top_left, PointPt bottom_right, AxisRange x, AxisRange y, double font_pt);
 
   double xPt(double x) const;
-  /// Values beyond the axis are drawn at its end.
+  /// Values outside of the range are clamped.
   double yPt(double y) const;
   PointPt at(double x, double y) const { return {xPt(x), yPt(y)}; }
   double left() const { return top_left_.x_pt; }
@@ -31,20 +31,20 @@ class PlotAxes {
   double top() const { return top_left_.y_pt; }
   double bottom() const { return bottom_right_.y_pt; }
 
-  /// Pale lines across at the ticks of y; under everything else.
+  /// Pale horizontal lines at the ticks of y; drawn first.
   void drawGrid(VectorDrawing& drawing) const;
-  /// Frame, ticks, numbers and names of both axes; over everything else. Without `x_numbers` the
-  /// caller writes what stands below.
+  /// Frame, ticks, numbers and labels of both axes; drawn last.
+  /// Without `x_numbers` the caller draws the labels below.
   void drawFrame(const std::string& x_label, const std::string& y_label, VectorDrawing& drawing,
                  bool x_numbers = true) const;
-  /// Numbers of a second y axis on the right, which spans `range`.
+  /// Numbers of a second y axis on the right, with range `range`.
   void drawRightAxis(AxisRange range, const std::string& label, VectorDrawing& drawing) const;
 
-  /// A line through the points, broken where x or y is NaN.
+  /// Polyline with gaps at NaN.
   void drawCurve(const std::vector<double>& x, const std::vector<double>& y, const DrawnLine& style,
                  VectorDrawing& drawing) const;
 
-  /// From 0 to `value`, which may be NaN: then nothing.
+  /// Bar from 0 to `value`; nothing for NaN.
   void drawBar(double middle, double half_width, double value, Rgb8 colour,
                VectorDrawing& drawing) const;
 
@@ -58,32 +58,32 @@ class PlotAxes {
   double font_pt_;
 };
 
-/// Nothing but its size.
+/// Empty drawing of this size.
 VectorDrawing newPlotSheet(double width_mm, double height_mm);
 
-/// Room for title and legend above, numbers and names at the sides, in heights of letters.
+/// Space for title, legend, numbers and labels, in units of the font size.
 struct PlotMargins {
   double above = 3.4, right = 1.2;
 };
 
-/// The frame that a sheet with one plot has room for.
+/// Axes that fill a sheet with one plot.
 PlotAxes plotAxes(const VectorDrawing& drawing, AxisRange x, AxisRange y, double font_pt,
                   const PlotMargins& margins);
 
-/// Bold, at the top; a long one loses letters in its middle.
+/// Bold, at the top; a long title is shortened in its middle.
 void drawPlotTitle(const std::string& title, const PlotAxes& axes, double font_pt,
                    VectorDrawing& drawing);
 
-/// A sample of a line or shape and its meaning.
+/// Sample of a line or shape with its meaning.
 struct LegendEntry {
   std::string meaning;
   Rgb8 colour;
   bool filled = false;
   bool dashed = false;
-  bool dotted = false;  // a few points
+  bool dotted = false;  // dotted line
 };
 
-/// Entries side by side, from `left_middle` on.
+/// Entries side by side from `left_middle`.
 void drawLegend(const std::vector<LegendEntry>& entries, PointPt left_middle, double font_pt,
                 VectorDrawing& drawing);
 

@@ -1,4 +1,4 @@
-// vtk_views/plots/plot_colours.h: the lines of every plot; told apart by all eyes (Okabe and Ito).
+// vtk_views/plots/plot_colours.h: line colours of all plots (Okabe and Ito).
 #pragma once
 
 #include "core/image.h"

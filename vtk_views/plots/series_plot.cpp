@@ -1,5 +1,5 @@
-// vtk_views/plots/series_plot.cpp: two plots; colours that the colour-blind tell apart (Okabe and
-// Ito).
+// vtk_views/plots/series_plot.cpp: two plots in
+// colours safe for colour blindness (Okabe and Ito).
 #include "vtk_views/plots/series_plot.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool anyFinite(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-/// From 0 up to the 95th percentile, piece by piece where values lack.
+/// From 0 to the 95th percentile, with gaps at missing values.
 void drawBand(const ErrorSeriesData& data, const PlotAxes& axes, VectorDrawing& drawing) {
   DrawnShape band;
   band.colour = kBand;
@@ -72,8 +72,8 @@ DrawnText markText(const PlotAxes& axes, double value, const char* name, double 
   return text;
 }
 
-/// Dashed lines at the median and the 95th percentile, named above the frame: in their middles
-/// where there is room, else side by side.
+/// Dashed lines at the median and the 95th percentile, labelled
+/// above the frame: centred if there is space, else side by side.
 void drawMarks(const ErrorHistogramData& data, const PlotAxes& axes, double font_pt,
                VectorDrawing& drawing) {
   if (!std::isfinite(data.median) || !std::isfinite(data.p95)) return;
@@ -124,7 +124,7 @@ VectorDrawing drawErrorSeries(const ErrorSeriesData& data, const PlotStyle& styl
   for (const double time : data.times)
     if (std::isfinite(time)) times.push_back(time);
   const auto range = std::minmax_element(times.begin(), times.end());
-  const double without_title = data.title.empty() ? 1.4 : 0;  // its room, in letters
+  const double without_title = data.title.empty() ? 1.4 : 0;  // space of the title, in font sizes
   const double highest = std::max({largestFinite(data.p95), largestFinite(data.mean), 1e-6});
   const PlotAxes axes = plotAxes(drawing, AxisRange::around(*range.first, *range.second),
                                  {0, 1.06 * highest}, style.font_pt, {3.4 - without_title, 1.2});
@@ -163,7 +163,7 @@ VectorDrawing drawErrorHistogram(const ErrorHistogramData& data, const PlotStyle
     char note[64];
     std::snprintf(note, sizeof note, "%.2g %% beyond \xE2\x86\x92", 100 * data.share_beyond);
     DrawnText text;
-    text.at = {drawing.width_pt - 0.5 * style.font_pt, 2.86 * style.font_pt};  // beside the legend
+    text.at = {drawing.width_pt - 0.5 * style.font_pt, 2.86 * style.font_pt};  // after the legend
     text.text = note;
     text.size_pt = style.font_pt;
     text.anchor = TextAnchor::kEnd;

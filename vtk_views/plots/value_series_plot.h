@@ -10,11 +10,11 @@ namespace softscope {
 
 struct ValueSeriesData {
   std::string x_label, y_label;
-  std::vector<double> x, y;  // x rising; NaN leaves a gap
+  std::vector<double> x, y;  // x ascending; NaN is a gap
 };
 
-/// A line with a dot a value; the axis spans the values. Throws Error where there is none, or the
-/// lengths differ.
+/// Line with one dot per value; the axis covers the values.
+/// Throws Error without values, or for different lengths.
 VectorDrawing drawValueSeries(const ValueSeriesData& data, const PlotStyle& style = {});
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/plots/worst_frames_plot.cpp: bars in bars.
+// vtk_views/plots/worst_frames_plot.cpp: nested bars.
 #include "vtk_views/plots/worst_frames_plot.h"
 
 #include <algorithm>

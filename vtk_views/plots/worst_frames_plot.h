@@ -1,4 +1,4 @@
-// vtk_views/plots/worst_frames_plot.h: the frames with the largest errors, side by side.
+// vtk_views/plots/worst_frames_plot.h: bars of the frames with the largest errors.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-/// One value a frame, worst first; chosen elsewhere.
+/// One value per frame, in descending order; selected elsewhere.
 struct WorstFramesData {
   std::string title;
   std::string error_label = "distance to the surface [mm]";
@@ -17,8 +17,8 @@ struct WorstFramesData {
   std::vector<double> mean, p95;
 };
 
-/// A bar of the mean inside a wider one up to the 95th percentile, over each frame's number.
-/// Throws Error where the lengths differ or there is no frame.
+/// Bar of the mean inside a wider bar up to the 95th percentile, above
+/// the frame number. Throws Error for different lengths or no frame.
 VectorDrawing drawWorstFrames(const WorstFramesData& data, const PlotStyle& style = {});
 
 }  // namespace softscope

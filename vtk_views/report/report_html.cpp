@@ -1,4 +1,4 @@
-// vtk_views/report/report_html.cpp: fills the frames that lie in vtk_views/report.
+// vtk_views/report/report_html.cpp: substitution into the templates in vtk_views/report.
 #include "vtk_views/report/report_html.h"
 
 #include <map>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kDotsPerInch = 140;
 
-/// Replaces each {{name}}, in one pass: what was put in is not looked at again.
+/// Replaces each {{name}} in one pass: inserted text is not substituted again.
 std::string filled(const std::string& frame, const std::map<std::string, std::string>& values) {
   std::string out;
   std::size_t at = 0;
@@ -45,7 +45,7 @@ std::string element(const std::string& name, const std::string& text,
          "</" + name + ">";
 }
 
-/// For inside a page: no prolog and no namespace, which HTML knows by itself.
+/// Inline form: without prolog and namespace, which HTML does not need.
 std::string inlineSvg(const VectorDrawing& drawing, const std::string& caption) {
   std::string svg = validUtf8(svgBytes(drawing));
   svg.erase(0, svg.find("<svg"));
@@ -59,7 +59,7 @@ std::string imageOf(const std::string& png, const std::string& text) {
          "\">";
 }
 
-/// Each kind of part as HTML.
+/// HTML of each kind of part.
 struct PartWriter {
   const ReportPage& page;
 
@@ -144,7 +144,7 @@ std::string dataElement(const std::string& id, const std::string& json) {
   return "<script type=\"application/json\" id=\"" + id + "\">" + scriptSafe(json) + "</script>\n";
 }
 
-/// The names of the cases that are reviewed, as JSON; empty where none are.
+/// Names of the reviewed cases as JSON; empty if none.
 std::string reviewedCases(const ReportPage& page) {
   std::string json;
   for (const ReportSection& section : page.sections)

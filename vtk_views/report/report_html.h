@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// HTML with style, scripts, plots, images, maps and metrics inside: it opens from disk and asks
-/// the network for nothing. The same page gives the same bytes.
+/// HTML with embedded style, scripts, plots, images, maps and
+/// metrics: it opens from disk without network access. Deterministic.
 std::string reportHtml(const ReportPage& page);
 
 }  // namespace softscope

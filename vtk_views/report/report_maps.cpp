@@ -1,4 +1,4 @@
-// vtk_views/report/report_maps.cpp: rounds to 16 bits, writes little-endian as browsers read it.
+// vtk_views/report/report_maps.cpp: quantisation to 16 bits, little-endian as in browsers.
 #include "vtk_views/report/report_maps.h"
 
 #include <Eigen/Geometry>
@@ -36,7 +36,7 @@ void append(Unsigned value, std::string& bytes) {
     bytes += static_cast<char>(value >> (8 * k) & 0xFF);
 }
 
-/// What is the same for all moments of a case.
+/// Common data of all frames of a case.
 struct Scale {
   Eigen::AlignedBox3f box;
   double step_mm = 1e-6;  // of errors
@@ -96,7 +96,7 @@ std::string labelOf(const ErrorMap& map) {
   return "frame " + std::to_string(map.frame) + time;
 }
 
-/// The reference's triangles are left out where they are those of the first moment.
+/// The triangles of the reference are omitted if equal to those of the first frame.
 std::string momentJson(const ErrorMap& map, const ErrorMap& first, const Scale& scale) {
   std::string json = "{\"label\":" + jsonQuoted(labelOf(map)) +
                      ",\"places\":" + placesOf(map.surface, scale) +

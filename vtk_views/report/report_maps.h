@@ -1,4 +1,4 @@
-// vtk_views/report/report_maps.h: error maps in the form in which a page carries them.
+// vtk_views/report/report_maps.h: error maps as data embedded in a page.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-/// One case: a surface, or the moments of a series.
+/// Case: one surface, or the frames of a series.
 struct ReportMap {
   std::string name;
   std::vector<ErrorMap> moments;  // at least one
 };
 
-/// JSON for viewer.js: places as 16 bits of the case's box (of 0.3 m: 5 um), errors as 16 bits of
-/// the case's largest (of 60 mm: 1 um), base64; and the two palettes.
+/// JSON for viewer.js: positions as 16 bits of the box of the case (of 0.3 m: 5 um),
+/// errors as 16 bits of its maximum (of 60 mm: 1 um), base64; and both colour maps.
 std::string reportMapsJson(const std::vector<ReportMap>& maps, double limit_mm);
 
 }  // namespace softscope

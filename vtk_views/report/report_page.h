@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-// All texts are UTF-8 and plain: whoever writes the page escapes them.
+// All texts are plain UTF-8; the writers escape them.
 
 struct ReportParagraph {
   std::string text;
@@ -23,17 +23,17 @@ struct ReportList {
   std::vector<std::string> items;
 };
 
-/// Numbers stand on the right; the first column, on the left, names the row.
+/// Numbers are right-aligned; the first, left-aligned column names the row.
 struct ReportTable {
   std::string caption;
   std::vector<std::string> headings;
   std::vector<std::vector<std::string>> rows;  // each as long as the headings
-  bool words = false;                          // all columns hold words, none numbers
+  bool words = false;                          // all columns are texts
 };
 
 enum class ReportMark { kNone, kGood, kBad };
 
-/// A headline number in large type.
+/// Main number in large type.
 struct ReportTile {
   std::string label, value, note;
   ReportMark mark = ReportMark::kNone;
@@ -42,22 +42,22 @@ struct ReportTiles {
   std::vector<ReportTile> tiles;
 };
 
-/// Plots side by side where there is room.
+/// Plots side by side if there is space.
 struct ReportFigures {
   std::vector<std::pair<VectorDrawing, std::string>> figures;  // with captions
 };
 
 struct ReportPicture {
-  std::string png;  // the file's bytes
+  std::string png;  // bytes of the file
   std::string caption;
 };
 
-/// Where the page's map stands; on paper its image.
+/// Position of the map in the page; its image in PDF.
 struct ReportMapPlace {
   std::string caption, paper_caption;
 };
 
-/// Keys to go through the cases, to grade them and to save what was found; on paper nothing.
+/// Controls to step through the cases, grade them and save the result; empty in PDF.
 struct ReportReview {
   std::vector<std::string> cases;
 };
@@ -66,17 +66,17 @@ using ReportPart = std::variant<ReportParagraph, ReportList, ReportTable, Report
                                 ReportFigures, ReportPicture, ReportMapPlace, ReportReview>;
 
 struct ReportSection {
-  std::string id;  // letters alone
+  std::string id;  // letters only
   std::string title;
   std::vector<ReportPart> parts;
 };
 
 struct ReportPage {
-  std::string title, subtitle, notice;  // the notice stands on every page of paper
+  std::string title, subtitle, notice;  // the notice is on every PDF page
   std::vector<ReportSection> sections;
   std::vector<ReportMap> maps;              // empty: no map
-  double limit_mm = 1;                      // of the maps' colours, the same for all
-  std::optional<VectorDrawing> map_figure;  // of the maps, where something could draw it
+  double limit_mm = 1;                      // of the map colours, common to all
+  std::optional<VectorDrawing> map_figure;  // rendered maps, if a renderer is available
   std::string metrics_json;
 };
 

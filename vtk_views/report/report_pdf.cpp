@@ -1,4 +1,4 @@
-// vtk_views/report/report_pdf.cpp: each kind of part, set on paper.
+// vtk_views/report/report_pdf.cpp: layout of each kind of part on pages.
 #include "vtk_views/report/report_pdf.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace softscope {
 namespace {
 
 constexpr double kTextPt = 9, kTablePt = 7.6, kRowPt = 11.5, kCellGapPt = 9;
-constexpr double kTogetherPt = 250;  // lower tables are not torn apart
+constexpr double kTogetherPt = 250;  // smaller tables are not split
 constexpr Rgb8 kInk{20, 20, 20}, kGrey{95, 95, 95}, kPale{222, 222, 222}, kBlue{0, 81, 127},
     kBad{161, 18, 18}, kSoft{244, 245, 247};
 
@@ -24,7 +24,7 @@ DrawnText textAt(PointPt at, const std::string& words, double size_pt) {
   return text;
 }
 
-/// One table: columns as wide as their longest cell, narrower where the page ends.
+/// Table with columns of the width of their longest cell, reduced if the page is too narrow.
 class TableSetter {
  public:
   TableSetter(const ReportTable& table, PaperSheet& sheet) : table_(table), sheet_(sheet) {
@@ -55,7 +55,7 @@ class TableSetter {
     narrow(rows);
   }
 
-  /// The widths with none above `most_pt`, unless a word needs it.
+  /// Widths limited to `most_pt`, unless a word is longer.
   std::vector<double> capped(double most_pt, const std::vector<double>& least_pt) const {
     std::vector<double> widths = widths_;
     for (std::size_t i = 0; i < widths.size(); ++i)
@@ -63,7 +63,7 @@ class TableSetter {
     return widths;
   }
 
-  /// Where the columns are too wide together, the widest give way, down to their longest word.
+  /// If all columns together are too wide, the widest are reduced, down to their longest word.
   void narrow(const std::vector<const std::vector<std::string>*>& rows) {
     const auto fits = [](const std::vector<double>& widths) {
       return std::accumulate(widths.begin(), widths.end(), 0.0) <= PaperSheet::kTextWidthPt;
@@ -77,7 +77,7 @@ class TableSetter {
           text.bold = row == &table_.headings;
           least_pt[i] = std::max(least_pt[i], textWidthPt(text) + kCellGapPt);
         }
-    if (!fits(capped(0, least_pt)))  // words without blanks are broken
+    if (!fits(capped(0, least_pt)))  // words without blanks are split
       for (double& least : least_pt) least = std::min(least, 40.0);
     double low_pt = 0, high_pt = PaperSheet::kTextWidthPt;
     for (int i = 0; i < 40; ++i) {
@@ -131,7 +131,7 @@ cairo_status_t readFrom(void* closure, unsigned char* data, unsigned int length)
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// On white. Throws Error where the bytes are no PNG.
+/// On white. Throws Error unless the bytes are a PNG.
 ColourImage pictureFromPng(const std::string& png) {
   std::string_view rest = png;
   const CairoSurface read(cairo_image_surface_create_from_png_stream(readFrom, &rest));
@@ -146,7 +146,7 @@ ColourImage pictureFromPng(const std::string& png) {
   return fromCairo(flat.get());
 }
 
-/// Each kind of part on paper.
+/// Layout of each kind of part.
 struct PartSetter {
   const ReportPage& page;
   PaperSheet& sheet;
@@ -216,7 +216,7 @@ struct PartSetter {
     sheet.skip(page.map_figure->height_pt + 2);
     sheet.text(place.paper_caption, {8, false, 0, 8, kGrey});
   }
-  void operator()(const ReportReview&) const {}  // keys are of no use on paper
+  void operator()(const ReportReview&) const {}  // controls do not apply to PDF
 
   void setTile(const ReportTile& tile, PointPt at, double width_pt, double height_pt) const {
     auto& parts = sheet.page().parts;
@@ -240,7 +240,7 @@ struct PartSetter {
     }
   }
 
-  /// Below the drawing, as wide as that; returns its height.
+  /// Below the drawing, with its width; returns the height.
   double setCaption(const std::string& caption, double x_pt, const VectorDrawing& drawing) const {
     double y_pt = sheet.y() + drawing.height_pt + 8;
     double height_pt = 2;
@@ -255,7 +255,7 @@ struct PartSetter {
   }
 };
 
-/// What must stand on the same page as a section's title.
+/// Height of the content that stays on the page of its section title.
 double heightWithTitle(const ReportPage& page, const ReportSection& section) {
   if (section.parts.empty()) return 0;
   const ReportPart& first = section.parts.front();

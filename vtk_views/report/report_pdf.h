@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// A PDF of A4 pages: text is text, plots are lines, the map is its image. The notice stands on
-/// every page. The same page gives the same bytes.
+/// PDF of A4 pages with text, vector plots, and an image
+/// of the map. The notice is on every page. Deterministic.
 std::string reportPdf(const ReportPage& page);
 
 }  // namespace softscope

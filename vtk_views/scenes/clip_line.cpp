@@ -1,4 +1,4 @@
-// vtk_views/scenes/clip_line.cpp: Liang and Barsky's test, segment by segment.
+// vtk_views/scenes/clip_line.cpp: Liang-Barsky clipping per segment.
 #include "vtk_views/scenes/clip_line.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace softscope {
 namespace {
 
-/// Shares of the segment at which it enters and leaves; false where it never is inside.
+/// Parameters of entry and exit of the segment; false if it is outside.
 bool insideShares(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& half,
                   double& enter, double& leave) {
   enter = 0;
@@ -30,7 +30,7 @@ bool insideShares(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eige
 std::vector<std::vector<Eigen::Vector2d>> clipLine(const std::vector<Eigen::Vector2d>& line,
                                                    const Eigen::Vector2d& half) {
   std::vector<std::vector<Eigen::Vector2d>> pieces;
-  bool open = false;  // the last piece ends where this segment begins
+  bool open = false;  // the last piece ends at the start of this segment
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     double enter = 0, leave = 1;
     if (!insideShares(line[i], line[i + 1], half, enter, leave)) {

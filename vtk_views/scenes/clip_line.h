@@ -6,7 +6,7 @@
 
 namespace softscope {
 
-/// Cuts a line at the edges of the box [-half, half]; each piece inside it is one line.
+/// Clips a line to the box [-half, half]; returns the pieces inside.
 std::vector<std::vector<Eigen::Vector2d>> clipLine(const std::vector<Eigen::Vector2d>& line,
                                                    const Eigen::Vector2d& half);
 

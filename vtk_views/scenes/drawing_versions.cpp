@@ -1,4 +1,4 @@
-// vtk_views/scenes/drawing_versions.cpp: asks the libraries themselves.
+// vtk_views/scenes/drawing_versions.cpp: versions queried from the libraries.
 #include "vtk_views/scenes/drawing_versions.h"
 
 #include <cairo/cairo.h>

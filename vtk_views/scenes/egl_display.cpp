@@ -1,5 +1,5 @@
-// vtk_views/scenes/egl_display.cpp: asks every EGL device in turn, and believes only a context that
-// works.
+// vtk_views/scenes/egl_display.cpp: search
+// of an EGL device with a working context.
 #include "vtk_views/scenes/egl_display.h"
 
 #include <EGL/eglext.h>
@@ -106,7 +106,7 @@ bool EglDisplay::accept(EGLDisplay candidate, const std::string& what) {
   return false;
 }
 
-/// True where a context really becomes current; the driver's own words go into the description.
+/// True if a context becomes current; the description contains the text of the driver.
 bool EglDisplay::describe(const std::string& what) {
   const EGLSurface surface = newSurface();
   const EGLContext context = newContext();
@@ -131,7 +131,7 @@ EGLContext EglDisplay::newContext() const {
                            EGL_CONTEXT_OPENGL_PROFILE_MASK,
                            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                            EGL_NONE};
-  eglBindAPI(EGL_OPENGL_API);  // holds for the calling thread only
+  eglBindAPI(EGL_OPENGL_API);  // per thread
   return eglCreateContext(display_, config_, EGL_NO_CONTEXT, wanted);
 }
 

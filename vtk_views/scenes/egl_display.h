@@ -9,16 +9,16 @@
 
 namespace softscope {
 
-/// In which order devices are tried, by what each says of its extensions: those of GPUs as they are
-/// listed, then software. Mesa lists its software first, though a GPU draws 10 to 100 times faster.
+/// Order of devices by their extensions: GPUs in the listed order, then software.
+/// Mesa lists software first, although a GPU renders 10 to 100 times faster.
 std::vector<std::size_t> deviceOrder(const std::vector<std::string>& extensions);
 
-/// The first EGL display of this machine that yields OpenGL 3.2: a GPU, or Mesa's software device.
-/// One for the whole process, because eglTerminate() would kill the contexts of every other window;
-/// windows own contexts and surfaces only.
+/// First EGL display of this machine with OpenGL 3.2: a GPU, or the software
+/// device of Mesa. One per process, because eglTerminate() would destroy the
+/// contexts of all other windows; windows own contexts and surfaces only.
 class EglDisplay {
  public:
-  /// Throws BackendError where there is none; a later call tries again.
+  /// Throws BackendError without a display; a later call tries again.
   static const EglDisplay& instance();
 
   EGLDisplay handle() const { return display_; }
@@ -26,7 +26,7 @@ class EglDisplay {
   const std::string& description() const { return description_; }
 
   EGLContext newContext() const;  // OpenGL 3.2 core; EGL_NO_CONTEXT on failure
-  EGLSurface newSurface() const;  // 8 x 8 pixels: drawing goes to VTK's own buffers
+  EGLSurface newSurface() const;  // 8 x 8 pixels: VTK renders into its own buffers
 
  private:
   EglDisplay();

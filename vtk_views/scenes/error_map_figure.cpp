@@ -1,4 +1,4 @@
-// vtk_views/scenes/error_map_figure.cpp: images in a grid, bars below.
+// vtk_views/scenes/error_map_figure.cpp: grid of images, colour bars below.
 #include "vtk_views/scenes/error_map_figure.h"
 
 #include <Eigen/Geometry>
@@ -14,14 +14,14 @@
 namespace softscope {
 namespace {
 
-constexpr double kHeightShare = 0.72;  // of a cell's width
-constexpr double kSideRoom = 1.6;      // for a side's letters, of their size
-constexpr double kPixelsPerPt = 2.2;   // 160 dots an inch
-constexpr double kPushShare = 0.03;    // the reference lies back by this much of its size
+constexpr double kHeightShare = 0.72;  // height of a cell over its width
+constexpr double kSideRoom = 1.6;      // space for side names, in units of the font size
+constexpr double kPixelsPerPt = 2.2;   // 160 dots per inch
+constexpr double kPushShare = 0.03;    // depth offset of the reference, as a share of its size
 constexpr Rgb8 kReference{200, 200, 200};
 
-/// Also sets the width that shows nearly all of the surface in an image of this shape, with room
-/// for the letters: `side_share` of the width at each side.
+/// Also computes the width that contains nearly all of the surface in an image
+/// of this shape, with `side_share` of the width at each side for letters.
 ViewPlane cameraOf(const ErrorMap& map, double height_share, double side_share, double& width_mm) {
   const Eigen::Matrix3d axes = viewAxes(map).cast<double>();
   const Eigen::AlignedBox3d box = mostOfPoints(map, {&map}).cast<double>();
@@ -62,11 +62,11 @@ void drawLabel(PointPt at, const std::string& words, TextAnchor anchor, double f
   text.text = words;
   text.size_pt = font_pt;
   text.anchor = anchor;
-  text.rim = Rgb8{255, 255, 255};  // the reference may lie behind
+  text.rim = Rgb8{255, 255, 255};  // readable over the reference
   drawing.parts.emplace_back(std::move(text));
 }
 
-/// Letters of the patient's sides at the right and upper edge, where the space is known.
+/// Letters of the patient's sides at the right and upper edge, if the space is known.
 void drawSides(const ErrorMap& map, const ViewPlane& camera, PointPt from, PointPt to,
                double font_pt, VectorDrawing& drawing) {
   if (map.surface.space.empty()) return;
@@ -80,8 +80,8 @@ void drawSides(const ErrorMap& map, const ViewPlane& camera, PointPt from, Point
             TextAnchor::kMiddle, font_pt, drawing);
 }
 
-/// The longest of 1, 2, 5, 10, … mm that takes at most a quarter of the width; above the image,
-/// at the right.
+/// Scale bar: the longest of 1, 2, 5, 10, … mm of at most
+/// a quarter of the width; above the image, right-aligned.
 void drawRuler(double pt_per_mm, PointPt from, PointPt to, double font_pt, VectorDrawing& drawing) {
   const double most_mm = (to.x_pt - from.x_pt) / 4 / pt_per_mm;
   const double power = std::pow(10.0, std::floor(std::log10(most_mm)));

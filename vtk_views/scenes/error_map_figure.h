@@ -1,4 +1,4 @@
-// vtk_views/scenes/error_map_figure.h: error maps side by side, with the bar that explains them.
+// vtk_views/scenes/error_map_figure.h: error maps side by side, with their colour bars.
 #pragma once
 
 #include <string>
@@ -18,13 +18,13 @@ struct ErrorMapCell {
 struct ErrorMapFigureStyle {
   double width_mm = 180;
   int columns = 2;
-  double limit_mm = 1;  // of the colours, the same for all cells
+  double limit_mm = 1;  // of the colours, common to all cells
   double font_pt = 7.5;
 };
 
-/// Each cell along its map's `look`, in parallel projection, errors unlit, the reference grey
-/// behind them; one bar for unsigned cells, one for signed ones. At least one cell. Throws
-/// BackendError where nothing on this machine renders.
+/// Each cell in the `look` direction of its map, in parallel projection, errors
+/// unlit, the reference grey behind them; one bar for unsigned and one for
+/// signed cells. Requires one cell. Throws BackendError without a renderer.
 VectorDrawing drawErrorMaps(const std::vector<ErrorMapCell>& cells,
                             const ErrorMapFigureStyle& style);
 

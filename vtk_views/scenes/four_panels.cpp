@@ -1,4 +1,4 @@
-// vtk_views/scenes/four_panels.cpp: a slice or a 3-D image in each place of the grid.
+// vtk_views/scenes/four_panels.cpp: slice or 3-D image per panel.
 #include "vtk_views/scenes/four_panels.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace softscope {
 namespace {
 
-constexpr double kRoomAround = 1.4;  // of the surfaces' longest side
-constexpr int kMost3dPx = 800;       // a side
+constexpr double kRoomAround = 1.4;  // in units of the longest side of the surfaces
+constexpr int kMost3dPx = 800;       // per side
 constexpr Rgb8 kDark{40, 40, 40};
 
 FigureFoot footOf(const Scene& scene, const PanelOptions& options) {

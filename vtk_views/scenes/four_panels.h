@@ -1,5 +1,5 @@
-// vtk_views/scenes/four_panels.h: axial, coronal, sagittal and 3-D in one figure; and single
-// slices.
+// vtk_views/scenes/four_panels.h: figure of axial,
+// coronal, sagittal and 3-D panels, or of slices.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,49 +14,49 @@
 
 namespace softscope {
 
-/// What a figure with panels needs besides its scene.
+/// Options of a figure with panels.
 struct PanelOptions {
   FigureStyle style;
-  double width_mm = 0;        // of tissue, that each panel shows; 0: as its surfaces need
-  bool keep_centres = false;  // of the planes: they were asked for; else the surfaces' middles
-  int columns = 0;            // 0: as many as there is room for
-  FigureFoot foot;            // its legend is the scene's where empty
+  double width_mm = 0;        // field of view of each panel; 0: automatic, from its surfaces
+  bool keep_centres = false;  // plane centres were requested; else centres of the surfaces
+  int columns = 0;            // 0: as many as fit
+  FigureFoot foot;            // an empty legend is taken from the scene
 };
 
 struct FourPanelOptions : PanelOptions {
   SideRule rule = SideRule::kRadiological;
-  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  // where the three planes meet
-  Eigen::Vector3d eye = {0.45, -0.8, 0.4};              // side that the 3-D panel is seen from
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  // intersection of the three planes
+  Eigen::Vector3d eye = {0.45, -0.8, 0.4};              // view direction of the 3-D panel
 };
 
-/// The three planes and the camera of the fourth panel, and what all of them show.
+/// Three planes, the camera of the fourth panel, and the common field of view.
 PanelField fourViews(const Scene& scene, const FourPanelOptions& options);
-/// The same of slices through these planes.
+/// The same for slices through these planes.
 PanelField sliceViews(const Scene& scene, const std::vector<ViewPlane>& planes,
                       const PanelOptions& options);
 
-/// Three panels where no surface is to be shown in 3-D. Throws BackendError where nothing renders.
+/// Three panels if no surface is drawn in 3-D. Throws BackendError without a renderer.
 VectorDrawing drawFourPanels(const Scene& scene, const FourPanelOptions& options);
 
-/// A panel a plane. At least one.
+/// One panel per plane. Requires one.
 VectorDrawing drawSlices(const Scene& scene, const std::vector<ViewPlane>& planes,
                          const PanelOptions& options);
 
-/// The surfaces of a scene in 3-D, as one panel of several.
+/// 3-D view of the surfaces of a scene, as one of several panels.
 struct ScenePanel {
   const Scene* scene = nullptr;
   ViewPlane camera;
   std::string caption;
-  int world = 0;  // panels of one world show one place
+  int world = 0;  // panels of the same world have the same centre
 };
 
-/// A panel each, all at one scale; the legend is the first scene's. At least one.
+/// One panel per scene at a common scale; legend of the first scene. Requires one.
 VectorDrawing drawScenes(const std::vector<ScenePanel>& panels, const PanelOptions& options);
 
-/// The middle of the surfaces' box; the median of those that the figure is about, where any are
-/// marked so.
+/// Centre of the box of the surfaces;
+/// median of the surfaces in focus, if any.
 Eigen::Vector3d sceneCentre(const Scene& scene);
-/// What a view from anywhere shows so that they fit with some room around.
+/// Field of view that contains the surfaces from any direction, with a margin.
 double sceneWidthMm(const Scene& scene);
 
 }  // namespace softscope

@@ -8,15 +8,15 @@
 
 namespace softscope {
 
-/// Columns: right, up, towards the viewer, for a view along the map's `look`.
+/// Columns: right, up, towards the viewer, for the `look` direction of the map.
 Eigen::Matrix3f viewAxes(const ErrorMap& map);
 
-/// The box, along those axes of `view`, that holds nearly all points of all maps: without the
-/// outermost two percent at each side, so that a few outliers don't shrink the rest, and a
-/// little wider.
+/// Box along those axes of `view` that contains
+/// nearly all points of all maps: without two
+/// percent of outliers at each side, plus a margin.
 Eigen::AlignedBox3f mostOfPoints(const ErrorMap& view, const std::vector<const ErrorMap*>& maps);
 
-/// About how far neighbouring points lie apart, mm, seen along the map's `look`.
+/// Approximate distance of neighbouring points, mm, in the `look` direction of the map.
 double pointSpacingMm(const ErrorMap& map);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/scenes/offscreen_window.cpp: VTK's generic OpenGL window on an EGL context of our own.
+// vtk_views/scenes/offscreen_window.cpp: generic OpenGL window of VTK on an own EGL context.
 #include "vtk_views/scenes/offscreen_window.h"
 
 #include <GL/glew.h>  // before any other GL header
@@ -11,8 +11,8 @@
 #include "core/error.h"
 #include "vtk_views/scenes/egl_display.h"
 
-// Registered in the one file that every rendering program links: vtk_module_autoinit() acts by file
-// and by included header, and misses some in silence.
+// Registered in the file that every rendering program links: vtk_module_autoinit()
+// works per file and included header, and omits some without a message.
 VTK_MODULE_INIT(vtkRenderingOpenGL2);
 VTK_MODULE_INIT(vtkRenderingFreeType);
 VTK_MODULE_INIT(vtkRenderingContextOpenGL2);
@@ -43,7 +43,7 @@ class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
     if (context_ == EGL_NO_CONTEXT) return;
     const EGLDisplay display = EglDisplay::instance().handle();
     MakeCurrent();
-    Superclass::Finalize();  // frees every GL object while its context is current
+    Superclass::Finalize();  // frees all GL objects while its context is current
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context_);
     if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display, surface_);
@@ -68,8 +68,8 @@ class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
     Superclass::Render();
   }
 
-  /// Debian's GLEW is built for GLX: glewInit() loads every OpenGL entry point, then finds no GLX
-  /// display and says so. VTK's own version of this function would give up there.
+  /// Debian's GLEW is built for GLX: glewInit() loads all OpenGL entry points, then
+  /// reports a missing GLX display. The implementation of VTK would fail there.
   void OpenGLInitContext() override {
     ContextCreationTime.Modified();
     if (Initialized) return;
@@ -133,7 +133,7 @@ std::string offscreenDescription() { return EglDisplay::instance().description()
 
 void installOffscreenFactory() {
   static const bool once = [] {
-    vtkObjectFactory::SetAllEnableFlags(0, "vtkRenderWindow");  // the first registered would win
+    vtkObjectFactory::SetAllEnableFlags(0, "vtkRenderWindow");  // else the first one is used
     vtkNew<OffscreenFactory> factory;
     vtkObjectFactory::RegisterFactory(factory);
     return true;

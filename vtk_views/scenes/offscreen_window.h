@@ -8,16 +8,16 @@
 
 namespace softscope {
 
-/// A render window that needs no X server. Never call vtkRenderWindow::New() before
-/// installOffscreenFactory(): without a display the stock window aborts the process.
-/// `samples` > 1 smooths edges and costs 3 to 4 times a frame on Mesa.
-/// Throws BackendError where nothing on this machine renders.
+/// Render window without an X server. vtkRenderWindow::New() must not be
+/// called before installOffscreenFactory(): without a display the default
+/// window aborts the process. `samples` > 1 smooths edges and needs 3 to 4
+/// times the frame time on Mesa. Throws BackendError without a renderer.
 vtkSmartPointer<vtkRenderWindow> makeOffscreenWindow(int width_px, int height_px, int samples = 0);
 
-/// Makes every vtkRenderWindow::New() of this process display-less, vtkContextView's too.
+/// Makes every vtkRenderWindow::New() of this process off-screen, including that of vtkContextView.
 void installOffscreenFactory();
 
-/// What renders, as the driver says it. Throws BackendError where nothing does.
+/// Description of the renderer from the driver. Throws BackendError without a renderer.
 std::string offscreenDescription();
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/scenes/panel_field.cpp: projected boxes, and the widest of them.
+// vtk_views/scenes/panel_field.cpp: projected boxes and their maximum.
 #include "vtk_views/scenes/panel_field.h"
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 namespace softscope {
 namespace {
 
-constexpr double kStrays = 0.001;  // share of points at each end of an axis that may lie outside
+constexpr double kStrays = 0.001;  // share of outliers at each end of an axis
 
-/// Of the vertices that triangles use; of points without outliers.
+/// Vertices of triangles; points without outliers.
 void extend(const SceneSurface& surface, const ViewPlane& plane, Eigen::AlignedBox2d& box) {
   const auto& vertices = surface.mesh.vertices_mm;
   std::vector<char> drawn(vertices.size(), surface.isPoints() ? 1 : 0);
@@ -41,7 +41,7 @@ void extend(const SceneSurface& surface, const ViewPlane& plane, Eigen::AlignedB
   box.extend(Eigen::Vector2d(right, up));
 }
 
-/// From `plane`'s centre; of the volume where there is no surface.
+/// Relative to the centre of `plane`; box of the volume without surfaces.
 Eigen::AlignedBox2d projectedBox(const FieldView& view, const ViewPlane& plane) {
   Eigen::AlignedBox2d box;
   for (const SceneSurface& surface : view.scene->surfaces)
@@ -53,13 +53,13 @@ Eigen::AlignedBox2d projectedBox(const FieldView& view, const ViewPlane& plane) 
   return box;
 }
 
-/// Of one world and from one direction.
+/// Same world and direction.
 bool lookAlike(const FieldView& a, const FieldView& b) {
   return a.world == b.world && a.plane.right.isApprox(b.plane.right) &&
          a.plane.up.isApprox(b.plane.up);
 }
 
-/// The centre of the first view that looks the same way, at this plane's own depth.
+/// Uses the centre of the first view with the same direction, at the depth of this plane.
 void shareCentre(const std::vector<FieldView>& views, const FieldView& view, ViewPlane& plane) {
   for (const FieldView& first : views) {
     if (!lookAlike(first, view)) continue;

@@ -1,4 +1,4 @@
-// vtk_views/scenes/panel_field.h: centre and field of view of panels.
+// vtk_views/scenes/panel_field.h: common centre and field of view of panels.
 #pragma once
 
 #include <vector>
@@ -9,29 +9,29 @@
 
 namespace softscope {
 
-/// Views of a figure, all at one scale.
+/// Views of a figure at a common scale.
 struct PanelField {
   std::vector<ViewPlane> planes;
-  double width_mm = 0;  // that each panel shows
+  double width_mm = 0;  // field of view of each panel
 };
 
-/// One view of one scene; several may share a scene.
+/// View of a scene; several views may share a scene.
 struct FieldView {
   const Scene* scene = nullptr;
   ViewPlane plane;
-  bool is_3d = false;  // surfaces that aren't in 3-D panels don't count
-  int world = 0;       // scenes of another world have no place in common with these
+  bool is_3d = false;  // surfaces without in_3d are ignored
+  int world = 0;       // scenes of different worlds have unrelated coordinates
 };
 
-/// Moves each plane's centre, within the plane, to the middle of the surfaces' box as that view
-/// projects it, and finds the width at which no box is cut and none reaches under the words at the
-/// panel's sides. Views of one world in one direction keep one centre, so that a motion stays
-/// visible. Of points the middle 99.8 % along each axis count. A volume is not asked for more than
-/// it has. `panel_pt`: width of a panel on the page. With `keep_centres` no centre is moved.
+/// Moves each plane centre, within the plane, to the centre of the projected box of the
+/// surfaces, and computes the field of view in which no box is cut or covered by the side names.
+/// Views of one world in one direction keep a common centre, so that motion remains visible. For
+/// points, the central 99.8 % along each axis count. The field of view does not exceed the
+/// volume. `panel_pt`: width of a panel on the page. With `keep_centres` centres are unchanged.
 PanelField fitField(const std::vector<FieldView>& views, double panel_pt, const FigureStyle& style,
                     bool keep_centres);
 
-/// Room at each side of a panel for side names and the scale bar, pt.
+/// Space at each side of a panel for side names and the scale bar, pt.
 double sideRoomPt(const FigureStyle& style);
 
 }  // namespace softscope

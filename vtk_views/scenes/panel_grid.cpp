@@ -1,4 +1,4 @@
-// vtk_views/scenes/panel_grid.cpp: all sizes follow the width and the letters.
+// vtk_views/scenes/panel_grid.cpp: sizes derived from width and font size.
 #include "vtk_views/scenes/panel_grid.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace softscope {
 namespace {
 
 constexpr double kGapMm = 1.5, kLeastPanelMm = 10;
-constexpr double kFourInARowMm = 140;                       // below, four panels get too small
-constexpr double kCaption = 1.7, kRow = 1.7, kSpace = 0.4;  // in heights of letters
+constexpr double kFourInARowMm = 140;                       // four panels are too small below
+constexpr double kCaption = 1.7, kRow = 1.7, kSpace = 0.4;  // in units of the font size
 constexpr double kNote = 0.9, kNoteRow = 1.4;
 
 double entryWidthPt(const LegendEntry& entry, double font_pt) {
@@ -21,7 +21,7 @@ double entryWidthPt(const LegendEntry& entry, double font_pt) {
   return textWidthPt(text) + 3.5 * font_pt;
 }
 
-/// Entries in rows that fit the width.
+/// Rows of entries that fit the width.
 std::vector<std::vector<LegendEntry>> rowsOf(const std::vector<LegendEntry>& entries,
                                              double width_pt, double font_pt) {
   std::vector<std::vector<LegendEntry>> rows;
@@ -61,7 +61,7 @@ int columnsFor(std::size_t count, int wanted, double width_mm) {
   if (wanted > 0) return std::min(wanted, most);
   const int fit = std::min(most, width_mm >= kFourInARowMm ? 4 : 2);
   const int rows = (most + fit - 1) / fit;
-  return (most + rows - 1) / rows;  // six in two rows of three, not four and two
+  return (most + rows - 1) / rows;  // six as two rows of three, not four and two
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// vtk_views/scenes/panel_grid.h: panels side by side, captions below them, legend and bar at the
-// foot.
+// vtk_views/scenes/panel_grid.h: grid of
+// panels with captions, legend and colour bar.
 #pragma once
 
 #include <optional>
@@ -15,27 +15,27 @@
 
 namespace softscope {
 
-/// What stands below all panels.
+/// Common part below all panels.
 struct FigureFoot {
   std::vector<LegendEntry> legend;
-  std::optional<ErrorColours> colours;  // their bar
+  std::optional<ErrorColours> colours;  // with their colour bar
   ColourBarText bar;
-  std::vector<std::string> notes;  // a small line each
+  std::vector<std::string> notes;  // one small line per note
 };
 
 /// Square panels, row by row.
 struct PanelGrid {
   double width_pt = 0, height_pt = 0;
   std::vector<PanelPlace> panels;
-  double foot_pt = 0;  // where the foot begins
+  double foot_pt = 0;  // top of the foot
 };
 
-/// `columns` 0: two, or up to four where the figure is wide enough. Throws OptionError where panels
-/// would get narrower than a centimetre.
+/// `columns` 0: two, or up to four for a wide figure. Throws
+/// OptionError for panels narrower than a centimetre.
 PanelGrid layOutPanels(std::size_t count, int columns, const FigureStyle& style,
                        const FigureFoot& foot);
 
-/// An empty sheet of the grid's size.
+/// Empty sheet of the size of the grid.
 VectorDrawing newSheet(const PanelGrid& grid);
 
 /// "(b) coronal, P 12.0 mm".
@@ -45,7 +45,7 @@ void drawCaption(std::size_t index, const std::string& text, const PanelPlace& p
 void drawFoot(const FigureFoot& foot, const PanelGrid& grid, const FigureStyle& style,
               VectorDrawing& drawing);
 
-/// The scene's surfaces that have a name.
+/// Surfaces of the scene with a name.
 std::vector<LegendEntry> legendOf(const Scene& scene);
 
 }  // namespace softscope

@@ -1,5 +1,5 @@
-// vtk_views/scenes/plane_contours.cpp: signs of vertices, pieces of triangles, joined at shared
-// edges.
+// vtk_views/scenes/plane_contours.cpp: signs of vertices,
+// segments of triangles, joined at shared edges.
 #include "vtk_views/scenes/plane_contours.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-using EdgeKey = std::uint64_t;  // of two vertices, the lower one in the upper half
+using EdgeKey = std::uint64_t;  // two vertices, the lower index in the upper half
 
 EdgeKey edgeOf(std::int32_t a, std::int32_t b) {
   const auto low = static_cast<std::uint32_t>(std::min(a, b));
@@ -20,7 +20,7 @@ EdgeKey edgeOf(std::int32_t a, std::int32_t b) {
   return EdgeKey(low) << 32 | high;
 }
 
-/// Where the plane leaves one triangle: its two cut edges.
+/// Segment in one triangle: its two intersected edges.
 using Piece = std::array<EdgeKey, 2>;
 
 std::vector<float> heightsOver(const SectionPlane& plane,
@@ -41,7 +41,7 @@ std::vector<Piece> piecesOf(const TriangleMesh& mesh, const std::vector<float>& 
     const int a = above[std::size_t(t[0])], b = above[std::size_t(t[1])],
               c = above[std::size_t(t[2])];
     if (a == b && b == c) continue;
-    const int lone = a == b ? 2 : (a == c ? 1 : 0);  // the corner alone on its side
+    const int lone = a == b ? 2 : (a == c ? 1 : 0);  // vertex alone on its side
     const std::int32_t tip = t[std::size_t(lone)];
     pieces.push_back(
         {edgeOf(tip, t[std::size_t((lone + 1) % 3)]), edgeOf(tip, t[std::size_t((lone + 2) % 3)])});
@@ -49,7 +49,7 @@ std::vector<Piece> piecesOf(const TriangleMesh& mesh, const std::vector<float>& 
   return pieces;
 }
 
-/// Which end of which piece meets each end (2 * piece + side); -1 at a border.
+/// For each end (2 * piece + side) the joined end; -1 at a border.
 std::vector<std::int32_t> joinEnds(const std::vector<Piece>& pieces) {
   std::vector<std::pair<EdgeKey, std::int32_t>> ends;
   ends.reserve(2 * pieces.size());
@@ -100,7 +100,7 @@ class Joiner {
   Eigen::Vector3f pointAt(std::int32_t end) const {
     const EdgeKey edge = pieces_[std::size_t(end / 2)][std::size_t(end % 2)];
     const auto a = std::size_t(edge >> 32), b = std::size_t(edge & 0xffffffffu);
-    const float part = heights_[a] / (heights_[a] - heights_[b]);  // signs differ: never 0 / 0
+    const float part = heights_[a] / (heights_[a] - heights_[b]);  // different signs: never 0 / 0
     return mesh_.vertices_mm[a] + part * (mesh_.vertices_mm[b] - mesh_.vertices_mm[a]);
   }
 

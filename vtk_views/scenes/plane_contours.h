@@ -14,14 +14,14 @@ struct SectionPlane {
   Eigen::Vector3d normal;
 };
 
-/// Points along the cut, mm; the first is the last again where the line is closed.
+/// Points along the contour, mm; a closed line repeats its first point.
 using ContourLine = std::vector<Eigen::Vector3f>;
 
-/// One look at every triangle, no tree: 1 ms for 99 k triangles. A vertex in the plane counts as
-/// above it, so that closed surfaces give closed lines whatever the plane touches.
+/// Tests every triangle, without a tree: 1 ms for 99 k triangles. A vertex in
+/// the plane counts as above it, so closed surfaces always give closed lines.
 std::vector<ContourLine> planeContours(const TriangleMesh& mesh, const SectionPlane& plane);
 
-/// One list of lines a plane, on all cores.
+/// One list of lines per plane, in parallel.
 std::vector<std::vector<ContourLine>> planeContours(const TriangleMesh& mesh,
                                                     const std::vector<SectionPlane>& planes);
 

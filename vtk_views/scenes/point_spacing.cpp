@@ -1,4 +1,4 @@
-// vtk_views/scenes/point_spacing.cpp: counts the cells of space that a surface fills.
+// vtk_views/scenes/point_spacing.cpp: count of occupied grid cells.
 #include "vtk_views/scenes/point_spacing.h"
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDotOfSpacing = 1.7;
 
-/// A cell of space as one number.
+/// Index of a grid cell.
 std::uint64_t cellOf(const Eigen::Vector3f& p, float cell_mm) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis)

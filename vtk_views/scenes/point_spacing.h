@@ -6,10 +6,10 @@
 
 namespace softscope {
 
-/// How far neighbouring points of a surface lie apart, about; 1 for fewer than two points.
+/// Approximate distance of neighbouring points of a surface; 1 for fewer than two points.
 double surfaceSpacingMm(const std::vector<Eigen::Vector3f>& points_mm);
 
-/// So that the dots of neighbours overlap, also where the surface turns or is thinner.
+/// Size at which dots of neighbours overlap, with a margin for inclined or sparse parts.
 double dotSizeMm(const std::vector<Eigen::Vector3f>& points_mm);
 
 }  // namespace softscope

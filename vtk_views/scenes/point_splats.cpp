@@ -1,4 +1,4 @@
-// vtk_views/scenes/point_splats.cpp: neighbours by a grid, tangent planes by their spread.
+// vtk_views/scenes/point_splats.cpp: neighbours from a grid, tangent planes from their covariance.
 #include "vtk_views/scenes/point_splats.h"
 
 #include <Eigen/Eigenvalues>
@@ -15,15 +15,15 @@
 namespace softscope {
 namespace {
 
-constexpr int kRim = 8;                        // corners of a piece
+constexpr int kRim = 8;                        // corners of a splat
 constexpr std::size_t kNearest = 8;            // neighbours of a point
-constexpr double kReach = 2.5;                 // of the spacing: how far neighbours may be
-constexpr float kWidth = 1.0f;                 // radius, of the distance to the third neighbour
-constexpr float kLeast = 0.95f, kMost = 1.8f;  // of the spacing
-constexpr float kApex = 0.05f;                 // height of the cone, of its radius
-constexpr float kMixing = 0.5f;                // of the spacing: how far a colour reaches
+constexpr double kReach = 2.5;                 // search radius, in units of the spacing
+constexpr float kWidth = 1.0f;                 // radius, in distances to the third neighbour
+constexpr float kLeast = 0.95f, kMost = 1.8f;  // limits of the radius, in units of the spacing
+constexpr float kApex = 0.05f;                 // height of the cone, in units of its radius
+constexpr float kMixing = 0.5f;                // smoothing radius of colours, in spacings
 
-/// Points by the cells of a grid, sorted.
+/// Points sorted by grid cell.
 class SplatGrid {
  public:
   SplatGrid(const std::vector<Eigen::Vector3f>& points_mm, float cell_mm)
@@ -33,7 +33,7 @@ class SplatGrid {
     std::sort(cells_.begin(), cells_.end());
   }
 
-  /// The nearest within a cell's width, itself left out, nearest first.
+  /// Nearest neighbours within the width of a cell, in ascending distance.
   std::vector<std::pair<float, std::int32_t>> near(std::int32_t i) const {
     const Eigen::Vector3f& p = points_mm_[std::size_t(i)];
     const Eigen::Vector3i at = cellOf(p);
@@ -121,7 +121,7 @@ class SplatMaker {
     }
   }
 
-  /// Across the spread of the neighbours, towards the eye.
+  /// Direction of the smallest variance of the neighbours, towards the eye.
   Eigen::Vector3f normalOf(const Eigen::Vector3f& centre, const Neighbours& near) const {
     const Eigen::Vector3f towards = eye_mm_ - centre;
     if (near.size() < 3)
@@ -141,7 +141,7 @@ class SplatMaker {
     return normal.dot(towards) < 0 ? Eigen::Vector3f(-normal) : normal;
   }
 
-  /// A corner at `place` with the colour and the error there.
+  /// Corner with interpolated colour and error.
   void put(std::size_t at, const Eigen::Vector3f& place, std::int32_t i, const Neighbours& near,
            SceneSurface* made) const {
     made->mesh.vertices_mm[at] = place;

@@ -1,4 +1,4 @@
-// vtk_views/scenes/render_check.cpp: a scene so simple that its pixels are known beforehand.
+// vtk_views/scenes/render_check.cpp: scene with known pixels.
 #include "vtk_views/scenes/render_check.h"
 
 #include <vtkActor.h>
@@ -44,7 +44,7 @@ bool pixelIs(vtkRenderWindow* window, int x, int y, const Rgb& expected) {
   window->GetPixelData(x, y, x, y, 0, pixel);
   if (pixel->GetNumberOfValues() < 3) return false;
   for (int c = 0; c < 3; ++c)
-    if (std::abs(int(pixel->GetValue(c)) - expected[c]) > 2) return false;  // rounding differs
+    if (std::abs(int(pixel->GetValue(c)) - expected[c]) > 2) return false;  // rounding
   return true;
 }
 

@@ -7,12 +7,12 @@ namespace softscope {
 
 struct RenderCheck {
   bool works = false;
-  std::string renderer;  // the driver's own words; empty where there is none
-  std::string problem;   // why it doesn't work; empty where it does
+  std::string renderer;  // text of the driver; empty without a renderer
+  std::string problem;   // reason of the failure; empty on success
   double first_frame_ms = 0;
 };
 
-/// Draws an orange square on blue, off screen, and reads the pixels back. Never throws.
+/// Renders an orange square on blue off-screen and reads it back. Never throws.
 RenderCheck checkRendering();
 
 }  // namespace softscope

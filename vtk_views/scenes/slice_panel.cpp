@@ -1,4 +1,4 @@
-// vtk_views/scenes/slice_panel.cpp: image, lines, dots, letters, bar.
+// vtk_views/scenes/slice_panel.cpp: image, lines, dots, letters, scale bar.
 #include "vtk_views/scenes/slice_panel.h"
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 namespace softscope {
 namespace {
 
-constexpr int kLeastPicturePx = 400;  // a side, where the page has as many dots
+constexpr int kLeastPicturePx = 400;  // per side, if the resolution of the page allows it
 constexpr Rgb8 kOnCt{255, 255, 255}, kOnWhite{40, 40, 40};
 
-/// As many as the page has dots, but no finer than half a voxel: more would only take time.
+/// Resolution of the page, at most two pixels per voxel.
 int pixelsOf(double length_pt, double length_mm, const Volume& volume, const FigureStyle& style) {
   const auto& spacing = volume.facts.spacing_mm;
   const double finest_mm = *std::min_element(spacing.begin(), spacing.end()) / 2;
@@ -97,7 +97,7 @@ void drawSideNames(const ViewPlane& plane, SceneFrame frame, const PanelPlace& p
     drawing.parts.emplace_back(text);
   };
   const PointPt middle = place.at(0, 0);
-  // Words stand upright at the sides, where they need no more room than a letter.
+  // Words are vertical at the sides, where they need the space of a letter.
   text.upwards = frame == SceneFrame::kCamera;
   if (text.upwards) {
     put(plane.right, {place.right() - inset_pt, middle.y_pt}, TextAnchor::kMiddle);

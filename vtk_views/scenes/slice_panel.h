@@ -1,4 +1,4 @@
-// vtk_views/scenes/slice_panel.h: one slice of a scene as a part of a figure.
+// vtk_views/scenes/slice_panel.h: slice of a scene as part of a figure.
 #pragma once
 
 #include "vtk_views/drawing/figure_style.h"
@@ -8,25 +8,25 @@
 
 namespace softscope {
 
-/// Where a panel lies on the page.
+/// Position of a panel on the page.
 struct PanelPlace {
   PointPt top_left;
   double width_pt = 0, height_pt = 0;
 
   double right() const { return top_left.x_pt + width_pt; }
   double bottom() const { return top_left.y_pt + height_pt; }
-  /// Of a point in the panel, in shares from its centre: x right, y up, each from -0.5 to 0.5.
+  /// Page position of a point of the panel, in shares from its centre: x right, y up, -0.5 to 0.5.
   PointPt at(double x, double y) const {
     return {top_left.x_pt + (0.5 + x) * width_pt, top_left.y_pt + (0.5 - y) * height_pt};
   }
 };
 
-/// The volume's slice, or white; over it each surface's contour as lines, points near the plane as
-/// dots; letters of the four sides; a scale bar. `width_mm` is what the panel's width shows.
+/// Slice of the volume, or white; contours of the surfaces as lines, points near the
+/// plane as dots; letters of the four sides; a scale bar. `width_mm`: field of view.
 void drawSlicePanel(const Scene& scene, const ViewPlane& plane, double width_mm,
                     const PanelPlace& place, const FigureStyle& style, VectorDrawing& drawing);
 
-/// The parts of drawSlicePanel() that other panels share.
+/// Parts of drawSlicePanel() common to other panels.
 void drawSideNames(const ViewPlane& plane, SceneFrame frame, const PanelPlace& place, Rgb8 colour,
                    const FigureStyle& style, VectorDrawing& drawing);
 void drawScaleBar(double width_mm, const PanelPlace& place, Rgb8 colour, const FigureStyle& style,

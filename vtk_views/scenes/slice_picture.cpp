@@ -1,4 +1,4 @@
-// vtk_views/scenes/slice_picture.cpp: steps along rows in voxels, linear between them.
+// vtk_views/scenes/slice_picture.cpp: linear interpolation of voxels along image rows.
 #include "vtk_views/scenes/slice_picture.h"
 
 #include <Eigen/Geometry>

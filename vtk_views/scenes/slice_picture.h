@@ -9,18 +9,18 @@
 
 namespace softscope {
 
-/// The part of a plane that an image shows, around the plane's centre, mm.
+/// Field of view around the centre of a plane, mm.
 struct SliceField {
   double width_mm = 100;
   double height_mm = 100;
 };
 
-/// The volume's values on the plane; NaN beyond it. Row 0 is at the top; pixels are square if the
-/// shape of image and field agree.
+/// Values of the volume on the plane; NaN outside. Row 0 is at the top;
+/// pixels are square if image and field have the same aspect ratio.
 Raster<float> sliceValues(const Volume& volume, const ViewPlane& plane, const SliceField& field,
                           int width_px, int height_px);
 
-/// The same in grey; black beyond the volume.
+/// The same in grey; black outside.
 ColourImage slicePicture(const Volume& volume, const ViewPlane& plane, const SliceField& field,
                          const GreyWindow& window, int width_px, int height_px);
 

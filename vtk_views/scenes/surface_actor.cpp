@@ -1,4 +1,4 @@
-// vtk_views/scenes/surface_actor.cpp: points, normals, colours; what is lit and what isn't.
+// vtk_views/scenes/surface_actor.cpp: points, normals, colours and lighting.
 #include "vtk_views/scenes/surface_actor.h"
 
 #include <vtkCellArray.h>
@@ -35,7 +35,7 @@ vtkSmartPointer<vtkPoints> pointsOf(const TriangleMesh& mesh) {
   return points;
 }
 
-/// Mean of the triangles' normals by area: smooth shading.
+/// Area-weighted vertex normals, for smooth shading.
 vtkSmartPointer<vtkFloatArray> normalsOf(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3f> sums(mesh.vertices_mm.size(), Eigen::Vector3f::Zero());
   for (const Triangle& t : mesh.triangles) {
@@ -70,7 +70,7 @@ vtkSmartPointer<vtkUnsignedCharArray> textureOf(const std::vector<Rgb8>& colours
   return array;
 }
 
-/// The bar's colours in steps too small to see.
+/// Colours of the bar in invisibly small steps.
 vtkSmartPointer<vtkLookupTable> tableOf(const ErrorColours& colours) {
   auto table = vtkSmartPointer<vtkLookupTable>::New();
   const auto set = [&](double value, auto&& put) {
@@ -110,7 +110,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const SceneSurface& surface, const Surfa
 
 void light(const SceneSurface& surface, const SurfaceRole& role, vtkProperty* look) {
   if (role.unlit || surface.isPoints() || !surface.errors_mm.empty()) {
-    look->LightingOff();  // shading would change the colours that the bar promises
+    look->LightingOff();  // shading would change the colours of the colour bar
     return;
   }
   look->LightingOn();
@@ -129,7 +129,7 @@ void redressSurface(const SceneSurface& surface, const ErrorColours& colours,
   if (!surface.errors_mm.empty()) {
     mapper->SetLookupTable(tableOf(colours));
     mapper->UseLookupTableScalarRangeOn();
-    mapper->InterpolateScalarsBeforeMappingOn();  // between vertices errors are mixed, not colours
+    mapper->InterpolateScalarsBeforeMappingOn();  // interpolates errors, not colours
   } else {
     mapper->InterpolateScalarsBeforeMappingOff();
   }
@@ -140,7 +140,7 @@ void redressSurface(const SceneSurface& surface, const ErrorColours& colours,
   actor->SetPosition(role.shift_mm.x(), role.shift_mm.y(), role.shift_mm.z());
   light(surface, role, look);
   look->SetOpacity(role.see_through ? kSeeThrough : 1);
-  look->SetBackfaceCulling(role.see_through);  // one layer only: right without sorting
+  look->SetBackfaceCulling(role.see_through);  // one layer only: correct without sorting
 }
 
 vtkSmartPointer<vtkActor> surfaceActor(const SceneSurface& surface, const ErrorColours& colours,

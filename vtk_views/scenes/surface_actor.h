@@ -1,4 +1,4 @@
-// vtk_views/scenes/surface_actor.h: a surface of a scene as VTK draws it.
+// vtk_views/scenes/surface_actor.h: VTK actor of a surface.
 #pragma once
 
 #include <vtkActor.h>
@@ -11,21 +11,21 @@
 
 namespace softscope {
 
-/// How a surface is drawn beside the others.
+/// How a surface is drawn relative to the others.
 struct SurfaceRole {
   double point_size_px = 1;
   bool see_through = false;
-  bool unlit = false;    // its colours are a photograph's, which have their light in them
-  bool neutral = false;  // grey: another surface has the colours of errors
+  bool unlit = false;    // its colours come from images and contain the illumination
+  bool neutral = false;  // grey: another surface is coloured by errors
   Eigen::Vector3d shift_mm = Eigen::Vector3d::Zero();
 };
 
-/// With errors: in their colours, unlit, so that they are the bar's. Points: unlit, in their own
-/// colours where they have some. Else lit, in the surface's colour.
+/// With errors: coloured by them, unlit, as in the colour bar. Points: unlit,
+/// in their own colours if present. Else lit, in the colour of the surface.
 vtkSmartPointer<vtkActor> surfaceActor(const SceneSurface& surface, const ErrorColours& colours,
                                        const SurfaceRole& role);
 
-/// Gives an actor that surfaceActor() made another surface to show; faster than a new one.
+/// Replaces the surface of an actor of surfaceActor(); faster than a new actor.
 void redressSurface(const SceneSurface& surface, const ErrorColours& colours,
                     const SurfaceRole& role, vtkActor* actor);
 

@@ -1,5 +1,5 @@
-// vtk_views/scenes/surface_picture.cpp: one actor a surface, one renderer, pixels halved to smooth
-// edges.
+// vtk_views/scenes/surface_picture.cpp: one actor
+// per surface, one renderer, supersampling.
 #include "vtk_views/scenes/surface_picture.h"
 
 #include <vtkNew.h>
@@ -18,19 +18,19 @@
 namespace softscope {
 namespace {
 
-constexpr int kFiner = 2;         // pixels are drawn this much smaller each way, then averaged
-constexpr double kNearer = 0.02;  // of the image's width
-constexpr double kEyeAway = 100;  // the same
-constexpr double kSmallestDot = 1 / 150.0, kLargestDot = 1 / 50.0;  // the same
+constexpr int kFiner = 2;                                           // supersampling factor per axis
+constexpr double kNearer = 0.02;                                    // in image widths
+constexpr double kEyeAway = 100;                                    // in image widths
+constexpr double kSmallestDot = 1 / 150.0, kLargestDot = 1 / 50.0;  // in image widths
 
-/// Sparse points stay dots.
+/// Sparse points are drawn as dots.
 double pointSizeMm(const SceneSurface& surface, const SurfacePictureOptions& options) {
   if (options.point_size_mm > 0 || !surface.isPoints()) return options.point_size_mm;
   return std::clamp(dotSizeMm(surface.mesh.vertices_mm), kSmallestDot * options.width_mm,
                     kLargestDot * options.width_mm);
 }
 
-/// Dense points become pieces of their surface, which can be shaded.
+/// Dense points become splats, which can be shaded.
 SceneSurface piecesOf(const SceneSurface& surface, const ViewPlane& camera,
                       const SurfacePictureOptions& options) {
   if (options.point_size_mm > 0 || !surface.isPoints() ||

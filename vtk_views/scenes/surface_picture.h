@@ -1,4 +1,4 @@
-// vtk_views/scenes/surface_picture.h: surfaces and points in three dimensions, off screen.
+// vtk_views/scenes/surface_picture.h: off-screen image of surfaces and points.
 #pragma once
 
 #include "core/image.h"
@@ -9,17 +9,17 @@ namespace softscope {
 
 struct SurfacePictureOptions {
   int width_px = 600, height_px = 600;
-  double width_mm = 100;     // what the image's width shows
-  double point_size_mm = 0;  // diameter of points; 0: so that they cover their surface
-  bool see_through = false;  // the first surface, if others are there too
+  double width_mm = 100;     // field of view
+  double point_size_mm = 0;  // diameter; 0: from the spacing, so that points cover the surface
+  bool see_through = false;  // first surface transparent, if there are others
 };
 
-/// Parallel projection on white: sizes in the image are true everywhere, and later surfaces can
-/// be drawn a little nearer to the eye, so that the first doesn't hide what lies just inside it. A
-/// surface with errors has their colours, unlit, so that they are the bar's; one with a colour at
-/// each vertex has these, the others are lit in their own, or in grey beside errors, which no tint
-/// may falsify. The same scene gives the same pixels on one driver. Throws BackendError where
-/// nothing renders.
+/// Parallel projection on white: a common scale, and later surfaces can be
+/// drawn slightly nearer to the eye, so that the first does not hide them. A
+/// surface with errors is coloured by them, unlit, as in the colour bar; one
+/// with vertex colours has these, the others are lit in their own colour, or
+/// in grey next to errors, to keep the error colours unambiguous.
+/// Deterministic for a given driver. Throws BackendError without a renderer.
 ColourImage drawSurfaces(const std::vector<SceneSurface>& surfaces, const ErrorColours& colours,
                          const ViewPlane& camera, const SurfacePictureOptions& options);
 

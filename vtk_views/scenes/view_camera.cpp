@@ -1,4 +1,4 @@
-// vtk_views/scenes/view_camera.cpp: places, angles, scales.
+// vtk_views/scenes/view_camera.cpp: positions, angles and scales.
 #include "vtk_views/scenes/view_camera.h"
 
 #include <vtkCamera.h>
@@ -31,7 +31,7 @@ void aimAsScope(vtkRenderer* renderer, const PinholeCamera& left,
                 const Eigen::Isometry3d& world_from_left, double focus_mm, double aspect) {
   const double half_height = 0.5 * left.height_px / left.fy_px;
   const double half_width = 0.5 * left.width_px / left.fx_px;
-  const double half = std::max(half_height, half_width / aspect);  // of the image's height
+  const double half = std::max(half_height, half_width / aspect);  // in units of the image height
   const Eigen::Vector3d eye = world_from_left.translation();
   const Eigen::Vector3d focus = world_from_left * Eigen::Vector3d(0, 0, focus_mm);
   const Eigen::Vector3d up = -world_from_left.linear().col(1);
@@ -41,7 +41,7 @@ void aimAsScope(vtkRenderer* renderer, const PinholeCamera& left,
   vtk->SetFocalPoint(focus.data());
   vtk->SetViewUp(up.data());
   vtk->SetViewAngle(2 * std::atan(half) * kDegrees);
-  // The optical axis passes beside the image's middle; in shares of half the image.
+  // The principal point differs from the image centre; in shares of half of the image.
   vtk->SetWindowCenter((0.5 * (left.width_px - 1) - left.cx_px) / left.fx_px / (half * aspect),
                        (left.cy_px - 0.5 * (left.height_px - 1)) / left.fy_px / half);
   renderer->ResetCameraClippingRange();

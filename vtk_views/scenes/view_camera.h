@@ -1,4 +1,4 @@
-// vtk_views/scenes/view_camera.h: VTK camera from our camera or a scope's pose.
+// vtk_views/scenes/view_camera.h: VTK camera from a view plane or from the scope.
 #pragma once
 
 #include <vtkRenderer.h>
@@ -10,17 +10,17 @@
 
 namespace softscope {
 
-/// Parallel projection, as figures have it: sizes are true everywhere. `height_mm` of the image,
-/// the eye `depth_mm` before the plane's centre.
+/// Parallel projection, as in figures: a common scale. `height_mm` of
+/// the image; eye at `depth_mm` in front of the centre of the plane.
 void aimParallel(vtkRenderer* renderer, const ViewPlane& view, double height_mm, double depth_mm);
 
-/// What the scope itself sees from `world_from_left`, turning about a point `focus_mm` ahead. Where
-/// the image's shape is another, its height shows the scope's whole height, or its width the
-/// whole width, whichever shows more. `aspect`: of the renderer, width / height.
+/// View of the scope from `world_from_left`, with the focal point `focus_mm` ahead.
+/// For another aspect ratio the view contains the full height or the full width of
+/// the scope's image, the larger of both. `aspect`: of the renderer, width / height.
 void aimAsScope(vtkRenderer* renderer, const PinholeCamera& left,
                 const Eigen::Isometry3d& world_from_left, double focus_mm, double aspect);
 
-/// From perspective to parallel projection, with what lies at the focal point as large as before.
+/// From perspective to parallel projection, with the same scale at the focal point.
 void makeParallel(vtkRenderer* renderer);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/scenes/view_plane.cpp: sides and letters from the axes alone.
+// vtk_views/scenes/view_plane.cpp: side names and letters from the axes.
 #include "vtk_views/scenes/view_plane.h"
 
 #include <algorithm>
@@ -13,21 +13,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNamed = 0.26;      // sine of 15 degrees: what leans less isn't named
-constexpr double kAlongAxis = 1e-6;  // a standard plane's normal has no other parts
+constexpr double kNamed = 0.26;      // sine of 15 degrees: smaller components are not named
+constexpr double kAlongAxis = 1e-6;  // tolerance of a standard plane
 
 ViewPlane make(const char* name, const Vector3d& centre_mm, const Vector3d& right,
                const Vector3d& up) {
   return {name, centre_mm, right, up};
 }
 
-/// Up for an image that is looked at from `towards_viewer`.
+/// Up direction of the image for a view from `towards_viewer`.
 Vector3d upFor(const Vector3d& towards_viewer, SceneFrame frame) {
   const Vector3d usual =
       frame != SceneFrame::kCamera ? Vector3d(Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
   const Vector3d other =
       frame != SceneFrame::kCamera ? Vector3d(-Vector3d::UnitY()) : Vector3d(Vector3d::UnitZ());
-  // Within 45 degrees of the axis an image is read as an axial one (of a scope: one from above).
+  // Within 45 degrees of the axis the view follows the axial one (for a scope: from above).
   const Vector3d& hint = std::abs(towards_viewer.dot(usual)) > std::sqrt(0.5) ? other : usual;
   return (hint - hint.dot(towards_viewer) * towards_viewer).normalized();
 }
@@ -54,12 +54,12 @@ Vector3d unitOf(const Vector3d& direction) {
   return direction.normalized();
 }
 
-/// An anatomical word needs a stated space.
+/// Anatomical names require a known space.
 const char* planeName(SceneFrame frame, const char* anatomical, const char* by_axes) {
   return frame == SceneFrame::kAxes ? by_axes : anatomical;
 }
 
-/// "L 12.0" of a patient, "x 12.0" else.
+/// "L 12.0" for a patient, "x 12.0" otherwise.
 std::string sideText(Eigen::Index axis, double value, int decimals, SceneFrame frame) {
   char text[48];
   if (frame == SceneFrame::kPatient)
@@ -120,7 +120,7 @@ std::string sideName(const Vector3d& direction, SceneFrame frame) {
   std::string name;
   for (const int axis : order) {
     if (std::abs(unit[axis]) < kNamed) continue;
-    if (frame != SceneFrame::kPatient && !name.empty()) break;  // words are long: the strongest
+    if (frame != SceneFrame::kPatient && !name.empty()) break;  // long words: the strongest only
     name += namesOf(frame)[std::size_t(axis)][unit[axis] > 0 ? 1 : 0];
   }
   return name;

@@ -1,4 +1,4 @@
-// vtk_views/scenes/window_pixels.cpp: VTK's rows run upwards, ours downwards.
+// vtk_views/scenes/window_pixels.cpp: rows bottom-up in VTK, top-down in images.
 #include "vtk_views/scenes/window_pixels.h"
 
 #include <vtkImageData.h>
@@ -15,7 +15,7 @@ struct FinePixels {
   std::size_t row_bytes;
   int finer;
 
-  /// Of the block whose lower left pixel is (x, y).
+  /// Mean of the block with lower left pixel (x, y).
   Rgb8 mean(std::size_t x, std::size_t y) const {
     int sum[3] = {0, 0, 0};
     for (std::size_t j = 0; j < std::size_t(finer); ++j) {
@@ -35,7 +35,7 @@ vtkSmartPointer<vtkImageData> vtkImageOf(const ColourImage& picture) {
   image->SetDimensions(picture.width_px, picture.height_px, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   auto* out = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (int v = picture.height_px - 1; v >= 0; --v)  // VTK's rows run upwards
+  for (int v = picture.height_px - 1; v >= 0; --v)  // bottom-up in VTK
     for (int u = 0; u < picture.width_px; ++u) {
       const Rgb8 c = picture.at(u, v);
       *out++ = c.red;

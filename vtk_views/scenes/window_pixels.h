@@ -1,4 +1,4 @@
-// vtk_views/scenes/window_pixels.h: images to VTK and back.
+// vtk_views/scenes/window_pixels.h: conversion between images and VTK.
 #pragma once
 
 #include <vtkImageData.h>
@@ -9,11 +9,11 @@
 
 namespace softscope {
 
-/// Three bytes a pixel, the first row at the bottom.
+/// Three bytes per pixel, bottom row first.
 vtkSmartPointer<vtkImageData> vtkImageOf(const ColourImage& picture);
 
-/// The lower left `finer * width_px` by `finer * height_px` pixels of the window, as means of
-/// `finer` x `finer` of them: smooth edges at the price of a larger window.
+/// Lower left `finer * width_px` by `finer * height_px` pixels of the window,
+/// averaged over `finer` x `finer`: smooth edges, for a larger window.
 ColourImage readPixels(vtkRenderWindow* window, int width_px, int height_px, int finer);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/viewer/moment_between.cpp: motion of the nodes, carried to the points.
+// vtk_views/viewer/moment_between.cpp: node motion interpolated to the points.
 #include "vtk_views/viewer/moment_between.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace softscope {
 namespace {
 
-constexpr std::size_t kNodes = 4;  // that carry a point
+constexpr std::size_t kNodes = 4;  // nodes per point
 
-/// Of the nodes that both moments have, weighted by the inverse square of the distance.
+/// Over nodes present in both models, weighted by the inverse square of the distance.
 Eigen::Vector3f motionAt(const Eigen::Vector3f& place, const std::vector<Eigen::Vector3f>& nodes_mm,
                          const std::vector<Eigen::Vector3f>& motion_mm) {
   std::array<float, kNodes> away{};

@@ -7,14 +7,14 @@
 
 namespace softscope {
 
-/// `share` (0 to 1) of the way from a moment to the next one: points move with the nodes of the
-/// warp near them, which keep their numbers, nodes and scope in straight lines, the scope's
-/// direction evenly. Colours, weights and errors stay those of `from`: nothing is measured between
-/// models. Without nodes points stay.
+/// Interpolation at `share` (0 to 1) between two models: points move with nearby
+/// nodes of the warp, which keep their numbers; nodes and camera position move
+/// linearly, the camera orientation evenly. Colours, weights and errors are those of
+/// `from`: no values are measured between models. Without nodes points do not move.
 ViewMoment momentBetween(const ViewMoment& from, const ViewMoment& to, double share);
 
-/// The moment that playback is at, between two models where it plays. Throws InputError where
-/// files can't be read.
+/// Model at the playback time, interpolated during
+/// playback. Throws InputError for unreadable files.
 std::shared_ptr<const ViewMoment> shownMoment(ViewSource& source, const Playback& playback,
                                               bool with_errors);
 

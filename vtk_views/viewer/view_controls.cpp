@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_controls.cpp: a table of keys, a clock.
+// vtk_views/viewer/view_controls.cpp: table of keys, playback clock.
 #include "vtk_views/viewer/view_controls.h"
 
 #include <algorithm>
@@ -156,7 +156,7 @@ bool Playback::pass(double seconds) {
   if (looping) {
     goTo(0);
   } else if (source_.live()) {
-    at_s_ = source_.secondsOf(last);  // waits for what comes
+    at_s_ = source_.secondsOf(last);  // waits for new models
   } else {
     playing = false;
   }

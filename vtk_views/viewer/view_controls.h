@@ -11,11 +11,11 @@ namespace softscope {
 
 enum class ViewColour { kTexture, kErrors, kWeights };
 
-/// Where the model is looked at from.
+/// Viewpoint of the model.
 enum class Look {
-  kFree,   // parallel, as figures have it
-  kScope,  // with the scope's own eye, which moves
-  kFront,  // axial with a CT, else as the scope at its first frame looked, from afar
+  kFree,   // parallel projection, as in figures
+  kScope,  // moving camera of the scope
+  kFront,  // axial with a CT, else in the initial direction of the scope, from afar
   kAbove,  // coronal, or from above
   kRight,  // sagittal, or from the right
 };
@@ -25,53 +25,53 @@ struct ViewState {
   Look look = Look::kFree;
   bool nodes = false, motion = false, scope = true, ct = true, reference = true, help = false;
   double dot_scale = 1;
-  bool turning = false;  // about the model, all the way round: nothing may leave the window
+  bool turning = false;  // full rotation about the model: it must stay inside the window
 };
 
-/// Goes through the moments by the clip's own clock.
+/// Playback in the time of the clip.
 class Playback {
  public:
   explicit Playback(const ViewSource& source) : source_(source) {}
 
   int index() const { return index_; }
-  /// How much of the time until the next moment has passed: 0 at a moment itself, and at the last.
+  /// Share of the time to the next model: 0 at a model, and at the last one.
   double share() const;
   bool playing = false, looping = false;
-  double speed = 1;  // seconds of the clip a second
+  double speed = 1;  // seconds of the clip per second
 
-  void goTo(int index);  // stops at the ends
-  /// To a time of the clip, as while playing.
+  void goTo(int index);  // limited to the range
+  /// To a clip time, as during playback.
   void goToTime(double clip_s);
   void step(int by) {
     playing = false;
     goTo(index_ + by);
   }
   void togglePlaying();
-  /// Some seconds have passed; whether another moment is to be shown.
+  /// Advances by some seconds; true if another model must be shown.
   bool pass(double seconds);
-  /// A live run has grown: shows its end if its end was shown.
+  /// After new models of a live run: moves to the end if it was at the end.
   bool follow(int count_before);
 
  private:
   const ViewSource& source_;
   int index_ = 0;
-  double at_s_ = 0;  // of the clip, while playing
+  double at_s_ = 0;  // clip time during playback
 };
 
-/// When the last moment ends: it stays as long as the one before it.
+/// End of the last model: it is shown as long as the one before.
 double endSeconds(const ViewSource& source);
 
-/// What is to be done after a key.
+/// Action after a key.
 enum class ViewTask { kNothing, kRedraw, kLook, kScreenshot, kQuit };
 
-/// Changes playback and state as the key (VTK's name of it) says.
+/// Changes playback and state according to the key (its name in VTK).
 ViewTask pressKey(const std::string& key, const ViewWorld& world, Playback& playback,
                   ViewState& state);
 
 /// Keys and their meanings, in the order of help.
 const std::vector<std::pair<std::string, std::string>>& viewKeys();
 
-/// What there is to colour by; always the texture, first.
+/// Available colourings; texture is always first.
 std::vector<ViewColour> coloursOf(const ViewWorld& world);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_picture.cpp: drawn twice as fine, then averaged, over the foot.
+// vtk_views/viewer/view_picture.cpp: supersampled view above the foot.
 #include "vtk_views/viewer/view_picture.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr int kFiner = 2;
 constexpr double kUsualWidth = 960, kUsualHeight = 720;
 constexpr int kLeastWidth = 320, kLeastHeight = 240, kMost = 4096;
 
-/// Letters keep their share of a large image. In eighths, so that the foot has whole pixels.
+/// Font size proportional to the image. In eighths, so that the foot has whole pixels.
 double footScale(int width_px, int height_px) {
   const double larger = std::min(width_px / kUsualWidth, height_px / kUsualHeight);
   return std::max(1.0, std::floor(8 * larger) / 8);

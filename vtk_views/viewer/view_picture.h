@@ -12,23 +12,23 @@ namespace softscope {
 
 class ViewPicture {
  public:
-  /// The source must outlive it. Throws OptionError below 320 x 240 or above 4096 pixels, and
-  /// BackendError where nothing renders. `clean`: the view alone, without slider and words.
+  /// The source must outlive it. Throws OptionError below 320 x 240 or above 4096
+  /// pixels, and BackendError without a renderer. `clean`: without slider and texts.
   ViewPicture(ViewSource& source, int width_px, int height_px, bool clean = false);
 
-  /// `turn_deg`: further about what is looked at. Throws InputError where the moment can't be read.
+  /// `turn_deg`: additional rotation about the model. Throws InputError for an unreadable model.
   ColourImage draw(const Playback& playback, const ViewState& state, double turn_deg);
 
  private:
   ViewSource& source_;
-  double foot_scale_;         // 0: there is none
-  int width_px_, height_px_;  // of the part above the foot
+  double foot_scale_;         // 0: without foot
+  int width_px_, height_px_;  // without the foot
   ViewScene scene_;
   vtkSmartPointer<vtkRenderWindow> window_;
-  std::shared_ptr<const ViewMoment> first_;  // standard looks follow the first moment drawn
+  std::shared_ptr<const ViewMoment> first_;  // standard views are relative to the first model
 };
 
-/// Throws OptionError where a viewer can't be that large.
+/// Throws OptionError for an unsupported size.
 void requireViewSize(int width_px, int height_px);
 
 }  // namespace softscope

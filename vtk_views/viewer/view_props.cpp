@@ -37,7 +37,7 @@ vtkSmartPointer<vtkPolyData> dataOf(const LineSet& lines) {
   return data;
 }
 
-/// The part of the plane that lies in the volume's box, at most `side_mm` from the centre's sides.
+/// Part of the plane inside the box of the volume, at most `side_mm` wide.
 std::pair<ViewPlane, SliceField> fieldIn(const Volume& volume, ViewPlane plane, double side_mm) {
   const Eigen::AlignedBox3d box = boxOf(volume);
   const auto share = [&](const Eigen::Vector3d& along) {

@@ -1,5 +1,5 @@
-// vtk_views/viewer/view_props.h: what a viewer draws beside surfaces: scope, path, nodes, arrows,
-// slices.
+// vtk_views/viewer/view_props.h: actors of the
+// viewer: scope, path, nodes, arrows, slices.
 #pragma once
 
 #include <vtkActor.h>
@@ -17,7 +17,7 @@
 
 namespace softscope {
 
-/// Lines of one colour, unlit: each pair of points is one, mm. `width_px` on screen.
+/// Unlit lines of one colour, one per pair of points, mm. `width_px` on screen.
 struct LineSet {
   std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>> lines_mm;
   Rgb8 colour;
@@ -26,21 +26,21 @@ struct LineSet {
 vtkSmartPointer<vtkActor> lineActor(const LineSet& lines);
 void redressLines(const LineSet& lines, vtkActor* actor);
 
-/// The pyramid that the scope looks into, as deep as `depth_mm`, with a mark at its upper side.
+/// Frustum of the scope with depth `depth_mm`, and a mark at its upper side.
 LineSet scopeLines(const PinholeCamera& left, const Eigen::Isometry3d& world_from_left,
                    double depth_mm);
 
-/// From point to point.
+/// Polyline.
 LineSet pathLines(const std::vector<Eigen::Vector3f>& points_mm, Rgb8 colour);
 
-/// A shaft and two barbs each, drawn `times` as long as the motion that leads to each point;
-/// motions below `least_mm` are left out.
+/// Arrows with `times` the length of the motion that ends
+/// at each point; motions below `least_mm` are omitted.
 LineSet motionArrows(const std::vector<Eigen::Vector3f>& ends_mm,
                      const std::vector<Eigen::Vector3f>& motions_mm, double times, double least_mm,
                      Rgb8 colour);
 
-/// The volume's slice by that plane as an image in space: a square of `side_mm` around the plane's
-/// centre, or less where the volume ends.
+/// Slice of the volume as an image in space: a square of
+/// `side_mm` around the centre of the plane, cut at the volume.
 vtkSmartPointer<vtkActor> sliceActor(const Volume& volume, const ViewPlane& plane,
                                      const GreyWindow& window, double side_mm);
 

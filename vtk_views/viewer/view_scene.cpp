@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_scene.cpp: one actor a thing, dressed anew for every moment.
+// vtk_views/viewer/view_scene.cpp: one actor per element, updated for every model.
 #include "vtk_views/viewer/view_scene.h"
 
 #include <vtkCamera.h>
@@ -18,15 +18,15 @@
 namespace softscope {
 namespace {
 
-constexpr double kScopeDepth = 0.22;  // of the way to the tissue
-constexpr double kEyeAway = 4;        // in widths of the image
-constexpr double kRoomAround = 1.08;  // of what is seen
-constexpr double kStrays = 0.002;     // share of the points at each side that may be cut
-constexpr double kStraysFrom = 0.1;   // beyond the others, of their width
+constexpr double kScopeDepth = 0.22;  // as a share of the distance to the tissue
+constexpr double kEyeAway = 4;        // in image widths
+constexpr double kRoomAround = 1.08;  // margin of the field of view
+constexpr double kStrays = 0.002;     // share of points that may be cut at each side
+constexpr double kStraysFrom = 0.1;   // distance of outliers, in units of the width of the others
 constexpr double kArrowTimes = 4, kLeastMotion_mm = 0.05;
 constexpr double kNodeDotsPx = 5;
-constexpr double kSliceBehind = 0.7;   // slices behind the middle, in widths of the model
-constexpr double kNearerSteps = -600;  // of the depth buffer, 65 536 in all
+constexpr double kSliceBehind = 0.7;   // slices behind the centre, in widths of the model
+constexpr double kNearerSteps = -600;  // of the depth buffer (65 536)
 constexpr Rgb8 kNodeColour{20, 60, 200}, kArrowColour{235, 30, 35}, kReferenceColour{175, 175, 175};
 constexpr Rgb8 kPathColour{0, 110, 170};
 const Eigen::Vector3d kFromTheScope(0.55, -0.45, -0.8);
@@ -38,7 +38,7 @@ SceneSurface surfaceOf(TriangleMesh mesh, Rgb8 colour) {
   return surface;
 }
 
-/// The extremes of the values, without outliers far from all others.
+/// Extreme values without distant outliers.
 std::pair<double, double> endsOfMost(std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double least = *low, most = *high;
@@ -50,7 +50,7 @@ std::pair<double, double> endsOfMost(std::vector<double>& values) {
   return {least < first - far ? first : least, most > last + far ? last : most};
 }
 
-/// A little nearer to the eye than it is: nodes lie in the surface, not behind its dots.
+/// Depth offset towards the eye: nodes are in the surface, not behind its dots.
 void drawOver(vtkActor* actor) {
   vtkMapper* mapper = actor->GetMapper();
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
@@ -58,7 +58,7 @@ void drawOver(vtkActor* actor) {
   mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0, kNearerSteps);
 }
 
-/// A little farther: what is see-through must not tint the colours of errors before it.
+/// Depth offset away from the eye: transparent surfaces must not tint error colours.
 void drawUnder(vtkActor* actor) {
   vtkMapper* mapper = actor->GetMapper();
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
@@ -87,7 +87,7 @@ SceneSurface ViewScene::shownPoints(const ViewMoment& moment, const ViewState& s
   if (state.colour == ViewColour::kWeights && !moment.weights.empty()) {
     surface.errors_mm.assign(moment.weights.begin(), moment.weights.end());
   } else if (state.colour != ViewColour::kTexture) {
-    surface.mesh.colours.clear();  // nothing is known: grey
+    surface.mesh.colours.clear();  // unknown: grey
   }
   return surface;
 }
@@ -167,7 +167,7 @@ void ViewScene::showNodes(const ViewMoment& moment, const ViewState& state) {
   arrows_->SetVisibility(state.motion);
 }
 
-/// A corner of three slices, with the model in front of it in this view.
+/// Corner of three slices behind the model in this view.
 void ViewScene::addSlices(const Eigen::Vector3d& towards_viewer) {
   for (const auto& slice : slices_) renderer_->RemoveActor(slice);
   slices_.clear();
@@ -228,8 +228,8 @@ ViewPlane ViewScene::viewFor(Look look) const {
   return cameraView(centre_mm_, of_scope ? kFromTheScope : figure.eye, world_.frame);
 }
 
-/// What is seen, in the plane of the view, from its centre. Of the model all but far strays; of one
-/// that turns all that passes.
+/// Visible extent in the plane of the view, relative to its centre: the
+/// model without distant outliers; for a rotation, the full swept extent.
 Eigen::AlignedBox2d ViewScene::boxSeen(const ViewMoment& moment, const ViewPlane& plane,
                                        bool turning) const {
   const auto place = [&](const Eigen::Vector3f& point_mm) {

@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_scene.h: a moment of a run as a 3-D scene.
+// vtk_views/viewer/view_scene.h: 3-D scene of a model of a run.
 #pragma once
 
 #include <vtkActor.h>
@@ -15,24 +15,24 @@
 
 namespace softscope {
 
-/// Surfaces, points and their colours are those of figures (surface_actor.h). The window's owner
-/// adds renderer() to it.
+/// Surfaces, points and colours as in figures (surface_actor.h).
+/// The owner of the window adds renderer() to it.
 class ViewScene {
  public:
   /// The world must outlive it.
   explicit ViewScene(const ViewWorld& world);
 
   vtkRenderer* renderer() { return renderer_; }
-  /// Puts a moment there. The camera stays, but the scope's own eye follows the scope.
+  /// Shows a model. The camera is kept, except that the scope view follows the scope.
   void show(const ViewMoment& moment, const ViewState& state);
-  /// Takes the state's look at what is shown, so that it fills the window and nothing is cut.
-  /// `aspect`: of the renderer, width / height.
+  /// Applies the viewpoint of the state, such that the content fills the
+  /// window without cuts. `aspect`: of the renderer, width / height.
   void look(const ViewMoment& moment, const ViewState& state, double aspect);
-  /// Turns about what is looked at, from where it was looked at.
+  /// Rotates about the focal point.
   void turn(double angle_deg);
-  /// Gives lines and the dots of nodes their size.
+  /// Sets the size of lines and node dots.
   void sizeFor(double line_scale);
-  /// What an image of that width shows, mm; NaN where near is larger than far.
+  /// Field of view, mm; NaN in perspective projection.
   double widthShownMm(double aspect) const;
 
  private:
@@ -56,7 +56,7 @@ class ViewScene {
   Look slices_look_ = Look::kFree;
   std::shared_ptr<const TriangleMesh> reference_shown_;
   Eigen::Vector3d centre_mm_ = Eigen::Vector3d::Zero();
-  double width_mm_ = 0;  // 0: not measured yet
+  double width_mm_ = 0;  // 0: not computed yet
   double aspect_ = 1;
 };
 

@@ -1,5 +1,5 @@
-// vtk_views/viewer/view_sheet.cpp: a slider, three columns of words and bars; one point is one
-// pixel.
+// vtk_views/viewer/view_sheet.cpp: slider, three
+// columns of text and bars; one point is one pixel.
 #include "vtk_views/viewer/view_sheet.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace softscope {
 namespace {
 
-constexpr double kPixelsPerInch = 72;  // then a point is a pixel
+constexpr double kPixelsPerInch = 72;  // one point is one pixel
 constexpr double kMargin = 14, kFont = 13, kSmall = 11;
-constexpr double kTrack = 15;  // the slider's height in the foot
+constexpr double kTrack = 15;  // height of the slider in the foot
 constexpr Rgb8 kSheetDark{20, 20, 20}, kSheetPale{200, 200, 200}, kSheetGrey{110, 110, 110},
     kSheetBlue{0, 110, 170};
 constexpr Rgb8 kLiveRed{200, 30, 35};
@@ -64,7 +64,7 @@ void drawBars(const ViewFoot& foot, VectorDrawing& sheet) {
   const double bar_width = std::min(300.0, 0.36 * sheet.width_pt);
   const double bar_left = sheet.width_pt - kMargin - bar_width;
   if (std::isfinite(foot.width_mm)) {
-    // A panel as wide as the view, so that the bar is true; its left end where there is room.
+    // A panel of the width of the view gives the correct scale; its left end has free space.
     const double length = scaleBarLengthMm(foot.width_mm) / foot.width_mm * sheet.width_pt;
     const double left = std::max(bar_left - 30 - length, 0.36 * sheet.width_pt);
     FigureStyle style;

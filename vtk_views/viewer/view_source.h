@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_source.h: source of the moments that the viewer shows.
+// vtk_views/viewer/view_source.h: source of the models that the viewer shows.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,29 +17,29 @@
 
 namespace softscope {
 
-/// A model at one moment, in mm and one frame with everything else. What isn't known is empty.
+/// Model of one frame, in mm and in the frame of all other content. Unknown parts are empty.
 struct ViewMoment {
   int frame = 0;
-  double time_s = std::nan("");  // NaN: no clock
+  double time_s = std::nan("");  // NaN: no timestamps
   TriangleMesh model;            // points, with their colours
-  std::vector<float> weights;    // one a point
-  /// Points whose errors are known, often fewer than the model's, and these, mm.
+  std::vector<float> weights;    // one per point
+  /// Points with known errors, often a subset of the model, and the errors, mm.
   TriangleMesh judged;
   std::vector<double> errors_mm;
   std::shared_ptr<const TriangleMesh> reference;
   std::optional<Eigen::Isometry3d> world_from_left;
   std::vector<Eigen::Vector3f> nodes_mm;
-  std::vector<Eigen::Vector3f> node_motion_mm;  // since `moved_since`; fewer where nodes are new
+  std::vector<Eigen::Vector3f> node_motion_mm;  // since `moved_since`; shorter if nodes are new
   int moved_since = -1;                         // a frame
 };
 
-/// What doesn't change from moment to moment.
+/// Content common to all frames.
 struct ViewWorld {
   SceneFrame frame = SceneFrame::kCamera;
   PinholeCamera left;  // width_px 0: unknown
-  /// Where the scope was, frame after frame, as far as it is known.
+  /// Known positions of the scope per frame.
   std::vector<std::pair<int, Eigen::Vector3f>> path_mm;
-  std::optional<Volume> volume;  // in LPS: then frame is kPatient
+  std::optional<Volume> volume;  // in LPS: requires kPatient
   GreyWindow window;
   ErrorColours errors;
   std::string error_label = "distance to the surface [mm]";
@@ -47,21 +47,21 @@ struct ViewWorld {
   bool has_errors = false, has_weights = false, has_nodes = false, has_reference = false;
 };
 
-/// Gives moments one at a time, so that long runs needn't be in memory.
+/// Provides one model at a time: memory is constant for long runs.
 class ViewSource {
  public:
   virtual ~ViewSource() = default;
   virtual const ViewWorld& world() const = 0;
-  virtual int count() const = 0;  // of moments; never 0, never less than before
+  virtual int count() const = 0;  // number of models; at least 1, never decreasing
   virtual int frameOf(int index) const = 0;
-  virtual double secondsOf(int index) const = 0;  // rising, also where there is no clock
-  /// Throws InputError where its files can't be read.
+  virtual double secondsOf(int index) const = 0;  // ascending, also without timestamps
+  /// Throws InputError for unreadable files.
   virtual std::shared_ptr<const ViewMoment> moment(int index, bool with_errors) = 0;
-  /// Whether more moments may come.
+  /// True if more models may follow.
   virtual bool live() const = 0;
-  /// Of a live source: whether its writer has ended, so that no more moments are likely.
+  /// For a live source: the writing process has ended.
   virtual bool stopped() const { return false; }
-  /// Looks whether there are more by now.
+  /// Checks for new models.
   virtual void look() = 0;
 };
 

@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_window.cpp: VTK's window and mouse, our keys, clock and foot.
+// vtk_views/viewer/view_window.cpp: VTK window and mouse with own keys, clock and foot.
 #include "vtk_views/viewer/view_window.h"
 
 #include <vtkActor2D.h>
@@ -26,13 +26,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr unsigned long kTick_ms = 20;
-constexpr double kLookEvery_s = 0.5;  // for new models of a live run
+constexpr double kLookEvery_s = 0.5;  // polling interval of a live run
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// An image on the window, pixel by pixel.
+/// Unscaled image in the window.
 class PictureActor {
  public:
   PictureActor() {
@@ -48,7 +48,7 @@ class PictureActor {
   vtkNew<vtkActor2D> actor_;
 };
 
-/// What the mouse and the keys are to do; the style calls it.
+/// Actions of mouse and keys, called by the interactor style.
 class ViewHandler {
  public:
   virtual ~ViewHandler() = default;
@@ -59,7 +59,7 @@ class ViewHandler {
   virtual void tick() = 0;
 };
 
-/// VTK's trackball, without VTK's keys.
+/// VTK's trackball style without its keys.
 class ViewStyle : public vtkInteractorStyleTrackballCamera {
  public:
   static ViewStyle* New();
@@ -133,7 +133,7 @@ class ViewWindow::Parts : public ViewHandler {
   Playback playback;
   ViewState state;
   ViewPace pace;
-  std::shared_ptr<void> display_;  // longer than the window
+  std::shared_ptr<void> display_;  // must outlive the window
   vtkSmartPointer<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
 
@@ -149,7 +149,7 @@ class ViewWindow::Parts : public ViewHandler {
   double aspect() const;
   int width() const { return window_->GetSize()[0]; }
   int height() const { return window_->GetSize()[1]; }
-  /// VTK's loop passes no exceptions: they end it, and run() rethrows them.
+  /// VTK's event loop does not pass exceptions: they stop it, and run() rethrows them.
   template <class Action>
   void guarded(Action action) {
     try {
@@ -190,7 +190,7 @@ ViewWindow::Parts::Parts(ViewSource& the_source, ViewWindowOptions the_options)
   render();
 }
 
-/// VTK asks every window that was ever opened for events, until its own loop has ended.
+/// VTK polls every window ever opened until its event loop ends.
 ViewWindow::Parts::~Parts() {
   if (!looped_) {
     options.closes = [] { return true; };
@@ -203,7 +203,7 @@ void ViewWindow::Parts::open() {
   window_ = newWindowOnDisplay();
   window_->SetSize(options.width_px, options.height_px);
   window_->SetWindowName("softscope view");
-  window_->SetMultiSamples(0);  // 4 samples cost 3 to 4 times a frame on Mesa
+  window_->SetMultiSamples(0);  // 4 samples need 3 to 4 times the frame time on Mesa
   foot_renderer_->SetBackground(1, 1, 1);
   foot_renderer_->InteractiveOff();
   foot_renderer_->AddActor(foot_.actor());
@@ -282,7 +282,7 @@ void ViewWindow::Parts::seek(int x_px) {
   });
 }
 
-/// Who turns the scope's view leaves it.
+/// A rotation by the user leaves the scope view.
 void ViewWindow::Parts::cameraMoves() {
   if (state.look == Look::kScope) makeParallel(scene_.renderer());
   if (state.look == Look::kFree) return;

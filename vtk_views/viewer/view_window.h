@@ -1,4 +1,4 @@
-// vtk_views/viewer/view_window.h: the viewer's window: plays, turns, follows a live run.
+// vtk_views/viewer/view_window.h: interactive window with playback and live update.
 #pragma once
 
 #include <vtkRenderWindowInteractor.h>
@@ -15,34 +15,34 @@ namespace softscope {
 struct ViewWindowOptions {
   int width_px = 960, height_px = 720;
   ViewState state;
-  int first = 0;         // the moment shown at first
+  int first = 0;         // index of the first model
   bool playing = false;  // from the start
   double speed = 1;
   std::function<void(const ColourImage&, int frame)> save;  // a screenshot
-  std::function<bool()> closes = [] { return false; };      // asked all the time
+  std::function<bool()> closes = [] { return false; };      // polled during the event loop
 };
 
-/// How fast the window drew.
+/// Drawing speed of the window.
 struct ViewPace {
   int pictures = 0;
-  double seconds = 0;  // that drawing took, reading models included
+  double seconds = 0;  // drawing time, including reading of models
 };
 
 class ViewWindow {
  public:
-  /// Opens the window and draws. The source must outlive it. Throws BackendError without a display,
-  /// InputError where the first moment can't be read.
+  /// Opens the window and draws. The source must outlive it. Throws
+  /// BackendError without a display, InputError for an unreadable first model.
   ViewWindow(ViewSource& source, ViewWindowOptions options);
   ~ViewWindow();
 
-  /// Until the user closes it. Throws what went wrong meanwhile.
+  /// Runs until the user closes it. Rethrows exceptions of the event loop.
   void run();
 
-  /// As it is on screen.
+  /// Content of the screen.
   ColourImage pixels() const;
   ViewPace pace() const;
 
-  // Keys without a keyboard, for tests.
+  // For simulated keys in tests.
   vtkRenderWindowInteractor* interactor();
   const Playback& playback() const;
   const ViewState& state() const;

@@ -1,4 +1,4 @@
-// vtk_views/viewer/x_display.cpp: asks the X server, and stays connected.
+// vtk_views/viewer/x_display.cpp: query of the X server with a kept connection.
 #include "vtk_views/viewer/x_display.h"
 
 #include <X11/Xlib.h>

@@ -8,12 +8,12 @@
 
 namespace softscope {
 
-/// Throws BackendError where DISPLAY is not set, its server can't be reached, or draws no OpenGL.
-/// VTK's own window would end the process instead. Keep what is returned until the window is open:
-/// a server whose last client leaves may start anew, and then answers nobody for a moment.
+/// Throws BackendError if DISPLAY is not set, its server is unreachable or lacks OpenGL. The window
+/// of VTK would end the process instead. The result must be kept until the window is open: a server
+/// may restart after its last client disconnects, and is then unreachable for a short time.
 std::shared_ptr<void> connectToDisplay();
 
-/// A window on that display, whatever installOffscreenFactory() made of other windows.
+/// Window on that display, independent of installOffscreenFactory().
 vtkSmartPointer<vtkRenderWindow> newWindowOnDisplay();
 
 }  // namespace softscope

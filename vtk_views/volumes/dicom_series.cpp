@@ -25,9 +25,9 @@ namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kDeepestFolder = 4;  // exports nest: patient, study, series
+constexpr int kDeepestFolder = 4;  // nested exports: patient, study, series
 constexpr std::size_t kPreambleBytes = 132;
-constexpr int kFilesToTry = 50;  // before a folder is said to hold no DICOM
+constexpr int kFilesToTry = 50;  // limit of files checked for DICOM
 
 bool hasPreamble(const fs::path& path) {
   char head[kPreambleBytes] = {};
@@ -44,7 +44,7 @@ void add(std::vector<std::pair<std::string, std::string>>& list, const char* nam
   if (!value.empty()) list.emplace_back(name, value);
 }
 
-/// Regular files of the folder, those in folders within it too; pipes are never opened.
+/// Regular files of the folder and its subfolders; pipes are not opened.
 std::vector<std::string> filesIn(const std::string& path) {
   std::vector<std::string> files;
   std::error_code ignored;
@@ -60,7 +60,7 @@ std::vector<std::string> filesIn(const std::string& path) {
   return files;
 }
 
-/// Tags of one file but for its pixels. Throws InputError.
+/// Tags of one file without pixels. Throws InputError.
 vtkNew<vtkDICOMMetaData> tagsOf(const std::string& file) {
   vtkNew<vtkDICOMMetaData> meta;
   vtkNew<vtkDICOMParser> parser;
@@ -83,7 +83,7 @@ bool isDocument(const std::string& storage_class) {
   return false;
 }
 
-/// What is wrong with a file that belongs to no series; empty where it is a document.
+/// Fault of a file outside of all series; empty for a document.
 std::string faultOfStray(const std::string& file) {
   try {
     const vtkNew<vtkDICOMMetaData> meta = tagsOf(file);
@@ -94,9 +94,9 @@ std::string faultOfStray(const std::string& file) {
   return file + ": belongs to no series with images; is it cut short? Copy it again";
 }
 
-/// Files that belong to no series: a document, or a slice that is damaged or cut short, which then
-/// stands for a faulty slice. One without DICOM's preamble is a slice where its name ends as
-/// theirs.
+/// Files outside of all series: a document, or a damaged or truncated
+/// slice, which counts as a faulty slice. A file without the DICOM
+/// preamble counts as a slice if it has the same file extension.
 void addStrays(const std::vector<std::string>& files, const std::vector<std::string>& series,
                const std::set<std::string>& in_series, std::vector<DicomSlice>& slices,
                std::vector<std::string>& warnings) {
@@ -115,7 +115,7 @@ void addStrays(const std::vector<std::string>& files, const std::vector<std::str
   }
 }
 
-/// Files of the series with most slices; the others are named in `warnings`.
+/// Files of the series with most slices; `warnings` name the others.
 std::vector<std::string> largestSeries(const std::string& path,
                                        const std::vector<std::string>& files, bool with_patient,
                                        std::set<std::string>& in_series,
@@ -189,13 +189,13 @@ VoxelType voxelTypeOf(const std::string& path, int vtk_type) {
   }
 }
 
-/// The pixels of all frames of these files, in this order.
+/// Pixels of all frames of these files, in this order.
 void readPixels(const std::string& path, const DicomStack& stack, StoredVolume& volume) {
   vtkNew<vtkStringArray> names;
   for (const std::string& file : stack.files) names->InsertNextValue(file);
   vtkNew<vtkDICOMReader> reader;
   reader->SetMemoryRowOrderToFileNative();  // voxel (0, 0, 0) is the first pixel in the file
-  reader->SortingOff();                     // our own order
+  reader->SortingOff();                     // sorted by us
   reader->SetFileNames(names);
   updateOrThrow(*reader, path);
   vtkImageData& image = *reader->GetOutput();

@@ -1,4 +1,4 @@
-// vtk_views/volumes/dicom_series.h: slices in their order, where they lie in the patient.
+// vtk_views/volumes/dicom_series.h: sorted slices of a DICOM series with their geometry.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace softscope {
 /// True for a file with DICOM's preamble, or a folder with such a file directly in it.
 bool looksLikeDicom(const std::string& path);
 
-/// A DICOM file or folder; values are rescaled already (HU). Every slice is checked: PixelSpacing,
-/// ImageOrientationPatient, ImagePositionPatient and the rescaling; the slices are at one distance.
+/// DICOM file or folder; values are rescaled (HU). PixelSpacing, ImageOrientationPatient,
+/// ImagePositionPatient, rescaling and spacing of every slice are checked.
 StoredVolume loadDicom(const std::string& path, const VolumeOptions& options);
 
 }  // namespace softscope

@@ -15,12 +15,12 @@
 namespace softscope {
 namespace {
 
-constexpr double kDirectionTolerance = 0.01;        // of a length or a cosine
+constexpr double kDirectionTolerance = 0.01;        // tolerance of a length or cosine
 constexpr double kSameDirection = 1e-3;             // between slices; 0.06 degrees
 constexpr double kEvenShare = 0.1, kEvenMm = 0.06;  // positions are often rounded to 0.1 mm
-constexpr double kTiltWarnDeg = 0.5;  // between the slices' normal and the way they are stacked
+constexpr double kTiltWarnDeg = 0.5;                // between slice normal and stack direction
 
-/// Reads tags of one frame; the first fault is kept.
+/// Reads tags of one frame and keeps the first fault.
 class TagReader {
  public:
   TagReader(vtkDICOMMetaData& meta, DicomSlice& slice) : meta_(meta), slice_(slice) {}
@@ -31,7 +31,7 @@ class TagReader {
   }
   bool has(vtkDICOMTag tag) const { return !text(tag).empty(); }
 
-  /// Finite numbers, exactly so many; empty where the tag holds anything else.
+  /// Exactly `count` finite numbers; empty for other content.
   std::vector<double> numbers(vtkDICOMTag tag, std::size_t count) const {
     std::string words = text(tag);
     std::replace(words.begin(), words.end(), '\\', ' ');
@@ -124,7 +124,7 @@ std::string shortName(const DicomSlice& slice) {
   return std::filesystem::path(slice.file).filename().string();
 }
 
-/// Marks the slices that differ from the largest group of alike ones.
+/// Marks slices that differ from the largest group of equal ones.
 void markDifferent(std::vector<DicomSlice>& slices) {
   const DicomSlice* most = nullptr;
   std::ptrdiff_t most_count = 0;
@@ -152,7 +152,7 @@ void markDifferent(std::vector<DicomSlice>& slices) {
                     shortName(kind);
 }
 
-/// Takes faulty slices out. Throws where there is one and it is not allowed, or no other is left.
+/// Removes faulty slices. Throws if there is one and it is not allowed, or if none remains.
 void removeFaulty(std::vector<DicomSlice>& slices, bool allowed,
                   std::vector<std::string>& warnings) {
   const auto good = [](const DicomSlice& slice) { return slice.fault.empty(); };
@@ -173,7 +173,7 @@ Eigen::Vector3d normalOf(const DicomSlice& slice) {
   return slice.along_row.cross(slice.along_column).normalized();
 }
 
-/// Per slice its place in an even stack, from the distances between neighbours.
+/// Index of each slice in a regular stack, from the distances of neighbours.
 std::vector<int> placesInStack(const std::string& path, const std::vector<DicomSlice>& slices) {
   const Eigen::Vector3d normal = normalOf(slices[0]);
   std::vector<double> gaps_mm;
@@ -198,7 +198,7 @@ std::vector<int> placesInStack(const std::string& path, const std::vector<DicomS
   return places;
 }
 
-/// From the first slice to the next place of the stack.
+/// Step between neighbouring slices of the stack.
 Eigen::Vector3d stepOf(const std::string& path, const std::vector<DicomSlice>& slices, int last,
                        const VolumeOptions& options, DicomStack& stack) {
   const DicomSlice& first = slices[0];
@@ -247,7 +247,7 @@ void checkTilt(const Eigen::Vector3d& normal, const Eigen::Vector3d& step_mm,
                        " degrees: slices are sheared against their stack");
 }
 
-/// The files in the order of their first frames, and each slice's number among all their frames.
+/// Files in the order of their first frames, and the index of each slice among all their frames.
 void numberFrames(const std::vector<DicomSlice>& slices, const std::vector<int>& places,
                   DicomStack& stack) {
   stack.stored_slices.assign(std::size_t(places.back()) + 1, -1);

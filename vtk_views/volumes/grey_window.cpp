@@ -1,4 +1,4 @@
-// vtk_views/volumes/grey_window.cpp: presets as radiologists use them.
+// vtk_views/volumes/grey_window.cpp: presets of radiology.
 #include "vtk_views/volumes/grey_window.h"
 
 #include <algorithm>

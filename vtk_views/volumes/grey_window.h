@@ -9,9 +9,9 @@
 
 namespace softscope {
 
-/// Values at `level` are mid-grey; black and white are half a `width` away.
+/// Mid-grey at `level`; black and white at half a `width` from it.
 struct GreyWindow {
-  std::string name;  // "soft tissue"; empty where given as numbers
+  std::string name;  // "soft tissue"; empty for numbers
   double width = 400;
   double level = 40;
 
@@ -21,10 +21,10 @@ struct GreyWindow {
 /// Names that parseWindow() accepts.
 std::vector<std::string> windowNames();
 
-/// "auto", "soft-tissue", "lung", "bone", "liver", "vessels", or "WIDTH,LEVEL". The named ones are
-/// in Hounsfield units. "auto" is soft tissue for a volume in these, else the middle 98 % of its
-/// values. Throws OptionError: an unknown name, a width that isn't above 0, or Hounsfield units
-/// wanted of a volume that doesn't hold them.
+/// "auto", "soft-tissue", "lung", "bone", "liver", "vessels", or "WIDTH,LEVEL". Named
+/// windows are in Hounsfield units. "auto" is soft tissue for a volume in Hounsfield
+/// units, else the central 98 % of its values. Throws OptionError: an unknown name, a
+/// width that is not positive, or Hounsfield units for another volume.
 GreyWindow parseWindow(const std::string& text, const Volume& volume);
 
 }  // namespace softscope

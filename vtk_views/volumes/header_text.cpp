@@ -30,7 +30,7 @@ std::ifstream openHeader(const std::string& path) {
   return file;
 }
 
-/// False at the end of the file. Throws where the line can't be text.
+/// False at the end of the file. Throws for a line that is not text.
 bool nextLine(const std::string& path, std::istream& file, std::string& line) {
   line.clear();
   char c = 0;
@@ -50,7 +50,7 @@ bool nextLine(const std::string& path, std::istream& file, std::string& line) {
                    ", which says nothing. Is it damaged, or of another kind than its name says?");
 }
 
-/// In small letters, and without what parts its words where these don't matter.
+/// Lower case; without word separators if they are irrelevant.
 std::string plainName(const std::string& name, bool joined) {
   std::string plain;
   for (const char c : name)
@@ -59,7 +59,7 @@ std::string plainName(const std::string& name, bool joined) {
   return plain;
 }
 
-/// Whether two names differ by what a hand or a damaged byte does, and not by their meaning.
+/// True if two names differ by a typing error or a damaged byte.
 bool nearlyEqual(const std::string& name, const std::string& known) {
   constexpr std::size_t kLettersPerSlip = 5, kLongestKey = 100;
   if (name.size() > kLongestKey) return false;
@@ -71,7 +71,7 @@ bool isAmong(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A name for a message: at most 60 characters, unprintable ones as `?`.
+/// Name in a message: at most 60 characters, unprintable ones as `?`.
 std::string shownKey(const std::string& key) {
   const std::string quoted = inQuotes(key);
   return quoted.substr(1, quoted.size() - 2);

@@ -1,4 +1,4 @@
-// vtk_views/volumes/meta_image_file.cpp: MetaImage (.mha, .mhd).
+// vtk_views/volumes/meta_image_file.cpp: reader of MetaImage (.mha, .mhd).
 #include <cmath>
 #include <filesystem>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kMostVoxelsASide = std::int64_t{1} << 30;
 
-/// What this reader takes from a header.
+/// Keys used by this reader.
 const std::vector<std::string> kReadKeys{
     "ObjectType",      "NDims",       "BinaryData",    "BinaryDataByteOrderMSB",
     "CompressedData",  "DimSize",     "HeaderSize",    "ElementByteOrderMSB",
@@ -20,7 +20,7 @@ const std::vector<std::string> kReadKeys{
     "Offset",          "Position",    "Origin",        "ElementSpacing",
     "ElementSize",     "ElementType", "DistanceUnits", "ElementDataFile"};
 
-/// What the format knows besides.
+/// Other keys of the format.
 const std::vector<std::string> kHarmlessKeys{"AcquisitionDate",
                                              "AnatomicalOrientation",
                                              "CenterOfRotation",
@@ -42,7 +42,7 @@ const std::vector<std::string> kHarmlessKeys{"AcquisitionDate",
                                              "SequenceID",
                                              "TransformType"};
 
-/// What ITK and Slicer add: DICOM's tags ("0008|0060") and fields of their own.
+/// Keys added by ITK and Slicer: DICOM tags ("0008|0060") and private fields.
 bool isNoteOfAProgram(const std::string& key) {
   const bool is_tag = key.size() == 9 && key[4] == '|';
   return is_tag || key.compare(0, 4, "ITK_") == 0 || key.compare(0, 4, "Seq_") == 0;
@@ -78,7 +78,7 @@ double metaImageUnitMm(const HeaderText& header) {
   header.fail("DistanceUnits", "but must be um, mm or cm");
 }
 
-/// Lengths of the voxel's sides in mm, or ones where the user states them.
+/// Voxel spacing in mm, or ones if given by the user.
 std::vector<double> metaImageSpacing(const HeaderText& header, const VolumeOptions& options) {
   const std::string key = header.firstOf({"ElementSpacing", "ElementSize"});
   if (key.empty() && options.spacing_mm) return {1, 1, 1};
@@ -99,7 +99,7 @@ std::vector<double> metaImageSpacing(const HeaderText& header, const VolumeOptio
   return spacing;
 }
 
-/// Unit vectors, nearly at right angles: what ITK writes and demands.
+/// Unit vectors, nearly orthogonal, as ITK writes and requires.
 void checkDirections(const HeaderText& header, const std::string& key,
                      const Eigen::Matrix3d& directions) {
   constexpr double kTolerance = 0.01;  // of a length or cosine: half a degree

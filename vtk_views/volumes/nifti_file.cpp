@@ -1,4 +1,4 @@
-// vtk_views/volumes/nifti_file.cpp: NIfTI-1 and NIfTI-2 (.nii, .nii.gz).
+// vtk_views/volumes/nifti_file.cpp: reader of NIfTI-1 and NIfTI-2 (.nii, .nii.gz).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-/// The fields that count, of either version; names as the standard has them.
+/// Used fields of either version; names as in the standard.
 struct NiftiHeader {
   std::array<double, 8> dim{}, pixdim{};
   int datatype = 0, bitpix = 0, qform_code = 0, sform_code = 0, xyzt_units = 0;
@@ -23,7 +23,7 @@ struct NiftiHeader {
 
 constexpr std::size_t kNifti1Bytes = 348, kNifti2Bytes = 540;
 
-/// Numbers at their places in the header's bytes, in its byte order.
+/// Numbers at given offsets of the header, in its byte order.
 class NiftiFields {
  public:
   NiftiFields(const std::string& bytes, bool swapped) : bytes_(bytes), swapped_(swapped) {}
@@ -98,7 +98,7 @@ NiftiHeader readNiftiHeader(const std::string& path, bool& big_endian) {
   for (const bool swapped : {false, true}) {
     const NiftiFields fields(bytes, swapped);
     const double size = fields.at<std::int32_t>(0);
-    big_endian = swapped;  // softscope runs on little-endian machines
+    big_endian = swapped;  // the machine is little-endian
     if (size == double(kNifti1Bytes)) {
       if (bytes.compare(344, 4, std::string("n+1\0", 4)) != 0)
         throw InputError(path + ": `magic` is " + inQuotes(bytes.substr(344, 4)) +
@@ -139,7 +139,7 @@ void takeNiftiType(const std::string& path, const NiftiHeader& header, StoredVol
   failNifti(path, "datatype", header.datatype, "which softscope doesn't read; save it as numbers");
 }
 
-/// Sizes along i, j, k; what lies beyond the third axis counts as values of a voxel.
+/// Sizes along i, j, k; further axes are values of a voxel.
 void takeNiftiSizes(const std::string& path, const NiftiHeader& header, StoredVolume& volume) {
   const double axes = header.dim[0];
   if (axes < 3 || axes > 7)
@@ -160,7 +160,7 @@ void takeNiftiSizes(const std::string& path, const NiftiHeader& header, StoredVo
   volume.summary.components *= int(more);
 }
 
-/// Millimetres in one unit of the header; files that name none are taken as mm, as NIfTI tools do.
+/// Millimetres per unit of the header; files without a unit are in mm, as in other NIfTI tools.
 double niftiUnitMm(const std::string& path, const NiftiHeader& header, VolumeSummary& summary) {
   switch (header.xyzt_units & 7) {
     case 1:
@@ -177,12 +177,12 @@ double niftiUnitMm(const std::string& path, const NiftiHeader& header, VolumeSum
   }
 }
 
-/// The qform's rotation and the length of the voxel's sides, as the standard has them (method 2).
+/// Rotation of the qform and voxel spacing, as in the standard (method 2).
 Eigen::Matrix4d niftiQform(const std::string& path, const NiftiHeader& header,
                            const Eigen::Vector3d& sides) {
   const double b = header.quatern[0], c = header.quatern[1], d = header.quatern[2];
   const double rest = 1 - (b * b + c * c + d * d);
-  if (!(rest > -1e-3))  // also where one is not a number
+  if (!(rest > -1e-3))  // true for NaN
     failNifti(path, "quatern_b, c, d", b * b + c * c + d * d,
               "as the sum of their squares, but must be at most 1. Is the header damaged?");
   const double a = std::sqrt(std::max(rest, 0.0));
@@ -211,7 +211,7 @@ Eigen::Matrix4d niftiSform(const std::string& path, const NiftiHeader& header) {
   return ras_from_voxel;
 }
 
-/// pixdim[1..3]; ones where they are not lengths and the user states the spacing.
+/// pixdim[1..3]; ones if invalid and given by the user.
 Eigen::Vector3d niftiSides(const std::string& path, const NiftiHeader& header,
                            const VolumeOptions& options) {
   Eigen::Vector3d sides;
@@ -253,7 +253,7 @@ Eigen::Matrix4d niftiPlace(const std::string& path, const NiftiHeader& header,
 void takeNiftiScale(const std::string& path, const NiftiHeader& header, StoredVolume& volume) {
   if (!std::isfinite(header.scl_slope))
     failNifti(path, "scl_slope", header.scl_slope, "but must be a finite number; export it again");
-  if (header.scl_slope == 0) return;  // the standard: values as they are stored
+  if (header.scl_slope == 0) return;  // the standard: values as stored
   if (!std::isfinite(header.scl_inter))
     failNifti(path, "scl_inter", header.scl_inter, "but must be a finite number; export it again");
   volume.slope = header.scl_slope;

@@ -1,4 +1,4 @@
-// vtk_views/volumes/nrrd_file.cpp: NRRD (.nrrd, .nhdr).
+// vtk_views/volumes/nrrd_file.cpp: reader of NRRD (.nrrd, .nhdr).
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kMostNrrdSize = std::int64_t{1} << 30;
 
-/// Every field of the format; what is none of these must be a note, `key:=value`.
+/// Every field of the format; others must be notes, `key:=value`.
 const std::vector<std::string> kNrrdFields{"axis maxs",
                                            "axis mins",
                                            "axismaxs",
@@ -81,7 +81,7 @@ VoxelType nrrdType(const HeaderText& header) {
   header.fail("type", "but must be a type of numbers: short, uchar, float …");
 }
 
-/// "left-posterior-superior" becomes "LPS"; a short form stays; other spaces are "unknown".
+/// "left-posterior-superior" becomes "LPS"; short forms are kept; other spaces are "unknown".
 std::string shortSpace(std::string name) {
   for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
   if (name.empty()) return "unknown";
@@ -107,7 +107,7 @@ double millimetresIn(const HeaderText& header, const std::string& key, const std
   header.fail(key, "but each must be mm, cm, m or um");
 }
 
-/// The entries of `"mm" "mm" "mm"`, one per space axis, as factors; ones where the header has none.
+/// Entries of `"mm" "mm" "mm"`, one per space axis, as factors; ones if absent.
 Eigen::Vector3d nrrdUnitsMm(const HeaderText& header) {
   Eigen::Vector3d units_mm(1, 1, 1);
   if (!header.has("space units")) return units_mm;
@@ -123,8 +123,8 @@ Eigen::Vector3d nrrdUnitsMm(const HeaderText& header) {
   return units_mm;
 }
 
-/// "(1,0,0) none (0,1,0)": one entry per axis, nothing for "none". Throws where it is anything
-/// else.
+/// "(1,0,0) none (0,1,0)": one entry per axis,
+/// empty for "none". Throws for other content.
 std::vector<std::optional<Eigen::Vector3d>> vectorsOf(const HeaderText& header,
                                                       const std::string& key) {
   const std::string& text = header.text(key);
@@ -146,7 +146,7 @@ std::vector<std::optional<Eigen::Vector3d>> vectorsOf(const HeaderText& header,
   return vectors;
 }
 
-/// Which of the axes are the volume's, and which one, if any, counts values of a voxel.
+/// Axes of the volume, and the optional axis of values per voxel.
 struct NrrdAxes {
   std::vector<std::size_t> spatial;
   std::optional<std::size_t> components;
@@ -171,8 +171,8 @@ NrrdAxes nrrdAxes(const HeaderText& header, std::size_t dimension) {
   return axes;
 }
 
-/// Columns: the axes' directions with their lengths, mm. Without directions the axes are the
-/// space's own, whose names then mean nothing.
+/// Columns: direction of each axis times its spacing, mm. Without
+/// directions, the axes are those of the space, whose name is then unknown.
 Eigen::Matrix4d nrrdPlace(const HeaderText& header, const NrrdAxes& axes, std::size_t dimension,
                           const VolumeOptions& options, VolumeSummary& summary) {
   Eigen::Matrix4d space_from_voxel = Eigen::Matrix4d::Identity();

@@ -1,4 +1,4 @@
-// vtk_views/volumes/packed_volume.h: a stored volume as bytes, from a reading process to this one.
+// vtk_views/volumes/packed_volume.h: serialised volume, from a reading process to this one.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace softscope {
 
-/// All but slope and intercept, which are 1 and 0 there.
+/// Without slope and intercept, which are then 1 and 0.
 std::string packVolume(const StoredVolume& volume);
 
-/// Throws Error where the bytes are cut short.
+/// Throws Error for missing bytes.
 StoredVolume unpackVolume(const std::string& bytes);
 
 }  // namespace softscope

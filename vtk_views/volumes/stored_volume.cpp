@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kShortestSideMm = 1e-4, kLongestSideMm = 1e3;  // of a voxel
 constexpr double kFarthestOriginMm = 1e5;
-constexpr double kLeastDeterminant = 0.2;  // of unit axes; 0.87 where a gantry is tilted by 30 deg
+constexpr double kLeastDeterminant = 0.2;  // of unit axes; 0.87 for a gantry tilt of 30 deg
 
-/// 3 x 3 of ±1 that turns an axis-named space such as "RAS" into LPS; identity for other names.
+/// 3 x 3 of ±1 from a named space such as "RAS" to LPS; identity for other names.
 Eigen::Matrix3d lpsFromSpace(const std::string& space) {
   if (space.size() != 3 || space == "unknown") return Eigen::Matrix3d::Identity();
   const std::string positive = "LPS", negative = "RAI";
@@ -27,7 +27,7 @@ Eigen::Matrix3d lpsFromSpace(const std::string& space) {
   return lps_from_space;
 }
 
-/// The letter of the side that each voxel axis runs to, e.g. "LPS"; the nearest one where oblique.
+/// Letter of the direction of each voxel axis, e.g. "LPS"; the nearest one if oblique.
 std::string axesOf(const Eigen::Matrix3d& lps_from_voxel) {
   std::string axes;
   for (int axis = 0; axis < 3; ++axis) {

@@ -13,9 +13,9 @@
 namespace softscope {
 namespace {
 
-constexpr std::size_t kSamples = 200000;  // for percentiles: within 0.2 % of the share
+constexpr std::size_t kSamples = 200000;  // sample size of percentiles: within 0.2 % of the share
 
-/// The voxel below and the share of the one above; false beyond the volume.
+/// Lower voxel index and interpolation weight; false outside of the volume.
 bool neighbours(double place, int size, int& below, float& part) {
   if (!(place >= -0.5 && place <= size - 0.5)) return false;
   const double inside = std::clamp(place, 0.0, double(size - 1));

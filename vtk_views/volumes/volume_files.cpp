@@ -42,7 +42,7 @@ StoredVolume readStored(const std::string& path, const VolumeOptions& options) {
                    "(.nrrd, .nhdr), MetaImage (.mha, .mhd), a DICOM file or folder");
 }
 
-/// The first value of each voxel of one slice.
+/// First value of each voxel of one slice.
 template <class Stored>
 void copySlice(const StoredVolume& stored, std::size_t slice, std::size_t voxels, float* values) {
   const auto step = stored.planar ? std::size_t{1} : std::size_t(stored.summary.components);
@@ -51,7 +51,7 @@ void copySlice(const StoredVolume& stored, std::size_t slice, std::size_t voxels
     values[i] = static_cast<float>(stored.slope * double(from[i * step]) + stored.intercept);
 }
 
-/// Throws InputError where a value that the file holds is not finite.
+/// Throws InputError for a stored value that is not finite.
 void takeRange(const std::string& path, const StoredVolume& stored, Volume& volume) {
   float least = std::numeric_limits<float>::max(), most = -least;
   std::size_t bad = 0;

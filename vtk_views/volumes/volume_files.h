@@ -1,4 +1,4 @@
-// vtk_views/volumes/volume_files.h: a volume of any format, values and place.
+// vtk_views/volumes/volume_files.h: reader of volumes of all formats, with their geometry.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// summariseVolume() with the voxels; of several values per voxel the first one.
+/// summariseVolume() with the voxels; the first of several values per voxel.
 Volume loadVolume(const std::string& path, const VolumeOptions& options);
 
 }  // namespace softscope

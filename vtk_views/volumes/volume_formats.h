@@ -1,4 +1,4 @@
-// vtk_views/volumes/volume_formats.h: our own strict readers of MetaImage, NRRD and NIfTI.
+// vtk_views/volumes/volume_formats.h: own strict readers of MetaImage, NRRD and NIfTI.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// The file of one volume; docs/formats.md says what each must hold. Throw InputError that names
-/// the field, what it holds, and where there is one the option that states it.
+/// Reads one volume; requirements: docs/formats.md. Throw InputError
+/// with the field, its value, and the option that replaces it, if any.
 StoredVolume readMetaImage(const std::string& path, const VolumeOptions& options);
 StoredVolume readNrrd(const std::string& path, const VolumeOptions& options);
 StoredVolume readNifti(const std::string& path, const VolumeOptions& options);

@@ -14,8 +14,8 @@
 namespace softscope {
 namespace {
 
-constexpr int kZlibOrGzip = 15 + 32;        // windowBits: told by the first bytes
-constexpr double kMostDeflateRatio = 1040;  // 1032, and a little for short streams
+constexpr int kZlibOrGzip = 15 + 32;        // windowBits: detected from the first bytes
+constexpr double kMostDeflateRatio = 1040;  // 1032, with a margin for short streams
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
 
 double lengthOf(const VoxelBlock& block) {
@@ -44,7 +44,7 @@ std::string bytesText(double bytes) {
                    "sum. Copy it again");
 }
 
-/// Unpacks a stream piece by piece; several gzip members count as one.
+/// Decompresses a stream in pieces; several gzip members count as one.
 class Unpacker {
  public:
   Unpacker(const std::filesystem::path& path, std::uintmax_t offset)
@@ -57,7 +57,7 @@ class Unpacker {
   Unpacker(const Unpacker&) = delete;
   Unpacker& operator=(const Unpacker&) = delete;
 
-  /// Up to `count` bytes; fewer at the end, or where the stream is damaged.
+  /// Up to `count` bytes; fewer at the end, or for a damaged stream.
   std::size_t read(char* bytes, std::size_t count) {
     std::size_t done = 0;
     while (done < count && !damaged_ && !ended_) {
@@ -70,16 +70,16 @@ class Unpacker {
     return done;
   }
   bool damaged() const { return damaged_; }
-  /// The whole stream was read and its check sum holds.
+  /// The whole stream was read and its checksum is valid.
   bool complete() const { return ended_ && !damaged_; }
-  /// Bytes follow the stream that belong to none.
+  /// The stream is followed by further bytes.
   bool followed() const { return followed_; }
 
  private:
   void step() {
     if (stream_.avail_in == 0) refill();
     if (stream_.avail_in == 0) {
-      damaged_ = true;  // the stream isn't over and the file is
+      damaged_ = true;  // the file ends within the stream
       return;
     }
     const int result = inflate(&stream_, Z_NO_FLUSH);
@@ -127,7 +127,7 @@ std::uintmax_t sizeFrom(const VoxelBlock& block) {
   return size - std::min(size, block.offset);
 }
 
-/// Skips `skip` bytes of what the stream holds, then takes all of the voxels.
+/// Skips `skip` bytes of the decompressed stream, then reads all voxels.
 std::string unpackExactly(const VoxelBlock& block, std::uintmax_t stream_at, std::uintmax_t skip) {
   requireRegularFile(block.file);
   const auto packed = static_cast<double>(std::filesystem::file_size(block.file));

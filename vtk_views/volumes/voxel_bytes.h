@@ -1,4 +1,4 @@
-// vtk_views/volumes/voxel_bytes.h: the voxels behind a checked header, to the last byte.
+// vtk_views/volumes/voxel_bytes.h: reader of voxels with checked size.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +9,29 @@
 
 namespace softscope {
 
-/// Where voxels lie on disk, as a header says.
+/// Position of the voxels on disk, from the header.
 struct VoxelBlock {
   std::filesystem::path file;
-  std::uintmax_t offset = 0;  // in the file; of a compressed NIfTI: in what is unpacked
+  std::uintmax_t offset = 0;  // in the file; for compressed NIfTI in the decompressed data
   VoxelType type = VoxelType::kInt16;
   bool big_endian = false;
-  double voxels = 0, components = 1;  // double: a product of damaged sizes stays in range
+  double voxels = 0, components = 1;  // double: products of damaged sizes do not overflow
 };
 
-/// Uncompressed, from `offset` to the end of the file. Throws InputError where the file is shorter
-/// or longer than sizes and type say.
+/// Uncompressed, from `offset` to the end of the file. Throws InputError
+/// if the file is shorter or longer than sizes and type require.
 std::string readPlainVoxels(const VoxelBlock& block);
 
-/// A zlib or gzip stream from `offset` to the end of the file. Throws InputError where it is
-/// damaged (zlib's check sum), shorter or longer than sizes and type say.
+/// zlib or gzip stream from `offset` to the end of the file. Throws InputError if
+/// it is damaged (checksum of zlib), shorter or longer than sizes and type require.
 std::string readPackedVoxels(const VoxelBlock& block);
 
 bool isGzip(const std::filesystem::path& file);
 
-/// The first bytes of a file, unpacked where it is gzip; fewer where it ends before.
+/// First bytes of a file, decompressed for gzip; fewer for a short file.
 std::string firstBytes(const std::filesystem::path& file, std::size_t count);
 
-/// Of a gzip file whose voxels begin `offset` bytes into what it holds.
+/// For a gzip file with voxels at `offset` of the decompressed data.
 std::string readGzippedVoxels(const VoxelBlock& block);
 
 }  // namespace softscope

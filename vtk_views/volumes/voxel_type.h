@@ -1,4 +1,4 @@
-// vtk_views/volumes/voxel_type.h: how a file stores one value of a voxel.
+// vtk_views/volumes/voxel_type.h: storage type of a voxel value.
 #pragma once
 
 #include <cstddef>
