@@ -1,4 +1,4 @@
-// eval/alignment/landmark_errors.cpp: one fit of all, one without each.
+// eval/alignment/landmark_errors.cpp: fit of all landmarks, and fits without each.
 #include "eval/alignment/landmark_errors.h"
 
 #include "core/error.h"

@@ -9,16 +9,16 @@
 
 namespace softscope {
 
-/// FRE and TRE are two things: FRE is what the fit leaves at the points it was made of, and says
-/// nothing of other places; TRE is the error at a point that the fit has not seen.
+/// FRE is the residual of the fit at the landmarks used for it; it is no estimate of
+/// the error elsewhere. TRE is the error at a landmark that was not used for the fit.
 struct LandmarkErrors {
   RigidFit fit;       // of all landmarks
-  Statistics fre_mm;  // at the landmarks, after the fit of all of them
-  /// At each landmark after the fit of all others (leave one out); none with fewer than four.
+  Statistics fre_mm;  // residuals at the landmarks, for the fit of all of them
+  /// At each landmark for the fit of all others (leave one out); none for fewer than four.
   Statistics tre_mm;
 };
 
-/// Pairs of points, mm. Throws InputError as fitRigid does, and where they lie on one line.
+/// Pairs of points, mm. Throws InputError as fitRigid does, and for collinear points.
 LandmarkErrors landmarkErrors(const std::vector<Eigen::Vector3d>& test_mm,
                               const std::vector<Eigen::Vector3d>& reference_mm);
 

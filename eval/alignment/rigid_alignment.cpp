@@ -1,4 +1,4 @@
-// eval/alignment/rigid_alignment.cpp: the closed form by a singular value decomposition.
+// eval/alignment/rigid_alignment.cpp: closed form by singular value decomposition.
 #include "eval/alignment/rigid_alignment.h"
 
 #include <Eigen/SVD>
@@ -31,10 +31,10 @@ Eigen::Vector3d meanOf(const Points& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// The rotation that maximises trace(R^T covariance), and what decides on it.
+/// Rotation that maximises trace(R^T covariance), with the properties of the solution.
 struct Turn {
   Eigen::Matrix3d rotation;
-  double trace = 0;  // of the singular values, the last one signed
+  double trace = 0;  // of the singular values, the last one with its sign
   bool unique = false;
 };
 

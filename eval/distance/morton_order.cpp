@@ -1,4 +1,4 @@
-// eval/distance/morton_order.cpp: ten bits an axis, interleaved, sorted by counting.
+// eval/distance/morton_order.cpp: ten bits per axis, interleaved, radix sort.
 #include "eval/distance/morton_order.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Entry {
   std::uint32_t index;
 };
 
-/// Puts two zeros between the ten low bits.
+/// Inserts two zeros after each of the ten low bits.
 std::uint32_t spreadBits(std::uint32_t x) {
   x = (x | x << 16) & 0x030000FFu;
   x = (x | x << 8) & 0x0300F00Fu;

@@ -1,4 +1,4 @@
-// eval/distance/morton_order.h: points in the order of a space-filling curve, neighbours together.
+// eval/distance/morton_order.h: order of points along a space-filling curve.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,11 +7,11 @@
 
 namespace softscope {
 
-/// Farther out, squares of distances are no longer finite in float.
+/// Beyond this limit, squared distances overflow in float.
 constexpr float kFarthestPoint_mm = 1e15f;
 
-/// Indices of the points that are finite and within kFarthestPoint_mm, sorted by the Morton code of
-/// their place in the box (points outside count as on its side), equal codes by index.
+/// Indices of the finite points within kFarthestPoint_mm, sorted by the Morton code of
+/// their position in the box (points outside are clamped to it), equal codes by index.
 std::vector<std::uint32_t> mortonOrder(const std::vector<Eigen::Vector3f>& points_mm,
                                        const Eigen::Vector3f& low_mm,
                                        const Eigen::Vector3f& high_mm);

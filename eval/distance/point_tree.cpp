@@ -1,4 +1,4 @@
-// eval/distance/point_tree.cpp: a point is a triangle whose corners lie in one place.
+// eval/distance/point_tree.cpp: a point is a triangle with three equal corners.
 #include "eval/distance/point_tree.h"
 
 #include "core/error.h"

@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-/// Exact: the triangle tree's search, with points in the place of triangles.
+/// Exact search of the triangle tree, with points instead of triangles.
 class PointTree {
  public:
-  /// Copies the points, mm. Throws InputError if there is none, or one is not finite or beyond 1
-  /// km.
+  /// Copies the points, mm. Throws InputError without points,
+  /// or for a point that is not finite or beyond 1 km.
   explicit PointTree(const std::vector<Eigen::Vector3f>& points_mm);
 
-  /// Distance of each query from its nearest point, mm; NaN for a query that is not finite.
+  /// Distance of each query to its nearest point, mm; NaN for a query that is not finite.
   std::vector<double> distances_mm(const std::vector<Eigen::Vector3f>& queries_mm) const;
 
  private:

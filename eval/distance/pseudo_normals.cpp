@@ -1,4 +1,4 @@
-// eval/distance/pseudo_normals.cpp: normals summed around vertices and edges.
+// eval/distance/pseudo_normals.cpp: sums of normals at vertices and edges.
 #include "eval/distance/pseudo_normals.h"
 
 #include <Eigen/Geometry>
@@ -13,10 +13,10 @@ namespace {
 constexpr int kGrain = 4096;
 constexpr double kPi = 3.14159265358979323846;
 
-/// A triangle with a repeated index is an edge and has no neighbours.
+/// A triangle with a repeated index is an edge without neighbours.
 bool folded(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Spreads vertex numbers over 64 bits (the finaliser of splitmix64).
+/// Hash of vertex numbers to 64 bits (finaliser of splitmix64).
 std::uint64_t mix(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15u;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -75,7 +75,7 @@ void PseudoNormals::sumVertices() {
   parallelRanges(static_cast<int>(vertex_normals_.size()), kGrain, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      std::uint64_t open = 0;  // 0 where edges out are edges in, but for one chance in 2^64
+      std::uint64_t open = 0;  // 0 if outgoing edges are incoming ones, up to one chance in 2^64
       for (std::int32_t i = first_corner_[v]; i < first_corner_[v + 1]; ++i) {
         const std::int32_t triangle = corners_[i] / 3, corner = corners_[i] % 3;
         sum += corner_angles_rad_[corners_[i]] * face_normals_[triangle];
@@ -92,7 +92,7 @@ PseudoNormals::Side PseudoNormals::ofEdge(std::int32_t from, std::int32_t to) co
   const auto valence = [&](std::int32_t v) { return first_corner_[v + 1] - first_corner_[v]; };
   if (valence(to) < valence(from)) std::swap(from, to);
   Side side{Eigen::Vector3d::Zero(), false};
-  int balance = 0;  // runs from -> to less runs back
+  int balance = 0;  // count of from -> to minus count of to -> from
   for (std::int32_t i = first_corner_[from]; i < first_corner_[from + 1]; ++i) {
     const std::int32_t triangle = corners_[i] / 3, corner = corners_[i] % 3;
     const bool forth = triangles_[triangle][(corner + 1) % 3] == to;

@@ -1,4 +1,4 @@
-// eval/distance/tree_build.cpp: median splits into full leaves, then boxes from the leaves up.
+// eval/distance/tree_build.cpp: median splits into full leaves, then boxes bottom-up.
 #include "eval/distance/tree_build.h"
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ namespace {
 
 using Box = Eigen::AlignedBox3f;
 
-/// A triangle on its way to its leaf.
+/// Triangle during sorting.
 struct Item {
   std::array<float, 3> centre_mm;  // of its box
   std::int32_t triangle;
@@ -47,8 +47,8 @@ int widestAxis(const Item* items, long count) {
   return x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
 }
 
-/// Orders items so that each full run of `run` items, and each of run / 8 within it, down to
-/// leaves of 8, lies close together: splits in the middle of the runs until one is left.
+/// Sorts items so that each run of `run` items, and each of run / 8 within
+/// it, down to leaves of 8, is spatially compact, by median splits.
 void sortIntoRuns(Item* items, long count, long run) {
   constexpr long kWorthATask = 4096;
   if (count <= kTreeWidth) return;
@@ -66,7 +66,7 @@ void sortIntoRuns(Item* items, long count, long run) {
   second();
 }
 
-/// Corners of a triangle, A to B the longest edge, in double.
+/// Corners of a triangle in double, with A to B the longest edge.
 struct Corners {
   Eigen::Vector3d a, b, c;
 };
@@ -89,8 +89,8 @@ void putAxis(float (&lanes)[3][kTreeWidth], int lane, const Eigen::Vector3d& axi
 
 float inverseOrZero(double value) { return value > 0 ? static_cast<float>(1 / value) : 0; }
 
-/// Writes one lane; a triangle without area still gets a frame that holds it.
-/// Returns the longest edge, mm.
+/// Writes one lane; a degenerate triangle also gets a
+/// frame that contains it. Returns the longest edge, mm.
 double putTriangle(const TriangleMesh& mesh, std::int32_t triangle, TreeLeaf& leaf, int lane) {
   const Corners t = cornersOf(mesh, triangle);
   const Eigen::Vector3d ab = t.b - t.a, ac = t.c - t.a, normal = ab.cross(ac);
@@ -112,7 +112,7 @@ double putTriangle(const TriangleMesh& mesh, std::int32_t triangle, TreeLeaf& le
   return length;
 }
 
-/// Packs sorted items; also gives the box of each leaf and the longest edge of the mesh.
+/// Packs sorted items; also returns the box of each leaf and the longest edge of the mesh.
 std::vector<TreeLeaf> makeLeaves(const TriangleMesh& mesh, const std::vector<Item>& items,
                                  std::vector<Box>& boxes, double& longest_edge_mm) {
   const int count = static_cast<int>(items.size());
@@ -131,7 +131,7 @@ std::vector<TreeLeaf> makeLeaves(const TriangleMesh& mesh, const std::vector<Ite
   return leaves;
 }
 
-/// The node above `count` children from `first` on.
+/// Parent of `count` children from `first` on.
 TreeNode makeNode(const std::vector<Box>& boxes, int first, int first_child) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   TreeNode node;
@@ -146,10 +146,10 @@ TreeNode makeNode(const std::vector<Box>& boxes, int first, int first_child) {
   return node;
 }
 
-/// Level by level, eight boxes into one, until a single node is left.
+/// Level by level, eight boxes per node, until a single node remains.
 std::vector<TreeNode> makeNodes(std::vector<Box> boxes) {
   std::vector<TreeNode> nodes;
-  int children_begin = 0;  // of the level below, in TreeNode::first_child's count
+  int children_begin = 0;  // first node of the level below, as in TreeNode::first_child
   while (true) {
     const int below = static_cast<int>(boxes.size());
     std::vector<Box> parents((boxes.size() + kTreeWidth - 1) / kTreeWidth);

@@ -1,4 +1,4 @@
-// eval/distance/tree_build.h: from a mesh to the triangle tree's memory.
+// eval/distance/tree_build.h: construction of the triangle tree.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 namespace softscope {
 
 struct TreeMemory {
-  std::vector<TreeNode> nodes;  // level by level from the leaves up; the root is the last
+  std::vector<TreeNode> nodes;  // level by level from the leaves; the root is last
   std::vector<TreeLeaf> leaves;
   float slack_mm = 0;  // TreeView::slack_mm
 };
 
-/// Sorts the triangles by median splits of their boxes' centres and packs them eight a leaf.
-/// The mesh has at least one triangle, valid indices and finite vertices.
+/// Sorts the triangles by median splits of the centres of their boxes, eight
+/// per leaf. Requires at least one triangle, valid indices and finite vertices.
 TreeMemory buildTree(const TriangleMesh& mesh);
 
 }  // namespace softscope

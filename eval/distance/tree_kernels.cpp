@@ -1,5 +1,5 @@
-// eval/distance/tree_kernels.cpp: closest triangle by branch and bound, eight boxes or triangles at
-// a time; compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
+// eval/distance/tree_kernels.cpp: closest triangle by branch and bound, eight boxes or
+// triangles at a time; compiled once per instruction set, named by SOFTSCOPE_SIMD_SET.
 #include "eval/distance/tree_kernels.h"
 
 #include <cmath>
@@ -30,7 +30,7 @@ inline Float8 splat(float value) { return Float8{} + value; }
 inline Float8 larger(Float8 a, Float8 b) { return a > b ? a : b; }
 inline Float8 smaller(Float8 a, Float8 b) { return a < b ? a : b; }
 
-/// One bit a lane.
+/// One bit per lane.
 inline unsigned bits(Int8 lanes) {
 #if defined(__AVX2__)
   __m256 mask;
@@ -57,7 +57,7 @@ struct Point8 {
   Float8 x, y, z;
 };
 
-/// Squared distances to the boxes of a node's children.
+/// Squared distances to the boxes of the children of a node.
 inline Float8 boxDistances2(const TreeNode& node, const Point8& p) {
   const Float8 zero{};
   const Float8 dx = larger(larger(load(node.low[0]) - p.x, p.x - load(node.high[0])), zero);
@@ -70,8 +70,8 @@ inline Float8 along(const float (&axis)[3][kTreeWidth], const Point8& w) {
   return load(axis[0]) * w.x + load(axis[1]) * w.y + load(axis[2]) * w.z;
 }
 
-/// Squared distances to a leaf's triangles: height above the plane, and in the plane the nearest
-/// of three edges unless the foot lies inside.
+/// Squared distances to the triangles of a leaf: height above the plane, and
+/// within the plane the nearest of three edges unless the projection is inside.
 inline Float8 triangleDistances2(const TreeLeaf& leaf, const Point8& p) {
   const Float8 zero{}, one = splat(1);
   const Point8 w{p.x - load(leaf.origin[0]), p.y - load(leaf.origin[1]),
@@ -115,7 +115,7 @@ inline void put(TreeHit& hit, double distance2, Vector point, int feature) {
   hit.feature = feature;
 }
 
-/// The closest point on edge i, from corner a to corner b, if it beats what `hit` holds.
+/// Updates `hit` with the closest point on edge i, from corner a to corner b, if it is nearer.
 inline void offerEdge(Vector p, Vector a, Vector b, int i, TreeHit& hit) {
   const Vector e = b - a;
   const double length2 = dot(e, e), s = dot(p - a, e);
@@ -130,7 +130,7 @@ inline void offerEdge(Vector p, Vector a, Vector b, int i, TreeHit& hit) {
              : kTreeEdge + i);
 }
 
-/// The closest point on one triangle.
+/// Closest point on one triangle.
 TreeHit closestOnTriangle(const TreeView& tree, std::int32_t triangle, Vector p) {
   const std::int32_t* corner = tree.triangles + 3L * triangle;
   const Vector v[3] = {toVector(tree.vertices_mm + 3L * corner[0]),
@@ -166,7 +166,7 @@ class Search {
     best_.distance2_mm2 = HUGE_VAL;
   }
 
-  /// Some point of the surface: nothing farther away needs a look.
+  /// Upper bound of the distance from a point of the surface.
   void hint(const double* surface_point_mm) {
     const Vector away =
         point_ - Vector{surface_point_mm[0], surface_point_mm[1], surface_point_mm[2]};
@@ -187,7 +187,7 @@ class Search {
   }
 
  private:
-  // Eleven levels hold 2^33 leaves, and each leaves at most seven siblings behind.
+  // Eleven levels hold 2^33 leaves; each level leaves at most seven siblings on the stack.
   static constexpr int kStackSize = 96;
   static constexpr int kCandidateCount = 32;
 
@@ -198,8 +198,8 @@ class Search {
     return distance2;
   }
 
-  /// Keeps siblings, which begin at `first`, sorted: the closest on top. Squares are not negative,
-  /// so that their bit patterns sort as they do.
+  /// Keeps siblings from `first` on sorted, the closest on top. Squares
+  /// are not negative, so their bit patterns have the same order.
   void push(float distance2, std::int32_t slot, int first) {
     std::uint32_t pattern;
     std::memcpy(&pattern, &distance2, sizeof pattern);
@@ -230,8 +230,8 @@ class Search {
     }
   }
 
-  /// No triangle whose float distance squared exceeds the cut can be as close as one found at
-  /// `distance2` (also a float's): both may err by the slack, hence twice.
+  /// A triangle whose squared distance in float exceeds the cut cannot be as close as one found
+  /// at `distance2` (in float): both have an error of up to the slack, hence the factor two.
   void lowerCut(float distance2) {
     const float cut = std::sqrt(distance2) * (1 + 2 * kTreeRelativeSlack) + 2 * tree_.slack_mm;
     const float cut2 = cut * cut;
@@ -267,7 +267,7 @@ class Search {
 
 void search(const TreeView& tree, const float* points_mm, const std::uint32_t* order, int begin,
             int end, TreeHit* hits) {
-  const TreeHit* previous = nullptr;  // the points come sorted along a curve: a neighbour's answer
+  const TreeHit* previous = nullptr;  // points are sorted along a curve: the result of a neighbour
   for (int i = begin; i < end; ++i) {
     Search one(tree, points_mm + 3L * order[i]);
     if (previous) one.hint(previous->point_mm);

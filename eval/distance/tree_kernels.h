@@ -12,11 +12,11 @@
 
 namespace softscope {
 
-/// One implementation of the search.
+/// Implementation of the search for one instruction set.
 struct TreeKernels {
   const char* name;
-  /// Finds the closest triangle of points order[begin] to order[end - 1] (x y z each, finite) and
-  /// writes hits at the same places as the points. Among equally close triangles the lowest wins.
+  /// Finds the closest triangle of points order[begin] to order[end - 1] (x y z each, finite);
+  /// writes hits at the indices of the points. Of equally close triangles, the lowest index.
   void (*search)(const TreeView& tree, const float* points_mm, const std::uint32_t* order,
                  int begin, int end, TreeHit* hits);
 };
@@ -26,10 +26,10 @@ struct TreeKernelList {
   int count;
 };
 
-/// What this processor runs, the fastest last.
+/// Those supported by this processor, the fastest last.
 TreeKernelList allTreeKernels();
 
-/// The fastest that this processor runs.
+/// The fastest supported by this processor.
 const TreeKernels& treeKernels();
 
 }  // namespace softscope

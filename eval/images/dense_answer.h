@@ -6,13 +6,13 @@
 
 namespace softscope {
 
-/// Each unmeasured (NaN) pixel takes the value of the nearest measured one, by steps along rows and
-/// columns. All NaN stays all NaN.
+/// Each unmeasured (NaN) pixel gets the value of the nearest measured
+/// pixel, by steps along rows and columns. All NaN remains all NaN.
 Raster<float> fillFromNearest(const Raster<float>& depth_mm);
 
-/// Non-zero where the right camera does not see the surface point of a left pixel: its match lies
-/// outside the image, or behind a surface whose disparity is more than `margin_px` larger. Unknown
-/// truth (NaN) is 0.
+/// Non-zero for left pixels whose surface point is not visible to the right
+/// camera: the match is outside of the image, or behind a surface with a
+/// disparity larger by more than `margin_px`. Unknown truth (NaN) gives 0.
 Mask hiddenInRight(const Raster<float>& true_disparity_px, double margin_px = 1);
 
 }  // namespace softscope

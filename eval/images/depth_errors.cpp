@@ -1,4 +1,4 @@
-// eval/images/depth_errors.cpp: statistics of the differences, and what was measured.
+// eval/images/depth_errors.cpp: statistics of the differences, and coverage.
 #include "eval/images/depth_errors.h"
 
 #include <cmath>

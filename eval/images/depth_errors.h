@@ -13,24 +13,24 @@ namespace softscope {
 struct DepthErrorOptions {
   std::vector<double> bad_thresholds_mm = {1, 2, 3};
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 
-/// Over measured pixels whose truth is known and that the mask does not ignore.
+/// Over measured pixels with known truth that are not masked.
 struct DepthErrors {
   Statistics absolute_mm;           // |measured - truth|
-  Statistics signed_mm;             // measured - truth: positive = measured too far
+  Statistics signed_mm;             // measured - truth: positive = measured depth too large
   std::vector<double> bad_percent;  // share of absolute errors > bad_thresholds_mm[i]
-  /// Measured share of the pixels whose truth is known and that the mask does not ignore; NaN
-  /// where there are none.
+  /// Share of measured pixels among the unmasked
+  /// pixels with known truth; NaN without any.
   double coverage_percent = Statistics::kNone;
-  std::size_t known_count = 0;  // what coverage_percent is a share of
+  std::size_t known_count = 0;  // denominator of coverage_percent
 };
 
-/// NaN = unmeasured, or unknown truth. `ignore` is empty or of the maps' size; with
-/// ignoreMatchesOutside(disparityFromDepth(truth)) only what both cameras can see is judged.
-/// Throws InputError where sizes differ, OptionError for a negative threshold.
+/// NaN = unmeasured, or unknown truth. `ignore` is empty or of the size of the maps;
+/// ignoreMatchesOutside(disparityFromDepth(truth)) restricts the evaluation to pixels inside
+/// both images. Throws InputError for different sizes, OptionError for a negative threshold.
 DepthErrors depthErrors(const Raster<float>& measured_mm, const Raster<float>& truth_mm,
                         const DepthErrorOptions& options = {}, const Mask& ignore = {});
 

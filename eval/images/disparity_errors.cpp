@@ -1,4 +1,4 @@
-// eval/images/disparity_errors.cpp: statistics of the differences, and what could be matched.
+// eval/images/disparity_errors.cpp: statistics of the differences, and coverage.
 #include "eval/images/disparity_errors.h"
 
 #include <cmath>

@@ -14,23 +14,23 @@ namespace softscope {
 struct DisparityErrorOptions {
   std::vector<double> bad_thresholds_px = {1, 2, 3};
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 
-/// Over measured pixels whose truth is known and that the mask does not ignore.
+/// Over measured pixels with known truth that are not masked.
 struct DisparityErrors {
   Statistics absolute_px;           // |measured - truth|
-  Statistics signed_px;             // measured - truth: positive = measured too near
+  Statistics signed_px;             // measured - truth: positive = measured depth too small
   std::vector<double> bad_percent;  // share of absolute errors > bad_thresholds_px[i]
-  /// Measured share of the pixels that have a match inside the right image (u - truth within it)
-  /// and that the mask does not ignore; NaN where there are none.
+  /// Share of measured pixels among the unmasked pixels with a match
+  /// inside the right image (u - truth inside it); NaN without any.
   double coverage_percent = Statistics::kNone;
-  std::size_t matchable_count = 0;  // what coverage_percent is a share of
+  std::size_t matchable_count = 0;  // denominator of coverage_percent
 };
 
-/// NaN = unmeasured, or unknown truth. `ignore` is empty or of the maps' size.
-/// Throws InputError where sizes differ, OptionError for a negative threshold.
+/// NaN = unmeasured, or unknown truth. `ignore` is empty or of the size of the maps.
+/// Throws InputError for different sizes, OptionError for a negative threshold.
 DisparityErrors disparityErrors(const Raster<float>& measured_px, const Raster<float>& truth_px,
                                 const DisparityErrorOptions& options = {}, const Mask& ignore = {});
 

@@ -1,4 +1,4 @@
-// eval/images/map_differences.h: measured minus true values of a map, of depth or of disparity.
+// eval/images/map_differences.h: measured minus true values of a map of depth or disparity.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-/// One value per judged pixel, row by row.
+/// One value per evaluated pixel, row by row.
 struct MapDifferences {
   std::vector<double> with_sign;  // measured - truth
   std::vector<double> magnitude;
 };
 
-/// Judges the pixels that are measured, whose truth is known and that the mask does not ignore.
-/// `what`: the maps' name in messages. Throws InputError where sizes differ.
+/// Over measured, unmasked pixels with known truth. `what`: name
+/// of the maps in messages. Throws InputError for different sizes.
 MapDifferences mapDifferences(const Raster<float>& measured, const Raster<float>& truth,
                               const Mask& ignore, const char* what);
 

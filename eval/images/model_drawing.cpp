@@ -1,4 +1,4 @@
-// eval/images/model_drawing.cpp: discs, a depth buffer, and a weighted mean behind it.
+// eval/images/model_drawing.cpp: discs with a depth buffer, weighted mean per surface.
 #include "eval/images/model_drawing.h"
 
 #include <algorithm>
@@ -12,15 +12,15 @@
 namespace softscope {
 namespace {
 
-constexpr std::size_t kSamples = 500;    // of nearestNeighbourMm
-constexpr double kRadiusSpacings = 1.5;  // closes the gaps between neighbours of a random pattern
-constexpr double kPixelRadius = 0.75;    // of a pixel: a disc that faces the camera meets a centre
-constexpr double kDiscSigma = 0.4;       // of the Gaussian, of the radius
-constexpr double kSurfaceRadii = 2;      // discs so far behind the nearest are of its surface
+constexpr std::size_t kSamples = 500;    // sample size of nearestNeighbourMm
+constexpr double kRadiusSpacings = 1.5;  // closes the gaps of a random pattern
+constexpr double kPixelRadius = 0.75;    // in pixels: a facing disc covers a pixel centre
+constexpr double kDiscSigma = 0.4;       // sigma of the Gaussian, in radii
+constexpr double kSurfaceRadii = 2;      // discs this far behind the nearest are of its surface
 constexpr double kNearestMm = 1;         // nearer points are not drawn
-constexpr int kBandRows = 16;            // rows that one task draws
+constexpr int kBandRows = 16;            // rows per task
 
-/// In the camera's frame.
+/// In the camera frame.
 struct Disc {
   Eigen::Vector3d centre_mm, normal;
   double radius_mm = 0;
@@ -28,7 +28,7 @@ struct Disc {
   Rgb8 colour;
 };
 
-/// Where the ray of a pixel meets a disc; `weight` is 0 beyond its rim.
+/// Intersection of the ray of a pixel with a disc; `weight` is 0 outside of the disc.
 struct Hit {
   double depth_mm = 0, weight = 0;
 };
@@ -55,7 +55,7 @@ std::vector<Disc> discsOf(const PointModel& model, const PinholeCamera& camera,
     if (!disc.centre_mm.allFinite() || disc.centre_mm.z() < kNearestMm) continue;
     disc.normal = left_from_world.linear() * model.normals[i].cast<double>();
     if (!(disc.normal.norm() > 0.5)) disc.normal = -disc.centre_mm.normalized();
-    if (disc.normal.dot(disc.centre_mm) >= 0) continue;  // turned away
+    if (disc.normal.dot(disc.centre_mm) >= 0) continue;  // back-facing
     const double pixel_mm = disc.centre_mm.z() / std::min(camera.fx_px, camera.fy_px);
     disc.radius_mm = std::max(radius_mm, kPixelRadius * pixel_mm);
     const Eigen::Vector2d at = projectPoint<double>(camera, disc.centre_mm);
@@ -70,7 +70,7 @@ std::vector<Disc> discsOf(const PointModel& model, const PinholeCamera& camera,
   return discs;
 }
 
-/// Calls `at(u, v, hit)` for each pixel of rows [first, end) that the disc covers.
+/// Calls `at(u, v, hit)` for each pixel of rows [first, end) inside the disc.
 template <class Visit>
 void forEachPixel(const Disc& disc, const PinholeCamera& camera, int first, int end,
                   const Visit& visit) {

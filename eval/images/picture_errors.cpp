@@ -1,4 +1,4 @@
-// eval/images/picture_errors.cpp: squared differences, and windows of moments.
+// eval/images/picture_errors.cpp: squared differences, and local image moments.
 #include "eval/images/picture_errors.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kReach = 5;  // of the window: 11 x 11
+constexpr int kReach = 5;  // half size of the window: 11 x 11
 constexpr double kSigma = 1.5;
 constexpr double kC1 = 0.01 * 255 * 0.01 * 255, kC2 = 0.03 * 255 * 0.03 * 255;
 
@@ -43,7 +43,7 @@ double similarity(const Moments& m) {
          ((m[0] * m[0] + m[1] * m[1] + kC1) * (xx + yy + kC2));
 }
 
-/// Row by row: how many ignored pixels lie in the box from the origin to each pixel.
+/// Integral image of the ignored pixels.
 Raster<int> countIgnored(const Mask& ignore, int width, int height) {
   Raster<int> counts(width + 1, height + 1, 0);
   for (int v = 0; v < height; ++v)
@@ -60,7 +60,7 @@ bool windowIsJudged(const Raster<int>& ignored, int u, int v) {
          0;
 }
 
-/// The window's sums along the rows of both images; the rim stays zero and is never asked for.
+/// Sums over the window along the rows of both images; the border remains zero and is not used.
 Raster<Moments> sumAlongRows(const GrayImage& x, const GrayImage& y, const Window& window) {
   Raster<Moments> sums(x.width_px, x.height_px, Moments{});
   parallelRows(x.height_px, [&](int v) {

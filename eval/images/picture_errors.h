@@ -6,20 +6,20 @@
 
 namespace softscope {
 
-/// NaN where no pixel can be judged. Infinite PSNR: no difference at all.
+/// NaN without evaluated pixels. Infinite PSNR: equal images.
 struct PictureErrors {
-  double psnr_db = Statistics::kNone;  // over the judged pixels, all three channels
-  /// The same differences averaged over all pixels of the image, judged or not: what some papers
-  /// give. It is the higher, the less is judged.
+  double psnr_db = Statistics::kNone;  // over the evaluated pixels, all three channels
+  /// The same differences averaged over all pixels of the image, as
+  /// in some papers: the value rises with fewer evaluated pixels.
   double psnr_over_all_pixels_db = Statistics::kNone;
-  /// Structural similarity of luma (Wang et al. 2004): Gaussian window 11 x 11, sigma 1.5,
-  /// K1 0.01, K2 0.03; the mean over the pixels whose whole window is judged.
+  /// Structural similarity of luma (Wang et al. 2004): Gaussian window 11 x 11,
+  /// sigma 1.5, K1 0.01, K2 0.03; mean over pixels with a fully evaluated window.
   double ssim = Statistics::kNone;
-  double judged_share = Statistics::kNone;  // of the pixels that may show tissue
+  double judged_share = Statistics::kNone;  // share of the pixels that may show tissue
 };
 
-/// Judges the pixels that `ignore` and `not_tissue` (instruments, black borders) don't mark
-/// (non-zero; empty: all). Throws InputError where sizes differ.
+/// Evaluates pixels that are zero in `ignore` and `not_tissue` (instruments,
+/// black borders); empty: all. Throws InputError for different sizes.
 PictureErrors pictureErrors(const ColourImage& drawn, const ColourImage& photograph,
                             const Mask& ignore = {}, const Mask& not_tissue = {});
 

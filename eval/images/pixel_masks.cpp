@@ -1,4 +1,4 @@
-// eval/images/pixel_masks.cpp: masks from maps, and their sizes.
+// eval/images/pixel_masks.cpp: masks from maps, and checks of their sizes.
 #include "eval/images/pixel_masks.h"
 
 #include <cmath>
@@ -28,7 +28,7 @@ Mask ignoreMatchesOutside(const Raster<float>& disparity_px) {
     for (int u = 0; u < mask.width_px; ++u) {
       const float match_u = static_cast<float>(u) - disparity_px.at(u, v);
       const bool inside = match_u >= 0 && match_u <= static_cast<float>(mask.width_px - 1);
-      mask.at(u, v) = !inside;  // also where the disparity is NaN
+      mask.at(u, v) = !inside;  // true for a NaN disparity
     }
   return mask;
 }

@@ -1,4 +1,4 @@
-// eval/images/pixel_masks.h: masks of pixels that a comparison ignores. Non-zero = ignore.
+// eval/images/pixel_masks.h: masks of pixels excluded from a comparison. Non-zero = ignore.
 #pragma once
 
 #include "core/image.h"
@@ -6,21 +6,21 @@
 
 namespace softscope {
 
-/// Ignores pixels without a value: hand one method's map to another's evaluation, and both are
-/// judged on the pixels that both measured.
+/// Ignores pixels without a value. With the map of one method in the
+/// evaluation of another, both are evaluated on the same pixels.
 Mask ignoreUnmeasured(const Raster<float>& values);
 
-/// Ignores pixels whose disparity is unknown, or whose match u - disparity lies outside the
-/// image. Occlusion inside the image is not looked at.
+/// Ignores pixels with unknown disparity, or with the match u - disparity
+/// outside of the image. Occlusion inside the image is not considered.
 Mask ignoreMatchesOutside(const Raster<float>& disparity_px);
 
-/// Ignores what either ignores; an empty mask ignores nothing. Throws InputError for two shapes.
+/// Union of two masks; an empty mask ignores nothing. Throws InputError for different sizes.
 Mask ignoreEither(const Mask& first, const Mask& second);
 
-/// Throws InputError unless the mask is empty or as large as the map named `what`.
+/// Throws InputError unless the mask is empty or has the size of the map named `what`.
 void requireSameShape(const Raster<float>& map, const Mask& mask, const char* what);
 
-/// Throws InputError unless both maps are of one size.
+/// Throws InputError unless both maps have the same size.
 void requireSameShape(const Raster<float>& measured, const Raster<float>& truth, const char* what);
 
 }  // namespace softscope

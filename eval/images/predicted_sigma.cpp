@@ -1,5 +1,5 @@
-// eval/images/predicted_sigma.cpp: counting within intervals, and sums from the end of a sorted
-// list.
+// eval/images/predicted_sigma.cpp: counts within
+// intervals, and cumulative means of a sorted list.
 #include "eval/images/predicted_sigma.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Pairs knownPairs(const std::vector<double>& errors, const std::vector<double>& s
   return pairs;
 }
 
-/// Means of the first values, of which fewer and fewer are kept.
+/// Means of the first values, for decreasing numbers of values.
 std::vector<double> meansLeft(const Pairs& sorted) {
   std::vector<double> sums{0};
   for (const auto& [error, sigma] : sorted) sums.push_back(sums.back() + error);

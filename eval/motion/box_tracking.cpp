@@ -1,4 +1,4 @@
-// eval/motion/box_tracking.cpp: hits and misses frame by frame, failures, weighted means.
+// eval/motion/box_tracking.cpp: hits and misses per frame, failures, weighted means.
 #include "eval/motion/box_tracking.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace softscope {
 namespace {
 
-/// Of a box; SurgT truncates it to whole pixels.
+/// Centre of a box; SurgT truncates it to integer pixels.
 Eigen::Vector2d centreOf(const PixelBox& box) {
   return {std::trunc(box.u_px + box.width_px / 2), std::trunc(box.v_px + box.height_px / 2)};
 }
 
-/// The centre of both boxes in space, mm; none where the disparity is not positive.
+/// 3-D position of the centres of both boxes, mm; none unless the disparity is positive.
 std::optional<Eigen::Vector3d> positionOf(const StereoBoxes& boxes, const RectifiedRig& rig) {
   const Eigen::Vector2d left = centreOf(boxes.left);
   const double disparity_px = left.x() - centreOf(boxes.right).x();
@@ -23,9 +23,9 @@ std::optional<Eigen::Vector3d> positionOf(const StereoBoxes& boxes, const Rectif
   return liftPixel(rig.left, left.x(), left.y(), rig.depthMm(disparity_px));
 }
 
-/// One score's history until its failure.
+/// History of one score until its failure.
 struct Run {
-  std::vector<double> values;  // NaN where a frame has none; one a judged frame
+  std::vector<double> values;  // one per evaluated frame; NaN without a value
   std::size_t hits = 0;
   int misses_in_succession = 0;
   bool failed = false;
@@ -36,7 +36,7 @@ struct Run {
     misses_in_succession = hit ? 0 : misses_in_succession + 1;
   }
 
-  /// The misses that made it fail don't count.
+  /// The misses that cause the failure do not count.
   void failAfter(int misses_allowed) {
     if (failed || misses_in_succession <= misses_allowed) return;
     failed = true;
@@ -99,7 +99,7 @@ class BoxJudge {
     if (frame <= last_frame_) overlaps_.push_back(overlap);
   }
 
-  /// Returns the overlap of the frame, 0 after the failure in 2-D.
+  /// Returns the overlap of the frame, 0 after the 2-D failure.
   double judge(const StereoBoxes& truth, const std::optional<StereoBoxes>& estimate) {
     double overlap = 0;
     if (!plane_.failed) overlap = judgePlane(truth, estimate);

@@ -1,4 +1,4 @@
-// eval/motion/revisit.cpp: every moment against every earlier one.
+// eval/motion/revisit.cpp: comparison of every frame with every earlier one.
 #include "eval/motion/revisit.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool isBack(const Eigen::Isometry3d& then, const Eigen::Isometry3d& now,
   return apart_mm(then, now) <= options.near_mm && angle_rad * 180 / M_PI <= options.near_deg;
 }
 
-/// The earliest moment with an error that the scope comes back to at `now`.
+/// Earliest frame with an error at the camera pose of frame `now`.
 std::optional<std::size_t> firstVisit(const Poses& poses, const std::vector<double>& error_mm,
                                       std::size_t now, const RevisitOptions& options) {
   for (std::size_t then = 0; then + 1 < now; ++then) {

@@ -1,4 +1,4 @@
-// eval/motion/revisit.h: errors when the scope returns to tissue seen before.
+// eval/motion/revisit.h: errors at revisits of an earlier camera pose.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,22 +10,22 @@
 namespace softscope {
 
 struct RevisitOptions {
-  double near_mm = 1.5;  // this near to where it was, and
-  double near_deg = 3;   // turned by no more, the scope is back,
-  double away_mm = 3;    // if it was this far away in between
+  double near_mm = 1.5;  // limit of the distance to the earlier position
+  double near_deg = 3;   // limit of the rotation
+  double away_mm = 3;    // minimum distance reached in between
 };
 
-/// Moments at which the scope is back where it was.
+/// Frames at which the camera has returned to an earlier pose.
 struct Revisits {
   std::size_t count = 0;
   double first_mm = Statistics::kNone;   // mean error at the first visit
-  double again_mm = Statistics::kNone;   // mean error at the moments when it was back
-  double growth_mm = Statistics::kNone;  // mean of again minus first, pair by pair
+  double again_mm = Statistics::kNone;   // mean error at the revisits
+  double growth_mm = Statistics::kNone;  // mean difference per pair
 };
 
-/// `world_from_left`: true poses; `error_mm`: one a pose, NaN where there is none (no such moment
-/// takes part). Each moment is paired with the earliest one that it comes back to. Throws
-/// OptionError where the numbers differ.
+/// `world_from_left`: true poses; `error_mm`: one per pose, NaN if
+/// unknown (excluded). Each frame is paired with the earliest frame
+/// of the same pose. Throws OptionError for different counts.
 Revisits revisits(const std::vector<Eigen::Isometry3d>& world_from_left,
                   const std::vector<double>& error_mm, const RevisitOptions& options);
 

@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-/// Where one point of tissue was at one moment.
+/// Position of one tissue point in one frame.
 struct TrackSample {
   int frame = 0;
   int id = 0;
@@ -21,52 +21,52 @@ struct TrackSample {
   double sigma_mm = Statistics::kNone;  // predicted root mean square error
 };
 
-/// One estimate that has its truth.
+/// Estimate with its true position.
 struct TrackError {
   int frame = 0;
   int id = 0;
   Eigen::Vector3d offset_mm = Eigen::Vector3d::Zero();  // from the truth, in its world
-  double control_mm = 0;  // of an estimate that never moves: |truth now - truth at the start|
-  bool visible = true;    // by the estimate
-  bool unseen = false;    // by the ground truth
+  double control_mm = 0;                // of a static estimate: |truth now - truth at the start|
+  bool visible = true;                  // according to the estimate
+  bool unseen = false;                  // according to the ground truth
   double sigma_mm = Statistics::kNone;  // predicted root mean square error
 
   double errorMm() const { return offset_mm.norm(); }
 };
 
-/// Errors over what was predicted of them.
+/// Errors relative to the predicted sigma.
 struct PredictedTrackErrors {
   std::size_t count = 0;                        // estimates with a prediction
-  double error_over_sigma = Statistics::kNone;  // root mean square; 1 where sigma is true
+  double error_over_sigma = Statistics::kNone;  // root mean square; 1 for a correct sigma
   double within_2_sigma_share = Statistics::kNone;
 };
 
 struct TrackErrors {
-  std::vector<TrackError> each;  // in the estimate's order
+  std::vector<TrackError> each;  // in the order of the estimates
   Statistics error_mm;
-  Statistics visible_mm;     // of those that the estimate calls visible
-  Statistics hidden_mm;      // of the others
-  Statistics observed_mm;    // of tissue that the camera truly sees now
-  Statistics predicted_mm;   // of the rest: carried by the warp alone
+  Statistics visible_mm;     // estimates marked as visible
+  Statistics hidden_mm;      // other estimates
+  Statistics observed_mm;    // tissue truly visible to the camera
+  Statistics predicted_mm;   // other tissue: moved by the warp only
   Statistics control_mm;     // the no-motion control
-  Statistics last_frame_mm;  // in the last frame that is judged
+  Statistics last_frame_mm;  // in the last evaluated frame
   PredictedTrackErrors sigma;
   double reported_share = Statistics::kNone;  // estimates with a truth / all true positions
-  std::size_t without_truth = 0;              // estimates of points or frames that truth lacks
+  std::size_t without_truth = 0;              // estimates of points or frames without truth
   std::size_t lost = 0;                       // estimates that are not finite
 };
 
-/// True positions in the world's frame, by (frame, id).
+/// True positions in the world frame, by (frame, id).
 using TrueTracks = std::map<std::pair<int, int>, Eigen::Vector3d>;
 
-/// Frames and ids of points that the camera doesn't see.
+/// Frames and ids of points not visible to the camera.
 using UnseenTracks = std::set<std::pair<int, int>>;
 
-/// What brings an estimate of a frame into the true world, by way of the camera of that frame.
+/// Per frame: transform from the world of the estimate into the true world, through the camera.
 using TruthFromEstimate = std::map<int, Eigen::Isometry3d>;
 
-/// Evaluates the frames in `moves`; estimates of others count as without truth. The control
-/// starts at the first of these frames.
+/// Evaluates the frames in `moves`; estimates of other frames count
+/// as without truth. The control starts at the first of these frames.
 TrackErrors trackErrors(const TrueTracks& truth, const std::vector<TrackSample>& estimate,
                         const TruthFromEstimate& moves, const UnseenTracks& unseen = {});
 

@@ -1,4 +1,4 @@
-// eval/motion/trajectory_errors.cpp: differences of poses; the alignment is that of paired points.
+// eval/motion/trajectory_errors.cpp: pose differences after alignment.
 #include "eval/motion/trajectory_errors.h"
 
 #include <cmath>
@@ -66,13 +66,13 @@ RigidFit fitPositions(const Poses& truth, const Poses& estimate) {
     target_mm.push_back(truth[i].translation());
   }
   if (source_mm.size() >= 3) return fitRigid(source_mm, target_mm);
-  RigidFit fit;  // one or two positions: the shift that brings their middles together
+  RigidFit fit;  // one or two positions: translation of their mean
   fit.target_from_source.translation() =
       (target_mm.front() + target_mm.back() - source_mm.front() - source_mm.back()) / 2;
   return fit;
 }
 
-/// `estimate` with its positions brought into the truth's world and length.
+/// `estimate` with positions transformed into the true world, including scale.
 Poses similar(const Poses& estimate, const SimilarityFit& fit) {
   Poses moved;
   for (Eigen::Isometry3d pose : estimate) {
@@ -83,7 +83,7 @@ Poses similar(const Poses& estimate, const SimilarityFit& fit) {
   return moved;
 }
 
-/// `truth` has three positions or more that aren't on one line.
+/// `truth` has three or more positions that are not collinear.
 void addScaled(const Poses& truth, const Poses& estimate, const std::vector<int>& moments,
                TrajectoryErrors& errors) {
   std::vector<Eigen::Vector3d> source_mm, target_mm;

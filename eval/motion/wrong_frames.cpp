@@ -10,7 +10,7 @@ constexpr double kWrongMm = 1, kWrongDeg = 1;
 constexpr double kToldConfidence = 0.5;
 constexpr double kRigidMm = 1e-3;  // positions in files are rounded
 
-/// Offsets of the points in view, by frame and point.
+/// Offsets of the visible points, by frame and point.
 std::map<int, std::map<int, Eigen::Vector3d>> offsetsInView(const TrackErrors& tracks) {
   std::map<int, std::map<int, Eigen::Vector3d>> offsets;
   for (const TrackError& e : tracks.each)
@@ -20,7 +20,7 @@ std::map<int, std::map<int, Eigen::Vector3d>> offsetsInView(const TrackErrors& t
 
 }  // namespace
 
-bool isWrong(const JudgedFrame& judged) {  // NaN is above no limit
+bool isWrong(const JudgedFrame& judged) {  // comparisons with NaN are false
   return judged.surface_mm > kWrongMm || judged.pose_mm > kWrongMm || judged.pose_deg > kWrongDeg ||
          judged.jump_mm > kWrongMm;
 }

@@ -1,4 +1,4 @@
-// eval/motion/wrong_frames.h: frames that a run accepts although they are wrong.
+// eval/motion/wrong_frames.h: detection of wrong frames that a run accepted.
 #pragma once
 
 #include <map>
@@ -8,29 +8,29 @@
 
 namespace softscope {
 
-/// What a run claims of a fused frame, and how far that is from the truth; NaN where either is not
-/// known.
+/// Confidence of a fused frame with
+/// its true errors; NaN if unknown.
 struct JudgedFrame {
   int frame = 0;
-  double confidence = Statistics::kNone;  // 0 to 1, by the run
+  double confidence = Statistics::kNone;  // 0 to 1, reported by the run
   double surface_mm = Statistics::kNone;  // mean error of the observed surface
-  double pose_mm = Statistics::kNone;     // of the scope, where the scene is rigid
+  double pose_mm = Statistics::kNone;     // of the camera, in a rigid scene
   double pose_deg = Statistics::kNone;
   double jump_mm = Statistics::kNone;  // largest of largestJumps
 };
 
-/// An observed surface more than 1 mm off in the mean; over rigid tissue a pose more than 1 mm or
-/// 1 deg off; a point in view that jumps by more than 1 mm against its truth.
+/// Mean error of the observed surface above 1 mm; in a rigid scene a pose error
+/// above 1 mm or 1 deg; a visible point whose error jumps by more than 1 mm.
 bool isWrong(const JudgedFrame& judged);
 
-/// A wrong frame that is not reported as such: its confidence is above one half.
+/// Wrong frame with a confidence above one half.
 bool isSilentlyWrong(const JudgedFrame& judged);
 
-/// By frame, from the second on: by how much the error of a point, as a vector, changes at most
-/// from the judged frame before. Points count that the run and the truth see in both frames.
+/// By frame, from the second on: maximum change of the error vector of a point since the
+/// previous evaluated frame. Counts points visible in both frames according to run and truth.
 std::map<int, double> largestJumps(const TrackErrors& tracks);
 
-/// Whether no point of the tissue ever moves. True without points.
+/// True if no tissue point moves. True without points.
 bool isRigid(const TrueTracks& truth);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// eval/statistics/cohort.cpp: few numbers, closed formulas, one seeded resampling.
+// eval/statistics/cohort.cpp: closed formulas, and one seeded bootstrap.
 #include "eval/statistics/cohort.h"
 
 #include <algorithm>
@@ -52,12 +52,12 @@ double incompleteBeta(double a, double b, double x) {
                                    : 1 - factor * betaFraction(b, a, 1 - x) / b;
 }
 
-/// Probability that Student's t lies above `t` >= 0.
+/// Probability of Student's t above `t` >= 0.
 double studentTail(double t, double degrees) {
   return 0.5 * incompleteBeta(degrees / 2, 0.5, degrees / (degrees + t * t));
 }
 
-/// Ranks from 1 of the magnitudes, tied ones averaged; `ties` gets the sum of m^3 - m over them.
+/// Ranks (from 1) of the magnitudes, averaged for ties; `ties` receives the sum of m^3 - m.
 std::vector<double> ranksOf(const std::vector<double>& differences, double& ties) {
   std::vector<std::size_t> order(differences.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -76,8 +76,8 @@ std::vector<double> ranksOf(const std::vector<double>& differences, double& ties
   return ranks;
 }
 
-/// Share of all choices of signs whose sum of positive ranks is as far from the middle as
-/// `rank_sum`, or farther. Ranks are multiples of 1/2, so that sums are counted in halves.
+/// Share of all sign combinations whose sum of positive ranks has at least the distance of
+/// `rank_sum` from the mean. Ranks are multiples of 1/2, so sums are counted in halves.
 double exactSignedRank(const std::vector<double>& ranks, double rank_sum) {
   const double total = std::accumulate(ranks.begin(), ranks.end(), 0.0);
   std::vector<double> ways(static_cast<std::size_t>(std::lround(2 * total)) + 1, 0);
@@ -118,7 +118,7 @@ Interval bootstrapMean(const std::vector<double>& values, std::uint64_t seed) {
   const std::vector<double> numbers = withoutNaN(values);
   if (numbers.size() < 3) return {};
   std::mt19937_64 random(seed);
-  const auto drawn = [&] {  // the standard's distributions differ from library to library
+  const auto drawn = [&] {  // the distributions of the standard library are not portable
     return static_cast<std::size_t>((random() >> 32) * numbers.size() >> 32);
   };
   std::vector<double> means;

@@ -1,18 +1,18 @@
-// eval/statistics/error_series.h: how an error changes over time: drift and jitter.
+// eval/statistics/error_series.h: drift and jitter of an error over time.
 #pragma once
 
 #include <vector>
 
 namespace softscope {
 
-/// Drift: the median slope of all pairs of samples (Theil 1950, Sen 1968), in units of y per unit
-/// of x; a third of the samples may be wild. Samples that are not finite take no part; NaN where
-/// fewer than two different x remain. Of more than 2000 samples every k-th is taken, so that 2000
-/// or fewer remain.
+/// Drift: median slope of all pairs of samples (Theil 1950, Sen 1968), in
+/// units of y per unit of x; robust to a third of outliers. Without
+/// samples that are not finite; NaN for fewer than two different x. Of
+/// more than 2000 samples every k-th is used, so that at most 2000 remain.
 double theilSenSlope(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Jitter: y[i-1] - 2 y[i] + y[i+1], one a sample; NaN at both ends, beside values that are not
-/// finite, and where the two neighbours in x are not equally far (within 1 %).
+/// Jitter: y[i-1] - 2 y[i] + y[i+1], one per sample; NaN at both ends, next to values that
+/// are not finite, and if the distances in x to both neighbours differ (by more than 1 %).
 std::vector<double> secondDifferences(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace softscope

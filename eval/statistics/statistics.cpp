@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-/// Reorders the numbers, of which there is at least one.
+/// Reorders the numbers. Requires at least one.
 double percentileOf(std::vector<double>& numbers, double percent) {
   const double place = percent / 100 * static_cast<double>(numbers.size() - 1);
   const auto rank = static_cast<std::ptrdiff_t>(std::floor(place));

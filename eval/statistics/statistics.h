@@ -1,4 +1,4 @@
-// eval/statistics/statistics.h: many numbers in a few.
+// eval/statistics/statistics.h: summary statistics of a list of values.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,14 @@
 
 namespace softscope {
 
-/// In the unit of the values; NaN where there were none. Definitions: docs/evaluation.md.
+/// In the unit of the values; NaN without values. Definitions: docs/evaluation.md.
 struct Statistics {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::size_t count = 0;      // values that are numbers
-  std::size_t nan_count = 0;  // left out everywhere else
+  std::size_t count = 0;      // values without NaNs
+  std::size_t nan_count = 0;  // excluded from all other members
   double mean = kNone;
-  double sd = kNone;    // about the mean, over count (not count - 1)
-  double rmse = kNone;  // root of the mean square: about zero
+  double sd = kNone;    // about the mean, divisor count (not count - 1)
+  double rmse = kNone;  // root mean square, about zero
   double min = kNone;
   double median = kNone;
   double p95 = kNone;
@@ -26,13 +26,13 @@ std::vector<double> withoutNaN(const std::vector<double>& values);
 
 Statistics statistics(const std::vector<double>& values);
 
-/// One value for each of `percents` (0 to 100): NaNs left out, linear between the two neighbours
-/// in rank, as numpy.percentile does. NaN where there are no values.
-/// Throws OptionError for a percent outside 0 to 100.
+/// One value per entry of `percents` (0 to 100): without NaNs, linear
+/// interpolation between ranks as numpy.percentile. NaN without
+/// values. Throws OptionError for a percent outside of 0 to 100.
 std::vector<double> percentiles(const std::vector<double>& values,
                                 const std::vector<double>& percents);
 
-/// Percentage of the values (NaNs left out) that exceed the threshold; NaN where there are none.
+/// Percentage of the values (without NaNs) above the threshold; NaN without values.
 double percentAbove(const std::vector<double>& values, double threshold);
 
 }  // namespace softscope

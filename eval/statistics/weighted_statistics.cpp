@@ -1,4 +1,4 @@
-// eval/statistics/weighted_statistics.cpp: sorts once, sums up.
+// eval/statistics/weighted_statistics.cpp: statistics from values sorted once.
 #include "eval/statistics/weighted_statistics.h"
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-using Samples = std::vector<std::pair<double, double>>;  // value, weight; by value
+using Samples = std::vector<std::pair<double, double>>;  // value, weight; sorted by value
 
 Samples sortedSamples(const std::vector<double>& values, const std::vector<double>& weights,
                       Statistics& result) {
@@ -33,7 +33,7 @@ Samples sortedSamples(const std::vector<double>& values, const std::vector<doubl
 
 double percentileOf(const Samples& samples, double total, double percent) {
   const double wanted = percent / 100 * total;
-  double below = 0;  // weight before sample i
+  double below = 0;  // sum of the weights before sample i
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double middle = below + samples[i].second / 2;
     if (wanted <= middle) {

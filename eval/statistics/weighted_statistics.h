@@ -1,4 +1,4 @@
-// eval/statistics/weighted_statistics.h: statistics where a value counts for more than one.
+// eval/statistics/weighted_statistics.h: statistics of weighted values.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-/// As statistics(), each value counting `weights[i]` times, so that densely meshed parts of a
-/// surface count no more than others. Percentile q is where q % of the weight lies below, linear
-/// between the middles of neighbours in rank; `count` is still the number of values. NaNs and
-/// values of no weight are left out. Throws InputError for unequal lengths or a negative weight.
+/// As statistics(), with a weight per value, so that the density of a mesh does not
+/// affect the result. Percentile q: q % of the weight is below, linear between the
+/// midpoints of neighbouring ranks; `count` is the number of values. Without NaNs
+/// and zero weights. Throws InputError for different lengths or a negative weight.
 Statistics weightedStatistics(const std::vector<double>& values,
                               const std::vector<double>& weights);
 
-/// A third of the area of the triangles around each vertex, mm^2.
+/// Per vertex a third of the area of its triangles, mm^2.
 std::vector<double> vertexAreas_mm2(const TriangleMesh& mesh);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// eval/surfaces/model_errors.cpp: distances both ways, split by what the camera sees.
+// eval/surfaces/model_errors.cpp: distances in both directions, split by visibility.
 #include "eval/surfaces/model_errors.h"
 
 #include "core/error.h"
@@ -10,8 +10,8 @@
 namespace softscope {
 namespace {
 
-/// A point stands for the tissue that lies closest to it, so a point off the surface is judged by
-/// whether that tissue is seen, not by whether the point itself hides behind it.
+/// A point represents its closest tissue point: visibility is that of the
+/// tissue, so an erroneous point behind the surface is not treated as occluded.
 std::vector<std::uint8_t> findObserved(const std::vector<ClosestPoint>& closest,
                                        const TrueMoment& truth) {
   const Eigen::Isometry3d left_from_world = truth.world_from_left.inverse();

@@ -1,4 +1,4 @@
-// eval/surfaces/model_errors.h: one reconstructed model against the true tissue of the same moment.
+// eval/surfaces/model_errors.h: errors of a model against the true tissue of its frame.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,42 +15,42 @@
 
 namespace softscope {
 
-/// What is true at one moment. Nothing is owned.
+/// Ground truth of one frame. Non-owning.
 struct TrueMoment {
-  const TriangleTree& surface;    // in the true world's frame
+  const TriangleTree& surface;    // in the frame of the true world
   const Raster<float>& depth_mm;  // of the rectified left image, NaN = none; empty = unknown
-  const RectifiedRig& rig;        // needed where the depth is known
+  const RectifiedRig& rig;        // used with a known depth
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
 };
 
-/// How much of the tissue that the cameras see the model has.
+/// Share of the visible tissue covered by the model.
 struct Completeness {
-  Statistics distance_mm;            // of the sampled tissue from the nearest model point
-  double share = Statistics::kNone;  // of it with a model point nearer than the threshold
+  Statistics distance_mm;            // of the sampled tissue to the nearest model point
+  double share = Statistics::kNone;  // share with a model point within the threshold
 };
 
-/// Definitions: docs/evaluation.md. What the depth decides is NaN, or empty, where it is unknown.
+/// Definitions: docs/evaluation.md. Values that require the depth are NaN, or empty, without it.
 struct ModelErrors {
-  Statistics distance_mm;        // of every model point from the surface
-  Statistics signed_mm;          // the same, positive = outside; NaN at the surface's border
-  std::size_t border_count = 0;  // points whose closest point lies on that border
-  std::size_t beyond_count = 0;  // points beyond it, where no tissue is known
-  Statistics observed_mm;        // of the points whose tissue the left camera sees now
+  Statistics distance_mm;        // of every model point to the surface
+  Statistics signed_mm;          // the same, positive = outside; NaN at the border of the surface
+  std::size_t border_count = 0;  // points with a closest point on that border
+  std::size_t beyond_count = 0;  // points beyond the border, where the truth is unknown
+  Statistics observed_mm;        // points whose tissue is visible to the left camera
   Statistics observed_signed_mm;
-  Statistics predicted_mm;  // of the others that aren't beyond: unseen, carried by the warp
+  Statistics predicted_mm;  // other points not beyond the border: invisible, moved by the warp
   double observed_share = Statistics::kNone;  // of the points
-  Completeness both;                          // tissue that both cameras see
-  Completeness left;                          // tissue that the left camera sees
-  HausdorffDistances hausdorff;               // observed points and tissue that both cameras see
+  Completeness both;                          // tissue visible to both cameras
+  Completeness left;                          // tissue visible to the left camera
+  HausdorffDistances hausdorff;               // observed points, and tissue visible to both cameras
 
-  /// One a model point, in its order.
+  /// One per model point, in their order.
   std::vector<double> each_mm, each_signed_mm;
-  std::vector<std::uint8_t> each_observed;  // empty where the depth is unknown; 0 beyond the border
+  std::vector<std::uint8_t> each_observed;  // empty without a known depth; 0 beyond the border
   std::vector<std::uint8_t> each_beyond;
 };
 
-/// `points_mm`: the model, in the true world's frame. A piece of tissue counts as reconstructed
-/// where a model point lies nearer than `completeness_mm`. Throws InputError if there is no point.
+/// `points_mm`: model, in the frame of the true world. Tissue counts as reconstructed
+/// if a model point is within `completeness_mm`. Throws InputError without points.
 ModelErrors modelErrors(const std::vector<Eigen::Vector3f>& points_mm, const TrueMoment& truth,
                         double completeness_mm = 1.0);
 

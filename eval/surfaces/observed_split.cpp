@@ -1,4 +1,4 @@
-// eval/surfaces/observed_split.cpp: near to what was seen, or not.
+// eval/surfaces/observed_split.cpp: split by the distance to the observed surface.
 #include "eval/surfaces/observed_split.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// eval/surfaces/surface_alignment.cpp: pair, trim, step, until nothing moves.
+// eval/surfaces/surface_alignment.cpp: iteration of pairing, trimming and Gauss-Newton steps.
 #include "eval/surfaces/surface_alignment.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,20 +11,20 @@
 namespace softscope {
 namespace {
 
-constexpr std::size_t kFewestPairs = 6;   // as many as a rigid motion has freedoms
-constexpr double kFreeEigenvalue = 1e-9;  // over the largest: no pair feels such a motion
+constexpr std::size_t kFewestPairs = 6;   // number of degrees of freedom of a rigid transform
+constexpr double kFreeEigenvalue = 1e-9;  // relative to the largest: undetermined direction
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 struct Pair {
-  Eigen::Vector3d point_mm;    // moved by the pose so far
-  Eigen::Vector3d surface_mm;  // its closest point
+  Eigen::Vector3d point_mm;    // transformed by the current pose
+  Eigen::Vector3d surface_mm;  // closest point on the surface
   Eigen::Vector3d normal;      // of the closest triangle
   double distance_mm;
 };
 
-/// A small rigid motion of the points where they are.
+/// Small rigid motion of the transformed points.
 struct Step {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   int free_directions = 0;
@@ -54,10 +54,10 @@ void trim(std::vector<Pair>& pairs, double share) {
   pairs.resize(static_cast<std::size_t>(kept));
 }
 
-/// Where the points are, and how far they reach.
+/// Centre and extent of the points.
 struct Spread {
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
-  double radius_mm = 0;  // root mean square, at least tiny
+  double radius_mm = 0;  // root mean square, positive
 };
 
 Spread spreadOf(const std::vector<Pair>& pairs) {
@@ -70,8 +70,8 @@ Spread spreadOf(const std::vector<Pair>& pairs) {
   return spread;
 }
 
-/// Gauss-Newton on normal . (point - surface): turning about the centre is scaled by the radius,
-/// so that all six unknowns are lengths. Motions that no pair feels stay zero.
+/// Gauss-Newton on normal . (point - surface): rotations about the centre are scaled by
+/// the radius, so all six unknowns are lengths. Undetermined directions remain zero.
 Step planeStep(const std::vector<Pair>& pairs) {
   const Spread spread = spreadOf(pairs);
   Matrix6 normal_matrix = Matrix6::Zero();
@@ -116,7 +116,7 @@ double rootMeanSquareMotion_mm(const Eigen::Isometry3d& motion, const std::vecto
   return std::sqrt(squares / static_cast<double>(pairs.size()));
 }
 
-/// Fills in all but the errors.
+/// Computes everything except the errors.
 void iterate(const std::vector<Eigen::Vector3f>& points_mm, const TriangleTree& surface,
              const AlignmentOptions& options, SurfaceAlignment& result) {
   Eigen::Isometry3d& pose = result.surface_from_points;

@@ -1,4 +1,4 @@
-// eval/surfaces/surface_comparison.cpp: two searches, then shares and areas.
+// eval/surfaces/surface_comparison.cpp: search in both directions, shares and areas.
 #include "eval/surfaces/surface_comparison.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// eval/surfaces/surface_comparison.h: a model against a reference surface, both ways.
+// eval/surfaces/surface_comparison.h: comparison of a model with a reference surface.
 #pragma once
 
 #include <vector>
@@ -10,33 +10,33 @@
 
 namespace softscope {
 
-/// Distances of one set's vertices from the other set.
+/// Distances of the vertices of one set to the other set.
 struct DirectedErrors {
-  std::vector<double> each_mm;  // one a vertex
-  Statistics vertices_mm;       // each vertex counts the same
-  Statistics area_mm;           // by area; NaN for a set of points
+  std::vector<double> each_mm;  // one per vertex
+  Statistics vertices_mm;       // equal weight per vertex
+  Statistics area_mm;           // weighted by area; NaN for a point set
 };
 
-/// At one threshold, strictly nearer counts.
+/// At one threshold, strict (<).
 struct ThresholdScores {
   double tau_mm = 0;
-  double precision = Statistics::kNone;     // share of the test's vertices
-  double recall = Statistics::kNone;        // share of the reference's vertices
+  double precision = Statistics::kNone;     // share of the test vertices
+  double recall = Statistics::kNone;        // share of the reference vertices
   double f_score = Statistics::kNone;       // their harmonic mean
-  double surface_dice = Statistics::kNone;  // area within, both ways, over both areas
+  double surface_dice = Statistics::kNone;  // area within, both directions, over both areas
 };
 
 struct SurfaceComparison {
-  DirectedErrors accuracy;            // the test from the reference's triangles
-  DirectedErrors completeness;        // the reference from the test's triangles, or its points
-  std::vector<ClosestPoint> closest;  // on the reference, one a vertex of the test
-  Statistics signed_mm;               // of the test, positive = outside the reference
-  HausdorffDistances hausdorff;       // of vertices, both ways
+  DirectedErrors accuracy;            // test to the triangles of the reference
+  DirectedErrors completeness;        // reference to the triangles, or points, of the test
+  std::vector<ClosestPoint> closest;  // on the reference, one per test vertex
+  Statistics signed_mm;               // of the test, positive = outside of the reference
+  HausdorffDistances hausdorff;       // of vertices, both directions
   std::vector<ThresholdScores> scores;
 };
 
-/// `test` may have no triangles: then it is a set of points. Both in one frame, mm. Throws
-/// InputError where a set is empty or broken, OptionError for a threshold that isn't above 0.
+/// `test` without triangles is a point set. Both in one frame, mm. Throws InputError
+/// for an empty or invalid set, OptionError for a threshold that is not positive.
 SurfaceComparison compareSurfaces(const TriangleMesh& reference, const TriangleMesh& test,
                                   const std::vector<double>& taus_mm);
 

@@ -1,4 +1,4 @@
-// eval/surfaces/surface_errors.h: the distances of many points from a surface, in a few numbers.
+// eval/surfaces/surface_errors.h: statistics of point-to-surface distances.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace softscope {
 
 struct SurfaceErrors {
   Statistics distance_mm;        // of all points
-  Statistics signed_mm;          // positive = outside; border points count as NaN
-  std::size_t border_count = 0;  // points whose closest point lies on the surface's border
+  Statistics signed_mm;          // positive = outside; NaN for border points
+  std::size_t border_count = 0;  // points with a closest point on the border of the surface
 };
 
 SurfaceErrors surfaceErrors(const std::vector<ClosestPoint>& closest);

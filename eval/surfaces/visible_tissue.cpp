@@ -1,4 +1,4 @@
-// eval/surfaces/visible_tissue.cpp: pixels lifted, points projected.
+// eval/surfaces/visible_tissue.cpp: back-projected pixels, projected points.
 #include "eval/surfaces/visible_tissue.h"
 
 #include <algorithm>

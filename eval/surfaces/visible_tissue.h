@@ -1,5 +1,5 @@
-// eval/surfaces/visible_tissue.h: which tissue the cameras see, by the true depth of the left
-// image.
+// eval/surfaces/visible_tissue.h: visible tissue
+// according to the true depth of the left image.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,29 +12,29 @@
 namespace softscope {
 
 struct TissueSampling {
-  int step_px = 4;    // every so many columns and rows, from pixel (0, 0)
-  int margin_px = 8;  // tissue nearer to an image's border than this can't be asked for
+  int step_px = 4;    // grid spacing in columns and rows, from pixel (0, 0)
+  int margin_px = 8;  // tissue within this distance of the image border is excluded
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 
-/// Points of the true surface on a grid of pixels of the left image, mm, in the left camera's
-/// frame, row by row.
+/// Points of the true surface on a grid of left
+/// pixels, mm, in the left camera frame, row by row.
 struct TissueSamples {
-  std::vector<Eigen::Vector3f> points_left_mm;  // all that the left camera sees
-  /// One a point: non-zero where it lies inside both images, margin_px from the left one's border
-  /// and from the right one's left border.
+  std::vector<Eigen::Vector3f> points_left_mm;  // all visible to the left camera
+  /// One per point: non-zero inside both images, margin_px from the border
+  /// of the left image and from the left border of the right image.
   std::vector<std::uint8_t> in_both;
 };
 
-/// `depth_mm`: true depth of the left image, NaN = none. Throws InputError unless it has the
-/// camera's size.
+/// `depth_mm`: true depth of the left image, NaN = none.
+/// Throws InputError for another size than that of the camera.
 TissueSamples sampleVisibleTissue(const Raster<float>& depth_mm, const RectifiedRig& rig,
                                   const TissueSampling& sampling = {});
 
-/// Whether the left camera sees a point of the true surface, given in its frame, mm: it lies in the
-/// image and nothing there is nearer by more than `slack_mm` than all four pixels around it.
+/// True if the left camera sees a point of the true surface (in its frame, mm): it is
+/// inside the image, and not more than `slack_mm` behind all four neighbouring pixels.
 bool seesSurfacePoint(const Raster<float>& depth_mm, const PinholeCamera& left,
                       const Eigen::Vector3d& point_left_mm, double slack_mm = 0.2);
 

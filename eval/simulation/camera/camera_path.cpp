@@ -1,4 +1,4 @@
-// eval/simulation/camera/camera_path.cpp: sums of sines, all at rest at 0 s.
+// eval/simulation/camera/camera_path.cpp: sums of sines, zero at 0 s.
 #include "eval/simulation/camera/camera_path.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace softscope {
 namespace {
 
-constexpr double kJerk_s = 0.25;           // a quick move lasts this long
-constexpr double kTremorRadPerMm = 0.004;  // the scope tilts in the hand as it shakes
+constexpr double kJerk_s = 0.25;           // duration of a quick movement
+constexpr double kTremorRadPerMm = 0.004;  // rotation of the scope with the tremor of the hand
 
 /// x right, y down, z towards the tissue; y of the organ is up.
 Eigen::Matrix3d orientation(const Eigen::Vector3d& to_scope) {
@@ -69,7 +69,7 @@ Eigen::Isometry3d CameraPath::wayAt(double time_s) const {
   const double phase_rad = 2 * M_PI * time_s / options_.period_s;
   const double across = std::sin(phase_rad), along = 0.5 * std::sin(2 * phase_rad);
   const double a_mm = options_.amplitude_mm, d_mm = options_.distance_mm;
-  if (options_.path == "sweep") {  // looks half-way back at the target
+  if (options_.path == "sweep") {  // rotated half-way back to the target
     const double half_rad = 0.5 * a_mm / d_mm;
     return moved(a_mm * across, a_mm * along, 0) * turned(half_rad * along, -half_rad * across);
   }
@@ -80,7 +80,7 @@ Eigen::Isometry3d CameraPath::wayAt(double time_s) const {
   return Eigen::Isometry3d::Identity();
 }
 
-/// Where the scope rests after a jerk; number 0 is the start.
+/// Position after each jerk; number 0 is the start.
 Eigen::Vector2d CameraPath::restNumber(int number) const {
   if (number <= 0) return Eigen::Vector2d::Zero();
   SeededRandom random(seed_ + 16 + static_cast<std::uint64_t>(number));
@@ -88,8 +88,8 @@ Eigen::Vector2d CameraPath::restNumber(int number) const {
   return options_.amplitude_mm * share * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
 }
 
-/// Once a period the hand moves on to another place, quickly, and looks half-way back at the
-/// target.
+/// Once per period a quick movement to another
+/// position, rotated half-way back to the target.
 Eigen::Isometry3d CameraPath::jerkAt(double time_s) const {
   const int number = static_cast<int>(std::floor(time_s / options_.period_s));
   const double age_s = time_s - number * options_.period_s;

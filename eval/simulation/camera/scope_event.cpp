@@ -11,8 +11,8 @@ namespace softscope {
 namespace {
 
 constexpr double kRamp_s = 0.25;
-constexpr double kWithdrawn = 1.5;  // of the distance to the tissue
-constexpr double kBurst = 6;        // smoke at the height of a burst: nothing shows through
+constexpr double kWithdrawn = 1.5;  // in units of the distance to the tissue
+constexpr double kBurst = 6;        // smoke density of a burst: opaque
 constexpr std::uint32_t kEventSeed = 91;
 constexpr float kPatchesPerPicture = 3.0F;
 const Eigen::Vector3f kTissueOnLens(0.16F, 0.03F, 0.02F), kGauze(0.55F, 0.5F, 0.46F);
@@ -22,7 +22,7 @@ double smoothStep(double t) {
   return x * x * (3 - 2 * x);
 }
 
-/// What lies on the lens: out of focus, so it has large patches only.
+/// Mixes in what covers the lens: out of focus, so only large patches.
 void mixIn(const Eigen::Vector3f& colour, float share, double time_s, int camera,
            Raster<Eigen::Vector3f>& light) {
   const float scale = kPatchesPerPicture / float(light.width_px);
@@ -51,7 +51,7 @@ double ScopeEventOptions::shareAt(double time_s) const {
 Eigen::Isometry3d ScopeEventOptions::motionAt(double time_s, double distance_mm) const {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   if (kind != "withdraw") return motion;
-  const double back = smoothStep((time_s - start_s) / length_s);  // the way to the new place
+  const double back = smoothStep((time_s - start_s) / length_s);  // path to the new position
   motion.translate(
       Eigen::Vector3d(back * return_mm, 0, -kWithdrawn * distance_mm * shareAt(time_s)));
   motion.rotate(Eigen::AngleAxisd(back * return_deg * M_PI / 180, Eigen::Vector3d::UnitZ()));

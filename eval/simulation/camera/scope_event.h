@@ -8,28 +8,28 @@
 
 namespace softscope {
 
-/// Ground truth stays geometric: depth, tracks and their visibility are those of the tissue behind.
+/// Ground truth remains geometric: depth, tracks and visibility of the tissue behind.
 struct ScopeEventOptions {
-  std::string kind = "none";  // none, withdraw (into the dark trocar and back), cover (tissue on
-                              // the lens), wipe (gauze over the lens), smoke (a dense burst)
+  std::string kind = "none";  // none, withdraw (into the dark trocar and back), cover (tissue
+                              // on the lens), wipe (gauze over the lens), smoke (dense burst)
   double start_s = 1;
-  double length_s = 2;    // from the first frame that shows it to the last
-  double return_mm = 0;   // withdraw: the scope comes back this far to the right, …
-  double return_deg = 0;  // … turned by this about its axis
+  double length_s = 2;    // from the first affected frame to the last
+  double return_mm = 0;   // withdraw: lateral offset after the return, to the right
+  double return_deg = 0;  // withdraw: rotation about the axis after the return
 
   /// Throws OptionError.
   void validate() const;
   bool there() const { return kind != "none"; }
-  /// 0: not there; 1: nothing else to see. Rises and falls within a quarter of a second.
+  /// 0: inactive; 1: tissue fully hidden. Ramps of a quarter of a second.
   double shareAt(double time_s) const;
-  /// undisturbed_from_now: how the event moves the left camera.
+  /// undisturbed_from_now: motion of the left camera by the event.
   Eigen::Isometry3d motionAt(double time_s, double distance_mm) const;
-  /// That it adds to the air's smoke.
+  /// Additional smoke in the air.
   double smokeAt(double time_s) const;
 };
 
-/// Changes the linear `light` of one camera as `event` does. `camera`: 0 left, 1 right; both see
-/// different parts of what lies on their lenses.
+/// Applies `event` to the linear `light` of one camera. `camera`:
+/// 0 left, 1 right; both have different patterns on their lenses.
 void addEvent(Raster<Eigen::Vector3f>& light, const ScopeEventOptions& event, double time_s,
               int camera);
 

@@ -1,4 +1,4 @@
-// eval/simulation/camera/scope_lens.cpp: Brown's radial and tangential terms, and their slopes.
+// eval/simulation/camera/scope_lens.cpp: terms of Brown's model with derivatives.
 #include "eval/simulation/camera/scope_lens.h"
 
 #include <Eigen/LU>
@@ -6,11 +6,11 @@
 namespace softscope {
 namespace {
 
-constexpr int kNewtonSteps = 8;  // each doubles the digits; 4 are enough for common lenses
-constexpr int kRimSteps = 16;    // places a side at which the lens is tried
-constexpr double kRim = 0.05;    // of the image, around it
+constexpr int kNewtonSteps = 8;  // quadratic convergence; 4 are enough for common lenses
+constexpr int kRimSteps = 16;    // samples per side in the check of the lens
+constexpr double kRim = 0.05;    // margin around the image, as a share of it
 
-/// Where the lens puts the direction (x, y, 1), and how that changes with x and y.
+/// Distorted direction (x, y, 1), with its derivatives.
 struct Bent {
   Eigen::Vector2d place;
   Eigen::Matrix2d slope;
@@ -21,7 +21,7 @@ Bent bend(const LensDistortion& lens, const Eigen::Vector2d& at) {
                p2 = lens.coefficients[3], k3 = lens.coefficients[4];
   const double x = at.x(), y = at.y(), r2 = x * x + y * y;
   const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double growth = k1 + r2 * (2 * k2 + r2 * 3 * k3);  // of radial, per r2
+  const double growth = k1 + r2 * (2 * k2 + r2 * 3 * k3);  // derivative of radial by r2
   Bent bent;
   bent.place = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
                 y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};

@@ -5,16 +5,16 @@
 
 namespace softscope {
 
-/// OpenCV's model with its first five coefficients k1 k2 p1 p2 k3; all zero: a pinhole.
+/// OpenCV model with the first five coefficients k1 k2 p1 p2 k3; all zero: pinhole.
 struct ScopeLens {
   PinholeCamera camera;
   LensDistortion distortion;
 
-  /// Pixel of a point in the camera's frame, z > 0.
+  /// Pixel of a point in the camera frame, z > 0.
   Eigen::Vector2d project(const Eigen::Vector3d& point_mm) const;
-  /// What the pixel looks along, z = 1, in the camera's frame: project()'s inverse by Newton steps.
+  /// Viewing ray of a pixel, z = 1, in the camera frame: inverse of project() by Newton steps.
   Eigen::Vector3d ray(double u_px, double v_px) const;
-  /// Whether no two directions meet in one pixel, in the image and a little around it.
+  /// True if the projection is injective in the image and a margin around it.
   bool invertible() const;
 };
 

@@ -28,7 +28,7 @@ std::vector<float> gaussianKernel(double sigma_px) {
   return kernel;
 }
 
-/// Along one axis; the border's pixels go on outside.
+/// Along one axis; border pixels are replicated.
 Light blurred(const Light& light, const std::vector<float>& kernel, bool along_rows) {
   const int radius = static_cast<int>(kernel.size() / 2);
   Light result(light.width_px, light.height_px, Eigen::Vector3f::Zero());
@@ -43,7 +43,7 @@ Light blurred(const Light& light, const std::vector<float>& kernel, bool along_r
   return result;
 }
 
-/// From linear light, as 255ths with fractions: highlights roll off, then sRGB (IEC 61966-2-1).
+/// Linear light to sRGB (IEC 61966-2-1) in 255ths with fractions, with soft highlights.
 class ToneCurve {
  public:
   ToneCurve() {
@@ -70,7 +70,7 @@ class ToneCurve {
   std::array<float, kSteps + 1> values_{};
 };
 
-/// Nearly normal, mean 0, standard deviation 1: the sum of four 16-bit numbers.
+/// Approximately normal, mean 0, standard deviation 1: sum of four 16-bit numbers.
 float noiseOf(std::uint64_t bits) {
   const auto sum = static_cast<float>((bits & 0xffff) + (bits >> 16 & 0xffff) +
                                       (bits >> 32 & 0xffff) + (bits >> 48));

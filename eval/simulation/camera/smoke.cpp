@@ -11,8 +11,8 @@ namespace softscope {
 namespace {
 
 constexpr std::uint32_t kSmokeSeed = 77;
-constexpr float kPuffsPerPicture = 2.4F;  // across its width
-constexpr float kThickness = 1.3F;        // optical, of the cloud on average
+constexpr float kPuffsPerPicture = 2.4F;  // across the image width
+constexpr float kThickness = 1.3F;        // mean optical thickness of the cloud
 const Eigen::Vector3f kGrey(0.28F, 0.275F, 0.27F);
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace softscope {
 
-/// Greys the linear `light` of one camera: 0 nothing, 1 a thick cloud that hides half of the
-/// contrast on average. It drifts and curls with time. `shift_px`: how far left this camera sees
-/// the cloud beside the left camera.
+/// Blends grey into the linear `light` of one camera: 0 none, 1 a thick cloud
+/// that halves the contrast on average. It drifts with time. `shift_px`:
+/// displacement of the cloud to the left, relative to the left camera.
 void addSmoke(Raster<Eigen::Vector3f>& light, double smoke, double time_s, double shift_px);
 
 }  // namespace softscope

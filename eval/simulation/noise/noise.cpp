@@ -18,7 +18,7 @@ std::uint32_t hashCell(int x, int y, int z, std::uint32_t seed) {
   return h ^ (h >> 15);
 }
 
-/// Dot product of `offset` with one of the twelve directions to a cube's edges.
+/// Dot product of `offset` with one of the twelve directions to the edges of a cube.
 float edgeGradient(std::uint32_t hash, float x, float y, float z) {
   const std::uint32_t h = hash & 15u;
   const float u = h < 8 ? x : y;
@@ -55,7 +55,7 @@ float fractalNoise(const Eigen::Vector3f& position, int octaves, std::uint32_t s
     sum += strength * smoothNoise(p, seed + static_cast<std::uint32_t>(octave) * 101u);
     total += strength;
     strength *= 0.5F;
-    p = 2.03F * p;  // not 2: the lattices of the octaves must not coincide
+    p = 2.03F * p;  // not 2: avoids coincident lattices of the octaves
   }
   return sum / total;
 }

@@ -1,4 +1,4 @@
-// eval/simulation/noise/random.h: random numbers that are the same on every machine.
+// eval/simulation/noise/random.h: portable pseudo-random numbers.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Mixes 64 bits so that neighbouring inputs give unrelated outputs (SplitMix64's finisher).
+/// 64-bit hash (finaliser of SplitMix64).
 inline std::uint64_t mixBits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -15,7 +15,7 @@ inline std::uint64_t mixBits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// A stream of numbers that depends on its seed and on nothing else.
+/// Pseudo-random sequence, determined by its seed.
 class SeededRandom {
  public:
   explicit SeededRandom(std::uint64_t seed) : state_(mixBits(seed)) {}
@@ -28,7 +28,7 @@ class SeededRandom {
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   int below(int count) { return static_cast<int>(uniform() * count); }
-  /// Unit length, every direction as likely as any other.
+  /// Uniformly distributed unit vector.
   Eigen::Vector3d direction() {
     const double z = uniform(-1, 1), angle_rad = uniform(0, 2 * M_PI), r = std::sqrt(1 - z * z);
     return {r * std::cos(angle_rad), r * std::sin(angle_rad), z};

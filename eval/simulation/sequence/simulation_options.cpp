@@ -1,4 +1,4 @@
-// eval/simulation/sequence/simulation_options.cpp: checks, and the rig.
+// eval/simulation/sequence/simulation_options.cpp: checks, and the camera rig.
 #include "eval/simulation/sequence/simulation_options.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kUsualFocalPerWidth = 0.875;  // 59 degrees across
+constexpr double kUsualFocalPerWidth = 0.875;  // horizontal field of view of 59 degrees
 
 }  // namespace
 

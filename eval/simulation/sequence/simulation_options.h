@@ -15,34 +15,34 @@
 
 namespace softscope {
 
-/// The cameras: parallel, one kind of lens; rows aligned except for calibration errors.
+/// Parallel cameras with equal lenses; rows are aligned except for calibration errors.
 struct ScopeOptions {
   int width_px = 640;
   int height_px = 480;
-  double focal_px = 0;  // 0: 0.875 of the width, as wide as common laparoscopes
-  double cx_px = -1;    // negative: the middle of the image
+  double focal_px = 0;  // 0: 0.875 of the width, typical for laparoscopes
+  double cx_px = -1;    // negative: image centre
   double cy_px = -1;
   double baseline_mm = 5.2;
-  // OpenCV's coefficients of both lenses; any of them: the images are not rectified, and all
-  // truth a pixel has lies on the left image as it is.
+  // OpenCV coefficients of both lenses; if any is set, the images are
+  // not rectified, and per-pixel truth belongs to the raw left image.
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
-  double row_error_px = 0;    // rows of the right image lie lower by this than the calibration says
-  double roll_error_deg = 0;  // and it is turned by this
+  double row_error_px = 0;    // rows of the right image are lower by this than calibrated
+  double roll_error_deg = 0;  // roll of the right camera relative to the calibration
 
   /// Throws OptionError.
   void validate() const;
   /// Without distortion.
   RectifiedRig rig() const;
-  /// The left camera's; the right one has the same.
+  /// Of the left camera; the right one is equal.
   ScopeLens lens() const;
-  /// What the calibration file says, mm.
+  /// Calibration as written to the file, mm.
   StereoCalibration calibration() const;
 };
 
 struct SimulationOptions {
   int seed = 1;
   double frames_per_second = 25;
-  double texel_mm = 0;        // 0: three quarters of a pixel at the camera's distance
+  double texel_mm = 0;        // 0: three quarters of a pixel at the distance of the camera
   int track_spacing_px = 20;  // between neighbouring tracked points of the first image
   OrganOptions organ;
   TextureOptions texture;

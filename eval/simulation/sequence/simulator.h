@@ -16,33 +16,33 @@
 
 namespace softscope {
 
-/// One moment. World = the left camera's frame at 0 s.
+/// One frame. World = left camera frame at 0 s.
 struct SimulatedFrame {
   StereoPair pictures;
   TimedPose pose;
-  std::vector<Eigen::Vector3f> vertices_world_mm;  // vertex i is the same tissue in every frame
-  Raster<float> depth_mm;                          // of the left camera, exact; NaN: no tissue
-  Mask instrument;                                 // of the left camera; empty where there is none
-  Raster<Eigen::Vector3f> normals;                 // left camera's frame, unit; 0: no tissue
+  std::vector<Eigen::Vector3f> vertices_world_mm;  // of the left camera, exact; NaN: no tissue
+  Raster<float> depth_mm;                          // of the left camera; empty: no instrument
+  Mask instrument;                                 // left camera frame, unit length; 0: no tissue
+  Raster<Eigen::Vector3f> normals;                 // one per track point
   std::vector<Eigen::Vector3d> tracks_world_mm;    // one a track point
   std::vector<bool> tracks_visible;                // to the left camera
-  std::vector<bool> tracks_visible_right;          // to the right one
+  std::vector<bool> tracks_visible_right;          // to the right camera
   Raster<Eigen::Vector2f> flow_px;                 // to the next frame, of tissue; NaN: none
 };
 
-/// The same options and mesh give the same frames, in any order, on any number of threads.
+/// Deterministic: equal options and mesh give equal frames, in any order, on any threads.
 class Simulator {
  public:
-  /// `rest_mesh`: the organ at rest, mm, closed and outward as TriangleMesh says; use
-  /// makeOrganMesh() for the built-in one. Throws OptionError, or InputError where the mesh is no
-  /// surface that a ray can meet.
+  /// `rest_mesh`: organ at rest, mm, closed, outward orientation
+  /// as in TriangleMesh; built-in organ: makeOrganMesh(). Throws
+  /// OptionError, or InputError for an invalid surface.
   Simulator(TriangleMesh rest_mesh, const SimulationOptions& options);
 
-  /// `flow` costs the next frame's state as well; without it that field stays empty.
+  /// `flow` also requires the state of the next frame; otherwise that field is empty.
   SimulatedFrame frame(int index, bool flow = false);
 
   const RectifiedRig& rig() const { return rig_; }
-  /// As a calibration file says it: rectified, or with the lens's distortion.
+  /// As in a calibration file: rectified, or with lens distortion.
   StereoCalibration calibration() const { return options_.scope.calibration(); }
   const std::vector<Triangle>& triangles() const { return body_.mesh.triangles; }
   const std::vector<TrackPoint>& trackPoints() const { return track_points_; }
@@ -50,7 +50,7 @@ class Simulator {
  private:
   std::vector<Eigen::Vector3f> worldVertices(double time_s);
   TimedPose poseAt(double time_s) const;
-  /// What both cameras receive at one moment.
+  /// Light received by both cameras at one time.
   struct LightPair {
     Raster<Eigen::Vector3f> left, right;
   };
@@ -62,13 +62,13 @@ class Simulator {
   Raster<Eigen::Vector2f> flowTo(double time_s, const Raster<RayHit>& hits, const Mask& hidden);
 
   SimulationOptions options_;
-  TriangleMesh mesh_;  // at rest, in the organ's frame
+  TriangleMesh mesh_;  // at rest, in the frame of the organ
   RectifiedRig rig_;
   ScopeLens lens_;  // of both cameras
   Eigen::Vector3d target_body_mm_;
   CameraPath path_;
   TissueBody body_;
-  TissueDeformation deformation_;  // of the organ; the body follows
+  TissueDeformation deformation_;  // of the organ; the body follows it
   TissueSkin skin_;
   ScopeLight light_;
   Eigen::Isometry3d world_from_body_;

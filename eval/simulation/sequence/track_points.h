@@ -1,4 +1,4 @@
-// eval/simulation/sequence/track_points.h: material points, chosen in the first image.
+// eval/simulation/sequence/track_points.h: material points selected in the first image.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,14 +10,14 @@
 
 namespace softscope {
 
-/// A point that stays where it is on its triangle.
+/// Fixed position on a triangle.
 struct TrackPoint {
-  int u_px = 0, v_px = 0;  // where the first left image shows it
+  int u_px = 0, v_px = 0;  // pixel in the first left image
   std::int32_t triangle = -1;
   double u = 0, v = 0;  // a + u (b - a) + v (c - a)
 };
 
-/// A grid of pixels, a fifth of the image off its border, as far as tissue is there.
+/// Grid of pixels, without a fifth of the image at its border, on tissue only.
 std::vector<TrackPoint> chooseTrackPoints(const Raster<RayHit>& first_hits, int spacing_px);
 
 Eigen::Vector3d positionOf(const TrackPoint& point, const std::vector<Eigen::Vector3f>& vertices_mm,

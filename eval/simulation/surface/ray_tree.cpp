@@ -1,4 +1,4 @@
-// eval/simulation/surface/ray_tree.cpp: four rays walk down the tree together.
+// eval/simulation/surface/ray_tree.cpp: traversal by packets of four rays.
 #include "eval/simulation/surface/ray_tree.h"
 
 #include <Eigen/Geometry>
@@ -11,9 +11,9 @@ namespace {
 
 using Four = Eigen::Array4f;
 
-/// Rays that run along a triangle's edge must meet one of the two triangles: a hair of overlap.
+/// Tolerance for rays along the edge of a triangle: triangles overlap slightly.
 constexpr float kEdgeOverlap = 1e-5F;
-constexpr int kDeepest = 64;  // median splits of 2^31 triangles are less than 32 deep
+constexpr int kDeepest = 64;  // median splits of 2^31 triangles have less than 32 levels
 
 struct Rays {
   Eigen::Vector3f origin_mm;
@@ -55,7 +55,7 @@ bool anyEnters(const Rays& rays, const RayTreeNode& node) {
   return (enter <= leave * (1 + 4e-7F)).any();
 }
 
-/// Möller and Trumbore 1997, for four rays at once.
+/// Möller and Trumbore 1997, for four rays.
 void meet(Rays& rays, const RayTriangle& t) {
   const Eigen::Vector3f &e1 = t.ab_mm, &e2 = t.ac_mm;
   const Eigen::Vector3f s = rays.origin_mm - t.a_mm;
@@ -119,7 +119,7 @@ PacketHits RayTree::cast(const Eigen::Vector3f& origin_mm, const RayPacket& dire
       for (int i = node.begin; i < node.begin + node.count; ++i) meet(rays, triangles_[i]);
       continue;
     }
-    const bool forward = directions[0][node.axis] >= 0;  // the nearer child last, so walked first
+    const bool forward = directions[0][node.axis] >= 0;  // the nearer child is visited first
     waiting[count++] = forward ? node.begin : index + 1;
     waiting[count++] = forward ? index + 1 : node.begin;
   }

@@ -1,5 +1,5 @@
-// eval/simulation/surface/ray_tree_build.cpp: halves the triangles along the longest side of their
-// middles.
+// eval/simulation/surface/ray_tree_build.cpp: median splits
+// along the longest side of the box of the centroids.
 #include <algorithm>
 
 #include "eval/simulation/surface/ray_tree.h"

@@ -1,4 +1,4 @@
-// eval/simulation/surface/surface_normals.cpp: the sum of the triangles' normals.
+// eval/simulation/surface/surface_normals.cpp: area-weighted sum of triangle normals.
 #include "eval/simulation/surface/surface_normals.h"
 
 #include <Eigen/Geometry>

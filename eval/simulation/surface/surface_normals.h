@@ -8,8 +8,8 @@
 
 namespace softscope {
 
-/// Unit normals, outward, one a vertex, weighted by the triangles' areas; zero for a vertex without
-/// triangles.
+/// Outward unit normals, one per vertex, weighted by
+/// triangle areas; zero for a vertex without triangles.
 std::vector<Eigen::Vector3f> vertexNormals(const std::vector<Eigen::Vector3f>& vertices_mm,
                                            const std::vector<Triangle>& triangles);
 

@@ -1,4 +1,4 @@
-// eval/simulation/texture/picture_texture.cpp: three mirrored projections of one averaged image.
+// eval/simulation/texture/picture_texture.cpp: three mirrored projections of one downsampled image.
 #include "eval/simulation/texture/picture_texture.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace {
 using Linear = Raster<Eigen::Vector3f>;
 
 constexpr int kMostSidePx = 4096;
-constexpr float kFront = 1.7F;  // the front's projection reaches to slopes of about 60 degrees
+constexpr float kFront = 1.7F;  // the frontal projection covers slopes of up to about 60 degrees
 
-/// sRGB (IEC 61966-2-1) undone.
+/// Inverse of sRGB (IEC 61966-2-1).
 std::array<float, 256> linearValues() {
   std::array<float, 256> values{};
   for (int i = 0; i < 256; ++i) {
@@ -23,7 +23,7 @@ std::array<float, 256> linearValues() {
   return values;
 }
 
-/// Each pixel the mean of `cells` x `cells`; what is left over at the right and below is dropped.
+/// Mean of blocks of `cells` x `cells`; incomplete blocks at the right and bottom are dropped.
 Linear averaged(const ColourImage& picture, int cells) {
   static const std::array<float, 256> kLinear = linearValues();
   Linear result(picture.width_px / cells, picture.height_px / cells, Eigen::Vector3f::Zero());
@@ -45,7 +45,7 @@ int cellsOf(const ColourImage& picture, double pixel_mm, double texel_mm) {
   return std::clamp(wanted, 1, shorter_px);
 }
 
-/// To and fro over [0, side].
+/// Mirrored coordinate in [0, side].
 float mirrored(float x, float side) {
   const float turn = std::fmod(std::abs(x), 2 * side);
   return turn > side ? 2 * side - turn : turn;
@@ -65,7 +65,7 @@ PictureTexture::PictureTexture(const ColourImage& picture, double picture_mm, do
   mean_ = (sum / double(linear_.size())).cast<float>();
 }
 
-/// Between four pixels, from the image's middle.
+/// Bilinear interpolation, relative to the image centre.
 Eigen::Vector3f PictureTexture::pixelAt(float right_mm, float down_mm) const {
   const auto width = float(linear_.width_px), height = float(linear_.height_px);
   const float x =
@@ -84,7 +84,7 @@ Eigen::Vector3f PictureTexture::at(const Eigen::Vector3f& rest_mm,
                                    const Eigen::Vector3f& normal) const {
   const Eigen::Vector3f p = view_from_body_ * rest_mm;
   Eigen::Array3f share = (view_from_body_.linear() * normal).array().abs();
-  share.z() = std::max(kFront * share.z(), 1e-3F);  // also where the normal is unknown
+  share.z() = std::max(kFront * share.z(), 1e-3F);  // also for an unknown normal
   share = share.square().square().square();
   share /= share.sum();
   Eigen::Vector3f colour = Eigen::Vector3f::Zero();

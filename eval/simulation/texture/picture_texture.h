@@ -1,4 +1,4 @@
-// eval/simulation/texture/picture_texture.h: a photograph as texture of the tissue.
+// eval/simulation/texture/picture_texture.h: image as texture of the tissue.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,20 +7,20 @@
 
 namespace softscope {
 
-/// The image is projected along the scope's first viewing direction, its middle on the tissue
-/// there, upright; where the surface is seen from its side, from the side instead, blended. Beyond
-/// its border it goes on mirrored, so there is no seam.
+/// The image is projected along the first viewing direction of the scope, upright,
+/// with its centre on the target; inclined surfaces use lateral projections,
+/// blended. Beyond its border the image is mirrored, so there is no seam.
 class PictureTexture {
  public:
-  /// `picture_mm`: its width on the tissue. `texel_mm`: no finer detail is asked for; a finer
-  /// image is averaged. `body_from_view`: x right, y down, z forward, from where its middle lies.
+  /// `picture_mm`: width on the tissue. `texel_mm`: resolution; a finer image is averaged.
+  /// `body_from_view`: x right, y down, z forward, with the origin at the image centre.
   PictureTexture(const ColourImage& picture, double picture_mm, double texel_mm,
                  const Eigen::Isometry3d& body_from_view);
 
-  /// Linear red, green, blue at a place of the undeformed tissue that faces along `normal`.
+  /// Linear red, green, blue at a position of the undeformed tissue with this normal.
   Eigen::Vector3f at(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& normal) const;
 
-  /// Of the whole image.
+  /// Mean of the whole image.
   const Eigen::Vector3f& mean() const { return mean_; }
 
  private:

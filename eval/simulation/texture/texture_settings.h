@@ -1,4 +1,4 @@
-// eval/simulation/texture/texture_settings.h: keys, ranges and meanings of the texture's settings.
+// eval/simulation/texture/texture_settings.h: keys, ranges and meanings of texture settings.
 #pragma once
 
 #include "core/setting_rules.h"

@@ -1,4 +1,4 @@
-// eval/simulation/texture/tissue_skin.cpp: texels in barycentric grids.
+// eval/simulation/texture/tissue_skin.cpp: texels on barycentric grids.
 #include "eval/simulation/texture/tissue_skin.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kMostCells = 256;  // along one edge of one triangle
+constexpr int kMostCells = 256;  // per triangle edge
 
 SkinSample blend(const TissuePoint& a, const TissuePoint& b, const TissuePoint& c, float wa,
                  float wb, float wc) {

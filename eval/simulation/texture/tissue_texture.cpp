@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-// Linear colours, chosen by eye against photographs of the abdomen.
+// Linear colours, selected by comparison with images of the abdomen.
 const Eigen::Vector3f kDeepRed(0.38F, 0.062F, 0.050F);
 const Eigen::Vector3f kPink(0.62F, 0.200F, 0.165F);
 const Eigen::Vector3f kFascia(0.70F, 0.36F, 0.30F);
@@ -24,8 +24,8 @@ const Eigen::Vector3f kPooledBlood(0.085F, 0.005F, 0.005F);
 const Eigen::Vector3f kVein(0.24F, 0.055F, 0.085F);
 const Eigen::Vector3f kMean(0.60F, 0.23F, 0.17F);
 
-constexpr float kSkin_mm = 0.6F;    // as thick as it shows at a lip
-constexpr float kBloody_mm = 2.7F;  // down a wound
+constexpr float kSkin_mm = 0.6F;    // visible thickness at a wound lip
+constexpr float kBloody_mm = 2.7F;  // depth of blood in a wound
 constexpr float kLobule_mm = 1.0F;
 constexpr float kFatLobule_mm = 2.6F;
 
@@ -55,7 +55,7 @@ TissueTexture::TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions
       mean_(picture_ ? picture_->mean() : kMean),
       vessels_(growVessels(rest_mesh, picture_ ? noVessels() : options.vessels, seed)) {
   options.validate();
-  options_.picture = {};  // `picture_` has what it needs of it
+  options_.picture = {};  // moved into `picture_`
 }
 
 TissueTexture::Layer TissueTexture::serosa(const Eigen::Vector3f& warped_mm,
@@ -88,11 +88,11 @@ TissueTexture::Layer TissueTexture::fat(const Eigen::Vector3f& warped_mm) const 
 
 float TissueTexture::fatShare(const Eigen::Vector3f& warped_mm) const {
   const float where = fractalNoise(warped_mm / 15, 3, seed_ + 8);
-  const float level = 0.34F - 0.68F * float(options_.fat);  // noise rarely leaves +-0.4
+  const float level = 0.34F - 0.68F * float(options_.fat);  // noise rarely exceeds +-0.4
   return options_.fat == 0 ? 0 : smoothStep(level - 0.04F, level + 0.13F, where);
 }
 
-/// A net of fine lines: where smooth noise crosses zero.
+/// Network of fine lines: zero crossings of smooth noise.
 float TissueTexture::capillaries(const Eigen::Vector3f& warped_mm) const {
   const float net = std::abs(smoothNoise(warped_mm / 1.1F, seed_ + 9));
   const float fine_net = std::abs(smoothNoise(warped_mm / 0.6F, seed_ + 10));
@@ -111,11 +111,11 @@ void TissueTexture::addVessels(Layer& layer, const Eigen::Vector3f& rest_mm) con
 float TissueTexture::bloodShare(const Eigen::Vector3f& warped_mm) const {
   if (options_.blood == 0) return 0;
   const float where = fractalNoise(warped_mm / 11, 4, seed_ + 14);
-  const float level = 0.34F - 0.68F * float(options_.blood);  // as with fat
+  const float level = 0.34F - 0.68F * float(options_.blood);  // as for fat
   return smoothStep(level, level + 0.05F, where);
 }
 
-/// Under the skin: red, bloodier and darker the deeper it lies, as less light finds its way there.
+/// Tissue below the skin: redder, bloodier and darker with depth, as less light reaches it.
 TissueTexture::Layer TissueTexture::flesh(const Eigen::Vector3f& rest_mm, float depth_mm) const {
   const float grain = fractalNoise(rest_mm / 1.3F, 3, seed_ + 15);
   const float fine = fractalNoise(rest_mm / 0.4F, 2, seed_ + 16);
@@ -137,7 +137,7 @@ TissueTexture::Layer TissueTexture::procedural(const Eigen::Vector3f& warped_mm,
   return layer;
 }
 
-/// The image shows no relief; bumps of our own break up the highlights.
+/// The image has no relief; additional bumps break up the highlights.
 TissueTexture::Layer TissueTexture::pictured(const Eigen::Vector3f& rest_mm,
                                              const Eigen::Vector3f& rest_normal) const {
   const float middle = fractalNoise(rest_mm / 3.2F, 3, seed_ + 2);
@@ -151,7 +151,7 @@ TissuePoint TissueTexture::at(const Eigen::Vector3f& rest_mm, const Eigen::Vecto
   Layer layer = picture_ ? pictured(rest_mm, rest_normal) : procedural(warped_mm, rest_mm);
   const float blood = bloodShare(warped_mm);
   layer.albedo = mix(layer.albedo, kFreshBlood, 0.93F * blood);
-  layer.relief_mm *= 1 - 0.7F * blood;  // it fills what is fine
+  layer.relief_mm *= 1 - 0.7F * blood;  // blood fills fine structures
   const float inside = smoothStep(0, kSkin_mm, depth_mm);
   if (inside > 0) {
     const Layer under = flesh(rest_mm, depth_mm);

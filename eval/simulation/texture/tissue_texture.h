@@ -1,4 +1,4 @@
-// eval/simulation/texture/tissue_texture.h: procedural colour of tissue at each surface point.
+// eval/simulation/texture/tissue_texture.h: procedural tissue colour per surface point.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +13,13 @@
 namespace softscope {
 
 struct TextureOptions {
-  double contrast = 1.0;  // 0: one colour all over, 1: as in a healthy abdomen
-  double fat = 0.3;       // share of the surface that fat covers, roughly
-  double wetness = 1.0;   // strength of highlights; 0: dull
-  double blood = 0;       // share of the surface under fresh blood, roughly
+  double contrast = 1.0;  // 0: uniform colour, 1: as in a healthy abdomen
+  double fat = 0.3;       // approximate share of the surface covered by fat
+  double wetness = 1.0;   // strength of highlights; 0: matt
+  double blood = 0;       // approximate share of the surface covered by fresh blood
   VesselOptions vessels;
-  ColourImage picture;     // empty: procedural tissue; else it stands for that, fat and vessels
-  double picture_mm = 50;  // its width on the tissue
+  ColourImage picture;     // empty: procedural tissue; else it replaces tissue, fat and vessels
+  double picture_mm = 50;  // width on the tissue
 
   /// Throws OptionError.
   void validate() const;
@@ -28,20 +28,20 @@ struct TextureOptions {
 /// One point of the tissue.
 struct TissuePoint {
   Eigen::Vector3f albedo =
-      Eigen::Vector3f::Zero();  // linear red, green, blue: share of light sent back
-  float relief_mm = 0;          // fine bumps that bend highlights, too small for the mesh
+      Eigen::Vector3f::Zero();  // linear red, green, blue: share of reflected light
+  float relief_mm = 0;          // fine bumps below the mesh resolution, for highlights
   float wetness = 0;
 };
 
-/// A solid texture: a function of the place in the undeformed tissue, so that it moves with it. A
-/// image also asks which way the surface faces there.
+/// Solid texture: a function of the position in the undeformed tissue, so it
+/// moves with the tissue. An image also depends on the normal of the surface.
 class TissueTexture {
  public:
-  /// `picture`: instead of procedural tissue.
+  /// `picture`: replaces procedural tissue.
   TissueTexture(const TriangleMesh& rest_mesh, const TextureOptions& options, std::uint64_t seed,
                 std::optional<PictureTexture> picture = std::nullopt);
 
-  /// `depth_mm`: below the skin, where a cut lays the tissue open; 0: skin.
+  /// `depth_mm`: depth below the skin inside a cut; 0: skin.
   TissuePoint at(const Eigen::Vector3f& rest_mm, const Eigen::Vector3f& rest_normal,
                  float depth_mm = 0) const;
 
@@ -63,7 +63,7 @@ class TissueTexture {
   TextureOptions options_;
   std::uint32_t seed_;
   std::optional<PictureTexture> picture_;
-  Eigen::Vector3f mean_;  // that contrast is measured from
+  Eigen::Vector3f mean_;  // reference of the contrast
   VesselMap vessels_;
 };
 

@@ -1,4 +1,4 @@
-// eval/simulation/texture/vessel_growth.cpp: walkers on the surface that leave segments behind.
+// eval/simulation/texture/vessel_growth.cpp: random walks on the surface that create segments.
 #include "eval/simulation/texture/vessel_growth.h"
 
 #include <Eigen/Geometry>
@@ -14,8 +14,8 @@ namespace softscope {
 namespace {
 
 constexpr float kThinnest_mm = 0.035F;
-constexpr std::size_t kMostSegments = 150000;  // a bound for huge surfaces
-constexpr float kAbove_mm = 2.0F;              // from where a walker looks down on the surface
+constexpr std::size_t kMostSegments = 150000;  // upper limit for large surfaces
+constexpr float kAbove_mm = 2.0F;              // height from which the surface is searched
 
 struct Place {
   Eigen::Vector3f point_mm, normal;
@@ -23,12 +23,12 @@ struct Place {
 
 struct Walker {
   Place place;
-  Eigen::Vector3f heading;  // unit length, along the surface
+  Eigen::Vector3f heading;  // unit length, tangential
   float radius_mm;
-  float left_mm;      // how far it still goes
+  float left_mm;      // remaining length
   float turn_per_mm;  // rad
   bool is_vein;
-  bool surfaces = false;  // a trunk that comes up from the depth
+  bool surfaces = false;  // trunk that emerges from below the surface
 };
 
 class Grower {
@@ -111,14 +111,14 @@ class Grower {
     }
   }
 
-  /// A trunk doesn't start with a cut end: it grows to its width as it comes up.
+  /// The radius of a trunk grows from zero at its start.
   static float shownRadius(const Walker& w, float total_mm) {
     if (!w.surfaces) return w.radius_mm;
     const float walked_mm = total_mm - w.left_mm;
     return w.radius_mm * std::min(1.0F, 0.1F + walked_mm / (12 * w.radius_mm));
   }
 
-  /// The turn per mm wanders back to zero, so that vessels wind without curling up.
+  /// Random curvature with mean zero: vessels wind without spirals.
   void turn(Walker& w, float step_mm) {
     const float liveliness = 0.25F + 0.05F / w.radius_mm;
     w.turn_per_mm += -0.5F * step_mm * w.turn_per_mm +
@@ -130,7 +130,7 @@ class Grower {
     w.heading = Eigen::AngleAxisf(angle_rad, w.place.normal) * w.heading;
   }
 
-  /// A step along the tangent, then down onto the surface; false where there is none.
+  /// Step along the tangent, then projection onto the surface; false without a surface.
   bool advance(Walker& w, float step_mm) const {
     const Eigen::Vector3f ahead = w.place.point_mm + step_mm * w.heading;
     const RayHit hit = tree_.cast(ahead + kAbove_mm * w.place.normal, -w.place.normal);
@@ -156,7 +156,7 @@ class Grower {
   std::vector<Eigen::Vector3f> normals_;
   RayTree tree_;
   SeededRandom random_;
-  std::vector<double> areas_;  // running sums, mm^2
+  std::vector<double> areas_;  // cumulative sums, mm^2
   std::vector<Walker> walkers_;
   std::vector<VesselSegment> segments_;
 };

@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-/// A short straight piece of a vessel on the rest surface.
+/// Straight segment of a vessel on the rest surface.
 struct VesselSegment {
   Eigen::Vector3f begin_mm, end_mm;
   float begin_radius_mm = 0, end_radius_mm = 0;
@@ -17,15 +17,15 @@ struct VesselSegment {
 };
 
 struct VesselOptions {
-  double trunk_spacing_mm = 11;  // between neighbouring trunks, roughly
-  double trunk_radius_mm = 0.5;  // of the widest
+  double trunk_spacing_mm = 11;  // approximate distance of neighbouring trunks
+  double trunk_radius_mm = 0.5;  // of the widest trunk
 
   /// Throws OptionError.
   void validate() const;
 };
 
-/// Trunks start at random places; arteries and veins run side by side, wind, taper and branch (the
-/// radii of the branches by Murray's law) down to capillaries of 0.035 mm.
+/// Trunks start at random positions; arteries and veins run in parallel, wind,
+/// taper and branch (radii by Murray's law) down to capillaries of 0.035 mm.
 std::vector<VesselSegment> growVessels(const TriangleMesh& rest_mesh, const VesselOptions& options,
                                        std::uint64_t seed);
 

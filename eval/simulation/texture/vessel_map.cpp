@@ -1,4 +1,4 @@
-// eval/simulation/texture/vessel_map.cpp: segments sorted into cubes.
+// eval/simulation/texture/vessel_map.cpp: grid of segments.
 #include "eval/simulation/texture/vessel_map.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kSmallestCell_mm = 0.7F;
 constexpr float kMostCellsPerSide = 160;
-constexpr float kSoftEdge_mm = 0.05F;  // vessels shine through a thin layer of tissue
+constexpr float kSoftEdge_mm = 0.05F;  // vessels are seen through a thin layer of tissue
 
 float reach_mm(const VesselSegment& s) {
   return std::max(s.begin_radius_mm, s.end_radius_mm) + kSoftEdge_mm;

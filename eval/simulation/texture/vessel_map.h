@@ -1,4 +1,4 @@
-// eval/simulation/texture/vessel_map.h: look-up of the vessel at a surface point.
+// eval/simulation/texture/vessel_map.h: vessel at a surface point.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace softscope {
 
-/// Of the vessels near a place the one that covers it most.
+/// Vessel with the largest coverage at a position.
 struct VesselCover {
-  float artery = 0;  // 0 (beside it) to 1 (on its axis)
+  float artery = 0;  // 0 (outside) to 1 (on its axis)
   float vein = 0;
-  float raised_mm = 0;  // how far the vessel lifts the surface
+  float raised_mm = 0;  // elevation of the surface by the vessel
 };
 
-/// Finds segments by a grid over their box.
+/// Search of segments by a grid over their box.
 class VesselMap {
  public:
   explicit VesselMap(std::vector<VesselSegment> segments);
@@ -30,7 +30,7 @@ class VesselMap {
   Eigen::Vector3f low_mm_ = Eigen::Vector3f::Zero();
   float cell_mm_ = 1;
   Eigen::Array3i cells_ = Eigen::Array3i::Zero();
-  std::vector<std::int32_t> begins_;  // of each cell in entries_, and the end of the last
+  std::vector<std::int32_t> begins_;  // first entry of each cell, and the total count
   std::vector<std::int32_t> entries_;
 };
 

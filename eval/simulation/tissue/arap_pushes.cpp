@@ -1,5 +1,5 @@
-// eval/simulation/tissue/arap_pushes.cpp: rotations by singular values, positions by one sparse
-// solve.
+// eval/simulation/tissue/arap_pushes.cpp: local
+// rotations by SVD, global positions by a sparse solve.
 #include "eval/simulation/tissue/arap_pushes.h"
 
 #include <Eigen/Geometry>
@@ -12,9 +12,9 @@
 namespace softscope {
 namespace {
 
-constexpr int kIterations = 6;   // of rotations and positions in turn; later ones move little
-constexpr double kTipHold = 30;  // of the tip's middle, in springs
-constexpr double kSixNeighbours = 1.5;  // a regular mesh's Laplacian is 1.5 edge^2 times space's
+constexpr int kIterations = 6;   // local and global steps; later ones have little effect
+constexpr double kTipHold = 30;  // stiffness at the centre of the tip, in units of the springs
+constexpr double kSixNeighbours = 1.5;  // a regular mesh's Laplacian is 1.5 edge^2 times
 
 std::vector<std::vector<std::int32_t>> neighboursOf(const TriangleMesh& mesh) {
   std::vector<std::vector<std::int32_t>> neighbours(mesh.vertices_mm.size());
@@ -58,7 +58,7 @@ ArapPushes::ArapPushes(const TriangleMesh& rest_mesh, double spread_mm)
   springs_.setFromTriplets(entries.begin(), entries.end());
 }
 
-/// (1 - (d / r)^2)^2 within the tip, so that nothing is torn at its rim.
+/// (1 - (d / r)^2)^2 within the tip, smooth at its border.
 Eigen::VectorXd ArapPushes::tipWeights(const Points& last_mm, int vertex) const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(last_mm.rows());
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
@@ -80,7 +80,7 @@ void ArapPushes::fitRotations(const Points& last_mm, const Points& now_mm) {
   });
 }
 
-/// What the rotated edges pull each vertex by.
+/// Force of the rotated edges on each vertex.
 ArapPushes::Points ArapPushes::edgeForces(const Points& last_mm) const {
   Points forces = Points::Zero(last_mm.rows(), 3);
   for (std::size_t i = 0; i < neighbours_.size(); ++i)

@@ -1,4 +1,4 @@
-// eval/simulation/tissue/organ_mesh.cpp: a cube's grid, blown up to an ellipsoid, lobed and folded.
+// eval/simulation/tissue/organ_mesh.cpp: cube grid projected to an ellipsoid, with lobes and folds.
 #include "eval/simulation/tissue/organ_mesh.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-/// Vertices of a grid on a cube's surface, one a lattice point, numbered as they are asked for.
+/// Vertices of a grid on the surface of a cube, one per lattice point, numbered on first use.
 class CubeGrid {
  public:
   explicit CubeGrid(int cells) : cells_(cells) {}
@@ -26,7 +26,7 @@ class CubeGrid {
   const std::vector<Eigen::Vector3d>& directions() const { return points_; }
 
  private:
-  /// The tangent keeps the cells' sizes alike over the sphere.
+  /// The tangent equalises cell sizes over the sphere.
   double warped(int i) const { return std::tan((2.0 * i / cells_ - 1) * M_PI / 4); }
   Eigen::Vector3d direction(int x, int y, int z) const {
     return Eigen::Vector3d(warped(x), warped(y), warped(z)).normalized();
@@ -42,12 +42,12 @@ void addQuad(TriangleMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c,
   mesh.triangles.push_back({a, c, d});
 }
 
-/// The six faces, each counter-clockwise as seen from outside.
+/// Six faces, counter-clockwise seen from outside.
 void addFaces(TriangleMesh& mesh, CubeGrid& grid, int n) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       for (const int w : {0, n}) {
-        const int i0 = w ? i : i + 1, i1 = w ? i + 1 : i;  // the far faces run the other way
+        const int i0 = w ? i : i + 1, i1 = w ? i + 1 : i;  // opposite faces have the opposite order
         addQuad(mesh, grid.vertex(i0, j, w), grid.vertex(i1, j, w), grid.vertex(i1, j + 1, w),
                 grid.vertex(i0, j + 1, w));
         addQuad(mesh, grid.vertex(w, i0, j), grid.vertex(w, i1, j), grid.vertex(w, i1, j + 1),
@@ -57,7 +57,7 @@ void addFaces(TriangleMesh& mesh, CubeGrid& grid, int n) {
       }
 }
 
-/// How far the surface stands out of the ellipsoid at a place on the unit sphere.
+/// Elevation above the ellipsoid at a position on the unit sphere.
 double reliefMm(const Eigen::Vector3f& d, const OrganOptions& options, std::uint32_t seed) {
   const float lobes = fractalNoise(1.6F * d, 2, seed);
   const Eigen::Vector3f warped = d + 0.18F * vectorNoise(2.5F * d, seed + 11);

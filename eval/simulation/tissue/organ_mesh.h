@@ -7,12 +7,12 @@
 
 namespace softscope {
 
-/// A closed, smooth, lobed body with shallow folds around the origin, mm.
+/// Closed, smooth, lobed body with shallow folds, centred at the origin, mm.
 struct OrganOptions {
-  double length_mm = 60;    // of the longest axis; the others are 0.88 and 0.6 of it
-  int cells_per_side = 58;  // of each of the cube's faces: about 6 n^2 vertices, 20,000 by default
-  double lobe_mm = 3.0;     // how far lobes stand out
-  double fold_mm = 1.4;     // how deep folds are
+  double length_mm = 60;    // longest axis; the others are 0.88 and 0.6 of it
+  int cells_per_side = 58;  // per face of the cube: about 6 n^2 vertices, 20,000 by default
+  double lobe_mm = 3.0;     // height of lobes
+  double fold_mm = 1.4;     // depth of folds
 
   /// Throws OptionError.
   void validate() const;

@@ -1,4 +1,4 @@
-// eval/simulation/tissue/tissue_body.cpp: vertices follow the organ; normals do too.
+// eval/simulation/tissue/tissue_body.cpp: vertices and normals interpolated from the organ.
 #include "eval/simulation/tissue/tissue_body.h"
 
 #include "eval/simulation/surface/surface_normals.h"

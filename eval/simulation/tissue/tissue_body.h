@@ -1,5 +1,5 @@
-// eval/simulation/tissue/tissue_body.h: the simulated organ: the surface of the tissue and the
-// walls of a wound.
+// eval/simulation/tissue/tissue_body.h: simulated organ with the walls of a
+// wound.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// A place on a triangle of the organ, or on one of its edges or vertices (the other shares are 0).
+/// Position on a triangle of the organ, or on one of its edges or vertices (other shares 0).
 struct OrganPlace {
   std::array<std::int32_t, 3> vertices;
   Eigen::Vector3f shares;  // sum 1
@@ -21,30 +21,30 @@ struct OrganPlace {
   }
 };
 
-/// What the organ became when it was cut, before anything moved: its triangles split along the
-/// cut, whose lips lie on each other, and walls between the lips. Closed where the organ was.
+/// Organ after the cut, before any motion: triangles split along the cut, whose
+/// lips coincide, and walls between the lips. Closed if the organ is closed.
 struct TissueBody {
-  TriangleMesh organ;              // as it was; its vertices are the first of `mesh`
+  TriangleMesh organ;              // before the cut; its vertices are the first of `mesh`
   TriangleMesh mesh;               // at rest: `skin` triangles first, then the walls
   std::size_t skin_triangles = 0;  // of mesh
-  // One a vertex of `mesh`; all empty where nothing was cut.
-  std::vector<OrganPlace> places;         // that it moves with: a wall's is at its lip
-  std::vector<float> depth_mm;            // 0: skin; else of a wall, below its lip
-  std::vector<Eigen::Vector3f> below_mm;  // from its place, at rest
-  std::vector<Eigen::Vector3f> gape_mm;   // how far the open wound moves it
+  // One per vertex of `mesh`; all empty without a cut.
+  std::vector<OrganPlace> places;         // on the organ: for a wall at its lip
+  std::vector<float> depth_mm;            // 0: skin; for a wall the depth below its lip
+  std::vector<Eigen::Vector3f> below_mm;  // offset from its place, at rest
+  std::vector<Eigen::Vector3f> gape_mm;   // displacement by the open wound
 
   static TissueBody whole(TriangleMesh organ);
 
-  /// `open`: 0 closed, 1 as wide as it gets. `organ_mm`: where the organ's vertices are now.
+  /// `open`: 0 closed, 1 fully open. `organ_mm`: current positions of the vertices of the organ.
   std::vector<Eigen::Vector3f> verticesAt(const std::vector<Eigen::Vector3f>& organ_mm,
                                           float open) const;
 
-  /// Normals of `vertices_mm`, as verticesAt() gives them in any frame; unit length, or as long as
-  /// interpolation makes them. The skin's are those of the organ's own triangles, as if the wound
-  /// were bridged: a closed one changes nothing.
+  /// Normals of `vertices_mm`, as returned by verticesAt() in
+  /// any frame; unit length, or interpolated. Skin normals are
+  /// those of the uncut organ: a closed wound changes nothing.
   std::vector<Eigen::Vector3f> normalsOf(const std::vector<Eigen::Vector3f>& vertices_mm) const;
 
-  /// What a ray can meet: walls that lie on each other, no ray tells apart.
+  /// Triangles for ray casting: without the coincident walls of a closed wound.
   std::vector<Triangle> visibleTriangles(float open) const;
 };
 

@@ -1,5 +1,5 @@
-// eval/simulation/tissue/tissue_deformation.cpp: closed forms of time, so any frame can be made
-// alone.
+// eval/simulation/tissue/tissue_deformation.cpp: closed
+// forms of time, so every frame can be computed separately.
 #include "eval/simulation/tissue/tissue_deformation.h"
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 namespace softscope {
 namespace {
 
-constexpr float kBreathingWave_mm = 45;  // breathing bends the tissue this gently
+constexpr float kBreathingWave_mm = 45;  // wavelength of breathing
 constexpr float kHeartReach_mm = 14;
-constexpr double kPushReach = 2.2;      // pushes land within this many spreads of the focus
-constexpr std::size_t kStatesKept = 5;  // so that going back a little costs nothing
-constexpr int kPushPeriods = 3;         // one to push, two to let go
+constexpr double kPushReach = 2.2;      // pushes are within this many spreads of the focus
+constexpr std::size_t kStatesKept = 5;  // cache for small steps back in time
+constexpr int kPushPeriods = 3;         // one for the push, two for the release
 
 float gaussian(float distance2, float spread) {
   return static_cast<float>(std::exp(-0.5 * distance2 / (spread * spread)));
@@ -28,7 +28,7 @@ double breathAt(double time_s, const PeriodicMotion& motion) {
   return 0.5 - 0.5 * std::cos(2 * M_PI * time_s / motion.period_s);
 }
 
-/// A quick contraction in the first two fifths of the period.
+/// Quick contraction in the first two fifths of the period.
 double beatAt(double time_s, const PeriodicMotion& motion) {
   const double phase = time_s / motion.period_s - std::floor(time_s / motion.period_s);
   if (phase >= 0.4) return 0;
@@ -68,7 +68,7 @@ TissueDeformation::TissueDeformation(const TriangleMesh& rest_mesh, const Eigen:
                             gaussian(distance2, kHeartReach_mm) * (middle_mm - p).normalized());
     if (distance2 < reach2) push_sites_.push_back(static_cast<std::int32_t>(i));
   }
-  if (push_sites_.empty()) push_sites_.push_back(0);  // a mesh coarser than the reach
+  if (push_sites_.empty()) push_sites_.push_back(0);  // mesh coarser than the reach
   if (options.push_kind == "arap" && options.push.amplitude_mm > 0)
     arap_ = std::make_unique<ArapPushes>(rest_mesh, options.push_spread_mm);
 }
@@ -92,7 +92,7 @@ std::vector<TissueDeformation::Push> TissueDeformation::pushesAt(double time_s) 
   return active;
 }
 
-/// Holds until the next call but one.
+/// Valid until the second next call.
 const std::vector<Eigen::Vector3f>& TissueDeformation::stateAfter(int pushes) {
   if (states_.empty() || pushes < oldest_) {
     oldest_ = 0;

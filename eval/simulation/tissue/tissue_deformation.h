@@ -13,7 +13,7 @@
 
 namespace softscope {
 
-/// A motion that comes back to rest after every period; amplitude 0 switches it off.
+/// Periodic motion from rest; amplitude 0: off.
 struct PeriodicMotion {
   double amplitude_mm = 0;
   double period_s = 1;
@@ -22,48 +22,48 @@ struct PeriodicMotion {
 struct DeformationOptions {
   PeriodicMotion breathing{2.0, 3.5};
   PeriodicMotion heartbeat{0.8, 0.9};
-  /// Pushes follow one another: each moves a random place by 0.8 to 1.2 amplitudes within a period.
+  /// Successive pushes, each at a random position by 0.8 to 1.2 amplitudes within one period.
   PeriodicMotion push{2.5, 0.8};
-  /// "gaussian": falls off smoothly, and is let go over the two periods after. "arap": from the
-  /// state that the last push left, spread as rigidly as possible, and never let go.
+  /// "gaussian": smooth decay around the position, released over the next two periods. "arap":
+  /// from the state after the last push, propagated as rigidly as possible, not released.
   std::string push_kind = "gaussian";
-  double push_spread_mm = 9;  // of the fall-off around the place
+  double push_spread_mm = 9;  // decay length around the position
 
   /// Throws OptionError.
   void validate() const;
 };
 
-/// Where each vertex is at any time; vertex i is the same tissue for ever. At 0 s the tissue rests.
+/// Positions of all vertices at any time; vertex i is always the same tissue. At rest at 0 s.
 class TissueDeformation {
  public:
-  /// Hearts beat and pushes land around `focus_mm`, where the scope looks. Same frame as the mesh.
+  /// Heartbeat and pushes are centred at `focus_mm`, the view target. In the frame of the mesh.
   TissueDeformation(const TriangleMesh& rest_mesh, const Eigen::Vector3f& focus_mm,
                     const DeformationOptions& options, std::uint64_t seed);
 
-  /// Pushes of kind "arap" need those before them: frames in order are the fast ones.
+  /// Pushes of kind "arap" depend on the earlier ones: ascending times are fast.
   std::vector<Eigen::Vector3f> verticesAt(double time_s);
 
  private:
   struct Push {
     std::int32_t vertex;
     Eigen::Vector3f site_mm;
-    Eigen::Vector3f shift_mm;  // at its height
+    Eigen::Vector3f shift_mm;  // maximum displacement
   };
   Push pushNumber(int number) const;
-  std::vector<Push> pushesAt(double time_s) const;  // those at work, shifted as far as they are now
+  std::vector<Push> pushesAt(double time_s) const;  // active pushes with their current displacement
   std::vector<Eigen::Vector3f> restingAt(
-      double time_s);  // pushed, but neither breathing nor beating
+      double time_s);  // with pushes, without breathing and heartbeat
   const std::vector<Eigen::Vector3f>& stateAfter(int pushes);
 
   DeformationOptions options_;
   std::uint64_t seed_;
   std::vector<Eigen::Vector3f> rest_mm_;
-  std::vector<Eigen::Vector3f> breathing_mm_;        // at full breath
-  std::vector<Eigen::Vector3f> heartbeat_mm_;        // at the height of a beat
-  std::vector<std::int32_t> push_sites_;             // vertices that may be pushed
-  std::unique_ptr<ArapPushes> arap_;                 // where pushes are of this kind
-  int oldest_ = 0;                                   // pushes behind states_.front()
-  std::deque<std::vector<Eigen::Vector3f>> states_;  // each one push further
+  std::vector<Eigen::Vector3f> breathing_mm_;        // at maximum inspiration
+  std::vector<Eigen::Vector3f> heartbeat_mm_;        // at the peak of a beat
+  std::vector<std::int32_t> push_sites_;             // vertices available for pushes
+  std::unique_ptr<ArapPushes> arap_;                 // for pushes of this kind
+  int oldest_ = 0;                                   // number of pushes before states_.front()
+  std::deque<std::vector<Eigen::Vector3f>> states_;  // one more push each
 };
 
 }  // namespace softscope

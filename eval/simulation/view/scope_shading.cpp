@@ -1,4 +1,4 @@
-// eval/simulation/view/scope_shading.cpp: one light, one surface point, one eye.
+// eval/simulation/view/scope_shading.cpp: shading of one surface point by one light.
 #include "eval/simulation/view/scope_shading.h"
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 namespace softscope {
 namespace {
 
-// Light seeps around edges, the red most of all.
+// Subsurface scattering around the terminator, strongest for red.
 const Eigen::Array3f kSeep(0.28F, 0.12F, 0.10F);
 const Eigen::Vector3f kSteel(0.30F, 0.31F, 0.33F);
-constexpr float kBrightest = 4;       // near the scope, in lights of the tissue's distance
-constexpr float kReflected = 0.028F;  // water, seen straight on
+constexpr float kBrightest = 4;       // limit near the scope, relative to that at the tissue
+constexpr float kReflected = 0.028F;  // water at normal incidence
 
-/// x^(2^doublings), by multiplication alone: fast and the same everywhere.
+/// x^(2^doublings), by multiplication only: fast and portable.
 float powerOfTwo(float x, int doublings) {
   for (int i = 0; i < doublings; ++i) x *= x;
   return x;
@@ -43,7 +43,7 @@ Eigen::Vector3f ScopeLight::shade(const LitPoint& point, const Eigen::Vector3f& 
   const float distance2 = std::max(to_light.squaredNorm(), 1.0F);
   const Eigen::Vector3f light = to_light / std::sqrt(distance2);
   const Eigen::Vector3f eye = (eye_mm - point.position_mm).normalized();
-  const float axial = std::max(-light.z(), 1e-4F);  // the beam points along +z
+  const float axial = std::max(-light.z(), 1e-4F);  // the optical axis of the light is +z
   const float strength = reference2_mm2_ / distance2 * (beam_ > 0 ? std::pow(axial, beam_) : 1.0F);
 
   const float facing = point.normal.dot(light);

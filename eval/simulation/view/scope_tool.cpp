@@ -1,4 +1,4 @@
-// eval/simulation/view/scope_tool.cpp: rays against capsules.
+// eval/simulation/view/scope_tool.cpp: intersection of rays with capsules.
 #include "eval/simulation/view/scope_tool.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace softscope {
 namespace {
 
-constexpr float kShaft_mm = 120;  // long enough to leave any image
+constexpr float kShaft_mm = 120;  // extends beyond any image
 
-/// A ray against a ball of radius r around c; the nearer side.
+/// Intersection with a sphere of radius r around c, near side.
 std::optional<float> meetBall(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                               const Eigen::Vector3f& centre, float radius) {
   const Eigen::Vector3f to_centre = centre - origin;
@@ -22,7 +22,7 @@ std::optional<float> meetBall(const Eigen::Vector3f& origin, const Eigen::Vector
   return (b - std::sqrt(root2)) / a;
 }
 
-/// Against the tube between the capsule's balls, where it is met between them.
+/// Intersection with the cylinder between the spheres of the capsule.
 std::optional<float> meetTube(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                               const Capsule& capsule) {
   const Eigen::Vector3f axis = capsule.to_mm - capsule.from_mm, from = origin - capsule.from_mm;

@@ -1,4 +1,4 @@
-// eval/simulation/view/scope_view.cpp: cast, paint what was seen, shade.
+// eval/simulation/view/scope_view.cpp: ray casting, texture evaluation, shading.
 #include "eval/simulation/view/scope_view.h"
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-/// Four rays a pixel, a quarter pixel off its centre.
+/// Four rays per pixel, offset by a quarter of a pixel.
 RayPacket raysOf(const ScopeEye& eye, int u, int v) {
   return {eye.ray(u - 0.25, v - 0.25), eye.ray(u + 0.25, v - 0.25), eye.ray(u - 0.25, v + 0.25),
           eye.ray(u + 0.25, v + 0.25)};
@@ -42,7 +42,7 @@ std::vector<std::int32_t> seenTriangles(const Raster<PacketHits>& hits, std::siz
   return list;
 }
 
-/// The slope in space of a relief that rises by the given heights along two edges.
+/// Gradient in space of a relief with the given changes along two edges.
 Eigen::Vector3f slopeOf(const Eigen::Vector3f& ab, const Eigen::Vector3f& ac, float rise_ab,
                         float rise_ac) {
   const float bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm();

@@ -1,5 +1,5 @@
-// eval/simulation/view/scope_view.h: image of one camera of the scope, rendered by ray casting of
-// the tissue.
+// eval/simulation/view/scope_view.h: image
+// of one camera of the scope by ray casting.
 #pragma once
 
 #include <vector>
@@ -15,51 +15,51 @@
 
 namespace softscope {
 
-/// The tissue at one moment, in the left camera's frame, ready for rays.
+/// Tissue at one time, in the left camera frame, prepared for ray casting.
 struct ScopeScene {
-  /// `open`: of the wound, 0 to 1.
+  /// `open`: opening of the wound, 0 to 1.
   ScopeScene(std::vector<Eigen::Vector3f> vertices_left_mm, const TissueBody& body, float open);
 
   std::vector<Eigen::Vector3f> vertices_mm;
-  const std::vector<Triangle>& triangles;  // the body's, which must outlive the scene
+  const std::vector<Triangle>& triangles;  // of the body, which must outlive the scene
   std::vector<Eigen::Vector3f> normals;
   RayTree tree;
 };
 
-/// One camera of the scope, in the left one's frame.
+/// Camera of the scope, in the frame of the left camera.
 struct ScopeEye {
   ScopeLens lens;
   Eigen::Vector3f centre_mm = Eigen::Vector3f::Zero();
   Eigen::Matrix3f left_from_eye = Eigen::Matrix3f::Identity();
 
-  /// Through a pixel, in the left camera's frame.
+  /// Ray through a pixel, in the frame of the left camera.
   Eigen::Vector3f ray(double u_px, double v_px) const {
     return left_from_eye * lens.ray(u_px, v_px).cast<float>();
   }
 };
 
-/// What is before the eye besides tissue, and what lights both.
+/// Instrument and light of the scene.
 struct ScopeSurroundings {
   const ScopeLight& light;
   double relief = 1;
   const ScopeTool& instrument;
 };
 
-/// Linear light, red green blue. Mean of 2 x 2 rays a pixel; black where nothing is.
-/// Paints what is new to `skin`.
+/// Linear light, red green blue. Mean of 2 x 2 rays per pixel;
+/// black without a surface. Evaluates new triangles of `skin`.
 Raster<Eigen::Vector3f> renderView(const ScopeScene& scene, TissueSkin& skin,
                                    const ScopeSurroundings& around, const ScopeEye& eye);
 
-/// What the ray through the centre of each pixel of the left camera meets.
+/// Intersections of the rays through the pixel centres of the left camera.
 Raster<RayHit> castCentres(const ScopeScene& scene, const ScopeLens& left);
 
-/// Of the tissue at such hits, interpolated between its vertices; 0 where nothing was met.
+/// Interpolated tissue normals at these intersections; 0 without an intersection.
 Raster<Eigen::Vector3f> normalsOf(const Raster<RayHit>& hits, const ScopeScene& scene);
 
-/// Non-zero where the instrument hides what such a ray would meet.
+/// Non-zero for pixels whose tissue is occluded by the instrument.
 Mask instrumentMask(const Raster<RayHit>& hits, const ScopeTool& instrument, const ScopeLens& left);
 
-/// Depth in mm of such hits, computed in double; NaN where nothing was met.
+/// Depth in mm of these intersections, computed in double; NaN without an intersection.
 Raster<float> depthOf(const Raster<RayHit>& hits, const ScopeScene& scene, const ScopeLens& left);
 
 }  // namespace softscope

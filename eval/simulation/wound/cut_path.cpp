@@ -1,4 +1,4 @@
-// eval/simulation/wound/cut_path.cpp: from the middle both ways.
+// eval/simulation/wound/cut_path.cpp: path from the centre in both directions.
 #include "eval/simulation/wound/cut_path.h"
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace softscope {
 namespace {
 
-constexpr float kLeastFacing = 0.4F;  // cosine between the line and its direction: 66 degrees
+constexpr float kLeastFacing = 0.4F;  // cosine of the angle between line and direction: 66 degrees
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-/// The edge of the lines that runs through the middle, its end further along last.
+/// Edge of the lines that contains the centre, its farther end last.
 Edge middleEdge(const SplittingMesh& mesh, const IncisionPlane& plane, const PlaneLines& lines) {
   Edge found{-1, -1};
   float nearest_mm = std::numeric_limits<float>::max();
@@ -44,13 +44,13 @@ std::string turnsAway(double length_mm) {
   return text.str();
 }
 
-/// One way along the plane from the edge (from, to).
+/// One direction along the plane from the edge (from, to).
 class Walk {
  public:
   Walk(SplittingMesh& mesh, const IncisionPlane& plane, const PlaneLines& lines, float sign)
       : mesh_(mesh), plane_(plane), lines_(lines), sign_(sign) {}
 
-  /// Appends vertices up to half of the length; the last one lies there, or at the vertex nearby.
+  /// Appends vertices up to half of the length; the last one is there, or at a vertex nearby.
   void go(std::int32_t from, std::int32_t to, double start_mm, CutPath& path) {
     const double end_mm = plane_.length_mm / 2;
     double here_mm = start_mm;
@@ -87,7 +87,7 @@ class Walk {
     if (best < 0) throw OptionError(turnsAway(plane_.length_mm));
     return best;
   }
-  /// The end lies `rest_mm` along the edge, which is split there unless that is at an end of it.
+  /// The end is `rest_mm` along the edge, which is split there unless it is close to a vertex.
   void finish(std::int32_t from, std::int32_t to, double rest_mm, CutPath& path) {
     const double share = rest_mm / length(from, to), end_mm = plane_.length_mm / 2;
     if (share >= 1 - kSnapShare) return append(to, end_mm, path);

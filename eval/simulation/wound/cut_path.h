@@ -1,4 +1,4 @@
-// eval/simulation/wound/cut_path.h: a straight line over a surface, as edges of the mesh.
+// eval/simulation/wound/cut_path.h: straight line on a surface as edges of the mesh.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace softscope {
 
-/// Vertices one after the other, each joined with the next by an edge.
+/// Sequence of vertices connected by edges.
 struct CutPath {
   std::vector<std::int32_t> vertices;
-  std::vector<double> along_mm;  // of each, from the middle: -length / 2 to length / 2
+  std::vector<double> along_mm;  // per vertex, from the centre: -length / 2 to length / 2
 };
 
-/// Splits the surface by the plane and follows that line as far as the cut goes. Throws OptionError
-/// where the surface turns away or the line comes back to itself, InputError where it meets an open
-/// edge.
+/// Splits the surface along the plane and follows the intersection
+/// for the length of the cut. Throws OptionError if the surface
+/// turns away or the line is closed, InputError at an open edge.
 CutPath layPath(SplittingMesh& mesh, const IncisionPlane& plane);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// eval/simulation/wound/gape_field.cpp: linear finite elements, one factor, two solutions.
+// eval/simulation/wound/gape_field.cpp: linear finite elements, one factorisation, two solutions.
 #include "eval/simulation/wound/gape_field.h"
 
 #include <Eigen/Geometry>
@@ -12,11 +12,11 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr double kFar = 1.6;  // lengths of the slit; (1 + r / reach) exp(-r / reach) is 2 % there
+constexpr double kFar = 1.6;  // in slit lengths; (1 + r / reach) exp(-r / reach) is 2 % there
 constexpr double kRigid = 1.5;
-constexpr double kScreen = 0.5;  // lengths; a bed holds the skin that firmly
+constexpr double kScreen = 0.5;  // in slit lengths; stiffness of the bed
 
-/// Vertices that may move: their rows in the equations, -1 for those that rest or are held.
+/// Free vertices: their rows in the equations, -1 for fixed ones.
 std::vector<int> rowsOf(const std::vector<Eigen::Vector3f>& vertices_mm,
                         const std::vector<Triangle>& skin,
                         const std::map<std::int32_t, double>& held, double length_mm, int& count) {
@@ -31,7 +31,7 @@ std::vector<int> rowsOf(const std::vector<Eigen::Vector3f>& vertices_mm,
   return rows;
 }
 
-/// Of corner k against the opposite side, as finite elements weigh that side.
+/// Cotangent weight of corner k for the opposite side.
 double cotangent(const std::vector<Eigen::Vector3f>& vertices_mm, const Triangle& t, int k) {
   const Eigen::Vector3d a = vertices_mm[t[k]].cast<double>();
   const Eigen::Vector3d b = vertices_mm[t[(k + 1) % 3]].cast<double>() - a;
@@ -44,10 +44,10 @@ double areaMm2(const std::vector<Eigen::Vector3f>& vertices_mm, const Triangle& 
   return 0.5 * (vertices_mm[t[1]] - a).cross(vertices_mm[t[2]] - a).norm();
 }
 
-/// -div grad u + u / screen^2 = f with u given on the lips, and 0 far away.
+/// -div grad u + u / screen^2 = f with u given on the lips, and 0 at a large distance.
 struct Membrane {
   Matrix stiffness;
-  Eigen::VectorXd mass, pull;  // a row each; what the held vertices pull
+  Eigen::VectorXd mass, pull;  // per row; force of the fixed vertices
 
   Membrane(const std::vector<Eigen::Vector3f>& vertices_mm, const std::vector<Triangle>& skin,
            const std::map<std::int32_t, double>& held, const std::vector<int>& rows, int count,
@@ -87,9 +87,9 @@ std::vector<double> gapeField(const std::vector<Eigen::Vector3f>& vertices_mm,
   if (count == 0) return field;
   const Membrane membrane(vertices_mm, skin, held, rows, count, kScreen * length_mm);
   const Eigen::SimplicialLDLT<Matrix> solver(membrane.stiffness);
-  // A lens as long as the slit falls off as exp(-r / reach), 1 / reach^2 = (pi / length)^2 +
-  // 1 / screen^2. Twice that bend of it would drive r / reach exp(-r / reach), which makes the lip
-  // rigid; a little less, and nothing moves further than the lip.
+  // A lens of the length of the slit decays as exp(-r / reach), 1 / reach^2 = (pi / length)^2
+  // + 1 / screen^2. Twice its curvature as the source gives r / reach exp(-r / reach), which
+  // makes the lip rigid; a slightly smaller value limits the displacement to that of the lip.
   const double bend = std::pow(M_PI / length_mm, 2) + std::pow(kScreen * length_mm, -2);
   const Eigen::VectorXd steep = solver.solve(membrane.pull);
   const Eigen::VectorXd driven = (kRigid * bend * membrane.mass.array() * steep.array()).matrix();

@@ -1,4 +1,4 @@
-// eval/simulation/wound/gape_field.h: displacement of the surface beside an opening wound.
+// eval/simulation/wound/gape_field.h: displacement of the surface around an opening wound.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +9,9 @@
 
 namespace softscope {
 
-/// Shares, one a vertex: those of `held` are given. Beside the lips of a slit of `length_mm` the
-/// skin follows, first nearly rigidly, then less and less: across, about as (1 + r / reach)
-/// exp(-r / reach) with a reach of 0.27 lengths, so without a kink at the lip; far away it rests.
+/// Shares, one per vertex: those of `held` are given. Around a slit of `length_mm` the
+/// skin follows, at first nearly rigidly, then decaying: across the slit about as (1 + r /
+/// reach) exp(-r / reach) with a reach of 0.27 lengths, smooth at the lip, zero far away.
 std::vector<double> gapeField(const std::vector<Eigen::Vector3f>& vertices_mm,
                               const std::vector<Triangle>& skin,
                               const std::map<std::int32_t, double>& held, double length_mm);

@@ -1,4 +1,4 @@
-// eval/simulation/wound/incision.cpp: where the blade enters, and whether it fits.
+// eval/simulation/wound/incision.cpp: entry point of the blade, and feasibility checks.
 #include "eval/simulation/wound/incision.h"
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 namespace softscope {
 namespace {
 
-constexpr double kSegments = 12;     // that a cut has at least, roughly
-constexpr float kLeastBelow_mm = 1;  // tissue that a cut leaves under itself
+constexpr double kSegments = 12;     // approximate minimum number of segments of a cut
+constexpr float kLeastBelow_mm = 1;  // minimum thickness of tissue below a cut
 constexpr float kUnderSkin_mm = 0.1F;
 
-/// The first tissue along the view at the cut's middle.
+/// First tissue along the view ray at the centre of the cut.
 RayHit entryOf(const RayTree& tree, const CutOptions& options, const Eigen::Vector3f& from_mm,
                const Eigen::Vector3f& forward) {
   const RayHit hit = tree.cast(from_mm, forward);
@@ -29,7 +29,7 @@ RayHit entryOf(const RayTree& tree, const CutOptions& options, const Eigen::Vect
   return hit;
 }
 
-/// Mean of the normals around a place that face as its own triangle does.
+/// Mean of the nearby normals that have the orientation of the triangle itself.
 Eigen::Vector3f outwardAround(const TriangleMesh& organ, const Eigen::Vector3f& middle_mm,
                               const Triangle& triangle, double length_mm) {
   const std::vector<Eigen::Vector3f> normals = vertexNormals(organ.vertices_mm, organ.triangles);
@@ -68,7 +68,7 @@ IncisionPlane planeOf(const TriangleMesh& organ, const RayTree& tree, const CutO
   return plane;
 }
 
-/// Depth of the cut below each vertex of its path.
+/// Depth of the cut at each vertex of its path.
 std::vector<double> depthsOf(const CutPath& path, const CutOptions& options) {
   std::vector<double> depths_mm;
   for (const double along_mm : path.along_mm) {

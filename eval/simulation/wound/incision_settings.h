@@ -1,4 +1,4 @@
-// eval/simulation/wound/incision_settings.h: keys, ranges and meanings of a cut's settings.
+// eval/simulation/wound/incision_settings.h: keys, ranges and meanings of the settings of a cut.
 #pragma once
 
 #include "core/setting_rules.h"

@@ -1,4 +1,4 @@
-// eval/simulation/wound/plane_split.cpp: sides of a plane, edge by edge.
+// eval/simulation/wound/plane_split.cpp: classification of edges against a plane.
 #include "eval/simulation/wound/plane_split.h"
 
 #include <Eigen/Geometry>
@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kNear = 0.75;  // lengths of the cut around its middle
+constexpr double kNear = 0.75;  // in lengths of the cut, around its centre
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
@@ -19,7 +19,7 @@ bool isNear(const SplittingMesh& mesh, const Triangle& triangle, const IncisionP
   return box.exteriorDistance(plane.middle_mm) < float(kNear * plane.length_mm);
 }
 
-/// Sorted, each once, the lower vertex first.
+/// Sorted, unique, lower vertex first.
 std::set<Edge> edgesNear(const SplittingMesh& mesh, const IncisionPlane& plane) {
   std::set<Edge> edges;
   for (const Triangle& t : mesh.triangles()) {
@@ -29,7 +29,7 @@ std::set<Edge> edgesNear(const SplittingMesh& mesh, const IncisionPlane& plane) 
   return edges;
 }
 
-/// Which vertices count as on the plane.
+/// Vertices on the plane, within a tolerance.
 class PlaneSides {
  public:
   PlaneSides(const SplittingMesh& mesh, const IncisionPlane& plane, const std::set<Edge>& edges) {
@@ -47,7 +47,7 @@ class PlaneSides {
   }
   bool on(std::int32_t vertex) const { return off_mm_[vertex] == 0; }
   bool crossed(std::int32_t a, std::int32_t b) const { return off_mm_[a] * off_mm_[b] < 0; }
-  /// Of the way from a to b, where the plane is met.
+  /// Position of the intersection between a and b, 0 to 1.
   float shareOf(std::int32_t a, std::int32_t b) const {
     const float way = off_mm_[a] - off_mm_[b];
     return way == 0 ? 0 : off_mm_[a] / way;
@@ -55,7 +55,7 @@ class PlaneSides {
   void addOnPlane() { off_mm_.push_back(0); }
 
  private:
-  std::vector<float> off_mm_;  // one a vertex
+  std::vector<float> off_mm_;  // one per vertex
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// eval/simulation/wound/splitting_mesh.cpp: triangles by their directed edges.
+// eval/simulation/wound/splitting_mesh.cpp: index of triangles by directed edges.
 #include "eval/simulation/wound/splitting_mesh.h"
 
 #include <sstream>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t kSeveral = -1;
 
-/// Both lie on one triangle of the organ, so three of its vertices are enough.
+/// Both are on one triangle of the organ, so three of its vertices are sufficient.
 OrganPlace between(const OrganPlace& a, const OrganPlace& b, float share) {
   OrganPlace place{a.vertices, (1 - share) * a.shares};
   for (int k = 0; k < 3; ++k) {
@@ -60,7 +60,7 @@ std::int32_t SplittingMesh::cornerOpposite(std::int32_t a, std::int32_t b) const
   return t[0];
 }
 
-/// (a, b, c) becomes (a, middle, c) and, new, (middle, b, c).
+/// (a, b, c) becomes (a, middle, c) and the new triangle (middle, b, c).
 void SplittingMesh::halve(std::int32_t a, std::int32_t b, std::int32_t middle) {
   const std::int32_t old = triangleAt(a, b), c = cornerOpposite(a, b);
   const auto added = static_cast<std::int32_t>(triangles_.size());
@@ -74,7 +74,7 @@ void SplittingMesh::halve(std::int32_t a, std::int32_t b, std::int32_t middle) {
 }
 
 std::int32_t SplittingMesh::split(std::int32_t a, std::int32_t b, double share) {
-  triangleAt(a, b);  // both or none
+  triangleAt(a, b);  // both triangles or none
   triangleAt(b, a);
   const auto middle = static_cast<std::int32_t>(vertices_mm_.size());
   const auto t = static_cast<float>(share);

@@ -1,5 +1,5 @@
-// eval/simulation/wound/splitting_mesh.h: a surface whose edges can be split without changing its
-// shape.
+// eval/simulation/wound/splitting_mesh.h: mesh
+// with edge splits that preserve its shape.
 #pragma once
 
 #include <unordered_map>
@@ -10,19 +10,19 @@
 
 namespace softscope {
 
-/// Vertices and triangles only ever are added; those that were there keep their numbers.
+/// Vertices and triangles are only added; existing ones keep their numbers.
 class SplittingMesh {
  public:
-  /// Throws InputError where a triangle names a vertex that isn't there.
+  /// Throws InputError for an invalid vertex index.
   explicit SplittingMesh(const TriangleMesh& organ);
 
-  /// Puts a vertex at a + share (b - a); both triangles of the edge become two. Returns its
-  /// number. Throws InputError where the edge hasn't two triangles that face alike.
+  /// Inserts a vertex at a + share (b - a); both adjacent triangles are split. Returns its
+  /// number. Throws InputError unless the edge has two consistently oriented triangles.
   std::int32_t split(std::int32_t a, std::int32_t b, double share);
 
-  /// The triangle that runs from a to b. Throws InputError where there isn't just one.
+  /// Triangle with the directed edge a to b. Throws InputError unless there is exactly one.
   std::int32_t triangleAt(std::int32_t a, std::int32_t b) const;
-  /// The corner of triangleAt(a, b) that is neither.
+  /// Third corner of triangleAt(a, b).
   std::int32_t cornerOpposite(std::int32_t a, std::int32_t b) const;
 
   const std::vector<Eigen::Vector3f>& vertices() const { return vertices_mm_; }
@@ -38,7 +38,7 @@ class SplittingMesh {
   std::vector<Eigen::Vector3f> vertices_mm_;
   std::vector<Triangle> triangles_;
   std::vector<OrganPlace> places_;
-  std::unordered_map<std::uint64_t, std::int32_t> triangle_at_;  // of directed edges; -1: several
+  std::unordered_map<std::uint64_t, std::int32_t> triangle_at_;  // by directed edge; -1: several
 };
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// eval/simulation/wound/wound_walls.cpp: fans, lips, walls, gape.
+// eval/simulation/wound/wound_walls.cpp: triangle fans, lips, walls and opening.
 #include "eval/simulation/wound/wound_walls.h"
 
 #include <Eigen/Geometry>
@@ -11,10 +11,10 @@
 namespace softscope {
 namespace {
 
-constexpr double kRound = 1.6;  // across: 1 a V, 2 a parabola
+constexpr double kRound = 1.6;  // exponent across the wound: 1 a V, 2 a parabola
 constexpr int kFewestRows = 4, kMostRows = 12;
 
-/// The triangles around `vertex` from the edge to `first` to the edge to `last`, against the clock.
+/// Triangles around `vertex` from the edge to `first` to the edge to `last`, counter-clockwise.
 std::vector<std::int32_t> fanOf(const SplittingMesh& mesh, std::int32_t vertex, std::int32_t first,
                                 std::int32_t last) {
   std::vector<std::int32_t> fan;
@@ -59,7 +59,7 @@ class WoundBuilder {
     return static_cast<std::int32_t>(body_.mesh.vertices_mm.size()) - 1;
   }
 
-  /// The left lip keeps the path's vertices, the right one gets new ones; both share its ends.
+  /// The left lip keeps the vertices of the path, the right one gets new ones; both share the ends.
   void partLips() {
     left_lip_ = right_lip_ = path_.vertices;
     for (int i = 1; i < last(); ++i) {
@@ -72,7 +72,7 @@ class WoundBuilder {
     }
   }
 
-  /// Rows of both walls from their lips to the line where they meet.
+  /// Rows of both walls from their lips to their common line.
   void hangWalls() {
     const double deepest_mm = *std::max_element(depths_mm_.begin(), depths_mm_.end());
     const double step_mm = plane_.length_mm / last();
@@ -94,8 +94,8 @@ class WoundBuilder {
     }
   }
 
-  /// Between two rows, against the clock from `lower` along the path and back along `upper`.
-  /// Triangles that would have no area at the path's ends are left out.
+  /// Triangles between two rows, counter-clockwise from `lower` along the
+  /// path and back along `upper`, without degenerate triangles at the ends.
   void addBand(const std::vector<std::int32_t>& lower, const std::vector<std::int32_t>& upper) {
     for (int i = 0; i < last(); ++i) {
       const std::int32_t a = lower[i], b = lower[i + 1], c = upper[i + 1], d = upper[i];
@@ -124,7 +124,7 @@ class WoundBuilder {
 
   struct Hanging {
     std::int32_t vertex, lip;
-    double share;  // of the lip's way
+    double share;  // of the displacement of the lip
   };
 
   const SplittingMesh& mesh_;
@@ -132,7 +132,7 @@ class WoundBuilder {
   const CutPath& path_;
   const std::vector<double>& depths_mm_;
   TissueBody body_;
-  std::vector<std::int32_t> left_lip_, right_lip_;  // one a vertex of the path
+  std::vector<std::int32_t> left_lip_, right_lip_;  // one per vertex of the path
   std::vector<Hanging> hanging_;
 };
 

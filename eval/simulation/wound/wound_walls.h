@@ -1,4 +1,4 @@
-// eval/simulation/wound/wound_walls.h: two lips where one line was, and what lies between them.
+// eval/simulation/wound/wound_walls.h: two lips along a path, with the walls between them.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// Doubles the path's inner vertices, so that each lip has its own, and hangs a wall on each lip;
-/// the two meet `depths_mm` below the path. Across, the open wound is a rounded V; along, a lens of
-/// `opening_mm` in its middle. `mesh`: of `organ`, split along the path.
+/// Duplicates the inner vertices of the path, so that each lip has its own, and adds one
+/// wall per lip; both walls meet `depths_mm` below the path. The open wound is a rounded
+/// V across, and a lens of `opening_mm` along. `mesh`: `organ` split along the path.
 TissueBody openWound(const TriangleMesh& organ, const SplittingMesh& mesh,
                      const IncisionPlane& plane, const CutPath& path,
                      const std::vector<double>& depths_mm, double opening_mm);
