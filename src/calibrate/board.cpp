@@ -91,7 +91,7 @@ double shortestSide(const CornerMap& corners, const BoardOptions& board) {
   return shortest;
 }
 
-/// Along a row or column of the board, from the neighbours that there are.
+/// Along a row or column of the board, from the available neighbours.
 std::optional<Eigen::Vector2d> directionAt(const CornerMap& corners, int id, int first, int last,
                                            int step) {
   const auto pixelOf = [&](int neighbour, bool is_there) {
@@ -103,7 +103,7 @@ std::optional<Eigen::Vector2d> directionAt(const CornerMap& corners, int id, int
   return along;
 }
 
-/// By the levels around each corner.
+/// Refines each corner by the fit of its intensities.
 void fitLevels(const GrayImage& image, const BoardOptions& board, int reach_px,
                std::vector<BoardCorner>* corners) {
   const CornerMap map = byId(*corners);
@@ -118,8 +118,8 @@ void fitLevels(const GrayImage& image, const BoardOptions& board, int reach_px,
   }
 }
 
-/// To where the gradients around it are at right angles to the way from it, then by the levels. The
-/// window holds no other corner and, of a ChArUco board, no marker.
+/// Moves corners to the position where gradients are orthogonal to the direction from it, then
+/// fits intensities. The window contains no other corner and, for a ChArUco board, no marker.
 void refine(const GrayImage& gray, const BoardOptions& board, std::vector<BoardCorner>* corners) {
   const cv::Mat image = viewOf(gray);
   double reach = shortestSide(byId(*corners), board) * 0.35;
@@ -145,7 +145,7 @@ double sampleAt(const GrayImage& image, const Eigen::Vector2d& p) {
          b * ((1 - a) * image.at(u, v + 1) + a * image.at(u + 1, v + 1));
 }
 
-/// Across the middle of the side from `a` to `b`; NaN at the image's rim.
+/// Across the midpoint of the side from `a` to `b`; NaN at the image border.
 double widthOfEdge(const GrayImage& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d side = b - a, across = Eigen::Vector2d(-side.y(), side.x()).normalized();
   const double reach = std::min(8.0, 0.4 * side.norm());

@@ -24,7 +24,7 @@ Eigen::Matrix3d turnBy(const Eigen::Vector3d& rotation) {
   return Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
 }
 
-/// A small turn from the left, then a shift.
+/// Applies a small rotation from the left, then a translation.
 void movePose(const Eigen::Vector3d& turn, const Eigen::Vector3d& shift, Eigen::Isometry3d* pose) {
   pose->linear() = turnBy(turn) * pose->linear();
   pose->linear() = Eigen::Quaterniond(pose->linear()).normalized().toRotationMatrix();
@@ -40,7 +40,7 @@ void addToCamera(const Eigen::Matrix<double, kCameraUnknowns, 1>& step, RawCamer
     camera->distortion.coefficients[k] += step[4 + static_cast<int>(k)];
 }
 
-/// Normal equations, the views' blocks apart.
+/// Normal equations with separate blocks per view.
 struct Normal {
   RigMatrix rig = RigMatrix::Zero();
   RigVector rig_side = RigVector::Zero();
@@ -90,7 +90,7 @@ double squaresOf(const BundleState& state) {
   return squares;
 }
 
-/// 1 for the unknowns that are free.
+/// 1 for free unknowns.
 RigVector freeUnknowns(const BundleOptions& options) {
   RigVector is_free = RigVector::Ones();
   for (const int camera : {0, kCameraUnknowns})
@@ -98,7 +98,7 @@ RigVector freeUnknowns(const BundleOptions& options) {
   return is_free;
 }
 
-/// Rows and columns of unknowns that aren't free become those of the identity.
+/// Replaces rows and columns of fixed unknowns by those of the identity.
 RigMatrix restricted(const RigMatrix& matrix, const RigVector& is_free) {
   RigMatrix out = is_free.asDiagonal() * matrix * is_free.asDiagonal();
   for (int i = 0; i < kRigUnknowns; ++i)
@@ -106,7 +106,7 @@ RigMatrix restricted(const RigMatrix& matrix, const RigVector& is_free) {
   return out;
 }
 
-/// The shared unknowns' equations without the poses, by `damping` times each diagonal heavier.
+/// Equations of the shared unknowns without the poses, with `damping` times each diagonal added.
 struct Reduced {
   RigMatrix matrix;
   RigVector side;
@@ -126,7 +126,7 @@ Reduced reduce(const Normal& normal, double damping, const RigVector& is_free) {
   return reduced;
 }
 
-/// Of a symmetric matrix whose unknowns have different units.
+/// For a symmetric matrix of unknowns with different units.
 RigMatrix scaledInverse(const RigMatrix& matrix) {
   const RigVector scale = matrix.diagonal().cwiseAbs().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   const Eigen::LDLT<RigMatrix> solver(scale.asDiagonal() * matrix * scale.asDiagonal());
@@ -176,16 +176,16 @@ Eigen::Vector2d projectWithLens(const RawCamera& camera, const Eigen::Vector3d& 
   const double x = point_mm.x() / point_mm.z(), y = point_mm.y() / point_mm.z();
   const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
   const double radial = 1 + k1 * r2 + k2 * r4 + k3 * r6;
-  const double slope = k1 + 2 * k2 * r2 + 3 * k3 * r4;  // of `radial` by r2
+  const double slope = k1 + 2 * k2 * r2 + 3 * k3 * r4;  // derivative of `radial` with respect to r2
   const double xd = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x);
   const double yd = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y;
   const double fx = pinhole.fx_px, fy = pinhole.fy_px;
   if (by_point) {
-    Eigen::Matrix2d bend;  // of (xd, yd) by (x, y)
+    Eigen::Matrix2d bend;  // derivative of (xd, yd) with respect to (x, y)
     bend << radial + 2 * x * x * slope + 2 * p1 * y + 6 * p2 * x,
         2 * x * y * slope + 2 * p1 * x + 2 * p2 * y, 2 * x * y * slope + 2 * p1 * x + 2 * p2 * y,
         radial + 2 * y * y * slope + 6 * p1 * y + 2 * p2 * x;
-    Eigen::Matrix<double, 2, 3> flatten;  // of (x, y) by the point
+    Eigen::Matrix<double, 2, 3> flatten;  // derivative of (x, y) with respect to the point
     flatten << 1, 0, -x, 0, 1, -y;
     *by_point = Eigen::Vector2d(fx, fy).asDiagonal() * bend * flatten / point_mm.z();
   }
@@ -248,7 +248,7 @@ BundleSummary adjustBundle(const BundleOptions& options, BundleState* state) {
     normal = normalOf(*state);
     damping = std::max(1e-12, damping / 10);
   }
-  if (damping >= 1e8) summary.converged = true;  // no step lowers the residual any more
+  if (damping >= 1e8) summary.converged = true;  // no step reduces the residual
   const int unknowns = static_cast<int>(is_free.sum()) + 6 * static_cast<int>(state->views.size());
   if (normal.observations <= unknowns)
     throw InputError("the views hold " + std::to_string(normal.observations) +

@@ -9,16 +9,16 @@
 namespace softscope {
 namespace {
 
-// px, py, angles of both normals, log of the blur, contrast, level, its slopes.
+// px, py, angles of both normals, log of the blur, contrast, level and its slopes.
 using CornerUnknowns = Eigen::Matrix<double, 9, 1>;
 using CornerMatrix = Eigen::Matrix<double, 9, 9>;
 enum Unknown { kU, kV, kAngle1, kAngle2, kLogBlur, kContrast, kLevel, kSlopeU, kSlopeV };
 
 constexpr int kMostSteps = 30;
-constexpr double kFoundPx = 1e-4;       // a smaller step of the corner ends the fit
+constexpr double kFoundPx = 1e-4;       // termination: smaller step of the corner
 constexpr double kLargestMovePx = 1.5;  // from the start
 constexpr double kLeastBlurPx = 0.2, kLargestBlurPx = 6;
-constexpr double kLeastContrast = 5;  // in levels, to either side
+constexpr double kLeastContrast = 5;  // in grey levels, on either side
 
 struct LeastSquares {
   CornerMatrix matrix = CornerMatrix::Zero();
@@ -33,7 +33,7 @@ struct Edge {
   double value, slope;
 };
 
-/// Pixels of the disc around `centre`; false where it leaves the image.
+/// Pixels of the disc around `centre`; false if it exceeds the image.
 template <class Take>
 bool forDisc(const GrayImage& image, const Eigen::Vector2d& centre, int reach_px, Take take) {
   const int u0 = static_cast<int>(std::lround(centre.x()));
@@ -48,7 +48,7 @@ bool forDisc(const GrayImage& image, const Eigen::Vector2d& centre, int reach_px
   return true;
 }
 
-/// Level that the unknowns predict, and its derivatives.
+/// Predicted grey level with its derivatives.
 double predicted(const CornerUnknowns& x, double u, double v, CornerUnknowns* slopes) {
   const double du = u - x[kU], dv = v - x[kV], blur = std::exp(x[kLogBlur]);
   const double c1 = std::cos(x[kAngle1]), s1 = std::sin(x[kAngle1]);
@@ -78,7 +78,7 @@ std::optional<LeastSquares> linearised(const GrayImage& image, const Eigen::Vect
   return sums;
 }
 
-/// Level and contrast at the start by linear least squares; the blur is one pixel.
+/// Initial level and contrast by linear least squares; the initial blur is one pixel.
 std::optional<CornerUnknowns> unknownsAt(const GrayImage& image, const CornerStart& start,
                                          int reach_px) {
   const auto normal = [](const Eigen::Vector2d& along) {

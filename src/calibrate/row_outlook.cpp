@@ -11,11 +11,11 @@
 namespace softscope {
 namespace {
 
-constexpr double kTwoSided95 = 1.959964;  // sigmas of a normal distribution
-constexpr int kAcross = 17, kDown = 13;   // of the grid, corners included
+constexpr double kTwoSided95 = 1.959964;  // in sigmas of a normal distribution
+constexpr int kAcross = 17, kDown = 13;   // grid size, including corners
 constexpr double kSamePixel = 0.01;
 
-/// The direction (z = 1) that a camera sees at a pixel; nothing where its lens model has none.
+/// Viewing direction (z = 1) of a pixel; none if the lens model is not invertible there.
 std::optional<Eigen::Vector3d> directionAt(const RawCamera& camera, const Eigen::Vector2d& pixel) {
   cv::Mat k;
   cv::eigen2cv(camera.pinhole.matrix(), k);
@@ -51,13 +51,13 @@ double rowSigmaPx(const CalibrationSolution& solution, const Eigen::Vector3d& po
   const BundleState& state = solution.state;
   const RigProjection left = projectThroughRig(state, point_left_mm, false);
   const RigProjection right = projectThroughRig(state, point_left_mm, true);
-  // With the left pixel as it is, an error of the unknowns moves the point, and that the right one.
+  // With a fixed left pixel, an error of the unknowns moves the point, and with it the right pixel.
   const Eigen::Matrix<double, 2, 3>& by_point = left.by_left_point;
   const Eigen::Matrix<double, 3, 2> point_by_pixel =
       by_point.transpose() * (by_point * by_point.transpose()).inverse();
   const Eigen::Matrix<double, 2, kRigUnknowns> right_by_rig =
       right.by_rig - right.by_left_point * point_by_pixel * left.by_rig;
-  // Without the right lens; only what is across the epipolar line is a difference of rows.
+  // Without the right lens; only the component across the epipolar line is a vertical disparity.
   const Eigen::Vector3d point_right_mm = state.right_from_left * point_left_mm;
   Eigen::Matrix<double, 2, 3> bend;
   projectWithLens(state.right, point_right_mm / point_right_mm.z(), &bend, nullptr);

@@ -1,4 +1,4 @@
-// src/calibrate/row_outlook.h: expected error of rows all over the image.
+// src/calibrate/row_outlook.h: expected vertical disparity over the whole image.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,12 +7,12 @@
 
 namespace softscope {
 
-/// Standard deviation of v_left - v_right after rectification, px, for a point in the left camera's
-/// frame: the calibration's own uncertainty, to first order; the noise of a match is not in it.
+/// Standard deviation of v_left - v_right after rectification, px, for a point in the left
+/// camera frame: uncertainty of the calibration to first order, without the noise of a match.
 double rowSigmaPx(const CalibrationSolution& solution, const Eigen::Vector3d& point_left_mm);
 
-/// Half widths of 95 % intervals of the row error, px, on a grid over the left image at the median
-/// distance of the boards, where the right camera sees the point too. NaN where none does.
+/// Half widths of 95 % intervals of the vertical disparity, px, on a grid over the left image at
+/// the median distance of the boards, for points visible to the right camera. NaN without any.
 struct RowOutlook {
   double distance_mm = 0;
   double median_95_px = 0;

@@ -13,7 +13,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kCornerMisfit = 6;  // in sigmas of one coordinate
+constexpr double kCornerMisfit = 6;  // rejection limit, in sigmas of one coordinate
 
 struct OneCamera {
   RawCamera camera;
@@ -70,7 +70,7 @@ OneCamera solveOne(const std::vector<BoardSighting>& sightings,
   return one;
 }
 
-/// Median over the views, of each component.
+/// Component-wise median over the views.
 Eigen::Isometry3d commonPose(const OneCamera& left, const OneCamera& right) {
   std::vector<double> values[6];
   for (std::size_t i = 0; i < left.camera_from_board.size(); ++i) {
@@ -115,7 +115,7 @@ std::string twoDigits(double value) {
   return text.substr(0, text.find('.') + 3);
 }
 
-/// Takes out views, then single corners, that the solution does not explain. Returns whether any.
+/// Removes views, then single corners, with too large residuals. Returns true if any was removed.
 bool leaveOutMisfits(double misfit_ratio, double sigma_px, std::vector<int>* frames,
                      CalibrationSolution* solution) {
   BundleState& state = solution->state;
@@ -132,7 +132,7 @@ bool leaveOutMisfits(double misfit_ratio, double sigma_px, std::vector<int>* fra
     frames->erase(frames->begin() + static_cast<std::ptrdiff_t>(i));
     any = true;
   }
-  if (any) return true;  // their corners have distorted sigma
+  if (any) return true;  // sigma must be estimated again without them
   for (BundleView& view : state.views) {
     const std::vector<Eigen::Vector2d> residuals = residualsOf(state, view);
     std::vector<BundlePoint> kept;

@@ -1,4 +1,4 @@
-// src/calibrate/stereo_solver.h: from the corners of a board to a stereo calibration.
+// src/calibrate/stereo_solver.h: stereo calibration from detected corners.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace softscope {
 
 struct SolveOptions {
   BundleOptions bundle;
-  double misfit_ratio = 3;  // a view whose RMS exceeds this times the median is left out
+  double misfit_ratio = 3;  // a view with an RMS above this multiple of the median is rejected
 
   /// Throws OptionError.
   void validate() const;
@@ -20,16 +20,16 @@ struct SolveOptions {
 struct SolvedView {
   int frame = 0;
   double rms_px = 0;
-  double tilt_deg = 0;     // of the board against the image plane
-  double distance_mm = 0;  // of the board's middle, along the optical axis
+  double tilt_deg = 0;     // of the board relative to the image plane
+  double distance_mm = 0;  // of the centre of the board, along the optical axis
 };
 
 struct CalibrationSolution {
   BundleState state;  // one view per entry of `views`
   BundleSummary summary;
   std::vector<SolvedView> views;
-  std::vector<LeftOutView> left_out;  // views that did not fit
-  int corners_left_out = 0;           // single corners that did not fit
+  std::vector<LeftOutView> left_out;  // rejected views
+  int corners_left_out = 0;           // number of rejected corners
 
   /// Lengths in mm; not rectified.
   StereoCalibration calibration() const;
@@ -37,9 +37,9 @@ struct CalibrationSolution {
 
 inline constexpr int kLeastViews = 3;
 
-/// Each camera by itself (calib3d's calibrateCamera), then everything jointly; then once more
-/// without what did not fit. Throws InputError for fewer than three views, and where these do not
-/// determine the cameras.
+/// Calibrates each camera (calibrateCamera of calib3d), then both
+/// jointly; then again without rejected data. Throws InputError for
+/// fewer than three views, and if they do not determine the cameras.
 CalibrationSolution solveStereo(const std::vector<BoardSighting>& sightings,
                                 const BoardOptions& board, int width_px, int height_px,
                                 const SolveOptions& options = {});

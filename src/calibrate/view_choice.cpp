@@ -19,7 +19,7 @@ std::string oneDigit(double value) {
   return text.str();
 }
 
-/// Mean distance of the corners that both have in the left image; infinite where these are few.
+/// Mean displacement of the common corners in the left image; infinite for too few.
 double shiftPx(const BoardSighting& a, const BoardSighting& b) {
   std::map<int, Eigen::Vector2d> pixels;
   for (const BoardCorner& corner : a.left) pixels[corner.id] = corner.pixel;
@@ -34,7 +34,7 @@ double shiftPx(const BoardSighting& a, const BoardSighting& b) {
   return common < 4 ? std::numeric_limits<double>::infinity() : sum / common;
 }
 
-/// Edge width that a quarter of the views stay below.
+/// First quartile of the edge widths.
 double sharpWidth(const std::vector<BoardSighting>& sightings) {
   std::vector<double> widths;
   for (const BoardSighting& sighting : sightings) widths.push_back(sighting.edge_width_px);
@@ -79,7 +79,7 @@ ViewChoice chooseViews(const std::vector<BoardSighting>& sightings,
     else
       choice.used.push_back(i);
   }
-  // Farthest first: each next view is the one most unlike all before.
+  // Farthest point sampling: each next view has the largest distance to all selected ones.
   if (choice.used.size() > static_cast<std::size_t>(options.most_views)) {
     std::vector<std::size_t> kept{choice.used.front()},
         rest(choice.used.begin() + 1, choice.used.end());

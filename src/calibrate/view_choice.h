@@ -1,4 +1,4 @@
-// src/calibrate/view_choice.h: which images of a board a calibration uses.
+// src/calibrate/view_choice.h: selection of the images of a board for a calibration.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace softscope {
 
-/// The board in both images of one moment.
+/// Board in both images of one time.
 struct BoardSighting {
   int frame = 0;
   std::vector<BoardCorner> left, right;
-  double edge_width_px = 0;  // of the blurrier view
+  double edge_width_px = 0;  // of the view with more blur
 };
 
 struct ViewChoiceOptions {
-  double blur_ratio = 1.6;     // edges wider than this times the sharp quarter's: blurred
-  double least_shift_px = 10;  // corners moved less, on average, since a used view: doubled
+  double blur_ratio = 1.6;     // blurred: edges wider than this multiple of the first quartile
+  double least_shift_px = 10;  // duplicate: corners moved less since a selected view
   int most_views = 60;
 
   /// Throws OptionError.
@@ -35,7 +35,7 @@ struct ViewChoice {
   std::vector<LeftOutView> left_out;
 };
 
-/// Of alike views the sharpest is used; where too many remain, those most unlike each other.
+/// Of similar views the sharpest is selected; of too many, the most different ones.
 ViewChoice chooseViews(const std::vector<BoardSighting>& sightings,
                        const ViewChoiceOptions& options = {});
 

@@ -1,4 +1,4 @@
-// src/core/camera.h: pinhole camera: projection of points in mm to pixels and back-projection.
+// src/core/camera.h: pinhole camera: projection of points in mm to pixels, and back-projection.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// A camera without distortion. Camera frame: x right, y down, z forward, mm.
+/// Camera without distortion. Camera frame: x right, y down, z forward, mm.
 struct PinholeCamera {
   int width_px = 0;
   int height_px = 0;
@@ -24,7 +24,7 @@ struct PinholeCamera {
   }
 };
 
-/// Pixel (u, v) of a point in the camera's frame. The caller ensures z > 0.
+/// Pixel (u, v) of a point in the camera frame. Requires z > 0.
 template <class Scalar>
 SOFTSCOPE_HD inline Eigen::Matrix<Scalar, 2, 1> projectPoint(
     const PinholeCamera& camera, const Eigen::Matrix<Scalar, 3, 1>& point_mm) {
@@ -33,7 +33,7 @@ SOFTSCOPE_HD inline Eigen::Matrix<Scalar, 2, 1> projectPoint(
           Scalar(camera.fy_px) * point_mm.y() * inverse_z + Scalar(camera.cy_px)};
 }
 
-/// Point in the camera's frame, mm, that pixel (u, v) sees at `depth_mm` along the optical axis.
+/// Point in the camera frame, mm, of pixel (u, v) at `depth_mm` along the optical axis.
 template <class Scalar>
 SOFTSCOPE_HD inline Eigen::Matrix<Scalar, 3, 1> liftPixel(const PinholeCamera& camera, Scalar u_px,
                                                           Scalar v_px, Scalar depth_mm) {
@@ -41,8 +41,8 @@ SOFTSCOPE_HD inline Eigen::Matrix<Scalar, 3, 1> liftPixel(const PinholeCamera& c
           (v_px - Scalar(camera.cy_px)) / Scalar(camera.fy_px) * depth_mm, depth_mm};
 }
 
-/// How a real lens bends the image: OpenCV's model, in OpenCV's order
-/// k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 (rational, tangential, thin prism). Zero = no distortion.
+/// Lens distortion in OpenCV's model and order k1 k2 p1 p2 k3 k4 k5 k6
+/// s1 s2 s3 s4 (rational, tangential, thin prism). Zero = no distortion.
 struct LensDistortion {
   std::array<double, 12> coefficients{};
 
@@ -53,7 +53,7 @@ struct LensDistortion {
   }
 };
 
-/// A camera as calibrated, before rectification.
+/// Calibrated camera before rectification.
 struct RawCamera {
   PinholeCamera pinhole;
   LensDistortion distortion;

@@ -1,4 +1,4 @@
-// src/core/decimal_number.h: the one way from a word of a file or command line to a number.
+// src/core/decimal_number.h: locale-independent parsing of numbers.
 #pragma once
 
 #include <charconv>
@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// The whole word as a number, whatever the locale: 1, -.5, 5., +3e-2; of floating-point numbers
-/// also nan and inf. Nothing else is one: no hexadecimal number, no decimal comma, nothing behind
-/// the number, none that `Number` can't hold.
+/// Parses the whole word: 1, -.5, 5., +3e-2; for floating-point
+/// types also nan and inf. Other forms are rejected: hexadecimal,
+/// decimal comma, trailing characters, out of range of `Number`.
 template <class Number>
 std::optional<Number> decimalNumber(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);

@@ -7,32 +7,32 @@
 
 namespace softscope {
 
-/// Any failure that softscope reports: where, what was found, what was expected, what to do; names
-/// settings as a program gives them (`save_every=`). Libraries throw, only apps print and exit.
+/// Failure reported by softscope: where, what was found, what was expected, what to do; settings
+/// are named as in the library (`save_every=`). Libraries throw; only apps print and exit.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A wrong option, argument or settings key (exit code 2).
+/// Wrong option, argument or settings key (exit code 2).
 class OptionError : public Error {
  public:
   using Error::Error;
 };
 
-/// A file or folder that is missing, broken or implausible (exit code 3).
+/// Missing, damaged or implausible file or folder (exit code 3).
 class InputError : public Error {
  public:
   using Error::Error;
 };
 
-/// A back end or renderer that this build or machine lacks (exit code 4).
+/// Back end or renderer missing in this build or on this machine (exit code 4).
 class BackendError : public Error {
  public:
   using Error::Error;
 };
 
-/// Throws OptionError naming the field, its value and the rule it breaks.
+/// Throws OptionError with the field, its value and the violated rule.
 template <class Value>
 void require(bool holds, const std::string& field, const Value& value, const std::string& rule) {
   if (holds) return;

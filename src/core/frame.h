@@ -1,4 +1,4 @@
-// src/core/frame.h: images, masks and time of one moment of a sequence.
+// src/core/frame.h: images, masks and time of one frame of a sequence.
 #pragma once
 
 #include <limits>
@@ -10,10 +10,10 @@ namespace softscope {
 
 struct Frame {
   int index = 0;                                             // position in the sequence, from 0
-  double time_s = std::numeric_limits<double>::quiet_NaN();  // NaN where the sequence gives none
+  double time_s = std::numeric_limits<double>::quiet_NaN();  // NaN without timestamps
   StereoPair pair;
-  Mask mask;               // empty where the sequence has none
-  Raster<float> depth_mm;  // from depth/NNNNNN; NaN = unmeasured; empty where there is none
+  Mask mask;               // empty without masks
+  Raster<float> depth_mm;  // from depth/NNNNNN; NaN = unmeasured; empty without depth files
 };
 
 }  // namespace softscope

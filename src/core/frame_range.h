@@ -3,15 +3,15 @@
 
 namespace softscope {
 
-/// Frames begin, begin + step, …, below end, without those that are held out.
+/// Frames begin, begin + step, …, below end, without held-out frames.
 struct FrameRange {
   int begin = 0;
-  int end = -1;  // -1 = to the last
+  int end = -1;  // -1 = to the last frame
   int step = 1;
   int hold_out_every = 0;  // frames 1, n + 1, 2n + 1, … of the sequence are held out; 0: none
 
   bool holdsOut(int frame) const { return hold_out_every > 0 && frame % hold_out_every == 1; }
-  /// How many frames; `end` must be known.
+  /// Number of frames; `end` must be known.
   int count() const {
     int frames = 0;
     for (int frame = begin; frame < end; frame += step) frames += !holdsOut(frame);

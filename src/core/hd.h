@@ -1,10 +1,10 @@
-// src/core/hd.h: marks the formulas that both the CPU and the GPU compile.
+// src/core/hd.h: macros of formulas for both CPU and GPU.
 #pragma once
 
 #ifdef __CUDACC__
 #define SOFTSCOPE_HD __host__ __device__
-/// A formula over any scalar or SIMD vector. Always inlined, so that no instruction set leaks out
-/// of its own object file.
+/// Formula over any scalar or SIMD vector. Always inlined, so that
+/// code of one instruction set stays inside its own object file.
 #define SOFTSCOPE_FORMULA __host__ __device__ __forceinline__
 #else
 #define SOFTSCOPE_HD

@@ -5,7 +5,7 @@
 namespace softscope {
 namespace {
 
-/// Each pixel from the four that it covers.
+/// Combines blocks of four pixels.
 template <class Merge>
 Raster<std::uint8_t> halvedBy(const Raster<std::uint8_t>& fine, const Merge& merge) {
   Raster<std::uint8_t> half(fine.width_px / 2, fine.height_px / 2);

@@ -12,7 +12,7 @@ void addRow(const std::uint8_t* from, int width, std::uint8_t* to) {
   for (int u = 0; u < width; ++u) to[u] |= from[u];
 }
 
-/// out[u] = 1 where one of in[u - radius .. u + radius] is marked; `padded` is scratch.
+/// out[u] = 1 if one of in[u - radius .. u + radius] is marked; `padded` is scratch memory.
 void dilateRow(const std::uint8_t* in, int width, int radius, std::vector<std::uint8_t>& padded,
                std::uint8_t* out) {
   padded.assign(static_cast<std::size_t>(width + 2 * radius), 0);

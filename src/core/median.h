@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// The upper one of the two middle values of an even count; NaN of an empty list.
+/// The upper of the two middle values for an even count; NaN for an empty list.
 template <class Number>
 Number medianOf(std::vector<Number> values) {
   if (values.empty()) return std::numeric_limits<Number>::quiet_NaN();
@@ -17,8 +17,8 @@ Number medianOf(std::vector<Number> values) {
   return *middle;
 }
 
-/// The number of rank floor(share * (count - 1)), 0: the least; `share` 0 to 1. NaN of an empty
-/// list.
+/// Value of rank floor(share * (count - 1)), where rank 0 is
+/// the smallest; `share` from 0 to 1. NaN for an empty list.
 template <class Number>
 Number quantileOf(std::vector<Number> values, double share) {
   if (values.empty()) return std::numeric_limits<Number>::quiet_NaN();

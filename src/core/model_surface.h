@@ -1,4 +1,4 @@
-// src/core/model_surface.h: a model as a surface, for export to other programs.
+// src/core/model_surface.h: model as a surface, for export to other programs.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace softscope {
 
-/// Points, and the triangles between them; points alone where there are none.
+/// Points with triangles; without triangles a point cloud.
 struct ModelSurface {
   PointCloud vertices;
   std::vector<Triangle> triangles;
-  std::string space;  // "LPS", "RAS", or empty where nothing says it
-  std::string frame;  // "world", "left" … where it lies in a scope's frame; else empty
+  std::string space;  // "LPS", "RAS", or empty if unknown
+  std::string frame;  // camera frame "world", "left" …; else empty
 };
 
-/// In which a file's lengths are.
+/// Unit of the lengths in a file.
 struct LengthUnit {
   std::string name = "mm";
-  double mm = 1;  // how long it is
+  double mm = 1;  // length of the unit
 };
 
 }  // namespace softscope

@@ -5,7 +5,7 @@
 namespace softscope {
 namespace {
 
-// Longer names are no misspellings; the cap bounds the work.
+// Limit of the work; longer names are not misspellings.
 constexpr std::size_t kLongestName = 200;
 
 std::string lowerCase(std::string_view text) {
@@ -25,7 +25,7 @@ int allowed(std::string_view name) { return std::max(2, static_cast<int>(name.si
 }  // namespace
 
 int editDistance(std::string_view a, std::string_view b) {
-  // Optimal string alignment: three rows of the usual table are enough.
+  // Optimal string alignment with three rows of the table.
   std::vector<int> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) above[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -51,7 +51,7 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
   for (const std::string& candidate : known) {
     const std::string lower = lowerCase(candidate);
     const int whole = editDistance(wanted, lower);
-    // A right last part under a wrong or missing head is as good as two wrong letters.
+    // A correct last part with a wrong or missing first part counts like two wrong letters.
     const int part = editDistance(wanted_part, lastPart(lower)) + 2;
     const int distance = std::min(whole <= allowed(wanted) ? whole : 1 << 20,
                                   part - 2 <= allowed(wanted_part) ? part : 1 << 20);

@@ -1,4 +1,4 @@
-// src/core/nearest_name.h: nearest known name of a misspelt one.
+// src/core/nearest_name.h: nearest known name of a misspelt name.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace softscope {
 
-/// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`.
+/// Number of insertions, deletions, substitutions and swaps of neighbours between `a` and `b`.
 int editDistance(std::string_view a, std::string_view b);
 
-/// The known name that is nearest, in letters or by its last part after a dot; the first of equals.
-/// Empty where none is near: more than a third of the letters would have to change.
+/// Nearest known name, by letters or by its last part after a dot; the
+/// first of equals. Empty if more than a third of the letters differ.
 std::string nearestName(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/core/parallel.h: loops over all cores with results that do not depend on their number.
+// src/core/parallel.h: parallel loops with results independent of the number of threads.
 #pragma once
 
 #include <functional>
@@ -6,11 +6,11 @@
 
 namespace softscope {
 
-/// Calls body(begin, end) over disjoint ranges that cover [0, count). Deterministic as long as
-/// body writes only what belongs to its own range. `grain` is the smallest range worth a task.
+/// Calls body(begin, end) over disjoint ranges that cover [0, count). Deterministic
+/// if body writes only to its own range. `grain`: smallest range per task.
 void parallelRanges(int count, int grain, const std::function<void(int begin, int end)>& body);
 
-/// A grain for loops over a point model.
+/// Grain of loops over a point model.
 inline constexpr int kPointsATask = 4096;
 
 /// Calls body(v) for every row v of [0, rows).
@@ -21,10 +21,10 @@ void parallelRows(int rows, const Body& body) {
   });
 }
 
-/// Runs both, at the same time where there are cores for it.
+/// Calls both, in parallel if cores are available.
 void parallelInvoke(const std::function<void()>& first, const std::function<void()>& second);
 
-/// In its scope, at most `threads` threads work (0 = as many as there are cores).
+/// Limits the number of working threads in its scope (0 = number of cores).
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -37,7 +37,7 @@ class ThreadLimit {
   std::unique_ptr<Control> control_;
 };
 
-/// How many threads would work now.
+/// Current number of working threads.
 int threadCount();
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/core/point_model.h: surface points of the tissue with normal, colour, weight and binding.
+// src/core/point_model.h: surface points with normal, colour, weight, skinning weights.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,25 +11,25 @@
 
 namespace softscope {
 
-/// How many nodes of the warp graph carry one point: the paper's k.
+/// Number of nodes of the warp graph per point: k of the paper.
 constexpr int kNodesPerPoint = 4;
 
-/// Which nodes carry a point, and how strongly. 20 bytes.
+/// Skinning weights of a point. 20 bytes.
 struct PointBinding {
   static constexpr std::int32_t kUnbound = -1;
   std::int32_t stencil = kUnbound;              // index into WarpGraph::stencils
-  std::array<float, kNodesPerPoint> weights{};  // in the stencil's order, sum 1; 0 in unused slots
+  std::array<float, kNodesPerPoint> weights{};  // sum 1; 0 for unused slots
 
   bool bound() const { return stencil != kUnbound; }
 };
 
-/// N points, mm, in the world frame. Structure of arrays, each N long; 64 bytes a point.
+/// N points, mm, in the world frame. Structure of arrays of size N; 64 bytes per point.
 struct PointModel {
   std::vector<Eigen::Vector3f> positions_mm;
-  std::vector<Eigen::Vector3f> normals;  // unit length, out of the tissue
+  std::vector<Eigen::Vector3f> normals;  // unit length, outward
   std::vector<Rgb8> colours;
-  std::vector<std::uint8_t> anchors;  // brightness as the point first looked: docs/fusion.md (F24)
-  std::vector<float> weights;         // how often, and how well, the point was seen
+  std::vector<std::uint8_t> anchors;  // reference intensities: docs/fusion.md (F24)
+  std::vector<float> weights;         // accumulated inverse variance
   std::vector<PointBinding> bindings;
 
   std::size_t size() const { return positions_mm.size(); }
@@ -44,7 +44,7 @@ struct PointModel {
     bindings.reserve(count);
   }
 
-  /// The new point is unbound until the graph has grown over it.
+  /// The new point is unbound until the graph is extended.
   void add(const Eigen::Vector3f& position_mm, const Eigen::Vector3f& normal, Rgb8 colour,
            float weight) {
     positions_mm.push_back(position_mm);

@@ -1,4 +1,4 @@
-// src/core/raster.h: a two-dimensional array with one value per pixel.
+// src/core/raster.h: two-dimensional array with one value per pixel.
 #pragma once
 
 #include <cstddef>

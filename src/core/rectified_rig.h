@@ -1,4 +1,4 @@
-// src/core/rectified_rig.h: the ideal pair of cameras after rectification.
+// src/core/rectified_rig.h: ideal camera pair after rectification.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// The ideal pair after rectification: parallel axes, rows aligned, one focal length.
-/// A point at depth z appears in the right image at
-///   u_right = u_left - disparity,  z = focal_px * baseline_mm / (disparity + disparity_offset_px).
+/// Ideal pair after rectification: parallel axes, aligned rows, equal focal
+/// lengths. A point at depth z appears in the right image at u_right = u_left -
+/// disparity,  z = focal_px * baseline_mm / (disparity + disparity_offset_px).
 struct RectifiedRig {
   PinholeCamera left;
   double baseline_mm = 0;

@@ -17,7 +17,7 @@
 
 namespace softscope {
 
-/// The finite numbers between two bounds.
+/// Finite numbers between two bounds.
 struct NumberRule {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ NumberRule between(double least, double most);       // both allowed
 NumberRule aboveUpTo(double bound, double most);     // above, at most
 NumberRule fromToBelow(double least, double bound);  // at least, below
 
-/// The texts that a setting may be.
+/// Allowed texts of a setting.
 struct TextRule {
   std::vector<std::string> names;
 
@@ -44,12 +44,12 @@ struct TextRule {
 
 TextRule oneOf(std::vector<std::string> names);
 
-/// A text whose rule the struct's own validate() checks; `text` tells it.
+/// Text checked by validate() of the struct; `text` describes the rule.
 struct FreeText {
   std::string text;
 };
 
-/// The values of an enumeration by name.
+/// Values of an enumeration by name.
 template <class Choice>
 struct ChoiceRule {
   std::vector<std::pair<std::string, Choice>> names;
@@ -67,7 +67,7 @@ struct ChoiceRule {
   }
 };
 
-/// Visitor: throws OptionError naming the key, its value and the rule that it breaks.
+/// Visitor: throws OptionError with the key, its value and the violated rule.
 class RangeCheck {
  public:
   void operator()(const char*, bool, const char*) const {}
@@ -82,7 +82,7 @@ class RangeCheck {
 /// Checks every setting that describe() lists. Throws OptionError.
 template <class Options>
 void requireAllowed(const Options& options) {
-  Options copy = options;  // describe() hands out fields that may be set
+  Options copy = options;  // describe() takes mutable fields
   RangeCheck check;
   describe(check, copy);
 }

@@ -1,5 +1,5 @@
-// src/core/small_solve.h: small symmetric systems, in one order of operations for the CPU and the
-// GPU.
+// src/core/small_solve.h: small symmetric systems
+// with a fixed order of operations on CPU and GPU.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace softscope {
 /// Lower triangle of a symmetric N x N matrix, row by row: (i, j), j <= i, is at i (i + 1) / 2 + j.
 constexpr int triangleSize(int n) { return n * (n + 1) / 2; }
 
-/// Cholesky factor in place, its diagonal inverted. False where the matrix is not positive
-/// definite.
+/// In-place Cholesky factor with inverted diagonal.
+/// False unless the matrix is positive definite.
 template <int N, class Scalar>
 SOFTSCOPE_HD inline bool factorSymmetric(Scalar (&a)[triangleSize(N)]) {
   for (int i = 0; i < N; ++i)
@@ -29,7 +29,7 @@ SOFTSCOPE_HD inline bool factorSymmetric(Scalar (&a)[triangleSize(N)]) {
   return true;
 }
 
-/// Solves in place with what factorSymmetric() gave.
+/// In-place solution with the result of factorSymmetric().
 template <int N, class Scalar>
 SOFTSCOPE_HD inline void solveSymmetric(const Scalar (&a)[triangleSize(N)], Scalar (&x)[N]) {
   for (int i = 0; i < N; ++i) {

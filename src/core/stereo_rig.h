@@ -1,4 +1,4 @@
-// src/core/stereo_rig.h: two cameras on one scope.
+// src/core/stereo_rig.h: stereo calibration.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,17 +11,17 @@
 
 namespace softscope {
 
-/// A calibration as it was read; lengths already in mm.
+/// Calibration from a file; lengths in mm.
 struct StereoCalibration {
   RawCamera left;
   RawCamera right;
   /// p_right = right_from_left * p_left, mm (OpenCV's R and T).
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
-  bool rectified = false;             // the images on disk are rectified already
+  bool rectified = false;             // the images on disk are rectified
   double depth_unit_mm = 0.01;        // one step of the 16-bit depth files
-  std::string source;                 // the file it came from, for messages
+  std::string source;                 // name of the file, for messages
   std::string form;                   // "OpenCV", "Hamlyn", "OpenCAS", "SCARED", "EndoNeRF", "ROS"
-  std::vector<std::string> warnings;  // what is unusual about it, a line each
+  std::vector<std::string> warnings;  // unusual values, one line each
 
   double baseline_mm() const { return right_from_left.translation().norm(); }
 };

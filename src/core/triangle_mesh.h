@@ -1,4 +1,4 @@
-// src/core/triangle_mesh.h: a surface as vertices and triangles.
+// src/core/triangle_mesh.h: surface of vertices and triangles.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,15 +11,15 @@
 
 namespace softscope {
 
-/// Three indices into TriangleMesh::vertices_mm, counter-clockwise as seen from outside.
+/// Three indices into TriangleMesh::vertices_mm, counter-clockwise seen from outside.
 using Triangle = std::array<std::int32_t, 3>;
 
 /// N vertices, M triangles, mm.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices_mm;
   std::vector<Triangle> triangles;
-  std::vector<Rgb8> colours;  // empty, or one a vertex
-  std::string space;          // "LPS", "RAS", or empty where nothing says it
+  std::vector<Rgb8> colours;  // empty, or one per vertex
+  std::string space;          // "LPS", "RAS", or empty if unknown
 
   bool empty() const { return triangles.empty(); }
 };

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kPartsATask = 32;
 
-/// Bits of a float above 0 grow with it: these of them are the bin.
+/// The bits of a positive float have the order of its value: the upper bits select the bin.
 constexpr int kSizeShift = 19, kSizes = 1 << (31 - kSizeShift);
 
 std::uint32_t binOf(float value) {

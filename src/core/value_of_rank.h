@@ -1,4 +1,4 @@
-// src/core/value_of_rank.h: order statistics of many numbers, on all cores.
+// src/core/value_of_rank.h: parallel order statistics of large lists.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,12 @@
 
 namespace softscope {
 
-/// The number of that rank (0: the least) among the absolute values of all parts together; exact.
-/// The rank is below their count.
+/// Value of that rank (0: smallest) among the absolute values
+/// of all parts; exact. Requires a rank below their count.
 float absoluteOfRank(const std::vector<std::vector<float>>& parts, std::size_t rank);
 
-/// The median of those absolute values: the upper one of the two middle values of an even count;
-/// NaN of none.
+/// Median of these absolute values: the upper of the two
+/// middle values for an even count; NaN without values.
 float absoluteMedian(const std::vector<std::vector<float>>& parts);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/core/warp_graph.h: deformation graph: nodes, edges and transforms that warp the model.
+// src/core/warp_graph.h: embedded deformation graph: nodes, edges and transforms of the warp.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,51 +12,51 @@
 
 namespace softscope {
 
-/// Where a node takes its surroundings: docs/energy.md (1). A rotation in the rigid node model.
+/// Affine transform of a node: docs/energy.md (1). A rotation in the rigid node model.
 struct NodeTransform {
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();
 };
 
-/// Moves a point as one node alone would: docs/energy.md (1). mm.
+/// Warps a point by a single node: docs/energy.md (1). mm.
 SOFTSCOPE_HD inline Eigen::Vector3d warpByNode(const NodeTransform& transform,
                                                const Eigen::Vector3d& node_mm,
                                                const Eigen::Vector3d& point_mm) {
   return transform.linear * (point_mm - node_mm) + node_mm + transform.translation_mm;
 }
 
-/// Two neighbouring nodes that should move alike. first < second.
+/// Edge between neighbouring nodes (regularisation term). first < second.
 struct GraphEdge {
   std::int32_t first = 0;
   std::int32_t second = 0;
   double weight = 1;  // alpha of docs/energy.md (6)
-  // Offset of the other node, mm, in the frame of the first and of the second node: mean over the
-  // last frames, docs/energy.md (6b).
+  // Offset of the other node, mm, in the frame of the first and of
+  // the second node: mean over the last frames, docs/energy.md (6b).
   Eigen::Vector3d from_first_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d from_second_mm = Eigen::Vector3d::Zero();
-  double frames = 0;  // in the mean; 0: the edge is new
+  double frames = 0;  // number of frames in the mean; 0: new edge
 };
 
-/// The nodes that carry some points together: ascending ids. Where there are fewer than four, the
-/// last one is repeated (and has no weight in the points' bindings).
+/// Nodes that carry a group of points: ascending ids. For fewer than
+/// four nodes the last one is repeated (with weight zero in the points).
 using NodeStencil = std::array<std::int32_t, kNodesPerPoint>;
 
-/// An embedded deformation graph. Its warp leads from the last frame to the live one: after each
-/// frame nodes are re-based, so that positions are live and transforms the identity again.
+/// Embedded deformation graph. Its warp maps the last frame to the live one: after each
+/// frame nodes are re-based, so that positions are live and transforms the identity.
 struct WarpGraph {
-  std::vector<Eigen::Vector3d> positions_mm;  // of the nodes, world frame, before the warp
-  std::vector<NodeTransform> transforms;      // one a node
-  std::vector<Eigen::Vector3d> moved_mm;      // of each node since the reference shape, world
-  std::vector<Eigen::Matrix3d> turned;        // of each node since it was laid, world from node
+  std::vector<Eigen::Vector3d> positions_mm;  // of the nodes, in the world frame, before the warp
+  std::vector<NodeTransform> transforms;      // one per node
+  std::vector<Eigen::Vector3d> moved_mm;      // displacement since the reference shape, world
+  std::vector<Eigen::Matrix3d> turned;        // rotation since creation, world from node
   std::vector<GraphEdge> edges;               // ascending by (first, second)
-  std::vector<NodeStencil> stencils;          // what PointBinding::stencil counts
+  std::vector<NodeStencil> stencils;          // indexed by PointBinding::stencil
 
   std::size_t size() const { return positions_mm.size(); }
   bool empty() const { return positions_mm.empty(); }
 };
 
-/// How far the tissue at a bound point has moved in the world since the reference shape; zero for
-/// an unbound point.
+/// Displacement of the tissue at a bound point in the world
+/// since the reference shape; zero for an unbound point.
 inline Eigen::Vector3d movedMm(const WarpGraph& graph, const PointBinding& binding) {
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
   if (!binding.bound() || graph.moved_mm.size() != graph.size()) return moved;
@@ -67,7 +67,7 @@ inline Eigen::Vector3d movedMm(const WarpGraph& graph, const PointBinding& bindi
   return moved;
 }
 
-/// How many different nodes the stencil holds.
+/// Number of different nodes of a stencil.
 inline int distinctNodes(const NodeStencil& stencil) {
   int count = 1;
   while (count < kNodesPerPoint && stencil[count] != stencil[count - 1]) ++count;

@@ -1,4 +1,4 @@
-// src/mesh/border_trim.cpp: neighbours by sorted sides, then one splinter after the other.
+// src/mesh/border_trim.cpp: neighbours by sorted sides, iterative removal.
 #include "mesh/border_trim.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int32_t kNoSide = -1;
 
-/// The triangle beyond each side, from corner k to the next.
+/// Neighbour at each side, from corner k to the next.
 using Neighbours = std::vector<std::array<std::int32_t, 3>>;
 
 struct Side {
@@ -63,7 +63,7 @@ std::vector<Triangle> withoutSplinters(const std::vector<Eigen::Vector3f>& posit
     const auto held = std::find_if(sides.begin(), sides.end(), [](auto t) { return t != kNoSide; });
     if (held == sides.end()) return true;
     if (std::count(sides.begin(), sides.end(), kNoSide) < 2) return false;
-    const auto tip = std::size_t(held - sides.begin() + 2) % 3;  // across from the one side
+    const auto tip = std::size_t(held - sides.begin() + 2) % 3;  // opposite to the only shared side
     return cosineAt(positions_mm, triangles[i], tip) > sharpest;
   };
   std::vector<std::int32_t> suspects;

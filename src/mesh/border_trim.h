@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// Leaves out triangles that hang on by one side only and end in a tip sharper than
-/// `sharpest_deg`, those that then do, and lone ones; the others keep their order. No side may be
-/// in more than two triangles.
+/// Removes triangles with a single neighbour and a tip angle below
+/// `sharpest_deg`, iteratively, and isolated triangles; the others
+/// keep their order. No side may belong to more than two triangles.
 std::vector<Triangle> withoutSplinters(const std::vector<Eigen::Vector3f>& positions_mm,
                                        const std::vector<Triangle>& triangles, double sharpest_deg);
 

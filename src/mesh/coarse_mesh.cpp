@@ -1,4 +1,4 @@
-// src/mesh/coarse_mesh.cpp: vertex clustering, with members instead of means.
+// src/mesh/coarse_mesh.cpp: vertex clustering with original vertices as representatives.
 #include "mesh/coarse_mesh.h"
 
 #include <Eigen/Geometry>
@@ -12,13 +12,13 @@
 namespace softscope {
 namespace {
 
-/// The group of each vertex, numbered in the order of the cells.
+/// Group of each vertex, numbered in the order of the cells.
 struct Groups {
   std::vector<std::int32_t> of_vertex;
   std::size_t count = 0;
 };
 
-/// `low_mm`: the box's corner. At most 2^20 cells along an axis.
+/// `low_mm`: corner of the box. At most 2^20 cells per axis.
 Groups groupByCell(const std::vector<Eigen::Vector3f>& vertices_mm, const Eigen::Vector3d& low_mm,
                    double cell_mm) {
   std::vector<std::uint64_t> cells;
@@ -42,7 +42,7 @@ Groups groupByCell(const std::vector<Eigen::Vector3f>& vertices_mm, const Eigen:
   return groups;
 }
 
-/// The member of each group that is nearest to the group's mean.
+/// Member of each group nearest to the mean of the group.
 std::vector<std::int32_t> membersOf(const Groups& groups,
                                     const std::vector<Eigen::Vector3f>& vertices_mm) {
   std::vector<Eigen::Vector4d> sums(groups.count, Eigen::Vector4d::Zero());
@@ -61,13 +61,13 @@ std::vector<std::int32_t> membersOf(const Groups& groups,
   return members;
 }
 
-/// The corner with the lowest index first, so that the same triangle is the same value.
+/// Rotated such that the lowest index is first: a canonical form.
 Triangle turned(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
-/// Whether a triangle was folded over on its way to `joined`: it would show as a dark spot.
+/// True if a triangle is flipped by the clustering: it would appear as a dark spot.
 bool facesBack(const Triangle& fine, const std::vector<Eigen::Vector3f>& vertices_mm,
                const Triangle& joined) {
   const auto normalOf = [&](const Triangle& t) {
@@ -121,7 +121,7 @@ CoarseMesh coarsen(const TriangleMesh& fine, std::size_t most_vertices) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : fine.vertices_mm) box.extend(p);
   const Eigen::Vector3d low_mm = box.min().cast<double>();
-  // So fine that most surfaces fill more cells than wanted; then coarser.
+  // Starts with a cell size that gives too many cells for most surfaces, then increases it.
   double cell_mm =
       std::max(double(box.diagonal().norm()) / std::sqrt(2.0 * double(most_vertices)), 1e-6);
   Groups groups = groupByCell(fine.vertices_mm, low_mm, cell_mm);

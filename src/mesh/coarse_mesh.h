@@ -8,20 +8,20 @@
 
 namespace softscope {
 
-/// Some vertices of a fine mesh and triangles between them. Values of the fine mesh's vertices, and
-/// their places at other moments, hold here without averaging.
+/// Subset of the vertices of a fine mesh, with triangles. Values
+/// and positions of the fine vertices apply without averaging.
 struct CoarseMesh {
-  std::vector<std::int32_t> vertices;  // indices into the fine mesh, rising
+  std::vector<std::int32_t> vertices;  // indices into the fine mesh, ascending
   std::vector<Triangle> triangles;     // indices into `vertices`
 
-  /// The surface where the fine mesh's vertices are these, as many as it had. mm.
+  /// The surface for other positions of the fine vertices, mm.
   TriangleMesh at(const std::vector<Eigen::Vector3f>& fine_vertices_mm) const;
 };
 
-/// Groups vertices by the cells of a grid, keeps of each group the one nearest to its mean, and the
-/// triangles whose corners are in three groups, but for those that would be folded over. The grid
-/// is about as fine as leaves at most `most_vertices` (> 0); a mesh that is small enough stays as
-/// it is.
+/// Groups vertices by grid cells, keeps the vertex nearest
+/// to the mean of each group, and the triangles with corners
+/// in three groups, except flipped ones. The cell size gives
+/// at most `most_vertices` (> 0); a small mesh is unchanged.
 CoarseMesh coarsen(const TriangleMesh& fine, std::size_t most_vertices);
 
 }  // namespace softscope

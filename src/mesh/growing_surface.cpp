@@ -9,18 +9,18 @@ namespace softscope {
 namespace {
 
 constexpr double kFullTurn = 2 * 3.14159265358979323846;
-constexpr float kRoughCosine = 0.1f;  // steeper triangles are no way to fill a hole
+constexpr float kRoughCosine = 0.1f;  // steeper triangles do not fill holes
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Whether p lies between two directions, of which the last is less than half a turn ahead.
+/// True if p is between two directions, less than half a turn apart.
 bool within(const Eigen::Vector2d& p, const Eigen::Vector2d& first, const Eigen::Vector2d& last) {
   return cross(first, p) > 0 && cross(p, last) > 0;
 }
 
-/// As long as twice the area.
+/// Normal of length twice the area.
 Eigen::Vector3f normalOf(const OrientedPoints& points, const Triangle& t) {
   const Eigen::Vector3f& a = points.positions_mm[std::size_t(t[0])];
   return (points.positions_mm[std::size_t(t[1])] - a)
@@ -46,7 +46,7 @@ bool GrowingSurface::faces(const Triangle& t) const {
   });
 }
 
-/// As the mean of its points' normals: where these are noisy, a small hole is still one.
+/// Compared with the mean of the point normals: tolerates noise at small holes.
 bool GrowingSurface::facesRoughly(const Triangle& t) const {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (const std::int32_t point : t) mean += points_.normals[std::size_t(point)];
@@ -56,10 +56,10 @@ bool GrowingSurface::facesRoughly(const Triangle& t) const {
 
 bool GrowingSurface::hasRoom(std::int32_t point, std::int32_t from, std::int32_t to) const {
   const Eigen::Vector2d a = placeSeenFrom(point, from), b = placeSeenFrom(point, to);
-  if (cross(a, b) <= 0) return false;  // seen from this point it would face away
+  if (cross(a, b) <= 0) return false;  // back-facing from this point
   bool room = true;
   visitSectors(point, [&](std::int32_t, const Sector& sector) {
-    room = room && sector.from != from && sector.to != to;  // else that side is taken
+    room = room && sector.from != from && sector.to != to;  // else that side is occupied
     if (!room) return;
     const Eigen::Vector2d c = placeSeenFrom(point, sector.from);
     const Eigen::Vector2d d = placeSeenFrom(point, sector.to);
@@ -94,7 +94,7 @@ bool GrowingSurface::connected(std::int32_t a, std::int32_t b) const {
   return found;
 }
 
-/// Whether no triangle follows, counter-clockwise, at the sector's point.
+/// True if no triangle follows counter-clockwise at the point of the sector.
 bool GrowingSurface::endsFan(const Sector& sector) const {
   bool last = true;
   visitSectors(sector.at,
@@ -102,7 +102,7 @@ bool GrowingSurface::endsFan(const Sector& sector) const {
   return last;
 }
 
-/// The border goes from the sector's point to its `to`; then on along the first gap clockwise.
+/// The border goes from the point of the sector to its `to`, then along the first gap clockwise.
 std::int32_t GrowingSurface::nextAlongBorder(const Sector& sector) const {
   const Eigen::Vector2d back = placeSeenFrom(sector.to, sector.at);
   std::int32_t next = -1;
@@ -144,7 +144,7 @@ double GrowingSurface::lengthOf(const Loop& loop) const {
   return length_mm;
 }
 
-/// Cuts off the corner whose triangle has the shortest new side, again and again.
+/// Repeatedly cuts the corner whose triangle has the shortest new side.
 void GrowingSurface::fill(Loop loop) {
   while (loop.size() >= 3) {
     std::size_t best = loop.size();

@@ -1,4 +1,4 @@
-// src/mesh/growing_surface.h: triangles added only where the surface stays manifold.
+// src/mesh/growing_surface.h: incremental surface that stays manifold.
 #pragma once
 
 #include <cstdint>
@@ -9,29 +9,29 @@
 
 namespace softscope {
 
-/// Triangles between points, each side in two of them at most, those of a point side by side in its
-/// plane without overlap: manifold (but for sheets that touch in a point alone) and oriented.
+/// Triangles between points, at most two per side, without overlap in the tangent plane
+/// of each point: manifold (except for sheets that touch in a single point) and oriented.
 class GrowingSurface {
  public:
-  /// Keeps a reference to `points`. `least_cosine`: between a triangle's normal and its points'.
+  /// Keeps a reference to `points`. `least_cosine`: between normals of triangles and points.
   GrowingSurface(const OrientedPoints& points, float least_cosine);
 
-  /// Whether it fits and was taken.
+  /// True if the triangle fits and was added.
   bool add(const Triangle& triangle);
 
-  /// Fills holes whose border is at most `longest_mm` long, as far as triangles can face the way
-  /// that their points do on the whole.
+  /// Fills holes with a border of at most `longest_mm`, as far as
+  /// triangles are consistent with the mean normals of their points.
   void closeHoles(double longest_mm);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
-  /// At a point, a triangle spans the sector from one other point to the next.
+  /// Sector of a triangle at a point, from one other point to the next.
   struct Sector {
     std::int32_t at, from, to;
     std::int32_t next;  // sector of the same point; -1: the last
   };
-  using Loop = std::vector<std::int32_t>;  // points along a border, the hole to the left
+  using Loop = std::vector<std::int32_t>;  // points along a border, with the hole to the left
 
   void take(const Triangle& triangle);
   bool faces(const Triangle& triangle) const;

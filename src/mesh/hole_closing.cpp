@@ -1,4 +1,4 @@
-// src/mesh/hole_closing.cpp: OpenMesh walks along borders.
+// src/mesh/hole_closing.cpp: border loops by OpenMesh.
 #include "mesh/hole_closing.h"
 
 #include <Eigen/Geometry>
@@ -24,7 +24,7 @@ HalfedgeMesh halfedgesOf(const TriangleMesh& mesh) {
   return halfedges;
 }
 
-/// The vertices round each hole, in the order that faces inside of it would name them.
+/// Vertices around each hole, in the orientation of faces that fill it.
 std::vector<std::vector<std::int32_t>> holesOf(const HalfedgeMesh& halfedges) {
   std::vector<bool> seen(halfedges.n_halfedges(), false);
   std::vector<std::vector<std::int32_t>> holes;

@@ -7,12 +7,12 @@ namespace softscope {
 
 struct ClosedHoles {
   int closed = 0, left_open = 0;
-  int edges = 0;         // of those that were closed
-  double widest_mm = 0;  // of those, the diagonal of its box
+  int edges = 0;         // of the closed holes
+  double widest_mm = 0;  // largest diagonal of the box of a closed hole
 };
 
-/// Puts a fan around the middle of each hole no wider than `widest_mm`; vertices and triangles are
-/// added, none changed. Takes an oriented manifold; throws Error where it isn't one.
+/// Fills holes no wider than `widest_mm` with a fan around their centre; only adds
+/// vertices and triangles. Requires an oriented manifold; throws Error otherwise.
 ClosedHoles closeHoles(TriangleMesh& mesh, double widest_mm);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/mesh/local_fan.cpp: the cell of a Voronoi diagram, cut by one bisector after the other.
+// src/mesh/local_fan.cpp: Voronoi cell, clipped by one bisector after the other.
 #include "mesh/local_fan.h"
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ bool NeighbourRule::join(const OrientedPoints& points, std::int32_t a, std::int3
   if (normal_a.dot(normal_b) < least_cosine) return false;
   const Eigen::Vector3f line =
       points.positions_mm[std::size_t(b)] - points.positions_mm[std::size_t(a)];
-  // On an arc the chord is square to the mean of both normals, however curved it is.
+  // On an arc the chord is perpendicular to the mean of both normals, for any curvature.
   const float step = std::abs(line.dot((normal_a + normal_b).normalized()));
   return step <= std::max(noise_mm, most_step * line.norm());
 }
@@ -42,10 +42,10 @@ void LocalFan::gather(std::int32_t point, float reach) {
 double LocalFan::reachOfCell() const {
   double squared = 0;
   for (const Corner& corner : cell_) squared = std::max(squared, corner.place_mm.squaredNorm());
-  return 4 * squared;  // points beyond twice the reach cut nothing
+  return 4 * squared;  // points beyond twice this radius do not clip
 }
 
-/// Keeps what is nearer to the point than to the neighbour.
+/// Clips the cell to the half plane nearer to the point than to the neighbour.
 void LocalFan::cutBy(std::int32_t neighbour) {
   const Eigen::Vector2d& towards = neighbours_[std::size_t(neighbour)].place_mm;
   const double half = neighbours_[std::size_t(neighbour)].squared_mm2 / 2;
@@ -59,14 +59,14 @@ void LocalFan::cutBy(std::int32_t neighbour) {
     if ((beyond_from <= 0) == (beyond_to <= 0)) continue;
     const double share = beyond_from / (beyond_from - beyond_to);
     const Eigen::Vector2d crossing = from.place_mm + share * (to.place_mm - from.place_mm);
-    // Leaving the kept side, the border goes on along the new bisector; coming back, along the old.
+    // The border leaves the kept side along the new bisector, and returns along the old one.
     cut_.push_back({crossing, beyond_from <= 0 ? neighbour : from.neighbour});
   }
   cell_.swap(cut_);
 }
 
-/// Cuts by the neighbours within `reach_mm`, the nearest first. Returns how far away a neighbour
-/// may be that could still cut.
+/// Clips by the neighbours within `reach_mm`, the nearest first.
+/// Returns the radius within which neighbours may still clip.
 double LocalFan::cutWithin(std::int32_t point, float reach_mm) {
   gather(point, reach_mm);
   const double r = rule_.hole_radius_mm;
@@ -80,12 +80,12 @@ double LocalFan::cutWithin(std::int32_t point, float reach_mm) {
 }
 
 const std::vector<FanTriangle>& LocalFan::around(std::int32_t point) {
-  // Within a dense surface, the nearest neighbours are enough.
+  // In a dense surface the nearest neighbours are sufficient.
   const float reach_mm = 2 * rule_.hole_radius_mm;
   if (cutWithin(point, reach_mm / 2) > double(reach_mm) / 2) cutWithin(point, reach_mm);
   fan_.clear();
   for (std::size_t i = 0; i < cell_.size(); ++i) {
-    // A corner lies between the bisectors of the border that arrives and of the one that leaves.
+    // A corner is the intersection of two consecutive bisectors.
     const std::int32_t before = cell_[(i + cell_.size() - 1) % cell_.size()].neighbour;
     const std::int32_t after = cell_[i].neighbour;
     const double radius_mm = cell_[i].place_mm.norm();

@@ -1,4 +1,4 @@
-// src/mesh/local_fan.h: triangle fan of one point in its tangent plane.
+// src/mesh/local_fan.h: triangle fan of a point in its tangent plane.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,17 +9,17 @@
 
 namespace softscope {
 
-/// Points that are fit for a surface: finite, with unit normals.
+/// Valid points: finite, with unit normals.
 struct OrientedPoints {
   std::vector<Eigen::Vector3f> positions_mm;
   std::vector<Eigen::Vector3f> normals;
 };
 
-/// When two points can be neighbours on one surface.
+/// Conditions of neighbourhood of two points on a surface.
 struct NeighbourRule {
   float least_cosine = 0.5f;    // between their normals
-  float most_step = 0.57f;      // of their line against the plane between them: a sine
-  float noise_mm = 0.05f;       // steps lower than this are no steps
+  float most_step = 0.57f;      // sine of the angle between their line and the mean tangent plane
+  float noise_mm = 0.05f;       // smaller steps are ignored
   float hole_radius_mm = 0.5f;  // a circle of this radius without points is a hole
 
   bool join(const OrientedPoints& points, std::int32_t a, std::int32_t b) const;
@@ -34,14 +34,14 @@ struct PlaneAxes {
   Eigen::Vector3f u, v;
 };
 
-/// One of a point's triangles: the point, then these two, counter-clockwise about its normal.
+/// Triangle of a point: the point, then these two, counter-clockwise about its normal.
 struct FanTriangle {
   std::int32_t first, second;
-  float radius_mm;  // of its circle through three points
+  float radius_mm;  // circumscribed circle
 };
 
-/// The Delaunay triangles at a point among the neighbours that `rule` lets it have, projected along
-/// its normal, whose circles are no holes. Keeps its memory from call to call.
+/// Delaunay triangles at a point among its neighbours by `rule`, projected
+/// along its normal, without those whose circle is a hole. Reuses its memory.
 class LocalFan {
  public:
   LocalFan(const OrientedPoints& points, const PointGrid& grid, const NeighbourRule& rule)
@@ -55,10 +55,10 @@ class LocalFan {
     Eigen::Vector2d place_mm;
     double squared_mm2;
   };
-  /// A corner of the point's cell, and the neighbour whose bisector leaves it.
+  /// Corner of the Voronoi cell, with the neighbour of the bisector that begins there.
   struct Corner {
     Eigen::Vector2d place_mm;
-    std::int32_t neighbour;  // into neighbours_; -1: the square that the cell began as
+    std::int32_t neighbour;  // into neighbours_; -1: initial square
   };
   void gather(std::int32_t point, float reach_mm);
   double cutWithin(std::int32_t point, float reach_mm);

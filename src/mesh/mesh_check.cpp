@@ -1,4 +1,4 @@
-// src/mesh/mesh_check.cpp: edges by sorting, pieces and sheets by union-find.
+// src/mesh/mesh_check.cpp: edges by sorting, components and sheets by union-find.
 #include "mesh/mesh_check.h"
 
 #include <Eigen/Geometry>
@@ -13,12 +13,12 @@
 namespace softscope {
 namespace {
 
-constexpr double kFlat = 1e-6;  // height over longest side: below float resolution
+constexpr double kFlat = 1e-6;  // height over longest side: float resolution
 
-/// An organ or the visible part of it is 5 mm to 2 m long; other sizes are other units.
+/// An organ or its visible part is 5 mm to 2 m long; other sizes indicate other units.
 constexpr double kShortestOrgan_mm = 5, kLongestOrgan_mm = 2000;
 
-/// The corner of a side's triangle that names `vertex`, one of the side's two.
+/// Corner of the triangle of a side at `vertex`, one of its two vertices.
 std::int32_t cornerAt(const MeshSide& side, std::int32_t vertex) {
   const bool first = side.ascending == (vertex == side.low);
   return 3 * side.triangle + (first ? side.k : (side.k + 1) % 3);
@@ -40,7 +40,7 @@ void countEdges(const std::vector<MeshSide>& sides, MeshCheck& check, UnionFind&
   });
 }
 
-/// Vertices whose corners are not all joined through edges.
+/// Number of vertices whose corners are not all joined through edges.
 std::size_t countSplitVertices(const TriangleMesh& mesh, UnionFind& sheets) {
   constexpr std::int32_t kNone = -1, kSplit = -2;
   std::vector<std::int32_t> sheet(mesh.vertices_mm.size(), kNone);
@@ -78,7 +78,7 @@ void measure(const TriangleMesh& mesh, MeshCheck& check) {
     for (const std::int32_t vertex : t) box.extend(mesh.vertices_mm[vertex]);
   check.low_mm = box.min();
   check.high_mm = box.max();
-  const Eigen::Vector3d centre = box.center().cast<double>();  // keeps the volume's terms small
+  const Eigen::Vector3d centre = box.center().cast<double>();  // reduces rounding of the volume
   for (const Triangle& t : mesh.triangles) {
     const Eigen::Vector3d a = mesh.vertices_mm[t[0]].cast<double>() - centre;
     const Eigen::Vector3d b = mesh.vertices_mm[t[1]].cast<double>() - centre;

@@ -10,23 +10,23 @@
 
 namespace softscope {
 
-/// Neighbours are triangles that name the same two vertices. Triangles that name a vertex twice
-/// count as degenerate and take no part in edges.
+/// Neighbours are triangles with two common vertices. Triangles
+/// with a repeated vertex count as degenerate and have no edges.
 struct MeshCheck {
   std::size_t vertex_count = 0;
   std::size_t triangle_count = 0;
-  std::size_t unused_vertices = 0;                   // named by no triangle
-  std::size_t degenerate_triangles = 0;              // lower than a millionth of their longest side
-  std::size_t border_edges = 0;                      // of one triangle
-  std::size_t crowded_edges = 0;                     // of more than two
-  std::size_t flipped_edges = 0;                     // of two triangles that face opposite ways
-  std::size_t split_vertices = 0;                    // where sheets touch in this point alone
-  std::size_t components = 0;                        // pieces that share no vertex
-  Eigen::Vector3f low_mm = Eigen::Vector3f::Zero();  // box of the vertices that triangles name
+  std::size_t unused_vertices = 0;                   // without a triangle
+  std::size_t degenerate_triangles = 0;              // below a millionth of their longest side
+  std::size_t border_edges = 0;                      // with one triangle
+  std::size_t crowded_edges = 0;                     // with more than two triangles
+  std::size_t flipped_edges = 0;                     // with two triangles of opposite orientation
+  std::size_t split_vertices = 0;                    // sheets touch in this point only
+  std::size_t components = 0;                        // connected components
+  Eigen::Vector3f low_mm = Eigen::Vector3f::Zero();  // box of the used vertices
   Eigen::Vector3f high_mm = Eigen::Vector3f::Zero();
   double area_mm2 = 0;
-  double volume_mm3 = 0;      // NaN unless closed and oriented; negative where inside out
-  double likely_unit_mm = 1;  // 1000 for a box of metres, 0.001 of micrometres, else 1: no doubt
+  double volume_mm3 = 0;      // NaN unless closed and oriented; negative if inside out
+  double likely_unit_mm = 1;  // 1000 for a box in metres, 0.001 for micrometres, else 1
 
   bool closed() const { return border_edges == 0 && triangle_count > 0; }
   bool manifold() const { return crowded_edges == 0 && split_vertices == 0; }
@@ -34,10 +34,10 @@ struct MeshCheck {
   Eigen::Vector3f size_mm() const { return high_mm - low_mm; }
 };
 
-/// The mesh must have valid indices and finite vertices, as readMesh ensures.
+/// Requires valid indices and finite vertices, as ensured by readMesh.
 MeshCheck checkMesh(const TriangleMesh& mesh);
 
-/// What a user should know, a line each; empty for a closed, oriented, manifold surface in mm.
+/// Warnings, one line each; empty for a closed, oriented, manifold surface in mm.
 std::vector<std::string> meshWarnings(const MeshCheck& check);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/mesh/mesh_formats.h: one parser a file format; readMesh chooses and checks.
+// src/mesh/mesh_formats.h: parsers of each file format.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace softscope {
 
-/// What a file holds, before units and plausibility are looked at.
+/// Content of a file before unit conversion and checks.
 struct ParsedMesh {
   TriangleMesh mesh;
-  std::string_view comments;  // the part of the file where SPACE=LPS may stand
+  std::string_view comments;  // part of the file that may contain SPACE=LPS
 };
 
 /// All throw InputError that begins with `name`.
@@ -20,10 +20,10 @@ ParsedMesh parseStl(std::string_view bytes, const std::string& name);
 ParsedMesh parsePly(std::string_view bytes, const std::string& name);
 ParsedMesh parseObj(std::string_view bytes, const std::string& name);
 
-/// A binary STL has no mark but its length, which its count of triangles must explain.
+/// Detection by the length, which the triangle count determines.
 bool isBinaryStl(std::string_view bytes);
 
-/// Cuts a polygon into triangles that share its first vertex. Fewer than three corners give none.
+/// Splits a polygon into triangles with a common first vertex. None for fewer than three corners.
 void addPolygon(const std::vector<std::int32_t>& corners, std::vector<Triangle>& triangles);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/mesh/mesh_reader.cpp: chooses the parser, checks what it found, sets unit and space.
+// src/mesh/mesh_reader.cpp: selection of the parser, checks, unit and space.
 #include "mesh/mesh_reader.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace softscope {
 namespace {
 
-constexpr float kFarthestMm = 1e7f;  // micrometres taken for mm stay below
+constexpr float kFarthestMm = 1e7f;  // limit for micrometres read as mm
 
 namespace fs = std::filesystem;
 
@@ -39,7 +39,7 @@ std::string readBytes(const fs::path& file) {
   return bytes;
 }
 
-/// Does the first line that is neither empty nor a comment begin as one of an OBJ file?
+/// True if the first line with content begins like an OBJ file.
 bool looksLikeObj(std::string_view bytes) {
   TextScanner scanner(bytes.substr(0, std::min<std::size_t>(bytes.size(), 1 << 16)), "");
   while (!scanner.atEnd()) {
@@ -60,7 +60,7 @@ ParsedMesh parse(std::string_view bytes, const std::string& name) {
   return parseStl(bytes, name);
 }
 
-/// LPS or RAS after SPACE=, empty where the comments don't say.
+/// LPS or RAS after SPACE=, empty if absent.
 std::string spaceOf(std::string_view comments, const std::string& name) {
   constexpr std::string_view kKey = "SPACE=";
   for (std::size_t at = comments.find(kKey); at != std::string_view::npos;

@@ -1,4 +1,4 @@
-// src/mesh/mesh_reader.h: surfaces from files.
+// src/mesh/mesh_reader.h: reader of surfaces.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,21 @@
 namespace softscope {
 
 struct MeshReadOptions {
-  double unit_mm = 1;  // what one unit of the file measures: 1000 for a file in metres
+  double unit_mm = 1;  // length of one unit of the file: 1000 for metres
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 
-/// Reads STL (ascii or binary), PLY (ascii or binary) or OBJ; the content tells which. Polygons are
-/// cut into triangles; triangle i of an STL or of a PLY of triangles is triangle i of the mesh. STL
-/// corners at the same place become one vertex. `space` is LPS or RAS where a comment in the
-/// header says `SPACE=LPS` or `SPACE=RAS`.
-/// Throws InputError for a file that is missing, broken, truncated or has no triangles, for
-/// coordinates that are not finite and for vertices that don't exist.
+/// Reads STL (ascii or binary), PLY (ascii or binary) or OBJ, detected from the
+/// content. Polygons are split into triangles; triangle i of an STL, or of a
+/// PLY of triangles, is triangle i of the mesh. Equal corners of an STL become
+/// one vertex. `space` is LPS or RAS from a comment `SPACE=LPS` or `SPACE=RAS`
+/// in the header. Throws InputError for a missing, damaged or truncated file,
+/// no triangles, coordinates that are not finite and invalid indices.
 TriangleMesh readMesh(const std::filesystem::path& file, const MeshReadOptions& options = {});
 
-/// The same from memory; `name` is what errors call it.
+/// The same from memory; `name` is used in errors.
 TriangleMesh parseMesh(std::string_view bytes, const std::string& name,
                        const MeshReadOptions& options = {});
 

@@ -1,4 +1,4 @@
-// src/mesh/mesh_repair.cpp: one defect after the other; no step undoes another.
+// src/mesh/mesh_repair.cpp: sequence of repairs that do not undo each other.
 #include "mesh/mesh_repair.h"
 
 #include <Eigen/Geometry>
@@ -18,7 +18,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kWidestHole = 1.0 / 3;  // of the mesh's box; a wider one may be how it is meant
+constexpr double kWidestHole = 1.0 / 3;  // of the box of the mesh; wider ones may be intended
 
 template <class... Parts>
 std::string say(const Parts&... parts) {
@@ -49,7 +49,7 @@ class Repair {
     if (holds) repairs_.push_back(say(parts...));
   }
 
-  /// Vertices of open edges that lie at the same place become one.
+  /// Merges vertices of open edges at the same position.
   void joinOpenEdges() {
     std::set<std::int32_t> open;
     forEachEdge(sortedSides(mesh_), [&](auto first, auto last) {
@@ -113,7 +113,7 @@ class Repair {
          " triangles that faced against their neighbours");
   }
 
-  /// A vertex for each sheet of triangles that hang together by their edges.
+  /// One vertex per sheet of edge-connected triangles.
   void partSheets() {
     UnionFind corners(3 * mesh_.triangles.size());
     const auto cornerOf = [&](const MeshSide& side, std::int32_t vertex) {
@@ -126,7 +126,7 @@ class Repair {
         for (const std::int32_t vertex : {first->low, first->high})
           corners.join(cornerOf(*side, vertex), cornerOf(*first, vertex));
     });
-    std::map<std::int32_t, std::int32_t> vertex_of;  // a sheet's corner at a vertex
+    std::map<std::int32_t, std::int32_t> vertex_of;  // by the sheet of a corner at a vertex
     std::vector<bool> taken(mesh_.vertices_mm.size(), false);
     const std::size_t before = mesh_.vertices_mm.size();
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
@@ -159,7 +159,7 @@ class Repair {
   }
 
   void turnOutward() {
-    if (!(checkMesh(mesh_).volume_mm3 < 0)) return;  // NaN where it is open
+    if (!(checkMesh(mesh_).volume_mm3 < 0)) return;  // NaN for an open mesh
     for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
     tell(true, "turned the surface, which was inside out");
   }

@@ -10,15 +10,15 @@ namespace softscope {
 
 struct RepairedMesh {
   TriangleMesh mesh;
-  std::vector<std::string> repairs;  // what was found and done, a line each; empty: as it was
+  std::vector<std::string> repairs;  // defects and repairs, one line each; empty: unchanged
 };
 
-/// In this order: joins open edges at the same place, drops folded and doubled triangles, turns
-/// triangles that face against their neighbours, parts sheets that touch in a point, closes holes
-/// no wider than a third of the mesh, turns what is inside out, drops vertices that nothing names.
-/// A mesh that needs nothing keeps its vertices and triangles as they are. Wider holes stay open.
-/// Throws InputError, beginning with `name`, where more than two triangles share an edge or the
-/// surface has one side only.
+/// In this order: merges open edges at the same position, drops degenerate and
+/// duplicate triangles, orients triangles consistently, separates sheets that
+/// touch in a point, closes holes no wider than a third of the mesh, reverses
+/// an inside-out mesh, drops unused vertices. A valid mesh is unchanged. Wider
+/// holes stay open. Throws InputError that begins with `name` if more than two
+/// triangles share an edge or the surface is not orientable.
 RepairedMesh repairMesh(TriangleMesh mesh, const std::string& name);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/mesh/mesh_sides.h: the sides of triangles, edge by edge.
+// src/mesh/mesh_sides.h: sides of triangles grouped by edge.
 #pragma once
 
 #include <vector>
@@ -17,13 +17,13 @@ struct MeshSide {
   bool sameEdge(const MeshSide& other) const { return low == other.low && high == other.high; }
 };
 
-/// Names a vertex twice.
+/// True for a repeated vertex.
 inline bool isFolded(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Sorted, so that sides of one edge follow each other; folded triangles have none.
+/// Sorted, so that sides of one edge are consecutive; without degenerate triangles.
 std::vector<MeshSide> sortedSides(const TriangleMesh& mesh);
 
-/// Calls use(first, last) with iterators around the sides of each edge in turn.
+/// Calls use(first, last) with iterators over the sides of each edge.
 template <class Use>
 void forEachEdge(const std::vector<MeshSide>& sides, Use use) {
   for (auto first = sides.begin(); first != sides.end();) {

@@ -1,4 +1,4 @@
-// src/mesh/obj_format.cpp: Wavefront OBJ: the lines v and f; materials are not looked at.
+// src/mesh/obj_format.cpp: Wavefront OBJ: lines v and f; materials are ignored.
 #include <cmath>
 
 #include "mesh/mesh_formats.h"
@@ -24,7 +24,7 @@ void parseVertex(std::string_view line, const TextScanner& file, TriangleMesh& m
   if (count == 6) mesh.colours.push_back({toByte(values[3]), toByte(values[4]), toByte(values[5])});
 }
 
-/// f a b c …, each `v`, `v/vt`, `v//vn` or `v/vt/vn`; counted from 1, or back from -1.
+/// f a b c …, each `v`, `v/vt`, `v//vn` or `v/vt/vn`; indices from 1, or negative from the end.
 void parseFace(std::string_view line, const TextScanner& file, TriangleMesh& mesh) {
   TextScanner words(line, "");
   const auto count = static_cast<std::int64_t>(mesh.vertices_mm.size());
@@ -51,7 +51,7 @@ ParsedMesh parseObj(std::string_view bytes, const std::string& name) {
   while (!file.atEnd()) {
     const std::string_view key = file.word();
     const std::size_t end_of_word = file.position();
-    const TextScanner here = file;  // for errors: the line that is being read
+    const TextScanner here = file;  // for errors: position of the line
     std::string_view rest = file.restOfLine();
     rest = rest.substr(0, rest.find('#'));
     in_head = in_head && key[0] == '#';

@@ -11,10 +11,10 @@
 namespace softscope {
 namespace {
 
-/// The values after the header, one after the other, as double: exact for every type of PLY.
+/// Values after the header in sequence, as double: exact for every type of PLY.
 class PlyValues {
  public:
-  /// `name` is not copied.
+  /// Keeps a reference to `name`.
   PlyValues(std::string_view bytes, const PlyHeader& header, const std::string& name)
       : bytes_(bytes.substr(header.bytes)),
         encoding_(header.encoding),
@@ -34,7 +34,7 @@ class PlyValues {
     return toDouble(bits, type);
   }
 
-  /// A list's length; never more than the file can hold.
+  /// Length of a list, limited by the size of the file.
   std::size_t nextCount(const PlyProperty& list) {
     const double count = next(list.count_type);
     const std::size_t left =
@@ -54,7 +54,7 @@ class PlyValues {
   template <class Value>
   static double as(std::uint64_t bits) {
     Value value;
-    std::memcpy(&value, &bits, sizeof value);  // the low bytes, as x86-64 and AArch64 store them
+    std::memcpy(&value, &bits, sizeof value);  // the low bytes, on little-endian machines
     return static_cast<double>(value);
   }
 
@@ -87,7 +87,7 @@ class PlyValues {
   std::size_t at_ = 0;
 };
 
-/// Reads one element; the scalars stand at their property's place.
+/// Reads one element; scalars at the index of their property.
 void readScalars(PlyValues& values, const PlyElement& element, std::vector<double>& scalars) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
@@ -124,7 +124,7 @@ void readVertices(PlyValues& values, const PlyElement& element, TriangleMesh& me
   }
 }
 
-/// The index, or -1 for what no vertex can have; readMesh says which.
+/// Index, or -1 if it is invalid; readMesh reports it.
 std::int32_t toIndex(double value) {
   return value >= 0 && value <= INT32_MAX ? static_cast<std::int32_t>(value) : -1;
 }
@@ -154,7 +154,7 @@ ParsedMesh parsePly(std::string_view bytes, const std::string& name) {
   parsed.comments = bytes.substr(0, header.bytes);
   PlyValues values(bytes, header, name);
   for (const PlyElement& element : header.elements) {
-    if (element.properties.empty()) continue;  // takes no bytes
+    if (element.properties.empty()) continue;  // has no bytes
     std::vector<double> scalars(element.properties.size());
     if (element.name == "vertex")
       readVertices(values, element, parsed.mesh);

@@ -1,4 +1,4 @@
-// src/mesh/ply_header.cpp: format, elements and properties, line by line.
+// src/mesh/ply_header.cpp: format, elements and properties per line.
 #include "mesh/ply_header.h"
 
 #include <array>
@@ -110,7 +110,7 @@ int PlyElement::find(std::string_view property) const {
 }
 
 std::uint64_t PlyElement::leastBytes(PlyEncoding encoding) const {
-  if (encoding == PlyEncoding::kAscii) return properties.size();  // a digit each
+  if (encoding == PlyEncoding::kAscii) return properties.size();  // at least one digit each
   std::uint64_t bytes = 0;
   for (const PlyProperty& p : properties)
     bytes += static_cast<std::uint64_t>(sizeOf(p.is_list ? p.count_type : p.type));

@@ -8,13 +8,13 @@
 
 namespace softscope {
 
-/// Points sorted into cubes. Finite points only; in the order of their places in the input within a
-/// cube, so that whoever walks through them meets the same ones first every time.
+/// Points sorted into cubic cells. Finite points only; within a cell
+/// in the order of the input, so that traversal is deterministic.
 class PointGrid {
  public:
   PointGrid(const std::vector<Eigen::Vector3f>& points_mm, float cell_mm);
 
-  /// Calls visit(point) for every point in the cubes that touch the ball, and some beyond it.
+  /// Calls visit(point) for every point in the cells that meet the ball, and for some outside.
   template <class Visit>
   void visitAround(const Eigen::Vector3f& centre_mm, float radius_mm, const Visit& visit) const {
     visitCells(centre_mm, radius_mm, [&](std::size_t cell) {
@@ -22,7 +22,7 @@ class PointGrid {
     });
   }
 
-  /// Calls visit(cell) for the cubes themselves, of those that hold points.
+  /// Calls visit(cell) for the non-empty cells.
   template <class Visit>
   void visitCells(const Eigen::Vector3f& centre_mm, float radius_mm, const Visit& visit) const {
     const Eigen::Vector3i low = cellOf(centre_mm.array() - radius_mm);
@@ -36,7 +36,7 @@ class PointGrid {
   }
 
   std::size_t cellCount() const { return keys_.size(); }
-  /// The cube of a point of the grid.
+  /// Cell of a point of the grid.
   std::size_t cellAt(const Eigen::Vector3f& point_mm) const {
     return placeOf(keyOf(cellOf(point_mm)));
   }
@@ -49,17 +49,17 @@ class PointGrid {
   static std::uint64_t keyOf(const Eigen::Vector3i& cell) {
     return std::uint64_t(cell.z()) << 40 | std::uint64_t(cell.y()) << 20 | std::uint64_t(cell.x());
   }
-  /// Of the first cube whose key is this one or more.
+  /// Index of the first cell with at least this key.
   std::size_t placeOf(std::uint64_t key) const {
     return std::size_t(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
   }
 
-  static constexpr int kMostCells = 1 << 20;  // along an axis
+  static constexpr int kMostCells = 1 << 20;  // per axis
   Eigen::Vector3f low_mm_ = Eigen::Vector3f::Zero();
   float cell_mm_;
-  std::vector<std::uint64_t> keys_;  // of cubes that hold points, rising
-  std::vector<std::size_t> begins_;  // of each cube's points in order_, and the end of the last
-  std::vector<std::int32_t> order_;  // the points, cube by cube
+  std::vector<std::uint64_t> keys_;  // of non-empty cells, ascending
+  std::vector<std::size_t> begins_;  // first point of each cell in order_, and the total count
+  std::vector<std::int32_t> order_;  // points sorted by cell
 };
 
 }  // namespace softscope

@@ -20,13 +20,13 @@ struct PlaceHash {
   }
 };
 
-/// Gives corners at the same place the same vertex, in order of appearance.
+/// Merges corners at the same position, in order of appearance.
 class VertexMerger {
  public:
   explicit VertexMerger(TriangleMesh& mesh) : mesh_(mesh) {}
 
   std::int32_t add(Eigen::Vector3f corner) {
-    corner += Eigen::Vector3f::Zero();  // -0 becomes 0: one place, one pattern
+    corner += Eigen::Vector3f::Zero();  // -0 becomes 0: one bit pattern per position
     std::array<std::uint32_t, 3> bits;
     std::memcpy(bits.data(), corner.data(), sizeof bits);
     const auto next = static_cast<std::int32_t>(mesh_.vertices_mm.size());
@@ -52,7 +52,7 @@ std::string lowerCase(std::string_view word) {
   return lower;
 }
 
-/// Expected length of a binary file by its number of triangles; 0 if it is too short to have one.
+/// Length of a binary file from its triangle count; 0 if it is too short.
 std::uint64_t promisedBytes(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes + kCountBytes) return 0;
   return kHeaderBytes + kCountBytes +
@@ -92,7 +92,7 @@ void expectWord(TextScanner& scanner, const char* expected) {
 
 Triangle parseFacet(TextScanner& scanner, VertexMerger& merger) {
   expectWord(scanner, "normal");
-  for (int axis = 0; axis < 3; ++axis) scanner.word();  // some writers put nan here: unused
+  for (int axis = 0; axis < 3; ++axis) scanner.word();  // unused; some writers put nan here
   expectWord(scanner, "outer");
   expectWord(scanner, "loop");
   Triangle triangle;
@@ -112,7 +112,7 @@ ParsedMesh parseAscii(std::string_view bytes, const std::string& name) {
   VertexMerger merger(parsed.mesh);
   TextScanner scanner(bytes, name);
   parsed.comments = bytes.substr(0, bytes.find('\n'));
-  while (!scanner.atEnd()) {  // a file may hold several solids
+  while (!scanner.atEnd()) {  // a file may contain several solids
     expectWord(scanner, "solid");
     scanner.restOfLine();
     std::string key = lowerCase(scanner.word());

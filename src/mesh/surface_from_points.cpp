@@ -1,4 +1,4 @@
-// src/mesh/surface_from_points.cpp: local Delaunay fans, and the triangles on which they agree.
+// src/mesh/surface_from_points.cpp: local Delaunay fans, and the triangles common to them.
 #include "mesh/surface_from_points.h"
 
 #include <Eigen/Geometry>
@@ -22,12 +22,12 @@ namespace softscope {
 namespace {
 
 constexpr double kHalfTurn = 3.14159265358979323846;
-constexpr float kCrowded = 0.3f;  // of the spacing: nearer points make slivers
-constexpr float kNoise = 0.3f;    // of the spacing: lower steps are no steps
+constexpr float kCrowded = 0.3f;  // relative to the spacing: closer points cause slivers
+constexpr float kNoise = 0.3f;    // relative to the spacing: smaller steps are ignored
 constexpr double kSharpestTip_deg = 40;
-constexpr std::size_t kSampled = 2000;  // points whose nearest neighbour is looked for
+constexpr std::size_t kSampled = 2000;  // sample size of the spacing
 
-/// Points of the cloud that are fit for a surface, and which they are.
+/// Valid points of the cloud with their indices.
 struct FitPoints {
   OrientedPoints points;
   std::vector<std::int32_t> places;
@@ -56,7 +56,7 @@ FitPoints fitPoints(const PointCloud& cloud) {
   return fit;
 }
 
-/// Extent of most points along the longest axis, robust to outliers.
+/// Robust extent along the longest axis.
 float extentOf(const std::vector<Eigen::Vector3f>& points_mm) {
   float extent = 0;
   std::vector<float> places(points_mm.size());
@@ -73,7 +73,7 @@ float extentOf(const std::vector<Eigen::Vector3f>& points_mm) {
   return extent;
 }
 
-/// The median distance of a point from the nearest one that faces the same way.
+/// Median distance of a point to the nearest one of similar orientation.
 float spacingOf(const OrientedPoints& points, float least_cosine) {
   const std::vector<Eigen::Vector3f>& points_mm = points.positions_mm;
   const float extent = extentOf(points_mm);
@@ -105,8 +105,8 @@ NeighbourRule ruleFor(const SurfaceOptions& options, float spacing_mm) {
   return rule;
 }
 
-/// Of points that lie almost on each other, the first. Looks at those that were kept alone, so that
-/// ever so many points in one place cost no more than their number.
+/// Keeps the first of nearly coincident points. Compares with kept
+/// points only, so that many coincident points have linear cost.
 FitPoints spreadOut(const FitPoints& all, const NeighbourRule& rule, float least_mm) {
   const PointGrid grid(all.points.positions_mm, least_mm);
   std::vector<std::vector<std::int32_t>> kept(grid.cellCount());
@@ -126,7 +126,7 @@ FitPoints spreadOut(const FitPoints& all, const NeighbourRule& rule, float least
   return spread;
 }
 
-/// A candidate triangle, the lowest index first.
+/// Candidate triangle, lowest index first.
 struct Candidate {
   Triangle triangle;
   float radius_mm;
@@ -151,7 +151,7 @@ std::vector<Candidate> wishesOf(const OrientedPoints& points, const PointGrid& g
   return wishes;
 }
 
-/// Each triangle once; more points in favour first, then the smaller triangle.
+/// Unique triangles; sorted by the number of supporting points, then by size.
 std::vector<Candidate> ranked(std::vector<Candidate> wishes) {
   std::sort(wishes.begin(), wishes.end(), [](const Candidate& a, const Candidate& b) {
     return a.triangle != b.triangle ? a.triangle < b.triangle : a.radius_mm < b.radius_mm;
@@ -216,7 +216,7 @@ PointSurface surfaceFromPoints(const PointCloud& cloud, const SurfaceOptions& op
   GrowingSurface growing(spread.points, rule.least_cosine);
   for (const Candidate& candidate : ranked(wishesOf(spread.points, grid, rule)))
     growing.add(candidate.triangle);
-  growing.closeHoles(kHalfTurn * surface.gap_mm);  // of a circle so wide
+  growing.closeHoles(kHalfTurn * surface.gap_mm);  // circumference of a circle of this width
   const std::vector<Eigen::Vector3f>& places_mm = spread.points.positions_mm;
   const std::vector<Triangle> triangles =
       withoutSplinters(places_mm, growing.triangles(), kSharpestTip_deg);

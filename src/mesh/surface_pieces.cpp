@@ -1,4 +1,4 @@
-// src/mesh/surface_pieces.cpp: corners that share sides are one vertex.
+// src/mesh/surface_pieces.cpp: corners with common sides share a vertex.
 #include "mesh/surface_pieces.h"
 
 #include <Eigen/Geometry>
@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-/// A side of a triangle; `corner` stands at `low`, `next` at `high`.
+/// Side of a triangle; `corner` is at `low`, `next` at `high`.
 struct Side {
   std::int32_t low, high;  // points
   std::int32_t corner, next;
@@ -19,7 +19,7 @@ std::int32_t cornerOf(std::size_t triangle, std::size_t k) {
   return std::int32_t(3 * triangle + k % 3);
 }
 
-/// Corners of the same point are joined where their triangles share a side.
+/// Joins corners of the same point if their triangles share a side.
 UnionFind joinedCorners(const std::vector<Triangle>& triangles) {
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
@@ -50,7 +50,7 @@ double areaOf(const std::vector<Eigen::Vector3f>& positions_mm, const Triangle& 
   return (b - a).cross(c - a).norm() / 2;
 }
 
-/// For each triangle whether its piece is large enough; counts the others' pieces.
+/// Per triangle whether its component is large enough; counts the other components.
 std::vector<char> largeOnes(const std::vector<Eigen::Vector3f>& positions_mm,
                             const std::vector<Triangle>& triangles, UnionFind& corners,
                             double least_mm2, std::size_t& dropped) {
@@ -79,7 +79,7 @@ SurfacePieces assemblePieces(const std::vector<Eigen::Vector3f>& positions_mm,
   UnionFind corners = joinedCorners(triangles);
   const std::vector<char> large =
       largeOnes(positions_mm, triangles, corners, least_mm2, made.dropped_pieces);
-  // One (point, joined corner) a vertex, in the order of the points.
+  // One (point, joined corner) per vertex, in the order of the points.
   std::vector<std::pair<std::int32_t, std::int32_t>> vertices;
   const auto vertexAt = [&](std::size_t i, std::size_t k) {
     return std::make_pair(triangles[i][k], corners.find(cornerOf(i, k)));

@@ -1,4 +1,4 @@
-// src/mesh/surface_pieces.h: from triangles between points to vertices of their own.
+// src/mesh/surface_pieces.h: vertices of triangles between points, separated by sheet.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,16 +9,16 @@
 
 namespace softscope {
 
-/// Triangles whose corners are vertices, each of which stands for a point.
+/// Triangles with vertices that refer to points.
 struct SurfacePieces {
   std::vector<Triangle> triangles;
-  std::vector<std::int32_t> points;  // of each vertex, rising
+  std::vector<std::int32_t> points;  // of each vertex, ascending
   std::size_t dropped_pieces = 0;
 };
 
-/// Drops pieces with less area than `least_mm2`. A point where sheets touch that share no side
-/// there becomes a vertex of each sheet, so that every vertex lies on one. No side may be in more
-/// than two triangles.
+/// Drops components with an area below `least_mm2`. A point
+/// where sheets touch without a common side becomes one vertex
+/// per sheet. No side may belong to more than two triangles.
 SurfacePieces assemblePieces(const std::vector<Eigen::Vector3f>& positions_mm,
                              const std::vector<Triangle>& triangles, double least_mm2);
 

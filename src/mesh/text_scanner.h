@@ -1,4 +1,4 @@
-// src/mesh/text_scanner.h: words and numbers of a text file, with their positions.
+// src/mesh/text_scanner.h: words and numbers of a text file with their positions.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace softscope {
 
 class TextScanner {
  public:
-  /// `name` is what errors call the file; `line` the number of the first line of `text`.
-  /// Neither is copied.
+  /// `name` is used in errors; `line`: number of the
+  /// first line of `text`. Keeps references to both.
   TextScanner(std::string_view text, std::string_view name, int line = 1)
       : text_(text), name_(name), line_(line) {}
 
-  /// The next word, on this line or a later one; empty at the end.
+  /// Next word, on this line or a later one; empty at the end.
   std::string_view word() {
     while (at_ < text_.size() && isSpace(text_[at_])) line_ += text_[at_++] == '\n';
     const std::size_t begin = at_;
@@ -24,7 +24,7 @@ class TextScanner {
     return text_.substr(begin, at_ - begin);
   }
 
-  /// The rest of this line, without its end; moves to the next line.
+  /// Rest of this line without its end; advances to the next line.
   std::string_view restOfLine() {
     const std::size_t begin = at_;
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
@@ -36,7 +36,7 @@ class TextScanner {
 
   double number() { return toNumber<double>(word()); }
 
-  /// The whole word as a number.
+  /// Parses the whole word as a number.
   template <class Number>
   Number toNumber(std::string_view word) const {
     if (word.empty()) fail("the text ends where a number is expected");
@@ -57,7 +57,7 @@ class TextScanner {
                      "; export the mesh again");
   }
 
-  /// What a file said, in quotes: short, and unprintable characters as `?`.
+  /// Word in quotes: shortened, unprintable characters as `?`.
   static std::string shownWord(std::string_view word) {
     std::string shown(word.substr(0, 40));
     for (char& c : shown)

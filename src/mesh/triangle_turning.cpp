@@ -1,4 +1,4 @@
-// src/mesh/triangle_turning.cpp: from neighbour to neighbour.
+// src/mesh/triangle_turning.cpp: propagation over neighbours.
 #include "mesh/triangle_turning.h"
 
 #include <Eigen/Geometry>
@@ -28,8 +28,8 @@ std::vector<std::vector<Neighbour>> neighboursOf(const TriangleMesh& mesh) {
   return neighbours;
 }
 
-/// Six times the volume under a piece's triangles, seen from one of its vertices; turned ones count
-/// as they will be.
+/// Six times the signed volume of a component, relative
+/// to one of its vertices, with its new orientation.
 double volumeOf(const TriangleMesh& mesh, const std::vector<std::int32_t>& piece,
                 const std::vector<signed char>& turned) {
   const Eigen::Vector3d origin = mesh.vertices_mm[mesh.triangles[piece[0]][0]].cast<double>();
@@ -44,8 +44,8 @@ double volumeOf(const TriangleMesh& mesh, const std::vector<std::int32_t>& piece
   return sum;
 }
 
-/// Decides for all that hangs together with `start`; -1 in `turned` means: not yet. Returns false
-/// where the decisions contradict each other.
+/// Orients the component of `start`; -1 in `turned`
+/// means undecided. Returns false for a contradiction.
 bool decidePiece(std::int32_t start, const std::vector<std::vector<Neighbour>>& neighbours,
                  std::vector<signed char>& turned, std::vector<std::int32_t>& piece) {
   piece.assign(1, start);

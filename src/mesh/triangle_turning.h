@@ -9,12 +9,12 @@ namespace softscope {
 
 struct TurnedTriangles {
   std::size_t count = 0;
-  bool one_sided = false;  // nothing was turned then
+  bool one_sided = false;  // not orientable: nothing was changed
 };
 
-/// Turns triangles so that neighbours over an edge face alike, and a piece in which some had to be
-/// turned faces outward. Pieces that were of one mind stay as they are: one inside another may be a
-/// cavity. No edge may belong to more than two triangles.
+/// Orients neighbouring triangles consistently, and a changed component
+/// outward. Components that are already consistent are unchanged: an inner
+/// one may be a cavity. No edge may belong to more than two triangles.
 TurnedTriangles turnAlike(TriangleMesh& mesh);
 
 }  // namespace softscope

@@ -13,11 +13,11 @@ namespace {
 
 constexpr CalibrationLimits kLimits;
 constexpr double kDegreesPerRadian = 57.29577951308232;
-// What numbers rounded in a file, or a rectification in single precision, may leave.
+// Tolerance for rounded numbers, and for a rectification in single precision.
 constexpr double kRectifiedAngleDeg = 0.1;
 constexpr double kRectifiedRowsPx = 2.0;
 constexpr double kRectifiedFocalRatio = 0.005;
-constexpr double kLensSlope = 1;  // beyond 45 degrees a good lens model may grow without bounds
+constexpr double kLensSlope = 1;  // lens models may diverge beyond 45 degrees
 
 using Warnings = std::vector<std::string>;
 
@@ -36,8 +36,8 @@ void checkFocal(const RawCamera& camera, const std::string& what, Warnings& warn
                            ", but pixels are nearly square. Was the ", "image stretched?"));
 }
 
-/// Rectification may move the principal point outside the image, but by less than the largest
-/// side.
+/// Rectification may move the principal point outside
+/// of the image, but by less than its longest side.
 void checkPrincipalPoint(const PinholeCamera& camera, const std::string& what) {
   if (std::abs(camera.cx_px) <= kMostSidePx && std::abs(camera.cy_px) <= kMostSidePx) return;
   throw InputError(say(what, "'s principal point is (", camera.cx_px, ", ", camera.cy_px,
@@ -45,7 +45,7 @@ void checkPrincipalPoint(const PinholeCamera& camera, const std::string& what) {
                        kMostSidePx, " pixels a side. Calibrate or export it again."));
 }
 
-/// The unit in which `baseline`, given in `unit`, would be an endoscope's; empty where in none.
+/// Unit in which `baseline`, given in `unit`, is plausible for an endoscope; empty if none.
 std::string guessUnit(double baseline_mm, const std::string& unit) {
   const double in_file = baseline_mm / (unit == "m" ? 1000 : unit == "cm" ? 10 : 1);
   const auto usual = [](double mm) {
@@ -105,7 +105,7 @@ void checkRectified(const StereoCalibration& calibration) {
     contradict(say("cy differs, ", left.cy_px, " and ", right.cy_px, " px"));
 }
 
-/// How far the lens moves the point (x, y) at unit depth, px: OpenCV's model (core/camera.h).
+/// Displacement of the point (x, y) at unit depth by the lens, px: OpenCV's model (core/camera.h).
 double lensShiftPx(const RawCamera& camera, double x, double y) {
   const auto& k = camera.distortion.coefficients;
   const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
@@ -118,8 +118,8 @@ double lensShiftPx(const RawCamera& camera, double x, double y) {
   return std::hypot((moved_x - x) * camera.pinhole.fx_px, (moved_y - y) * camera.pinhole.fy_px);
 }
 
-/// Throws where the lens moves a point at the middle of the image's edge, at 45 degrees at most,
-/// by more than the image is long.
+/// Throws if the lens displaces a point at the middle of an image
+/// side (at most at 45 degrees) by more than the length of the image.
 void checkLens(const RawCamera& camera, const std::string& what) {
   const PinholeCamera& pinhole = camera.pinhole;
   const double across = std::min(pinhole.width_px / (2 * pinhole.fx_px), kLensSlope);

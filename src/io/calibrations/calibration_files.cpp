@@ -23,7 +23,7 @@ bool contains(const std::string& text, std::string_view part) {
 }
 std::string lowerName(const fs::path& file) { return lowerCase(file.filename().string()); }
 
-/// The only one of `files` whose lower-case name has all `parts`.
+/// The single file whose lower-case name contains all `parts`.
 std::optional<fs::path> theOneWith(const Files& files, const std::vector<std::string_view>& parts) {
   std::optional<fs::path> found;
   for (const fs::path& file : files) {
@@ -56,7 +56,7 @@ Found hamlynThree(const Files& texts) {
   return CalibrationFiles{CalibrationSet::kHamlynThree, {*left, *right, *pose}};
 }
 
-/// The same name with the last `from` turned into `to`, where such a file exists.
+/// The same name with the last `from` replaced by `to`, if that file exists.
 std::optional<fs::path> sibling(const fs::path& file, std::string_view from, std::string_view to) {
   std::string name = file.filename().string();
   const std::size_t at = lowerCase(name).rfind(from);
@@ -85,7 +85,7 @@ CalibrationFiles openCvTwo(const fs::path& file, bool has_cameras) {
     return {CalibrationSet::kOpenCvTwo, {file, *other}};
   if (const auto other = sibling(file, "extrinsics", "intrinsics"); other && !has_cameras)
     return {CalibrationSet::kOpenCvTwo, {*other, file}};
-  return {CalibrationSet::kOneFile, {file}};  // whose reader will say what it misses
+  return {CalibrationSet::kOneFile, {file}};  // its reader reports missing parts
 }
 
 bool looksStructured(const fs::path& file) {

@@ -1,4 +1,4 @@
-// src/io/calibrations/calibration_files.h: the files of a calibration.
+// src/io/calibrations/calibration_files.h: search of the files of a calibration.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +16,11 @@ enum class CalibrationSet {
 
 struct CalibrationFiles {
   CalibrationSet set = CalibrationSet::kOneFile;
-  std::vector<std::filesystem::path> files;  // in the order given above
+  std::vector<std::filesystem::path> files;  // in the order of CalibrationSet
 };
 
-/// Finds the files beside a named one, or the best calibration of a folder. Throws InputError
-/// where a folder holds none, or several of which none is better, or a partner is missing.
+/// Finds the other files of a calibration, or the best calibration of a folder. Throws InputError
+/// for a folder without a calibration or with several equally good ones, and for missing files.
 CalibrationFiles locateCalibration(const std::filesystem::path& file_or_folder);
 
 }  // namespace softscope

@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-// Files carry at least four digits; what is further from a rotation is something else.
+// Tolerance for four digits; larger deviations are not a rotation.
 constexpr double kRotationTolerance = 2e-3;
 constexpr double kExactRotation = 1e-14;
 
@@ -33,7 +33,7 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& matrix, const std::string
   if (!(off <= kRotationTolerance) || matrix.determinant() < 0)
     throw InputError(say(what, " is no rotation: R Rᵀ is ", off, " off the identity, determinant ",
                          matrix.determinant(), ". Calibrate or export it again."));
-  if (off <= kExactRotation) return matrix;  // so that what we wrote reads back bit by bit
+  if (off <= kExactRotation) return matrix;  // exact round trip of our own files
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }

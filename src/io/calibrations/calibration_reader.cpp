@@ -80,8 +80,8 @@ CalibrationDraft draftFromDocument(const Document& document, const std::string& 
   return draft;
 }
 
-/// Whether most lines with content are numbers alone: a text without names. A JSON or XML document
-/// over many lines has such lines too, but begins with its bracket.
+/// True if most lines with content contain only numbers: a text without
+/// names. JSON and XML may also contain such lines, but begin with a bracket.
 bool isBareNumbers(std::string_view text) {
   const std::string_view content = trimmed(text);
   if (!content.empty() && (content[0] == '{' || content[0] == '<')) return false;

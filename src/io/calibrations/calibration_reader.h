@@ -1,5 +1,5 @@
-// src/io/calibrations/calibration_reader.h: stereo calibration of both cameras, from a file of any
-// supported format.
+// src/io/calibrations/calibration_reader.h: reader
+// of stereo calibrations of all supported formats.
 #pragma once
 
 #include <filesystem>
@@ -11,30 +11,30 @@
 
 namespace softscope {
 
-/// What a calibration file may leave unsaid.
+/// Values that complete a calibration file.
 struct CalibrationHints {
-  std::string image_size;  // "640x480"; empty = the file says it, or the images will
-  double baseline_mm = 0;  // 0 = the file says it; else T is scaled to this length
-  std::string unit;        // "mm", "cm" or "m"; empty = as the file or its form says
-  bool rectified = false;  // the images are rectified, whatever the file says
+  std::string image_size;  // "640x480"; empty = from the file, or from the images
+  double baseline_mm = 0;  // 0 = from the file; else T is scaled to this length
+  std::string unit;        // "mm", "cm" or "m"; empty = from the file or its format
+  bool rectified = false;  // overrides the file: the images are rectified
 
-  /// Width and height of `image_size`; 0 0 where that is empty. Throws OptionError.
+  /// Width and height of `image_size`; 0 0 if empty. Throws OptionError.
   std::pair<int, int> imageSizePx() const;
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 
-/// Reads a calibration and checks it (io/calibrations/calibration_check.h); lengths become mm. The
-/// form is recognised by content: OpenCV YAML, XML or JSON; OpenCAS and Hamlyn texts; SCARED;
-/// EndoNeRF's poses_bounds.npy; a pair of ROS camera_info files. docs/formats.md tells each one
-/// exactly. A folder may be given instead of a file; its best calibration is taken. Of forms that
-/// spread over several files, any one may be named. Where the file leaves the image's size
-/// unsaid, it stays 0. Throws InputError.
+/// Reads and checks a calibration (io/calibrations/calibration_check.h);
+/// lengths are converted to mm. The format is detected from the content: OpenCV
+/// YAML, XML or JSON; OpenCAS and Hamlyn texts; SCARED; poses_bounds.npy of
+/// EndoNeRF; a pair of ROS camera_info files. Details: docs/formats.md. For a
+/// folder, its best calibration is used. Of formats with several files, any one
+/// may be given. An unknown image size stays 0. Throws InputError.
 StereoCalibration readCalibration(const std::filesystem::path& file_or_folder,
                                   const CalibrationHints& hints = {});
 
-/// The same for a form of one file, from memory; `name` is what messages call it.
+/// The same for a format with one file, from memory; `name` is used in messages.
 StereoCalibration parseCalibration(std::string_view bytes, const std::string& name,
                                    const CalibrationHints& hints = {});
 

@@ -20,7 +20,7 @@ std::vector<double> rowMajor(const Eigen::Matrix3d& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
 }
 
-/// As few coefficients as OpenCV's model allows without losing one: 5, 8 or 12.
+/// Smallest number of coefficients of OpenCV's model without loss: 5, 8 or 12.
 std::vector<double> shortest(const LensDistortion& distortion) {
   const auto& k = distortion.coefficients;
   std::size_t used = k.size();

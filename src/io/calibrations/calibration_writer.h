@@ -1,5 +1,5 @@
-// src/io/calibrations/calibration_writer.h: a calibration in the form of docs/formats.md,
-// "calibration.yaml".
+// src/io/calibrations/calibration_writer.h: writer of calibration.yaml
+// (docs/formats.md).
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace softscope {
 
-/// OpenCV YAML: image_width, image_height, unit (mm), rectified, depth_unit_mm, M1 D1 M2 D2 R T.
-/// Reads back as the same numbers, bit by bit.
+/// OpenCV YAML: image_width, image_height, unit (mm),
+/// rectified, depth_unit_mm, M1 D1 M2 D2 R T. Exact round trip.
 std::string calibrationYaml(const StereoCalibration& calibration);
 
-/// Throws OptionError where the file exists and `overwrite` is false, Error where it can't be
-/// written.
+/// Throws OptionError if the file exists and
+/// `overwrite` is false, Error if it cannot be written.
 void writeCalibration(const std::filesystem::path& file, const StereoCalibration& calibration,
                       bool overwrite = false);
 

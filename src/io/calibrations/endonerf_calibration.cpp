@@ -1,5 +1,5 @@
-// src/io/calibrations/endonerf_calibration.cpp: EndoNeRF's poses_bounds.npy, without baseline and
-// principal point.
+// src/io/calibrations/endonerf_calibration.cpp: poses_bounds.npy
+// of EndoNeRF, without baseline and principal point.
 #include <cmath>
 
 #include "core/error.h"
@@ -11,8 +11,8 @@
 namespace softscope {
 namespace {
 
-// A row is a 3 x 5 matrix (pose, then height, width, focal length in its fifth column), row-major,
-// and near and far bounds, which some files leave out.
+// A row is a 3 x 5 matrix (pose; height, width, focal length in the
+// fifth column), row-major, and near and far bounds, which are optional.
 constexpr std::size_t kHeightColumn = 4, kWidthColumn = 9, kFocalColumn = 14;
 
 void requireOneCamera(const NpyArray& poses, const std::string& name) {

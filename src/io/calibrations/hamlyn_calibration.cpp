@@ -1,4 +1,4 @@
-// src/io/calibrations/hamlyn_calibration.cpp: Hamlyn's texts, rows of numbers without names.
+// src/io/calibrations/hamlyn_calibration.cpp: Hamlyn texts, rows of numbers without names.
 #include "core/error.h"
 #include "io/calibrations/calibration_forms.h"
 #include "io/calibrations/calibration_parts.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kRowsPerBlock = 4;
 using Rows = std::vector<NumberRow>;
 
-/// Three rows of three numbers, joined.
+/// Three rows of three numbers, concatenated.
 std::vector<double> matrixOf(const Rows& rows, std::size_t begin, const std::string& what) {
   std::vector<double> out;
   for (std::size_t i = begin; i < begin + 3; ++i) {

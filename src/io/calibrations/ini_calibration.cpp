@@ -1,4 +1,4 @@
-// src/io/calibrations/ini_calibration.cpp: StereoMIS' StereoCalibration.ini.
+// src/io/calibrations/ini_calibration.cpp: StereoCalibration.ini of StereoMIS.
 #include <map>
 
 #include "core/error.h"

@@ -1,16 +1,16 @@
-// src/io/calibrations/one_camera.h: calibration files of one camera or of none.
+// src/io/calibrations/one_camera.h: calibrations with one camera, or without calibration.
 #pragma once
 
 #include "core/stereo_rig.h"
 
 namespace softscope {
 
-/// Form of a calibration with one camera, for depth files. Both cameras of StereoCalibration are
-/// then that one, kAssumedBaselineMm apart: depth needs no baseline, but the errors of a depth file
-/// that says none are taken to grow with depth as those of such a scope do.
+/// Format of a calibration with one camera, for depth files. Both cameras of StereoCalibration
+/// are equal, with kAssumedBaselineMm between them: depth needs no baseline, but the errors of
+/// a depth file without errors are modelled as those of such a stereo scope.
 inline constexpr const char* kOneCameraForm = "one camera";
-/// Form of what stands in for a calibration where none was given: a rectified pair, of which
-/// disparity can be measured, and nothing in mm.
+/// Substitute for a missing calibration: a rectified pair
+/// with measurable disparity, without lengths in mm.
 inline constexpr const char* kUncalibratedForm = "none";
 inline constexpr double kAssumedBaselineMm = 5;
 

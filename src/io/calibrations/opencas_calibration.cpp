@@ -1,5 +1,5 @@
-// src/io/calibrations/opencas_calibration.cpp: OpenCAS texts, in one file that begins with RAT or
-// split into five.
+// src/io/calibrations/opencas_calibration.cpp: OpenCAS
+// texts, in one file that begins with RAT or in five files.
 #include <cmath>
 
 #include "core/error.h"
@@ -11,8 +11,8 @@
 namespace softscope {
 namespace {
 
-// One camera of the one-file form: width height, camera matrix (9), k1 k2 p1 p2 k3 k4 k5 k6,
-// rotation (9), translation (3).
+// One camera in the single-file format: width height, camera matrix
+// (9), k1 k2 p1 p2 k3 k4 k5 k6, rotation (9), translation (3).
 constexpr std::size_t kNumbersPerCamera = 31;
 
 struct OpenCasCamera {
@@ -56,7 +56,7 @@ RawCamera cameraFrom(const NamedText& intrinsics, const NamedText& distortion) {
   return out;
 }
 
-/// True where some coefficient beyond k1 k2 p1 p2 k3 is given.
+/// True if a coefficient beyond k1 k2 p1 p2 k3 is given.
 bool isRational(const RawCamera& camera) {
   const auto& k = camera.distortion.coefficients;
   return k[5] != 0 || k[6] != 0 || k[7] != 0;

@@ -1,5 +1,5 @@
-// src/io/calibrations/opencv_calibration.cpp: stereoCalibrate's names in any document; SCARED's as
-// well.
+// src/io/calibrations/opencv_calibration.cpp: names
+// of stereoCalibrate in any document; also SCARED.
 #include <cmath>
 #include <limits>
 
@@ -14,7 +14,7 @@
 namespace softscope {
 namespace {
 
-// The names under which files carry the same thing; the first one is what errors ask for.
+// Alternative names of the same value; errors mention the first.
 using Aliases = std::vector<std::string_view>;
 const Aliases kLeftMatrix = {"M1",
                              "K1",
@@ -66,7 +66,7 @@ const Aliases kWidth = {"image_width", "imageWidth", "width"};
 const Aliases kHeight = {"image_height", "imageHeight", "height"};
 const Aliases kSize = {"image_size", "imageSize", "img_size"};
 
-/// One or two documents asked as one.
+/// Access to one or two documents.
 class Members {
  public:
   Members(const std::vector<Document>& documents, std::string name)
@@ -133,7 +133,7 @@ void setFlags(const Members& members, CalibrationDraft& draft) {
     draft.calibration.depth_unit_mm = singleNumber(members, {"depth_unit_mm"});
 }
 
-/// Asks for what is missing by the names of the short form.
+/// Errors mention the names of the short format.
 double shortNumber(const Members& members, const Aliases& names) {
   if (!members.find(names))
     throw InputError(
@@ -158,7 +158,7 @@ void setOneCamera(const Members& members, RawCamera& camera) {
       distortionFrom(members.numbersIfAny(kOneDistortion), members.label(kOneDistortion));
 }
 
-/// Pinholes of one focal length and row, side by side: resampling would only blur.
+/// Pinholes with the same focal length and principal row, side by side: resampling would only blur.
 bool isRectified(const StereoCalibration& pair) {
   const PinholeCamera &left = pair.left.pinhole, &right = pair.right.pinhole;
   const Eigen::Vector3d t = pair.right_from_left.translation();
@@ -233,7 +233,7 @@ CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const s
       distortionFrom(members.numbersIfAny(kRightDistortion), members.label(kRightDistortion));
   out.right_from_left = poseFrom(members.numbers(kRotation), members.numbers(kTranslation),
                                  members.label(kRotation), members.label(kTranslation));
-  if (members.find({"K_left", "leftcameramat"})) {  // STIR's forms are in metres
+  if (members.find({"K_left", "leftcameramat"})) {  // formats of STIR are in metres
     out.form = members.find({"K_left"}) ? "STIR 2026" : "STIR";
     draft.unit = "m";
     out.rectified = isRectified(out);

@@ -1,4 +1,4 @@
-// src/io/calibrations/projection_calibration.cpp: SERV-CT's projection matrices of rectified
+// src/io/calibrations/projection_calibration.cpp: projection matrices of SERV-CT for rectified
 // cameras.
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 
 struct Projection {
   PinholeCamera camera;
-  double shift_mm = 0;  // of the point before it is projected
+  double shift_mm = 0;  // translation of the point before projection
 };
 
 Projection projectionOf(const Document& document, const char* key, const std::string& name) {
@@ -38,7 +38,7 @@ CalibrationDraft draftFromProjections(const Document& document, const std::strin
   out.rectified = true;
   out.left.pinhole = left.camera;
   out.right.pinhole = right.camera;
-  // The sign differs between exports of P2; the right camera lies on the right.
+  // The sign differs between exports of P2; the right camera is on the right.
   const double baseline_mm = std::abs(right.shift_mm - left.shift_mm);
   if (!std::isfinite(baseline_mm) || baseline_mm == 0)
     throw InputError(name + ": P2 has no baseline in its fourth column, but -fx * B is expected.");

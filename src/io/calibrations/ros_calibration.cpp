@@ -1,4 +1,4 @@
-// src/io/calibrations/ros_calibration.cpp: a pair of ROS camera_info, in metres.
+// src/io/calibrations/ros_calibration.cpp: pair of ROS camera_info, in metres.
 #include <array>
 #include <cmath>
 
@@ -19,7 +19,7 @@ struct CameraInfo {
   double fx_baseline = 0;              // P(0,3): -fx * distance to the left camera
 };
 
-/// The key of camera_calibration's files, or the message's own of ROS 1 (K) and 2 (k).
+/// Key of the files of camera_calibration, or of the message in ROS 1 (K) and 2 (k).
 const Document* findEither(const Document& info, std::string_view key) {
   constexpr std::array<std::array<std::string_view, 3>, 6> kNames{
       {{"camera_matrix", "K", "k"},
@@ -90,7 +90,7 @@ CameraInfo cameraInfoFrom(const Document& info, const std::string& name) {
   return out;
 }
 
-/// -B: where the left camera lies in the right rectified frame, along x.
+/// -B: x of the left camera in the right rectified frame.
 double shiftOf(const CameraInfo& right, const std::string& name) {
   const double shift = right.fx_baseline / right.rectified.fx_px;
   if (!std::isfinite(shift) || shift == 0)

@@ -1,5 +1,5 @@
-// src/io/calibrations/shipped_calibrations.h: calibrations in the forms of data sets, for simulated
-// clips.
+// src/io/calibrations/shipped_calibrations.h: calibrations
+// in the formats of data sets, for simulated clips.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace softscope {
 
 /// SERV-CT: P1 and P2 of rectified cameras.
 std::string projectionJson(const StereoCalibration& calibration);
-/// StereoMIS: five coefficients of each lens; throws OptionError for more.
+/// StereoMIS: five coefficients per lens; throws OptionError for more.
 std::string calibrationIni(const StereoCalibration& calibration);
 /// ROS camera_info of one of two rectified cameras, metres.
 std::string cameraInfoYaml(const StereoCalibration& calibration, bool right);
-/// STIR to 2025, metres.
+/// STIR up to 2025, metres.
 std::string firstStirCalibrationJson(const StereoCalibration& calibration);
 
 }  // namespace softscope

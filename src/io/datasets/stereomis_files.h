@@ -1,4 +1,4 @@
-// src/io/datasets/stereomis_files.h: StereoMIS' groundtruth.txt and its splits.
+// src/io/datasets/stereomis_files.h: groundtruth.txt and splits of StereoMIS.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 
 namespace softscope {
 
-/// By frame: world_from_left, mm, of the raw left camera; from lines `frame tx ty tz qx qy qz qw`.
-/// Throws InputError: a line of another form, a frame that is no whole number or comes twice.
+/// By frame: world_from_left, mm, of the raw left camera; from lines `frame tx ty tz qx
+/// qy qz qw`. Throws InputError: an invalid line, an invalid or duplicate frame number.
 std::map<int, Eigen::Isometry3d> readStereoMisPath(const std::filesystem::path& file);
 std::map<int, Eigen::Isometry3d> parseStereoMisPath(std::string_view text, const std::string& name);
 
-/// Ranges of frames, a line `start,end` each; the end is not part of it. Throws InputError.
+/// Frame ranges, one line `start,end` each; `end` is exclusive. Throws InputError.
 std::vector<FrameRange> readStereoMisSplit(const std::filesystem::path& file);
 std::vector<FrameRange> parseStereoMisSplit(std::string_view text, const std::string& name);
 

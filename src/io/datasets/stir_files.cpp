@@ -134,7 +134,7 @@ StirAnnotations readStirAnnotations(const std::filesystem::path& file) {
 std::vector<Eigen::Vector2d> parseStirQueries(std::string_view text, const std::string& name) {
   const Document document = objectOf(text, name);
   const Document* entry = &document;
-  if (!document.find("left_x"))  // as annotations.json has it: of frame 0, instance 0
+  if (!document.find("left_x"))  // as in annotations.json: frame 0, instance 0
     entry = document.find("0/0");
   if (!entry)
     throw InputError(name +

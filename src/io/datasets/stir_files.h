@@ -1,5 +1,5 @@
-// src/io/datasets/stir_files.h: STIR 2026's calib.json, queries.json, annotations.json and
-// preds.json.
+// src/io/datasets/stir_files.h: calib.json, queries.json,
+// annotations.json and preds.json of STIR 2026.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,35 +13,35 @@
 
 namespace softscope {
 
-/// A point's true place in one frame, in the images as they are on disk.
+/// True position of a point in one frame, in the images on disk.
 struct StirPoint {
   double left_u_px = 0, left_v_px = 0;
   double disparity_px = 0;  // u_left - u_right
   bool left_visible = false, right_visible = false;
 };
 
-/// By frame; every frame has as many points, point k is the same tissue in all of them. Instance 0,
-/// as the challenge's script.
+/// By frame; every frame has the same number of points, and point k is the
+/// same tissue in all of them. Instance 0, as in the script of the challenge.
 using StirAnnotations = std::map<int, std::vector<StirPoint>>;
 
-/// Throws InputError: no JSON, a key that isn't FRAME/INSTANCE, lists of different lengths, numbers
-/// that aren't finite.
+/// Throws InputError: invalid JSON, a key other than FRAME/INSTANCE,
+/// lists of different lengths, numbers that are not finite.
 StirAnnotations readStirAnnotations(const std::filesystem::path& file);
 StirAnnotations parseStirAnnotations(std::string_view text, const std::string& name);
 std::string stirAnnotationsJson(const StirAnnotations& annotations);
 
-/// Pixels of the first left image whose tissue is to be followed. Throws InputError.
+/// Pixels of the first left image to be tracked. Throws InputError.
 std::vector<Eigen::Vector2d> readStirQueries(const std::filesystem::path& file);
 std::vector<Eigen::Vector2d> parseStirQueries(std::string_view text, const std::string& name);
 std::string stirQueriesJson(const std::vector<Eigen::Vector2d>& queries_px);
 
-/// K_left, K_right, D_left, D_right, R_left_to_right, t_left_to_right in metres; readCalibration()
-/// reads it. Coefficients beyond the fifth don't fit this form: throws OptionError.
+/// K_left, K_right, D_left, D_right, R_left_to_right, t_left_to_right in metres;
+/// readable by readCalibration(). Throws OptionError for more than five coefficients.
 std::string stirCalibrationJson(const StereoCalibration& calibration);
 
 /// One frame of a submission.
 struct StirPrediction {
-  std::vector<Eigen::Vector3d> positions_mm;  // in the left camera's frame; written in metres
+  std::vector<Eigen::Vector3d> positions_mm;  // in the left camera frame; written in metres
   std::vector<bool> visible;
   double latency_ms = 0;
 };

@@ -25,7 +25,7 @@ int sideOf(const Document& size, const char* key, const std::string& name) {
   return static_cast<int>(values[0]);
 }
 
-/// A file beside info.yaml; never elsewhere.
+/// A file in the folder of info.yaml only.
 std::string plainName(const std::string& text, const std::string& name) {
   if (!text.empty() && text != "." && text != ".." && text.find('/') == std::string::npos)
     return text;

@@ -1,4 +1,4 @@
-// src/io/datasets/surgt_files.h: SurgT's info.yaml and gt_rectified_N.yaml.
+// src/io/datasets/surgt_files.h: info.yaml and gt_rectified_N.yaml of SurgT.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ struct SurgtInfo {
   bool side_by_side = false;        // video_stack horizontal; else vertical, left on top
   int width_px = 0, height_px = 0;  // of one view
   std::string video;                // name within the folder
-  std::vector<std::string> truth;   // names of the files of true boxes, one a target
+  std::vector<std::string> truth;   // file names of true boxes, one per target
 };
 
-/// Throws InputError: a key that is missing, a stack that is neither, a size that can't be, a name
-/// that leads out of the folder.
+/// Throws InputError: a missing key, an unknown stacking,
+/// an implausible size, a name outside of the folder.
 SurgtInfo readSurgtInfo(const std::filesystem::path& file);
 SurgtInfo parseSurgtInfo(std::string_view text, const std::string& name);
 std::string surgtInfoYaml(const SurgtInfo& info);
@@ -31,7 +31,7 @@ struct SurgtFrame {
   std::optional<std::array<std::array<double, 4>, 2>> boxes;  // left, right
 };
 
-/// Throws InputError with the frame where reading stopped.
+/// Throws InputError with the frame of the error.
 std::vector<SurgtFrame> readSurgtTruth(const std::filesystem::path& file);
 std::vector<SurgtFrame> parseSurgtTruth(std::string_view text, const std::string& name);
 std::string surgtTruthYaml(const std::vector<SurgtFrame>& frames);

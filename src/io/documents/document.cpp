@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-/// Builds a Document in the file's order, with every member that a key stands for.
+/// Builds a Document in the order of the file, including duplicate keys.
 class JsonReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit JsonReader(const std::string& name) : name_(name) {}
@@ -26,7 +26,7 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
     return addText(exactText(value));
   }
   bool string(string_t& value) override { return addText(value); }
-  bool binary(binary_t& /*value*/) override { return false; }  // no part of JSON texts
+  bool binary(binary_t& /*value*/) override { return false; }  // not part of JSON texts
   bool start_object(std::size_t /*size*/) override { return open(Document::Kind::kMap); }
   bool start_array(std::size_t /*size*/) override { return open(Document::Kind::kList); }
   bool end_object() override { return close(); }
@@ -72,8 +72,8 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
   }
 
   const std::string& name_;
-  std::vector<Document> open_;     // from the outermost map or list to the innermost
-  std::vector<std::string> keys_;  // of the member that is read in each of them
+  std::vector<Document> open_;     // open maps and lists, from the outermost to the innermost
+  std::vector<std::string> keys_;  // current key in each of them
 };
 
 bool isSame(const Document& a, const Document& b) {

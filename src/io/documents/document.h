@@ -8,37 +8,37 @@
 
 namespace softscope {
 
-/// A tree of texts. Numbers stay text until they are asked for.
+/// Tree of texts. Numbers are parsed on access.
 struct Document {
   enum class Kind { kText, kList, kMap };
 
   Kind kind = Kind::kText;
-  std::string text;                                       // kText; empty for "nothing"
+  std::string text;                                       // kText; empty for null
   std::vector<Document> items;                            // kList
-  std::vector<std::pair<std::string, Document>> members;  // kMap, in the file's order
+  std::vector<std::pair<std::string, Document>> members;  // kMap, in the order of the file
 
-  /// The member of a map, null where there is none.
+  /// Member of a map, null if absent.
   const Document* find(std::string_view key) const;
 };
 
-/// No file that we read nests deeper; more is refused, so that the stack holds.
+/// Nesting limit, which protects the stack; no supported file nests deeper.
 inline constexpr int kDeepestNesting = 40;
 
-/// Throws InputError where a map has a key twice with different values. The readers below call it.
+/// Throws InputError for a duplicate key with different values. Called by the parsers below.
 void requireUniqueKeys(const Document& document, const std::string& name);
 
-/// The part of YAML that OpenCV, ROS and Python write: maps and lists by indentation or in
-/// brackets, tags and comments skipped; no anchors, no folded texts.
-/// `name` is what errors call the file. All throw InputError with the line where reading stopped.
+/// Subset of YAML written by OpenCV, ROS and Python: maps and lists by indentation
+/// or in brackets; tags and comments are skipped; no anchors, no folded texts.
+/// `name` is used in errors. All throw InputError with the line of the error.
 Document parseYaml(std::string_view text, const std::string& name);
 
-/// OpenCV's XML: elements become maps, repeated ones lists; attributes are skipped.
-/// Returns what the root element holds.
+/// XML of OpenCV: elements become maps, repeated ones lists;
+/// attributes are skipped. Returns the content of the root element.
 Document parseXml(std::string_view text, const std::string& name);
 
 Document parseJson(std::string_view text, const std::string& name);
 
-/// Any of the three, told apart by the first character.
+/// Any of the three formats, detected from the first character.
 Document parseDocument(std::string_view text, const std::string& name);
 
 }  // namespace softscope

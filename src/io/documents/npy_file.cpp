@@ -32,7 +32,7 @@ NpyHeader npyHeaderOf(std::string_view bytes, const std::string& name) {
   return {bytes.substr(begin, length), begin + length};
 }
 
-/// What follows 'key': in the header's dictionary.
+/// Text after 'key': in the dictionary of the header.
 std::string_view entry(std::string_view header, std::string_view key) {
   const std::size_t at = header.find(key);
   if (at == std::string_view::npos) return {};
@@ -70,7 +70,7 @@ void copyValues(std::string_view data, std::vector<double>& out) {
 std::string npyBytes(const Raster<float>& values) {
   std::string header = say("{'descr': '<f4', 'fortran_order': False, 'shape': (", values.height_px,
                            ", ", values.width_px, "), }");
-  constexpr std::size_t kBegin = 10, kAlignment = 64;  // of magic, version and length; of the data
+  constexpr std::size_t kBegin = 10, kAlignment = 64;  // of the header's first part; of the data
   header.append(kAlignment - 1 - (kBegin + header.size()) % kAlignment, ' ');
   header += '\n';
   std::string bytes(kMagic);

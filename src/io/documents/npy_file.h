@@ -1,4 +1,4 @@
-// src/io/documents/npy_file.h: NumPy's arrays of floating-point numbers.
+// src/io/documents/npy_file.h: NumPy arrays of floating-point numbers.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct NpyArray {
 
 bool isNpy(std::string_view bytes);
 
-/// Reads a two-dimensional array of <f4 or <f8 in C order. Throws InputError on anything else.
+/// Reads a two-dimensional array of <f4 or <f8 in C order. Throws InputError for other content.
 NpyArray parseNpy(std::string_view bytes, const std::string& name);
 
 /// As <f4 in C order.

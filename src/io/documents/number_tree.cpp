@@ -7,7 +7,7 @@
 namespace softscope {
 namespace {
 
-// The largest matrix in any calibration is 3 x 4; a cap keeps errors short and memory small.
+// Limit of the size; the largest matrix of a calibration is 3 x 4.
 constexpr std::size_t kMostInTree = 64;
 
 void append(const Document& document, const std::string& what, std::vector<double>& out);

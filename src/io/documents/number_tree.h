@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// All numbers in the order of the file: of a text with blanks, of nested lists, or of a map with
-/// rows, cols and data (OpenCV and ROS), whose counts must agree.
-/// `what` names it in errors: "calib.yaml: M1". Throws InputError where something is no number.
+/// All numbers in the order of the file: from a text with blanks, nested lists, or
+/// a map with rows, cols and data (OpenCV and ROS) with consistent counts. `what`:
+/// name in errors: "calib.yaml: M1". Throws InputError for an invalid number.
 std::vector<double> numbersOf(const Document& document, const std::string& what);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/io/documents/toml_tree.cpp: one walk over toml++'s nodes.
+// src/io/documents/toml_tree.cpp: conversion of toml++ nodes.
 #include "io/documents/toml_tree.h"
 
 #include <toml++/toml.h>
@@ -32,12 +32,12 @@ Json jsonOf(const toml::node& node, const std::string& name) {
   return json;
 }
 
-constexpr int kDeepestToml = 64;  // dots of one key, or brackets within brackets
+constexpr int kDeepestToml = 64;  // dots of one key, or nested brackets
 
-/// Dots since the last character that ends a key, and open brackets, outside texts and comments.
+/// Counts dots since the last end of a key, and open brackets, outside of texts and comments.
 class TomlDepth {
  public:
-  /// False where it is too deep.
+  /// False if the limit is exceeded.
   bool step(char c) {
     if (comment_) {
       comment_ = c != '\n';

@@ -1,4 +1,4 @@
-// src/io/documents/toml_tree.h: a TOML file whose lists and tables matter, as a tree.
+// src/io/documents/toml_tree.h: TOML file as a tree of lists and tables.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,15 @@
 
 namespace softscope {
 
-/// Throws InputError where keys or brackets nest deeper than any settings do: the parser, which
-/// calls itself for each part of a key, would run out of its stack.
+/// Throws InputError for too deeply nested keys or
+/// brackets: the recursive parser would overflow its stack.
 void requireShallowToml(std::string_view toml, const std::string& name);
 
-/// What the parser says of the place where it stopped, with the key that it names, in backticks.
+/// Message of the parser at the error, with its key in backticks.
 std::string tomlComplaint(std::string_view description);
 
 /// Tables become objects, lists arrays; lists keep their order, keys are sorted.
-/// Throws InputError where the file is missing or no TOML, OptionError where it holds a date.
+/// Throws InputError for a missing file or invalid TOML, OptionError for a date.
 nlohmann::ordered_json readTomlTree(const std::filesystem::path& file);
 nlohmann::ordered_json parseTomlTree(std::string_view toml, const std::string& name);
 

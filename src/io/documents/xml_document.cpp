@@ -1,4 +1,4 @@
-// src/io/documents/xml_document.cpp: the part of XML that OpenCV writes.
+// src/io/documents/xml_document.cpp: subset of XML written by OpenCV.
 #include <algorithm>
 
 #include "core/error.h"
@@ -71,7 +71,7 @@ class XmlParser {
     return out;
   }
 
-  /// What stands between <name> and </name>.
+  /// Content between <name> and </name>.
   Document content(std::string_view name, int depth) {
     if (depth > kDeepestNesting) fail("nested too deeply");
     Document out;
@@ -95,7 +95,7 @@ class XmlParser {
     return out;
   }
 
-  /// `_` is how OpenCV names the items of a list.
+  /// `_` is OpenCV's name of list items.
   static void add(Document& parent, std::string_view name, Document child) {
     if (name == "_") {
       parent.kind = Document::Kind::kList;

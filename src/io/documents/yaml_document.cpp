@@ -1,4 +1,4 @@
-// src/io/documents/yaml_document.cpp: the part of YAML that OpenCV, ROS and Python write.
+// src/io/documents/yaml_document.cpp: subset of YAML written by OpenCV, ROS and Python.
 #include <algorithm>
 
 #include "core/error.h"
@@ -11,11 +11,11 @@ namespace {
 
 struct Line {
   int number = 0;          // from 1
-  std::size_t indent = 0;  // blanks before the text
-  std::string_view text;   // without comment and blanks at both ends
+  std::size_t indent = 0;  // number of blanks before the text
+  std::string_view text;   // without comment and surrounding blanks
 };
 
-/// Cuts a comment: # at the start or after a blank, outside quotes.
+/// Removes a comment: # at the start or after a blank, outside of quotes.
 std::string_view withoutComment(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -58,7 +58,7 @@ std::string unquoted(std::string_view value) {
   return std::string(value);
 }
 
-/// Where the colon of `key: value` stands; npos where there is none.
+/// Position of the colon of `key: value`; npos if absent.
 std::size_t colonOf(std::string_view text) {
   char quote = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -74,7 +74,7 @@ std::size_t colonOf(std::string_view text) {
   return std::string_view::npos;
 }
 
-/// What stands in brackets: [1, 2] or {a: 1}, possibly over many lines.
+/// Parser of bracketed content: [1, 2] or {a: 1}, possibly over several lines.
 class FlowParser {
  public:
   FlowParser(std::string_view text, std::string name, int line)
@@ -184,7 +184,7 @@ class BlockParser {
       if (rest.empty()) {
         ++next_;
         out.items.push_back(below(indent, depth));
-      } else {  // what follows the dash is a block of its own, further in
+      } else {  // the dash is followed by an indented block
         line.indent += static_cast<std::size_t>(rest.data() - line.text.data());
         line.text = rest;
         out.items.push_back(block(depth + 1));
@@ -215,13 +215,13 @@ class BlockParser {
     return out;
   }
 
-  /// The block further in than `indent`, or nothing.
+  /// Block with more indentation than `indent`, or empty.
   Document below(std::size_t indent, int depth) {
     if (!more() || lines_[next_].indent <= indent) return {};
     return block(depth + 1);
   }
 
-  /// A word, or brackets that may go on over the next lines.
+  /// A word, or brackets that may continue on the next lines.
   Document value(std::string_view first) {
     const int line = lines_[next_].number;
     ++next_;

@@ -26,19 +26,19 @@ namespace fs = std::filesystem;
       ": exists already and is not overwritten. Choose another name or give `overwrite=`.");
 }
 
-/// Unique among the threads of this process and among processes.
+/// Unique over all threads and processes.
 fs::path temporaryBeside(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   return target.parent_path() /
          say(".", target.filename().string(), ".", ::getpid(), "-", counter++, ".part");
 }
 
-/// Renames, and fails with EEXIST where the target exists and `overwrite` is false.
+/// Renames; fails with EEXIST if the target exists and `overwrite` is false.
 int renameTo(const fs::path& from, const fs::path& to, bool overwrite) {
   if (overwrite) return ::rename(from.c_str(), to.c_str());
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return -1;
-  // This file system can't rename without replacing; look first.
+  // Fallback for file systems without this operation.
   if (fs::exists(fs::symlink_status(to))) {
     errno = EEXIST;
     return -1;
@@ -46,8 +46,8 @@ int renameTo(const fs::path& from, const fs::path& to, bool overwrite) {
   return ::rename(from.c_str(), to.c_str());
 }
 
-/// The process of ".NAME.PROCESS-NUMBER.part", as temporaryBeside() makes it, or of a video's
-/// ".NAME.PROCESS.part.END"; 0 where `name` is another.
+/// Process id in ".NAME.PROCESS-NUMBER.part", as created by temporaryBeside(),
+/// or in ".NAME.PROCESS.part.END" of a video; 0 for other names.
 pid_t writerOf(const std::string& name) {
   static const std::regex kTemporary(R"(\..+\.(\d{1,9})(-\d+\.part|\.part\.\w+))");
   std::smatch parts;

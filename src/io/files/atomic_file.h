@@ -1,4 +1,4 @@
-// src/io/files/atomic_file.h: a file that appears whole or not at all.
+// src/io/files/atomic_file.h: atomic writing of files.
 #pragma once
 
 #include <filesystem>
@@ -6,24 +6,24 @@
 
 namespace softscope {
 
-/// Throws OptionError naming --force where `target` exists and `overwrite` is false.
+/// Throws OptionError with --force if `target` exists and `overwrite` is false.
 void requireWritable(const std::filesystem::path& target, bool overwrite);
 
-/// Gathers bytes under a temporary name beside the target; commit() gives the file its name in one
-/// step. Without commit() the target stays as it was. Guards against a stopped program and a full
-/// disk, not against a power cut (nothing is flushed to the medium).
+/// Writes to a temporary file next to the target; commit() renames it atomically.
+/// Without commit() the target is unchanged. Protects against a stopped program and
+/// a full disk, not against a power failure (data are not flushed to the medium).
 class AtomicFile {
  public:
-  /// Throws OptionError as requireWritable does, Error where the folder can't be written to.
+  /// Throws OptionError as requireWritable does, Error for a folder without write access.
   AtomicFile(std::filesystem::path target, bool overwrite);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Throws Error where the disk is full.
+  /// Throws Error for a full disk.
   void write(std::string_view bytes);
 
-  /// Throws Error, or OptionError where the target appeared meanwhile.
+  /// Throws Error, or OptionError if the target was created in the meantime.
   void commit();
 
  private:
@@ -35,16 +35,16 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
-/// Removes what an AtomicFile of a process that was killed left in `folder`; does nothing where
-/// there is no such folder. For a folder that no other process writes to.
+/// Removes temporary files of killed processes in `folder`; does nothing for
+/// a missing folder. Requires that no other process writes to the folder.
 void removeTemporaries(const std::filesystem::path& folder);
 
-/// The same of processes that no longer run on this machine: for a folder that others may write to
-/// at the same time. A process on another machine that shares the folder counts as one that no
-/// longer runs.
+/// Removes temporary files of processes that no longer run on
+/// this machine: for a folder with several writers. A process on
+/// another machine with the same folder counts as not running.
 void removeAbandoned(const std::filesystem::path& folder);
 
-/// All of it at once.
+/// Writes all bytes at once.
 void writeFile(const std::filesystem::path& target, std::string_view bytes, bool overwrite);
 
 }  // namespace softscope

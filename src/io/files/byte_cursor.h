@@ -11,7 +11,7 @@ namespace softscope {
 
 class ByteCursor {
  public:
-  /// `name` is what errors call the file.
+  /// `name` is used in errors.
   ByteCursor(std::string_view bytes, std::string name, bool big_endian)
       : bytes_(bytes), name_(std::move(name)), big_endian_(big_endian) {}
 

@@ -1,4 +1,4 @@
-// src/io/files/file_bytes.h: a whole file in memory.
+// src/io/files/file_bytes.h: reading of whole files into memory.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace softscope {
 
-/// Reads a regular file. Throws InputError where it is missing, empty, a folder, a device, a
-/// symbolic link that leads to itself, unreadable, or larger than `limit_bytes`.
+/// Reads a regular file. Throws InputError for a missing, empty or unreadable file,
+/// a folder, a device, a cyclic symbolic link, or a file larger than `limit_bytes`.
 std::string readBytes(const std::filesystem::path& file,
                       std::uintmax_t limit_bytes = std::uintmax_t{1} << 30);
 
-/// A calibration is a few kilobytes; what is larger is another file.
+/// A calibration has a few kilobytes.
 inline constexpr std::uintmax_t kCalibrationLimitBytes = std::uintmax_t{4} << 20;
 
-/// The limit for files that hold text alone.
+/// Limit for text files.
 inline constexpr std::uintmax_t kTextLimitBytes = std::uintmax_t{64} << 20;
 
-/// Throws the InputError of readBytes where `file` isn't a regular file with content.
+/// Throws the InputError of readBytes unless `file` is a regular file with content.
 void requireFile(const std::filesystem::path& file);
 
 }  // namespace softscope

@@ -6,11 +6,11 @@
 
 namespace softscope {
 
-/// SHA-256 in hexadecimal. Of a file its content; of a folder the names and contents of the files
-/// directly in it, in natural order. Throws InputError where it can't be read.
+/// SHA-256 in hexadecimal. For a file its content; for a folder the names and contents of
+/// its files (not of subfolders) in natural order. Throws InputError for unreadable files.
 std::string sha256Of(const std::filesystem::path& path);
 
-/// Of bytes in memory.
+/// For bytes in memory.
 std::string sha256OfBytes(const std::string& bytes);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/io/files/file_lock.cpp: Linux's open file description locks, which can be asked about.
+// src/io/files/file_lock.cpp: open file description locks of Linux, whose state can be queried.
 #include "io/files/file_lock.h"
 
 #include <fcntl.h>

@@ -1,27 +1,27 @@
-// src/io/files/file_lock.h: lock of a folder by one process, and whether it is held.
+// src/io/files/file_lock.h: lock of a folder by one process, with a query of its state.
 #pragma once
 
 #include <filesystem>
 
 namespace softscope {
 
-/// A lock that ends with its process, however that ends. It is advisory.
+/// Advisory lock that ends with its process in all cases.
 class FileLock {
  public:
-  /// Makes the file where it is missing; holds nothing yet.
+  /// Creates the file if it is missing; does not lock.
   explicit FileLock(const std::filesystem::path& file);
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
 
-  /// False while another holds it. True also where nothing can be locked: a lock is no guarantee.
+  /// False while another process holds the lock. True if the file system does not support locks.
   bool tryToHold() const;
 
  private:
   int descriptor_;
 };
 
-/// Whether somebody holds a lock on `file` at this moment; false where there is no such file.
+/// True if a process currently holds a lock on `file`; false for a missing file.
 bool isHeld(const std::filesystem::path& file);
 
 }  // namespace softscope

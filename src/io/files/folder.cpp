@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// The run of digits at `begin` without leading zeros; moves `begin` past it.
+/// Run of digits at `begin` without leading zeros; advances `begin`.
 std::string_view takeNumber(std::string_view text, std::size_t& begin) {
   std::size_t end = begin;
   while (end < text.size() && isDigit(text[end])) ++end;
@@ -70,7 +70,7 @@ bool naturallyBefore(std::string_view a, std::string_view b) {
     }
   }
   if (i < a.size() || j < b.size()) return j < b.size();
-  return a < b;  // equal but for leading zeros
+  return a < b;  // equal except for leading zeros
 }
 
 std::vector<fs::path> existingIn(const fs::path& folder, const std::vector<std::string>& names) {
@@ -93,7 +93,7 @@ std::vector<fs::path> filesIn(const fs::path& folder,
     std::error_code status_code;
     const fs::file_status status = fs::status(path, status_code);
     if (fs::is_directory(status)) continue;
-    if (!fs::is_regular_file(status)) requireFile(path);  // says what is wrong with it
+    if (!fs::is_regular_file(status)) requireFile(path);  // throws with the reason
     files.push_back(path);
   }
   if (code) throw InputError(say(shown(folder), ": can't be listed: ", code.message(), "."));

@@ -1,4 +1,4 @@
-// src/io/files/new_files.h: files of one result, removed if the result fails.
+// src/io/files/new_files.h: files of one result, removed after a failure.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace softscope {
 
-/// Without keep() the destructor removes every file and folder that was made through it, so that a
-/// command that fails leaves no part of a series. What replaced an earlier file stays. May be used
-/// by several threads.
+/// Without keep() the destructor removes every file and folder
+/// created through it, so that a failed command leaves no
+/// incomplete series. Replaced files are kept. Thread-safe.
 class NewFiles {
  public:
   NewFiles() = default;
@@ -20,7 +20,7 @@ class NewFiles {
   /// Calls `write`, which writes `file`.
   template <class Write>
   void make(const std::filesystem::path& file, const Write& write);
-  /// Makes the folder and those above it where they are missing. Throws filesystem_error.
+  /// Creates the folder with missing parents. Throws filesystem_error.
   void makeFolder(const std::filesystem::path& folder);
   void keep();
 

@@ -22,7 +22,7 @@ struct Header {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-/// The next word of the header; `at` is left on the blank after it.
+/// Next word of the header; `at` is then at the blank after it.
 std::string_view takeWord(std::string_view bytes, std::size_t& at) {
   while (at < bytes.size() && isBlank(bytes[at])) ++at;
   const std::size_t begin = at;

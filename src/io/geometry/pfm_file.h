@@ -1,4 +1,4 @@
-// src/io/geometry/pfm_file.h: portable float maps (Debevec's PFM), one channel.
+// src/io/geometry/pfm_file.h: portable float maps (PFM of Debevec), one channel.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace softscope {
 
-/// Reads "Pf": width, height, a scale whose sign gives the byte order (negative = little endian,
-/// its size is ignored), then 32-bit floats, the lowest row first. Infinities and NaN become NaN.
-/// Throws InputError on colour ("PF"), on a file shorter or longer than its header says.
+/// Reads "Pf": width, height, a scale whose sign is the byte order (negative = little endian, its
+/// magnitude is ignored), then 32-bit floats, lowest row first. Infinities and NaN become NaN.
+/// Throws InputError for colour ("PF"), and for a file of another length than that of its header.
 Raster<float> parsePfm(std::string_view bytes, const std::string& name);
 
-/// Little endian, scale -1. NaN stays NaN.
+/// Little endian, scale -1. NaN is preserved.
 std::string pfmBytes(const Raster<float>& raster);
 
 }  // namespace softscope

@@ -78,7 +78,7 @@ std::string trajectoryText(const Trajectory& trajectory) {
   for (const TimedPose& pose : trajectory) {
     const Eigen::Vector3d t = pose.world_from_left.translation();
     const Eigen::Quaterniond q(pose.world_from_left.linear());
-    // Numbers beyond these would not be lengths in mm, and would overrun the line.
+    // Larger numbers are not lengths in mm, and would exceed the line buffer.
     if (!(std::abs(pose.time_s) < 1e12 && t.cwiseAbs().maxCoeff() < 1e12 && q.coeffs().allFinite()))
       throw Error(say("a trajectory holds a pose that is not finite, at ", pose.time_s, " s."));
     std::snprintf(line.data(), line.size(), "%.6f %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n",

@@ -1,5 +1,5 @@
-// src/io/images/image_header.h: size and completeness of an image file, checked before anything is
-// decoded.
+// src/io/images/image_header.h: size and completeness
+// of an image file, checked before decoding.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ struct ImageHeader {
   int height_px = 0;
 };
 
-/// Recognises the form by content and walks its structure to the end: PNG with check sums, JPEG
-/// to its end marker, BMP and binary PGM/PPM by length, TIFF to its first directory.
-/// Throws InputError on another form, a truncated or damaged file, and absurd sizes.
+/// Detects the format from the content and parses its structure to the end: PNG with checksums,
+/// JPEG to its end marker, BMP and binary PGM/PPM by length, TIFF to its first directory.
+/// Throws InputError for another format, a truncated or damaged file, and implausible sizes.
 ImageHeader inspectImage(std::string_view bytes, const std::string& name);
 
 }  // namespace softscope

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kJpegMaskThreshold = 128;
 
-/// The largest of the channels, as CV_16U or CV_8U.
+/// Maximum over the channels, as CV_16U or CV_8U.
 cv::Mat largestChannel(const cv::Mat& image) {
   std::vector<cv::Mat> channels;
   cv::split(image, channels);

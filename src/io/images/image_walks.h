@@ -1,4 +1,4 @@
-// src/io/images/image_walks.h: structure of each image format, read without decoding.
+// src/io/images/image_walks.h: structure of each image format without decoding.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct PictureSize {
   long height_px = 0;
 };
 
-// All throw InputError on a truncated or damaged file; sizes are as the file says, unchecked.
+// All throw InputError for a truncated or damaged file; the sizes are unchecked.
 PictureSize walkPng(std::string_view bytes, const std::string& name);
 PictureSize walkJpeg(std::string_view bytes, const std::string& name);
 PictureSize walkBmp(std::string_view bytes, const std::string& name);

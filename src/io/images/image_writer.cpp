@@ -20,7 +20,7 @@ cv::Mat bgrOf(const ColourImage& image) {
   return bgr;
 }
 
-/// Asks before the work of encoding is done.
+/// Checks the target before the encoding.
 void write(const fs::path& file, const char* extension, const cv::Mat& image, bool overwrite,
            const std::vector<int>& parameters = {}) {
   requireWritable(file, overwrite);
@@ -31,7 +31,7 @@ void appendBigEndian(std::uint32_t value, std::string& bytes) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes += char(value >> shift & 255);
 }
 
-/// The PNG specification's cyclic redundancy check, annex D.
+/// Cyclic redundancy check of the PNG specification, annex D.
 std::uint32_t checkSum(const std::string& bytes) {
   std::uint32_t crc = 0xffffffffu;
   for (const char byte : bytes) {
@@ -41,13 +41,13 @@ std::uint32_t checkSum(const std::string& bytes) {
   return ~crc;
 }
 
-/// The chunk of physical dimensions; it stands before the pixels.
+/// Chunk of physical dimensions; it precedes the pixels.
 std::string dimensionsChunk(double dots_per_inch) {
   const auto dots_per_metre = static_cast<std::uint32_t>(std::lround(dots_per_inch / 0.0254));
   std::string content = "pHYs";
   appendBigEndian(dots_per_metre, content);
   appendBigEndian(dots_per_metre, content);
-  content += '\1';  // the unit is the metre
+  content += '\1';  // unit: metre
   std::string chunk;
   appendBigEndian(static_cast<std::uint32_t>(content.size() - 4), chunk);
   chunk += content;
@@ -63,7 +63,7 @@ void writePng(const fs::path& file, const ColourImage& image, double dots_per_in
           "must be 1 to 100000");
   requireWritable(file, overwrite);
   std::string bytes = encodeImage(".png", bgrOf(image), {});
-  constexpr std::size_t kBehindHeader = 33;  // of eight bytes of signature and the IHDR chunk
+  constexpr std::size_t kBehindHeader = 33;  // eight bytes of signature, and the IHDR chunk
   bytes.insert(kBehindHeader, dimensionsChunk(dots_per_inch));
   writeFile(file, bytes, overwrite);
 }

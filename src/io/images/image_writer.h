@@ -1,4 +1,4 @@
-// src/io/images/image_writer.h: images to disk, written atomically.
+// src/io/images/image_writer.h: atomic writer of images.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace softscope {
 
-// All throw OptionError where the file exists and `overwrite` is false, Error where it can't be
-// written.
+// All throw OptionError if the file exists and
+// `overwrite` is false, Error if it cannot be written.
 
 void writePng(const std::filesystem::path& file, const GrayImage& image, bool overwrite = false);
 void writePng(const std::filesystem::path& file, const ColourImage& image, bool overwrite = false);
 void writePng(const std::filesystem::path& file, const Raster<std::uint16_t>& image,
               bool overwrite = false);
 
-/// A PNG that says how large it is on paper. Throws OptionError unless 1 to 100 000 dots an inch.
+/// PNG with its physical size. Throws OptionError unless 1 to 100 000 dots per inch.
 void writePng(const std::filesystem::path& file, const ColourImage& image, double dots_per_inch,
               bool overwrite);
 

@@ -1,4 +1,4 @@
-// src/io/images/jpeg_damage.cpp: libjpeg's warnings.
+// src/io/images/jpeg_damage.cpp: warnings of libjpeg.
 #include "io/images/jpeg_damage.h"
 
 #include <jerror.h>
@@ -15,7 +15,7 @@ namespace softscope {
 namespace {
 
 struct Listener {
-  jpeg_error_mgr manager;  // first: libjpeg hands out its address
+  jpeg_error_mgr manager;  // first member: libjpeg passes its address
   jmp_buf way_out;
   std::array<char, JMSG_LENGTH_MAX> complaint{};  // empty: none
 };
@@ -28,7 +28,7 @@ Listener& listenerOf(j_common_ptr jpeg) { return *reinterpret_cast<Listener*>(jp
   longjmp(listener.way_out, 1);
 }
 
-/// The first warning about the data ends it; odd versions of headers are no damage.
+/// The first warning about the data stops the reading; unusual header versions are not damage.
 void listen(j_common_ptr jpeg, int level) {
   constexpr std::array<int, 5> kOfData{JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF,
                                        JWRN_EXTRANEOUS_DATA, JWRN_MUST_RESYNC};
@@ -38,7 +38,7 @@ void listen(j_common_ptr jpeg, int level) {
 
 void staySilent(j_common_ptr) {}
 
-/// Nothing here has a destructor that longjmp would pass over.
+/// No object here has a destructor that longjmp would skip.
 void readCodes(std::string_view bytes, Listener& listener) {
   jpeg_decompress_struct jpeg;
   jpeg.err = jpeg_std_error(&listener.manager);

@@ -1,4 +1,4 @@
-// src/io/images/jpeg_damage.h: damage inside a JPEG, of which decoders only warn.
+// src/io/images/jpeg_damage.h: detection of damage in the coded data of a JPEG.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace softscope {
 
-/// Reads the coded data of a JPEG whose markers are sound, without computing pixels: a quarter to a
-/// third of the time of reading it. Throws InputError where libjpeg finds data that can't be: a
-/// image would come out all the same, grey or shifted from there on. A flipped bit that leaves
-/// valid codes can't be found: a JPEG has no check sum.
+/// Reads the coded data of a JPEG with valid markers, without computing pixels: a
+/// quarter to a third of the decoding time. Throws InputError for invalid data: a
+/// decoder would return an image that is grey or shifted from there on. A flipped
+/// bit that leaves valid codes is not detectable: JPEG has no checksum.
 void requireSoundJpeg(std::string_view bytes, const std::string& name);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/io/images/jpeg_walk.cpp: a JPEG's markers up to its end.
+// src/io/images/jpeg_walk.cpp: markers of a JPEG up to its end.
 #include "io/files/byte_cursor.h"
 #include "io/images/image_walks.h"
 
@@ -7,10 +7,10 @@ namespace {
 
 constexpr std::uint8_t kEndOfImage = 0xD9, kStartOfScan = 0xDA;
 
-bool standsAlone(std::uint8_t marker) {  // has no length after it
+bool standsAlone(std::uint8_t marker) {  // has no length field
   return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7);
 }
-bool isFrameHeader(std::uint8_t marker) {  // SOF0 to SOF15, without DHT, JPG and DAC among them
+bool isFrameHeader(std::uint8_t marker) {  // SOF0 to SOF15, without DHT, JPG and DAC
   return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
 
@@ -21,7 +21,7 @@ std::uint8_t nextMarker(ByteCursor& cursor) {
   return marker;
 }
 
-/// Moves to the marker that ends the coded data; FF00 is a data byte, FFD0 to FFD7 are restarts.
+/// Moves to the marker after the coded data; FF00 is a data byte, FFD0 to FFD7 are restarts.
 void skipScan(ByteCursor& cursor, std::string_view bytes) {
   std::size_t at = cursor.position();
   while (true) {
@@ -49,7 +49,7 @@ PictureSize walkJpeg(std::string_view bytes, const std::string& name) {
     const std::size_t length = cursor.u16();
     if (length < 2) cursor.failDamaged("length of a part");
     if (isFrameHeader(marker)) {
-      cursor.u8();  // bits a sample
+      cursor.u8();  // bits per sample
       size.height_px = cursor.u16();
       size.width_px = cursor.u16();
     }

@@ -1,4 +1,4 @@
-// src/io/images/png_walk.cpp: a PNG's parts and their check sums.
+// src/io/images/png_walk.cpp: chunks of a PNG with their checksums.
 #include <array>
 
 #include "io/files/byte_cursor.h"
@@ -9,7 +9,7 @@ namespace {
 
 using CrcTable = std::array<std::uint32_t, 256>;
 
-/// Check sum of ISO 3309, as PNG uses it (PNG specification, annex D).
+/// Checksum of ISO 3309 (PNG specification, annex D).
 CrcTable makeCrcTable() {
   CrcTable table{};
   for (std::uint32_t n = 0; n < 256; ++n) {

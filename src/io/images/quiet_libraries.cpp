@@ -16,7 +16,7 @@ void quietLibraries() {
     logging::setLogLevel(logging::LOG_LEVEL_SILENT);
     static std::FILE* const nowhere = std::fopen("/dev/null", "we");
     ownErrors();
-    if (nowhere != nullptr) stderr = nowhere;  // a variable that the C library lets programs set
+    if (nowhere != nullptr) stderr = nowhere;  // the C library allows assignment
   }
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);  // AV_LOG_QUIET; read at the first video
 }

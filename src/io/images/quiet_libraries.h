@@ -1,18 +1,18 @@
-// src/io/images/quiet_libraries.h: suppression of messages that image libraries print.
+// src/io/images/quiet_libraries.h: suppression of messages of image libraries.
 #pragma once
 
 #include <cstdio>
 
 namespace softscope {
 
-/// From here on OpenCV, FFmpeg, libpng, libtiff and other C libraries print nothing about files
-/// that they can't read: the C stream `stderr`, which they print to, leads nowhere. std::cerr and
-/// ownErrors() still lead to the terminal. To be called before the first file and the first thread.
-/// OPENCV_LOG_LEVEL and OPENCV_FFMPEG_LOGLEVEL, where the environment sets them, stay in force, and
-/// the first of them leaves `stderr` as it is.
+/// Redirects the C stream `stderr`, to which OpenCV, FFmpeg, libpng, libtiff
+/// and other C libraries print messages about unreadable files. std::cerr
+/// and ownErrors() are unchanged. Must be called before the first file and
+/// the first thread. OPENCV_LOG_LEVEL and OPENCV_FFMPEG_LOGLEVEL of the
+/// environment are respected; the first also disables the redirection.
 void quietLibraries();
 
-/// The stream that `stderr` was before quietLibraries().
+/// The original `stderr` before quietLibraries().
 std::FILE* ownErrors();
 
 }  // namespace softscope

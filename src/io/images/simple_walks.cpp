@@ -1,5 +1,5 @@
-// src/io/images/simple_walks.cpp: BMP, TIFF and PGM/PPM, whose size and length stand in their first
-// bytes.
+// src/io/images/simple_walks.cpp: BMP, TIFF and
+// PGM/PPM, with size and length in their first bytes.
 #include <cstdlib>
 
 #include "io/files/byte_cursor.h"
@@ -14,7 +14,7 @@ void requireBytes(const ByteCursor& cursor, long begin, long bytes_per_row, long
   if (begin > available || rows * bytes_per_row > available - begin) cursor.failTruncated();
 }
 
-/// A number of a PNM header; blanks and comments before it are skipped.
+/// Number of a PNM header, after blanks and comments.
 long pnmNumber(ByteCursor& cursor) {
   char c = static_cast<char>(cursor.u8());
   while (c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '#') {

@@ -1,4 +1,4 @@
-// src/io/images/video_writer.cpp: OpenCV's encoder under a temporary name.
+// src/io/images/video_writer.cpp: encoder of OpenCV with a temporary file name.
 #include "io/images/video_writer.h"
 
 #include <unistd.h>
@@ -16,19 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Hidden, beside the target, with its extension: the container goes by that.
+/// Hidden file next to the target with its extension, which selects the container.
 fs::path partOf(const fs::path& target) {
   return target.parent_path() /
          say(".", target.stem().string(), ".", getpid(), ".part", target.extension().string());
 }
 
-/// That can be read back.
+/// Number of readable frames.
 int framesIn(const fs::path& video) {
   int frames = 0;
   try {
     cv::VideoCapture capture(video.string(), cv::CAP_FFMPEG);
     while (capture.isOpened() && capture.grab()) ++frames;
-  } catch (const cv::Exception&) {  // what can't be read holds no frame
+  } catch (const cv::Exception&) {  // unreadable: no frame
   }
   return frames;
 }

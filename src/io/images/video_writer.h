@@ -1,4 +1,4 @@
-// src/io/images/video_writer.h: images to a video, written atomically.
+// src/io/images/video_writer.h: atomic writer of videos.
 #pragma once
 
 #include <filesystem>
@@ -8,20 +8,20 @@
 
 namespace softscope {
 
-/// H.264 where the codec library can write it, else MPEG-4; the file's kind decides the container.
+/// H.264 if supported by the codec library, else MPEG-4; the file extension selects the container.
 class VideoWriter {
  public:
-  /// Throws OptionError where the file exists and `overwrite` is false, Error where no video of
-  /// this kind or size can be written here.
+  /// Throws OptionError if the file exists and `overwrite` is false,
+  /// Error if a video of this kind or size cannot be written.
   VideoWriter(std::filesystem::path target, int width_px, int height_px, double frames_per_second,
               bool overwrite);
-  ~VideoWriter();  // without finish() nothing stays
+  ~VideoWriter();  // removes the file without finish()
   VideoWriter(VideoWriter&&) noexcept;
 
-  /// Throws Error where its size is another.
+  /// Throws Error for another image size.
   void add(const ColourImage& picture);
-  /// Reads the video back and gives the file its name. Throws Error where a frame is missing: the
-  /// encoder does not report that the disk is full.
+  /// Reads the video back and renames it. Throws Error for a
+  /// missing frame: the encoder does not report a full disk.
   void finish();
 
  private:

@@ -14,7 +14,7 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Waits for room. False if the queue was closed.
+  /// Blocks until there is space. False if the queue was closed.
   bool push(Value value) {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return closed_ || values_.size() < capacity_; });
@@ -24,7 +24,7 @@ class BoundedQueue {
     return true;
   }
 
-  /// Waits for a value; nothing once the queue is closed and empty.
+  /// Blocks until there is a value; none after the queue is closed and empty.
   std::optional<Value> pop() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [&] { return closed_ || !values_.empty(); });
@@ -35,7 +35,7 @@ class BoundedQueue {
     return out;
   }
 
-  /// From either end; what is in the queue can still be taken.
+  /// Called by producer or consumer; remaining values can still be taken.
   void close() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closed_ = true;

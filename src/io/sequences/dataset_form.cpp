@@ -19,8 +19,8 @@ std::vector<fs::path> videosIn(const fs::path& folder) {
   return videos;
 }
 
-/// The names of STIR 2026's videos are not published: one with `left` and one with `right` in its
-/// name, else one video that holds both views.
+/// Names of the videos of STIR 2026 are not published: one with `left`
+/// and one with `right` in its name, else one video with both views.
 DatasetClip stir2026(const fs::path& folder) {
   DatasetClip clip;
   clip.form = "STIR 2026";

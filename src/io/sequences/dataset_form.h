@@ -1,4 +1,4 @@
-// src/io/sequences/dataset_form.h: detection of the public data set whose layout a folder has.
+// src/io/sequences/dataset_form.h: detection of the data set of a folder.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,15 @@
 
 namespace softscope {
 
-/// A folder that is no sequence folder of docs/formats.md, but one clip of a known data set.
+/// Clip of a known data set in its original layout (not a sequence folder of docs/formats.md).
 struct DatasetClip {
   std::string form;                          // "STIR 2026", "SurgT", "SCARED", …
-  SequencePaths paths;                       // with the layout of both views in one image
-  std::vector<std::filesystem::path> truth;  // files of ground truth that are there
+  SequencePaths paths;                       // with the packing of both views in one image
+  std::vector<std::filesystem::path> truth;  // existing files of ground truth
 };
 
-/// By the names of its files alone; nothing where the folder is none. Throws InputError where a
-/// part is missing that the form can't do without (the video, the calibration).
+/// By file names only; none for other folders. Throws InputError
+/// if a required part is missing (video, calibration).
 std::optional<DatasetClip> recogniseDataset(const std::filesystem::path& folder);
 
 }  // namespace softscope

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDeepest = 3;  // 0: a folder in the given one
+constexpr int kDeepest = 3;  // 0: direct subfolders
 constexpr int kMostFolders = 2000;
 
 std::optional<DatasetClip> recogniseWhole(const fs::path& folder) {

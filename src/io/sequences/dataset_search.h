@@ -1,4 +1,4 @@
-// src/io/sequences/dataset_search.h: clips of data sets in the folders below one.
+// src/io/sequences/dataset_search.h: search of clips of data sets in subfolders.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@ struct FoundClip {
   std::string form;  // as DatasetClip::form
 };
 
-/// Folders below `folder`, at most four levels down, that recogniseDataset() knows, by path. Looks
-/// into at most 2000 folders, none of them by a link; a clip that lacks a part is left out.
+/// Subfolders of `folder`, at most four levels deep, known to recogniseDataset(), sorted by
+/// path. Searches at most 2000 folders without following links; incomplete clips are omitted.
 std::vector<FoundClip> clipsBelow(const std::filesystem::path& folder);
 
 }  // namespace softscope

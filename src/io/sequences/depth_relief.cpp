@@ -1,4 +1,4 @@
-// src/io/sequences/depth_relief.cpp: depth minus its smooth part, scaled to grey levels.
+// src/io/sequences/depth_relief.cpp: depth minus its low-pass part, scaled to grey levels.
 #include "io/sequences/depth_relief.h"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSmoothPart = 0.025;    // sigma of the smooth part / width
-constexpr double kLeastReliefMm = 0.02;  // below it depth files hold noise and rounding
+constexpr double kSmoothPart = 0.025;    // sigma of the low-pass part / width
+constexpr double kLeastReliefMm = 0.02;  // smaller relief is noise and rounding of depth files
 constexpr double kGreyPerRelief = 45;
 
-/// Mean of the known values around each pixel, weighted by a Gaussian.
+/// Gaussian-weighted mean of the known values.
 cv::Mat smoothPart(const cv::Mat& values, const cv::Mat& known, double sigma_px) {
   cv::Mat sum, weight;
   cv::GaussianBlur(values.mul(known), sum, {}, sigma_px);

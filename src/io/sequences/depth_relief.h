@@ -1,4 +1,4 @@
-// src/io/sequences/depth_relief.h: images of a sequence that has depth alone.
+// src/io/sequences/depth_relief.h: images of a sequence with depth only.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace softscope {
 
-/// Grey relief: how far each pixel stands out of its surroundings, in units of the usual relief of
-/// the image. It belongs to the tissue, so that what matches images can match geometry. Black where
-/// there is no depth.
+/// Grey relief: deviation of each pixel from its surroundings, in units
+/// of the typical relief of the image. It is a property of the tissue,
+/// so that image matching can match geometry. Black without depth.
 ColourImage reliefOf(const Raster<float>& depth_mm);
 
-/// A folder of depth files, or one, as relief images. `unit_mm`: as of readDepth(). Throws
-/// InputError.
+/// Folder of depth files, or one file, as relief images.
+/// `unit_mm`: as in readDepth(). Throws InputError.
 std::unique_ptr<PictureSource> openDepthRelief(const std::filesystem::path& path, double unit_mm);
 
 }  // namespace softscope

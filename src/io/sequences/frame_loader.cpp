@@ -44,9 +44,9 @@ CalibrationHints hintsFor(const SequencePaths& paths, CalibrationHints hints) {
   return hints;
 }
 
-constexpr float kNearestMm = 2;  // no scope is in focus before that
+constexpr float kNearestMm = 2;  // below the focus range of any scope
 
-/// Depth that all lies nearer: metres, read as millimetres.
+/// Throws if all depths are nearer: metres read as millimetres.
 void requireMillimetres(const Raster<float>& depth_mm, const std::string& name) {
   float farthest_mm = 0;
   for (const float value : depth_mm.values) farthest_mm = std::max(farthest_mm, value);
@@ -69,7 +69,7 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
                           shown(paths.stereo), " are in the same images. Leave it at auto."));
   const bool depth_alone = !is_packed_ && paths.left.empty();
-  if (depth_alone) setCalibration(paths);  // says what a step of the files is worth
+  if (depth_alone) setCalibration(paths);  // contains the step of the files
   const fs::path& first = is_packed_ ? paths.stereo : depth_alone ? paths.depth : paths.left;
   left_path_ = first;
   right_path_ = paths.right;
@@ -120,7 +120,7 @@ bool FrameLoader::survivesErrors() const {
 }
 
 Frame FrameLoader::load(int index) {
-  requirePartner(index);  // before anything is read: a video doesn't go back
+  requirePartner(index);  // before any read: a video cannot seek back
   Frame frame;
   frame.index = index;
   frame.time_s = timeOf(index);

@@ -1,4 +1,4 @@
-// src/io/sequences/frame_loader.h: one frame from all its files.
+// src/io/sequences/frame_loader.h: reader of one frame from all its files.
 #pragma once
 
 #include <filesystem>
@@ -16,31 +16,31 @@
 
 namespace softscope {
 
-/// Not for two threads at once; frames must be asked for in rising order.
+/// Not thread-safe; frames must be requested in ascending order.
 class FrameLoader {
  public:
-  /// Opens everything, pairs images, masks and depth files by the numbers in their names (by
-  /// order where they have none), checks counts. Throws InputError.
+  /// Opens all parts, pairs images, masks and depth files by the numbers in
+  /// their names (by order without numbers), checks counts. Throws InputError.
   FrameLoader(const SequencePaths& paths, const SequenceOptions& options);
 
   int count() const { return count_; }
 
-  /// The first frame of which there are all views.
+  /// First frame with all views.
   int firstWithPartner() const;
 
   const StereoCalibration& calibration() const { return calibration_; }
   bool survivesErrors() const;
 
-  /// Throws InputError, also where the right view has no image of that moment. The first call
-  /// settles the layout of packed images, and the image size
-  /// where the calibration left it out.
+  /// Throws InputError, also for a missing right
+  /// image. The first call determines the packing,
+  /// and the image size if the calibration has none.
   Frame load(int index);
 
   FrameNames namesOf(int index) const;
-  /// Whether the other view has an image of this moment.
+  /// True if the other view has an image of this time.
   bool hasPartner(int index) const;
 
-  /// Of its timestamp, or its place in a video; NaN where neither is known.
+  /// Timestamp, or position in a video; NaN if both are unknown.
   double timeOf(int index) const;
 
  private:
@@ -52,15 +52,15 @@ class FrameLoader {
 
   SequenceOptions options_;
   int right_offset_;
-  std::filesystem::path left_path_, right_path_;  // left_path_: or of both views
+  std::filesystem::path left_path_, right_path_;  // left_path_: possibly with both views
   StereoCalibration calibration_;
-  std::unique_ptr<PictureSource> left_, right_;  // left_ alone where both views are packed in it
+  std::unique_ptr<PictureSource> left_, right_;  // left_ only for packed views
   bool is_packed_ = false;
   bool is_settled_ = false;
   StereoPacking packing_;
   int count_ = 0;
-  std::vector<std::filesystem::path> masks_, depths_;  // empty, or one a frame
-  std::vector<double> times_s_;                        // empty, or one a frame
+  std::vector<std::filesystem::path> masks_, depths_;  // empty, or one per frame
+  std::vector<double> times_s_;                        // empty, or one per frame
 };
 
 }  // namespace softscope

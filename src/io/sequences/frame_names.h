@@ -5,10 +5,10 @@
 
 namespace softscope {
 
-/// The files of a frame, as the user names them.
+/// Files of a frame as named by the user.
 struct FrameNames {
-  long long number = 0;     // in the left file's name; the frame's index where that has none
-  std::string left, right;  // file names; of a video or of one file with both views, that file's
+  long long number = 0;     // in the name of the left file; index of the frame without a number
+  std::string left, right;  // file names; for a video or packed views the name of that file
 };
 
 }  // namespace softscope

@@ -25,7 +25,7 @@ bool allNumbered(const Files& files) {
   return !files.empty() && numbersOf(files).size() == files.size();
 }
 
-/// The first file whose number no file of `others` has; empty where all have partners.
+/// First file whose number is missing in `others`; empty if none.
 fs::path firstAlone(const Files& files, const Files& others) {
   const std::set<long long> numbers = numbersOf(others);
   const auto alone = std::find_if(files.begin(), files.end(), [&](const fs::path& file) {
@@ -35,7 +35,7 @@ fs::path firstAlone(const Files& files, const Files& others) {
 }
 
 void requireSameNumbers(const ViewFiles& view, const ViewFiles& other) {
-  if (view.count == 1 && other.count == 1) return;  // two single images, whatever their names
+  if (view.count == 1 && other.count == 1) return;  // two single images of any name
   fs::path alone = firstAlone(view.files, other.files);
   const bool in_view = !alone.empty();
   if (!in_view) alone = firstAlone(other.files, view.files);

@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// One view: its path, its files (none of a video) and how many images it has.
+/// One view: path, files (empty for a video) and number of images.
 struct ViewFiles {
   std::filesystem::path path;
   std::vector<std::filesystem::path> files;
@@ -18,12 +18,12 @@ inline const std::vector<std::string_view> kMaskKinds = {".png", ".bmp",  ".jpg"
                                                          ".tif", ".tiff", ".pgm"};
 inline const std::vector<std::string_view> kDepthKinds = {".png", ".pfm", ".tif", ".tiff", ".npy"};
 
-/// Throws InputError where the counts differ, naming the first image without a partner, or where
-/// the k-th files of both carry different numbers.
+/// Throws InputError with the first image without a partner for
+/// different counts, and for k-th files with different numbers.
 void requirePartners(const ViewFiles& view, const ViewFiles& other);
 
-/// The mask or depth files of a folder (or the one file), one for every image of `view`, in its
-/// order. Throws InputError as requirePartners does.
+/// Mask or depth files of a folder (or a single file), one per image
+/// of `view`, in its order. Throws InputError as requirePartners does.
 std::vector<std::filesystem::path> partnersIn(const std::filesystem::path& path,
                                               const std::vector<std::string_view>& kinds,
                                               const ViewFiles& view);

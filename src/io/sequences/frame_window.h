@@ -1,4 +1,4 @@
-// src/io/sequences/frame_window.h: a sequence's frame together with the two after it.
+// src/io/sequences/frame_window.h: sliding window of three frames of a sequence.
 #pragma once
 
 #include <array>
@@ -9,15 +9,15 @@
 
 namespace softscope {
 
-/// All three stay where they are until advance() has passed them.
+/// References to the three frames stay valid until advance() has passed them.
 class FrameWindow {
  public:
   explicit FrameWindow(SequenceReader& reader) : reader_(reader) {}
   FrameWindow(const FrameWindow&) = delete;
   FrameWindow& operator=(const FrameWindow&) = delete;
 
-  /// Reads on until the two frames after the next one are there; null after the last. Throws as the
-  /// reader does.
+  /// Reads until the two frames after the next one are available;
+  /// null after the last frame. Throws as the reader does.
   const FrameResult* advance() {
     if (!begun_) {
       read(1);
@@ -28,9 +28,9 @@ class FrameWindow {
     read(2);
     return slot(0) ? &*slot(0) : nullptr;
   }
-  /// The frame after the current one; null where there is none, or where it can't be read.
+  /// Next frame; null if absent or unreadable.
   const Frame* following() const { return frameAt(1); }
-  /// The frame after following(); null as there, or where that is.
+  /// Frame after following(); null if either is absent or unreadable.
   const Frame* afterFollowing() const { return following() ? frameAt(2) : nullptr; }
 
  private:
@@ -43,7 +43,7 @@ class FrameWindow {
   const Frame* frameAt(std::size_t ahead) const {
     return slot(0) && slot(ahead) && slot(ahead)->ok() ? &slot(ahead)->frame : nullptr;
   }
-  /// Nothing follows the last frame.
+  /// The slot stays empty after the last frame.
   void read(std::size_t ahead) {
     const bool goes_on = ahead == 1 || slot(ahead - 1).has_value();
     slots_[(current_ + ahead) % kSlots] = goes_on ? reader_.next() : std::nullopt;

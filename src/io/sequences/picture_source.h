@@ -19,28 +19,28 @@ class PictureSource {
  public:
   virtual ~PictureSource() = default;
 
-  /// How many images there are; of a video, as many as its header promises.
+  /// Number of images; for a video the number in its header.
   virtual int count() const = 0;
 
-  /// Throws InputError. Indices must not fall from call to call.
+  /// Throws InputError. Indices must not decrease between calls.
   virtual ColourImage read(int index) = 0;
 
-  /// What messages call image `index`.
+  /// Name of image `index` in messages.
   virtual std::string nameOf(int index) const = 0;
 
-  /// 0 where nothing is known of it.
+  /// 0 if unknown.
   virtual double framesPerSecond() const { return 0; }
 
-  /// Whether the image after one that can't be read can be.
+  /// True if images after an unreadable one can be read.
   virtual bool survivesErrors() const = 0;
 
-  /// The files, one an image; empty of a video.
+  /// One file per image; empty for a video.
   virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
-/// A folder of images, one image, or a video. Throws InputError.
+/// Folder of images, one image, or a video. Throws InputError.
 std::unique_ptr<PictureSource> openPictures(const std::filesystem::path& path);
-/// These files, one an image.
+/// One file per image.
 std::unique_ptr<PictureSource> openPictures(std::vector<std::filesystem::path> files);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/io/sequences/sequence_options.h: options of reading a sequence.
+// src/io/sequences/sequence_options.h: options of the sequence reader.
 #pragma once
 
 #include <string>
@@ -8,24 +8,24 @@
 
 namespace softscope {
 
-/// "A:B" is A up to, not with, B; "A:B:STEP" every STEP-th of them. Each may be left out ("10:",
-/// ":20", "::5"). Throws OptionError.
+/// "A:B": A up to B, exclusive; "A:B:STEP": every STEP-th frame.
+/// Each part is optional ("10:", ":20", "::5"). Throws OptionError.
 FrameRange parseFrameRange(const std::string& text);
 
 struct SequenceOptions {
   FrameRange frames;
-  std::string layout = "auto";  // of one image with both views: io/sequences/stereo_packing.h
-  bool right_first = false;     // … whose right view comes first
-  // Right image f + offset belongs to left image f: a whole number, or auto. The reader takes
-  // auto for 0; a caller that matches images may look for it first.
+  std::string layout = "auto";  // packing of both views: io/sequences/stereo_packing.h
+  bool right_first = false;     // … with the right view first
+  // Right image f + offset belongs to left image f: an integer, or auto. The reader
+  // treats auto as 0; callers with a matcher can estimate the offset before.
   std::string right_offset = "auto";
-  int read_ahead = 4;  // frames kept ready
+  int read_ahead = 4;  // frames in the queue
   CalibrationHints calibration;
-  bool uncalibrated = false;  // where no calibration is named, the pair is taken to be rectified
+  bool uncalibrated = false;  // without a calibration file the pair is assumed to be rectified
 
   int rightOffset() const;
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 

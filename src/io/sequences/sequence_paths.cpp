@@ -24,7 +24,7 @@ bool isOneOf(const fs::path& file, const Kinds& kinds) {
   return std::find(kinds.begin(), kinds.end(), lowerCase(file.extension().string())) != kinds.end();
 }
 
-/// Also a symbolic link that leads nowhere: opening it will say so.
+/// True also for a dangling symbolic link: the opening reports it.
 bool hasEntry(const fs::path& path) {
   std::error_code code;
   return fs::exists(fs::symlink_status(path, code));
@@ -32,14 +32,14 @@ bool hasEntry(const fs::path& path) {
 
 fs::path ifThere(const fs::path& path) { return hasEntry(path) ? path : fs::path(); }
 
-/// folder/name.mp4, .avi, …; empty where there is none.
+/// folder/name.mp4, .avi, …; empty if absent.
 fs::path videoNamed(const fs::path& folder, const std::string& name) {
   for (const std::string_view kind : kVideoKinds)
     if (const fs::path file = folder / (name + std::string(kind)); hasEntry(file)) return file;
   return {};
 }
 
-/// A folder of images, else a video.
+/// Folder of images, else a video.
 fs::path viewNamed(const fs::path& folder, const std::string& name) {
   return hasEntry(folder / name) ? folder / name : videoNamed(folder, name);
 }
@@ -60,7 +60,7 @@ SequencePaths findSequence(const fs::path& folder) {
   paths.right = viewNamed(folder, "right");
   if (paths.left.empty() && paths.right.empty()) paths.stereo = videoNamed(folder, "stereo");
   const bool is_own = !paths.left.empty() || !paths.stereo.empty();
-  if (!is_own || isFile(folder / "calib.json")) {  // STIR's name; its videos may be called as ours
+  if (!is_own || isFile(folder / "calib.json")) {  // name in STIR; its videos may have our names
     if (const auto clip = recogniseDataset(folder)) {
       SequencePaths shipped = clip->paths;
       shipped.mask = paths.mask;

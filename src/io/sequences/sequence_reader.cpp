@@ -20,7 +20,7 @@ FrameRange rangeWithin(FrameRange range, int count) {
   return range;
 }
 
-/// The first frame of the range from `first` on; of an empty rest the sequence's own `first`.
+/// First frame of the range from `first` on; `first` of the sequence for an empty rest.
 int firstFrom(const FrameRange& range, int first) {
   if (first <= range.begin && !range.holdsOut(range.begin)) return range.begin;
   const int steps = std::max(0, first - range.begin + range.step - 1) / range.step;
@@ -40,7 +40,7 @@ class SequenceReader::Impl {
     first_.index = firstFrom(range_, loader_.firstWithPartner());
     first_.time_s = loader_.timeOf(first_.index);
     first_.names = loader_.namesOf(first_.index);
-    first_.frame = loader_.load(first_.index);  // throws: what is wrong with it is wrong with all
+    first_.frame = loader_.load(first_.index);  // throws: the fault concerns the whole sequence
     calibration_ = loader_.calibration();
     thread_ = std::thread([this] { readAhead(); });
   }
@@ -55,7 +55,7 @@ class SequenceReader::Impl {
 
   std::optional<FrameResult> next() {
     std::optional<FrameResult> result = queue_.pop();
-    // The queue is closed after failure_ is set, so the mutex inside has ordered both.
+    // The queue is closed after failure_ is set, so its mutex orders both.
     if (!result && failure_) std::rethrow_exception(failure_);
     return result;
   }
@@ -90,7 +90,7 @@ class SequenceReader::Impl {
     return result;
   }
 
-  FrameLoader loader_;  // after the constructor, the thread's alone but for count()
+  FrameLoader loader_;  // after the constructor used by the thread only, except count()
   FrameRange range_;
   FrameResult first_;
   StereoCalibration calibration_;

@@ -1,5 +1,5 @@
-// src/io/sequences/sequence_reader.h: frames of a sequence, in order, read ahead on a thread of
-// their own.
+// src/io/sequences/sequence_reader.h: sequential
+// reader of frames with a read-ahead thread.
 #pragma once
 
 #include <memory>
@@ -14,41 +14,41 @@
 
 namespace softscope {
 
-/// One frame, or why it couldn't be read.
+/// Frame, or the reason for a failure.
 struct FrameResult {
   int index = 0;          // position in the sequence, from 0
-  Frame frame;            // empty where error isn't
-  double time_s = 0;      // of the frame, also where it can't be read
-  FrameNames names;       // also where it can't be read
-  bool unpaired = false;  // nothing is wrong with it, but the other view has no image of its moment
-  std::string error;      // one line; empty where all is well
+  Frame frame;            // empty after an error
+  double time_s = 0;      // of the frame, also if it is unreadable
+  FrameNames names;       // also if the frame is unreadable
+  bool unpaired = false;  // no error: the other view has no image of this time
+  std::string error;      // one line; empty without an error
 
   bool ok() const { return error.empty(); }
 };
 
-/// Opening reads the calibration and the first frame, and throws InputError on whatever is wrong
-/// with them or with the sequence as a whole: missing or unequal numbers of images, sizes that
-/// disagree with the calibration, an unreadable video, a mask of another size. A frame that turns
-/// out bad later is a result with an error; the images after it follow, a video ends there.
-/// At most options.read_ahead frames wait in memory. For one consumer thread.
+/// The constructor reads the calibration and the first frame, and throws InputError for
+/// their faults and those of the whole sequence: missing images, different counts, sizes
+/// that contradict the calibration, an unreadable video, a mask of another size. A later
+/// unreadable frame is a result with an error; the following images are read, a video
+/// ends there. At most options.read_ahead frames are queued. For one consumer thread.
 class SequenceReader {
  public:
   SequenceReader(const SequencePaths& paths, const SequenceOptions& options);
-  /// A folder as in findSequence().
+  /// Folder as in findSequence().
   explicit SequenceReader(const std::filesystem::path& folder, const SequenceOptions& options = {});
   ~SequenceReader();
   SequenceReader(SequenceReader&&) noexcept;
   SequenceReader& operator=(SequenceReader&&) noexcept;
 
-  /// With the image size filled in, and warnings about it.
+  /// With the image size, and warnings about it.
   const StereoCalibration& calibration() const;
 
-  /// Frames that next() will give, all in all.
+  /// Number of frames of the range.
   int frameCount() const;
-  /// Frames of the sequence, whatever the range asked for.
+  /// Number of frames of the sequence.
   int totalCount() const;
 
-  /// Nothing after the last one. Throws what isn't the input's fault (memory ran out).
+  /// None after the last frame. Throws failures other than input errors (out of memory).
   std::optional<FrameResult> next();
 
  private:

@@ -1,5 +1,5 @@
-// src/io/sequences/sequence_settings.h: keys, ranges and meanings of the settings of a sequence's
-// reading.
+// src/io/sequences/sequence_settings.h: keys, ranges
+// and meanings of the settings of the sequence reader.
 #pragma once
 
 #include "core/setting_rules.h"

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSameMomentS = 0.005;  // a sixth of the time between two frames
+constexpr double kSameMomentS = 0.005;  // a sixth of the frame time
 constexpr double kC3vdStepMm = 100.0 / 65535;
 
 std::vector<fs::path> imagesIn(const fs::path& folder) {
@@ -36,7 +36,7 @@ void requirePart(const fs::path& part, const char* form) {
     throw InputError(say(shown(part), ": is missing, but ", form, " has it. Download it again."));
 }
 
-/// Every pair has a calibration of its own; as a sequence they must agree.
+/// Every pair has its own calibration; in a sequence they must be equal.
 fs::path oneCalibration(const fs::path& folder) {
   const std::vector<fs::path> files = filesIn(folder, {".json"});
   if (files.empty())
@@ -77,7 +77,7 @@ DatasetClip stereoMis(const fs::path& folder) {
   return clip;
 }
 
-/// camera_info of the clip, else of its recording two folders above.
+/// camera_info of the clip, else of its recording two folders up.
 fs::path cameraInfo(const fs::path& folder, const char* name) {
   for (const fs::path& place : {folder / "camera_info", folder / ".." / ".." / "camera_info"})
     if (isFile(place / name)) return place / name;
@@ -131,7 +131,7 @@ DatasetClip hamlynMirror(const fs::path& folder) {
   clip.paths.right = folder / "image02";
   clip.paths.calibration = folder;
   clip.paths.rectified = true;
-  return clip;  // depth01 is a matcher's, no truth
+  return clip;  // depth01 is the result of a matcher, not ground truth
 }
 
 /// NNNN_color.png with NNNN_depth.tiff of the same number in one folder.

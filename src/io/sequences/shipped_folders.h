@@ -1,5 +1,5 @@
-// src/io/sequences/shipped_folders.h: data sets that ship folders of images or a film with tables
-// beside it.
+// src/io/sequences/shipped_folders.h: data sets
+// of image folders, or of a video with tables.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,19 @@
 
 namespace softscope {
 
-/// SERV-CT's experiment, StereoMIS' sequence, D4D's clip or recording, STIR's sequence (to 2025),
-/// a rectified sequence of Hamlyn's mirror, C3VD's sequence. Otherwise as recogniseDataset().
+/// SERV-CT experiment, StereoMIS sequence, D4D clip or recording, STIR sequence (up to 2025),
+/// rectified sequence of Hamlyn's mirror, C3VD sequence. Otherwise as recogniseDataset().
 std::optional<DatasetClip> recogniseShippedFolder(const std::filesystem::path& folder);
 
-/// Moment of an image SECONDS_NANOSECONDS.png; nothing where the name has another form.
+/// Time of an image SECONDS_NANOSECONDS.png; none for other names.
 std::optional<double> stampOf(const std::filesystem::path& file);
 
-/// Images of two cameras of one moment: nearest stamps, at most 5 ms apart, each used once.
+/// Pairs of images of two cameras by nearest stamps, at most 5 ms apart, each used once.
 struct StampedPairs {
   std::vector<std::filesystem::path> left, right;
-  std::vector<double> times_s;  // of the left one, from the first
+  std::vector<double> times_s;  // of the left image, relative to the first
 };
-/// Throws InputError where a name holds no stamp, or no two belong together.
+/// Throws InputError for a name without a stamp, or without any pair.
 StampedPairs pairByStamp(const std::vector<std::filesystem::path>& left,
                          const std::vector<std::filesystem::path>& right);
 

@@ -1,4 +1,4 @@
-// src/io/sequences/stereo_packing.h: both views in one image.
+// src/io/sequences/stereo_packing.h: arrangement of both views in one image.
 #pragma once
 
 #include <string>
@@ -15,24 +15,24 @@ enum class StereoLayout {
 
 struct StereoPacking {
   StereoLayout layout = StereoLayout::kSideBySide;
-  bool right_first = false;  // the right view comes first
-  bool full_height = false;  // interlaced alone: fill the missing rows from their neighbours
+  bool right_first = false;  // the right view is first
+  bool full_height = false;  // interlaced only: interpolate the missing rows
 };
 
-/// Parts the views. A view has half the width or height, unless full_height.
-/// Throws InputError, in the name of `name`, where the image has an odd number of columns or
-/// rows to part.
+/// Separates the views. A view has half the width or
+/// height, unless full_height. Throws InputError
+/// with `name` for an odd number of columns or rows.
 StereoPair unpack(const ColourImage& packed, const StereoPacking& packing, const std::string& name);
 
-/// What an image's views are like, for choosePacking().
+/// Known properties of the views, for choosePacking().
 struct ExpectedView {
-  int width_px = 0;  // the calibration's; 0 = unknown
+  int width_px = 0;  // of the calibration; 0 = unknown
   int height_px = 0;
 };
 
-/// `layout`: "side-by-side", "top-bottom", "interlaced", or "auto": by the calibration's size, by
-/// the shape of a view (aspect 0.8 to 2.2), then by which two parts show the same scene, shifted
-/// sideways. Throws InputError where nothing fits or it can't be told, OptionError on another name.
+/// `layout`: "side-by-side", "top-bottom", "interlaced", or "auto": by the size in the calibration,
+/// the aspect ratio of a view (0.8 to 2.2), then by the similarity of the parts with horizontal
+/// displacement. Throws InputError if none fits or it is ambiguous, OptionError for another name.
 StereoPacking choosePacking(const ColourImage& packed, const std::string& layout, bool right_first,
                             const ExpectedView& view, const std::string& name);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLatestS = 1e11;  // 3000 years; seconds since 1970 are 2e9
 
-/// "Divide by 1000": for the unit that makes it a time since 1970.
+/// "Divide by 1000": for the unit that gives a time since 1970.
 std::string unitOf(double time) {
   const double size = std::abs(time);
   if (size < 1e14) return "In milliseconds? Divide by 1000.";

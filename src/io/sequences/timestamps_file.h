@@ -1,4 +1,4 @@
-// src/io/sequences/timestamps_file.h: time stamps of frames.
+// src/io/sequences/timestamps_file.h: timestamps of frames.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace softscope {
 
-/// Seconds, one a line, each later than the one above; lines that begin with # and empty ones are
-/// skipped. Throws InputError with the line.
+/// Seconds, one per line, ascending; lines that begin with #
+/// and empty ones are skipped. Throws InputError with the line.
 std::vector<double> readTimestamps(const std::filesystem::path& file);
 std::vector<double> parseTimestamps(std::string_view text, const std::string& name);
 

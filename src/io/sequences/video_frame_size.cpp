@@ -7,7 +7,7 @@
 namespace softscope {
 namespace {
 
-/// Bits of a parameter set, most significant first; 0 behind its end.
+/// Bits of a parameter set, most significant first; 0 after its end.
 class BitReader {
  public:
   explicit BitReader(std::string_view bytes) {
@@ -30,7 +30,7 @@ class BitReader {
   }
   void skip(int count) { at_ += static_cast<std::size_t>(count); }
 
-  /// Exponential-Golomb code, unsigned (H.264, 9.1); its signed form has as many bits.
+  /// Unsigned Exponential-Golomb code (H.264, 9.1); the signed code has the same length.
   std::uint32_t golomb() {
     int zeros = 0;
     while (zeros < 31 && bits(1) == 0) ++zeros;
@@ -49,7 +49,7 @@ std::optional<VideoFrameSize> sizeFrom(std::uint64_t width_px, std::uint64_t hei
   return VideoFrameSize{static_cast<int>(width_px), static_cast<int>(height_px)};
 }
 
-/// What a parameter set crops at each side, in units of `step_x` and `step_y` px.
+/// Size after cropping, given in units of `step_x` and `step_y` px.
 std::optional<VideoFrameSize> cropped(std::uint64_t width_px, std::uint64_t height_px,
                                       BitReader& bits, int step_x, int step_y) {
   if (bits.bits(1) == 0) return sizeFrom(width_px, height_px);
@@ -60,7 +60,7 @@ std::optional<VideoFrameSize> cropped(std::uint64_t width_px, std::uint64_t heig
   return sizeFrom(width_px - across_px, height_px - down_px);
 }
 
-// Pixels per sample of colour, by chroma_format_idc: 4:0:0, 4:2:0, 4:2:2, 4:4:4.
+// Pixels per chroma sample, by chroma_format_idc: 4:0:0, 4:2:0, 4:2:2, 4:4:4.
 constexpr int kChromaWidth[] = {1, 2, 2, 1}, kChromaHeight[] = {1, 2, 1, 1};
 
 void skipScalingLists(BitReader& bits, int count) {
@@ -126,7 +126,7 @@ std::optional<VideoFrameSize> sizeOfHevc(std::string_view parameters) {
   BitReader bits(parameters);
   bits.skip(4);
   const int layers = static_cast<int>(bits.bits(3));
-  bits.skip(1 + 96);  // profile, tier and level of the whole
+  bits.skip(1 + 96);  // general profile, tier and level
   int skipped = 0;
   for (int layer = 0; layer < layers; ++layer) {
     if (bits.bits(1) == 1) skipped += 88;
@@ -143,7 +143,7 @@ std::optional<VideoFrameSize> sizeOfHevc(std::string_view parameters) {
   return cropped(width_px, height_px, bits, kChromaWidth[chroma], kChromaHeight[chroma]);
 }
 
-/// What follows the header byte or bytes of the first unit of `type`.
+/// Payload of the first unit of `type`.
 template <class TypeOf>
 std::string_view unitOf(std::string_view packet, const TypeOf& is_wanted, std::size_t header) {
   constexpr std::string_view kStart("\0\0\1", 3);

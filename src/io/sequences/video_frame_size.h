@@ -1,4 +1,4 @@
-// src/io/sequences/video_frame_size.h: the size that a packet of a video states.
+// src/io/sequences/video_frame_size.h: frame size in a video packet.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ struct VideoFrameSize {
   }
 };
 
-/// Of a JPEG image, or of the sequence parameter set in a packet of H.264 or HEVC (start codes of
-/// annex B), as it is shown: coded rows and columns that the set crops are left out (1080 rows are
-/// coded as 1088). `codec` is the four-character code. Nothing where the packet states
-/// no size, or the codec is another.
+/// From a JPEG image, or the sequence parameter set in a packet of
+/// H.264 or HEVC (start codes of annex B), as displayed: after cropping
+/// (1080 rows are coded as 1088). `codec` is the four-character code.
+/// None for a packet without a size, or another codec.
 std::optional<VideoFrameSize> statedFrameSize(std::string_view packet, const std::string& codec);
 
 }  // namespace softscope

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 cv::VideoCapture openCapture(const fs::path& file) {
   cv::VideoCapture capture;
   try {
-    // FFmpeg alone: other back ends would take a name for a pattern or a device.
+    // FFmpeg only: other back ends would interpret a name as a pattern or device.
     capture.open(file.string(), cv::CAP_FFMPEG);
     capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);  // a calibration refers to stored pixels
   } catch (const cv::Exception&) {
@@ -31,7 +31,7 @@ cv::VideoCapture openCapture(const fs::path& file) {
   return capture;
 }
 
-/// The header's count where it has one, else by decoding all.
+/// Count from the header, else by decoding all frames.
 int countFrames(const fs::path& file, cv::VideoCapture& capture) {
   const double promised = capture.get(cv::CAP_PROP_FRAME_COUNT);
   if (promised >= 1 && promised < 1e9) return static_cast<int>(std::lround(promised));
@@ -42,8 +42,8 @@ int countFrames(const fs::path& file, cv::VideoCapture& capture) {
   return count;
 }
 
-/// Finds where the frames of a video change size, from its packets. OpenCV scales or repeats
-/// earlier images from there on.
+/// Detects changes of the frame size from the packets of
+/// a video. OpenCV then scales or repeats earlier images.
 class SizeWatch {
  public:
   explicit SizeWatch(const fs::path& file) : packets_(openCapture(file)) {
@@ -54,7 +54,7 @@ class SizeWatch {
     open_ = packets_.set(cv::CAP_PROP_FORMAT, -1);
   }
 
-  /// Throws InputError where frame `index` may be of another size than the first.
+  /// Throws InputError if frame `index` may have another size than the first.
   void requireSameSize(int index, const std::string& name) {
     while (open_ && !changed_ && next_ <= index + ahead_) readPacket();
     if (!changed_) return;
@@ -68,7 +68,7 @@ class SizeWatch {
   }
 
  private:
-  static constexpr int kMostReordered = 16;  // frames that H.264 and HEVC may hold back
+  static constexpr int kMostReordered = 16;  // frames that H.264 and HEVC may reorder
 
   void readPacket() {
     cv::Mat packet;
@@ -89,7 +89,7 @@ class SizeWatch {
   std::string codec_;
   int ahead_ = 0;
   bool open_ = false;
-  int next_ = 0;  // packets that were read
+  int next_ = 0;  // index of the next packet
   std::optional<VideoFrameSize> first_, changed_;
 };
 
@@ -139,7 +139,7 @@ class Video : public PictureSource {
   cv::VideoCapture capture_;
   int count_;
   SizeWatch sizes_;
-  int next_ = 0;  // the frame that the next grab gives
+  int next_ = 0;  // index of the next grabbed frame
 };
 
 }  // namespace

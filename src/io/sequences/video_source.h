@@ -1,4 +1,4 @@
-// src/io/sequences/video_source.h: a video, frame after frame.
+// src/io/sequences/video_source.h: sequential video reader.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace softscope {
 
-/// Frames are reached by decoding all before them, because seeking isn't exact in most codecs.
-/// Throws InputError where the video can't be opened or holds no frame.
+/// Frames are decoded in order, because seeking is inexact in most codecs.
+/// Throws InputError for a video that cannot be opened or has no frame.
 std::unique_ptr<PictureSource> openVideo(const std::filesystem::path& file);
 
 }  // namespace softscope

@@ -12,7 +12,7 @@ namespace {
 constexpr int kWorkWidthPx = 128;
 constexpr double kShadingSigmaPx = 5;
 
-/// Small, grey, without slow shading.
+/// Downsampled grey image without low frequencies.
 cv::Mat detailsOf(const ColourImage& image) {
   const GrayImage gray = toGray(image);
   const int height = std::max(1, gray.height_px * kWorkWidthPx / gray.width_px);

@@ -5,13 +5,13 @@
 
 namespace softscope {
 
-/// Normalised cross-correlation (-1 to 1) of the images' details, without their slow shading.
+/// Normalised cross-correlation (-1 to 1) of image details, without low frequencies.
 struct ViewSimilarity {
   double unshifted = 0;
   double best = 0;  // over shifts of up to a quarter of the width
 };
 
-/// Both must have one shape. Works on copies of 128 columns.
+/// Requires equal sizes. Computed on copies with 128 columns.
 ViewSimilarity viewSimilarity(const ColourImage& a, const ColourImage& b);
 
 }  // namespace softscope

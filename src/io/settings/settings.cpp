@@ -46,7 +46,7 @@ void flatten(const toml::table& table, const std::string& head, const std::strin
   }
 }
 
-/// The value as TOML reads it, or a text where it wouldn't.
+/// Value parsed by TOML, or a text if that fails.
 Setting valueOf(const std::string& key, const std::string& value) {
   requireShallowToml(value, "`set=` " + printable(key));
   try {

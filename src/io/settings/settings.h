@@ -12,23 +12,23 @@ namespace softscope {
 
 struct Setting {
   std::variant<bool, std::int64_t, double, std::string> value;
-  std::string text;    // as it was written, without the quotes of a text
+  std::string text;    // as written, without the quotes of a text
   std::string origin;  // "settings.toml:3" or kAssigned, for messages
 };
 
-/// The origin of a setting that addAssignment() added.
+/// Origin of settings of addAssignment().
 inline constexpr const char* kAssigned = "`set=`";
 
-/// Dotted key ("stereo.disparity_max_px") to value; later ones win.
+/// Dotted key ("stereo.disparity_max_px") to value; later settings override earlier ones.
 using Settings = std::map<std::string, Setting>;
 
-/// TOML: [tables] and dotted keys, whose values are true/false, whole numbers, numbers or texts.
-/// Throws InputError where the file is missing or no TOML, OptionError on another kind of value.
+/// TOML: [tables] and dotted keys, with true/false, integers, numbers or texts as values.
+/// Throws InputError for a missing file or invalid TOML, OptionError for another type of value.
 Settings readSettings(const std::filesystem::path& file);
 Settings parseSettings(std::string_view toml, const std::string& name);
 
-/// Adds "key=value", value as in TOML; what TOML wouldn't take is a text (stereo.method=sgbm).
-/// Throws OptionError where there is no key or no `=`.
+/// Adds "key=value" with a value in TOML syntax; other values are texts
+/// (stereo.method=sgbm). Throws OptionError for a missing key or `=`.
 void addAssignment(Settings& settings, std::string_view assignment);
 
 }  // namespace softscope

@@ -50,7 +50,7 @@ bool isOneLine(const std::string& text) {
   return std::none_of(text.begin(), text.end(), [](unsigned char c) { return c < 32; });
 }
 
-/// On the command line a text needs no quotes, even if it looks like a number.
+/// On the command line a text has no quotes, even if it looks like a number.
 std::string textValueOf(const std::string& key, const Setting& setting) {
   if (!std::holds_alternative<std::string>(setting.value) && setting.origin != kAssigned)
     failType(key, setting, "a text in quotes");
@@ -76,7 +76,7 @@ std::string allowed(std::string value, const TextRule& rule, const std::string& 
   return value;
 }
 
-/// The unit is the key's last word.
+/// The unit is the last word of the key.
 std::string unitOf(const std::string& key) {
   static const std::map<std::string, std::string> kUnits{
       {"mm", "mm"}, {"px", "px"}, {"deg", "deg"}, {"s", "s"}, {"blocks", "blocks"}};
@@ -84,7 +84,7 @@ std::string unitOf(const std::string& key) {
   return found == kUnits.end() ? "" : found->second;
 }
 
-/// Value of `field` and what sets it; `convert` checks.
+/// Value of `field`, and its setter; `convert` checks.
 template <class Field, class Convert>
 auto accessTo(Field& field, Convert convert) {
   const auto prepare = [&field, convert](const std::string& key, const Setting& setting) {

@@ -10,25 +10,25 @@
 
 namespace softscope {
 
-/// One setting as help texts, documents and a run's record show it.
+/// Setting in help texts, documents and the record of a run.
 struct SettingInfo {
   std::string key;
   std::string type;          // "true/false", "whole number", "number", "text"
-  std::string unit;          // "mm", as the key's ending says; empty: none
+  std::string unit;          // "mm", from the suffix of the key; empty: none
   std::string range;         // "above 0", "elas or sgbm"
-  std::string default_text;  // the value when it was bound
+  std::string default_text;  // value when bound
   std::string current_text;
   std::string help;
 };
 
-/// Visitor of describe() (core/setting_rules.h): binds keys to the fields of option structs.
-///   SettingsBinder binder;
-///   describe(binder, options);
-///   binder.apply(settings);
-/// Fields must outlive the binder. What one setting demands of another is the options' validate().
+/// Visitor of describe() (core/setting_rules.h): binds keys
+/// to the fields of option structs. SettingsBinder binder;
+/// describe(binder, options); binder.apply(settings);
+/// Fields must outlive the binder. Rules between settings
+/// are checked by validate() of the options.
 class SettingsBinder {
  public:
-  // Each throws Error where the key is bound already.
+  // Each throws Error for a key that is already bound.
   void operator()(const std::string& key, bool& field, const std::string& help);
   void operator()(const std::string& key, int& field, const NumberRule& rule,
                   const std::string& help);
@@ -48,9 +48,9 @@ class SettingsBinder {
         [&field, rule](std::size_t index) { field = rule.names[index].second; });
   }
 
-  /// Sets the fields that `settings` names, all of them or none. Throws OptionError naming an
-  /// unknown key, the nearest known one and where it came from, or a value of another type or out
-  /// of its range.
+  /// Sets the fields of `settings`, all of them or none. Throws
+  /// OptionError for an unknown key, with the nearest known key and
+  /// its origin, or for a value of another type or out of range.
   void apply(const Settings& settings);
 
   /// In the order of binding.
@@ -60,7 +60,7 @@ class SettingsBinder {
   struct Entry {
     SettingInfo info;
     std::function<std::string()> current;
-    /// Checks the value and returns what would set the field.
+    /// Checks the value and returns its setter.
     std::function<std::function<void()>(const std::string& key, const Setting&)> prepare;
   };
   void add(Entry entry);

@@ -1,4 +1,4 @@
-// src/io/settings/settings_text.h: the list of settings as a TOML file, a table and a document.
+// src/io/settings/settings_text.h: list of settings as a TOML file, table and document.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-/// A commented settings file that reads back to the current values.
+/// Commented settings file with the current values.
 std::string settingsToml(const std::vector<SettingInfo>& settings);
 
 /// One line per setting: key, value, range, unit, meaning.
 std::string settingsTable(const std::vector<SettingInfo>& settings);
 
-/// docs/settings.md: a table per group of keys; `paper` has the values of the paper's preset, in
-/// the same order. Throws Error where the lists differ.
+/// docs/settings.md: one table per group of keys; `paper` has the values of the
+/// preset of the paper, in the same order. Throws Error for different lists.
 std::string settingsDocument(const std::vector<SettingInfo>& settings,
                              const std::vector<SettingInfo>& paper);
 

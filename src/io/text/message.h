@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// Joins its parts, numbers with up to six digits.
+/// Concatenates its parts, numbers with up to six digits.
 template <class... Parts>
 std::string say(const Parts&... parts) {
   std::ostringstream text;
@@ -17,14 +17,14 @@ std::string say(const Parts&... parts) {
   return text.str();
 }
 
-/// One line: control characters, which a terminal would obey (escape, line break, U+009B), as `?`.
+/// One line: control characters of terminals (escape, line break, U+009B) become `?`.
 std::string printable(std::string_view text);
 
-/// What a file said, in backticks: cut to `most` characters, unprintable ones as `?`, so that an
-/// error stays one line whatever the file holds.
+/// Excerpt of a file in backticks: at most `most` characters,
+/// unprintable ones as `?`, so that an error is one line.
 std::string excerpt(std::string_view found, std::size_t most = 40);
 
-/// A path as it stands in messages; unprintable characters as `?`.
+/// Path in messages; unprintable characters as `?`.
 std::string shown(const std::filesystem::path& path);
 
 }  // namespace softscope
