@@ -1,4 +1,4 @@
-// apps/argument_list.h: declaration of a command's arguments, independent of the parser.
+// apps/argument_list.h: declaration of arguments, independent of the parser.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ namespace softscope {
 struct Argument {
   using Target = std::variant<bool*, int*, double*, std::string*, std::vector<std::string>*>;
 
-  std::string name;        // "--out", or "LEFT" for one that is known by its place
+  std::string name;        // "--out", or "LEFT" for a positional one
   std::string value_name;  // "DIR"; empty for switches
-  Target target;           // set while parsing; a list may be given several times
+  Target target;           // set by the parser; a list may be given several times
   std::string help;
   bool required = false;
 
   bool isPositional() const { return name[0] != '-'; }
-  /// Takes every word that belongs to no option.
+  /// Receives all words that belong to no option.
   bool isPositionalList() const {
     return isPositional() && std::holds_alternative<std::vector<std::string>*>(target);
   }
@@ -34,7 +34,7 @@ class ArgumentList {
               const std::string& help, bool required = false) {
     arguments_.push_back({name, value_name, &target, help, required});
   }
-  /// Taken in the order of declaration.
+  /// In the order of declaration.
   void positional(const std::string& name, std::string& target, const std::string& help,
                   bool required) {
     arguments_.push_back({name, name, &target, help, required});

@@ -1,4 +1,4 @@
-// apps/benchmark.cpp: `softscope benchmark`: a data set's clips to its official table.
+// apps/benchmark.cpp: `softscope benchmark`: official table of a data set.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -63,7 +63,7 @@ class BenchmarkCommand : public Command {
   bool force_ = false;
 };
 
-/// Nothing where it was interrupted.
+/// None after an interruption.
 std::optional<FactSheet> BenchmarkCommand::table(const BenchmarkOptions& options,
                                                  const InterruptGuard& interrupt) {
   const int cores = common.threads > 0 ? common.threads : describeMachine().cores;

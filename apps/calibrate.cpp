@@ -1,4 +1,4 @@
-// apps/calibrate.cpp: `softscope calibrate`: films of a board to a stereo calibration.
+// apps/calibrate.cpp: `softscope calibrate`: stereo calibration from images of a board.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -99,7 +99,7 @@ double lengthOf(const std::string& option, const std::string& text) {
   return *value;
 }
 
-/// A whole number of 1 to 999, else 0.
+/// Integer from 1 to 999, else 0.
 int countOf(const std::string& text) {
   const bool digits = !text.empty() && text.size() <= 3 &&
                       text.find_first_not_of("0123456789") == std::string::npos;
@@ -142,7 +142,7 @@ void CalibrateCommand::write(const CalibrationReport& report) const {
   files.keep();
 }
 
-/// As `depth` takes its input, with the calibration that is judged.
+/// Input as for `depth`, with the calibration to be checked.
 SequencePaths CalibrateCommand::clip() const {
   SequencePaths paths;
   if (right_.empty() && isFolder(left_))

@@ -1,4 +1,4 @@
-// apps/calibration_template.cpp: `softscope calibration-template`: a calibration to fill in.
+// apps/calibration_template.cpp: `softscope calibration-template`: calibration template.
 #include "toolkit/calibration/calibration_template.h"
 
 #include <spdlog/spdlog.h>

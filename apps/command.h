@@ -1,4 +1,4 @@
-// apps/command.h: one `softscope <command>`.
+// apps/command.h: interface of one `softscope <command>`.
 #pragma once
 
 #include <memory>
@@ -15,11 +15,11 @@ class Command {
   virtual ~Command() = default;
   virtual std::string name() const = 0;
   virtual std::string summary() const = 0;  // one line, for the list of commands
-  virtual std::string details() const = 0;  // a few lines, for its own help; may be empty
-  virtual std::string example() const = 0;  // a line that a user can copy
-  /// Binds arguments to members; common options are declared by the frame.
+  virtual std::string details() const = 0;  // for its own help; may be empty
+  virtual std::string example() const = 0;  // a line to be copied
+  /// Binds arguments to members; common options are declared elsewhere.
   virtual void declare(ArgumentList& arguments) = 0;
-  /// Returns an ExitCode. Throws softscope::Error and its children.
+  /// Returns an ExitCode. Throws softscope::Error and derived exceptions.
   virtual int run() = 0;
 
   CommonOptions common;
@@ -43,7 +43,7 @@ std::unique_ptr<Command> makeSliceCommand();
 std::unique_ptr<Command> makeStudyCommand();
 std::unique_ptr<Command> makeViewCommand();
 
-/// In the order in which help lists them.
+/// In the order of the help.
 std::vector<std::unique_ptr<Command>> allCommands();
 
 }  // namespace softscope

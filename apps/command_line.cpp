@@ -1,4 +1,4 @@
-// apps/command_line.cpp: parsing with CLI11, and our checks.
+// apps/command_line.cpp: parsing with CLI11, and own checks.
 #include "apps/command_line.h"
 
 #include <CLI/CLI.hpp>
@@ -40,7 +40,7 @@ void assign(const Argument& argument, const std::vector<std::string>& values) {
     **number = toNumber<double>(argument.name, values.back(), "a number");
 }
 
-/// Declares every argument as text: what numbers may be is our own message to write.
+/// Declares every argument as text: numbers are checked with our own messages.
 void addTo(CLI::App& app, const ArgumentList& arguments) {
   for (const Argument& argument : arguments.all()) {
     CLI::Option* option = nullptr;
@@ -73,7 +73,7 @@ void parseArguments(Command& command, const ArgumentList& arguments,
   addTo(app, arguments);
   try {
     app.parse(
-        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them in reverse
+        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 requires reverse order
   } catch (const CLI::ArgumentMismatch& error) {
     fail(command, error.what());
   }

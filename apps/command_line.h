@@ -1,4 +1,4 @@
-// apps/command_line.h: from argv to a command that is ready to run.
+// apps/command_line.h: conversion of argv to a command.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,11 @@
 namespace softscope {
 
 struct ParsedLine {
-  Command* command = nullptr;  // null where only `text` is to be printed
+  Command* command = nullptr;  // null if only `text` is printed
   std::string text;            // help or version
 };
 
-/// Throws OptionError on what can't be understood, with the nearest name where there is one.
+/// Throws OptionError for invalid arguments, with the nearest name if there is one.
 ParsedLine parseCommandLine(const std::vector<std::string>& words,
                             const std::vector<std::unique_ptr<Command>>& commands);
 

@@ -1,4 +1,4 @@
-// apps/common_options.cpp: one wording for every help text.
+// apps/common_options.cpp: common help texts.
 #include "apps/common_options.h"
 
 #include "core/error.h"

@@ -1,4 +1,4 @@
-// apps/common_options.h: the options that mean the same in every command.
+// apps/common_options.h: options with the same meaning in every command.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
   std::string color = "auto";  // of warnings and errors: auto, always or never
-  int threads = 0;             // 0 = as many as there are cores
+  int threads = 0;             // 0 = number of cores
 
   void declare(ArgumentList& arguments);
   /// Throws OptionError.

@@ -19,12 +19,12 @@ namespace {
 
 using Json = FactSheet::Json;
 
-/// One line of the examination.
+/// Result of one check.
 struct Finding {
   std::string what;
   bool fine = true;
   std::string found;
-  std::string to_do;  // where it isn't fine
+  std::string to_do;  // advice, if it failed
 };
 
 Finding examineProcessor(const Machine& machine, Json& json) {

@@ -1,4 +1,4 @@
-// apps/evaluate.cpp: `softscope evaluate`: how far a run is from the truth, frame by frame.
+// apps/evaluate.cpp: `softscope evaluate`: errors of a run, frame by frame.
 #include <spdlog/spdlog.h>
 
 #include <optional>
@@ -89,7 +89,7 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
   arguments.flag("--force", force_, "overwrite what is there");
 }
 
-/// A single model needs no bar.
+/// A single model needs no progress bar.
 RunEvaluation EvaluateCommand::evaluate(const InterruptGuard& interrupt) const {
   const bool many = options_.each_model || isFolder(options_.reference);
   WorkProgress progress("evaluate", progressStyle(common.quiet || !many), interrupt);

@@ -7,9 +7,9 @@ enum ExitCode {
   kDone = 0,
   kThresholdFailed = 1,
   kUsage = 2,
-  kInput = 3,      // a file that can't be read or written, or is implausible
-  kNoBackend = 4,  // a back end or renderer that this build or machine lacks
-  kBug = 70,       // an exception that softscope never throws knowingly
+  kInput = 3,      // an unreadable, unwritable or implausible file
+  kNoBackend = 4,  // a back end or renderer missing in this build or machine
+  kBug = 70,       // an exception that softscope does not expect
   kInterrupted = 130
 };
 

@@ -1,4 +1,4 @@
-// apps/export.cpp: `softscope export`: models, and what becomes of them elsewhere.
+// apps/export.cpp: `softscope export`: models for other programs.
 #include <spdlog/spdlog.h>
 
 #include "apps/command.h"

@@ -81,7 +81,7 @@ void FigureCommand::declare(ArgumentList& arguments) {
   softscope::declare(request_.page, arguments);
 }
 
-/// "0,10,20", rising whatever the order. Throws OptionError.
+/// "0,10,20", sorted. Throws OptionError.
 std::vector<int> parseFrames(const std::string& text) {
   std::vector<int> frames;
   for (const std::string_view word : wordsOf(text)) {

@@ -1,4 +1,4 @@
-// apps/help_text.cpp: usage, arguments, an example.
+// apps/help_text.cpp: usage, arguments and example.
 #include "apps/help_text.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kHelpColumn = 26;
 
-/// "  --out DIR              help"; a long left side pushes its help to the next line.
+/// "  --out DIR              help"; for a long left side the help begins on the next line.
 std::string entry(const std::string& left, const std::string& help) {
   std::string line = "  " + left;
   if (line.size() + 2 > kHelpColumn) line += "\n";

@@ -1,4 +1,4 @@
-// apps/interrupt.cpp: signal handler with one global flag.
+// apps/interrupt.cpp: signal handler with a global flag.
 #include "apps/interrupt.h"
 
 #include <csignal>

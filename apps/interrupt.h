@@ -1,11 +1,11 @@
-// apps/interrupt.h: Ctrl-C, SIGTERM and SIGHUP as a request to stop cleanly.
+// apps/interrupt.h: Ctrl-C, SIGTERM and SIGHUP as a request for a clean stop.
 #pragma once
 
 namespace softscope {
 
-/// In its scope, the first Ctrl-C (or SIGTERM, or the SIGHUP of a closed terminal, unless nohup
-/// ignores it) only sets a flag that long work looks at between frames; the second ends the program
-/// at once. A command makes it before its first file, so that no work is lost to an early signal.
+/// In its scope, the first Ctrl-C (or SIGTERM, or SIGHUP of a closed terminal, unless ignored
+/// by nohup) only sets a flag that long work polls between frames; the second ends the program.
+/// Must be created before the first output file, so that an early signal loses no work.
 class InterruptGuard {
  public:
   InterruptGuard();

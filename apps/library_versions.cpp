@@ -1,4 +1,4 @@
-// apps/library_versions.cpp: asks each library.
+// apps/library_versions.cpp: versions queried from each library.
 #include "apps/library_versions.h"
 
 #include <OpenMesh/Core/System/config.h>

@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Name and version: loaded at run time where the library says it, else as built against.
+/// Name and version: at run time if the library provides it, else from the build.
 std::vector<std::pair<std::string, std::string>> libraryVersions();
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// apps/log.cpp: spdlog, set up once.
+// apps/log.cpp: configuration of spdlog.
 #include "apps/log.h"
 
 #include <spdlog/pattern_formatter.h>
@@ -15,8 +15,8 @@
 namespace softscope {
 namespace {
 
-/// The text of a message, with options for settings; names of files and texts from them can't
-/// command the terminal.
+/// Text of a message with option names for settings; control characters
+/// in it are replaced, so that they do not reach the terminal.
 class PrintableText : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
@@ -30,7 +30,7 @@ class PrintableText : public spdlog::custom_flag_formatter {
   }
 };
 
-/// NO_COLOR: the usual wish of an environment, https://no-color.org.
+/// NO_COLOR: environment variable, https://no-color.org.
 spdlog::color_mode colorMode(const std::string& color) {
   const char* no_color = std::getenv("NO_COLOR");
   if (color == "always") return spdlog::color_mode::always;

@@ -5,8 +5,8 @@
 
 namespace softscope {
 
-/// From here on spdlog's default logger writes to stderr: "warning: …". Colours and overwriting of
-/// a progress bar's line only where stderr is a terminal.
+/// Sends messages of spdlog's default logger to stderr: "warning: …".
+/// Colours and overwriting of the progress bar only if stderr is a terminal.
 void setUpLog(const CommonOptions& common);
 
 bool stderrIsTerminal();

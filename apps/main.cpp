@@ -1,4 +1,4 @@
-// apps/main.cpp: the program.
+// apps/main.cpp: main().
 #include "apps/program.h"
 
 int main(int argc, char** argv) {

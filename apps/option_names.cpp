@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-// Settings whose options have shorter names.
+// Settings with shorter option names.
 const std::map<std::string, std::string> kShorter{
     {"dots_per_inch", "--dpi"}, {"frames_per_second", "--fps"},  {"turn_deg", "--turn"},
     {"each_model", "--each"},   {"map_kind", "--map"},           {"names", "--name"},

@@ -1,4 +1,4 @@
-// apps/program.cpp: softscope <command>; the one place where failures become exit codes.
+// apps/program.cpp: execution of a command, and exit codes of failures.
 #include "apps/program.h"
 
 #include <fcntl.h>
@@ -27,7 +27,7 @@ int runCommand(Command& command) {
   return command.run();
 }
 
-/// Throws where what was printed didn't reach its place: a full disk, a closed pipe.
+/// Throws if the output was not written: full disk, closed pipe.
 void requirePrinted() {
   if (!std::cout.flush())
     throw Error("the output can't be written: is the disk full, or its reader gone?");
@@ -42,25 +42,25 @@ int runLine(const std::vector<std::string>& words) {
   return code;
 }
 
-/// Which file, what the system says of it, what to do: as our own errors tell it.
+/// File, reason of the system, advice: the structure of our own errors.
 std::string tell(const std::filesystem::filesystem_error& error) {
   return say(shown(error.path1()), ": ", error.code().message(),
              ". Check the path and the rights of its folders.");
 }
 
-/// Every frame needs the same buffers again; the C library would hand each back to the system and
-/// fault its pages in anew, a tenth of a frame's time (docs/benchmarks.md).
+/// Every frame needs the same buffers; the C library would return each to the system
+/// and fault its pages in again, a tenth of the time of a frame (docs/benchmarks.md).
 void keepMemoryAtHand() {
   constexpr int kLargestBuffer = 256 << 20;
   mallopt(M_MMAP_THRESHOLD, kLargestBuffer);
   mallopt(M_TRIM_THRESHOLD, kLargestBuffer);
 }
 
-/// A closed stdin, stdout or stderr would give its number to the next file that is opened, and
-/// lines meant for it would be written there. A pipe without a reader is an error of the write.
+/// With a closed stdin, stdout or stderr, the next opened file would get its
+/// number and receive its output. A pipe without a reader becomes a write error.
 void secureStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // takes the lowest free number
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // lowest free number
   signal(SIGPIPE, SIG_IGN);
 }
 
@@ -79,7 +79,7 @@ int runProgram(const std::vector<std::string>& words) {
   } catch (const BackendError& error) {
     spdlog::error("{}", error.what());
     return kNoBackend;
-  } catch (const Error& error) {  // InputError, and output that can't be written
+  } catch (const Error& error) {  // InputError, and write errors
     spdlog::error("{}", error.what());
     return kInput;
   } catch (const std::filesystem::filesystem_error& error) {

@@ -1,4 +1,4 @@
-// apps/program.h: the whole program but for main().
+// apps/program.h: the program without main().
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace softscope {
 
-/// Runs one command line, without the program's name; tells failures on stderr. Returns the exit
-/// code.
+/// Runs one command line without the program name;
+/// prints failures to stderr. Returns the exit code.
 int runProgram(const std::vector<std::string>& words);
 
 }  // namespace softscope

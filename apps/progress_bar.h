@@ -8,14 +8,14 @@
 
 namespace softscope {
 
-/// On a terminal one line that is rewritten ten times a second at most; elsewhere a plain line
-/// every ten seconds and one at the end, so that logs stay readable.
+/// On a terminal one line, updated at most ten times per second; elsewhere
+/// a line every ten seconds and one at the end, so that logs stay readable.
 class ProgressBar {
  public:
   using Clock = std::chrono::steady_clock;
   enum class Style { kSilent, kPlain, kTerminal };
 
-  /// `total` 0: unknown, then there is no ETA. `now` is asked for the time (tests have their own).
+  /// `total` 0: unknown, without ETA. `now` returns the time (replaced in tests).
   ProgressBar(std::string what, int total, Style style, std::ostream& out,
               std::function<Clock::time_point()> now = Clock::now);
   ~ProgressBar();
@@ -41,7 +41,7 @@ class ProgressBar {
   Clock::time_point last_shown_;
 };
 
-/// What suits stderr: silent with --quiet.
+/// Style for stderr: silent with --quiet.
 ProgressBar::Style progressStyle(bool quiet);
 
 }  // namespace softscope

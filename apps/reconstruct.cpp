@@ -1,4 +1,4 @@
-// apps/reconstruct.cpp: `softscope reconstruct`: a stereo clip to a live, deforming model.
+// apps/reconstruct.cpp: `softscope reconstruct`: deforming model from a stereo clip.
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"

@@ -1,4 +1,4 @@
-// apps/report.cpp: `softscope report`: evaluations as one page for people.
+// apps/report.cpp: `softscope report`: page of evaluations.
 #include <spdlog/spdlog.h>
 
 #include "apps/command.h"

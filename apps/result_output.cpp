@@ -1,4 +1,4 @@
-// apps/result_output.cpp: JSON or lines.
+// apps/result_output.cpp: JSON or text.
 #include "apps/result_output.h"
 
 #include <spdlog/spdlog.h>

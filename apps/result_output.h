@@ -1,4 +1,4 @@
-// apps/result_output.h: results on stdout, as JSON or lines.
+// apps/result_output.h: results on stdout, as JSON or text.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace softscope {
 void printJson(const FactSheet::Json& json);
 void printFacts(const FactSheet& facts, bool as_json);
 
-/// The end of a command that measures: its record, or its facts and where results were `written`
-/// (empty names aren't told).
+/// Output of a command that measures: its record, or its
+/// facts and the `written` files (empty names are omitted).
 void printResult(const FactSheet::Json& record, FactSheet facts,
                  const std::vector<std::string>& written, bool as_json);
 
-/// On stderr, one line: the files of a figure and its record.
+/// One line on stderr: files of a figure and its record.
 void tellWritten(const std::vector<std::string>& files, const std::string& record);
 
 }  // namespace softscope

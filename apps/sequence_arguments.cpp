@@ -1,4 +1,4 @@
-// apps/sequence_arguments.cpp: what is a folder has its own calibration.
+// apps/sequence_arguments.cpp: a folder contains its own calibration.
 #include "apps/sequence_arguments.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ void SequenceArguments::declareOptions(ArgumentList& arguments) {
 }
 
 SequencePaths SequenceArguments::paths(const std::string& command, bool calibrated) const {
-  std::error_code ignored;  // what isn't there, or a link to itself, is the reader's to report
+  std::error_code ignored;  // reported by the reader
   const bool is_file = std::filesystem::is_regular_file(left, ignored);
   const bool is_folder = std::filesystem::is_directory(left, ignored);
   SequencePaths paths;

@@ -1,4 +1,4 @@
-// apps/sequence_arguments.h: arguments that name a sequence.
+// apps/sequence_arguments.h: arguments of a sequence.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace softscope {
 
-/// A sequence folder, or two images, folders or videos with their calibration, or one video that
-/// holds both views. `left` and `right` are the command's own positional arguments.
+/// A sequence folder, or two images, folders or videos with their calibration, or one
+/// video with both views. `left` and `right` are positional arguments of the command.
 struct SequenceArguments {
   std::string left, right, calibration, mask, frames;
 
   /// --calibration, --mask, --frames.
   void declareOptions(ArgumentList& arguments);
 
-  /// Throws OptionError where the calibration is missing, InputError where `left` is no sequence.
-  /// `calibrated` false: the calibration may be missing.
+  /// Throws OptionError for a missing calibration, InputError if `left`
+  /// is not a sequence. `calibrated` false: the calibration is optional.
   SequencePaths paths(const std::string& command, bool calibrated = true) const;
-  /// Into `options`, where --frames was given. Throws OptionError.
+  /// Sets the range of --frames, if given. Throws OptionError.
   void applyFrames(SequenceOptions& options) const;
 };
 

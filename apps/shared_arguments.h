@@ -1,4 +1,4 @@
-// apps/shared_arguments.h: arguments that several commands declare alike.
+// apps/shared_arguments.h: arguments common to several commands.
 #pragma once
 
 #include "apps/argument_list.h"
@@ -14,7 +14,7 @@ void declare(RecordPaths& paths, ArgumentList& arguments);
 /// --spacing, --allow-missing-slices.
 void declare(VolumeArguments& volume, ArgumentList& arguments);
 
-/// What `slice` and `figure` have in common.
+/// Common options of `slice` and `figure`.
 void declare(FigureOptions& figure, ArgumentList& arguments);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// apps/simulate.cpp: `softscope simulate`: a stereo sequence whose truth is known.
+// apps/simulate.cpp: `softscope simulate`: stereo sequence with ground truth.
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -70,7 +70,7 @@ void SimulateCommand::declare(ArgumentList& arguments) {
   arguments.flag("--force", force_, "overwrite an earlier simulation");
 }
 
-/// The short options are settings too, so that one check and one record serve all.
+/// Short options are settings too, for one common check and record.
 SimulateOptions SimulateCommand::readOptions() const {
   SimulateOptions options;
   Settings settings;

@@ -1,4 +1,4 @@
-// apps/threshold_exit.h: the exit code of a command with --fail-if.
+// apps/threshold_exit.h: exit code of a command with --fail-if.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// kThresholdFailed where one failed, each of which is told on stderr; else kDone.
+/// kThresholdFailed if a threshold failed (each is printed to stderr); else kDone.
 int exitCodeOf(const std::vector<ThresholdOutcome>& outcomes);
 
 }  // namespace softscope

@@ -139,7 +139,7 @@ int ViewCommand::run() {
   request_.movie.file = movie_file_;
   request_.validate();
   std::shared_ptr<void> display;
-  if (request_.opensWindow()) display = connectToDisplay();  // asked before everything is read
+  if (request_.opensWindow()) display = connectToDisplay();  // before any reading
   if (wait_) {
     const InterruptGuard interrupt;
     waitForModel(

@@ -1,4 +1,4 @@
-// apps/work_progress.h: a progress bar and Ctrl-C for work of the toolkit.
+// apps/work_progress.h: progress bar and Ctrl-C for work of the toolkit.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace softscope {
 
-/// The bar's line ends with the work, be it done or stopped.
+/// The line of the bar ends with the work, finished or stopped.
 class WorkProgress {
  public:
   WorkProgress(std::string what, ProgressBar::Style style, const InterruptGuard& interrupt);
 
-  /// Shows how far the work is. Returns false once the user asked for the end. The object must
-  /// outlive the callback.
+  /// Shows the progress. Returns false after a stop
+  /// request of the user. Must outlive the callback.
   Progress callback();
   bool interrupted() const { return interrupt_.requested(); }
 
@@ -33,7 +33,7 @@ class WorkProgress {
 
 /// Warnings, notes and failures go to the log.
 WorkListener logListener();
-/// The same, with the bar and Ctrl-C.
+/// With the bar and Ctrl-C.
 WorkListener listenerOf(WorkProgress& progress);
 
 }  // namespace softscope

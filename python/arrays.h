@@ -1,4 +1,4 @@
-// python/arrays.h: NumPy arrays, dictionaries and callbacks as the public face takes them.
+// python/arrays.h: conversion of NumPy arrays, dictionaries and callbacks.
 #pragma once
 
 #include <pybind11/functional.h>
@@ -17,7 +17,7 @@ using namespace py::literals;
 using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
 using Released = py::call_guard<py::gil_scoped_release>;
 
-/// The array's own memory where it lies row by row; else a copy, which `array` then holds.
+/// Memory of a contiguous array; else a copy, which `array` then holds.
 inline api::ImageView viewOf(const Bytes& array, const char* what) {
   if (array.size() == 0) return {};
   const bool grey = array.ndim() == 2;
@@ -28,7 +28,7 @@ inline api::ImageView viewOf(const Bytes& array, const char* what) {
           grey ? 1 : static_cast<int>(array.shape(2))};
 }
 
-/// An array over memory that `owner` keeps alive.
+/// Array over memory kept alive by `owner`.
 template <class Value>
 py::array_t<Value> arrayOver(const std::vector<Value>& values, std::vector<py::ssize_t> shape,
                              const py::object& owner) {
@@ -63,14 +63,14 @@ inline api::FrameView frameOf(const Bytes& left, const Bytes& right,
   return frame;
 }
 
-/// True, 3 and "sgbm" as a settings file writes them.
+/// True, 3 and "sgbm" in the syntax of a settings file.
 inline std::string settingText(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   return py::str(value);
 }
 
-/// "stereo.method" of the keyword stereo_method. One that no setting has keeps its first word, so
-/// that the library's own error can name the nearest key.
+/// "stereo.method" from the keyword stereo_method. An unknown keyword keeps
+/// its first word, so that the error of the library contains the nearest key.
 inline std::string keyOf(const std::string& keyword,
                          const std::vector<api::SettingDescription>& known) {
   for (const api::SettingDescription& setting : known) {
@@ -83,7 +83,7 @@ inline std::string keyOf(const std::string& keyword,
   return key;
 }
 
-/// Settings by key and by keyword together.
+/// Settings by key and by keyword.
 inline std::map<std::string, std::string> settingTexts(
     const py::dict& settings, const py::kwargs& keywords,
     const std::vector<api::SettingDescription>& known) {
@@ -103,8 +103,8 @@ inline api::Options optionsOf(const std::map<std::string, std::string>& texts) {
   return options;
 }
 
-/// Between two parts of long work Python gets the lock: for `progress`, and for Ctrl-C.
-/// Copies of the callback hold no reference, as those need the lock: `progress` must outlive them.
+/// Acquires the lock of Python between two parts of long work, for `progress` and for Ctrl-C.
+/// Copies of the callback hold no reference (that needs the lock): `progress` must outlive them.
 inline std::function<bool(int, int)> progressOf(const std::optional<py::function>& progress) {
   return [&progress](int done, int total) {
     const py::gil_scoped_acquire held;

@@ -1,4 +1,4 @@
-// python/bind_judges.cpp: evaluation, comparison, report, figure, simulation.
+// python/bind_judges.cpp: bindings of evaluation, comparison, report, figure, simulation.
 #include "python/arrays.h"
 #include "python/bindings.h"
 

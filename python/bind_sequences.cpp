@@ -1,4 +1,4 @@
-// python/bind_sequences.cpp: calibration, frames, sequence, depth.
+// python/bind_sequences.cpp: bindings of calibration, frames, sequence, depth.
 #include "python/arrays.h"
 #include "python/bindings.h"
 
@@ -12,7 +12,7 @@ api::Depth measure(api::DepthEstimator& self, const Bytes& left, const Bytes& ri
   return self.measure(frame);
 }
 
-/// A raster over the memory of `self`, height x width, or x 3.
+/// Raster over the memory of `self`, height x width, or x 3.
 template <std::vector<float> api::Depth::*Values>
 py::array_t<float> rasterOf(const py::object& self) {
   const auto& depth = self.cast<api::Depth&>();

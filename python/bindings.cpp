@@ -1,4 +1,4 @@
-// python/bindings.cpp: the module `softscope`: the public face for Python; lengths are mm.
+// python/bindings.cpp: module `softscope`, the public interface in Python; lengths in mm.
 #include "python/bindings.h"
 
 #include <pybind11/pybind11.h>

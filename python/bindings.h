@@ -1,4 +1,4 @@
-// python/bindings.h: the parts of the module.
+// python/bindings.h: parts of the module.
 #pragma once
 
 #include <pybind11/pybind11.h>

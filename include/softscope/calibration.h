@@ -1,4 +1,4 @@
-// include/softscope/calibration.h: two cameras on one scope.
+// include/softscope/calibration.h: stereo calibration.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 
 namespace softscope::api {
 
-/// Immutable; a copy shares the data.
+/// Immutable; copies share the data.
 class Calibration {
  public:
-  /// From any of the files that `softscope reconstruct --calibration` takes; lengths become mm.
-  /// `width_px`, `height_px`: of the images, where the file does not say it. Throws InputError.
+  /// Reads any file accepted by `softscope reconstruct --calibration`; lengths are converted
+  /// to mm. `width_px`, `height_px`: of the images, if missing in the file. Throws InputError.
   static Calibration read(const std::string& file, int width_px = 0, int height_px = 0);
 
-  /// Two equal cameras without distortion whose rows are aligned. Throws OptionError.
+  /// Two equal cameras without distortion, with aligned rows. Throws OptionError.
   static Calibration rectified(int width_px, int height_px, double focal_px, double centre_u_px,
                                double centre_v_px, double baseline_mm);
 
@@ -25,7 +25,7 @@ class Calibration {
   double baselineMm() const;
   std::vector<std::string> warnings() const;
 
-  /// Of the implementation.
+  /// Implementation.
   struct Data;
   explicit Calibration(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   const Data& data() const { return *data_; }

@@ -1,4 +1,4 @@
-// include/softscope/compare.h: a surface or model against a reference surface.
+// include/softscope/compare.h: comparison of a surface or model with a reference surface.
 #pragma once
 
 #include <map>
@@ -11,19 +11,19 @@ namespace softscope::api {
 
 struct ComparisonOptions {
   std::string align = "none";  // none, landmarks or icp
-  std::string landmarks;       // file of pairs of points
+  std::string landmarks;       // file of point pairs
   double reference_unit_mm = 1, test_unit_mm = 1;
-  std::vector<double> taus_mm{0.5, 1, 2};  // thresholds of precision, recall, F and surface Dice
+  std::vector<double> taus_mm{0.5, 1, 2};  // for precision, recall, F-score and surface Dice
 };
 
 struct Comparison {
   Distances accuracy, completeness;       // test to reference, reference to test
   std::map<std::string, double> metrics;  // by path; NaN: not measured
   std::vector<std::string> warnings;
-  std::string record;  // JSON as in comparison.json
+  std::string record;  // content of comparison.json
 };
 
-/// Files: STL, PLY, OBJ or VTP; the test may be points. Throws OptionError and InputError.
+/// Files: STL, PLY, OBJ or VTP; the test may be a point cloud. Throws OptionError and InputError.
 Comparison compare(const std::string& reference, const std::string& test,
                    const ComparisonOptions& options = {});
 

@@ -1,4 +1,4 @@
-// include/softscope/evaluate.h: how far a run is from the truth.
+// include/softscope/evaluate.h: errors of a run against ground truth.
 #pragma once
 
 #include <functional>
@@ -10,38 +10,38 @@
 
 namespace softscope::api {
 
-/// NaN where nothing was measured.
+/// NaN if not measured.
 struct Distances {
   double mean_mm = 0, sd_mm = 0, rmse_mm = 0, median_mm = 0, p95_mm = 0, max_mm = 0;
   long count = 0;
 };
 
 struct SurfaceErrors {
-  Distances all, observed, predicted;  // observed: points that the scope sees at that moment
+  Distances all, observed, predicted;  // observed: points currently visible to the scope
 };
 
 struct Evaluation {
   SurfaceErrors surface;                  // NaN without ground truth or mesh
   std::map<std::string, double> metrics;  // by path: "surface.observed.p95_mm"; NaN: not measured
   std::vector<std::string> warnings;
-  std::string record;  // JSON as in evaluation.json: docs/evaluation.md
+  std::string record;  // content of evaluation.json: docs/evaluation.md
 
-  /// Throws OptionError where there is no such metric.
+  /// Throws OptionError for an unknown metric.
   double metric(const std::string& path) const;
 };
 
 struct EvaluationOptions {
   std::string align = "none";    // to a mesh: none, rigid (one for all models), icp (each model)
-  bool each_model = false;       // against a mesh: every saved model, not the last alone
+  bool each_model = false;       // against a mesh: every saved model instead of the last
   double reference_unit_mm = 1;  // of a mesh file: 1000 for metres
-  bool views = true;             // draw the models for depth, PSNR and SSIM
-  std::string out;               // folder for evaluation.json, tables and figures; empty: none
+  bool views = true;             // render models for depth, PSNR and SSIM
+  std::string out;               // folder of evaluation.json, tables and figures; empty: none
   bool overwrite = false;
   std::function<bool(int done, int total)> progress;  // models; false: stop
 };
 
-/// `reference`: a sequence folder, best with groundtruth/, or a mesh file. Throws OptionError and
-/// InputError; Error where `progress` stopped it.
+/// `reference`: a sequence folder, preferably with groundtruth/, or a mesh
+/// file. Throws OptionError and InputError; Error after a stop by `progress`.
 Evaluation evaluate(const Run& run, const std::string& reference,
                     const EvaluationOptions& options = {});
 

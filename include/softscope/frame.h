@@ -1,4 +1,4 @@
-// include/softscope/frame.h: the two images of one moment.
+// include/softscope/frame.h: stereo images of one frame.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace softscope::api {
 
-/// 8 bits a channel; `channels` 3 (red, green, blue) or 1; height x width x channels without gaps.
-/// Owns nothing.
+/// 8 bits per channel; `channels` 3 (red, green, blue) or
+/// 1; height x width x channels, contiguous. Non-owning.
 struct ImageView {
   const std::uint8_t* values = nullptr;
   int width_px = 0, height_px = 0, channels = 3;
 };
 
-/// What one moment shows. Views must live until the call that takes them returns.
+/// Images of one frame. Views must stay valid until the call returns.
 struct FrameView {
   ImageView left, right;
-  ImageView mask;  // one channel, of the left image; not 0: ignore the pixel. Empty: none
+  ImageView mask;  // one channel, for the left image; non-zero: ignore. Empty: none
   double time_s = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -30,12 +30,12 @@ struct Image {
   ImageView view() const { return {values.data(), width_px, height_px, channels}; }
 };
 
-/// One frame of a sequence, or why it could not be read.
+/// Frame of a sequence, or the reason for a failure.
 struct Frame {
   int index = 0;
-  double time_s = std::numeric_limits<double>::quiet_NaN();  // NaN where the sequence has no clock
-  Image left, right, mask;                                   // mask empty: none
-  std::string error;                                         // empty where all is well
+  double time_s = std::numeric_limits<double>::quiet_NaN();  // NaN without timestamps
+  Image left, right, mask;                                   // empty mask: none
+  std::string error;                                         // empty without an error
 
   FrameView view() const { return {left.view(), right.view(), mask.view(), time_s}; }
 };

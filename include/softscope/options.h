@@ -9,20 +9,20 @@
 
 namespace softscope::api {
 
-/// One setting as docs/settings.md lists it.
+/// Setting as listed in docs/settings.md.
 struct SettingDescription {
   std::string key, type, unit, range, default_text, meaning;
 };
 
-/// Every setting of Reconstructor, of DepthEstimator, of simulate().
+/// Settings of Reconstructor, DepthEstimator and simulate().
 std::vector<SettingDescription> reconstructionSettings();
 std::vector<SettingDescription> depthSettings();
 std::vector<SettingDescription> simulationSettings();
 
-/// What differs from the defaults: key to value, as `--set key=value` takes them.
+/// Values that differ from the defaults: key to value, as in `--set key=value`.
 class Options {
  public:
-  /// Throws OptionError: an unknown key, a value of another type or out of its range.
+  /// Throws OptionError: an unknown key, a value of another type or out of range.
   Options& set(const std::string& key, const std::string& value);
 
   const std::map<std::string, std::string>& values() const { return values_; }

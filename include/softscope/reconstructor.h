@@ -1,4 +1,4 @@
-// include/softscope/reconstructor.h: stereo frames to a live, deforming model.
+// include/softscope/reconstructor.h: deforming model from stereo frames.
 #pragma once
 
 #include <memory>
@@ -11,19 +11,19 @@
 
 namespace softscope::api {
 
-/// What became of one frame.
+/// Result of one frame.
 struct FrameReport {
   int frame = 0;
   std::string status;  // "started", "fused", ...: docs/formats.md, frames.csv
-  std::string reason;  // why it was not fused; empty where it was
+  std::string reason;  // reason if it was not fused; else empty
   bool fused = false;
-  Pose world_from_left{};  // the last known one where this frame has none of its own
+  Pose world_from_left{};  // last known pose if this frame has none
   double coverage = 0;     // share of the tissue with depth
   int matches = 0, points = 0;
   double elapsed_ms = 0;
 };
 
-/// Owns a model and follows it from frame to frame. For one thread at a time; works on many.
+/// Owns a model and updates it per frame. For one thread at a time; parallel inside.
 class Reconstructor {
  public:
   /// `backend`: auto, cpu or cuda. Throws OptionError and BackendError.
@@ -33,20 +33,20 @@ class Reconstructor {
   Reconstructor(Reconstructor&&) noexcept;
   Reconstructor& operator=(Reconstructor&&) noexcept;
 
-  /// Before the first frame: writes a run folder while frames are processed, a model of every
-  /// `save_every`-th frame (0: only the last). Throws OptionError where the folder holds a run and
-  /// `overwrite` is false.
+  /// Before the first frame: writes a run folder during processing, with
+  /// the model of every `save_every`-th frame (0: last only). Throws
+  /// OptionError if the folder contains a run and `overwrite` is false.
   void recordTo(const std::string& folder, int save_every = 10, bool overwrite = false);
 
-  /// A frame that is not good enough leaves the model as it was; the report says why. Throws
-  /// InputError where an image does not fit the calibration.
+  /// A rejected frame leaves the model unchanged; the report contains the
+  /// reason. Throws InputError for an image that does not fit the calibration.
   FrameReport process(const FrameView& frame);
 
-  /// A copy of the model, in the light of the last fused image.
+  /// Copy of the model, in the illumination of the last fused image.
   Model model() const;
 
-  /// Completes the run folder. Throws OptionError without recordTo(), InputError where not one
-  /// frame was fused.
+  /// Completes the run folder. Throws OptionError without
+  /// recordTo(), InputError if no frame was fused.
   Run finish();
 
  private:

@@ -1,4 +1,4 @@
-// include/softscope/sequence.h: a stereo sequence on disk, frame by frame.
+// include/softscope/sequence.h: reader of a stereo sequence.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 
 namespace softscope::api {
 
-/// Frames are read ahead on a thread. For one consumer thread.
+/// Frames are read ahead by a thread. For one consumer thread.
 class Sequence {
  public:
-  /// A folder with left/ and right/ images or videos and a calibration. Throws InputError.
+  /// Folder with left/ and right/ images or videos and a calibration. Throws InputError.
   explicit Sequence(const std::string& folder);
   /// Two image folders or videos with their calibration file. Throws InputError.
   Sequence(const std::string& left, const std::string& right, const std::string& calibration);
@@ -23,7 +23,7 @@ class Sequence {
 
   Calibration calibration() const;
   int frameCount() const;
-  /// Nothing after the last frame.
+  /// None after the last frame.
   std::optional<Frame> next();
 
  private:

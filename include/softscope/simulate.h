@@ -1,4 +1,4 @@
-// include/softscope/simulate.h: an organ to a stereo sequence with ground truth.
+// include/softscope/simulate.h: simulated stereo sequence with ground truth.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 namespace softscope::api {
 
 struct SimulationRequest {
-  std::map<std::string, std::string> settings;  // as data/scenario.toml has them: "frames", "seed"
+  std::map<std::string, std::string> settings;  // as in data/scenario.toml: "frames", "seed"
   int width_px = 640, height_px = 480;
   bool overwrite = false;
   std::function<bool(int done, int total)> progress;  // frames; false: stop
@@ -18,12 +18,12 @@ struct SimulationRequest {
 
 struct Simulation {
   std::string folder;
-  int frames = 0;  // fewer than asked for where it was stopped
+  int frames = 0;  // fewer than requested after a stop
   int tracked_points = 0;
 };
 
-/// Writes a sequence folder. The same settings give the same bytes. Throws OptionError and
-/// InputError.
+/// Writes a sequence folder. Deterministic for given
+/// settings. Throws OptionError and InputError.
 Simulation simulate(const std::string& folder, const SimulationRequest& request = {});
 
 }  // namespace softscope::api

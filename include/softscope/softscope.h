@@ -1,4 +1,4 @@
-// include/softscope/softscope.h: the whole library.
+// include/softscope/softscope.h: all headers of the library.
 #pragma once
 
 #include "softscope/calibration.h"
