@@ -38,21 +38,17 @@ constexpr char kResult = 'r', kInputFault = 'i', kOtherFault = 'o', kOutOfMemory
 bool inside_guarded_read = false;  // set once, in a process that ends with its reading
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr bool kLimitMemory = false;
+constexpr bool kAddressSanitizer = true;
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr bool kLimitMemory = false;
+constexpr bool kAddressSanitizer = __has_feature(address_sanitizer);
 #else
-constexpr bool kLimitMemory = true;
-#endif
-#else
-constexpr bool kLimitMemory = true;
+constexpr bool kAddressSanitizer = false;
 #endif
 
 /// AddressSanitizer's allocator, unlike glibc's, leaves a lock that another thread holds at the
 /// fork locked in the child for ever. Threads that are about to end are waited for.
 void settleThreads() {
-  if (kLimitMemory) return;  // not under that sanitizer
+  if (!kAddressSanitizer) return;
   constexpr int kTries = 20;
   for (int k = 0; k < kTries; ++k) {
     const std::filesystem::directory_iterator threads("/proc/self/task"), end;
@@ -62,15 +58,19 @@ void settleThreads() {
 }
 
 struct ReadLimits {
-  rlim_t seconds, memory_bytes;
+  rlim_t seconds, memory_bytes;  // beyond what the process has
 };
 
 ReadLimits limitsFor(std::uintmax_t input_bytes, const GuardAllowance& allowance) {
-  std::uintmax_t pages = 0;  // of the address space that there is already
-  std::ifstream("/proc/self/statm") >> pages;
-  const auto page = static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
   return {kBaseSeconds + input_bytes / kMegabyte + static_cast<rlim_t>(allowance.seconds),
-          pages * page + kBaseMemory + kMemoryPerByte * input_bytes + allowance.memory_bytes};
+          kBaseMemory + kMemoryPerByte * input_bytes + allowance.memory_bytes};
+}
+
+/// Address space of this process: terabytes under AddressSanitizer, for its shadow.
+rlim_t mappedBytes() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
 void limitTo(int resource, rlim_t value) {
@@ -86,7 +86,7 @@ void restrictChild(const ReadLimits& limits) {
     signal(signal_number, SIG_DFL);
   limitTo(RLIMIT_CORE, 0);
   limitTo(RLIMIT_CPU, limits.seconds);
-  if (kLimitMemory) limitTo(RLIMIT_AS, limits.memory_bytes);
+  limitTo(RLIMIT_AS, mappedBytes() + limits.memory_bytes);
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, stream);
 }

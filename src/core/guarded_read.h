@@ -22,8 +22,7 @@ struct GuardAllowance {
 /// other libraries crash or hang on some damaged files: the child's death is an InputError that
 /// names `source`, what the library prints goes nowhere, and an Error that `read` throws is thrown
 /// here again. Limits: processor time of 10 s and 1 s per MB of input, twice that on the clock, and
-/// memory of 2 GiB and 16 times the input (none under AddressSanitizer, which reserves terabytes),
-/// and what `allowance` adds.
+/// memory of 2 GiB and 16 times the input beyond what this process has, and what `allowance` adds.
 /// `read` must not share work among threads: the child has only its own.
 std::string guardedRead(const std::string& source, std::uintmax_t input_bytes,
                         const std::function<std::string()>& read,

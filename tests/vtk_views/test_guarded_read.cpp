@@ -59,6 +59,11 @@ TEST(GuardedRead, AReaderThatWantsTooMuchMemoryIsAnInputError) {
   EXPECT_THAT(errorOf([]() -> std::string { throw std::length_error("a size"); }), HasSubstr("MB"));
 }
 
+// Under AddressSanitizer too, whose allocator ends the child in place of std::bad_alloc.
+TEST(GuardedRead, MemoryBeyondTheLimitIsRefusedToTheReader) {
+  errorOf([] { return std::string(std::size_t{3} << 30, 'x'); });
+}
+
 TEST(GuardedRead, ErrorsOfTheReaderComeThrough) {
   EXPECT_EQ(errorOf([]() -> std::string { throw InputError("some.file: is bad"); }),
             "some.file: is bad");
