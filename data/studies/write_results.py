@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Writes docs/results.md and its pictures from what studies left; nothing in it is typed by hand.
+"""Writes docs/results.md, its pictures and README's numbers from what studies left; nothing in them
+is typed by hand.
 
 usage: data/studies/write_results.py --softscope build/release/apps/softscope DIR...
-Each DIR is the folder of a finished study. --softscope names the program that ran them, more than
+Each DIR is the folder of a finished study; sections of studies that are not named stay. --softscope names the program that ran them, more than
 once where several did; the commit that is written is that of the checkout it lies in. Refuses a
 checkout that differs from its commit, and cases that none of these programs ran."""
 import argparse
@@ -13,6 +14,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+import write_readme
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/results.md"
@@ -83,6 +86,9 @@ def table_of(study):
 def copy_pictures(study, name):
     """The plots of the first metric, and how the page shows them."""
     shown = []
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    for old in PICTURES.glob(f"{name}_*"):
+        old.unlink()
     for plot in sorted((study["folder"] / "plots").glob("*.svg")):
         if study["sweeps"] and not plot.stem.endswith("_points"):
             continue
@@ -112,6 +118,19 @@ def section(study, commit):
     return "\n\n".join(part for part in parts if part)
 
 
+def with_section(page, section):
+    """`page` with this section in the place of the one of its title, or at the end."""
+    head, *sections = page.rstrip("\n").split("\n\n## ")
+    section = section.removeprefix("## ")
+    titles = [old.splitlines()[0] for old in sections]
+    title = section.splitlines()[0]
+    if title in titles:
+        sections[titles.index(title)] = section
+    else:
+        sections.append(section)
+    return "\n\n## ".join([head, *sections]) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--softscope", required=True, type=Path, action="append",
@@ -122,12 +141,13 @@ def main():
               for program in options.softscope}
     studies = [read_study(folder) for folder in options.folders]
     commits = [commits_of(study, builds) for study in studies]
-    if PICTURES.exists():
-        shutil.rmtree(PICTURES)
-    PICTURES.mkdir(parents=True)
-    sections = [section(study, commit) for study, commit in zip(studies, commits)]
-    PAGE.write_text(HEAD + "\n" + "\n\n".join(sections) + "\n", encoding="utf-8")
-    print(f"wrote {PAGE.relative_to(ROOT)} and {len(list(PICTURES.iterdir()))} pictures")
+    page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else HEAD
+    for study, commit in zip(studies, commits):
+        page = with_section(page, section(study, commit))
+    PAGE.write_text(page, encoding="utf-8")
+    write_readme.renew()
+    print(f"wrote {PAGE.relative_to(ROOT)}, {len(list(PICTURES.iterdir()))} pictures beside it, "
+          "README.md")
 
 
 if __name__ == "__main__":
