@@ -99,7 +99,7 @@ install_packages() {
 
 # --- build --------------------------------------------------------------------------------------
 
-# configure PRESET
+# configure PRESET: several files are compiled at once, as everything is compiled.
 configure() {
   local folder=build/$1
   step "Configure $folder"
@@ -107,7 +107,7 @@ configure() {
     say "done before; the build repeats it by itself where a CMakeLists.txt changed"
     return
   fi
-  logged "$folder/configure.log" cmake --preset "$1"
+  logged "$folder/configure.log" cmake --preset "$1" -DSOFTSCOPE_JOIN=ON
   say "$(grep -o 'softscope: .*' "$folder/configure.log" || echo configured)"
 }
 
