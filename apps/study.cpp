@@ -11,6 +11,7 @@
 #include "io/text/message.h"
 #include "toolkit/record/child_process.h"
 #include "toolkit/study/run_study.h"
+#include "toolkit/study/study_gpus.h"
 
 namespace softscope {
 namespace {
@@ -41,7 +42,7 @@ class StudyCommand : public Command {
  private:
   StudyRun readRun() const;
   int runOne(const StudyRun& run) const;
-  int runAll(const StudyRun& run) const;
+  int runAll(StudyRun run) const;
   int writeTable(const StudyRun& run) const;
 
   std::string file_, out_, case_;
@@ -53,7 +54,8 @@ void StudyCommand::declare(ArgumentList& arguments) {
   arguments.positional("FILE", file_, "the study (TOML)", true);
   arguments.option("--out", "DIR", out_, "folder for everything; an earlier study in it goes on");
   arguments.option("--jobs", "N", jobs_,
-                   "cases at the same time, which share --threads (0: one a core, the default)");
+                   "cases at the same time, which share --threads (0, the default: one a GPU, "
+                   "without GPUs one a core)");
   arguments.flag("--list", list_, "print the names of all cases, run nothing");
   arguments.option("--case", "NAME", case_, "run this case alone, write no table");
   arguments.flag("--table", table_, "run nothing, write the table of what is there");
@@ -61,7 +63,7 @@ void StudyCommand::declare(ArgumentList& arguments) {
 }
 
 StudyRun StudyCommand::readRun() const {
-  StudyRun run{readStudy(file_), file_, {out_}, ownExecutable(), jobs_, common.threads, force_};
+  StudyRun run{readStudy(file_), file_, {out_}, ownExecutable(), jobs_, common.threads, force_, {}};
   run.validate();
   return run;
 }
@@ -93,7 +95,8 @@ int StudyCommand::runOne(const StudyRun& run) const {
   return end == CaseEnd::kFailed ? kThresholdFailed : kDone;
 }
 
-int StudyCommand::runAll(const StudyRun& run) const {
+int StudyCommand::runAll(StudyRun run) const {
+  if (mayUseGpus(run.study)) run.gpus = visibleGpus();
   const InterruptGuard interrupt;
   WorkProgress progress("study", progressStyle(common.quiet), interrupt);
   return runStudy(run, listenerOf(progress)) ? writeTable(run) : kInterrupted;

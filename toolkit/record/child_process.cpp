@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <thread>
@@ -25,7 +26,7 @@ constexpr int kCannotStart = 127;  // as shells say it
 int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
 /// In the child: nothing here may allocate or throw.
-[[noreturn]] void become(char* const* words, int log, int parent) {
+[[noreturn]] void become(char* const* words, char* const* environment, int log, int parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kCannotStart);  // the parent died before it was asked
@@ -33,22 +34,45 @@ int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + 
   dup2(nothing, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
-  execv(words[0], words);
+  execve(words[0], words, environment);
   _exit(kCannotStart);
+}
+
+/// As exec takes them: ends with null, valid as long as `words`.
+std::vector<char*> pointersTo(const std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// This process's environment with `variables` in it.
+std::vector<std::string> environmentWith(const std::vector<std::string>& variables) {
+  std::vector<std::string> all = variables;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string text = *entry;
+    const std::string name = text.substr(0, text.find('=') + 1);
+    const bool replaced =
+        std::any_of(variables.begin(), variables.end(),
+                    [&](const std::string& other) { return other.rfind(name, 0) == 0; });
+    if (!replaced) all.push_back(text);
+  }
+  return all;
 }
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& words, const fs::path& log) {
-  std::vector<char*> pointers;
-  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
-  pointers.push_back(nullptr);
+ChildProcess::ChildProcess(const std::vector<std::string>& words, const fs::path& log,
+                           const std::vector<std::string>& variables) {
+  const std::vector<char*> pointers = pointersTo(words);
+  const std::vector<std::string> entries = environmentWith(variables);
+  const std::vector<char*> environment = pointersTo(entries);
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) throw Error(shown(log) + ": can't be written to; check the rights of its folder");
   signal(SIGCHLD, SIG_DFL);  // who ignores it, as some parents make us, can't wait for anyone
   const int parent = getpid();
   id_ = fork();
-  if (id_ == 0) become(pointers.data(), file, parent);
+  if (id_ == 0) become(pointers.data(), environment.data(), file, parent);
   close(file);
   if (id_ < 0) throw Error("no further process can be started; fewer `jobs=` need fewer");
 }

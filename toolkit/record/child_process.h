@@ -12,9 +12,11 @@ namespace softscope {
 /// interrupt() alone. It is asked to end when this process ends.
 class ChildProcess {
  public:
-  /// `words[0]` is the program. Its output and errors are appended to `log`. Throws Error where it
-  /// can't be started.
-  ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log);
+  /// `words[0]` is the program. Its output and errors are appended to `log`. `variables`
+  /// ("NAME=value") replace those of this process's environment. Throws Error where it can't be
+  /// started.
+  ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& log,
+               const std::vector<std::string>& variables = {});
   ~ChildProcess();  // waits for its end
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;

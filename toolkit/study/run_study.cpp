@@ -13,6 +13,7 @@
 #include "toolkit/record/machine.h"
 #include "toolkit/record/shell_word.h"
 #include "toolkit/study/study_case.h"
+#include "toolkit/study/study_gpus.h"
 #include "toolkit/study/study_outputs.h"
 
 namespace softscope {
@@ -41,11 +42,37 @@ std::vector<const StudyCase*> pendingCases(const StudyRun& run) {
 int coresOf(const StudyRun& run) { return run.threads > 0 ? run.threads : describeMachine().cores; }
 
 int jobCount(const StudyRun& run, std::size_t cases) {
-  const int jobs = run.jobs > 0 ? run.jobs : describeMachine().cores;
+  const int by_default =
+      run.gpus.empty() ? describeMachine().cores : static_cast<int>(run.gpus.size());
+  const int jobs = run.jobs > 0 ? run.jobs : by_default;
   return std::max(1, std::min(jobs, static_cast<int>(cases)));
 }
 
-ChildProcess startCase(const StudyRun& run, const StudyCase& study_case, int threads) {
+/// A case as a process, with the GPU that it may use.
+class RunningCase {
+ public:
+  RunningCase(const StudyRun& run, const StudyCase& study_case, int threads, GpuPool* gpus)
+      : gpus_(gpus),
+        gpu_(gpus->empty() ? 0 : gpus->take()),
+        child_(start(run, study_case, threads)) {}
+  RunningCase(const RunningCase&) = delete;
+  RunningCase& operator=(const RunningCase&) = delete;
+  ~RunningCase() {
+    if (!gpus_->empty()) gpus_->giveBack(gpu_);
+  }
+  bool ended() { return child_.ended().has_value(); }
+  void interrupt() { child_.interrupt(); }
+
+ private:
+  ChildProcess start(const StudyRun& run, const StudyCase& study_case, int threads) const;
+
+  GpuPool* gpus_;
+  std::size_t gpu_;
+  ChildProcess child_;
+};
+
+ChildProcess RunningCase::start(const StudyRun& run, const StudyCase& study_case,
+                                int threads) const {
   fs::create_directories(run.folder.ofCase(study_case.name));
   std::vector<std::string> words{run.program.string(),
                                  "study",
@@ -58,7 +85,9 @@ ChildProcess startCase(const StudyRun& run, const StudyCase& study_case, int thr
                                  std::to_string(threads),
                                  "--quiet"};
   if (run.again) words.emplace_back("--force");
-  return ChildProcess(words, run.folder.root / "cases" / "study_log.txt");
+  std::vector<std::string> variables;
+  if (!gpus_->empty()) variables.push_back("CUDA_VISIBLE_DEVICES=" + gpus_->name(gpu_));
+  return ChildProcess(words, run.folder.root / "cases" / "study_log.txt", variables);
 }
 
 bool tellIfBad(const StudyRun& run, const StudyCase& one, const Json& record,
@@ -78,7 +107,8 @@ bool tellIfBad(const StudyRun& run, const StudyCase& one, const Json& record,
 }  // namespace
 
 void StudyRun::validate() const {
-  require(jobs >= 0 && jobs <= 1024, "`jobs=`", jobs, "must be 0 (one a core) to 1024");
+  require(jobs >= 0 && jobs <= 1024, "`jobs=`", jobs,
+          "must be 0 (one a GPU, without GPUs one a core) to 1024");
 }
 
 /// As a shell takes it, without options that decide no result, and without the machine's folders.
@@ -116,21 +146,22 @@ bool runStudy(const StudyRun& run, const WorkListener& listener) {
   if (finished > 0) listener.tell(say(finished, " of ", all, " cases are done already"));
   const int jobs = jobCount(run, waiting.size()), total = static_cast<int>(waiting.size());
   const int threads = std::max(1, coresOf(run) / jobs);
-  std::list<ChildProcess> running;
+  GpuPool gpus(run.gpus);
+  std::list<RunningCase> running;
   std::size_t next = 0;
   int done = 0;
   bool goes_on = goesOn(listener.progress, done, total);
   while (!running.empty() || (next < waiting.size() && goes_on)) {
     while (goes_on && next < waiting.size() && static_cast<int>(running.size()) < jobs)
-      running.push_back(startCase(run, *waiting[next++], threads));
+      running.emplace_back(run, *waiting[next++], threads, &gpus);
     for (auto child = running.begin(); child != running.end();) {
-      const bool ended = child->ended().has_value();
+      const bool ended = child->ended();
       done += ended && goes_on ? 1 : 0;
       child = ended ? running.erase(child) : std::next(child);
     }
     if (goes_on && !goesOn(listener.progress, done, total)) {
       goes_on = false;
-      for (ChildProcess& child : running) child.interrupt();
+      for (RunningCase& child : running) child.interrupt();
     }
     waitAMoment();
   }

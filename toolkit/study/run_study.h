@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "toolkit/progress.h"
 #include "toolkit/record/fact_sheet.h"
@@ -17,9 +18,10 @@ struct StudyRun {
   std::string file;               // of the study
   StudyFolder folder;             // of all results
   std::filesystem::path program;  // softscope, which runs each case
-  int jobs = 0;                   // cases at the same time; 0: one a core
+  int jobs = 0;                   // cases at the same time; 0: one a GPU, without GPUs one a core
   int threads = 0;                // that all cases share; 0: one a core
   bool again = false;             // run cases that are done, too
+  std::vector<std::string> gpus;  // to distribute the cases over; empty: none
 
   /// Throws OptionError.
   void validate() const;
