@@ -2,10 +2,10 @@
 #include "eval/distance/triangle_tree.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "core/error.h"
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "eval/distance/morton_order.h"
 
@@ -13,7 +13,6 @@ namespace softscope {
 namespace {
 
 constexpr float kFarthestCoordinate_mm = 1e6f;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const TriangleMesh& checked(const TriangleMesh& mesh) {
   if (mesh.empty())
@@ -35,7 +34,13 @@ const TriangleMesh& checked(const TriangleMesh& mesh) {
 }
 
 ClosestPoint noAnswer() {
-  return {Eigen::Vector3d::Constant(kNaN), kNaN, kNaN, -1, SurfaceFeature::kNone, false, 0};
+  return {Eigen::Vector3d::Constant(kNotMeasured<double>),
+          kNotMeasured<double>,
+          kNotMeasured<double>,
+          -1,
+          SurfaceFeature::kNone,
+          false,
+          0};
 }
 
 }  // namespace
@@ -85,7 +90,7 @@ ClosestPoint TriangleTree::describe(const TreeHit& hit, const Eigen::Vector3f& p
       at_vertex ? sides_.ofVertex(corners[i]) : sides_.ofEdge(corners[i], corners[(i + 1) % 3]);
   const Eigen::Vector3d away_mm = point_mm.cast<double>() - answer.point_mm;
   const bool inside = away_mm.dot(side.normal) < 0;
-  answer.signed_distance_mm = side.on_border ? kNaN
+  answer.signed_distance_mm = side.on_border ? kNotMeasured<double>
                               : inside       ? -answer.distance_mm
                                              : answer.distance_mm;
   answer.feature = at_vertex ? SurfaceFeature::kVertex : SurfaceFeature::kEdge;

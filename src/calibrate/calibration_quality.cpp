@@ -3,16 +3,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
+
+#include "core/not_measured.h"
 
 namespace softscope {
 namespace {
 
 constexpr double kNinetyFive = 1.959964;  // sigmas of a normal distribution, two-sided
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> valuesOf(const RawCamera& camera) {
   const auto& c = camera.distortion.coefficients;
@@ -183,10 +183,11 @@ RowErrors rowErrors(const CalibrationSolution& solution) {
     squares += rows[i] * rows[i];
   }
   RowErrors errors;
-  errors.rms_px = rows.empty() ? kNone : std::sqrt(squares / static_cast<double>(rows.size()));
-  errors.worst_region_px = kNone;
+  errors.rms_px =
+      rows.empty() ? kNotMeasured<double> : std::sqrt(squares / static_cast<double>(rows.size()));
+  errors.worst_region_px = kNotMeasured<double>;
   for (std::size_t i = 0; i < kRegions; ++i) {
-    const double mean = counts[i] < 10 ? kNone : sums[i] / counts[i];
+    const double mean = counts[i] < 10 ? kNotMeasured<double> : sums[i] / counts[i];
     errors.region_mean_px.push_back(mean);
     if (std::isfinite(mean) && !(std::abs(mean) <= errors.worst_region_px))
       errors.worst_region_px = std::abs(mean);

@@ -1,17 +1,14 @@
 #include "features/lift_matches.h"
 
-#include <limits>
-
+#include "core/not_measured.h"
 #include "features/lift_formulas.h"
 
 namespace softscope {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
 float sigmaAt(const DepthMap& depth, const Eigen::Vector2f& place_px) {
   const int u = nearestPixel(place_px.x()), v = nearestPixel(place_px.y());
-  return depth.sigma_mm.contains(u, v) ? depth.sigma_mm.at(u, v) : kNan;
+  return depth.sigma_mm.contains(u, v) ? depth.sigma_mm.at(u, v) : kNotMeasured<float>;
 }
 
 }  // namespace
@@ -20,7 +17,7 @@ float depthAt(const Raster<float>& depth_mm, const Eigen::Vector2f& place_px, fl
   const float found =
       depthBetween([&](int u, int v) { return depth_mm.at(u, v); }, depth_mm.width_px,
                    depth_mm.height_px, place_px.x(), place_px.y(), max_step_mm);
-  return found > 0 ? found : kNan;
+  return found > 0 ? found : kNotMeasured<float>;
 }
 
 RigidRows rigidRows(const Eigen::Isometry3d& motion) {

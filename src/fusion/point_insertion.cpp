@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "fusion/cell_table.h"
 #include "fusion/insertion_formulas.h"
@@ -14,8 +15,6 @@
 
 namespace softscope {
 namespace {
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// The model's nearest depth in every pixel.
 NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
@@ -80,7 +79,7 @@ class UnexplainedDepths {
         limits_(limits) {}
 
   Raster<float> find() const {
-    Raster<float> unexplained(states_.width_px, states_.height_px, kNaN);
+    Raster<float> unexplained(states_.width_px, states_.height_px, kNotMeasured<float>);
     parallelRanges(states_.height_px, 16, [&](int begin, int end) {
       const DepthsAround around(drawn_, camera_, begin, end);
       for (int v = begin; v < end; ++v) findRow(around, v, unexplained.row(v));

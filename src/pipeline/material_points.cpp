@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "deform/graph/warp.h"
 #include "fusion/cell_table.h"
@@ -12,7 +13,6 @@
 namespace softscope {
 namespace {
 
-constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
 constexpr double kMaxSettleMm = 0.5;  // of near tissue; further off is another surface
 
@@ -29,7 +29,7 @@ double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
     right += row / depth;
     ++count;
   });
-  if (count < least) return kNotKnown;
+  if (count < least) return kNotMeasured<double>;
   return 1 / normal.ldlt().solve(right).x();
 }
 

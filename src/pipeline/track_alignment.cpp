@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "core/median.h"
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "pipeline/material_points.h"
 
 namespace softscope {
 namespace {
 
-constexpr double kUnknownMm2 = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLargestSlope = 4;  // of a surface that a point is moved along, depth over width
 
 /// What an image says of one tracked point.
@@ -72,7 +72,7 @@ double driftOf(const std::vector<MaterialPoints::Point>& points,
     off.push_back(seen[k].off_mm2 / kMedianOfTwo);
     expected.push_back(points[k].variance_mm2 + seen[k].variance_mm2);
   }
-  if (off.size() < kLeastLooks) return kUnknownMm2;
+  if (off.size() < kLeastLooks) return kNotMeasured<double>;
   return std::max(0.0, medianOf(std::move(off)) - medianOf(std::move(expected)));
 }
 
@@ -155,7 +155,7 @@ void MaterialPoints::align(const GrayImage& image, const Mask& ignore, const Pin
   std::vector<FoundMove> found;
   for (std::size_t k = 0; k < points.size(); ++k) {
     double& variance_mm2 = points[k].variance_mm2;
-    variance_mm2 = seen[k].in_sight ? variance_mm2 + drift_mm2 : kUnknownMm2;
+    variance_mm2 = seen[k].in_sight ? variance_mm2 + drift_mm2 : kNotMeasured<double>;
     if (seen[k].found) found.push_back(moveTowards(seen[k], &points[k]));
   }
   parallelRanges(static_cast<int>(points.size()), kLooksATask, [&](int begin, int end) {

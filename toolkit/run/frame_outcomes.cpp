@@ -2,7 +2,8 @@
 #include "toolkit/run/frame_outcomes.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "core/not_measured.h"
 
 namespace softscope {
 namespace {
@@ -55,14 +56,13 @@ bool FrameOutcomes::fused(int frame) const {
 }
 
 FactSheet::Json FrameOutcomes::json() const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   FactSheet::Json json;
   json["frames"] = empty() ? FactSheet::Json() : FactSheet::Json(count());
   for (const FusionOutcome outcome : kAll)
     json[toString(outcome)] = empty() ? FactSheet::Json() : FactSheet::Json(count(outcome));
   for (const FusionOutcome outcome : kAll)
     json[std::string(toString(outcome)) + "_share"] =
-        empty() ? kNone : static_cast<double>(count(outcome)) / count();
+        empty() ? kNotMeasured<double> : static_cast<double>(count(outcome)) / count();
   return json;
 }
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/not_measured.h"
 #include "io/files/atomic_file.h"
 #include "io/images/image_writer.h"
 #include "toolkit/record/json_text.h"
@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 using Json = FactSheet::Json;
 
 constexpr double kDotsPerInch = 200;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 const char* const kStyle =
     "<style>body{font:15px/1.45 system-ui,sans-serif;max-width:62em;margin:2em auto;padding:0 1em;"
@@ -66,7 +65,7 @@ CaseBarsData barsOf(const Study& study, const std::vector<Json>& records, const 
     const bool published = !one.beside.empty();
     if (published) data.published_label = one.beside.begin()->first;
     data.bars.push_back({seriesName(one), mean, valueAt(records[i], plot.p95_path),
-                         published ? one.beside.begin()->second : kNone});
+                         published ? one.beside.begin()->second : kNotMeasured<double>});
   }
   return data;
 }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
 
+#include "core/not_measured.h"
 #include "io/text/message.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/version.h"
@@ -16,7 +16,6 @@ namespace {
 
 using Json = FactSheet::Json;
 
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastFusedShare = 0.5;
 
 /// "0.30000000000000004" is 0.3.
@@ -159,10 +158,10 @@ double valueAt(const Json& record, const std::string& path) {
   const Json* at = &record;
   std::istringstream parts(path);
   for (std::string part; std::getline(parts, part, '.');) {
-    if (!at->is_object() || !at->contains(part)) return kNoNumber;
+    if (!at->is_object() || !at->contains(part)) return kNotMeasured<double>;
     at = &(*at)[part];
   }
-  return at->is_number() ? at->get<double>() : kNoNumber;
+  return at->is_number() ? at->get<double>() : kNotMeasured<double>;
 }
 
 std::string seriesName(const StudyCase& one) {

@@ -15,10 +15,9 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <limits>
-
 #include "core/error.h"
 #include "core/guarded_read.h"
+#include "core/not_measured.h"
 #include "vtk_views/files/packed_bytes.h"
 #include "vtk_views/files/vtk_errors.h"
 
@@ -26,14 +25,13 @@ namespace softscope {
 namespace {
 
 constexpr float kFarthestMm = 1e6f;
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 void addScalars(const char* name, const std::vector<float>& values, std::size_t reference_count,
                 vtkPolyData* data) {
   vtkNew<vtkFloatArray> array;
   array->SetName(name);
   for (const float value : values) array->InsertNextValue(value);
-  for (std::size_t i = 0; i < reference_count; ++i) array->InsertNextValue(kNone);
+  for (std::size_t i = 0; i < reference_count; ++i) array->InsertNextValue(kNotMeasured<float>);
   data->GetPointData()->AddArray(array);
 }
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "eval/simulation/camera/smoke.h"
 #include "eval/simulation/noise/random.h"
@@ -16,7 +16,6 @@ namespace {
 // One seed a part, so that changing one part leaves the others as they were.
 enum Part : std::uint64_t { kTexture = 1, kMotion = 2, kPath = 3, kNoise = 4 };
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr int kShutterMoments = 7;      // that motion blur is made of
 constexpr double kSmokeShare = 0.5;     // smoke hangs half-way to the tissue
 constexpr double kSeenWithin_mm = 0.3;  // of the depth at the nearest pixel: slopes between pixels
@@ -195,7 +194,7 @@ void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame&
   if (options_.instrument.there()) {
     frame.instrument = instrumentMask(hits, instrumentAt(time_s), lens_);
     for (std::size_t i = 0; i < frame.instrument.size(); ++i)
-      if (frame.instrument.values[i] != 0) frame.depth_mm.values[i] = kNan;
+      if (frame.instrument.values[i] != 0) frame.depth_mm.values[i] = kNotMeasured<float>;
   }
   const Eigen::Isometry3d left_from_world = frame.pose.world_from_left.inverse();
   for (const TrackPoint& point : track_points_) {
@@ -212,7 +211,8 @@ void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame&
 Raster<Eigen::Vector2f> Simulator::flowTo(double time_s, const Raster<RayHit>& hits,
                                           const Mask& hidden) {
   const ScopeScene next = sceneAt(worldVertices(time_s), time_s);
-  Raster<Eigen::Vector2f> flow(hits.width_px, hits.height_px, Eigen::Vector2f::Constant(kNan));
+  Raster<Eigen::Vector2f> flow(hits.width_px, hits.height_px,
+                               Eigen::Vector2f::Constant(kNotMeasured<float>));
   parallelRows(flow.height_px, [&](int v) {
     for (int u = 0; u < flow.width_px; ++u) {
       const RayHit& hit = hits.at(u, v);

@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.h"
+#include "core/not_measured.h"
 #include "io/documents/npy_file.h"
 #include "io/files/atomic_file.h"
 #include "io/files/file_bytes.h"
@@ -19,11 +19,10 @@ namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr double kMostSteps = 65535;
 
 Raster<float> fromSteps(const cv::Mat& steps, double unit) {
-  Raster<float> out(steps.cols, steps.rows, kNone);
+  Raster<float> out(steps.cols, steps.rows, kNotMeasured<float>);
   for (int v = 0; v < steps.rows; ++v) {
     const auto* row = steps.ptr<std::uint16_t>(v);
     for (int u = 0; u < steps.cols; ++u)
@@ -33,7 +32,7 @@ Raster<float> fromSteps(const cv::Mat& steps, double unit) {
 }
 
 Raster<float> fromFloats(const cv::Mat& floats) {
-  Raster<float> out(floats.cols, floats.rows, kNone);
+  Raster<float> out(floats.cols, floats.rows, kNotMeasured<float>);
   for (int v = 0; v < floats.rows; ++v) {
     const auto* row = floats.ptr<float>(v);
     for (int u = 0; u < floats.cols; ++u)
@@ -62,7 +61,8 @@ Raster<std::uint16_t> toSteps(const Raster<float>& values, double unit) {
 }
 
 Raster<float> fromMetres(const NpyArray& metres) {
-  Raster<float> depth_mm(static_cast<int>(metres.columns), static_cast<int>(metres.rows), kNone);
+  Raster<float> depth_mm(static_cast<int>(metres.columns), static_cast<int>(metres.rows),
+                         kNotMeasured<float>);
   for (std::size_t i = 0; i < depth_mm.size(); ++i)
     depth_mm.values[i] = static_cast<float>(1000 * metres.values[i]);
   return depth_mm;
@@ -74,7 +74,7 @@ Raster<float> parseDepth(std::string_view bytes, const std::string& name, double
   Raster<float> depth_mm =
       isNpy(bytes) ? fromMetres(parseNpy(bytes, name)) : parseMap(bytes, name, unit_mm);
   for (float& value : depth_mm.values)
-    if (!(value > 0 && std::isfinite(value))) value = kNone;
+    if (!(value > 0 && std::isfinite(value))) value = kNotMeasured<float>;
   return depth_mm;
 }
 

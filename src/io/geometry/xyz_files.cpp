@@ -5,24 +5,20 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.h"
+#include "core/not_measured.h"
 #include "io/files/atomic_file.h"
 #include "io/files/file_bytes.h"
 #include "io/images/image_codec.h"
 #include "io/text/message.h"
 
 namespace softscope {
-namespace {
-
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-
-}  // namespace
 
 PointRaster parsePointRaster(std::string_view bytes, const std::string& name) {
   const cv::Mat image = decodeImage(bytes, name, cv::IMREAD_UNCHANGED);
   if (image.type() != CV_32FC3)
     throw InputError(say(name, ": has ", image.channels(), " channel(s) of ", 8 * image.elemSize1(),
                          " bits, but three of 32-bit floats (x, y, z in mm) are expected."));
-  PointRaster points(image.cols, image.rows, Eigen::Vector3f::Constant(kNone));
+  PointRaster points(image.cols, image.rows, Eigen::Vector3f::Constant(kNotMeasured<float>));
   for (int v = 0; v < image.rows; ++v) {
     const auto* row = image.ptr<cv::Vec3f>(v);
     for (int u = 0; u < image.cols; ++u) {
@@ -54,7 +50,7 @@ void writePointRaster(const std::filesystem::path& file, const PointRaster& poin
 }
 
 Raster<float> rectifiedDepth(const PointRaster& points, const RectifiedRig& rig) {
-  Raster<float> depth_mm(rig.left.width_px, rig.left.height_px, kNone);
+  Raster<float> depth_mm(rig.left.width_px, rig.left.height_px, kNotMeasured<float>);
   for (const Eigen::Vector3f& raw : points.values) {
     if (!raw.allFinite()) continue;
     const Eigen::Vector3d p = rig.rectified_from_raw_left * raw.cast<double>();

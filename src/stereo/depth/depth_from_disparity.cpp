@@ -1,23 +1,19 @@
 #include "stereo/depth/depth_from_disparity.h"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "stereo/kernels/filter_formulas.h"
 
 namespace softscope {
-namespace {
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-}  // namespace
 
 DepthMap depthFromDisparity(const DisparityMap& disparity, const RectifiedRig& rig) {
   const int width = disparity.disparity_px.width_px, height = disparity.disparity_px.height_px;
-  DepthMap depth{Raster<float>(width, height, kNaN), Raster<float>(width, height, kNaN)};
+  DepthMap depth{Raster<float>(width, height, kNotMeasured<float>),
+                 Raster<float>(width, height, kNotMeasured<float>)};
   const double scale = rig.left.fx_px * rig.baseline_mm;
   parallelRows(height, [&](int v) {
     for (int u = 0; u < width; ++u) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "stereo/depth/depth_from_disparity.h"
 #include "stereo/kernels/kernel_sets.h"
@@ -13,7 +14,6 @@
 namespace softscope {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kReach = kNormalReach;
 constexpr int kHeight = 2 * kReach + 1;
 constexpr int kBandRows = 60;  // solved by one thread at a time
@@ -40,12 +40,12 @@ class NormalBand {
         camera_(camera),
         normals_(normals),
         width_(depth_mm.width_px),
-        inverse_(width_, kHeight, kNaN, 0),
+        inverse_(width_, kHeight, kNotMeasured<float>, 0),
         weighted_(width_, kHeight, 0, 0),
         measured_(width_, kHeight, 0, 0),
         columns_(width_, kColumnMomentCount, 0, 0),
         moments_(width_, kMomentCount, 0, 0),
-        range_(width_, 2, kNaN, 0),
+        range_(width_, 2, kNotMeasured<float>, 0),
         normal_(width_, 3, 0, 0),
         mixed_(static_cast<std::size_t>(width_ + Plane::kMargin)) {}
 
@@ -62,7 +62,7 @@ class NormalBand {
 
   void invert(int v) {
     float* depth = normal_.row(0);  // not in use yet
-    std::fill_n(depth, width_ + Plane::kMargin, kNaN);
+    std::fill_n(depth, width_ + Plane::kMargin, kNotMeasured<float>);
     if (v >= 0 && v < depth_.height_px) std::copy_n(depth_.row(v), width_, depth);
     normalKernels().invertRow(
         {depth, width_, inverse_.row(slot(v)), weighted_.row(slot(v)), measured_.row(slot(v))});

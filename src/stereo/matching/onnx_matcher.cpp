@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "core/error.h"
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "stereo/kernels/filter_formulas.h"
 #include "stereo/matching/stage_clock.h"
@@ -14,7 +14,6 @@
 namespace softscope {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kTwoErrors = 2.0f;   // variance of left minus right, in variances of one
 constexpr float kFiveErrors = 5.0f;  // of full minus half size, whose error doubles
 
@@ -61,7 +60,7 @@ ColourImage halvedColour(const ColourImage& image) {
 /// Difference to the right image's disparity at the matched column; NaN where that is outside.
 float leftRightDifference(const Raster<float>& left, const Raster<float>& right, int u, int v) {
   const float d = left.at(u, v), x = static_cast<float>(u) - d;
-  if (!(x >= 0 && x <= static_cast<float>(right.width_px - 1))) return kNaN;
+  if (!(x >= 0 && x <= static_cast<float>(right.width_px - 1))) return kNotMeasured<float>;
   const int u0 = static_cast<int>(x), u1 = std::min(u0 + 1, right.width_px - 1);
   const float share = x - static_cast<float>(u0);
   return (1 - share) * right.at(u0, v) + share * right.at(u1, v) - d;
@@ -70,7 +69,7 @@ float leftRightDifference(const Raster<float>& left, const Raster<float>& right,
 /// Difference to twice the half size's disparity.
 float scaleDifference(const Raster<float>& full, const Raster<float>& half, int u, int v) {
   const HalfPosition at = halfPosition(u, v);
-  if (!half.contains(at.u0, at.v0)) return kNaN;
+  if (!half.contains(at.u0, at.v0)) return kNotMeasured<float>;
   const FourPixels four =
       fourPixels(half.values.data(), half.width_px, half.height_px, at.u0, at.v0);
   return 2 * bilinear(four, at.fu, at.fv) - full.at(u, v);
@@ -79,7 +78,8 @@ float scaleDifference(const Raster<float>& full, const Raster<float>& half, int 
 /// Mean square over a window, of its values that are numbers.
 Raster<float> localMeanSquare(const Raster<float>& differences, int radius_px) {
   const int width = differences.width_px, height = differences.height_px;
-  Raster<float> rows(width, height), counts(width, height), means(width, height, kNaN);
+  Raster<float> rows(width, height), counts(width, height),
+      means(width, height, kNotMeasured<float>);
   parallelRows(height, [&](int v) {
     for (int u = 0; u < width; ++u)
       for (int k = std::max(u - radius_px, 0); k <= std::min(u + radius_px, width - 1); ++k) {
@@ -116,7 +116,7 @@ void dropDenied(const Raster<float>& left_right, const ViewMasks& ignored,
           std::abs(left_right.at(u, v)) <= static_cast<float>(NetworkOptions::left_right_px);
       if (!in_range || !agrees || isBlocked(ignored.left, u, v) ||
           isBlocked(ignored.right, static_cast<int>(std::lround(static_cast<float>(u) - d)), v))
-        d = kNaN;
+        d = kNotMeasured<float>;
     }
   });
 }
@@ -133,7 +133,7 @@ void predictSigma(const Raster<float>& left_right, const Raster<float>& scale, D
     float& d = map->disparity_px.values[i];
     const float sigma = std::sqrt(
         known_2 + std::max(left_right_2.values[i] / kTwoErrors, scale_2.values[i] / kFiveErrors));
-    if (!(sigma <= static_cast<float>(RefinementOptions::max_sigma_px))) d = kNaN;
+    if (!(sigma <= static_cast<float>(RefinementOptions::max_sigma_px))) d = kNotMeasured<float>;
     if (!std::isnan(d)) map->sigma_px.values[i] = sigma;
   }
 }
@@ -172,7 +172,7 @@ DisparityMap OnnxMatcher::matchColour(const StereoPair& pair, const ViewMasks& i
   const Raster<float> half = network_.disparity(halvedColour(left), halvedColour(right));
   clock.lap("half");
 
-  DisparityMap map{found, Raster<float>(width, height, kNaN)};
+  DisparityMap map{found, Raster<float>(width, height, kNotMeasured<float>)};
   Raster<float> left_right(width, height), scale(width, height);
   parallelRows(height, [&](int v) {
     for (int u = 0; u < width; ++u) {
@@ -182,14 +182,15 @@ DisparityMap OnnxMatcher::matchColour(const StereoPair& pair, const ViewMasks& i
   });
   dropDenied(left_right, ignored, options_, &map.disparity_px);
   for (std::size_t i = 0; i < left_right.size(); ++i)  // what is denied tells nothing of the rest
-    if (std::isnan(map.disparity_px.values[i])) left_right.values[i] = scale.values[i] = kNaN;
+    if (std::isnan(map.disparity_px.values[i]))
+      left_right.values[i] = scale.values[i] = kNotMeasured<float>;
   predictSigma(left_right, scale, &map);
   clock.lap("agreement");
   removeDark(map.disparity_px, left_gray, options_.darkest_gray, options_.dark_margin_px);
   removeSpeckles(map.disparity_px, options_.elas.speckle_size_px, ElasOptions::speckle_step_px);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
   for (std::size_t i = 0; i < map.sigma_px.size(); ++i)
-    if (std::isnan(map.disparity_px.values[i])) map.sigma_px.values[i] = kNaN;
+    if (std::isnan(map.disparity_px.values[i])) map.sigma_px.values[i] = kNotMeasured<float>;
   clock.lap("filter");
   times_ = clock.laps();
   return map;

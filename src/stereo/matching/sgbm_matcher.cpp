@@ -1,9 +1,9 @@
 #include "stereo/matching/sgbm_matcher.h"
 
-#include <limits>
 #include <opencv2/calib3d.hpp>
 
 #include "core/mask_morphology.h"
+#include "core/not_measured.h"
 #include "stereo/images/opencv_view.h"
 #include "stereo/kernels/matching_kernels.h"
 #include "stereo/matching/stage_clock.h"
@@ -12,7 +12,6 @@
 namespace softscope {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §7
 
 }  // namespace
@@ -29,8 +28,8 @@ DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& ri
   cv::Mat found;
   sgbm->compute(opencvView(left), opencvView(right), found);  // 1/16 px
   clock.lap("match");
-  DisparityMap map{Raster<float>(left.width_px, left.height_px, kNaN),
-                   Raster<float>(left.width_px, left.height_px, kNaN)};
+  DisparityMap map{Raster<float>(left.width_px, left.height_px, kNotMeasured<float>),
+                   Raster<float>(left.width_px, left.height_px, kNotMeasured<float>)};
   const Mask left_blocked = dilated(masks.left, options_.sgbm_block_px / 2 + kSobelReach);
   const Mask right_blocked = dilated(masks.right, options_.sgbm_block_px / 2 + kSobelReach);
   const auto is_blocked = [](const Mask& blocked, int u, int v) {

@@ -18,13 +18,13 @@
 
 #include "core/error.h"
 #include "core/guarded_read.h"
+#include "core/not_measured.h"
 #include "stereo/images/opencv_view.h"
 #include "stereo/networks/onnx_model.h"
 
 namespace softscope {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kMultiplePx = 32;  // free lengths are padded to this: networks halve five times
 constexpr int kTrialShiftPx = 8;
 // A trial on one core: seconds for a network that takes one on all cores of a workstation, and the
@@ -247,7 +247,7 @@ Raster<float> DisparityNetwork::Impl::run(cv::dnn::Net& net, const Fit& fit,
   cv::Mat part = plane(cv::Rect(0, 0, fit.used_width, fit.used_height)).clone();
   long negative = 0, positive = 0;
   for (float& d : cv::Mat_<float>(part)) {
-    if (!std::isfinite(d)) d = kNaN;
+    if (!std::isfinite(d)) d = kNotMeasured<float>;
     negative += d < 0;
     positive += d > 0;
   }

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/mask_morphology.h"
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "stereo/kernels/filter_formulas.h"
 
 namespace softscope {
 namespace {
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// Measured pixels of one row that lie side by side on one surface.
 struct Run {
@@ -111,14 +109,14 @@ Raster<std::uint8_t> findEdges(const Raster<float>& d, float step) {
 
 void forget(DisparityMap& map, int v, int begin, int end) {
   for (int u = std::max(begin, 0); u < std::min(end, map.disparity_px.width_px); ++u)
-    map.disparity_px.at(u, v) = map.sigma_px.at(u, v) = kNaN;
+    map.disparity_px.at(u, v) = map.sigma_px.at(u, v) = kNotMeasured<float>;
 }
 
 }  // namespace
 
 Raster<float> checkLeftRight(const Raster<std::int16_t>& left, const Raster<std::int16_t>& right,
                              int tolerance_px) {
-  Raster<float> checked(left.width_px, left.height_px, kNaN);
+  Raster<float> checked(left.width_px, left.height_px, kNotMeasured<float>);
   parallelRows(left.height_px, [&](int v) {
     for (int u = 0; u < left.width_px; ++u) {
       const int d = left.at(u, v);
@@ -138,7 +136,7 @@ void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_
   });
   const Raster<std::uint8_t> near_dark = dilated(dark, margin_px);
   for (std::size_t i = 0; i < disparity_px.size(); ++i)
-    if (near_dark.values[i] != 0) disparity_px.values[i] = kNaN;
+    if (near_dark.values[i] != 0) disparity_px.values[i] = kNotMeasured<float>;
 }
 
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px) {
@@ -153,7 +151,8 @@ void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px) {
   for (int v = 0; v < disparity_px.height_px; ++v)
     for (; i < ends[static_cast<std::size_t>(v)]; ++i)
       if (const Run& run = islands.runs()[static_cast<std::size_t>(i)]; islands.sizeOf(i) < size_px)
-        std::fill(disparity_px.row(v) + run.begin, disparity_px.row(v) + run.end, kNaN);
+        std::fill(disparity_px.row(v) + run.begin, disparity_px.row(v) + run.end,
+                  kNotMeasured<float>);
 }
 
 void fillGaps(Raster<float>& disparity_px, int width_px, double step_px) {

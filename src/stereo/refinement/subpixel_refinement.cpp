@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "core/not_measured.h"
 #include "core/parallel.h"
 #include "stereo/kernels/kernel_sets.h"
 #include "stereo/refinement/depth_steps.h"
@@ -15,7 +15,6 @@
 namespace softscope {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBandRows = 80;  // solved by one thread at a time
 
 /// What all bands share: the images, the window, and how to weigh.
@@ -199,7 +198,7 @@ class Band {
 
 /// Margins stay NaN: unmatched.
 Plane planeOf(const Raster<float>& raster) {
-  Plane plane(raster.width_px, raster.height_px, kNaN);
+  Plane plane(raster.width_px, raster.height_px, kNotMeasured<float>);
   parallelRows(raster.height_px,
                [&](int v) { std::copy_n(raster.row(v), raster.width_px, plane.row(v)); });
   return plane;
