@@ -13,7 +13,7 @@ class ComparisonPasses {
  public:
   explicit ComparisonPasses(Executor& executor) : executor_(executor) {}
 
-  /// What the camera sees of each point; with `draws`, the point that each pixel shows, too.
+  /// Visibility of each point; with `draws`, also the point shown by each pixel.
   void findSight(const ComparisonFrameLayout& frame, const ComparisonModelLayout& model,
                  const PosedCamera& camera, const SightLimits& limits, bool draws) {
     ResetKernel reset;

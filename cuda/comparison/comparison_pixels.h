@@ -66,7 +66,7 @@ struct EvidenceKernel {
   }
 
  private:
-  /// Depth of the model minus the measured one, mm; NaN where they can't be compared.
+  /// Depth of the model minus the measured depth, mm; NaN if not comparable.
   SOFTSCOPE_HD float compare(int u, int v, Shared* shared) const {
     const int pixel = v * frame.width + u;
     const unsigned long long held = frame.drawn[pixel];
@@ -94,7 +94,7 @@ struct EvidenceKernel {
   }
 };
 
-/// One block: in which bin of a step's counts the value of the rank lies.
+/// One block: bin of the counts of a step that contains the value of the rank.
 struct PickRankKernel {
   static constexpr int kThreads = 256, kPhases = 2, kBinsEach = kRankBins / kThreads;
   struct Shared {

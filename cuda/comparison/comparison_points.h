@@ -10,7 +10,7 @@
 
 namespace softscope::cuda {
 
-/// A thread per point: what the measurement says about it; draws it for those behind it.
+/// One thread per point: compares it with the measurement; draws it as an occluder.
 struct SightKernel {
   static constexpr int kThreads = 256, kPhases = 1;
   using Shared = Nothing;
@@ -19,7 +19,7 @@ struct SightKernel {
   ComparisonModelLayout model;
   PosedCamera camera;
   SightLimits limits;
-  bool draws;  // the image of the model, too
+  bool draws;  // also renders the model
 
   Grid blocks() const { return {blocksFor(model.count, kThreads), 1, 1}; }
   template <int kPhase>
@@ -31,9 +31,9 @@ struct SightKernel {
                                      {frame.depth_mm, frame.normals, frame.states}, limits);
     model.sights[i] = sight;
     if (sight.pixel < 0) return;
-    const std::uint32_t depth = floatAsBits(left.z());  // positive floats sort as their bits do
+    const std::uint32_t depth = floatAsBits(left.z());  // bits of positive floats have their order
     const int cell = frame.cellOf(sight.pixel);
-    // A point that isn't there any more hides nothing.
+    // An obsolete point occludes nothing.
     if (sight.sight != Sight::kSeenThrough) atomicLeast(&frame.near_cells[cell], depth);
     if (!draws) return;
     atomicLeast(&frame.drawn_cells[cell], depth);
@@ -42,7 +42,7 @@ struct SightKernel {
   }
 };
 
-/// After SightKernel, a thread per point: hides what lies behind the model's own surface.
+/// After SightKernel, one thread per point: occlusion by the model itself.
 struct HideKernel {
   static constexpr int kThreads = 256, kPhases = 1;
   using Shared = Nothing;
@@ -100,7 +100,7 @@ struct SeenQuestions {
   float reference_mm = 0, largest_weight = 0;
 };
 
-/// After HideKernel, a thread per point: gain, anchors and innovation of visible points.
+/// After HideKernel, one thread per point: gain, anchors and innovation of visible points.
 struct SeenKernel {
   static constexpr int kThreads = 256, kPhases = 3;
   struct Shared {
@@ -168,7 +168,7 @@ struct SeenKernel {
   }
 };
 
-/// A thread per node: the mean absolute difference around it.
+/// One thread per node: mean absolute difference around it.
 struct MeanDifferenceKernel {
   static constexpr int kThreads = 128, kPhases = 1;
   using Shared = Nothing;
@@ -187,7 +187,7 @@ struct MeanDifferenceKernel {
   }
 };
 
-/// After MeanDifferenceKernel, a thread per point: squares of the differences that count.
+/// After MeanDifferenceKernel, one thread per point: squares of the counted differences.
 struct SquareDifferenceKernel {
   static constexpr int kThreads = 256, kPhases = 3;
   struct Shared {

@@ -1,4 +1,4 @@
-// cuda/device/arena.h: many arrays in one allocation, planned before it is made.
+// cuda/device/arena.h: many arrays in one allocation, planned in advance.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace softscope::cuda {
 
-/// Hands out parts of one block of memory in order. Without a base it only counts: a layout is made
-/// twice, first to learn bytes(), then on memory of that size.
+/// Allocates parts of one block of memory in order. Without a base it only counts:
+/// a layout is computed twice, first for bytes(), then on memory of that size.
 class Arena {
  public:
   static constexpr std::size_t kAlignment = 256;

@@ -1,4 +1,4 @@
-// cuda/device/device_executor.cuh: launches kernel bodies on a stream.
+// cuda/device/device_executor.cuh: launch of kernel bodies on a stream.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -39,7 +39,7 @@ __global__ void __launch_bounds__(Kernel::kThreads)
   }
 }
 
-/// Launches on one stream; with `clock`, notes an event at each stage's end.
+/// Launches on one stream; with `clock`, records an event at the end of each stage.
 template <class Clock>
 class DeviceExecutor {
  public:

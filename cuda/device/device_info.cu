@@ -5,7 +5,7 @@
 namespace softscope::cuda {
 namespace {
 
-// Never launched: the runtime looks for its code to tell whether a device can run ours.
+// Never launched: the runtime checks its code to determine whether a device can run ours.
 __global__ void probeKernel() {}
 
 /// 13000 is "13.0", 12080 is "12.8".

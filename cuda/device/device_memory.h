@@ -12,7 +12,7 @@
 
 namespace softscope::cuda {
 
-/// Throws BackendError with the call, CUDA's reason and what to do.
+/// Throws BackendError with the call, the reason of CUDA and advice.
 inline void check(cudaError_t status, const char* call) {
   if (status == cudaSuccess) return;
   std::string text = std::string("CUDA: ") + call + ": " + cudaGetErrorString(status);
@@ -23,7 +23,7 @@ inline void check(cudaError_t status, const char* call) {
   throw BackendError(text);
 }
 
-/// One allocation, given back with its scope.
+/// One allocation, released by the destructor.
 template <cudaError_t (*kAllocate)(void**, std::size_t), cudaError_t (*kFree)(void*)>
 class OwnedMemory {
  public:

@@ -12,7 +12,7 @@
 
 namespace softscope::cuda {
 
-/// Throws the reason why no kernel of this build can run.
+/// Throws if no kernel of this build can run.
 inline void requireDevice() {
   const DeviceInfo info = queryDevices();
   if (info.devices.empty()) throw BackendError("CUDA: " + info.why_none);
@@ -30,7 +30,7 @@ class Stream {
   ~Stream() { cudaStreamDestroy(stream_); }
   operator cudaStream_t() const { return stream_; }
 
-  // Enqueued: the host's memory must live, unchanged, until wait() returns.
+  // Asynchronous: the memory of the host must be unchanged until wait() returns.
   void toDevice(void* to, const void* from, std::size_t bytes) const {
     check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_),
           "copying to the device");
@@ -45,7 +45,7 @@ class Stream {
   cudaStream_t stream_ = nullptr;
 };
 
-/// A sequence of launches that starts with one call.
+/// Sequence of launches started by one call.
 class Graph {
  public:
   Graph() = default;
@@ -54,7 +54,7 @@ class Graph {
   ~Graph() {
     if (graph_ != nullptr) cudaGraphExecDestroy(graph_);
   }
-  /// Captures what `enqueue()` does on the stream the first time, and launches it.
+  /// Captures the work of `enqueue()` on the stream on first use, and launches it.
   template <class Enqueue>
   void launch(cudaStream_t stream, const Enqueue& enqueue) {
     if (graph_ == nullptr) capture(stream, enqueue);

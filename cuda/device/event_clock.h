@@ -1,4 +1,4 @@
-// cuda/device/event_clock.h: how long each stage takes on the device.
+// cuda/device/event_clock.h: time of each stage on the device.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -29,7 +29,7 @@ class EventClock {
     stages_.emplace_back(stage);
     note(stages_.size(), stream);
   }
-  /// Waits for the last stage. A stage that came several times counts once, with its sum.
+  /// Waits for the last stage. Repeated stages are summed.
   std::vector<std::pair<std::string, double>> laps() {
     std::vector<std::pair<std::string, double>> laps;
     if (stages_.empty()) return laps;

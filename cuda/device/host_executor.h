@@ -24,8 +24,8 @@ struct RepeatsOf<Kernel, std::void_t<decltype(&Kernel::repeats)>> {
   SOFTSCOPE_HD static int of(const Kernel& kernel, const Place& at) { return kernel.repeats(at); }
 };
 
-/// Shared memory starts with garbage, as on the device. Two seeds that give different results show
-/// a race, or a result that depends on the order of blocks.
+/// Shared memory is initialised with garbage, as on the device. Different
+/// results for two seeds show a race, or a dependence on the order of blocks.
 class HostExecutor {
  public:
   explicit HostExecutor(unsigned seed = 1) : random_(seed) {}
@@ -62,7 +62,7 @@ class HostExecutor {
   template <int kPhase, class Kernel>
   void runPhase(const Kernel& kernel, Place at, typename Kernel::Shared& shared,
                 std::vector<typename Kernel::Local>& locals) {
-    // A rotation with a random odd stride: as good as a shuffle for finding races, and cheap.
+    // A rotation with a random odd stride: sufficient for finding races, and fast.
     const unsigned count = static_cast<unsigned>(Kernel::kThreads);
     const unsigned first = random_() % count, step = random_() % count | 1u;
     static_assert((Kernel::kThreads & (Kernel::kThreads - 1)) == 0, "a power of two");

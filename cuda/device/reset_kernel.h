@@ -1,4 +1,4 @@
-// cuda/device/reset_kernel.h: start values of counters and accumulators.
+// cuda/device/reset_kernel.h: initial values of counters and accumulators.
 #pragma once
 
 #include <cstddef>

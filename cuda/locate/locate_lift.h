@@ -9,8 +9,8 @@
 
 namespace softscope::cuda {
 
-/// The view as it is matched: gray, and ignored where nothing is seen. With `own_gray`, another
-/// image from the same place is matched instead, and the gray stays as it is.
+/// View for matching: grey, with unseen pixels ignored. With `own_gray`, another
+/// image from the same pose is matched instead, and the grey image is unchanged.
 struct ViewToMatchBody {
   View<const Rgb8> colour;
   View<const std::uint8_t> view_anchor;
@@ -26,20 +26,20 @@ struct ViewToMatchBody {
   }
 };
 
-/// LiftedMatch in plain numbers.
+/// Plain data of a LiftedMatch.
 struct LiftSlot {
   float source_world_mm[3], target_left_mm[3];
   float across_mm, along_mm, similarity;
   std::int32_t model_point, match;
 };
 
-/// What a lift needs besides the matches.
+/// Inputs of the lift besides the matches.
 struct LiftInputs {
   PinholeCamera camera;
   RigidRows world_from_left;
 };
 
-/// A thread per match of the list.
+/// One thread per match of the list.
 struct LiftKernel {
   static constexpr int kThreads = 128, kPhases = 1;
   using Shared = Nothing;
@@ -91,7 +91,7 @@ struct LiftKernel {
     for (int k = 0; k < 3; ++k) to[k] = point(k);
   }
 };
-/// Closes the gaps of the list.
+/// Compacts the list.
 struct KeepLiftedBody {
   const LiftSlot* lifted;
   const int *found, *starts;

@@ -1,4 +1,4 @@
-// cuda/locate/locate_passes.h: from a model on the device to matched points, for any executor.
+// cuda/locate/locate_passes.h: matched points from a model on the device, for any executor.
 #pragma once
 
 #include "cuda/locate/locate_lift.h"
@@ -8,7 +8,7 @@
 
 namespace softscope::cuda {
 
-/// Every array of view, matching and lift.
+/// Arrays of view, matching and lift.
 struct LocateLayout {
   LocateLayout(Arena& arena, const MatcherOptions& matcher, int width, int height,
                int point_capacity)
@@ -43,7 +43,7 @@ class LocatePasses {
         view_(executor, layout.view),
         match_(executor, layout.match) {}
 
-  /// With `own_gray`, the model's gray image was uploaded and has no anchor.
+  /// With `own_gray`, the grey image of the model was uploaded and has no anchor.
   void locate(const ModelViewOptions& options, bool own_gray) {
     view_.draw(options);
     const ViewImages& view = layout_.view.images;

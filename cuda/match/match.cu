@@ -10,7 +10,7 @@ namespace softscope::cuda {
 namespace {
 
 std::size_t matchBytes(const MatcherOptions& options, int width_px, int height_px) {
-  requireMatchLimits(options, width_px, height_px);  // before any memory is taken
+  requireMatchLimits(options, width_px, height_px);  // before any allocation
   requireDevice();
   Arena counting;
   MatchLayout(counting, options, width_px, height_px);

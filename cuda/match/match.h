@@ -11,12 +11,12 @@
 
 namespace softscope::cuda {
 
-/// The dense SURF matcher for one image size; memory is taken once, at the start. The same bytes as
-/// the matcher of the CPU gives.
+/// Dense SURF matcher for one image size; memory is allocated
+/// at construction. The same bytes as the matcher of the CPU.
 class Matcher : public FeatureMatcher {
  public:
-  /// Throws BackendError without a device that runs this build, or with too little memory;
-  /// OptionError where an option has no GPU version.
+  /// Throws BackendError without a suitable device, or with too
+  /// little memory; OptionError for an option without GPU version.
   Matcher(const MatcherOptions& options, int width_px, int height_px);
   ~Matcher() override;
   Matcher(const Matcher&) = delete;
@@ -26,14 +26,14 @@ class Matcher : public FeatureMatcher {
   /// upload(), compute(), download().
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override;
 
-  /// Throws InputError for another shape.
+  /// Throws InputError for another size.
   void upload(const MatchPicture& model, const MatchPicture& live);
-  /// Returns when everything is enqueued.
+  /// Asynchronous.
   void compute();
   void wait();
   std::vector<PixelMatch> download();
 
-  /// With stage times, kernels are launched one by one and compute() waits; without, as a graph.
+  /// With stage times, kernels are launched one by one and compute() waits; otherwise as a graph.
   void timeStages(bool on);
   /// Of the last compute() with stage times: stage, ms.
   const std::vector<std::pair<std::string, double>>& stageTimes() const;

@@ -9,13 +9,13 @@
 
 namespace softscope::cuda {
 
-/// What a frame brings besides its images.
+/// Inputs of a frame besides its images.
 struct MatchInputs {
-  int has_anchor;  // 0: the anchor image is not in use
+  int has_anchor;  // 0: no anchor image
   int masked[2];   // of the model image, of the live image; 0: the mask is not in use
 };
 
-/// 1 where a pixel of the row within the reach is dark; z: model, live.
+/// 1 for pixels with a dark pixel of the row within the reach; z: model, live.
 struct DarkInRowBody {
   View<const std::uint8_t> gray[2];
   View<std::uint8_t> out[2];
@@ -28,7 +28,7 @@ struct DarkInRowBody {
     out[image].at(u, v) = found;
   }
 };
-/// Adds the mask that came with the image.
+/// Adds the mask of the image.
 struct IgnoreBody {
   View<const std::uint8_t> dark_in_row[2], mask[2];
   View<std::uint8_t> ignore[2];
@@ -45,10 +45,10 @@ struct IgnoreBody {
 
 constexpr int kMostMatchLevels = 10;
 
-/// The images that matching needs at a level; the third is the model's anchor.
+/// Images per level; the third is the anchor of the model.
 constexpr int kMatchImages = 3;
 
-/// Half as wide and high; z: model, live, anchor.
+/// Half the width and height; z: model, live, anchor.
 struct HalveMatchBody {
   View<const std::uint8_t> gray[kMatchImages], ignore[2];
   View<std::uint8_t> half_gray[kMatchImages], half_ignore[2];

@@ -1,4 +1,4 @@
-// cuda/match/match_layout.h: every array of matching, planned from settings and image size.
+// cuda/match/match_layout.h: arrays of matching, planned from settings and image size.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +66,7 @@ struct MatchScale {
     return {shifts.means[0], shifts.columns[0], shifts.rows[0], shift_square_px};
   }
 
-  /// Of the level's own image, filled by the next coarser level.
+  /// Shifts of this level, filled by the next coarser level.
   void planShifts(Arena& arena, int square_px) {
     shift_square_px = square_px;
     int columns = blocksFor(width, square_px), rows = blocksFor(height, square_px);
@@ -168,7 +168,7 @@ struct MatchLayout {
   }
 };
 
-/// The first `count` of a list.
+/// The first `count` entries of a list.
 inline std::vector<PixelMatch> pixelMatches(const SlotMatch* list, int count) {
   std::vector<PixelMatch> matches;
   matches.reserve(static_cast<std::size_t>(count));
@@ -180,7 +180,7 @@ inline std::vector<PixelMatch> pixelMatches(const SlotMatch* list, int count) {
   return matches;
 }
 
-/// Throws InputError for an image of another shape than was prepared for.
+/// Throws InputError for an image of another size.
 template <class T>
 void requireMatchShape(const Raster<T>& image, const View<T>& prepared) {
   if (image.width_px != prepared.width || image.height_px != prepared.height)
@@ -190,7 +190,7 @@ void requireMatchShape(const Raster<T>& image, const View<T>& prepared) {
                      std::to_string(prepared.width) + " x " + std::to_string(prepared.height));
 }
 
-/// Throws OptionError where matching can't run on the GPU with these options.
+/// Throws OptionError for options without GPU version.
 inline void requireMatchLimits(const MatcherOptions& options, int width_px, int height_px) {
   require(options.method == "dense-surf", "matcher.method", options.method,
           "only dense-surf runs on the GPU");

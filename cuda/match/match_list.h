@@ -1,4 +1,4 @@
-// cuda/match/match_list.h: kernel bodies that write matches from their slots to a list, by rows.
+// cuda/match/match_list.h: kernel bodies that compact matches to a list, by rows.
 #pragma once
 
 #include "cuda/device/kernel.h"
@@ -6,8 +6,8 @@
 
 namespace softscope::cuda {
 
-/// Places of the matches in half pixels, a bit each. No two matches share one: a node p of level k
-/// lies at 2^k p + (2^k - 1) / 2.
+/// Positions of the matches in half pixels, one bit each. They
+/// are unique: a node p of level k is at 2^k p + (2^k - 1) / 2.
 struct PlaceBits {
   std::uint32_t* words;
   int* counts;  // of each row
@@ -28,7 +28,7 @@ struct MarkPlacesBody {
     atomicPlus(&places.counts[y], 1);
   }
 };
-/// Running sum of the rows' counts; one block.
+/// Prefix sum of the counts of rows; one block.
 struct RowStartsKernel {
   static constexpr int kThreads = 1024, kPhases = 5, kParts = 32;
   static constexpr int kEach = kThreads / kParts;
@@ -70,7 +70,7 @@ struct RowStartsKernel {
 
  private:
   SOFTSCOPE_HD static int padded(int k) { return k + k / kEach; }
-  /// Counts become starts; returns the end.
+  /// Counts become start indices; returns the end.
   SOFTSCOPE_HD static int startsOf(int* counts, int count, int start) {
     for (int k = 0; k < count; ++k) {
       const int own = counts[k];
@@ -80,7 +80,7 @@ struct RowStartsKernel {
     return start;
   }
 };
-/// Writes each match to its place in the list: by rows, from left to right.
+/// Writes each match to its position in the list: by rows, from left to right.
 struct ListMatchesBody {
   const SlotMatch* matches;
   PlaceBits places;

@@ -1,4 +1,4 @@
-// cuda/match/match_passes.h: the order of the kernels of matching, for any executor.
+// cuda/match/match_passes.h: order of the kernels of matching, for any executor.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace softscope::cuda {
 
-/// Matching over a layout: from images, masks and anchor to the list of matches.
+/// Matching over a layout: list of matches from images, masks and anchor.
 template <class Executor>
 class MatchPasses {
  public:
@@ -20,7 +20,7 @@ class MatchPasses {
     prepareImages();
     describe();
     for (std::size_t k = layout_.levels.size(); k-- > 0;) {
-      // The coarsest level has few squares, with many places each.
+      // The coarsest level has few squares with many candidates each.
       if (k + 1 < layout_.levels.size())
         search<32>(layout_.levels[k]);
       else

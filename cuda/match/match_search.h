@@ -1,4 +1,4 @@
-// cuda/match/match_search.h: kernel body of the windowed descriptor search, both ways.
+// cuda/match/match_search.h: kernel body of the windowed descriptor search with cross-check.
 #pragma once
 
 #include <cmath>
@@ -9,15 +9,15 @@
 
 namespace softscope::cuda {
 
-/// A match in its place: every square of the model's nodes has at most one. Squares in raster order
-/// are the order of the CPU's lists.
+/// Slot of a match: every square of the model nodes has at most one.
+/// The raster order of squares is the order of the lists on the CPU.
 struct SlotMatch {
   float model_u, model_v, live_u, live_v;
   float sigma_px, similarity;
-  int found;  // 0: the square has none
+  int found;  // 0: no match in the square
 };
 
-/// Mean shifts of squares; null: no shift anywhere.
+/// Mean shifts of squares; null: zero shift.
 struct ShiftSquares {
   const float* shift_px = nullptr;  // u and v of each square
   int columns = 0, rows = 0, square_px = 1;
@@ -52,8 +52,8 @@ struct NodeWindow {
   }
 };
 
-/// kSquareLanes threads per square of nodes: distances of its nodes to the live nodes around their
-/// predicted places, the ratio test, and the way back for the most distinct node first.
+/// kSquareLanes threads per square of nodes: distances of its nodes to the live nodes around
+/// their predicted positions, ratio test, and cross-check for the most distinct node first.
 template <int kSquareLanes>
 struct SearchKernel {
   static constexpr int kGrid = DenseSurfOptions::kGridPx;
@@ -64,12 +64,12 @@ struct SearchKernel {
   static constexpr std::uint32_t kNoKey = 0xFFFFFFFFu;
   struct Square {
     Descriptor descriptors[kNodes];
-    int known[kNodes];  // the node may be matched
+    int known[kNodes];  // node is valid
     int shift_u[kNodes], shift_v[kNodes];
     std::uint32_t best[kNodes], back[kNodes];  // (distance << 16) + place in the window
     int elsewhere[kNodes];
     float ratio[kNodes];
-    int order[kNodes], count;  // nodes that pass the ratio test, the most distinct one first
+    int order[kNodes], count;  // nodes that pass the ratio test, most distinct first
     int done;
   };
   struct Shared {
@@ -89,7 +89,7 @@ struct SearchKernel {
   static int slotsAlong(int nodes) { return blocksFor(nodes, kSide); }
   SOFTSCOPE_HD int slotColumns() const { return (model.columns + kSide - 1) / kSide; }
   SOFTSCOPE_HD int slotRows() const { return (model.rows + kSide - 1) / kSide; }
-  /// Width of a window's rows in memory.
+  /// Width of the rows of a window in memory.
   static SOFTSCOPE_HD int widest(int reach, int count) {
     return 2 * reach + 1 < count ? 2 * reach + 1 : count;
   }
@@ -165,7 +165,7 @@ struct SearchKernel {
     square.elsewhere[lane] = kNoDistance;
   }
 
-  /// All nodes of the square at once: their windows mostly coincide.
+  /// All nodes of the square at once: their windows mostly overlap.
   SOFTSCOPE_HD void compare(int c0, int r0, int lane, Square& square) const {
     NodeWindow windows[kNodes], all{live.columns, live.rows, -1, -1};
     for (int n = 0; n < kNodes; ++n) {
@@ -204,7 +204,7 @@ struct SearchKernel {
       if (best[n] != kNoKey) atomicLeast(&square.best[n], best[n]);
   }
 
-  /// Least distance of nodes more than the reach away from the best one.
+  /// Smallest distance of nodes outside of the reach around the best one.
   SOFTSCOPE_HD void lookElsewhere(int c0, int r0, int n, int lane, Square& square) const {
     if (square.best[n] == kNoKey) return;
     const NodeWindow window = windowOf(c0, r0, n, square);
@@ -224,7 +224,7 @@ struct SearchKernel {
     return apart >= -reach && apart <= reach;
   }
 
-  /// Equal ratios stay in raster order.
+  /// Equal ratios remain in raster order.
   SOFTSCOPE_HD void sortByRatio(Square& square) const {
     for (int n = 0; n < kNodes; ++n) {
       if (square.best[n] == kNoKey) continue;
@@ -239,7 +239,7 @@ struct SearchKernel {
     }
   }
 
-  /// Best node of the model around where the live node would have come from.
+  /// Best node of the model around the predicted origin of the live node.
   SOFTSCOPE_HD void lookBack(int c0, int r0, int n, int lane, Square& square) const {
     const NodeWindow there = windowOf(c0, r0, n, square);
     const int column = columnAt(there, square.best[n]), row = rowAt(there, square.best[n]);

@@ -1,5 +1,5 @@
-// cuda/match/match_select.h: kernel bodies that choose among matches: limit of their error,
-// consistency, coarser levels' matches, and predicted shifts.
+// cuda/match/match_select.h: kernel bodies of match selection: error limit, consistency, matches of
+// coarser levels, and predicted shifts.
 #pragma once
 
 #include <cmath>
@@ -34,8 +34,8 @@ struct CopyMatchesBody {
   SOFTSCOPE_HD void operator()(int slot) const { to[slot] = from[slot]; }
 };
 
-/// The larger one of `least` and the median error of a level; a block per level. Radix selection,
-/// 8 bits a round.
+/// Larger one of `least` and the median error of a level;
+/// one block per level. Radix selection, 8 bits per round.
 struct SigmaLimitKernel {
   static constexpr int kThreads = 1024, kPhases = 4, kBins = 256, kGroup = 16;
   struct Shared {
@@ -102,8 +102,8 @@ struct MatchSlots {
   int columns, rows;
 };
 
-/// Keeps matches that move with their neighbours and whose error is no larger than the limit; z:
-/// level.
+/// Keeps matches that are consistent with their
+/// neighbours and within the error limit; z: level.
 struct ConsistentKernel {
   static constexpr int kWidth = 16, kHeight = 8, kThreads = kWidth * kHeight, kPhases = 2;
   static constexpr int kSlotPx = MatcherOptions::kSpacingPx;
@@ -180,7 +180,7 @@ struct ConsistentKernel {
 
 // --- coarser levels ------------------------------------------------------------------------------
 
-/// Squares of the image that have a match of this level.
+/// Squares of the image with a match of this level.
 struct TakenSquares {
   std::uint8_t* taken;  // 0 at first
   int columns, square_px;
@@ -196,7 +196,7 @@ struct TakeSquaresBody {
     if (match.found != 0) squares.of(match.model_u, match.model_v) = 1;
   }
 };
-/// Coarser matches in this level's pixels, without those in squares that are taken.
+/// Coarser matches in pixels of this level, without those in occupied squares.
 struct FromCoarserBody {
   SlotMatch* matches;
   TakenSquares squares;
@@ -253,7 +253,7 @@ struct SumShiftsBody {
 
  private:
   static constexpr int kSlotPx = MatcherOptions::kSpacingPx;
-  /// Slots whose matches may lie in a square, with room for rounding.
+  /// Slots whose matches may be in a square, with a margin for rounding.
   SOFTSCOPE_HD int firstSlot(int square) const {
     const int slot = (square * square_px / 2 - first_px) / kSlotPx - 1;
     return slot < 0 ? 0 : slot;

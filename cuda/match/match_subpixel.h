@@ -10,7 +10,7 @@
 
 namespace softscope::cuda {
 
-/// What a level's windows are made of; images are smoothed.
+/// Images of the windows of a level, smoothed.
 struct RefineLevel {
   View<const float> model, live, anchor;
   View<const std::uint8_t> model_ignore, live_ignore;
@@ -19,9 +19,9 @@ struct RefineLevel {
   int slot_count;
 };
 
-/// All levels' matches; kWindowLanes threads per match, a thread per column of its window: first
-/// with the anchor's template, then, where that does not decide, with the present image's. Sums
-/// that the CPU takes pixel by pixel are taken so by one thread, several sums side by side.
+/// Matches of all levels; kWindowLanes threads per match, one thread per column of its window:
+/// first with the template of the anchor, then, if undecided, with that of the current image. Sums
+/// that the CPU computes pixel by pixel are computed by one thread, several sums in parallel.
 struct RefineKernel {
   static constexpr int kMatches = 8, kThreads = kMatches * kWindowLanes;
   static constexpr int kRadius = SubpixelOptions::kRadiusPx, kSide = 2 * kRadius + 1;
@@ -38,7 +38,7 @@ struct RefineKernel {
     float contrast[kSide * kWindowLanes], weight[kSide * kWindowLanes];
     float sums[5][kWindowLanes];
     SlotMatch rough;
-    int u, v;              // of the model window's middle
+    int u, v;              // of the centre of the model window
     float rest_u, rest_v;  // from there to the match
     WindowMoments moments;
     WindowMatrix information;
@@ -77,7 +77,7 @@ struct RefineKernel {
     if (slot >= level.slot_count) return;
     Match& match = shared.matches[at.thread / kWindowLanes];
     const bool by_anchor = at.repeat + 1 < repeats(at);
-    // The state is read where no other thread changes it.
+    // The state is read while no other thread changes it.
     constexpr bool kAlone = kPhase == 0 || kPhase == 2 || kPhase == kPhases - 1 ||
                             (kPhase > kSetUp && (kPhase - kSetUp) % 2 == 1);
     if (kAlone && lane != 0) return;
@@ -124,7 +124,7 @@ struct RefineKernel {
     __builtin_memcpy(&loaded, __builtin_assume_aligned(from, 16), sizeof loaded);
     return loaded;
   }
-  /// Sum over a plane, value by value; `termsAt(k, terms)` gives four of them.
+  /// Sum over a plane in order; `termsAt(k, terms)` returns four values.
   template <class TermsAt>
   SOFTSCOPE_HD static float sumOfFours(const TermsAt& termsAt) {
     float sum = 0;
@@ -163,7 +163,7 @@ struct RefineKernel {
       match.state = kRunning;
   }
 
-  /// Weights of a column without what either image ignores.
+  /// Weights of a column without pixels ignored in either image.
   SOFTSCOPE_HD void weigh(const RefineLevel& level, int lane, Match& match) const {
     const int lu = static_cast<int>(std::lround(match.search.u)) - kRadius + lane,
               lv = static_cast<int>(std::lround(match.search.v)) - kRadius;
@@ -214,7 +214,7 @@ struct RefineKernel {
                          &match.moments.gradient_v};
     *to[lane] = sum;
   }
-  /// Contrast with itself and with the gradients.
+  /// Products of the contrast with itself and with the gradients.
   SOFTSCOPE_HD static void sumProducts(int lane, Match& match) {
     if (lane > 2) return;
     const float* values = lane == 0   ? match.contrast
@@ -266,7 +266,7 @@ struct RefineKernel {
     match.search.inverse = inverseOf(match.information);
   }
 
-  /// One column of the live window at the place reached so far.
+  /// One column of the live window at the current position.
   SOFTSCOPE_HD static void sample(const View<const float>& live, int lane, Match& match) {
     const float u = match.search.u - static_cast<float>(kRadius),
                 v = match.search.v - static_cast<float>(kRadius);
@@ -301,7 +301,7 @@ struct RefineKernel {
             sumOf(match.sums[4], kWindowLanes)};
   }
   SOFTSCOPE_HD static void step(const View<const float>& live, Match& match) {
-    // The template's own tests come here, where one thread decides.
+    // The tests of the template are here, where one thread decides.
     if (!(match.moments.square > kLeastContrastSq) ||
         !(determinantOf(match.information) > kLeastDeterminant)) {
       match.state = kLost;

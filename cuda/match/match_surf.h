@@ -40,7 +40,7 @@ struct SurfSquares {
   std::int32_t* valid = nullptr;
 };
 
-/// A thread per grid square; z: model, live.
+/// One thread per grid square; z: model, live.
 struct SurfSquaresBody {
   static constexpr int kGrid = DenseSurfOptions::kGridPx, kWavelet = DenseSurfOptions::kWaveletPx;
   static constexpr int kHalf = kWavelet / 2, kSide = kGrid + kWavelet - 1;
@@ -76,7 +76,7 @@ struct SurfSquaresBody {
   }
 
  private:
-  /// From sums of its columns. A wavelet that would leave the image is like an ignored one.
+  /// From sums of its columns. A wavelet that exceeds the image counts as ignored.
   SOFTSCOPE_HD static void addWavelet(const int* all, const int* upper, const int* marked,
                                       SurfSquare* sums, int* valid) {
     int whole = 0, left = 0, above = 0, ignored = 0;
@@ -96,7 +96,7 @@ struct SurfSquaresBody {
   }
 };
 
-/// A thread per node; a block: 16 x 8 nodes; z: model, live.
+/// One thread per node; one block: 16 x 8 nodes; z: model, live.
 struct DescribeKernel {
   static constexpr int kWidth = 16, kHeight = 8, kThreads = kWidth * kHeight, kPhases = 3;
   static constexpr int kReach = 2;  // grid squares per side of a cell

@@ -1,4 +1,4 @@
-// cuda/pose/pose.h: the search for the scope's pose on the GPU.
+// cuda/pose/pose.h: search for the camera pose on the GPU.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace softscope::cuda {
 
-/// On the first GPU. More pairs than kernels hold are left to the processor. Throws BackendError
-/// without a device that runs this build.
+/// On the first GPU. Too many pairs for the kernels are processed
+/// by the CPU. Throws BackendError without a suitable device.
 std::unique_ptr<PoseSearch> makePoseSearch();
 
 }  // namespace softscope::cuda

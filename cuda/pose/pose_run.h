@@ -1,4 +1,4 @@
-// cuda/pose/pose_run.h: memory, copies and launches of the search for the pose, on any machine.
+// cuda/pose/pose_run.h: memory, copies and launches of the pose search, on any machine.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct PoseLayout {
   PoseFacts* facts;
 };
 
-/// Machine: as WarpRun has it.
+/// Machine: as in WarpRun.
 template <class Machine>
 class PoseRun final : public PoseSearch {
  public:
@@ -36,7 +36,7 @@ class PoseRun final : public PoseSearch {
         arena_(memory_.data()),
         layout_(arena_) {}
 
-  /// The sums differ from the CPU's by their rounding.
+  /// The sums differ from those of the CPU by rounding.
   PoseAnswer answer(const PoseQuestion& question) override {
     if (question.pairs.size() > kMostPosePairs) return CpuPoseSearch().answer(question);
     const PoseInputs inputs = inputsOf(question);

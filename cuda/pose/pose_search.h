@@ -1,4 +1,4 @@
-// cuda/pose/pose_search.h: kernel bodies of the search for the scope's pose.
+// cuda/pose/pose_search.h: kernel bodies of the search for the camera pose.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace softscope::cuda {
 constexpr int kPoseThreads = 256, kPairsEach = 6, kMostPosePairs = kPoseThreads * kPairsEach;
 using PoseMedian = BlockMedian<kPoseThreads, kPairsEach>;
 
-/// Where searches begin.
+/// Initial poses of the searches.
 enum PoseStart { kFittedPose, kOldPose, kPoseBefore, kPoseStarts };
 
 struct PoseInputs {
@@ -25,13 +25,13 @@ struct PoseInputs {
   int pairs;
 };
 
-/// Where a search ended.
+/// Result of a search.
 struct PoseEnd {
   PoseRows pose;
   double cost;
 };
 
-/// PoseFindings in plain numbers.
+/// Plain data of PoseFindings.
 struct PoseFacts {
   PoseRows best;
   double medians[3];  // shift, length, old length
@@ -42,12 +42,12 @@ struct PoseFacts {
   int explained, compared;
 };
 
-/// The better end of both searches with one kind of places: the first of equals.
+/// Better result of both searches with one kind of positions: the first of equals.
 SOFTSCOPE_HD inline const PoseRows& betterEnd(const PoseEnd* ends) {
   return ends[1].cost < ends[0].cost ? ends[1].pose : ends[0].pose;
 }
 
-/// Sums of kCount numbers a thread, over a block, in one order. kSteps phases.
+/// Sums of kCount numbers per thread over a block, in a fixed order. kSteps phases.
 template <int kCount>
 struct PoseSums {
   static constexpr int kSteps = 4, kHalf = kPoseThreads / 2, kParts = 8;
@@ -92,7 +92,7 @@ SOFTSCOPE_HD inline void addToSums(const PairResidual& residual, double weight,
     for (int k = 0; k < 3; ++k) sums[at] -= weight * residual.slope[k][i] * residual.value[k];
 }
 
-/// A block per search; a step of Gauss-Newton a repeat, the cost of the end in the last one.
+/// One block per search; one Gauss-Newton step per repeat, the final cost in the last one.
 struct SearchPoseKernel {
   static constexpr int kThreads = kPoseThreads;
   static constexpr int kSumStep = PoseMedian::kSteps, kStep = kSumStep + PoseSums<1>::kSteps;
@@ -158,7 +158,7 @@ struct SearchPoseKernel {
       if (residual.usable) keys[k] = PoseMedian::keyOf(residual.squared());
     }
   }
-  /// The last repeat sums costs and counts in place of a normal matrix.
+  /// The last repeat sums costs and counts instead of a normal matrix.
   SOFTSCOPE_HD void addUp(const Place& at, const Shared& shared, double (&sums)[kPoseSums]) const {
     for (double& sum : sums) sum = 0;
     const bool is_step = at.repeat < iterations;
@@ -211,11 +211,11 @@ struct SearchPoseKernel {
 /// Contribution of a pair, kept for the sums of regions.
 struct PairSaying {
   double gain, score[6];
-  std::int32_t region;   // below 0: not seen from the best pose
-  std::int32_t is_both;  // seen from the old one, too
+  std::int32_t region;   // negative: not visible from the best pose
+  std::int32_t is_both;  // visible from the old one, too
 };
 
-/// A block per kind of places: three medians, then the sums of regions.
+/// One block per kind of positions: three medians, then the sums of regions.
 struct JudgePoseKernel {
   static constexpr int kThreads = kPoseThreads;
   static constexpr int kSumStep = PoseMedian::kSteps, kEnd = kSumStep + PoseSums<1>::kSteps;
@@ -303,7 +303,7 @@ struct JudgePoseKernel {
     if (explained > 0) atomicPlus(&shared.explained, explained);
   }
 
-  /// A thread per region and sum, in the pairs' order.
+  /// One thread per region and sum, in the order of the pairs.
   SOFTSCOPE_HD void sumRegion(const Place& at, PoseFacts* out) const {
     const int region = at.thread / 7, what = at.thread % 7;
     const PairSaying* first = sayings + at.x * kMostPosePairs;

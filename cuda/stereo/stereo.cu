@@ -19,7 +19,7 @@ std::size_t bytesFor(const StereoOptions& options, int width_px, int height_px) 
   return counting.bytes();
 }
 
-/// What crosses between host and device; pinned.
+/// Data exchanged between host and device; pinned.
 struct Exchange {
   FrameInputs inputs;
   OpenShare shares[16];
@@ -145,7 +145,7 @@ class Stereo::Device {
  private:
   static constexpr int kRasters = 4;  // of floats, that download() fetches beside the normals
 
-  /// Checks come before any memory is taken.
+  /// Checks before any allocation.
   static void check(const StereoOptions& options, int width_px,
                     const HostPriorFunction& host_prior) {
     requireDeviceLimits(options, width_px);
@@ -178,7 +178,7 @@ class Stereo::Device {
       stream_.toDevice(full().ignored[view].data, to, pixels_);
     }
   }
-  /// The staging memory, free again.
+  /// Staging memory, after its last use.
   void* stage() {
     wait();
     return staging_.data();
@@ -192,7 +192,7 @@ class Stereo::Device {
     return sizeof(float) * static_cast<std::size_t>(level.grid.columns) *
            static_cast<std::size_t>(level.grid.rows);
   }
-  /// Fetches the level's support points and brings their prior.
+  /// Fetches the support points of the level and uploads their prior.
   void priorFromHost(const StereoLevel& level) {
     auto* points = static_cast<float*>(points_memory_.data());
     stream_.fromDevice(points, level.kept, pointBytes(level));
@@ -213,7 +213,7 @@ class Stereo::Device {
     }
   }
 
-  /// Beside the main stream, whose next kernels don't change what is measured.
+  /// In parallel to the main stream, whose next kernels do not change the measured data.
   template <class Launch>
   void measureShare(int k, const Launch& launch) {
     if (layout_.levels.size() == 1) return;

@@ -17,7 +17,7 @@
 namespace softscope::cuda {
 
 /// Of the rectified left image; the same bytes as ElasMatcher, removeRoll(), depthFromDisparity(),
-/// the mask and normalsFromDepth() give on the CPU; NaN in normals may have another payload.
+/// mask and normalsFromDepth() on the CPU; NaN in normals may have another payload.
 struct StereoDepth {
   DisparityMap disparity;
   DepthMap depth;
@@ -25,31 +25,31 @@ struct StereoDepth {
   int levels = 0;  // of the pyramid that were needed
 };
 
-/// The stage for one image size; memory is taken once, at the start. One frame at a time:
-/// upload(), compute(), download().
+/// Stage for one image size; memory is allocated at construction.
+/// One frame at a time: upload(), compute(), download().
 class Stereo {
  public:
-  /// Throws BackendError without a device that runs this build, or with too little memory;
-  /// OptionError where an option has no GPU version. `host_prior` (planePrior()) computes the prior
-  /// by planes, which has none: two waits and some milliseconds a level; the prior by rows needs it
-  /// not.
+  /// Throws BackendError without a suitable device, or with too little memory;
+  /// OptionError for an option without GPU version. `host_prior` (planePrior())
+  /// computes the prior by planes, which has no kernels: two waits and some
+  /// milliseconds per level; the prior by rows does not need it.
   Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
          HostPriorFunction host_prior);
   ~Stereo();
   Stereo(const Stereo&) = delete;
   Stereo& operator=(const Stereo&) = delete;
 
-  /// Rectified, rows aligned (matchableViews()). Throws InputError for another shape.
+  /// Rectified, with aligned rows (matchableViews()). Throws InputError for another size.
   void upload(const MatchableViews& views);
-  /// Dropped from what was found. Empty: none. Holds for the frames that follow.
+  /// Pixels removed from the result. Empty: none. Valid for the following frames.
   void setMask(const Mask& mask);
 
-  /// Returns when everything is enqueued; with the prior by rows that is mostly before it is done.
+  /// Asynchronous; with the prior by rows it usually returns before the end.
   void compute(double roll_rad = 0);
   void wait();
   StereoDepth download();
 
-  /// With stage times, kernels are launched one by one and compute() waits; without, as graphs.
+  /// With stage times, kernels are launched one by one and compute() waits; otherwise as graphs.
   void timeStages(bool on);
   /// Of the last compute() with stage times: stage, ms.
   const std::vector<std::pair<std::string, double>>& stageTimes() const;

@@ -1,4 +1,4 @@
-// cuda/stereo/stereo_dense.h: kernel bodies of dense matching, to whole disparities of both views.
+// cuda/stereo/stereo_dense.h: kernel bodies of dense matching, integer disparities of both views.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace softscope::cuda {
 
-/// Column of the right view at which a support point of the left one is seen.
+/// Column in the right view of a support point of the left one.
 SOFTSCOPE_HD inline int columnFromRight(int u, float disparity_px) {
   return u - static_cast<int>(disparity_px + 0.5f);
 }
 
-/// The disparities of the support points in each tile, a bit each, for both views.
+/// Disparities of the support points in each tile, one bit each, for both views.
 struct TileBits {
   static constexpr int kWords = (StereoOptions::kLargestDisparityPx + 1) / 32;
   std::uint32_t* words;  // 2 x tiles x kWords
@@ -40,8 +40,8 @@ struct TileBitsBody {
   }
 };
 
-/// Best disparity of each pixel of a tile under its prior; blocks in z are the two views. Two
-/// groups of threads share the candidates, a thread has two columns and four rows.
+/// Best disparity of each pixel of a tile under its prior; blocks in z are the two views.
+/// Two groups of threads share the candidates, one thread has two columns and four rows.
 struct DenseKernel {
   static constexpr int kThreads = 128, kPhases = 7, kGroup = 64, kRowsOfThread = 4;
   static constexpr int kWindowRows = kRowsOfThread + 4;
@@ -180,7 +180,7 @@ struct DenseKernel {
                 sums[1][y]);
       }
       for (int x = 0; x < 2; ++x) {
-        // The other pixel's window lies inside its image.
+        // The window of the other pixel is inside its image.
         if (at.z == 0 ? u + x < d + 2 : u + x + d + 2 > priors.width - 1) continue;
         int sum = sums[x][0] + sums[x][1] + sums[x][2] + sums[x][3];
         for (int y = 0; y < kRowsOfThread; ++y) {

@@ -1,4 +1,4 @@
-// cuda/stereo/stereo_filter.h: kernel bodies that remove what can't be right, close small gaps, and
+// cuda/stereo/stereo_filter.h: kernel bodies that remove invalid disparities, close small gaps, and
 // combine pyramid levels.
 #pragma once
 
@@ -40,7 +40,7 @@ struct HalveBody {
   }
 };
 
-/// 1 where a pixel of the row within the reach is darker than the limit.
+/// 1 for pixels with a pixel of the row within the reach darker than the limit.
 struct DarkRowBody {
   View<const std::uint8_t> gray;
   View<std::uint8_t> out;
@@ -53,7 +53,7 @@ struct DarkRowBody {
   }
 };
 
-/// 1 where a mark lies within the reach along the row.
+/// 1 for pixels with a mark within the reach along the row.
 struct SpreadRowBody {
   View<const std::uint8_t> marks;
   View<std::uint8_t> out;
@@ -73,7 +73,7 @@ SOFTSCOPE_HD inline bool isMarkedInColumn(const View<const std::uint8_t>& marks,
   return found != 0;
 }
 
-/// Left disparities that the right view confirms, where the image isn't dark.
+/// Left disparities confirmed by the right view, without dark pixels.
 struct LeftRightBody {
   View<const std::int16_t> left, right;
   View<const std::uint8_t> dark_rows;
@@ -88,7 +88,7 @@ struct LeftRightBody {
   }
 };
 
-/// A copy without what is dark or ignored; the level keeps what it found.
+/// Copy without dark or ignored pixels; the level keeps its result.
 struct DropDarkBody {
   View<const float> disparity_in, sigma_in;
   View<const std::uint8_t> dark_rows, ignored;
@@ -107,8 +107,8 @@ struct DropDarkBody {
 
 SOFTSCOPE_HD inline bool touches(float a, float b, float step) { return absoluteOf(a - b) <= step; }
 
-/// Root of a label: the least place of what is joined so far. An out-of-date value is an older
-/// ancestor, which is as good.
+/// Root of a label: the smallest index joined so far. An
+/// outdated value is an older ancestor, which is equivalent.
 SOFTSCOPE_HD inline int rootOf(const int* labels, int place) {
   const volatile int* fresh = labels;
   for (int label = fresh[place]; label != place; label = fresh[place]) place = label;
@@ -132,7 +132,7 @@ SOFTSCOPE_HD inline void join(int* labels, int a, int b) {
 
 struct Islands {
   View<float> disparity_px;
-  int* labels;  // a pixel's place, or that of one it is joined to
+  int* labels;  // index of a pixel, or of one joined to it
   int* sizes;   // at the roots of tiles: pixels
   float step;
   int least_px;
@@ -140,7 +140,7 @@ struct Islands {
   SOFTSCOPE_HD int place(int u, int v) const { return v * disparity_px.width + u; }
 };
 
-/// Islands within each tile of 32 x 16 pixels, their labels in places of the image.
+/// Islands within each tile of 32 x 16 pixels, labelled by image index.
 struct TileIslandsKernel {
   static constexpr int kThreads = 256, kPhases = 6, kWidth = 32, kHeight = 16;
   static constexpr int kPixels = kWidth * kHeight;
@@ -174,7 +174,7 @@ struct TileIslandsKernel {
       } else if constexpr (kPhase == 2) {
         shared.labels[i] = y * kWidth + runBegin(shared.joined[y], x);
       } else if constexpr (kPhase == 3) {
-        // One of the pairs in which two runs touch is enough.
+        // One of the pairs of touching runs is sufficient.
         if (y > 0 && touches(d[0], d[-kWidth], islands.step) &&
             !(x > 0 && (shared.joined[y] & shared.joined[y - 1]) >> x & 1 &&
               touches(d[-1], d[-1 - kWidth], islands.step)))
@@ -216,7 +216,7 @@ struct JoinTilesBody {
     if (!touches(here, there, islands.step)) return;
     const int before_u = is_row ? u - 1 : u, before_v = is_row ? v : v - 1;
     const int tile = is_row ? TileIslandsKernel::kWidth : TileIslandsKernel::kHeight;
-    if (along % tile != 0) {  // one of the pairs in which two runs touch is enough
+    if (along % tile != 0) {  // one of the pairs of touching runs is sufficient
       const float here_before = d.at(before_u, before_v),
                   there_before =
                       is_row ? d.at(before_u, before_v - 1) : d.at(before_u - 1, before_v);
@@ -229,7 +229,7 @@ struct JoinTilesBody {
   }
 };
 
-/// Adds the sizes of the tiles' islands at their common root.
+/// Adds the sizes of the islands of tiles at their common root.
 struct SumIslandsBody {
   Islands islands;
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
@@ -252,8 +252,8 @@ struct DropIslandsBody {
 
 // --- gaps ----------------------------------------------------------------------------------------
 
-/// Fills gaps of up to `widest` pixels along one axis, where both sides differ by at most `step`;
-/// along columns, the second time, drops what is ignored.
+/// Fills gaps of up to `widest` pixels along one axis, if both sides differ by
+/// at most `step`; along columns, in the second pass, removes ignored pixels.
 struct FillGapsBody {
   View<const float> in;
   View<float> out;
@@ -287,7 +287,7 @@ struct FillGapsBody {
 
 // --- pyramid -------------------------------------------------------------------------------------
 
-/// What a level left open, of what can be matched.
+/// Unmatched share of a level, among matchable pixels.
 struct OpenShare {
   std::uint32_t nearest_bits;  // of the largest disparity, 0 if none is positive
   int matchable, unmatched;
@@ -313,7 +313,7 @@ struct NearestKernel {
         const int i = (at.x * kEach + k) * kThreads + at.thread;
         if (i < count && disparity_px[i] > largest) largest = disparity_px[i];
       }
-      // Bits of positive numbers are in the order of the numbers.
+      // Bits of positive numbers have their order.
       if (floatAsBits(largest) > shared.largest)
         atomicGreatest(&shared.largest, floatAsBits(largest));
     } else if (at.thread == 0) {
@@ -357,7 +357,7 @@ struct OpenShareKernel {
   }
 };
 
-/// Where the fine level is unmeasured, takes the half size's disparity.
+/// Unmeasured pixels of the fine level get the disparity of the half size.
 struct FillFromHalfBody {
   View<const float> half_disparity, half_sigma;
   View<float> disparity, sigma;

@@ -1,5 +1,5 @@
-// cuda/stereo/stereo_ignored.h: kernel bodies for pixels that must not be matched, and windows that
-// reach them.
+// cuda/stereo/stereo_ignored.h: kernel bodies for masked pixels, and windows that contain
+// them.
 #pragma once
 
 #include "cuda/device/kernel.h"
@@ -7,7 +7,7 @@
 
 namespace softscope::cuda {
 
-/// Bits of a pixel. From outside a raster has 0 and kMasked alone.
+/// Bits of a pixel. Input rasters contain 0 and kMasked only.
 struct Ignored {
   static constexpr std::uint8_t kMasked = 1, kDense = 2, kSupport = 4;  // the window reaches one
   static constexpr int kDenseReach = kDenseWindowReach + kSobelReach;
@@ -18,7 +18,7 @@ struct Ignored {
 /// Of a mask's value.
 inline std::uint8_t ignoredBits(std::uint8_t value) { return value != 0 ? Ignored::kMasked : 0; }
 
-/// Masked where one of the 2 x 2 pixels is.
+/// Masked if one of the 2 x 2 pixels is.
 struct HalveIgnoredBody {
   View<const std::uint8_t> whole[2];
   View<std::uint8_t> half[2];

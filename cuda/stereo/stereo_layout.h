@@ -1,4 +1,4 @@
-// cuda/stereo/stereo_layout.h: every array of the stereo stage, planned from settings and image
+// cuda/stereo/stereo_layout.h: arrays of the stereo stage, planned from settings and image
 // size.
 #pragma once
 
@@ -21,7 +21,7 @@
 
 namespace softscope::cuda {
 
-/// What must start at the same value in every frame, side by side: one kernel sets all.
+/// Data with the same initial value in every frame, contiguous for one kernel.
 struct LevelCounters {
   DisparityRange narrowed;
   int point_count, mixed_count;
@@ -158,7 +158,7 @@ struct StereoLevel {
   }
 };
 
-/// All levels, and what the stage gives.
+/// All levels, and the results of the stage.
 struct StereoLayout {
   StereoLayout(Arena& arena, const StereoOptions& options, int width, int height) {
     StereoOptions level_options = options;

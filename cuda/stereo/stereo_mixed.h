@@ -1,4 +1,4 @@
-// cuda/stereo/stereo_mixed.h: kernel bodies for windows of the refinement that mix surfaces.
+// cuda/stereo/stereo_mixed.h: kernel bodies for refinement windows with mixed surfaces.
 #pragma once
 
 #include "cuda/device/kernel.h"
@@ -6,7 +6,7 @@
 
 namespace softscope::cuda {
 
-/// Marks both ends of every step along rows and columns. `marks` start at 0.
+/// Marks both ends of every step along rows and columns. `marks` are initially 0.
 struct MarkStepsBody {
   View<const float> disparity;
   View<std::uint8_t> marks;
@@ -33,11 +33,11 @@ struct MarkStepsBody {
   }
 };
 
-/// Of a pixel with a disparity, whether its window holds a pixel of another surface.
+/// Per pixel with a disparity, whether its window contains another surface.
 struct Selection {
   float weights[kWidestWindow * kSelectLanes], tolerance[kWidestWindow * kSelectLanes];
 };
-/// Stores it where lanes can read different places at once.
+/// Stores it such that lanes can read different positions at the same time.
 struct StoreSelectionKernel {
   static constexpr int kThreads = 256, kPhases = 1;
   static_assert(kThreads >= kWidestWindow * kSelectLanes, "a thread a place");
@@ -52,7 +52,7 @@ struct StoreSelectionKernel {
     out->tolerance[at.thread] = selection.tolerance[at.thread];
   }
 };
-/// A block: 32 x 16 pixels.
+/// One block: 32 x 16 pixels.
 struct MarkMixedKernel {
   static constexpr int kThreads = 256, kPhases = 2, kWidth = 32, kHeight = 16;
   static constexpr int kReach = RefinementOptions::kLargestRadiusPx;
@@ -113,7 +113,7 @@ struct MarkMixedKernel {
   }
 };
 
-/// Windows that mix surfaces: of each, the pixels of its centre's surface, 16 lanes a pixel.
+/// Windows with mixed surfaces: pixels of the surface of the centre, 16 lanes per pixel.
 template <bool kLast>
 struct MixedStepKernel {
   static constexpr int kThreads = 256, kPhases = 3, kPixels = kThreads / kSelectLanes;

@@ -1,4 +1,4 @@
-// cuda/stereo/stereo_passes.h: the order of the kernels of the stereo stage, for any executor.
+// cuda/stereo/stereo_passes.h: order of the kernels of the stereo stage, for any executor.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class StereoPasses {
   StereoPasses(Executor& executor, const StereoLayout& layout)
       : executor_(executor), layout_(layout) {}
 
-  /// Once after the memory was taken: what no frame writes.
+  /// Once after allocation: data that frames do not write.
   void initialise() {
     for (const StereoLevel& level : layout_.levels) {
       executor_.launch("selection",
@@ -38,13 +38,13 @@ class StereoPasses {
     }
   }
 
-  /// The first part of a level, up to confirmed support points; by rows, the prior too.
+  /// First part of a level, up to confirmed support points; by rows, also the prior.
   void startLevel(const StereoLevel& level) {
     prepare(level);
     findSupport(level);
     if (level.options.elas.prior == PriorMethod::kRows) interpolatePrior(level);
   }
-  /// The rest. By planes, support points and prior have come from the host.
+  /// Second part. By planes, support points and prior come from the host.
   void finishLevel(const StereoLevel& level) {
     perElement("tile bits", TileBitsBody{level.grid, level.kept, level.bits}, level.grid.columns,
                level.grid.rows, 2);
@@ -52,7 +52,7 @@ class StereoPasses {
     filter(level);
     refine(level);
   }
-  /// What the level left open.
+  /// Unmatched share of the level.
   void measureShare(const StereoLevel& level) {
     OpenShare* share = &level.counters->share;
     const float* disparity = refined(level).data;
@@ -82,8 +82,8 @@ class StereoPasses {
     executor_.mark("fill");
   }
 
-  /// From the full size's disparities to depth and normals; may run again, the levels stay as they
-  /// are.
+  /// Depth and normals from the disparities of the full
+  /// size; can be repeated, the levels are unchanged.
   void finish(const RectifiedRig& rig) {
     const StereoLevel& level = layout_.levels.front();
     const StereoOptions& options = level.options;
@@ -300,7 +300,7 @@ class StereoPasses {
                                  readOnly(level.slow_part[0]), readOnly(level.slow_part[1]), before,
                                  &level.counters->light, level.residuals, residualLimits(options)},
              level);
-    // Mixed windows, slow to solve, wait for the second step.
+    // Windows with mixed surfaces, slow to solve, are processed in the second step.
     const bool hold = i == 0 && !kLast;
     const StepSolver solver{limits, kLast ? 1.0f : static_cast<float>(options.relaxation), before,
                             level.disparity[(i + 1) % 2], level.sigma};
@@ -336,14 +336,14 @@ class StereoPasses {
   const StereoLayout& layout_;
 };
 
-/// Share of the pixels that can be matched for which nothing was found.
+/// Share of the matchable pixels without a disparity.
 inline double unmatchedShare(const OpenShare& share) {
   return share.matchable == 0 ? 1 : static_cast<double>(share.unmatched) / share.matchable;
 }
 
-/// Runs coarser levels for as long as they are worth it, and fills the finer from them.
-/// `readShare(k)` waits for what level k left open, level 0 having run; `matchHalf(k)` halves level
-/// k - 1 and matches it; `ascend(k)` fills level k from its half. Returns how many levels ran.
+/// Runs coarser levels while they are useful, and fills the finer from them. `readShare(k)`
+/// waits for the unmatched share of level k, after level 0; `matchHalf(k)` halves level k -
+/// 1 and matches it; `ascend(k)` fills level k from its half. Returns the number of levels.
 template <class ReadShare, class MatchHalf, class Ascend>
 int runCoarserLevels(const StereoLayout& layout, const ReadShare& readShare,
                      const MatchHalf& matchHalf, const Ascend& ascend) {
@@ -361,7 +361,7 @@ int runCoarserLevels(const StereoLayout& layout, const ReadShare& readShare,
   return level + 1;
 }
 
-/// Throws OptionError where the stage can't run on the GPU with these options.
+/// Throws OptionError for options without GPU version.
 inline void requireDeviceLimits(const StereoOptions& options, int width_px) {
   require(options.method == "elas", "stereo.method", options.method, "only elas runs on the GPU");
   require(width_px <= PriorRowKernel::kWidest, "image width", width_px,

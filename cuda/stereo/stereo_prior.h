@@ -8,7 +8,7 @@
 
 namespace softscope::cuda {
 
-/// Per view, the rows of the support grid at every column of the image.
+/// Per view, rows of the support grid at every column of the image.
 struct PriorRows {
   PriorEvidence *own, *above, *below;  // 2 x rows x width; above and below: swept from there
   int* has_points;                     // 2 x rows
@@ -20,7 +20,7 @@ struct PriorRows {
   SOFTSCOPE_HD bool has(int view, int r) const { return has_points[view * rows + r] != 0; }
 };
 
-/// A block: one row of one view, interpolated between its points.
+/// One block: one row of one view, interpolated between its points.
 struct PriorRowKernel {
   static constexpr int kThreads = 256, kPhases = 3, kWidest = 8192, kWords = kWidest / 32;
   struct Shared {
@@ -48,7 +48,7 @@ struct PriorRowKernel {
         if (d == kNoSupport) continue;
         const int u = view == 0 ? c * grid.step : columnFromRight(c * grid.step, d);
         if (u < 0) continue;
-        // Of several on one pixel the larger: as integers, positive numbers keep their order.
+        // Of several on one pixel the larger: positive numbers have the order of their bits.
         atomicGreatest(reinterpret_cast<int*>(&row[u].disparity_px),
                        static_cast<int>(floatAsBits(d)));
         atomicUnite(&shared.points[u / 32], std::uint32_t{1} << (u % 32));
@@ -75,7 +75,7 @@ struct PriorRowKernel {
     while (bits == 0 && word > 0) bits = shared.points[--word];
     return bits == 0 ? -1 : 32 * word + highestBit(bits);
   }
-  /// The width: none.
+  /// The width means none.
   SOFTSCOPE_HD int nextPoint(const Shared& shared, int u, int words) const {
     int word = u / 32;
     std::uint32_t bits = shared.points[word] & ~((std::uint32_t{2} << (u % 32)) - 1);
@@ -84,8 +84,8 @@ struct PriorRowKernel {
   }
 };
 
-/// A thread: one column of one view, from above or from below, each row taking over what the row
-/// before it where its points are nearer.
+/// One thread: one column of one view, from above or from below;
+/// each row inherits from the previous row if its points are nearer.
 struct PriorSweepKernel {
   static constexpr int kThreads = 32, kPhases = 1, kAhead = 12;
   using Shared = Nothing;
@@ -101,7 +101,7 @@ struct PriorSweepKernel {
     PriorEvidence before{};
     int before_row = -1;
     for (int k = 0; k < rows.rows; k += kAhead) {
-      PriorEvidence own[kAhead];  // fetched together: their latency is paid once
+      PriorEvidence own[kAhead];  // fetched together to hide latency
       for (int j = 0; j < kAhead; ++j)
         if (k + j < rows.rows) own[j] = rows.own[rows.place(view, rowOf(at.y, k + j), u)];
       for (int j = 0; j < kAhead; ++j) {

@@ -12,7 +12,7 @@ namespace softscope::cuda {
 
 constexpr int kWidestWindow = 2 * RefinementOptions::kLargestRadiusPx + 1;
 
-/// Weights of the slow part of the brightness, for kernels to take along.
+/// Weights of the low-pass part of the brightness, as kernel argument.
 struct SlowWeights {
   static constexpr int kMost = 129;
   float values[kMost];
@@ -60,7 +60,7 @@ struct BrightnessColumnBody {
   }
 };
 
-/// A block fits how light differs between the cameras, in rounds.
+/// One block fits the brightness difference of the cameras, in rounds.
 struct LightFitKernel {
   static constexpr int kThreads = 512, kPhases = 4;
   struct Shared {
@@ -156,7 +156,7 @@ struct ResidualBody {
   }
 };
 
-/// From the sums of a window to the next disparity.
+/// Next disparity from the sums of a window.
 struct StepSolver {
   PlaneLimits limits;
   float relaxation;  // 1 in the last step
@@ -181,10 +181,10 @@ struct StepSolver {
   }
 };
 
-/// What a step does with windows that mix surfaces.
+/// Treatment of windows with mixed surfaces.
 enum class MixedWindows { kHold, kLeave };
 
-/// A block: 32 x 16 pixels.
+/// One block: 32 x 16 pixels.
 template <bool kLast>
 struct WindowStepKernel {
   static constexpr int kThreads = 256, kWidth = 32, kHeight = 16;
@@ -292,7 +292,7 @@ struct WindowStepKernel {
         solver.solve<kLast>(u, v, local.moments[k], local.evidence[k]);
       else if (mixed_windows == MixedWindows::kHold)
         solver.next.at(u, v) = solver.before.at(u, v);
-      else if (!isNumber(solver.before.at(u, v)))  // no longer in the list's care
+      else if (!isNumber(solver.before.at(u, v)))  // removed from the list
         forget(u, v);
     }
   }

@@ -1,4 +1,4 @@
-// cuda/stereo/stereo_support.h: kernel bodies from gray images to support points.
+// cuda/stereo/stereo_support.h: kernel bodies of support points from grey images.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace softscope::cuda {
 
-/// Packed gradients with a margin of flat ones on every side, as GradientImage has them.
+/// Packed gradients with a flat margin on every side, as in GradientImage.
 struct GradientPlane {
   static constexpr std::uint8_t kFlatByte = 0x80;  // every byte of the margin
   static constexpr int kRowMargin = 4;
@@ -43,7 +43,7 @@ struct DisparityRange {
   int first, last;
 };
 
-/// The grid of support points and the tests a point must pass; the fields are those of ElasOptions.
+/// Grid of support points with their tests; fields as in ElasOptions.
 struct SupportGrid {
   int width, height;  // of the image
   int step, columns, rows;
@@ -72,7 +72,7 @@ struct SupportPass {
   }
 };
 
-/// Least costs of a row as (cost << 16) + disparity: ties go to the smaller disparity.
+/// Smallest costs of a row as (cost << 16) + disparity: ties prefer the smaller disparity.
 constexpr std::uint32_t kNoCost = 0xFFFFFFFFu;
 
 struct SupportCosts {
@@ -80,7 +80,7 @@ struct SupportCosts {
   std::uint16_t* volume;                  // rows x columns x count
 };
 
-/// A block: one row of the grid, kThreads columns, kDisparities disparities.
+/// One block: one row of the grid, kThreads columns, kDisparities disparities.
 struct SupportCostKernel {
   static constexpr int kThreads = 256, kDisparities = 32, kAtATime = 8, kPhases = 10;
   static constexpr int kMargin = kSupportMargin;
@@ -122,7 +122,7 @@ struct SupportCostKernel {
   }
 
  private:
-  /// Two rows of column c in a word; beyond the image's margin all is flat.
+  /// Two rows of column c in a word; flat outside of the margin.
   SOFTSCOPE_HD void loadColumn(const GradientPlane& plane, int c, int v,
                                std::uint32_t (&words)[3]) const {
     const bool inside = c < grid.width + kMargin;
@@ -170,7 +170,7 @@ struct SupportCostKernel {
       const std::uint32_t both = sums[0] + sums[2] + sums[4] + sums[6] + sums[8];
       for (int k = 0; k < 2; ++k) {
         const int index = offset + 2 * pair + k, d = first + index;
-        // The whole window lies inside both images.
+        // The whole window is inside both images.
         if (d > last || u >= grid.width || u < d + kMargin ||
             d + kMargin + kSupportNarrowest > grid.width)
           continue;
@@ -196,7 +196,7 @@ struct SupportCostKernel {
   }
 };
 
-/// Tests each pixel of the grid; kLanes threads a pixel look for the second best cost.
+/// Tests each pixel of the grid; kLanes threads per pixel search the second best cost.
 struct SupportTestKernel {
   static constexpr int kThreads = 256, kPhases = 2, kLanes = 32, kPoints = kThreads / kLanes;
   struct Shared {
@@ -247,7 +247,7 @@ struct SupportTestKernel {
 
  private:
   static_assert(kLanes >= kSupportPixels, "a lane a pixel");
-  /// One pixel's share of the window's texture.
+  /// Contribution of one pixel to the texture of the window.
   SOFTSCOPE_HD int textureOf(int u, int v, int lane) const {
     if (lane >= kSupportPixels || u < kSupportMargin || u >= grid.width - kSupportMargin) return 0;
     return supportTexture(
@@ -268,7 +268,7 @@ struct SupportTestKernel {
         costs.best_right[static_cast<std::ptrdiff_t>(r) * grid.width + u - disparity] & 0xFFFFu);
     const int apart = returned - disparity;
     if ((apart < 0 ? -apart : apart) > grid.left_right_px) return kNoSupport;
-    // The true one may lie outside the range.
+    // The true disparity may be outside of the range.
     if (disparity == range.first || disparity == range.last) return kNoSupport;
     if (cost > grid.uniqueness * second) return kNoSupport;
     if (disparity + 1 == range.first + count) return static_cast<float>(disparity);
@@ -277,7 +277,7 @@ struct SupportTestKernel {
   }
 };
 
-/// The range in which the first pass found points, and some more on either side: narrowedTo().
+/// Range of the points of the first pass, with a margin: narrowedTo().
 struct NarrowRangeKernel {
   static constexpr int kThreads = 1024, kPhases = 4;
   static constexpr int kNear = kNearDisparityPx;
@@ -334,7 +334,7 @@ struct NarrowRangeKernel {
   }
 };
 
-/// Drops points that too few neighbours confirm; counts the others. kLanes threads a point.
+/// Removes points confirmed by too few neighbours; counts the others. kLanes threads per point.
 struct LonelyKernel {
   static constexpr int kThreads = 256, kPhases = 3, kLanes = 8, kPoints = kThreads / kLanes;
   struct Shared {

@@ -1,4 +1,4 @@
-// cuda/stereo/stereo_surface.h: kernel bodies from disparity to smooth depth and normals.
+// cuda/stereo/stereo_surface.h: kernel bodies of smooth depth and normals from disparity.
 #pragma once
 
 #include <cmath>
@@ -15,13 +15,13 @@ namespace softscope::cuda {
 // --- smoothing
 // -------------------------------------------------------------------------------------
 
-/// Weights of a smoothing window, for kernels to take along.
+/// Weights of a smoothing window, as kernel argument.
 struct PatchWindow {
   static constexpr int kWidestReach = 7;
   float weights[(2 * kWidestReach + 1) * (2 * kWidestReach + 1)];
 };
 
-/// A block of threads a block of pixels, kPixels of them at a time; a lane a sum, in raster order.
+/// One thread block per block of pixels, kPixels at a time; one lane per sum, in raster order.
 struct BlockMeanKernel {
   static constexpr int kThreads = 64, kPhases = 4, kPixels = 256, kSums = 5;
   struct Shared {
@@ -74,7 +74,7 @@ struct BlockMeanKernel {
     shared.terms[4][i] = counts ? weight * d : 0.0f;
   }
 };
-/// A thread a patch.
+/// One thread per patch.
 struct FitPatchKernel {
   static constexpr int kThreads = 32, kPhases = 1;
   using Shared = Nothing;
@@ -92,7 +92,7 @@ struct FitPatchKernel {
     patches[i] = fitPatch(rules, means, window.weights, i % rules.columns, i / rules.columns);
   }
 };
-/// Draws each pixel to the four patches around it, as far as it agrees with them.
+/// Smooths each pixel with the four surrounding patches, as far as it agrees with them.
 struct SmoothBody {
   SmoothingRules rules;
   const SmoothingPatch* patches;
@@ -134,13 +134,13 @@ struct SmoothBody {
 // --- erosion and depth
 // -----------------------------------------------------------------------------
 
-/// What a frame brings besides its images.
+/// Inputs of a frame besides its images.
 struct FrameInputs {
   double roll_rad;  // of the right image, whose effect on disparity is removed
   int masked;       // 0: the mask is not in use
 };
 
-/// Drops pixels near depth steps, the border and the mask; lifts the others.
+/// Removes pixels near depth steps, the border and the mask; back-projects the others.
 struct DepthBody {
   View<const float> disparity_in, sigma_in;
   View<const std::uint8_t> mask;
@@ -173,7 +173,7 @@ struct DepthBody {
   SOFTSCOPE_HD bool isDropped(int u, int v) const {
     const int width = disparity.width, height = disparity.height;
     if (u < border || v < border || u >= width - border || v >= height - border) return true;
-    // An edge lies between a pixel and its neighbours to the right and below.
+    // An edge is between a pixel and its neighbours to the right and below.
     bool found = false;
     for (int y = v - reach; y < v + reach; ++y)
       for (int x = u - reach; x < u + reach; ++x)
@@ -196,7 +196,7 @@ struct NormalPixel {
   float x, y, z;
 };
 
-/// A plane fitted to the inverse depth around each pixel; a block: 32 x 16 pixels.
+/// Plane fitted to the inverse depth around each pixel; one block: 32 x 16 pixels.
 struct NormalKernel {
   static constexpr int kThreads = 256, kPhases = 3, kWidth = 32, kHeight = 16;
   static constexpr int kReach = kNormalReach, kSide = 2 * kReach + 1;
@@ -265,7 +265,7 @@ struct NormalKernel {
         planeNormal(m, static_cast<float>(u) - cx_px, static_cast<float>(v - cy_px), fx_px, fy_px);
     const bool holds =
         isNumber(inverse) && m[0] >= kFewestNormalPixels && plane.determinant > 1e-3f;
-    // Inverse depth is positive in front: -n faces the camera.
+    // Inverse depth is positive in front: -n points to the camera.
     const float scale =
         holds ? -1.0f / std::sqrt(plane.x * plane.x + plane.y * plane.y + plane.z * plane.z)
               : quietNan();

@@ -10,14 +10,14 @@ namespace {
 
 std::size_t viewBytes(const PinholeCamera& camera, const ModelViewOptions& options,
                       int point_capacity) {
-  requireViewLimits(options);  // before any memory is taken
+  requireViewLimits(options);  // before any allocation
   requireDevice();
   Arena counting;
   ViewLayout(counting, camera.width_px, camera.height_px, point_capacity);
   return counting.bytes();
 }
 
-/// What crosses to the device with each view; pinned.
+/// Data uploaded with each view; pinned.
 struct ViewExchange {
   ViewProjector camera;
   int point_count;

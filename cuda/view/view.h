@@ -14,12 +14,12 @@
 
 namespace softscope::cuda {
 
-/// Draws models of at most `point_capacity` points for one camera; memory is taken once, at the
-/// start. The same bytes as renderModelView() gives on the CPU, but for the payload of NaN.
+/// Renders models of at most `point_capacity` points for one camera; memory is allocated at
+/// construction. The same bytes as renderModelView() on the CPU, except the payload of NaN.
 class ModelRenderer {
  public:
-  /// Throws BackendError without a device that runs this build, or with too little memory;
-  /// OptionError where an option has no GPU version.
+  /// Throws BackendError without a suitable device, or with too
+  /// little memory; OptionError for an option without GPU version.
   ModelRenderer(const PinholeCamera& camera, const ModelViewOptions& options, int point_capacity);
   ~ModelRenderer();
   ModelRenderer(const ModelRenderer&) = delete;
@@ -27,12 +27,12 @@ class ModelRenderer {
 
   /// Throws Error for more points than the capacity.
   void upload(const PointModel& model);
-  /// Returns when everything is enqueued.
+  /// Asynchronous.
   void draw(const Eigen::Isometry3d& world_from_left);
   void wait();
   ModelView download();
 
-  /// With stage times, kernels are launched one by one and draw() waits; without, as a graph.
+  /// With stage times, kernels are launched one by one and draw() waits; otherwise as a graph.
   void timeStages(bool on);
   /// Of the last draw() with stage times: stage, ms.
   const std::vector<std::pair<std::string, double>>& stageTimes() const;

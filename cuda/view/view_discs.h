@@ -1,4 +1,4 @@
-// cuda/view/view_discs.h: kernel bodies that turn model points into discs, listed by image tile.
+// cuda/view/view_discs.h: kernel bodies of discs from model points, listed by image tile.
 #pragma once
 
 #include "core/image.h"
@@ -27,11 +27,11 @@ struct DiscTiles {
 
   SOFTSCOPE_HD int count() const { return columns * rows; }
 
-  /// Calls visit(tile) for every tile that a disc's pixels touch.
+  /// Calls visit(tile) for every tile that contains pixels of a disc.
   template <class Visit>
   SOFTSCOPE_HD void forEachTile(const SplatDisc& disc, const Visit& visit) const {
     const DiscBox box = discBox(disc);
-    // No pixel of the groups beyond the radius belongs to the disc.
+    // Pixels of the groups beyond the radius do not belong to the disc.
     const int last_of_groups = box.u0 + box.groups * kSplatLanes - 1;
     const int last_of_disc = floorOf(disc.u_px + disc.radius_px) + 1;
     const int u0 = larger(box.u0, 0), v0 = larger(box.v0, 0);
@@ -47,7 +47,7 @@ struct DiscTiles {
   SOFTSCOPE_HD static int smaller(int a, int b) { return a < b ? a : b; }
 };
 
-/// A thread per point.
+/// One thread per point.
 struct PlaceDiscsKernel {
   static constexpr int kThreads = 256, kPhases = 1;
   using Shared = Nothing;
@@ -80,7 +80,7 @@ struct PlaceDiscsKernel {
   }
 };
 
-/// Where each tile's list begins; one block, kThreads tiles at a time.
+/// Start of the list of each tile; one block, kThreads tiles at a time.
 struct TileStartsKernel {
   static constexpr int kThreads = 1024, kPhases = 4, kParts = 32;
   struct Shared {
@@ -125,7 +125,7 @@ struct TileStartsKernel {
   SOFTSCOPE_HD static int padded(int k) { return k + k / (kThreads / kParts); }
 };
 
-/// A thread per point; the order within a list is that of the threads.
+/// One thread per point; the order within a list is that of the threads.
 struct ListDiscsKernel {
   static constexpr int kThreads = 256, kPhases = 1;
   using Shared = Nothing;
@@ -146,7 +146,7 @@ struct ListDiscsKernel {
   }
 };
 
-/// Each list in the order of the points; a block per tile, an entry's place is how many are less.
+/// Each list in the order of the points; one block per tile, rank by counting.
 struct SortDiscsKernel {
   static constexpr int kThreads = 64, kPhases = 3;
   struct Shared {

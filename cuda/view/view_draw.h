@@ -1,4 +1,4 @@
-// cuda/view/view_draw.h: kernel bodies from lists of discs to the model view.
+// cuda/view/view_draw.h: kernel bodies of the model view from lists of discs.
 #pragma once
 
 #include "core/image.h"
@@ -12,12 +12,12 @@ namespace softscope::cuda {
 struct ViewImages {
   View<Rgb8> colour;
   View<std::uint8_t> anchor;
-  View<float> depth;  // NaN where nothing is seen
+  View<float> depth;  // NaN without a surface
   View<std::int32_t> point;
 };
 
-/// A block per tile, a thread per pixel: nearest surface first, then the sums of the discs on it,
-/// in the order of the points.
+/// One block per tile, one thread per pixel: nearest surface
+/// first, then the sums of its discs, in the order of the points.
 struct DrawTilesKernel {
   static constexpr int kSide = DiscTiles::kSide, kThreads = kSide * kSide, kPhases = 2;
   struct Drawn {
@@ -118,7 +118,7 @@ struct DrawTilesKernel {
   }
 };
 
-/// Moves each pixel's looks from where they belong to the pixel.
+/// Shifts the colours of each pixel from their mean position to the pixel centre.
 struct StraightenBody {
   View<const BlendedPixel> blended;
   View<const float> depth;
@@ -151,7 +151,7 @@ struct StraightenBody {
 
 // --- gaps ------------------------------------------------------------------------------------
 
-/// Pixels of a gap that begins at a pixel, as the distance to its end; 0: none.
+/// Width of the gap that begins at a pixel; 0: none.
 struct FindGapsBody {
   View<const float> depth;
   View<std::uint8_t> lengths;
@@ -175,7 +175,7 @@ struct FindGapsBody {
     lengths.at(u, v) = length;
   }
 };
-/// Draws the pixels of a gap as the straight surface between both ends, which no gap contains.
+/// Fills a gap with the straight surface between both ends, which are outside of gaps.
 struct BridgeGapsBody {
   View<const std::uint8_t> lengths;
   ViewImages view;
@@ -195,12 +195,12 @@ struct BridgeGapsBody {
   }
 
  private:
-  /// Length of the gap at a place of the pixel's line.
+  /// Width of the gap at a position on the line of the pixel.
   SOFTSCOPE_HD int lengthAt(int u, int v, int place) const {
     return along_rows ? lengths.at(place, v) : lengths.at(u, place);
   }
-  /// Whether a gap counts: one that begins inside another one that counts does not. Gaps overlap
-  /// in short chains; the first one of a chain counts.
+  /// Whether a gap counts: one that begins inside another counted gap does
+  /// not. Gaps overlap in short chains; the first one of a chain counts.
   SOFTSCOPE_HD bool isBridged(int u, int v, int place) const {
     int first = place;
     for (int k = 1; k <= gap_px && k <= first; ++k)

@@ -1,4 +1,4 @@
-// cuda/view/view_layout.h: every array of the model view, planned from image size and number of
+// cuda/view/view_layout.h: arrays of the model view, planned from image size and number of
 // points.
 #pragma once
 
@@ -51,7 +51,7 @@ struct ViewLayout {
   ViewImages images;
 };
 
-/// Throws OptionError where the view can't be drawn on the GPU with these options.
+/// Throws OptionError for options without GPU version.
 inline void requireViewLimits(const ModelViewOptions& options) {
   require(options.gap_px < 255, "gap_px", options.gap_px, "the GPU takes at most 254");
 }

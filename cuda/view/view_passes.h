@@ -1,4 +1,4 @@
-// cuda/view/view_passes.h: the order of the kernels of the model view, for any executor.
+// cuda/view/view_passes.h: order of the kernels of the model view, for any executor.
 #pragma once
 
 #include "cuda/device/reset_kernel.h"
@@ -6,7 +6,7 @@
 
 namespace softscope::cuda {
 
-/// From the points, their count and the camera in a layout to the view's images.
+/// Images of the view from points, their count and the camera in a layout.
 template <class Executor>
 class ViewPasses {
  public:

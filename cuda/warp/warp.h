@@ -1,4 +1,4 @@
-// cuda/warp/warp.h: the warp's least-squares problem on the GPU.
+// cuda/warp/warp.h: least-squares problem of the warp on the GPU.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace softscope::cuda {
 
-/// On the first GPU. Throws BackendError without a device that runs this build.
+/// On the first GPU. Throws BackendError without a suitable device.
 std::unique_ptr<WarpDevice> makeWarpDevice(const WarpWeights& weights,
                                            std::shared_ptr<const SharedRasters> shared = nullptr);
 

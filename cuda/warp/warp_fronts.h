@@ -9,8 +9,8 @@ namespace softscope::cuda {
 
 constexpr int kMostColumns = kMostPivots * kUnknowns;
 
-/// A thread per row and node of a front's pivots: the matrix's entries, damped, and the children's
-/// updates. The right-hand side is the last row.
+/// One thread per row and node of the pivots of a front: entries of the matrix,
+/// damped, and updates of the children. The right-hand side is the last row.
 struct AssembleFrontsKernel {
   static constexpr int kThreads = 128, kPhases = 1;
   using Shared = Nothing;
@@ -70,7 +70,7 @@ struct AssembleFrontsKernel {
   }
 };
 
-/// A block per front of a level: its pivot columns, six at a time, left-looking.
+/// One block per front of a level: its pivot columns, six at a time, left-looking.
 struct FactorFrontsKernel {
   static constexpr int kThreads = 512, kPhases = 3;
   struct Shared {
@@ -167,7 +167,7 @@ struct FactorFrontsKernel {
   }
 };
 
-/// A block per tile of an update: the children's updates less L L^T of the border's rows.
+/// One block per tile of an update: updates of the children minus L L^T of the rows of the border.
 struct UpdateFrontsKernel {
   static constexpr int kThreads = 256, kPhases = 2, kColumns = 36, kSide = 16, kEach = 3;
   static_assert(kSide * kSide == kThreads && kSide * kEach == kUpdateTile);
@@ -231,7 +231,7 @@ struct UpdateFrontsKernel {
               : 0;
     }
   }
-  /// The children's updates for the entries of a thread, from (row, column) on.
+  /// Updates of the children for the entries of a thread, from (row, column) on.
   SOFTSCOPE_HD void addChildren(const FrontShape& front, int row, int column, Local& local) const {
     const int border_blocks = front.blocks - front.pivots;
     local = {};
@@ -263,7 +263,7 @@ struct UpdateFrontsKernel {
   }
 };
 
-/// A block per front of a level, from the roots down: x = L^-T (y - L^T x of the border).
+/// One block per front of a level, from the roots down: x = L^-T (y - L^T x of the border).
 struct SolveFrontsKernel {
   static constexpr int kThreads = 256, kPhases = 3, kParts = 8, kStagedBorder = 1024;
   struct Shared {
@@ -279,7 +279,7 @@ struct SolveFrontsKernel {
   WarpStructureLayout graph;
   int first_front;
 
-  /// The first one takes the border's share away.
+  /// The first one subtracts the contribution of the border.
   SOFTSCOPE_HD int repeats(const Place& at) const {
     return graph.fronts[first_front + at.x].pivots + 1;
   }

@@ -1,4 +1,4 @@
-// cuda/warp/warp_layout.h: every array of the warp's least-squares problem, planned from its sizes.
+// cuda/warp/warp_layout.h: arrays of the least-squares problem, planned from its sizes.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@ namespace softscope::cuda {
 constexpr int kUnknowns = kRigidUnknowns;
 constexpr int kBlockEntries = kUnknowns * kUnknowns;
 
-/// Sums of one stencil's rows.
+/// Sums of the rows of one stencil.
 struct StencilSums {
   double data, correspondence, data_abs_mm;
   int targets, padding;
 };
 
-/// What a step does at one node.
+/// Step at one node.
 struct NodeStep {
   double predicted_decrease, furthest_mm, failures;
 };

@@ -8,7 +8,7 @@
 
 namespace softscope::cuda {
 
-/// A thread per edge: its energy and, if it assembles, its three blocks and two gradients.
+/// One thread per edge: its energy and, if it assembles, its three blocks and two gradients.
 template <bool kAssembles>
 struct EdgeKernel {
   static constexpr int kThreads = 64, kPhases = 1;
@@ -50,8 +50,8 @@ struct EdgeKernel {
   SOFTSCOPE_HD PlacedNode nodeAt(int node) const { return {graph.rest_mm[node], transforms[node]}; }
 };
 
-/// A thread per entry of the matrix, then of the gradient: its parts in a fixed order, and
-/// docs/energy.md (7b).
+/// One thread per entry of the matrix, then of the gradient:
+/// its parts in a fixed order, and docs/energy.md (7b).
 struct GatherKernel {
   static constexpr int kThreads = 256, kPhases = 1;
   using Shared = Nothing;
@@ -96,7 +96,7 @@ struct GatherKernel {
   }
 };
 
-/// A thread per block of the matrix; those of the diagonal make the node's step and its trial.
+/// One thread per block of the matrix; those of the diagonal compute step and trial of the node.
 struct StepKernel {
   static constexpr int kThreads = 128, kPhases = 1;
   using Shared = Nothing;
@@ -174,7 +174,7 @@ struct SumKernel {
   static_assert(sizeof(WarpSums) == kSums * sizeof(double), "in the order of WarpSums");
   static constexpr int kDiagonal = 7, kFurthest = 8, kLeast = 9, kLargest = 10;
   SOFTSCOPE_HD static double startOf(int s) { return s == kLeast ? 1e300 : 0; }
-  /// Not a number counts for more than any.
+  /// NaN counts as larger than any number.
   SOFTSCOPE_HD static double join(int s, double a, double b) {
     if (s == kLeast) return b < a ? b : a;
     if (s == kDiagonal || s == kFurthest || s == kLargest) return b <= a ? a : b;

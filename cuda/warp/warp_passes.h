@@ -8,7 +8,7 @@
 
 namespace softscope::cuda {
 
-/// What the kernels need besides the arrays.
+/// Inputs of the kernels besides the arrays.
 struct WarpInputs {
   WarpWeights weights;
   DepthLookUp surface;  // pointers of the device
@@ -17,7 +17,7 @@ struct WarpInputs {
   double lever_mm = 1;
 };
 
-/// How the diagonal is raised: docs/energy.md (17).
+/// Damping of the diagonal: docs/energy.md (17).
 struct WarpDamping {
   double relative = 0, floor = 0;
 };
@@ -58,7 +58,7 @@ class WarpPasses {
     executor_.mark("factor");
   }
 
-  /// After factor(): the solution, the transforms that it leads to, and their energy.
+  /// After factor(): solution, resulting transforms, and their energy.
   void step(const WarpStructureLayout& graph, const FrontTables& fronts,
             const WarpPointLayout& points, const PlaneConstraint* matches, const WarpInputs& inputs,
             double damping, const NodeTransform* transforms, NodeTransform* trial) {

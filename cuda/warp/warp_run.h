@@ -14,8 +14,8 @@
 
 namespace softscope::cuda {
 
-/// A Machine has an executor(), a Memory(bytes, what) with data() and bytes(), and toDevice(),
-/// fromDevice(), wait() as a Stream has.
+/// A Machine has an executor(), a Memory(bytes, what) with data()
+/// and bytes(), and toDevice(), fromDevice(), wait() as in Stream.
 template <class Machine>
 class WarpRun final : public WarpDevice {
  public:
@@ -24,7 +24,7 @@ class WarpRun final : public WarpDevice {
       : machine_(std::forward<Arguments>(arguments)...), passes_(machine_.executor()) {
     inputs_.weights = weights;
   }
-  /// Rasters that lie on the device already are not copied again.
+  /// Rasters already on the device are not copied again.
   void share(std::shared_ptr<const SharedRasters> shared) { shared_ = std::move(shared); }
   ~WarpRun() override = default;
 
@@ -68,7 +68,7 @@ class WarpRun final : public WarpDevice {
     reserve(counting.bytes(), &surface_memory_);
     Arena arena(surface_memory_.data());
     const WarpSurfaceLayout to(arena, pixels);
-    if (!has_depth) inputs_.surface.width_px = inputs_.surface.height_px = 0;  // nothing is hit
+    if (!has_depth) inputs_.surface.width_px = inputs_.surface.height_px = 0;  // no targets
     send(to.depth_mm, surface.depth_mm, pixels);
     send(to.normals, surface.normals, pixels);
     if (surface.use_sigma) send(to.sigma_mm, surface.sigma_mm, pixels);
@@ -151,7 +151,7 @@ class WarpRun final : public WarpDevice {
 
   NodeTransform* accepted() const { return graph_.transforms[accepted_]; }
   NodeTransform* trial() const { return graph_.transforms[1 - accepted_]; }
-  /// Half as much again, so that a growing graph rarely reallocates.
+  /// Reserves half more, so that a growing graph rarely reallocates.
   void reserve(std::size_t bytes, Memory* memory) {
     if (memory->bytes() >= bytes) return;
     *memory = Memory();

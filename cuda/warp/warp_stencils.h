@@ -10,7 +10,7 @@
 
 namespace softscope::cuda {
 
-/// Four floats as warp_formulas.h takes them.
+/// Four floats, interface of warp_formulas.h.
 struct Lanes {
   float values[4];
   SOFTSCOPE_HD float operator[](int i) const { return values[i]; }
@@ -23,7 +23,7 @@ struct Lanes {
 };
 SOFTSCOPE_HD inline Lanes lanesOf(float x) { return {{x, x, x, x}}; }
 
-/// A thread per node: its displacement for warping, and what holds it.
+/// One thread per node: its displacement for warping, and its constraints.
 struct PackNodesKernel {
   static constexpr int kThreads = 128, kPhases = 1;
   using Shared = Nothing;
@@ -41,7 +41,7 @@ struct PackNodesKernel {
   }
 };
 
-/// A thread per point: where it is warped to, and the target plane there.
+/// One thread per point: its warped position, and the target plane there.
 struct AssociateKernel {
   static constexpr int kThreads = 128, kPhases = 1;
   using Shared = Nothing;
@@ -94,9 +94,9 @@ struct AssociateKernel {
   }
 };
 
-/// A block per stencil: residuals and robust weights of its rows, their sums and, if it assembles,
-/// the ten blocks and four gradients of its normal equations. Four threads a row, 30 rows at a
-/// time: the three rows of a match never part.
+/// One block per stencil: residuals and robust weights of its rows, their sums and,
+/// if it assembles, the ten blocks and four gradients of its normal equations. Four
+/// threads per row, 30 rows at a time: the three rows of a match stay together.
 template <bool kAssembles>
 struct StencilKernel {
   static constexpr int kThreads = 128, kPhases = 6, kRows = 30;
@@ -173,7 +173,7 @@ struct StencilKernel {
   }
   SOFTSCOPE_HD static Vec3<double> vectorOf(const float* p) { return {p[0], p[1], p[2]}; }
 
-  /// One node's share of a residual and its part of the Jacobian's row.
+  /// Contribution of one node to a residual and to the row of the Jacobian.
   SOFTSCOPE_HD void addShare(const Place& at, int first, Shared& shared) const {
     const int slot = at.thread / kNodesPerPoint, k = at.thread % kNodesPerPoint;
     const int row = first + slot, match_rows = matchRows(at.x);
@@ -232,8 +232,8 @@ struct StencilKernel {
     shared.pulls[slot] = shared.roots[slot] * shared.residuals[slot];
   }
 
-  /// Three neighbours of the 360 entries of the blocks, in the order of kStencilBlocks, then of the
-  /// 24 of the gradients.
+  /// Three consecutive ones of the 360 entries of the blocks, in
+  /// the order of kStencilBlocks, then of the 24 of the gradients.
   SOFTSCOPE_HD static void addRows(int thread, int batch, const Shared& shared,
                                    double (&total)[kEntriesEach]) {
     constexpr int kInBlock = kBlockEntries / kEntriesEach, kMatrix = kStencilBlocks * kInBlock;

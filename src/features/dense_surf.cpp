@@ -31,13 +31,13 @@ Integrals integralsOf(const GrayImage& image, const Mask& ignore) {
   return out;
 }
 
-/// Sums of the wavelets, grid square by grid square.
+/// Sums of the wavelets per grid square.
 struct Squares {
   Raster<std::int32_t> sums;   // kSums values a square: width is kSums * columns
-  Raster<std::int32_t> valid;  // how many wavelets of the square touch no ignored pixel
+  Raster<std::int32_t> valid;  // wavelets of the square without ignored pixels
 };
 
-/// Wavelets of one row of pixels, all of the image's width; 0 where they'd leave the image.
+/// Wavelets of one row of pixels; 0 if they exceed the image.
 struct WaveletRow {
   explicit WaveletRow(int width) : du(static_cast<std::size_t>(width), 0), dv(du), valid(du) {}
   std::vector<std::int32_t> du, dv, valid;

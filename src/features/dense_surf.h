@@ -8,19 +8,19 @@
 
 namespace softscope {
 
-/// Upright, at one scale. SURF's scale s stands for wavelets of 2 s and cells of 5 s pixels.
+/// Upright, at one scale. Scale s of SURF corresponds to wavelets of 2 s and cells of 5 s pixels.
 struct DenseSurfOptions {
   static constexpr int kGridPx = 3;     // from one descriptor to the next
   static constexpr int kWaveletPx = 4;  // side of the Haar wavelets; even
   int cell_px = 6;                      // side of the 4 x 4 cells; a multiple of grid_px
-  // of a descriptor's wavelets that touch ignored pixels
+  // of wavelets with ignored pixels in a descriptor
   static constexpr double kMaxInvalidShare = 0.2;
-  // mean difference of the wavelets' halves, or there's nothing
+  // minimum mean difference of the halves of the wavelets
   static constexpr double kMinContrastGray = 0.8;
 };
 
-/// Descriptors on a grid: node (i, j) describes the square of 4 cells around pixel
-/// (first_px + i * grid_px, first_px + j * grid_px).
+/// Descriptors on a grid: node (i, j) describes the square of 4 cells
+/// around pixel (first_px + i * grid_px, first_px + j * grid_px).
 struct DenseDescriptors {
   int first_px = 0;
   int grid_px = 3;
@@ -35,12 +35,12 @@ struct DenseDescriptors {
   }
 };
 
-/// Sums of dx, |dx|, dy and |dy| in 4 x 4 cells (Bay et al. 2008), length 1, on a dense grid
-/// (Uijlings, Smeulders, Scha 2009): wavelets come from an integral image, each is summed once into
-/// its grid square, each square once into its cells, and a cell serves the 16 descriptors that
-/// share it. Without SURF's Gaussian weights, which would forbid the sharing. `ignore` is empty or
-/// has the image's shape, non-zero = invalid. An image smaller than one descriptor gives none.
-/// Throws Error where the shapes differ.
+/// Sums of dx, |dx|, dy and |dy| in 4 x 4 cells (Bay et al. 2008), length 1, on a dense
+/// grid (Uijlings, Smeulders, Scha 2009): wavelets are computed from an integral image,
+/// each is summed once into its grid square, each square once into its cells, and a cell
+/// is shared by 16 descriptors. Without the Gaussian weights of SURF, which would prevent
+/// the sharing. `ignore` is empty or has the size of the image, non-zero = invalid. An
+/// image smaller than one descriptor gives none. Throws Error for different sizes.
 DenseDescriptors denseSurf(const GrayImage& image, const Mask& ignore,
                            const DenseSurfOptions& options);
 

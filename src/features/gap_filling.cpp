@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-/// One row or column of the view: pixel i lies at first + i * step.
+/// Row or column of the view: pixel i is at first + i * step.
 struct Line {
   ModelView* view;
   std::size_t first, step;
@@ -18,7 +18,7 @@ struct Line {
   float depth(int i) const { return view->depth_mm.values[at(i)]; }
 };
 
-/// Draws the pixels between `begin` and `end` as the straight surface between both.
+/// Fills the pixels between `begin` and `end` with the straight surface between both.
 void bridge(const Line& line, int begin, int end) {
   ModelView& view = *line.view;
   const Rgb8 a = view.colour.values[line.at(begin)], b = view.colour.values[line.at(end)];

@@ -6,8 +6,8 @@
 namespace softscope {
 
 /// Fills runs of up to `gap_px` pixels of a row, then of a column, that are empty or more than
-/// `step_mm` behind the pixels on both ends, where these are within `step_mm` of each other:
-/// inverse depth and looks change evenly across, the point index is the nearer end's.
+/// `step_mm` behind the pixels on both ends, if these are within `step_mm` of each other:
+/// inverse depth and colours are interpolated, the point index is that of the nearer end.
 void fillGaps(int gap_px, float step_mm, ModelView* view);
 
 }  // namespace softscope

@@ -5,7 +5,7 @@
 
 namespace softscope {
 
-/// 1 at specular highlights: bright and colourless pixels, and their surroundings. Same shape.
+/// 1 at specular highlights: bright and unsaturated pixels, dilated. Same size.
 Mask highlightMask(const ColourImage& image);
 
 }  // namespace softscope

@@ -16,7 +16,7 @@ constexpr double kInstrumentAreaShare = 0.01;  // least, of the image
 constexpr int kInstrumentBorderGapPx = 8;      // an instrument begins this near to the border
 constexpr int kInstrumentRimPx = 10;           // dilation: the shadowed rim is masked too
 
-/// 3 x 3 box means, because chroma of single pixels is mostly JPEG blocks.
+/// 3 x 3 box means, because chroma of single pixels is dominated by JPEG blocks.
 ColourImage softened(const ColourImage& image) {
   ColourImage out(image.width_px, image.height_px);
   const cv::Mat from(image.height_px, image.width_px, CV_8UC3,

@@ -5,10 +5,10 @@
 
 namespace softscope {
 
-/// Tissue is lit red; instruments are grey, blue or dark, smooth, and come in from the border.
-/// 1 on instruments by their colour, else 0. Same shape. A rule of thumb, not a learned
-/// detector: grey-blue tissue at the border is taken for an instrument, and a jaw that reflects
-/// tissue is missed. docs/matching.md has its recall and precision.
+/// Tissue has red colours; instruments are grey, blue or dark, smooth, and enter from
+/// the border. 1 on instruments by their colour, else 0. Same size. A heuristic, not
+/// a learned detector: grey-blue tissue at the border is a false positive, and a jaw
+/// that reflects tissue is missed. Recall and precision: docs/matching.md.
 Mask detectInstruments(const ColourImage& image);
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/features/kernels_dispatch.cpp: which instruction sets this processor runs.
+// src/features/kernels_dispatch.cpp: choice of the instruction set.
 #include "features/kernels.h"
 
 namespace softscope {

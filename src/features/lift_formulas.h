@@ -13,8 +13,8 @@ constexpr float kLiftStepMm = 1;  // larger differences of four pixels are depth
 
 SOFTSCOPE_HD inline int nearestPixel(float x) { return static_cast<int>(std::lround(x)); }
 
-/// Depth at a sub-pixel place, bilinear in the inverse depth; 0 where one of the four pixels is
-/// unmeasured or they differ by more than `max_step_mm`. `depth(u, v)` reads a pixel.
+/// Depth at a sub-pixel position, bilinear in the inverse depth; 0 if one of the four pixels
+/// is unmeasured or they differ by more than `max_step_mm`. `depth(u, v)` reads a pixel.
 template <class Depth>
 SOFTSCOPE_HD inline float depthBetween(const Depth& depth, int width, int height, float u_px,
                                        float v_px, float max_step_mm) {
@@ -36,7 +36,7 @@ SOFTSCOPE_HD inline float depthBetween(const Depth& depth, int width, int height
   return 1 / ((1 - y) * ((1 - x) / four[0] + x / four[1]) + y * ((1 - x) / four[2] + x / four[3]));
 }
 
-/// A rigid motion in floats, row by row.
+/// Rigid motion in floats, row by row.
 struct RigidRows {
   float turn[3][3], shift[3];
 
@@ -46,7 +46,7 @@ struct RigidRows {
   }
 };
 
-/// Predicted standard error across the live camera's ray, mm.
+/// Predicted standard error across the ray of the live camera, mm.
 SOFTSCOPE_HD inline float acrossMm(float sigma_px, float live_mm, const PinholeCamera& camera) {
   return sigma_px * live_mm / static_cast<float>(camera.fx_px);
 }

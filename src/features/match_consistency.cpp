@@ -22,7 +22,7 @@ class MatchSquares {
       members_[at(column(matches[i]), row(matches[i]))].push_back(i);
   }
 
-  /// Calls visit(i) for every match in the nine squares around.
+  /// Calls visit(i) for every match in the nine surrounding squares.
   template <class Visit>
   void around(const PixelMatch& match, const Visit& visit) const {
     for (int r = std::max(row(match) - 1, 0); r <= std::min(row(match) + 1, rows_ - 1); ++r)

@@ -7,9 +7,9 @@
 
 namespace softscope {
 
-/// Keeps matches of which at least `options.kMinShare` of the others within reach_px (and one at
-/// least) moved the same way to agree_px; two surfaces that slide past each other both stay. Keeps
-/// the order.
+/// Keeps matches with consistent neighbours: at least `options.kMinShare` of the
+/// matches within reach_px (and at least one) have the same motion up to agree_px;
+/// two surfaces that slide past each other are both kept. Keeps the order.
 std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
                                        const ConsistencyOptions& options);
 

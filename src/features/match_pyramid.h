@@ -7,7 +7,7 @@
 
 namespace softscope {
 
-/// Shortest side of the coarsest images: below it too few descriptors are left.
+/// Minimum side of the coarsest images: smaller ones have too few descriptors.
 constexpr int kLeastMatchSidePx = 96;
 
 /// One resolution of both images.
@@ -18,8 +18,8 @@ struct MatchLevel {
 /// Half as wide and high. A pixel is ignored if one of its four is.
 MatchPicture halved(const MatchPicture& fine);
 
-/// Level 0 is the full resolution, each further level half of it, down to the last one whose
-/// shorter side is at least `least_side_px`.
+/// Level 0 is the full resolution, each further level half of it, down
+/// to the last one with a shorter side of at least `least_side_px`.
 std::vector<MatchLevel> matchPyramid(const MatchPicture& model, const MatchPicture& live,
                                      int least_side_px);
 

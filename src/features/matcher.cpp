@@ -34,7 +34,7 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
                   shape(picture->gray));
 }
 
-/// `fine`, and those of `coarse` that lie in squares of `square_px` without a fine match; by rows.
+/// `fine`, and `coarse` matches in squares of `square_px` without a fine match; by rows.
 std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
                                     const std::vector<PixelMatch>& coarse, int width_px,
                                     int height_px, int square_px) {
@@ -53,8 +53,8 @@ std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
   return fine;
 }
 
-/// Drops matches with a larger predicted error than both `max_sigma_px` and the median: in a
-/// blurred image all errors are larger, and the better half is still the best there is.
+/// Drops matches with a predicted error above both `max_sigma_px` and the median:
+/// in a blurred image all errors are larger, and the better half is still usable.
 std::vector<PixelMatch> keepSure(std::vector<PixelMatch> matches, double max_sigma_px) {
   if (matches.empty()) return matches;
   std::vector<float> sigmas;
@@ -66,9 +66,9 @@ std::vector<PixelMatch> keepSure(std::vector<PixelMatch> matches, double max_sig
   return matches;
 }
 
-/// Coarse to fine: the coarsest level searches the whole reach, every finer one around the shifts
-/// that the level before it found. Where the texture is too weak or too blurred for a level, the
-/// coarser one's matches stay, with their larger error.
+/// Coarse to fine: the coarsest level searches the full range, finer levels around
+/// the shifts of the previous level. For a level with too weak or too blurred
+/// texture, matches of the coarser level are kept, with their larger error.
 class DenseSurfMatcher : public FeatureMatcher {
  public:
   explicit DenseSurfMatcher(const MatcherOptions& options) : options_(options) {}
@@ -125,8 +125,8 @@ class NoMatcher : public FeatureMatcher {
   std::vector<PixelMatch> match(const MatchPicture&, const MatchPicture&) override { return {}; }
 };
 
-/// The image with its dark pixels ignored as well: they show the unlit background, whose edge
-/// with the tissue moves as the outline does, not as the tissue.
+/// Image with its dark pixels ignored as well: they are the unlit background,
+/// whose edge with the tissue moves with the silhouette, not with the tissue.
 MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& options) {
   Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
   for (std::size_t i = 0; i < dark.size(); ++i)
@@ -137,7 +137,7 @@ MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& opti
   return out;
 }
 
-/// What all matchers have in common: shapes are checked, dark pixels left out.
+/// Common part of all matchers: checks of sizes, mask of dark pixels.
 class CheckedMatcher : public FeatureMatcher {
  public:
   CheckedMatcher(const MatcherOptions& options, std::unique_ptr<FeatureMatcher> inner)

@@ -11,19 +11,19 @@
 
 namespace softscope {
 
-/// An image to be matched, and what of it to leave out.
+/// Image to be matched, with its mask.
 struct MatchPicture {
   GrayImage gray;
   Mask ignore;         // empty, or the image's shape; non-zero = no tissue, instrument, highlight
-  GrayImage anchor{};  // empty, or how the same tissue looked when it was first seen
+  GrayImage anchor{};  // empty, or reference intensities of the first observation
 };
 
-/// One piece of tissue in two images.
+/// Match of two pixels.
 struct PixelMatch {
   Eigen::Vector2f model_px;
   Eigen::Vector2f live_px;
   float sigma_px = 0;    // predicted standard error of live_px along its worst direction
-  float similarity = 0;  // correlation of the windows, -1 to 1; 0 where none was computed
+  float similarity = 0;  // correlation of the windows, -1 to 1; 0 if not computed
 };
 
 class FeatureMatcher {
@@ -33,13 +33,13 @@ class FeatureMatcher {
   /// "dense-surf", "sift", "dis-flow" or "surf-off"; written into every report.
   virtual std::string name() const = 0;
 
-  /// Matches inside both images, by rows of the model image. Images without texture, or all
-  /// ignored, give no matches. Same input, same matches, whatever the number of threads. Throws
-  /// Error where shapes differ.
+  /// Matches inside both images, by rows of the model image. Images
+  /// without texture, or fully ignored, give no matches. Deterministic
+  /// for any number of threads. Throws Error for different sizes.
   virtual std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) = 0;
 };
 
-/// Throws OptionError if the options break a rule.
+/// Throws OptionError for invalid options.
 std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options);
 
 }  // namespace softscope

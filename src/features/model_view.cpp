@@ -17,12 +17,12 @@ namespace {
 constexpr int kBandRows = 32;
 constexpr int kChunkPoints = 8192;
 
-/// The discs of one chunk of points, band by band; a disc is in every band that it touches.
+/// Discs of one chunk of points, by band; a disc is in every band that it overlaps.
 using ChunkDiscs = std::vector<std::vector<SplatDisc>>;
 
 ViewVector viewVector(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
-/// False where the point can't be seen.
+/// False for an invisible point.
 bool discOf(const ViewProjector& projector, const PointModel& model, std::size_t i,
             SplatDisc* disc) {
   if (!placeDisc(projector, viewVector(model.positions_mm[i]), viewVector(model.normals[i]), disc))
@@ -107,8 +107,8 @@ void developRow(const SplatBand& band, int v, Raster<BlendedPixel>* blended, Mod
   }
 }
 
-/// Moves looks along their slope from the pixel `step` before to the one `step` after; leaves them
-/// where one of these belongs to another surface.
+/// Shifts colours along their slope from the pixel `step` before to the
+/// one `step` after; unchanged if one of these belongs to another surface.
 void straighten(const Raster<BlendedPixel>& blended, const Raster<float>& depth_mm, std::size_t at,
                 std::size_t step, float shift_px, float surface_depth_mm, float (&looks)[kLooks]) {
   if (!isOneSurface(depth_mm.values[at - step], depth_mm.values[at + step], surface_depth_mm))
@@ -118,7 +118,7 @@ void straighten(const Raster<BlendedPixel>& blended, const Raster<float>& depth_
                           blended.values[at + step].looks[k]);
 }
 
-/// Moves each pixel's looks from where they belong to the pixel.
+/// Shifts the colours of each pixel from their mean position to the pixel centre.
 void straightenRow(const Raster<BlendedPixel>& blended, int v, float surface_depth_mm,
                    ModelView* view) {
   const int width = blended.width_px;

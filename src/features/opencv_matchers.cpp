@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-/// OpenCV has no view of constant data; nothing writes through this one.
+/// OpenCV has no read-only view; nothing writes through this one.
 cv::Mat viewOf(const GrayImage& image) {
   return {image.height_px, image.width_px, CV_8U, const_cast<std::uint8_t*>(image.values.data())};
 }

@@ -7,12 +7,12 @@
 
 namespace softscope {
 
-/// SIFT key points with mutual and ratio tests within the search radius; SIFT's own sub-pixel
-/// places.
+/// SIFT key points with cross-check and ratio test within
+/// the search radius; sub-pixel positions of SIFT.
 std::unique_ptr<FeatureMatcher> makeSiftMatcher(const MatcherOptions& options);
 
-/// Dense inverse search flow (Kroeger et al. 2016) at one pixel in each square of spacing_px, then
-/// the common refinement where the options want one. No search radius, no ratio test.
+/// Dense inverse search flow (Kroeger et al. 2016) at one pixel per square of
+/// spacing_px, then the common refinement if selected. No search radius, no ratio test.
 std::unique_ptr<FeatureMatcher> makeFlowMatcher(const MatcherOptions& options);
 
 }  // namespace softscope

@@ -24,7 +24,7 @@ Raster<Sum> halved(const Raster<Sum>& fine) {
   return coarse;
 }
 
-/// Means of the squares; empty squares take the mean of the coarser level.
+/// Means of the squares; empty squares get the mean of the coarser level.
 Raster<Eigen::Vector2f> filledMeans(const Raster<Sum>& sums) {
   Raster<Eigen::Vector2f> means(sums.width_px, sums.height_px, Eigen::Vector2f::Zero());
   Raster<Eigen::Vector2f> coarser;

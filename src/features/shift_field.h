@@ -9,14 +9,14 @@
 
 namespace softscope {
 
-/// A smooth field of shifts over the model image. Squares without a match take the mean of the
-/// smallest surrounding block that has one (push-pull interpolation; Gortler et al. 1996).
+/// Smooth field of shifts over the model image. Squares without a match get the mean of
+/// the smallest surrounding block with one (push-pull interpolation; Gortler et al. 1996).
 class ShiftField {
  public:
-  /// No shift anywhere.
+  /// Zero shift.
   ShiftField() = default;
-  /// Mean shift of the matches in squares of `square_px`; `width_px` x `height_px` is the shape of
-  /// the model image. Without matches: no shift anywhere.
+  /// Mean shift of the matches in squares of `square_px`; `width_px` x
+  /// `height_px` is the size of the model image. Without matches: zero shift.
   ShiftField(const std::vector<PixelMatch>& matches, int width_px, int height_px, int square_px);
 
   /// px; bilinear between the centres of the squares.

@@ -12,7 +12,7 @@ namespace softscope {
 constexpr int kSurfCells = 4;  // a side
 constexpr int kSurfSums = 4;   // dx, |dx|, dy, |dy|
 
-/// What all descriptors of an image share.
+/// Common parameters of all descriptors of an image.
 struct SurfRules {
   int reach;           // grid squares per side of a cell
   int first_px;        // pixel of node 0, both axes
@@ -23,13 +23,13 @@ struct SurfRules {
 inline SurfRules surfRules(const DenseSurfOptions& options) {
   const int side = kSurfCells * options.cell_px;
   const double half_wavelet = 0.5 * options.kWaveletPx * options.kWaveletPx;
-  // Wavelet u lies between the pixels u - 1 and u, so that the middle of the cells is a pixel.
+  // Wavelet u is between the pixels u - 1 and u, so that the centre of the cells is a pixel.
   return {options.cell_px / options.kGridPx, kSurfCells / 2 * options.cell_px - 1,
           static_cast<int>((1 - options.kMaxInvalidShare) * side * side),
           static_cast<float>(1 / (half_wavelet * 2 * side * side)),
           static_cast<float>(options.kMinContrastGray)};
 }
-/// Nodes along a side of the image; 0 where it is shorter than one descriptor.
+/// Nodes along a side of the image; 0 if it is shorter than one descriptor.
 inline int surfNodes(int side_px, const DenseSurfOptions& options) {
   const int cells_px = kSurfCells * options.cell_px;
   if (side_px < (cells_px > options.kWaveletPx ? cells_px : options.kWaveletPx)) return 0;
@@ -56,7 +56,7 @@ SOFTSCOPE_FORMULA std::uint8_t descriptorByte(float value, float scale) {
   return static_cast<std::uint8_t>(static_cast<int>(clamped + 128.5f));
 }
 
-/// Whether a node may be matched.
+/// Whether a node is valid for matching.
 SOFTSCOPE_HD inline bool isDistinct(int valid_wavelets, float contrast_gray,
                                     const SurfRules& rules) {
   return valid_wavelets >= rules.least_valid && contrast_gray >= rules.min_contrast_gray;

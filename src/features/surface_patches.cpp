@@ -11,7 +11,7 @@ namespace softscope {
 namespace {
 
 constexpr int kSide = 16;            // samples a side
-constexpr int kDirections = 36;      // of the histogram that chooses the patch's direction
+constexpr int kDirections = 36;      // bins of the dominant direction
 constexpr float kLeastContrast = 2;  // mean gradient, grey values a sample
 constexpr float kClip = 0.2F;        // Lowe's limit on one entry of a unit descriptor
 constexpr float kSteepest = 0.35F;   // cosine between normal and ray below which a patch is grazed
@@ -31,7 +31,7 @@ Eigen::Vector3f lifted(const DepthImage& image, int u, int v) {
                    image.depth_mm.at(u, v));
 }
 
-/// From points `reach_px` to both sides; nothing where depth is missing or the view grazes.
+/// From points at `reach_px` on both sides; none without depth or at grazing angles.
 std::optional<TangentFrame> tangentFrame(const DepthImage& image, int u, int v, int reach_px) {
   TangentFrame frame;
   frame.centre_mm = lifted(image, u, v);
@@ -46,7 +46,7 @@ std::optional<TangentFrame> tangentFrame(const DepthImage& image, int u, int v, 
   return frame;
 }
 
-/// NaN outside, and where the pixel is ignored.
+/// NaN outside of the image, and for ignored pixels.
 float grayAt(const DepthImage& image, const Eigen::Vector3f& point_mm) {
   const Eigen::Vector2f at = projectPoint(image.camera, point_mm);
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -62,7 +62,7 @@ float grayAt(const DepthImage& image, const Eigen::Vector3f& point_mm) {
   return (1 - y) * ((1 - x) * above[0] + x * above[1]) + y * ((1 - x) * below[0] + x * below[1]);
 }
 
-/// Grey values of the plane, turned by `angle_rad`; false where one is missing.
+/// Grey values of the plane, rotated by `angle_rad`; false if one is missing.
 bool sample(const DepthImage& image, const TangentFrame& frame, float radius_mm, float angle_rad,
             Samples* gray) {
   const Eigen::Vector3f along =
@@ -80,7 +80,7 @@ bool sample(const DepthImage& image, const TangentFrame& frame, float radius_mm,
   return true;
 }
 
-/// Calls use(i, j, dx, dy, weight) for every inner sample; the weight falls off from the middle.
+/// Calls use(i, j, dx, dy, weight) for every inner sample; the weight decays from the centre.
 template <class Use>
 void forEachGradient(const Samples& gray, const Use& use) {
   constexpr float kMiddle = 0.5F * (kSide - 1);
@@ -94,7 +94,7 @@ void forEachGradient(const Samples& gray, const Use& use) {
     }
 }
 
-/// The direction that most gradients have; nothing where there is no texture.
+/// Dominant gradient direction; none without texture.
 std::optional<float> preferredDirection(const Samples& gray) {
   std::array<float, kDirections> histogram{};
   float sum = 0, weights = 0;
@@ -120,8 +120,8 @@ std::optional<float> preferredDirection(const Samples& gray) {
   return (static_cast<float>(best) + 0.5F + shift) * 2 * float(M_PI) / kDirections;
 }
 
-/// Histograms of gradient directions in 4 x 4 cells, shared out between neighbouring cells and
-/// bins.
+/// Histograms of gradient directions in 4 x 4 cells,
+/// interpolated between neighbouring cells and bins.
 std::array<std::uint8_t, SurfacePatch::kSize> describe(const Samples& gray) {
   constexpr int kCells = SurfacePatch::kCells, kBins = SurfacePatch::kBins;
   std::array<float, SurfacePatch::kSize> sums{};
@@ -173,7 +173,7 @@ int distance(const SurfacePatch& a, const SurfacePatch& b) {
   return sum;
 }
 
-/// Index in `among` of the patch most like `patch`, and whether none elsewhere is as like.
+/// Most similar patch (index in `among`), and whether it is distinct from all others.
 struct Nearest {
   int index = -1;
   bool distinct = false;

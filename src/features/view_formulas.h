@@ -23,7 +23,7 @@ SOFTSCOPE_HD inline float productOf(const ViewVector& a, const ViewVector& b) {
 }
 SOFTSCOPE_HD inline float lengthOf(const ViewVector& a) { return std::sqrt(productOf(a, a)); }
 
-/// Where the camera is, in floats.
+/// Camera pose in floats.
 struct ViewProjector {
   ViewVector rows[3];  // of the rotation left_from_world
   ViewVector translation_mm;
@@ -34,7 +34,7 @@ struct ViewProjector {
   }
 };
 
-/// The plane n . x = n . p has inverse depth n . ray / n . p. False: it turns away.
+/// The plane n . x = n . p has inverse depth n . ray / n . p. False: back-facing.
 SOFTSCOPE_HD inline bool tiltDisc(const ViewProjector& camera, const ViewVector& normal,
                                   const ViewVector& p, SplatDisc* disc) {
   disc->slope_u = disc->slope_v = 0;
@@ -50,8 +50,8 @@ SOFTSCOPE_HD inline bool tiltDisc(const ViewProjector& camera, const ViewVector&
   return true;
 }
 
-/// Place and plane of a point's disc; its looks and its index are the caller's. False where the
-/// point can't be seen.
+/// Position and plane of the disc of a point; colours and
+/// index are set by the caller. False for an invisible point.
 SOFTSCOPE_HD inline bool placeDisc(const ViewProjector& camera, const ViewVector& position_mm,
                                    const ViewVector& normal, SplatDisc* disc) {
   ViewVector p = camera.turned(position_mm);
@@ -75,8 +75,8 @@ SOFTSCOPE_HD inline bool placeDisc(const ViewProjector& camera, const ViewVector
 
 // --- the pixels of a disc --------------------------------------------------------------------
 
-/// Discs are drawn in groups of this many pixels of a row: a pixel's distance from the centre is
-/// its group's, plus its place in the group.
+/// Discs are drawn in groups of this many pixels of a row: the distance of a
+/// pixel from the centre is that of its group, plus its position in the group.
 constexpr int kSplatLanes = 8;
 
 SOFTSCOPE_FORMULA int floorOf(float x) {
@@ -99,17 +99,17 @@ SOFTSCOPE_FORMULA DiscBox discBox(const SplatDisc& disc) {
   return box;
 }
 
-/// Inverse depth of the disc's plane, x and y pixels from its centre.
+/// Inverse depth of the plane of the disc, x and y pixels from its centre.
 template <class Value>
 SOFTSCOPE_FORMULA Value discInverseDepth(const SplatDisc& disc, const Value& x, float y) {
   return disc.inverse_depth + disc.slope_v * y + disc.slope_u * x;
 }
-/// 1 at the centre, 0 at the rim.
+/// 1 at the centre, 0 at the border.
 template <class Value>
 SOFTSCOPE_FORMULA Value discFalloff(const Value& x, float y, float inverse_radius_sq) {
   return 1 - (x * x + y * y) * inverse_radius_sq;
 }
-/// Least inverse depth that still belongs to the front surface.
+/// Smallest inverse depth that belongs to the front surface.
 template <class Value>
 SOFTSCOPE_FORMULA Value frontLimit(const Value& front, float tolerance_mm) {
   return front * (1 - tolerance_mm * front);
@@ -119,17 +119,17 @@ SOFTSCOPE_FORMULA Value frontLimit(const Value& front, float tolerance_mm) {
 
 constexpr int kLooks = 4;  // red, green, blue, anchor
 
-/// Mean looks of the discs at a pixel, and how far the pixel lies from the mean of their centres,
-/// which is where these looks belong.
+/// Mean colours of the discs at a pixel, and the offset of the pixel
+/// from the mean of their centres, the position of these colours.
 struct BlendedPixel {
   float looks[kLooks], shift_u, shift_v;
 };
 
-/// Whether the neighbours on both sides of a pixel show one surface.
+/// Whether the neighbours on both sides of a pixel are on one surface.
 SOFTSCOPE_HD inline bool isOneSurface(float before_mm, float after_mm, float surface_depth_mm) {
   return std::fabs(before_mm - after_mm) < 2 * surface_depth_mm;
 }
-/// Looks moved by a shift along the slope between both neighbours.
+/// Colours shifted along the slope between both neighbours.
 SOFTSCOPE_HD inline float movedLooks(float looks, float shift_px, float before, float after) {
   return looks + shift_px * (0.5f * (after - before));
 }
@@ -147,7 +147,7 @@ SOFTSCOPE_HD inline bool endsSurface(float here_mm, float next_mm, float step_mm
 SOFTSCOPE_HD inline bool continuesSurface(float here_mm, float there_mm, float step_mm) {
   return std::fabs(there_mm - here_mm) <= step_mm;
 }
-/// How far pixel `at` lies between both ends of a gap.
+/// Relative position of pixel `at` between both ends of a gap.
 SOFTSCOPE_HD inline float shareOfGap(int begin, int at, int end) {
   return static_cast<float>(at - begin) / static_cast<float>(end - begin);
 }

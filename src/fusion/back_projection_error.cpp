@@ -14,7 +14,7 @@ namespace {
 /// By rows of the image.
 using Rows = std::vector<std::vector<float>>;
 
-/// Sums go row by row, so that they don't depend on threads.
+/// Sums are per row, independent of threads.
 BackProjectionError summarise(const Rows& rows) {
   BackProjectionError error;
   std::size_t count = 0;

@@ -1,4 +1,4 @@
-// src/fusion/back_projection_error.h: distance of the rendered model from the frame's depth.
+// src/fusion/back_projection_error.h: distance of the rendered model from the depth of the frame.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-/// mm, along the optical axis; NaN where nothing could be compared.
+/// mm, along the optical axis; NaN without comparable pixels.
 struct BackProjectionError {
   double mean_mm = std::numeric_limits<double>::quiet_NaN();  // of absolutes: the paper's number
   double p95_mm = std::numeric_limits<double>::quiet_NaN();
@@ -17,12 +17,12 @@ struct BackProjectionError {
   int compared_px = 0;
 };
 
-/// Of the model drawn from the observation's pose: subtracts the measured depth, over the pixels
-/// that are reliable and show a point: docs/fusion.md (F19). No difference is too large to count.
-/// Throws OptionError where the arguments don't fit together.
+/// For the model rendered from the pose of the observation: subtracts the
+/// measured depth, over the accepted pixels with a point: docs/fusion.md (F19).
+/// All differences count. Throws OptionError for inconsistent arguments.
 BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observation& observation,
                                         const Raster<PixelState>& states);
-/// Draws the model first.
+/// Renders the model first.
 BackProjectionError backProjectionError(const PointModel& model, const Observation& observation,
                                         const Raster<PixelState>& states);
 

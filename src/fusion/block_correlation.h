@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-/// Sums over the points of one block, as a device counts them. Blocks of 256 x 256 pixels fit.
+/// Sums over the points of one block in device counters. Sufficient for blocks of 256 x 256 pixels.
 struct BlockSums {
   static constexpr int kPlaces = 9;
   struct Place {
@@ -22,7 +22,7 @@ struct BlockSums {
   Place places[kPlaces];
 };
 
-/// Sums over the points of one block. They are whole numbers, so their order doesn't matter.
+/// Sums over the points of one block. They are integers, so their order is irrelevant.
 class BlockCorrelation {
  public:
   BlockCorrelation() = default;
@@ -37,12 +37,12 @@ class BlockCorrelation {
   static int blockPx(int width_px) { return std::max(16, width_px / 20); }  // 32 px of 640
   static constexpr int kPlaces = BlockSums::kPlaces;  // in place, and moved in eight directions
 
-  /// -1, 0 or 1: where a place lies among the 3 x 3.
+  /// -1, 0 or 1: position among the 3 x 3.
   SOFTSCOPE_HD static int column(int place) { return place % 3 - 1; }
   SOFTSCOPE_HD static int row(int place) { return place / 3 - 1; }
 
-  /// A point of `brightness` at a pixel of the image, in place and moved by `shift_px` (the same
-  /// for all points of the block); left out where a moved place is outside.
+  /// Adds a point of `brightness` at a pixel of the image, in place and moved by `shift_px`
+  /// (the same for all points of the block); skipped if a moved position is outside.
   void add(double brightness, const ColourImage& image, int u, int v, int shift_px) {
     if (u < shift_px || v < shift_px || u + shift_px >= image.width_px ||
         v + shift_px >= image.height_px)
@@ -74,13 +74,13 @@ class BlockCorrelation {
     return points_ >= kFewestPoints &&
            model_sq_ / points_ - std::pow(model_ / points_, 2) > kLeastVariance;
   }
-  /// In the place where the points correlate best with the image.
+  /// At the position with the highest correlation.
   double bestCorrelation() const {
     double best = correlationAt(0);
     for (int place = 1; place < kPlaces; ++place) best = std::max(best, correlationAt(place));
     return best;
   }
-  /// Whether the points correlate better with the image in place than moved.
+  /// Whether the correlation is highest in place.
   bool bestInPlace() const {
     const double here = correlationAt(kInPlace);
     for (int place = 0; place < kPlaces; ++place)

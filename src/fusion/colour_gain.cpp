@@ -65,7 +65,7 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
       own_green.add(seen.green, known.green);
       own_blue.add(seen.blue, known.blue);
     }
-    const std::lock_guard<std::mutex> lock(adding);  // whole numbers: in any order
+    const std::lock_guard<std::mutex> lock(adding);  // integers: in any order
     red += own_red, green += own_green, blue += own_blue;
   });
   return {red.median(), green.median(), blue.median()};

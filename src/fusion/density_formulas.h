@@ -13,14 +13,14 @@
 
 namespace softscope {
 
-/// Whether a point stays in the model: with weight and a normal.
+/// Whether a point remains in the model: with weight and normal.
 SOFTSCOPE_HD inline bool staysInModel(const Eigen::Vector3f& normal, float weight) {
   const float length = normal.squaredNorm();
   return weight > 0 && length > 0.25f && length < 4;
 }
 
-/// The cell that keeps one point: docs/fusion.md (F17). Cells of different widths have different
-/// keys.
+/// Cell of a point: docs/fusion.md (F17). Cells
+/// of different widths have different keys.
 SOFTSCOPE_HD inline CellKey densityCell(const Eigen::Vector3f& point_world,
                                         const PosedCamera& camera, float cell_mm) {
   constexpr int kWidthBit = 60;  // cells less than 2^18 from the origin leave it free
@@ -30,13 +30,13 @@ SOFTSCOPE_HD inline CellKey densityCell(const Eigen::Vector3f& point_world,
   return key == kNoCell ? kNoCell : key ^ static_cast<CellKey>(halvings) << kWidthBit;
 }
 
-/// Whether two points of a cell lie on the same side of the surface: (F17).
+/// Whether two points of a cell are on the same side of the surface: (F17).
 SOFTSCOPE_HD inline bool onSameSide(const Eigen::Vector3f& a_normal,
                                     const Eigen::Vector3f& b_normal, float least_cosine) {
   return a_normal.dot(b_normal) > least_cosine;
 }
 
-/// Merges a lighter point into the one that stays: (F18).
+/// Merges a lighter point into the remaining one: (F18).
 SOFTSCOPE_HD inline void mergeInto(const ModelPoint& other, ModelPoint* survivor) {
   const float share = other.weight / (survivor->weight + other.weight);
   const float height_mm = survivor->normal.dot(other.position_mm - survivor->position_mm);

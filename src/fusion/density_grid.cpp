@@ -11,9 +11,9 @@
 namespace softscope {
 namespace {
 
-constexpr int kMostParts = 8;  // every one looks at all points
+constexpr int kMostParts = 8;  // each visits all points
 
-/// Cells of all points; kNoCell for those that can't stay.
+/// Cells of all points; kNoCell for removed ones.
 std::vector<CellKey> cellsOf(const PointModel& model, const PosedCamera& camera, float cell_mm) {
   std::vector<CellKey> keys(model.size());
   parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
@@ -38,12 +38,12 @@ void mergePoints(PointModel* model, std::int32_t survivor, std::int32_t other) {
   if (!model->bindings[survivor].bound()) model->bindings[survivor] = model->bindings[other];
 }
 
-/// Which of `parts` takes care of a cell.
+/// Index of the part that handles a cell.
 unsigned partOf(CellKey key, unsigned parts) {
   return static_cast<unsigned>((key * 0x9E3779B97F4A7C15ULL) >> 40) % parts;
 }
 
-/// Merges within the cells of one part of them.
+/// Merges within the cells of one part.
 void mergePart(unsigned part, unsigned parts, const std::vector<CellKey>& keys, float cosine,
                PointModel* model, std::vector<std::int32_t>* heirs) {
   std::vector<std::int32_t>& heir = *heirs;
@@ -70,8 +70,8 @@ void mergePart(unsigned part, unsigned parts, const std::vector<CellKey>& keys, 
   }
 }
 
-/// Merges within cells. Afterwards heir[i] is i, or the point that i was merged into (or its heir).
-/// Cells need nothing of each other.
+/// Merges within cells. Afterwards heir[i] is i, or the point
+/// that i was merged into (or its heir). Cells are independent.
 std::vector<std::int32_t> mergeCells(const std::vector<CellKey>& keys, float cosine,
                                      PointModel* model) {
   std::vector<std::int32_t> heir(keys.size());
@@ -106,7 +106,7 @@ void compact(PointModel* model, const std::vector<std::int32_t>& old_of_new) {
                  [&] { parallelInvoke([&] { keepAt(&model->bindings, old_of_new); }, keepRest); });
 }
 
-/// Turns heirs into new indices; lists the points that stay.
+/// Converts heirs to new indices; lists the remaining points.
 IndexMap indexMap(std::vector<std::int32_t> heir, std::vector<std::int32_t>* old_of_new) {
   IndexMap map;
   map.new_of_old.assign(heir.size(), IndexMap::kRemoved);

@@ -10,20 +10,20 @@
 
 namespace softscope {
 
-/// Where points went when some were removed.
+/// New indices of points after removals.
 struct IndexMap {
   static constexpr std::int32_t kRemoved = -1;
-  std::vector<std::int32_t> new_of_old;  // merged points map to the one that replaces them
+  std::vector<std::int32_t> new_of_old;  // merged points map to their replacement
   std::int32_t new_count = 0;
 
   bool identity() const { return static_cast<std::size_t>(new_count) == new_of_old.size(); }
 };
 
-/// Leaves one point a cell and side of the surface: docs/fusion.md (F17), (F18). The heaviest
-/// stays, so that material points don't slide, and takes part of the others' height over the
-/// surface. Points without weight, and those without a finite position or a normal, are removed.
-/// The others keep their order. Cells are smaller for what is near to the camera. Throws
-/// OptionError for bad options.
+/// Keeps one point per cell and side of the surface: docs/fusion.md (F17), (F18).
+/// The one with the largest weight is kept, so that material points do not slide,
+/// with an averaged height over the surface. Points without weight, and those
+/// without a finite position or a normal, are removed. The others keep their order.
+/// Cells are smaller near the camera. Throws OptionError for invalid options.
 IndexMap keepDensity(const DensityOptions& options, const PosedCamera& camera, PointModel* model);
 
 }  // namespace softscope

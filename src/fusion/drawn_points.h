@@ -1,4 +1,4 @@
-// src/fusion/drawn_points.h: index of the model point that each pixel shows.
+// src/fusion/drawn_points.h: index of the model point shown by each pixel.
 #pragma once
 
 #include <atomic>
@@ -13,11 +13,11 @@
 
 namespace softscope {
 
-/// A depth buffer of points, one pixel each; what lies behind the model's own nearest surface is
-/// hidden. Same input, same result on any number of threads. The model must outlive it.
+/// Depth buffer of points, one pixel each; points behind the nearest surface of the model
+/// are occluded. Deterministic for any number of threads. The model must outlive it.
 class DrawnPoints {
  public:
-  static constexpr int kCellPx = 4;    // squares in which nearer points hide others …
+  static constexpr int kCellPx = 4;    // squares in which nearer points occlude others …
   static constexpr float kHideMm = 1;  // … this far behind
   static constexpr std::uint64_t kNoPoint = ~std::uint64_t{0};
   /// Bits of the depth above, index below: the smallest is the nearest point, the first of equals.
@@ -33,7 +33,7 @@ class DrawnPoints {
   const PointModel& model() const { return model_; }
   const PosedCamera& camera() const { return camera_; }
 
-  /// The point that pixel (u, v) shows; below 0 where there is none.
+  /// Point shown by pixel (u, v); negative if none.
   int pointAt(int u, int v) const { return shown_.at(u, v); }
 
  private:

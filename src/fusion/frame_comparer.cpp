@@ -22,7 +22,7 @@ FrameComparison CpuFrameComparer::compare(const PointModel& model, const WarpGra
     parallelInvoke([&] { found.predicted = backProjectionError(drawn, observation, states); },
                    [&] { found.view = viewEvidence(drawn, observation, states, options.pixels); });
   };
-  // Neither needs the other.
+  // Independent.
   parallelInvoke(draw,
                  [&] { found.model = compareModel(model, graph, observation, states, options); });
   return found;

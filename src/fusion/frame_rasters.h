@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// Rasters of an observation, in memory of the CPU or the GPU; owns nothing.
+/// Rasters of an observation, in memory of the CPU or the GPU; non-owning.
 struct FrameRasters {
   const float* depth_mm = nullptr;
   const float* sigma_mm = nullptr;  // null: depths without sigma

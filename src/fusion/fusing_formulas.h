@@ -50,7 +50,7 @@ inline FusingLimits fusingLimits(const PointFusionOptions& options, const Colour
   return limits;
 }
 
-/// A frame for the averaging of points; owns nothing.
+/// Frame data for the averaging of points; non-owning.
 struct FusingFrame {
   FrameRasters rasters;
   PosedCamera camera;
@@ -64,10 +64,10 @@ inline FusingFrame fusingFrame(const Observation& observation, const ColourGain&
           gain, fusingLimits(options, colour)};
 }
 
-/// The tissue around one point.
+/// Properties of the tissue around one point.
 struct FusingSurroundings {
   Innovation innovation;
-  float node_mm = -1;     // to the nearest node that carries the point; negative where none counts
+  float node_mm = -1;     // to the nearest node of the point; negative if none
   bool anchored = false;  // the image agrees with the anchors there: docs/fusion.md (F24)
 };
 
@@ -98,7 +98,7 @@ SOFTSCOPE_HD inline float depthWeightAt(std::int32_t pixel, const FusingFrame& f
                        frame.limits.max_measurement_weight);
 }
 
-/// Weight of a point after the measurement at `pixel` contradicted it: (F10), (F22).
+/// Weight of a point after a contradiction by the measurement at `pixel`: (F10), (F22).
 SOFTSCOPE_HD inline float weightAfterContradiction(float weight, float excess_mm2,
                                                    std::int32_t pixel, const FusingFrame& frame) {
   const float measured = depthWeightAt(pixel, frame);
@@ -118,7 +118,7 @@ SOFTSCOPE_HD inline float nearestNodeMm(const NodeStencil& stencil, const Eigen:
   return static_cast<float>(std::sqrt(nearest_mm2));
 }
 
-/// Weight of the measurement against the point: (F5) to (F7).
+/// Weight of the measurement: (F5) to (F7).
 SOFTSCOPE_HD inline float measurementWeight(const PointSight& point, float truncation_mm,
                                             float node_mm, const FusingFrame& frame) {
   const FusingLimits& limits = frame.limits;
@@ -136,8 +136,8 @@ SOFTSCOPE_HD inline float priorWeight(float weight, float node_mm, float excess_
   return weightAfterInnovation(weight, excess_mm2, limits.reference_sigma_mm);
 }
 
-/// A weighted step towards the measured surface, along the point's ray: (F8). `left` is the point,
-/// `measured_left` the measured normal, both in the left camera's frame.
+/// Weighted step towards the measured surface, along the ray of the point: (F8). `left`
+/// is the point, `measured_left` the measured normal, both in the left camera frame.
 SOFTSCOPE_HD inline void averageShape(const Eigen::Vector3f& left, float ahead_mm,
                                       const Eigen::Vector3f& measured_left, float gain,
                                       const PosedCamera& camera, ModelPoint* point) {
@@ -147,7 +147,7 @@ SOFTSCOPE_HD inline void averageShape(const Eigen::Vector3f& left, float ahead_m
   point->normal = ((1 - gain) * point->normal + gain * measured).normalized();
 }
 
-/// A coordinate within 0 … count - 1.
+/// Coordinate clamped to 0 … count - 1.
 SOFTSCOPE_HD inline float withinImage(float at, int count) {
   const float last = static_cast<float>(count - 1);
   return at < 0 ? 0.0f : (last < at ? last : at);
@@ -162,7 +162,7 @@ SOFTSCOPE_HD inline std::uint8_t levelBetween(std::uint8_t top_left, std::uint8_
   return toByte((1 - low) * top + low * bottom);
 }
 
-/// The image at a point, between its pixels. Places beyond the rim read the rim.
+/// Image interpolated at a point, clamped at the border.
 SOFTSCOPE_HD inline Rgb8 colourAt(const Eigen::Vector3f& left, const Rgb8* image,
                                   const PosedCamera& camera) {
   const int width = camera.width_px, height = camera.height_px;
@@ -184,14 +184,14 @@ SOFTSCOPE_HD inline std::uint8_t averagedLevel(std::uint8_t known, std::uint8_t 
                 gain * (static_cast<float>(fresh) - static_cast<float>(known)));
 }
 
-/// Whether `fresh` is brighter than the point by the limit in every channel: (F13).
+/// Whether `fresh` exceeds the brightness of the point by the limit in every channel: (F13).
 SOFTSCOPE_HD inline bool isBrightened(Rgb8 fresh, Rgb8 known, int limit) {
   return fresh.red - known.red >= limit && fresh.green - known.green >= limit &&
          fresh.blue - known.blue >= limit;
 }
 
-/// Colour (F13) and anchor (F24). `fresh` is the image at the point, without gain; the point still
-/// has the weight from before the measurement.
+/// Colour (F13) and anchor (F24). `fresh` is the image at the point,
+/// without gain; the point has its weight before the measurement.
 SOFTSCOPE_HD inline void averageColour(Rgb8 fresh, float measured, bool anchored,
                                        const ColourOptions& options, ModelPoint* point) {
   Rgb8& known = point->colour;

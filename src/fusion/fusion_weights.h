@@ -1,4 +1,4 @@
-// src/fusion/fusion_weights.h: weight of a measurement against the model.
+// src/fusion/fusion_weights.h: weight of a measurement relative to the model.
 #pragma once
 
 #include <cmath>
@@ -16,35 +16,35 @@ SOFTSCOPE_HD inline float depthWeight(float sigma_mm, float reference_sigma_mm, 
   return weight < largest ? weight : largest;
 }
 
-/// 0 from tau on; below it 1, or smoothly falling: (F6). mm.
+/// 0 from tau on; below it 1, or a smooth decay: (F6). mm.
 SOFTSCOPE_HD inline float truncationWeight(float ahead_mm, float truncation_mm, bool soft) {
   const float share = ahead_mm / truncation_mm, rest = 1 - share * share;
   if (!(rest > 0)) return 0;
   return soft ? rest * rest : 1.0f;
 }
 
-/// What the distance to the nearest node, in half node spacings, makes of a measurement: (F7).
+/// Factor of a measurement by the distance to the nearest node, in half node spacings: (F7).
 SOFTSCOPE_HD inline float nodeWeight(NodeTrust trust, float half_spacings) {
   const float share = half_spacings < 1 ? half_spacings : 1.0f;
   if (trust == NodeTrust::kPaper) return share;
   return 1;
 }
 
-/// What one warp leaves of a point's weight: (F7). `noise` is the warp's variance half a spacing
-/// away from all nodes, in units of the reference variance.
+/// Weight of a point after one warp: (F7). `noise` is the variance of the
+/// warp at half a spacing from all nodes, in units of the reference variance.
 SOFTSCOPE_HD inline float weightAfterWarp(float weight, float half_spacings, float noise) {
   const float share = half_spacings < 1 ? half_spacings : 1.0f;
   return weight / (1 + weight * noise * share * share);
 }
 
-/// (F22): no point is surer than the tissue around it turned out to be. mm².
+/// (F22): upper limit of the weight from the innovation around the point. mm².
 SOFTSCOPE_HD inline float weightAfterInnovation(float weight, float excess_mm2,
                                                 float reference_sigma_mm) {
   const float limit = reference_sigma_mm * reference_sigma_mm;
   return weight * excess_mm2 > limit ? limit / excess_mm2 : weight;
 }
 
-/// (F23): where the tissue is off as a whole, a large difference is no outlier.
+/// (F23): for a displaced region, a large difference is not an outlier.
 SOFTSCOPE_HD inline float widenedTruncation(float truncation_mm, float difference_mm2) {
   constexpr float kTukey = 4.685f;  // standard deviations: 95 % efficient on Gaussian errors
   const float wide_mm = kTukey * std::sqrt(difference_mm2);
@@ -56,7 +56,7 @@ SOFTSCOPE_HD inline float averagingGain(float weight, float measurement_weight) 
   return measurement_weight > 0 ? measurement_weight / (weight + measurement_weight) : 0.0f;
 }
 
-/// (F10): what a contradiction leaves; 0 = nothing, the point goes.
+/// (F10): weight after a contradiction; 0 = the point is removed.
 SOFTSCOPE_HD inline float contradictedWeight(float weight, float measurement_weight, float loss) {
   const float share = loss * measurement_weight, rest = (1 - share) * weight - 0.5f * share;
   return rest > 0 ? rest : 0.0f;

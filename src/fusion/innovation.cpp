@@ -15,7 +15,7 @@ bool carries(const WarpGraph& graph, const PointBinding& binding) {
   return isCarried(binding, static_cast<std::int32_t>(graph.stencils.size()));
 }
 
-/// One visible point: its binding, and its difference from the measurement.
+/// Visible point: its binding, and its difference from the measurement.
 struct Difference {
   const NodeStencil* stencil;
   const PointBinding* binding;
@@ -24,7 +24,7 @@ struct Difference {
   double sigma_mm;  // of the depth
 };
 
-/// In the points' order.
+/// In the order of the points.
 std::vector<Difference> differences(const PointModel& model, const WarpGraph& graph,
                                     const DepthMap& depth, const Visibility& visibility,
                                     const PointFusionOptions& options) {
@@ -56,8 +56,8 @@ std::vector<Difference> differences(const PointModel& model, const WarpGraph& gr
   return found;
 }
 
-/// The mean of some quantity around each node. Every task looks at all differences and adds up
-/// those of its own nodes, in order.
+/// Mean of a quantity around each node. Every task visits all
+/// differences and adds those of its own nodes, in order.
 template <class Quantity>
 std::vector<double> nodeMeans(const std::vector<Difference>& all, std::size_t nodes,
                               const Quantity& quantity) {

@@ -14,18 +14,18 @@
 
 namespace softscope {
 
-/// Mean squares around a place of the tissue, mm²: docs/fusion.md (F21), (F22).
+/// Mean squares around a position on the tissue, mm²: docs/fusion.md (F21), (F22).
 struct Innovation {
   float difference_mm2 = 0;  // of measurement and warped model, along the ray
-  float excess_mm2 = 0;  // of it, what the depth's own errors don't explain: the model's variance
+  float excess_mm2 = 0;      // difference of measurement and warped model, along the ray
 };
 
-/// Whether nodes of a graph with that many stencils carry the point.
+/// Whether the point has nodes of a graph with that many stencils.
 SOFTSCOPE_HD inline bool isCarried(const PointBinding& binding, std::int32_t stencils) {
   return binding.stencil != PointBinding::kUnbound && binding.stencil < stencils;
 }
 
-/// Of the nodes that carry a point, in the proportion in which they carry it.
+/// Interpolated from the nodes of a point by its skinning weights.
 SOFTSCOPE_HD inline Innovation innovationAt(const NodeStencil& stencil, const PointBinding& binding,
                                             const Innovation* nodes) {
   Innovation here;
@@ -36,8 +36,8 @@ SOFTSCOPE_HD inline Innovation innovationAt(const NodeStencil& stencil, const Po
   return here;
 }
 
-/// The mean of some quantity around a node, from its weighted total there and over the frame. A
-/// node with few points takes the value of the whole frame.
+/// Mean of a quantity around a node, from its weighted total there and
+/// over the frame. A node with few points gets the mean of the frame.
 SOFTSCOPE_HD inline double innovationMean(double total, double weight, double frame_total,
                                           double frame_weight) {
   constexpr double kPriorPoints = 5;  // that the frame counts as
@@ -45,8 +45,8 @@ SOFTSCOPE_HD inline double innovationMean(double total, double weight, double fr
   return (total + prior) / (weight + kPriorPoints);
 }
 
-/// A difference counts as no more than three standard deviations of those around it: single wrong
-/// depths are not informative. `around_mm`: mean absolute difference there.
+/// Difference limited to three standard deviations of those around it: single
+/// wrong depths are not informative. `around_mm`: mean absolute difference there.
 SOFTSCOPE_HD inline double countedDifference(double away_mm, double around_mm) {
   constexpr double kLargest =
       3 * 1.2533141373155001;  // standard deviation over mean absolute value
@@ -54,20 +54,20 @@ SOFTSCOPE_HD inline double countedDifference(double away_mm, double around_mm) {
   return limit_mm < away_mm ? limit_mm : away_mm;
 }
 
-/// Innovation of the visible points around each node. Empty, and 0 everywhere, where nothing is
-/// known about the depth's errors.
+/// Innovation of the visible points around each node.
+/// Empty, and 0 everywhere, without known depth errors.
 class InnovationField {
  public:
   InnovationField() = default;
 
-  /// `graph` has live positions, `visibility` is about `model`.
+  /// `graph` has live positions, `visibility` belongs to `model`.
   InnovationField(const PointModel& model, const WarpGraph& graph, const Observation& observation,
                   const Visibility& visibility, const PointFusionOptions& options);
 
   /// From the means around each node.
   explicit InnovationField(std::vector<Innovation> nodes) : nodes_(std::move(nodes)) {}
 
-  /// innovationAt() of a point; 0 where no node carries it.
+  /// innovationAt() of a point; 0 without nodes.
   Innovation at(const WarpGraph& graph, const PointBinding& binding) const;
 
   /// One per node; may be empty.

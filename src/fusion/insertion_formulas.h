@@ -1,4 +1,4 @@
-// src/fusion/insertion_formulas.h: a pixel that becomes a model point, for the CPU and the GPU.
+// src/fusion/insertion_formulas.h: conversion of a pixel to a model point, for the CPU and the GPU.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ inline InsertionLimits insertionLimits(const InsertionOptions& options) {
 
 constexpr int kMostFootprintPx = 10;
 
-/// Pixels nearer to a point than this get no new one: docs/fusion.md (F14).
+/// Minimum distance of a new point to others, pixels: docs/fusion.md (F14).
 SOFTSCOPE_HD inline int footprintPx(float depth_mm, float focal_px, float spacing_mm) {
   const float spacing_px = spacingAt(depth_mm, focal_px, spacing_mm) * focal_px / depth_mm;
   const float bounded_px = 100 < spacing_px ? 100.0f : spacing_px;
@@ -37,26 +37,26 @@ SOFTSCOPE_HD inline int footprintPx(float depth_mm, float focal_px, float spacin
   return rounded < 1 ? 1 : (kMostFootprintPx < rounded ? kMostFootprintPx : rounded);
 }
 
-/// Whether a depth is reliable enough to make a point. `sigma_mm`: null for depths without sigma.
+/// Whether a depth is accurate enough for a point. `sigma_mm`: null for depths without sigma.
 SOFTSCOPE_HD inline bool mayMakePoint(PixelState state, const float* sigma_mm, int pixel,
                                       float max_sigma_mm) {
   return state == PixelState::kSure && (sigma_mm == nullptr || sigma_mm[pixel] <= max_sigma_mm);
 }
 
-/// Whether the nearest model depth within reach of a pixel is not behind the band of the measured
-/// depth: (F14).
+/// Whether the nearest model depth within reach of a pixel
+/// is not behind the band of the measured depth: (F14).
 SOFTSCOPE_HD inline bool isExplained(float nearest_mm, float depth_mm, float band_mm) {
   return nearest_mm < depth_mm + band_mm;
 }
 
-/// Unexplained depths of the last frame; owns nothing.
+/// Unexplained depths of the last frame; non-owning.
 struct LastUnexplained {
   const float* depth_mm = nullptr;  // NaN: explained, or not measured
   int width_px = 0, height_px = 0;
   PosedCamera camera;
 };
 
-/// Whether the last frame saw something unexplained there as well: (F15).
+/// Whether the last frame had an unexplained depth at this position: (F15).
 SOFTSCOPE_HD inline bool isConfirmed(const Eigen::Vector3f& point_world,
                                      const LastUnexplained& last, float band_mm) {
   const Eigen::Vector3f left = last.camera.toLeft(point_world);
@@ -70,14 +70,14 @@ SOFTSCOPE_HD inline bool isConfirmed(const Eigen::Vector3f& point_world,
   return false;
 }
 
-/// The cell that takes one new point: (F16).
+/// Cell of at most one new point: (F16).
 SOFTSCOPE_HD inline CellKey insertionCell(const Eigen::Vector3f& ray, float depth_mm,
                                           float focal_px, const InsertionLimits& limits) {
   const float side_mm = spacingAt(depth_mm, focal_px, limits.spacing_mm);
   return cellKey(ray * depth_mm, {side_mm, side_mm, limits.band_mm});
 }
 
-/// The point that a pixel becomes.
+/// Model point of a pixel.
 SOFTSCOPE_HD inline ModelPoint newPoint(std::int32_t pixel, const FusingFrame& frame) {
   const FrameRasters& rasters = frame.rasters;
   const PosedCamera& camera = frame.camera;

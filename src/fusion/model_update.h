@@ -12,21 +12,21 @@
 namespace softscope {
 
 struct ModelUpdateSummary {
-  int seen = 0;  // points that the camera sees
+  int seen = 0;  // number of visible points
   PointFusionSummary points;
   InsertionSummary insertion;
-  IndexMap index_map;  // from the model with new points at its end to the model as it is now
+  IndexMap index_map;  // from the model with new points at its end to the final model
 };
 
-/// Brings the warped model (world frame) up to the observation; `states` are its pixels', judged by
-/// `options.pixels`. `graph` has live positions. What
-/// must outlast a frame is in `memory`; a run that is resumed needs it back.
-/// Throws OptionError for bad options and for arguments that don't fit together; the model and the
-/// memory are then as they were.
+/// Updates the warped model (world frame) with the observation;
+/// `states` are those of its pixels, classified by `options.pixels`.
+/// `graph` has live positions. `memory` is kept between frames; a
+/// resumed run needs it. Throws OptionError for invalid options and
+/// inconsistent arguments; model and memory are then unchanged.
 ModelUpdateSummary updateModel(const Observation& observation, const Raster<PixelState>& states,
                                const WarpGraph& graph, const FusionOptions& options,
                                InsertionMemory* memory, PointModel* model);
-/// The same, where compareModel() was called with these.
+/// The same, after compareModel() was called with these.
 ModelUpdateSummary updateModel(const Observation& observation, const Raster<PixelState>& states,
                                const WarpGraph& graph, const FusionOptions& options,
                                const ModelComparison& comparison, InsertionMemory* memory,

@@ -13,8 +13,8 @@
 
 namespace softscope {
 
-/// A coarse depth buffer. Points may be added from several threads: the nearest wins, whatever the
-/// order.
+/// Coarse depth buffer. Points may be added by several
+/// threads: the nearest is kept, in any order.
 class NearestSurface {
  public:
   NearestSurface(int width_px, int height_px, int cell_px)
@@ -28,7 +28,7 @@ class NearestSurface {
   }
 
   void add(int u, int v, float depth_mm) {
-    std::uint32_t mine;  // positive floats sort as their bits do
+    std::uint32_t mine;  // bits of positive floats have their order
     std::memcpy(&mine, &depth_mm, sizeof mine);
     std::atomic<std::uint32_t>& bits = cell(u, v);
     std::uint32_t nearest = bits.load(std::memory_order_relaxed);
@@ -36,7 +36,7 @@ class NearestSurface {
       ;
   }
 
-  /// The nearest depth that was added to the square of pixel (u, v); infinite where none was.
+  /// Nearest depth added to the square of pixel (u, v); infinite if none.
   float depthAt(int u, int v) const {
     const std::uint32_t bits = cell(u, v).load(std::memory_order_relaxed);
     float depth_mm;
@@ -44,7 +44,7 @@ class NearestSurface {
     return depth_mm;
   }
 
-  /// Whether the point lies clearly behind: liesBehind(). `cosine`: cosineToRay() of the point.
+  /// Whether the point is clearly behind: liesBehind(). `cosine`: cosineToRay() of the point.
   bool hides(int u, int v, float depth_mm, float cosine, float focal_px, float margin_mm) const {
     return liesBehind(depthAt(u, v), cell_px_, depth_mm, cosine, focal_px, margin_mm);
   }

@@ -22,7 +22,7 @@ void requireShape(const Raster<T>& raster, const PinholeCamera& left, const char
                     std::to_string(left.width_px) + "x" + std::to_string(left.height_px));
 }
 
-/// Nearest and farthest depth of the 2 r + 1 pixels around each of a row; infinities where none.
+/// Nearest and farthest depth of the 2 r + 1 pixels around each of a row; infinities if none.
 void spanRow(const float* depth_mm, int width, int radius, float* nearest, float* farthest) {
   for (int u = 0; u < width; ++u) nearest[u] = kInfinity, farthest[u] = -kInfinity;
   for (int x = -radius; x <= radius; ++x) {

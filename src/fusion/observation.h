@@ -1,4 +1,4 @@
-// src/fusion/observation.h: depth, colours and pose of one frame, and the state of each pixel.
+// src/fusion/observation.h: depth, colours and pose of one frame, and states of pixels.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +13,8 @@
 
 namespace softscope {
 
-/// One moment, seen from the rectified left camera. The rasters are the caller's, must outlive
-/// this, and have the camera's shape; depth.sigma_mm, colour and mask may be empty.
+/// Data of one frame in the rectified left camera. The rasters are owned by the caller, must
+/// outlive this, and have the size of the camera; depth.sigma_mm, colour and mask may be empty.
 struct Observation {
   const DepthMap& depth;
   const NormalMap& normals;
@@ -23,8 +23,8 @@ struct Observation {
   PinholeCamera left;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
 
-  /// Throws OptionError where a shape differs from the camera's, the camera has no focal length,
-  /// or the pose isn't finite.
+  /// Throws OptionError for a size that differs from the camera,
+  /// a camera without focal length, or a pose that is not finite.
   void validate() const;
 };
 
@@ -35,12 +35,12 @@ PosedCamera posedCamera(const PinholeCamera& left, const Eigen::Isometry3d& worl
 enum class PixelState : std::uint8_t {
   kUnmeasured,  // no depth
   kMasked,      // not tissue
-  kEdge,        // too near to a depth edge
+  kEdge,        // near a depth discontinuity
   kUnsure,      // sigma too large, no normal, or too grazing
   kSure,
 };
 
-/// Judges every pixel. Shape: the camera's.
+/// Classifies every pixel. Size of the camera.
 Raster<PixelState> judgePixels(const Observation& observation, const PixelOptions& options);
 
 }  // namespace softscope

@@ -22,7 +22,7 @@ SOFTSCOPE_HD inline bool isBesideEdge(float depth_mm, const DepthSpan& around) {
   return !(around.farthest_mm - depth_mm <= step_mm && depth_mm - around.nearest_mm <= step_mm);
 }
 
-/// Whether the depth's sigma and the normal of pixel (u, v) are good enough.
+/// Whether sigma of the depth and normal of pixel (u, v) are acceptable.
 SOFTSCOPE_HD inline bool isSureDepth(int u, int v, const FrameRasters& rasters,
                                      const PosedCamera& camera, float max_sigma_mm) {
   const int pixel = v * camera.width_px + u;
@@ -31,11 +31,11 @@ SOFTSCOPE_HD inline bool isSureDepth(int u, int v, const FrameRasters& rasters,
     if (!(sigma_mm > 0 && sigma_mm <= max_sigma_mm)) return false;
   }
   const Eigen::Vector3f ray = camera.ray(u, v);
-  const float towards = -rasters.normals[pixel].dot(ray);  // NaN where there is no normal
+  const float towards = -rasters.normals[pixel].dot(ray);  // NaN without a normal
   return towards >= static_cast<float>(PixelOptions::kMinCosine) * ray.norm();
 }
 
-/// docs/fusion.md, "Which pixels are heard". `around`: within PixelOptions::kEdgeRadiusPx.
+/// docs/fusion.md, "Pixel selection". `around`: within PixelOptions::kEdgeRadiusPx.
 SOFTSCOPE_HD inline PixelState pixelState(int u, int v, bool is_masked, const DepthSpan& around,
                                           const FrameRasters& rasters, const PosedCamera& camera,
                                           float max_sigma_mm) {

@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-/// One frame's work on single points.
+/// Averaging of single points for one frame.
 class Fuser {
  public:
   Fuser(const WarpGraph& graph, const FusingFrame& frame, const InnovationField& innovation,
@@ -29,7 +29,7 @@ class Fuser {
         weightAfterContradiction(model_.weights[i], around.excess_mm2, point.pixel, frame_);
   }
 
-  /// False where the measurement has no weight.
+  /// False if the measurement has no weight.
   bool fuse(std::size_t i, const PointSight& sight) const {
     ModelPoint point{model_.positions_mm[i], model_.normals[i], model_.colours[i],
                      model_.anchors[i], model_.weights[i]};
@@ -63,7 +63,7 @@ class Fuser {
   PointModel& model_;
 };
 
-/// `visibility` is there already.
+/// Requires `visibility`.
 void compareSeen(const PointModel& model, const WarpGraph& graph, const Observation& observation,
                  const PointFusionOptions& options, const ColourOptions& colour_options,
                  ModelComparison* comparison) {
@@ -73,7 +73,7 @@ void compareSeen(const PointModel& model, const WarpGraph& graph, const Observat
     if (colour_options.hold_anchors)
       comparison->anchored = AnchorAgreement(model, observation, visibility);
   };
-  // Neither needs the other.
+  // Independent.
   parallelInvoke(findGainAndAnchors, [&] {
     if (options.follow_innovation)
       comparison->innovation = InnovationField(model, graph, observation, visibility, options);

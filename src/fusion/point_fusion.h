@@ -20,28 +20,28 @@ struct ModelComparison {
   AnchorAgreement anchored;
 };
 
-/// `graph` has live positions, `states` are the observation's judgePixels().
-/// Throws OptionError for bad options and for arguments that don't fit together.
+/// `graph` has live positions, `states` are judgePixels() of the observation.
+/// Throws OptionError for invalid options and inconsistent arguments.
 ModelComparison compareModel(const PointModel& model, const WarpGraph& graph,
                              const Observation& observation, const Raster<PixelState>& states,
                              const FusionOptions& options);
 
-/// What became of the points.
+/// Counts of the update.
 struct PointFusionSummary {
   int fused = 0;         // averaged with a measurement
-  int contradicted = 0;  // seen through, or not confirmed: lost weight
+  int contradicted = 0;  // free-space violation, or not confirmed: lost weight
   ColourGain gain;       // of the image against the model
 };
 
-/// Averages every seen point with its measurement, lets go of what is contradicted:
-/// docs/fusion.md (F5) to (F13) and (F21) to (F24). A point without any weight left has weight 0;
-/// the next keepDensity() removes it. `graph` tells how far points are from their nodes (live
-/// positions); points that it doesn't carry count as lying on a node. Throws OptionError for bad
-/// options and for arguments that don't fit together.
+/// Averages every visible point with its measurement, reduces the weight of
+/// contradicted points: docs/fusion.md (F5) to (F13) and (F21) to (F24). The next
+/// keepDensity() removes points of weight 0. `graph` gives the distance of points
+/// to their nodes (live positions); points without nodes count as at distance 0.
+/// Throws OptionError for invalid options and inconsistent arguments.
 PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observation,
                               const ModelComparison& comparison, const PointFusionOptions& options,
                               const ColourOptions& colour_options, PointModel* model);
-/// Makes the comparison first, but for the visibility.
+/// Computes the comparison first, except the visibility.
 PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observation,
                               const Visibility& visibility, const PointFusionOptions& options,
                               const ColourOptions& colour_options, PointModel* model);

@@ -13,8 +13,8 @@
 
 namespace softscope {
 
-/// What the last frame measured and the model could not explain; NaN elsewhere. Empty before the
-/// first frame. Its size is the image's, whatever the model's.
+/// Measured depths of the last frame unexplained by the model; NaN
+/// elsewhere. Empty before the first frame. Of the size of the image.
 struct InsertionMemory {
   Raster<float> unexplained_mm;
   PinholeCamera left;
@@ -22,15 +22,15 @@ struct InsertionMemory {
 };
 
 struct InsertionSummary {
-  int unexplained_px = 0;  // reliable pixels where the model has no point
+  int unexplained_px = 0;  // accepted pixels without a model point
   int inserted = 0;        // points added at the model's end
 };
 
-/// Adds unbound points where pixels are reliable and the model does not explain them:
-/// docs/fusion.md (F14) to (F16). `visibility` is the model's, before new points. An empty model
-/// takes the whole image at once; later, with options.confirm, a place must have been
-/// unexplained in the last frame too, so that a wrong depth seen once makes no tissue.
-/// Throws OptionError for bad options and for arguments that don't fit together.
+/// Adds unbound points at accepted pixels that the model does not explain:
+/// docs/fusion.md (F14) to (F16). `visibility` is that of the model before new points.
+/// An empty model is initialised with the whole image; later, with options.confirm, a
+/// position must be unexplained in the last frame too, so that a single wrong depth
+/// creates no tissue. Throws OptionError for invalid options and inconsistent arguments.
 InsertionSummary insertPoints(const Observation& observation, const Raster<PixelState>& states,
                               const Visibility& visibility, const ColourGain& gain,
                               const FusionOptions& options, InsertionMemory* memory,

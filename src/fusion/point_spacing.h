@@ -6,13 +6,13 @@
 
 namespace softscope {
 
-/// Of points at that depth: docs/fusion.md (F14). mm.
+/// Point spacing at that depth: docs/fusion.md (F14). mm.
 SOFTSCOPE_HD inline float spacingAt(float depth_mm, float focal_px, float spacing_mm) {
   const float most_mm = static_cast<float>(InsertionOptions::kMostSpacingPx) * depth_mm / focal_px;
   return most_mm < spacing_mm ? most_mm : spacing_mm;
 }
 
-/// How often a cell as wide as `spacing_mm` is halved for points at that depth: (F17).
+/// Number of halvings of a cell of width `spacing_mm` for points at that depth: (F17).
 SOFTSCOPE_HD inline int halvingsAt(float depth_mm, float focal_px, float spacing_mm) {
   constexpr int kMostHalvings = 5;
   int halvings = 0;

@@ -22,7 +22,7 @@ struct PosedCamera {
   SOFTSCOPE_HD Eigen::Vector3f toWorld(const Eigen::Vector3f& point_left) const {
     return left_from_world.transpose() * (point_left - left_from_world_mm);
   }
-  /// The pixel that holds the point's image; false where it is not in the image, NaN included.
+  /// Pixel of the point; false outside of the image, also for NaN.
   SOFTSCOPE_HD bool findPixel(const Eigen::Vector3f& point_left, int* u, int* v) const {
     if (!(point_left.z() > 0)) return false;
     const float inverse_z = 1 / point_left.z();
@@ -35,7 +35,7 @@ struct PosedCamera {
     *v = static_cast<int>(row);
     return true;
   }
-  /// What the pixel sees at depth 1.
+  /// Ray of the pixel at depth 1.
   SOFTSCOPE_HD Eigen::Vector3f ray(int u, int v) const {
     return {(static_cast<float>(u) - cx_px) / fx_px, (static_cast<float>(v) - cy_px) / fy_px, 1};
   }

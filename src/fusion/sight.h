@@ -12,23 +12,23 @@ namespace softscope {
 
 enum class Sight : std::uint8_t {
   kOutside,      // not in the image
-  kUnknown,      // in the image, where nothing sure was measured
-  kMasked,       // behind an instrument, or beyond the scope's circle
-  kHidden,       // behind the measured surface, or behind a nearer one of the model
-  kTurned,       // where a surface was measured, but one that looks elsewhere
-  kSeen,         // there it is
-  kSeenThrough,  // the camera clearly looks through it: it isn't there any more
+  kUnknown,      // in the image, without an accepted measurement
+  kMasked,       // behind an instrument, or outside of the circular image
+  kHidden,       // behind the measured surface, or a nearer one of the model
+  kTurned,       // at the measured surface, with a different normal
+  kSeen,         // visible
+  kSeenThrough,  // free-space violation: the point is obsolete
 };
 
-/// How a point and the measurement compare. 12 bytes.
+/// Comparison of a point with the measurement. 12 bytes.
 struct PointSight {
-  float ahead_mm = std::numeric_limits<float>::quiet_NaN();  // measured minus own depth, along the
-                                                             // ray; NaN where nothing was measured
+  float ahead_mm = std::numeric_limits<float>::quiet_NaN();  // measured minus own depth, along
+                                                             // the ray; NaN without a measurement
   std::int32_t pixel = -1;                                   // index into the rasters; -1 = none
   Sight sight = Sight::kOutside;
 };
 
-/// Thresholds of (F3), ready for the inner loops.
+/// Thresholds of (F3) for the inner loops.
 struct SightLimits {
   float distance_mm = 0;
   float cosine = 0;
@@ -44,13 +44,13 @@ SOFTSCOPE_HD inline float measuredDepth(const Eigen::Vector3f& point_left,
   return -normal_left.dot(lifted_left) * (point_left.z() / towards);
 }
 
-/// Length of a ray for every mm of depth.
+/// Length of a ray per mm of depth.
 SOFTSCOPE_HD inline float rayStretch(const Eigen::Vector3f& point_left) {
   const float x = point_left.x() / point_left.z(), y = point_left.y() / point_left.z();
   return std::sqrt(x * x + y * y + 1);
 }
 
-/// (F3), for a point in the image and a pixel that is sure.
+/// (F3), for a point in the image and an accepted pixel.
 SOFTSCOPE_HD inline PointSight compareWithPixel(const Eigen::Vector3f& point_left,
                                                 const Eigen::Vector3f& own_normal_left,
                                                 const Eigen::Vector3f& lifted_left,

@@ -12,7 +12,7 @@
 
 namespace softscope {
 
-/// Rasters of an observation and its pixels' states; owns nothing.
+/// Rasters of an observation with the states of its pixels; non-owning.
 struct SightRasters {
   const float* depth_mm = nullptr;
   const Eigen::Vector3f* normals = nullptr;
@@ -28,7 +28,7 @@ SOFTSCOPE_HD inline bool isFinite(const Eigen::Vector3f& point) {
   return std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z());
 }
 
-/// What the measurement alone says about one point: docs/fusion.md (F1) to (F3).
+/// Comparison of one point with the measurement: docs/fusion.md (F1) to (F3).
 SOFTSCOPE_HD inline PointSight sightOf(const Eigen::Vector3f& point_left,
                                        const Eigen::Vector3f& normal_left,
                                        const PosedCamera& camera, const SightRasters& rasters,
@@ -47,14 +47,14 @@ SOFTSCOPE_HD inline PointSight sightOf(const Eigen::Vector3f& point_left,
   return result;
 }
 
-/// Between the point's normal and its ray; both in the left camera's frame.
+/// Between the normal of the point and its ray; both in the left camera frame.
 SOFTSCOPE_HD inline float cosineToRay(const Eigen::Vector3f& point_left,
                                       const Eigen::Vector3f& normal_left) {
   return -normal_left.dot(point_left) / point_left.norm();
 }
 
-/// Whether a point lies clearly behind the nearest depth of its square of `cell_px` pixels:
-/// docs/fusion.md (F4). The square's own extent counts by the slope of the point's surface.
+/// Whether a point is clearly behind the nearest depth of its square of `cell_px` pixels:
+/// docs/fusion.md (F4). The extent of the square is included by the slope of the surface.
 SOFTSCOPE_HD inline bool liesBehind(float nearest_mm, int cell_px, float depth_mm, float cosine,
                                     float focal_px, float margin_mm) {
   constexpr float kLeastCosine = 0.1f;

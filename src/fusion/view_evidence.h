@@ -12,19 +12,19 @@
 
 namespace softscope {
 
-/// Evidence for a pose and a warp that no match has gone into: docs/fusion.md (F25), (F26).
+/// Evidence for pose and warp that is independent of the matches: docs/fusion.md (F25), (F26).
 struct ViewEvidence {
   // NaN where nothing could be compared.
   double depth_share = std::numeric_limits<double>::quiet_NaN();  // of pixels whose depth agrees
   double image_share = std::numeric_limits<double>::quiet_NaN();  // of image blocks that correlate
                                                                   // best where the model puts them
-  int blocks = 0;                                                 // that have texture
+  int blocks = 0;                                                 // with texture
 
-  /// 0: no more agreement than by chance, 1: everywhere. 0 where nothing could be compared.
+  /// 0: agreement as by chance, 1: everywhere. 0 without comparable pixels.
   double confidence() const;
 };
 
-/// Whether the model's depth is the measured one. `sigma_mm` 0 where none is known.
+/// Whether the depth of the model agrees with the measured one. `sigma_mm` 0 if unknown.
 SOFTSCOPE_HD inline bool depthsAgree(float model_mm, float measured_mm, float sigma_mm,
                                      float depth_step) {
   constexpr float kSigmas = 3;
@@ -33,7 +33,7 @@ SOFTSCOPE_HD inline bool depthsAgree(float model_mm, float measured_mm, float si
   return std::abs(model_mm - measured_mm) <= tolerance_mm;
 }
 
-/// By how much blocks of an image of that width are moved: 8 px of 640.
+/// Shift of blocks for an image of that width: 8 px of 640.
 inline int evidenceShiftPx(int width_px) { return std::max(3, width_px / 80); }
 
 /// Sums over blocks of the image, in any order.
@@ -48,10 +48,10 @@ struct EvidenceVotes {
 };
 ViewEvidence evidenceOf(const EvidenceVotes& votes);
 
-/// Of the model drawn from the observation's pose: compares, over the reliable pixels: its
-/// depth, to `options.kEdgeStep` of the depth or three standard errors, whichever is more; and the
-/// brightness of its points with the image, block by block, in place and moved by some pixels in
-/// eight directions. Throws OptionError where the arguments don't fit together.
+/// For the model rendered from the pose of the observation: compares, over the accepted
+/// pixels, its depth, to `options.kEdgeStep` of the depth or three standard errors,
+/// whichever is larger; and the brightness of its points with the image, per block, in
+/// place and moved in eight directions. Throws OptionError for inconsistent arguments.
 ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observation,
                           const Raster<PixelState>& states, const PixelOptions& options);
 

@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-/// Hides what lies behind the model's own nearest surface: (F4).
+/// Marks points behind the nearest surface of the model as occluded: (F4).
 void hideBehindModel(const PointModel& model, const PosedCamera& camera,
                      const NearestSurface& nearest, const VisibilityOptions& options,
                      Visibility* visibility) {
@@ -69,7 +69,7 @@ Visibility findVisible(const PointModel& model, const Observation& observation,
       const PointSight sight =
           sightOf(left, camera.left_from_world * model.normals[i], camera, rasters, limits);
       visibility.points[i] = sight;
-      // A point that isn't there any more hides nothing.
+      // An obsolete point occludes nothing.
       if (sight.pixel >= 0 && sight.sight != Sight::kSeenThrough)
         nearest.add(sight.pixel % camera.width_px, sight.pixel / camera.width_px, left.z());
     }

@@ -15,21 +15,21 @@ namespace softscope {
 struct Visibility {
   std::vector<PointSight> points;
 
-  /// Indices of the points that are seen, ascending.
+  /// Indices of the visible points, ascending.
   std::vector<std::int32_t> seen() const;
 };
 
-/// Projective association of the model (world frame, already warped) with the observation:
-/// docs/fusion.md (F1) to (F4), which says why no distance field is built. Points that aren't
-/// finite are outside. `states` are the observation's judgePixels().
-/// Throws OptionError for bad options and for rasters that don't fit together.
+/// Projective association of the model (world frame, already warped) with the
+/// observation: docs/fusion.md (F1) to (F4), with the reasons against a distance
+/// field. Points that are not finite are outside. `states` are judgePixels() of the
+/// observation. Throws OptionError for invalid options and inconsistent rasters.
 Visibility findVisible(const PointModel& model, const Observation& observation,
                        const Raster<PixelState>& states, const VisibilityOptions& options);
 
-/// Throws OptionError where `states` are not the observation's.
+/// Throws OptionError unless `states` belong to the observation.
 void requireStates(const Raster<PixelState>& states, const Observation& observation);
 
-/// Throws OptionError where `visibility` is not about this model.
+/// Throws OptionError unless `visibility` belongs to this model.
 void requireVisibility(const Visibility& visibility, const PointModel& model);
 
 }  // namespace softscope

@@ -39,14 +39,14 @@ std::vector<std::string> builtBackends() { return {"cpu"}; }
 
 namespace {
 
-/// Why auto chooses the CPU, by options and machine.
+/// Reason for the CPU under auto, by options and machine.
 std::string whyNotOnGpu(const FrameDepthOptions& depth) {
   if (depth.source == "files") return "depth.source is files, and stereo is what the GPU computes";
   if (depth.stereo.method != "elas") return depth.stereo.method + " has no GPU version";
   return whyNoCuda();
 }
 
-/// `makeOnCpu()` or `makeOnGpu()`. `what` the GPU computes.
+/// `makeOnCpu()` or `makeOnGpu()`. `what` is computed by the GPU.
 template <class MakeOnCpu, class MakeOnGpu>
 auto choose(const std::string& name, const FrameDepthOptions& depth, const std::string& what,
             const MakeOnCpu& makeOnCpu, const MakeOnGpu& makeOnGpu)

@@ -13,35 +13,35 @@
 
 namespace softscope {
 
-/// The GPUs and CUDA versions found; `why_none` also says so if this build has no CUDA at all.
-/// Never throws. Takes up to a second: the driver starts each GPU.
+/// GPUs and CUDA versions; `why_none` is also set for a build without CUDA.
+/// Never throws. Takes up to a second: the driver initialises each GPU.
 cuda::DeviceInfo cudaDevices();
 
-/// Why no kernel of this build runs on this machine; empty: they do.
+/// Reason why no kernel of this build runs on this machine; empty: they run.
 std::string whyNoCuda();
 
-/// "cpu" and, where CUDA was built, "cuda", with or without a GPU.
+/// "cpu" and, in a build with CUDA, "cuda", with or without a GPU.
 std::vector<std::string> builtBackends();
 
 /// Throws OptionError unless `name` is auto, cpu or cuda.
 void requireBackendName(const std::string& name);
 
-/// A back end or a stage of it, and the reason of the choice.
+/// Back end or stage, with the reason of the choice.
 template <class Part>
 struct Chosen {
   Part part;
-  std::string name;  // "cpu" or "cuda"
+  std::string name;  // for auto; empty if it was named
   std::string why;   // of auto's choice; empty where it was named
 };
 
-/// `auto` takes the GPU where one runs this build, has the memory, and the depth comes from a
-/// method that has kernels; a frame then takes less time (docs/benchmarks.md). `cuda` throws
-/// BackendError, or OptionError for such a method, instead of taking the processor.
+/// `auto` selects the GPU if one runs this build, has enough memory, and the method
+/// of depth has kernels; a frame then takes less time (docs/benchmarks.md). `cuda`
+/// throws BackendError, or OptionError for such a method, instead of using the CPU.
 Chosen<std::unique_ptr<ReconstructionBackend>> makeBackend(const std::string& name,
                                                            const StereoCalibration& calibration,
                                                            const ReconstructionOptions& options);
 
-/// Stage 1 alone, chosen alike.
+/// Stage 1 only, with the same choice.
 Chosen<std::unique_ptr<FrameDepth>> makeFrameDepth(const std::string& name,
                                                    const StereoCalibration& calibration,
                                                    const FrameDepthOptions& options);

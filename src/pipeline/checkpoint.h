@@ -1,4 +1,4 @@
-// src/pipeline/checkpoint.h: serialisation of a run's state, for resuming.
+// src/pipeline/checkpoint.h: serialised state of a run, for resuming.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@ namespace softscope {
 
 template <class State>
 struct CheckpointOf {
-  std::string settings;  // a digest of everything that decides the result
+  std::string settings;  // hash of all inputs and settings that determine the result
   int next_frame = 0;    // of the sequence
   State state;
 };
 using Checkpoint = CheckpointOf<ReconstructionState>;
-/// To write, of a Reconstructor's state().
+/// For writing, from state() of a Reconstructor.
 using CheckpointView = CheckpointOf<ReconstructionStateView>;
 
-/// Little-endian, with a magic word, a version and a checksum: a file that was cut or altered is
-/// not read. For the machine that wrote it; no format to keep data in.
+/// Little-endian, with a magic word, a version and a checksum: truncated or modified
+/// data are rejected. Valid on the machine that wrote it; not an archive format.
 std::string checkpointBytes(const CheckpointView& checkpoint);
 
-/// Throws InputError, naming `name`, for bytes that are no whole checkpoint of this version.
+/// Throws InputError with `name` unless the bytes are a complete checkpoint of this version.
 Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name);
 
 }  // namespace softscope

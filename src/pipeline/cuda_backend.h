@@ -1,5 +1,5 @@
-// src/pipeline/cuda_backend.h: stereo, model view, matching, the pose's refinement and the warp's
-// solver on the GPU, every other stage on the processor's cores.
+// src/pipeline/cuda_backend.h: stereo, model view, matching, pose refinement and warp solver on the
+// GPU, other stages on the CPU.
 #pragma once
 
 #include <memory>
@@ -12,16 +12,16 @@
 
 namespace softscope {
 
-/// Disparity, depth and normals on the first GPU; the bytes of makeCpuStereoStage(). Memory is
-/// taken once, here. A pair with masked borders is left to the processor. Throws BackendError
-/// without a GPU that runs this build or with too little memory, OptionError where an option has no
-/// GPU version.
+/// Disparity, depth and normals on the first GPU; the bytes of
+/// makeCpuStereoStage(). Memory is allocated here. A pair with masked borders
+/// is processed by the CPU. Throws BackendError without a suitable GPU or
+/// with too little memory, OptionError for an option without GPU version.
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
                                                  const RectifiedRig& rig);
 
-/// The model of makeCpuBackend() up to the rounding of pose and warp; the same run gives the same
-/// bytes. Affine nodes are left to the processor. The next frame's depth is measured while the
-/// processor works on this one. Throws as both do.
+/// The model of makeCpuBackend() up to rounding of pose and warp;
+/// deterministic. Affine nodes are processed by the CPU. The depth of the
+/// next frame is computed while the CPU works on this one. Throws as both do.
 std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& calibration,
                                                        const ReconstructionOptions& options);
 

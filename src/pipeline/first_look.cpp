@@ -25,7 +25,7 @@ FirstLook::Window takeWindow(const GrayImage& image, const Mask& ignore,
   return window;
 }
 
-/// A place of the whole picture in the one of a level, whose pixels are `scale` as wide.
+/// Position in the full image converted to that of a level with pixels `scale` as wide.
 Eigen::Vector2d inLevel(const Eigen::Vector2d& pixel, double scale) {
   return (pixel.array() - (scale - 1) / 2) / scale;
 }
@@ -33,7 +33,7 @@ Eigen::Vector2d inWhole(const Eigen::Vector2d& pixel, double scale) {
   return pixel.array() * scale + (scale - 1) / 2;
 }
 
-/// Finds a look near `pixel`, as findLook() does.
+/// Finds a reference window near `pixel`, as findLook() does.
 struct FirstLookFinder {
   const FirstLook& look;
   const LookPicture& picture;
@@ -46,9 +46,9 @@ struct FirstLookFinder {
     return found;
   }
 
-  /// From a level down to the whole picture, each from where the one before found it; the last that
-  /// finds it counts. The whole picture alone is searched from `pixel` only if it is asked for
-  /// alone.
+  /// From a level down to the full image, each starting from the
+  /// previous result; the last one found counts. The full image
+  /// is searched from `pixel` only if it is requested alone.
   FoundLook findFrom(std::size_t coarsest) const {
     FoundLook result = nothing();
     Eigen::Matrix2d map = image_from_look;

@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kSharedOperations = 1e6;  // a front's update with fewer is not worth a thread
+constexpr double kSharedOperations = 1e6;  // minimum operations of a parallel update
 
 }  // namespace
 
@@ -39,7 +39,7 @@ bool BlockCholesky::eliminateFront(int supernode, const Input& input) {
   return true;
 }
 
-/// Element (row, column) of a front, whichever part it lies in.
+/// Element (row, column) of a front, in either part.
 double* BlockCholesky::at(int supernode, int row, int column) {
   const Front& front = fronts_[supernode];
   if (column < front.pivots)

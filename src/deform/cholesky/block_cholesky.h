@@ -11,15 +11,15 @@
 
 namespace softscope {
 
-/// Sparse Cholesky of a symmetric positive definite block matrix, multifrontal: each supernode is a
-/// dense front whose update its parent adds. The symbolic part is done once a pattern. Independent
-/// subtrees are eliminated at the same time; every sum has a fixed order, so the result is the
-/// same, to the byte, whatever the number of threads.
+/// Sparse Cholesky of a symmetric positive definite block matrix, multifrontal: each
+/// supernode is a dense front whose update is added by its parent. The symbolic part
+/// is computed once per pattern. Independent subtrees are eliminated in parallel;
+/// every sum has a fixed order, so the result is identical for any number of threads.
 class BlockCholesky {
  public:
-  static constexpr int kTileColumns = 6;  // what the kernels take at a time
+  static constexpr int kTileColumns = 6;  // block width of the kernels
 
-  /// How the diagonal is raised before factorising: H(jj) (1 + relative) + absolute I.
+  /// Damping of the diagonal before factorisation: H(jj) (1 + relative) + absolute I.
   struct Damping {
     double relative = 0;
     double absolute = 0;
@@ -28,8 +28,8 @@ class BlockCholesky {
   /// block_size: unknowns of a node, a multiple of 6. Throws OptionError otherwise.
   void analyse(const BlockPattern& pattern, int block_size);
 
-  /// `values`: the pattern's blocks, column-major, one after the other.
-  /// Returns false where the matrix is not positive definite, or not finite; then don't solve.
+  /// `values`: blocks of the pattern, column-major, contiguous. Returns false
+  /// unless the matrix is positive definite and finite; solve() is then invalid.
   bool factor(const std::vector<double>& values, const Damping& damping);
 
   /// x = H^-1 rhs, node by node. Throws Error unless the last factor() returned true.
@@ -42,7 +42,7 @@ class BlockCholesky {
   double pivotRatio() const;
 
  private:
-  /// A dense trapezoid, column-major: the factor's columns, and the update for the parent.
+  /// Dense trapezoid, column-major: columns of the factor, and the update for the parent.
   struct Front {
     int pivots = 0;          // scalar columns that are eliminated here
     int rows = 0;            // scalar rows
@@ -51,16 +51,16 @@ class BlockCholesky {
     std::size_t update = 0;  // offset into updates_[pool]
     int update_leading = 0;
     int pool = 0;
-    std::vector<int> parent_block;  // where each update block goes in the parent's front
+    std::vector<int> parent_block;  // position of each update block in the front of the parent
 
     int updateRows() const { return rows - pivots; }
   };
-  /// Subtrees that hang below one supernode (or are roots), dealt to two threads.
+  /// Subtrees below one supernode (or roots), distributed to two threads.
   struct Deal {
     std::array<std::vector<int>, 2> hands;
     bool parallel = false;
   };
-  /// Where one block of the matrix goes.
+  /// Target of one block of the matrix.
   struct Entry {
     int block = 0;  // number in the pattern
     int row = 0;    // scalar position in the front

@@ -9,10 +9,10 @@
 namespace softscope {
 namespace {
 
-constexpr double kTaskOperations = 2e5;  // a subtree with fewer is not worth a thread
+constexpr double kTaskOperations = 2e5;  // minimum operations of a parallel subtree
 
-/// Room for the kernels' overhang of 3 rows, and not a multiple of 64 bytes, so that columns don't
-/// all fall onto the same cache sets.
+/// Includes the overhang of 3 rows of the kernels, and is not a multiple
+/// of 64 bytes, so that columns do not map to the same cache sets.
 int leadingDimension(int rows) {
   const int padded = (rows + 3 + 3) / 4 * 4;
   return padded % 8 == 0 ? padded + 4 : padded;
@@ -84,7 +84,7 @@ void BlockCholesky::mapEntries(const BlockPattern& pattern) {
   }
 }
 
-/// Heaviest subtree first, each to the hand that has less so far.
+/// Heaviest subtree first, each to the thread with less work so far.
 BlockCholesky::Deal BlockCholesky::deal(const std::vector<int>& subtrees) const {
   const auto cost = [&](int s) { return tree_.supernodes[s].operations; };
   std::vector<int> sorted = subtrees;

@@ -8,8 +8,8 @@
 
 namespace softscope {
 
-/// order[k] = the node that is eliminated as the k-th, by approximate minimum degree. Nested
-/// dissection by the nodes' positions was tried: 5 to 20 % more operations at 120 to 1000 nodes.
+/// order[k] = node eliminated in step k, by approximate minimum degree. Nested dissection
+/// by node positions was tried: 5 to 20 % more operations at 120 to 1000 nodes.
 std::vector<int> fillReducingOrder(const BlockPattern& pattern);
 
 }  // namespace softscope

@@ -8,15 +8,15 @@
 
 namespace softscope {
 
-/// The lower triangle of a symmetric block matrix, one block column a node; every diagonal block
-/// is present. Blocks are numbered column by column.
+/// Lower triangle of a symmetric block matrix, one block column per
+/// node; every diagonal block is present. Blocks are numbered by column.
 struct BlockPattern {
   std::vector<int> column_start;  // nodes + 1 entries: the first block of each column
   std::vector<int> row;           // of each block, ascending within a column; the diagonal first
 
   int nodes() const { return static_cast<int>(column_start.size()) - 1; }
   int blocks() const { return static_cast<int>(row.size()); }
-  /// The number of block (row i, column j), i >= j; -1 where the pattern has none.
+  /// Number of block (row i, column j), i >= j; -1 if absent.
   int find(int i, int j) const;
   bool operator==(const BlockPattern& other) const {
     return column_start == other.column_start && row == other.row;

@@ -34,7 +34,7 @@ class Dissector {
   }
 
  private:
-  /// Returns the fronts that no front of `set` is parent of.
+  /// Returns the fronts of `set` without a parent.
   Nodes eliminate(Nodes set) {
     if (set.empty()) return {};
     const int mark = ++last_set_;
@@ -73,7 +73,7 @@ class Dissector {
     return fronts;
   }
 
-  /// Nodes of the start's set in the order of their distance; sets distance_.
+  /// Nodes of the set of the start in the order of their distance; sets distance_.
   Nodes breadthFirst(int start) {
     for (std::size_t j = 0; j < distance_.size(); ++j) distance_[j] = -1;
     Nodes queue{start};
@@ -104,7 +104,7 @@ class Dissector {
     return both;
   }
 
-  /// Nodes of `set` that touch `other`.
+  /// Nodes of `set` adjacent to `other`.
   Nodes rim(const Nodes& set, const Nodes& other) {
     const int mark = ++last_set_;
     for (const int j : other) set_of_[j] = mark;
@@ -123,7 +123,7 @@ class Dissector {
     *set = std::move(left);
   }
 
-  /// The border holds nodes until finish().
+  /// The border contains nodes until finish().
   int addFront(const Nodes& pivots, Nodes children) {
     Supernode front;
     front.first = static_cast<int>(tree_.order.size());

@@ -6,10 +6,10 @@
 
 namespace softscope {
 
-/// Cuts the nodes in halves until at most `most_pivots` are left; a front per rest, and per
-/// separator a chain of fronts with at most `most_pivots` pivots each. Fronts of one level are
-/// independent, which a GPU needs; fillReducingOrder() has fewer operations. Depends on the pattern
-/// alone.
+/// Halves the nodes until at most `most_pivots` are left; one front per
+/// rest, and per separator a chain of fronts with at most `most_pivots`
+/// pivots each. Fronts of one level are independent, as a GPU requires;
+/// fillReducingOrder() has fewer operations. Depends on the pattern only.
 EliminationTree dissect(const BlockPattern& pattern, int most_pivots);
 
 }  // namespace softscope

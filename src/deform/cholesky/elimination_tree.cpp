@@ -8,7 +8,7 @@ namespace {
 
 using Lists = std::vector<std::vector<int>>;
 
-/// For each position, the later positions it meets in the matrix, ascending.
+/// For each position, its later neighbours in the matrix, ascending.
 Lists laterNeighbours(const BlockPattern& pattern, const std::vector<int>& position) {
   Lists later(position.size());
   for (int j = 0; j < pattern.nodes(); ++j)
@@ -67,9 +67,9 @@ double factorBlocks(const Supernode& supernode) {
   return columns * (columns + 1) / 2 + columns * static_cast<double>(supernode.rows.size());
 }
 
-/// Columns in order; each becomes the parent of the supernode just before it, as long as few of
-/// the merged front's blocks are zero: fewer and fuller fronts are faster (of 0, 8, 15, 20 and 25 %
-/// this was best: 1.0 instead of 2.3 ms at 225 nodes).
+/// Columns in order; each becomes the parent of the previous supernode, as long
+/// as few blocks of the merged front are zero: fewer and fuller fronts are faster
+/// (of 0, 8, 15, 20 and 25 % this was best: 1.0 instead of 2.3 ms at 225 nodes).
 std::vector<Supernode> mergeColumns(const Lists& columns) {
   constexpr double kZeroShare = 0.2;
   std::vector<Supernode> merged;

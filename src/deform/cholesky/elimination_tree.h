@@ -8,17 +8,17 @@
 
 namespace softscope {
 
-/// Neighbouring columns of the factor that share their rows: one dense front.
+/// Neighbouring columns of the factor with equal rows: one dense front.
 struct Supernode {
   int first = 0;              // position of its first column in the elimination order
-  int columns = 0;            // how many nodes it eliminates
-  std::vector<int> rows;      // positions below it that it touches, ascending
+  int columns = 0;            // number of eliminated nodes
+  std::vector<int> rows;      // non-zero positions below it, ascending
   int parent = -1;            // the supernode that receives its update; -1 at a root
   std::vector<int> children;  // ascending
   double operations = 0;      // multiply-adds on blocks, its subtree included
 };
 
-/// Supernodes in an order in which children come before their parents.
+/// Supernodes in postorder: children before their parents.
 struct EliminationTree {
   std::vector<int> order;     // order[position] = node
   std::vector<int> position;  // position[node]

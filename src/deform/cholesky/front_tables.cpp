@@ -105,7 +105,7 @@ class FrontPlanner {
 WarpStructure makeWarpStructure(const WarpGraph& graph) {
   const BlockPattern pattern = makeBlockPattern(graph);
   WarpStructure structure;
-  // Neither needs the other.
+  // Independent.
   parallelInvoke(
       [&] {
         const EliminationTree tree = dissect(pattern, kMostPivots);

@@ -14,11 +14,11 @@ namespace softscope {
 
 constexpr int kRigidUnknowns = 6;
 
-/// Nodes that a front eliminates at most, so that its pivots fit a multiprocessor's memory.
+/// Maximum number of nodes per front: its pivots fit the memory of a multiprocessor.
 constexpr int kMostPivots = 12;
 
-/// A dense front of 6 x 6 blocks, column-major: the factor's columns with the right-hand side as
-/// their last row, and the update for the parent, likewise.
+/// Dense front of 6 x 6 blocks, column-major: columns of the factor
+/// with the right-hand side as last row, and the update for the parent.
 struct FrontShape {
   std::int64_t factor = 0, update = 0;  // offsets
   int pivots = 0, blocks = 0;           // nodes eliminated here; with those of the border
@@ -29,13 +29,13 @@ struct FrontShape {
   int factor_leading = 0, update_leading = 0;
 };
 
-/// A child's update, added by its parent.
+/// Update of a child, added by its parent.
 struct FrontChild {
   int front = 0;
   int map = 0;  // offset into FrontTables::maps, one entry a block of the parent
 };
 
-/// Nested dissection of one graph. Fronts lie level by level, those without children first.
+/// Nested dissection of one graph. Fronts are sorted by level, those without children first.
 struct FrontTables {
   std::vector<FrontShape> fronts;
   std::vector<int> level_start;  // levels + 1 entries
@@ -43,8 +43,8 @@ struct FrontTables {
   // pivots.
   std::vector<int> level_tiles, level_rows;
   std::vector<int> nodes;
-  /// Per front, for each of its pivots a column of entries, one a block: 0 = the matrix has none,
-  /// b + 1 = block b of the pattern, -(b + 1) = its transposed.
+  /// Per front, for each of its pivots a column of entries, one per block:
+  /// 0 = absent, b + 1 = block b of the pattern, -(b + 1) = its transposed.
   std::vector<int> look_up;
   std::vector<FrontChild> children;
   std::vector<int> maps;  // the child's update block; -1 = none
@@ -56,7 +56,7 @@ struct FrontTables {
 /// Rows and columns of a tile of an update.
 constexpr int kUpdateTile = 48;
 
-/// Tiles of the lower triangle of an update, the right-hand side's row included.
+/// Tiles of the lower triangle of an update, including the row of the right-hand side.
 constexpr int updateTiles(int border_blocks) {
   if (border_blocks == 0) return 0;
   const int columns = (border_blocks * kRigidUnknowns + kUpdateTile - 1) / kUpdateTile;
@@ -64,7 +64,7 @@ constexpr int updateTiles(int border_blocks) {
   return columns * (columns + 1) / 2 + (rows - columns) * columns;
 }
 
-/// Everything that depends on the graph's structure alone.
+/// Data that depend on the structure of the graph only.
 struct WarpStructure {
   int nodes = 0;
   std::vector<NodeStencil> stencils;

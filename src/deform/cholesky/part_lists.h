@@ -1,4 +1,4 @@
-// src/deform/cholesky/part_lists.h: which stencils, edges and nodes are summed into each block.
+// src/deform/cholesky/part_lists.h: stencils, edges and nodes that contribute to each block.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ struct GatherList {
   std::vector<int> parts;
 };
 
-/// Parts are numbered: of stencils (10 blocks, 4 gradients each), of edges (3, 2), and of nodes (1,
-/// 1) where those have a term of their own.
+/// Numbering of parts: stencils (10 blocks, 4 gradients each),
+/// edges (3, 2), and nodes (1, 1) with a term of their own.
 struct PartLists {
   GatherList blocks, gradients;  // targets: blocks of the pattern; nodes
   int block_parts = 0, gradient_parts = 0;

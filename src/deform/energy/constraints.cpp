@@ -17,8 +17,8 @@ bool usable(const PointModel& model, const WarpGraph& graph, int point) {
          model.positions_mm[point].allFinite() && model.normals[point].allFinite();
 }
 
-/// Every `stride`-th usable point of `visible`, or of the model, and their stencils: in parts, so
-/// that several threads can sort them.
+/// Every `stride`-th usable point of `visible`, or of the model,
+/// with its stencil: in parts, for sorting by several threads.
 struct UsablePoints {
   std::vector<std::vector<std::pair<int, std::int32_t>>> parts;  // point, stencil; in order
 
@@ -42,10 +42,10 @@ struct UsablePoints {
   }
 };
 
-/// A stable counting sort by stencil; `start` has a place for every stencil and the end.
+/// Stable counting sort by stencil; `start` has an entry per stencil and the end.
 std::vector<int> sortedByStencil(const UsablePoints& points, std::vector<int>* start) {
   const std::size_t stencils = start->size() - 1;
-  std::vector<std::vector<int>> next(points.parts.size());  // of every part, where it goes on
+  std::vector<std::vector<int>> next(points.parts.size());  // next position of every part
   const int parts = static_cast<int>(next.size());
   parallelRanges(parts, 1, [&](int begin, int end) {
     for (int part = begin; part < end; ++part) {
@@ -87,7 +87,7 @@ bool usable(const PointModel& model, const WarpGraph& graph, const KeyPointMatch
          match.target_mm.allFinite() && match.sqrt_information.allFinite();
 }
 
-/// Buffers of one thread for the targets of one stencil's candidates.
+/// Buffers of one thread for the targets of the candidates of one stencil.
 struct Inquiry {
   std::vector<Eigen::Vector3f> warped_mm, warped_normals;
   std::vector<PlaneTarget> targets;
@@ -99,7 +99,7 @@ struct Inquiry {
   }
 };
 
-/// One row for each of the stencil's candidates that has a target; returns how many.
+/// One row per candidate of the stencil with a target; returns their number.
 int fillRows(const CandidatePoints& candidates, int first, const std::vector<PlaneTarget>& targets,
              double data_weight, PlaneConstraint* rows) {
   int filled = 0;

@@ -14,40 +14,40 @@
 
 namespace softscope {
 
-/// A key point of the model found again: docs/energy.md (12). World frame, mm.
+/// Matched key point of the model: docs/energy.md (12). World frame, mm.
 struct KeyPointMatch {
-  std::int32_t model_point = 0;  // a bound point at the source: its nodes carry the match
+  std::int32_t model_point = 0;  // bound point at the source: its nodes carry the match
   Eigen::Vector3f source_mm;     // on the model, before the warp
-  Eigen::Vector3f target_mm;     // where it was measured
+  Eigen::Vector3f target_mm;     // measured position
   /// Whitens the residual; identity: reference sigma in every direction.
   Eigen::Matrix3f sqrt_information = Eigen::Matrix3f::Identity();
 };
 
-/// sqrt_information of a match whose target was measured along `ray` (unit, world frame) with
-/// `along_mm`, and across it with `across_mm` of standard error; errors of reference_mm weigh 1.
+/// sqrt_information of a match whose target has the standard error `along_mm` along `ray`
+/// (unit, world frame) and `across_mm` across it; errors of reference_mm have weight 1.
 Eigen::Matrix3f matchSqrtInformation(const Eigen::Vector3f& ray, double along_mm, double across_mm,
                                      double reference_mm);
 
-/// Model points that the live surface may pull, sorted by stencil. Made once a frame.
+/// Model points for the data term, sorted by stencil. Computed once per frame.
 struct CandidatePoints {
   std::vector<Eigen::Vector3f> positions_mm;  // before the warp
   std::vector<Eigen::Vector3f> normals;
   std::vector<PointBinding> bindings;
-  std::vector<int> stencil_start;  // stencils + 1 entries
+  std::vector<int> stencil_start;  // model points per candidate
   float points_each = 1;           // how many model points each stands for
 };
 
-/// Keeps bound, finite points; of more than max_points (0 = no limit) an even subset.
-/// `visible`: model points to choose from; nullptr = all. Renews *candidates, whose memory is
-/// used again.
+/// Keeps bound, finite points; of more than max_points (0 = no
+/// limit) an even subset. `visible`: candidate model points;
+/// nullptr = all. Overwrites *candidates and reuses its memory.
 void collectCandidates(const PointModel& model, const WarpGraph& graph,
                        const std::vector<int>* visible, int max_points,
                        CandidatePoints* candidates);
 
-/// None, for this graph.
+/// Empty, for this graph.
 CandidatePoints noCandidates(const WarpGraph& graph);
 
-/// Rows of one stencil: three a match, then one a point that the surface pulls.
+/// Rows of one stencil: three per match, then one per point with a target.
 struct StencilRows {
   int first = 0;  // into ConstraintSet::rows
   int matches = 0;
@@ -58,27 +58,27 @@ struct StencilRows {
 
 struct ConstraintSet {
   std::vector<PlaneConstraint> rows;  // with gaps between stencils
-  std::vector<StencilRows> stencils;  // one a stencil of the graph
-  std::vector<int> active;            // stencils that have rows
+  std::vector<StencilRows> stencils;  // one per stencil of the graph
+  std::vector<int> active;            // stencils with rows
   int matches = 0;
-  int matches_dropped = 0;  // not finite, or their model point unbound
+  int matches_dropped = 0;  // not finite, or with an unbound model point
   int points = 0;
   std::vector<double> stiffness;          // one an edge of the graph, 1 = as stiff as unseen tissue
-  std::vector<ExpectedOffsets> expected;  // one an edge
-  std::vector<double> hidden;  // one a node: the share of its points that is out of sight
+  std::vector<ExpectedOffsets> expected;  // one per edge
+  std::vector<double> hidden;             // one per node: invisible share of its points
 };
 
-/// Room for all candidates, and the matches' rows; all edges stiff. Renews *constraints, whose
-/// memory is used again.
+/// Allocates rows for all candidates, and the rows of matches; all
+/// edges stiff. Overwrites *constraints and reuses its memory.
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
                      const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
                      double match_weight, ConstraintSet* constraints);
 
-/// Counts rows and points anew.
+/// Counts rows and points again.
 void listActive(ConstraintSet* constraints);
 
-/// Warps the candidates by the graph's transforms and takes from the surface (nullptr: none)
-/// their targets; replaces the rows of points.
+/// Warps the candidates by the transforms of the graph and looks up their
+/// targets on the surface (nullptr: none); replaces the rows of points.
 void associate(const WarpGraph& graph, const CandidatePoints& candidates,
                const SurfaceTarget* surface, double data_weight, ConstraintSet* constraints);
 

@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-/// The terms, weighted; their sum is what is minimised.
+/// Weighted terms; their sum is minimised.
 struct EnergyTerms {
   double rotation = 0;        // w_rot E_rot
   double regularisation = 0;  // w_reg E_reg
@@ -26,13 +26,13 @@ struct EnergySums {
   double data_abs_sum_mm = 0;  // sum of |residual| over points, unweighted
 };
 
-/// The same, and what the normal equations need of it.
+/// With the data required by the normal equations.
 struct EnergyValue : EnergySums {
-  std::vector<double> residuals;  // one a row of the constraints
+  std::vector<double> residuals;  // one per row of the constraints
   std::vector<double> weights;    // base and robust weight of each row
 };
 
-/// Sums in a fixed order, whatever the number of threads.
+/// Sums in a fixed order, for any number of threads.
 void evaluateEnergy(const WarpGraph& graph, const ConstraintSet& constraints,
                     const DeformOptions& options, EnergyValue* value);
 

@@ -8,7 +8,7 @@
 
 namespace softscope {
 
-/// What the symbolic part depends on.
+/// Structure that the symbolic part depends on.
 class GraphStructure {
  public:
   bool sameAs(const WarpGraph& graph) const;
@@ -20,16 +20,16 @@ class GraphStructure {
   std::vector<GraphEdge> edges_;
 };
 
-/// Whether every position and transform is a number.
+/// True if all positions and transforms are finite.
 bool allFinite(const WarpGraph& graph);
 
-/// mm; 1 where there is no edge.
+/// mm; 1 without edges.
 double meanEdgeLength(const WarpGraph& graph);
 
-/// For each node, 1 where a point or a match pulls it.
+/// Per node, 1 if a point or a match constrains it.
 std::vector<char> nodesWithData(const WarpGraph& graph, const ConstraintSet& constraints);
 
-/// Connected parts of the graph without one pulled node.
+/// Connected components of the graph without a constrained node.
 int countIdleComponents(const WarpGraph& graph, const std::vector<char>& pulled);
 
 }  // namespace softscope

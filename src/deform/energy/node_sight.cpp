@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kNodesATask = 96;
 
-/// Sums over bound points, per node. Every task looks at all points and adds up those of its own
-/// nodes, in order.
+/// Sums over bound points, per node. Every task visits
+/// all points and adds those of its own nodes, in order.
 std::vector<double> sumsOf(const std::vector<PointBinding>& bindings, const WarpGraph& graph,
                            double each) {
   std::vector<double> sums(graph.size(), 0);
@@ -26,11 +26,11 @@ std::vector<double> sumsOf(const std::vector<PointBinding>& bindings, const Warp
   return sums;
 }
 
-/// Of the points that each node carries, the share that is hidden.
+/// Per node, the invisible share of its points.
 std::vector<double> hiddenShares(const PointModel& model, const WarpGraph& graph,
                                  const CandidatePoints& candidates) {
   std::vector<double> all, seen;
-  // Neither needs the other.
+  // Independent.
   parallelInvoke([&] { all = sumsOf(model.bindings, graph, 1); },
                  [&] { seen = sumsOf(candidates.bindings, graph, candidates.points_each); });
   std::vector<double> hidden(graph.size(), 1);

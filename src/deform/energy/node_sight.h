@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// docs/energy.md (7a), (7b). A point is in sight if it is a candidate. Sets how far each node is
-/// hidden, and the stiffness of each edge: 1 where a node's points are hidden, down to
-/// `seen_stiffness` where all points of both nodes are in sight.
+/// docs/energy.md (7a), (7b). A point is visible if it is a candidate. Sets the
+/// invisible share of each node, and the stiffness of each edge: 1 for nodes with
+/// invisible points, down to `seen_stiffness` if all points of both nodes are visible.
 void judgeSight(const PointModel& model, const WarpGraph& graph, const CandidatePoints& candidates,
                 double seen_stiffness, ConstraintSet* constraints);
 

@@ -45,7 +45,7 @@ DepthTarget::DepthTarget(const DepthMap& depth, const NormalMap& normals, const 
   look_up_.max_reliability = static_cast<float>(options.kMaxReliability);
 }
 
-/// Pixels first, so that the maps' memory is on its way while the next ones are found: measured,
+/// Pixels first, so that the maps are prefetched while the next ones are found: measured,
 /// 67,000 points in 640 x 480 pixels took 4.4 ms without and 3.0 ms with it on one core.
 void DepthTarget::lookUp(const Eigen::Vector3f* points_mm, const Eigen::Vector3f* normals,
                          int count, PlaneTarget* targets) const {

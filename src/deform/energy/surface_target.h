@@ -11,29 +11,29 @@
 
 namespace softscope {
 
-/// The live surface, however it was measured.
+/// Live surface from any measurement.
 class SurfaceTarget {
  public:
   virtual ~SurfaceTarget() = default;
-  /// The planes for `count` warped points (world frame, mm) and their normals, which are neighbours
-  /// on the model. Called from several threads.
+  /// Target planes of `count` warped points (world frame, mm) with their
+  /// normals, which are neighbours on the model. Called from several threads.
   virtual void lookUp(const Eigen::Vector3f* points_mm, const Eigen::Vector3f* normals, int count,
                       PlaneTarget* targets) const = 0;
 };
 
-/// Projective association with a depth map: docs/energy.md (8) to (11). The map and the normals
-/// are the caller's and must outlive this.
+/// Projective association with a depth map: docs/energy.md (8) to (11).
+/// Map and normals are owned by the caller and must outlive this.
 class DepthTarget : public SurfaceTarget {
  public:
-  /// Throws OptionError where the shapes of depth, normals and camera differ.
-  /// depth.sigma_mm may be empty: then every depth is as good as the reference.
+  /// Throws OptionError for inconsistent sizes of depth, normals and camera.
+  /// depth.sigma_mm may be empty: then every depth has the reference sigma.
   DepthTarget(const DepthMap& depth, const NormalMap& normals, const PinholeCamera& left,
               const Eigen::Isometry3d& left_from_world, const AssociationOptions& options);
 
   void lookUp(const Eigen::Vector3f* points_mm, const Eigen::Vector3f* normals, int count,
               PlaneTarget* targets) const override;
 
-  /// Valid as long as depth and normals are.
+  /// Valid while depth and normals are.
   const DepthLookUp& formula() const { return look_up_; }
 
  private:

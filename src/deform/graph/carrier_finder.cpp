@@ -28,11 +28,11 @@ void sortFour(std::array<std::int64_t, kNodesPerPoint>& numbers) {
 Carriers CarrierFinder::find(int cell, const Eigen::Vector3f& point_mm) {
   sortNodes(cell, point_mm.cast<double>());
   const int used = std::min(count_, kNodesPerPoint);
-  // Where the surface holds no further node, d_max is what the next one's distance would be.
+  // With no further node on the surface, d_max is the expected distance of the next one.
   const double furthest =
       count_ > kNodesPerPoint ? nodes_[kNodesPerPoint].first : nodes_[used - 1].first + spacing_mm_;
   std::array<double, kNodesPerPoint> shares{};
-  std::array<std::int64_t, kNodesPerPoint> order;  // number of the node, its place in `shares`
+  std::array<std::int64_t, kNodesPerPoint> order;  // node number with its index in `shares`
   order.fill(std::numeric_limits<std::int64_t>::max());
   double total = 0;
   for (int i = 0; i < used; ++i) {
@@ -50,8 +50,8 @@ Carriers CarrierFinder::find(int cell, const Eigen::Vector3f& point_mm) {
   return carriers;
 }
 
-/// The closest kSorted of the cell's nodes to the front, by distance; of equally close ones the
-/// lower number first. Begins with the last point's order, which is mostly this one's too.
+/// Sorts the closest kSorted of the nodes of the cell to the front by distance; of equal ones the
+/// lower number first. Starts with the order of the previous point, which is usually the same.
 void CarrierFinder::sortNodes(int cell, const Eigen::Vector3d& point_mm) {
   if (cell != cell_) {
     const NodeReach::Near& near = reach_.near(cell);
@@ -76,7 +76,7 @@ void CarrierFinder::sortNodes(int cell, const Eigen::Vector3d& point_mm) {
   }
 }
 
-/// Among nodes_ [0, end), which are sorted; the one at `end` is overwritten.
+/// Among the sorted nodes_ [0, end); the one at `end` is overwritten.
 void CarrierFinder::insert(int end, const NodeDistance& node) {
   for (; end > 0 && node < nodes_[end - 1]; --end) nodes_[end] = nodes_[end - 1];
   nodes_[end] = node;

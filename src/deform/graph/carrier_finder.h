@@ -1,4 +1,4 @@
-// src/deform/graph/carrier_finder.h: the nodes that carry a point, and their weights.
+// src/deform/graph/carrier_finder.h: nodes of a point, and their skinning weights.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,14 +10,14 @@
 
 namespace softscope {
 
-/// The nearest of a cell's nodes, by number, weighted by docs/energy.md (25).
+/// Nearest nodes of a cell, by number, with weights of docs/energy.md (25).
 struct Carriers {
   NodeStencil stencil{};
   std::array<float, kNodesPerPoint> weights{};
 };
 
-/// Finds the carriers of one point after the other, fastest where those of one cell follow each
-/// other. What it finds does not depend on the order.
+/// Finds the nodes of points in sequence, fastest if points of one
+/// cell are consecutive. The results do not depend on the order.
 class CarrierFinder {
  public:
   CarrierFinder(const NodeReach& reach, const WarpGraph& graph, double spacing_mm)

@@ -25,7 +25,7 @@ std::vector<int> unboundPoints(const Bindings& bindings) {
   return points;
 }
 
-/// Cubes of one reach around unbound points: beyond two of them nothing can change.
+/// Cubes of one reach around unbound points: nothing changes beyond two of them.
 CellNumbering changingRegion(const Positions& positions_mm, const std::vector<int>& unbound,
                              double reach_mm) {
   constexpr int kAround = 2;
@@ -59,7 +59,7 @@ std::vector<int> pointsInside(const Positions& positions_mm, const CellNumbering
   return points;
 }
 
-/// Gives every set of nodes its number; drops the numbers that no point uses any more.
+/// Numbers every set of nodes; drops unused numbers.
 class StencilBook {
  public:
   explicit StencilBook(std::vector<NodeStencil>* stencils) : stencils_(stencils) {
@@ -101,7 +101,7 @@ class StencilBook {
       if (held < 0) held = static_cast<std::int32_t>(s);  // of equal ones the first
     }
   }
-  /// The number of the stencil, or -1 in the place where it belongs.
+  /// Number of the stencil, or -1 at its slot.
   std::int32_t& slotOf(const NodeStencil& stencil) {
     std::uint64_t hash = 0;
     for (const std::int32_t node : stencil)
@@ -116,7 +116,7 @@ class StencilBook {
   std::vector<std::int32_t> slots_;  // open addressing; number of a stencil, or -1
 };
 
-/// One growth of the graph over the region around unbound points.
+/// Growth of the graph over the region around unbound points.
 class Growth {
  public:
   Growth(const GraphOptions& options, const Positions& positions_mm,
@@ -152,7 +152,7 @@ class Growth {
   }
 
  private:
-  /// New tissue has moved as the nearest known tissue has: the scope saw neither before.
+  /// New tissue has the displacement of the nearest known tissue: neither was visible before.
   Eigen::Vector3d movedNear(const Eigen::Vector3d& position_mm) const {
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     double nearest = std::numeric_limits<double>::infinity();
@@ -165,7 +165,7 @@ class Growth {
     return moved;
   }
 
-  /// In the order of the points: as the image was read, row by row.
+  /// In the order of the points: row by row of the image.
   void addNodes() {
     graph_.moved_mm.resize(graph_.size(), Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -181,7 +181,7 @@ class Growth {
     }
   }
 
-  /// Of points_, those without a binding and those that a new node is near to.
+  /// Of points_, those without a binding and those near a new node.
   std::vector<int> pointsToBind() const {
     std::vector<int> to_bind;
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -10,25 +10,25 @@
 
 namespace softscope {
 
-/// What growing the graph did.
+/// Result of the growth of the graph.
 struct GraphGrowth {
   int nodes_added = 0;
   int points_bound = 0;            // for the first time
-  int points_rebound = 0;          // because a new node is closer than one they had
+  int points_rebound = 0;          // because of a closer new node
   bool structure_changed = false;  // nodes, edges or stencils
 };
 
-/// Puts nodes where the model has unbound points and no node within the spacing along the surface,
-/// binds those points to their four nearest nodes along the surface (docs/energy.md (25)), rebinds
-/// points that a new node is close to, and renews the edges. Nodes keep their numbers. Does next to
-/// nothing where every point is bound. Points that are not finite stay unbound.
-///
-/// "Along the surface": the model is cut into cells, and a node reaches the cells that a short walk
-/// through touching cells leads to; so nodes don't carry points across a gap in depth. Parts that
-/// no surface connects are joined by edges alone, so that what is unseen follows the rest.
-/// Call it between frames, when the transforms are the identity (after rebase()).
+/// Adds nodes for unbound points without a node within the spacing along the
+/// surface, binds those points to their four nearest nodes along the surface
+/// (docs/energy.md (25)), rebinds points close to a new node, and updates the
+/// edges. Nodes keep their numbers. Fast if every point is bound. Points that are
+/// not finite remain unbound. "Along the surface": the model is divided into cells,
+/// and a node reaches the cells of a short path through touching cells; so nodes do
+/// not carry points across a depth discontinuity. Parts without a connecting
+/// surface are joined by edges, so that invisible parts follow the others. Must be
+/// called between frames, when the transforms are the identity (after rebase()).
 GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph* graph);
-/// The same for a model's positions and bindings, one of each a point.
+/// The same for the positions and bindings of a model, one per point.
 GraphGrowth growGraph(const GraphOptions& options, const std::vector<Eigen::Vector3f>& positions_mm,
                       std::vector<PointBinding>* bindings, WarpGraph* graph);
 

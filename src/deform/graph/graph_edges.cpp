@@ -24,7 +24,7 @@ NodePairs sharedStencils(const WarpGraph& graph) {
   return pairs;
 }
 
-/// The number of each node's connected part; parts are numbered by their first node.
+/// Connected component of each node; components are numbered by their first node.
 std::vector<int> findParts(std::size_t nodes, const NodePairs& pairs, int* part_count) {
   std::vector<int> parent(nodes);
   std::iota(parent.begin(), parent.end(), 0);
@@ -46,7 +46,7 @@ std::vector<int> findParts(std::size_t nodes, const NodePairs& pairs, int* part_
   return part;
 }
 
-/// The node of part `own` that is closest to any other part, and its distance order there.
+/// Node of part `own` closest to another part, with its distance order there.
 void bridge(const WarpGraph& graph, const std::vector<int>& part, int own, NodePairs* pairs) {
   const int nodes = static_cast<int>(graph.size());
   const auto& g = graph.positions_mm;
@@ -70,7 +70,7 @@ void bridge(const WarpGraph& graph, const std::vector<int>& part, int own, NodeP
     pairs->emplace_back(std::min(from, others[i].second), std::max(from, others[i].second));
 }
 
-/// Every part but the largest is tied to what is closest; repeated until one part is left.
+/// Every component but the largest is connected to the closest one; repeated until one is left.
 void joinParts(const WarpGraph& graph, NodePairs* pairs) {
   int count = 0;
   std::vector<int> part = findParts(graph.size(), *pairs, &count);

@@ -8,8 +8,8 @@
 
 namespace softscope {
 
-/// Edges between all nodes that share a stencil; a part of the graph that no stencil ties to the
-/// rest gets edges from its node that is closest to the rest to the three closest there.
+/// Edges between all nodes that share a stencil; a component without a stencil to the
+/// others gets edges from its closest node to the three closest nodes of the others.
 std::vector<GraphEdge> makeEdges(const WarpGraph& graph, const GraphOptions& options);
 
 }  // namespace softscope

@@ -9,8 +9,8 @@ namespace softscope {
 
 using NodePairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
-/// Sorts by (first, second) and drops repeated pairs: two counting sorts, whose time grows with
-/// pairs plus nodes alone. Nodes are 0 to `nodes` - 1.
+/// Sorts by (first, second) and drops duplicates by two counting sorts,
+/// with time linear in pairs plus nodes. Nodes are 0 to `nodes` - 1.
 inline void sortNodePairs(int nodes, NodePairs* pairs) {
   NodePairs sorted(pairs->size());
   const auto sortBy = [&](std::int32_t NodePairs::value_type::*member) {

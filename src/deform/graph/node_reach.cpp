@@ -18,7 +18,7 @@ NodeReach::NodeReach(const SurfaceCells& cells, const GraphOptions& options)
       near_(static_cast<std::size_t>(cells.size())),
       visits_(cells.size()) {}
 
-/// Walks need nothing of each other; a cell's list takes its nodes in their order.
+/// Walks are independent; the list of a cell receives nodes in their order.
 void NodeReach::spreadAll(const std::vector<Start>& starts) {
   std::vector<std::vector<Reached>> walks(starts.size());
   parallelRanges(static_cast<int>(starts.size()), kWalksATask, [&](int begin, int end) {
@@ -57,7 +57,7 @@ std::vector<NodeReach::Reached> NodeReach::walk(const Eigen::Vector3f& position_
     for (const int cell : ring) {
       const float straight_mm = (cells_.centre(cell) - position_mm).norm();
       if (straight_mm > reach_mm) continue;
-      // On an even surface a walk takes about one step a cell of straight line, never many more.
+      // On an even surface a walk takes about one step per cell of straight line.
       if (steps <= 2 + options_.kDetourRatio * straight_mm / cells_.cellMm())
         reached.push_back({cell, straight_mm});
       for (int i = cells_.neighboursBegin(cell); i < cells_.neighboursEnd(cell); ++i) {

@@ -11,12 +11,12 @@
 
 namespace softscope {
 
-/// For each cell, the closest nodes that can be reached along the surface.
+/// For each cell, the closest nodes reachable along the surface.
 class NodeReach {
  public:
   static constexpr int kNearest = 10;
 
-  /// One cell's nodes, closest to its centre first.
+  /// Nodes of one cell, closest to its centre first.
   struct Near {
     int count = 0;
     std::array<int, kNearest> nodes{};
@@ -25,23 +25,23 @@ class NodeReach {
 
   NodeReach(const SurfaceCells& cells, const GraphOptions& options);
 
-  /// How far a node may carry points, mm.
+  /// Maximum distance of a point from its nodes, mm.
   static double reachMm(const GraphOptions& options) { return 2.5 * options.node_spacing_mm; }
 
-  /// A node, and where its walk begins.
+  /// Node with the start of its walk.
   struct Start {
     int node = 0;
     Eigen::Vector3f position_mm;
   };
 
-  /// spread() from each, in order, on all cores.
+  /// spread() from each, in order, in parallel.
   void spreadAll(const std::vector<Start>& starts);
-  /// Walks from the node over touching cells and enters it where it is among the closest.
-  /// Returns the cells where it is one of the few that decide how a point is carried.
+  /// Walks from the node over touching cells and adds it to the lists of close nodes.
+  /// Returns the cells where it is one of those that determine the skinning weights.
   std::vector<int> spread(int node, const Eigen::Vector3f& position_mm);
 
   const Near& near(int cell) const { return near_[cell]; }
-  /// Whether some node lies within the node spacing of the cell's centre.
+  /// True if a node is within the node spacing of the centre of the cell.
   bool covered(int cell) const;
 
  private:
@@ -49,7 +49,7 @@ class NodeReach {
     int cell = 0;
     float distance_mm = 0;
   };
-  /// The cells that a walk visited last, so that each walk starts afresh without clearing.
+  /// Cells visited by the last walk, so that a walk needs no clearing.
   struct Visits {
     explicit Visits(int cells) : last_walk(static_cast<std::size_t>(cells), 0) {}
     std::vector<int> last_walk, ring, next;

@@ -6,7 +6,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kRememberedFrames = 100;  // tissue that was cut or moved for good is learnt anew
+constexpr double kRememberedFrames = 100;  // time constant after permanent changes of the tissue
 
 std::pair<std::int32_t, std::int32_t> nodesOf(const GraphEdge& edge) {
   return {edge.first, edge.second};

@@ -1,4 +1,4 @@
-// src/deform/graph/shape_memory.h: mean shape of the graph's edges over the last frames.
+// src/deform/graph/shape_memory.h: mean shape of the edges over the last frames.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace softscope {
 
-/// Takes the live shape into the mean of each edge: docs/energy.md (6b). Call it after a warp was
-/// accepted: positions are live, `turned` holds the warp's rotation.
+/// Adds the live shape to the mean of each edge: docs/energy.md (6b). Call it after
+/// a warp was accepted: positions are live, `turned` is the rotation of the warp.
 void rememberShape(WarpGraph* graph);
 
-/// Copies what edges with the same nodes remember. Both ascend by (first, second).
+/// Copies the mean shape of edges with the same nodes. Both ascend by (first, second).
 void keepMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to);
 
-/// docs/energy.md (6a). Sets where the nodes of each edge expect each other: `memory` (0 to 1) is
-/// the share of the remembered offset, the rest is the present offset.
+/// docs/energy.md (6a). Sets the expected offset of the nodes of each edge: `memory`
+/// (0 to 1) is the share of the mean offset, the rest is the present offset.
 void expectShape(const WarpGraph& graph, double memory, std::vector<ExpectedOffsets>* expected);
 
 }  // namespace softscope

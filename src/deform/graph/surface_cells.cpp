@@ -35,7 +35,7 @@ bool CellNumbering::keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) c
   for (int c = 0; c < 3; ++c) {
     const double cell = static_cast<double>(point_mm[c]) * inverse_cell_;
     if (!(cell >= kFirst && cell < kEnd)) return false;  // NaN too
-    // std::floor is a call into the C library wherever SSE4.1 is not taken for granted.
+    // std::floor is a library call on processors without SSE4.1.
     const std::int64_t whole = static_cast<std::int64_t>(cell);
     index[c] = whole - (static_cast<double>(whole) > cell ? 1 : 0) + kOrigin;
   }
@@ -95,7 +95,7 @@ SurfaceCells::SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm,
   findNeighbours();
 }
 
-/// Every task looks at all points and takes those of its own cells, in the points' order.
+/// Every task visits all points and handles those of its own cells, in the order of the points.
 void SurfaceCells::findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
                                const std::vector<int>& points) {
   const std::size_t cells = static_cast<std::size_t>(size());

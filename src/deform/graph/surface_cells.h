@@ -1,4 +1,4 @@
-// src/deform/graph/surface_cells.h: voxel grid of the model's surface, for geodesic distances.
+// src/deform/graph/surface_cells.h: voxel grid of the model surface, for geodesic distances.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,21 +10,21 @@ namespace softscope {
 /// A grain for loops over cells.
 inline constexpr int kCellsATask = 512;
 
-/// A grain for loops over cells in which each task looks at everything and takes what is its own:
-/// no more tasks than threads.
+/// Grain of loops over cells in which each task visits all
+/// data and handles its own part: at most one task per thread.
 int cellsAThread(int cells);
 
-/// From cubes of a regular grid to numbers 0, 1, 2 … in order of first use.
+/// Numbers 0, 1, 2 … of cubes of a regular grid in order of first use.
 class CellNumbering {
  public:
   explicit CellNumbering(double cell_mm, int expected_cells = 1024);
 
-  /// False where the point is not finite, or too far out for the grid (2^20 cells).
+  /// False if the point is not finite, or outside of the grid (2^20 cells).
   bool keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const;
-  /// The key of the cube that lies (dx, dy, dz) further.
+  /// Key of the cube at offset (dx, dy, dz).
   static std::uint64_t shifted(std::uint64_t key, int dx, int dy, int dz);
 
-  int find(std::uint64_t key) const;  // -1 where the cube has no number yet
+  int find(std::uint64_t key) const;  // -1 for a cube without a number
   int findOrAdd(std::uint64_t key);
   int size() const { return static_cast<int>(keys_.size()); }
   std::uint64_t key(int cell) const { return keys_[cell]; }
@@ -38,12 +38,12 @@ class CellNumbering {
   std::vector<std::uint64_t> keys_;
 };
 
-/// Looks points up one after the other. Neighbours in the list mostly share a cube: then the table
-/// isn't asked again.
+/// Looks up points in sequence. Neighbours in the
+/// list mostly share a cube, which is cached.
 class CellFinder {
  public:
   explicit CellFinder(const CellNumbering& table) : table_(table) {}
-  /// The point's cell, -1 where it has none.
+  /// Cell of the point, -1 if none.
   int find(const Eigen::Vector3f& point_mm) {
     std::uint64_t key = 0;
     if (!table_.keyOf(point_mm, &key)) return -1;
@@ -58,10 +58,10 @@ class CellFinder {
   int last_cell_ = -1;
 };
 
-/// The cubes that some points lie in; cubes that touch (also at a corner) are neighbours.
+/// Cubes that contain points; cubes that touch (also at a corner) are neighbours.
 class SurfaceCells {
  public:
-  /// Points that the grid can't hold get cell -1.
+  /// Points outside of the grid get cell -1.
   SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm, const std::vector<int>& points,
                double cell_mm);
 
@@ -69,7 +69,7 @@ class SurfaceCells {
   double cellMm() const { return cell_mm_; }
   /// Cell of points[i].
   int cellOf(int i) const { return cell_of_[i]; }
-  /// The cell at, or else next to, a position; -1 where there is none.
+  /// Cell at, or next to, a position; -1 if none.
   int cellNear(const Eigen::Vector3f& position_mm) const;
   const Eigen::Vector3f& centre(int cell) const { return centres_[cell]; }
   /// The model point closest to the cell's centre.

@@ -10,26 +10,26 @@
 
 namespace softscope {
 
-/// The nodes' transforms in the layout of the warping loops.
+/// Transforms of the nodes in the layout of the warping loops.
 std::vector<PackedNode> packNodes(const WarpGraph& graph);
 
-/// Warps `count` points and unit normals by docs/energy.md (2), (24). Unbound points stay.
+/// Warps `count` points and unit normals by docs/energy.md (2), (24). Unbound points are unchanged.
 void warpRange(const std::vector<PackedNode>& nodes, const std::vector<NodeStencil>& stencils,
                const PointBinding* bindings, const Eigen::Vector3f* positions_mm,
                const Eigen::Vector3f* normals, int count, Eigen::Vector3f* warped_mm,
                Eigen::Vector3f* warped_normals);
 
-/// Warps all points and normals of the model in place, on all cores.
+/// Warps all points and normals of the model in place, in parallel.
 void warpModel(const WarpGraph& graph, PointModel* model);
 
-/// One point, mm, by the binding that carries it: docs/energy.md (2). The slow, exact version of
-/// warpRange(), for tracked points.
+/// Warps one point, mm, by its skinning weights: docs/energy.md
+/// (2). The slow, exact version of warpRange(), for tracked points.
 Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,
                           const Eigen::Vector3d& point_mm);
 
-/// Nodes move to where they were warped and their transforms become the identity, so that the
-/// next frame's warp starts from the live shape. Bindings stay: the tissue is the same. Edges
-/// remember the shape (shape_memory.h).
+/// Sets the nodes to their warped positions and their transforms to the
+/// identity, so that the next warp starts from the live shape. Bindings
+/// are unchanged. Edges update their mean shape (shape_memory.h).
 void rebase(WarpGraph* graph);
 
 }  // namespace softscope

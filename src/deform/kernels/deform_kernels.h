@@ -19,21 +19,21 @@ struct PlaneConstraint {
   float weight;  // of the squared residual, before any robust weight
 };
 
-/// The four nodes of a stencil side by side, as of now: A row by row, g, g + t.
+/// The four nodes of a stencil in parallel: A row by row, g, g + t.
 struct StencilState {
   double linear[9][4];
   double rest[3][4];
   double moved[3][4];
 };
 
-/// The ten blocks (i, j), i <= j, of a stencil's normal equations, in this order:
-/// 00 01 02 03 11 12 13 22 23 33. Block (i, j) holds rows of node j, columns of node i,
-/// column-major.
+/// The ten blocks (i, j), i <= j, of the normal equations of a
+/// stencil, in this order: 00 01 02 03 11 12 13 22 23 33. Block
+/// (i, j) has rows of node j, columns of node i, column-major.
 constexpr int kStencilBlocks = 10;
 
-/// Float copy of a node for warping points: columns of A - I, then g + t - A g; every fourth
-/// unused. Displacements, not positions, are blended: weights that add up to 1 + 1e-7 then don't
-/// make the model drift.
+/// Float copy of a node for warping points: columns of A - I, then
+/// g + t - A g; every fourth unused. Displacements, not positions,
+/// are blended: weights with a sum of 1 + 1e-7 do not cause drift.
 struct PackedNode {
   float values[16];
 };
@@ -41,12 +41,12 @@ struct PackedNode {
 struct DeformKernels {
   const char* instruction_set;
 
-  /// Unweighted residuals of `count` constraints that share a stencil.
+  /// Unweighted residuals of `count` constraints of one stencil.
   void (*residuals)(const StencilState& nodes, const PlaneConstraint* constraints, int count,
                     double* out);
 
-  /// J^T J (10 blocks) and J^T r (4 x unknowns) of `count` constraints that share a stencil, each
-  /// weighted by weights[i] (base and robust). Overwrites blocks and gradient.
+  /// J^T J (10 blocks) and J^T r (4 x unknowns) of `count` constraints of one stencil,
+  /// each weighted by weights[i] (base and robust). Overwrites blocks and gradient.
   void (*assembleRigid)(const StencilState& nodes, const PlaneConstraint* constraints,
                         const double* residuals, const double* weights, int count, double* blocks,
                         double* gradient);
@@ -75,10 +75,10 @@ struct DeformKernels {
                      float* out_positions, float* out_normals);
 };
 
-/// The fastest set that this processor runs.
+/// The fastest set supported by this processor.
 const DeformKernels& deformKernels();
 
-/// Every set that this processor runs, slowest first.
+/// Sets supported by this processor, slowest first.
 struct DeformKernelList {
   const DeformKernels* sets[2];
   int count;

@@ -1,4 +1,4 @@
-// src/deform/kernels/deform_kernels_dispatch.cpp: which instruction sets this processor runs.
+// src/deform/kernels/deform_kernels_dispatch.cpp: choice of the instruction set.
 #include "deform/kernels/deform_kernels.h"
 
 namespace softscope {

@@ -9,14 +9,14 @@
 
 namespace softscope {
 
-/// A piece of the live surface, world frame.
+/// Plane of the live surface, world frame.
 struct PlaneTarget {
   Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float reliability = 0;  // weight of the squared residual; 0: no target here
 };
 
-/// Projective association with a depth map: docs/energy.md (8) to (11). Owns nothing.
+/// Projective association with a depth map: docs/energy.md (8) to (11). Non-owning.
 struct DepthLookUp {
   const float* depth_mm = nullptr;           // NaN: not measured
   const Eigen::Vector3f* normals = nullptr;  // left camera frame; NaN: none
@@ -35,7 +35,7 @@ struct DepthLookUp {
     return left_from_world_rotation * point_mm + left_from_world_translation_mm;
   }
 
-  /// The pixel whose square the point falls into; -1 outside the image or behind the camera.
+  /// Pixel of the point; -1 outside of the image or behind the camera.
   SOFTSCOPE_HD int pixelOf(const Eigen::Vector3f& point_left) const {
     if (!(point_left.z() > 0)) return -1;
     const float inverse_z = 1 / point_left.z();
@@ -67,8 +67,8 @@ struct DepthLookUp {
   }
 
  private:
-  /// docs/energy.md (11): the depth's error moves the target along its ray, so across the plane it
-  /// counts by the cosine between ray and normal.
+  /// docs/energy.md (11): a depth error moves the target along its ray, so its
+  /// effect across the plane is scaled by the cosine between ray and normal.
   SOFTSCOPE_HD float reliabilityAt(int pixel, const Eigen::Vector3f& lifted_left,
                                    const Eigen::Vector3f& normal_left) const {
     if (!use_sigma) return 1;

@@ -10,12 +10,12 @@
 
 namespace softscope {
 
-/// Where the nodes of an edge expect each other before they turn, world, mm.
+/// Expected offsets of the nodes of an edge before rotation, world, mm.
 struct ExpectedOffsets {
   Eigen::Vector3d from_first_mm, from_second_mm;
 };
 
-/// A node as the terms of its edges need it.
+/// Node data for the terms of its edges.
 struct PlacedNode {
   Eigen::Vector3d rest_mm;
   NodeTransform transform;
@@ -37,8 +37,8 @@ SOFTSCOPE_HD inline double edgeEnergy(const PlacedNode& first, const PlacedNode&
              .squaredNorm();
 }
 
-/// Both directions of an edge: docs/energy.md (6), (22). A node expects the other somewhere. Adds
-/// to the blocks of own, (other, own) or its transposed, other, and to both gradients.
+/// Both directions of an edge: docs/energy.md (6), (22). Each node expects an offset of the other.
+/// Adds to the blocks of own, (other, own) or its transposed, other, and to both gradients.
 template <class Node>
 struct EdgeSystem {
   static constexpr int kUnknowns = Node::kUnknowns;
@@ -67,7 +67,7 @@ struct EdgeSystem {
     const typename Node::Jacobian j = Node::leverJacobian(own.transform, expected_mm);
     own_block->noalias() += weight * j.transpose() * j;
     own_gradient->noalias() += weight * j.transpose() * residual;
-    // The other node's Jacobian is -I in its translation, zero elsewhere.
+    // The Jacobian of the other node is -I in its translation, zero elsewhere.
     other_block->template bottomRightCorner<3, 3>().diagonal().array() += weight;
     other_gradient->template tail<3>() -= weight * residual;
     if (cross_transposed)

@@ -21,7 +21,7 @@ SOFTSCOPE_HD inline Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& a) {
   return m;
 }
 
-/// The rotation by |omega| about omega: docs/energy.md (3).
+/// Rotation by |omega| about omega: docs/energy.md (3).
 SOFTSCOPE_HD inline Eigen::Quaterniond rotationOf(const Eigen::Vector3d& omega) {
   const double angle = omega.norm();
   const double half_sinc = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5;
@@ -52,7 +52,7 @@ struct RigidNode {
   }
 };
 
-/// Twelve unknowns: what is added to A, column by column, and to t.
+/// Twelve unknowns: increments of A, column by column, and of t.
 struct AffineNode {
   static constexpr int kUnknowns = 12;
   using Jacobian = Eigen::Matrix<double, 3, kUnknowns>;
@@ -72,8 +72,8 @@ struct AffineNode {
   }
 };
 
-/// How far `other` is from where `own` expects it, mm: docs/energy.md (6). `expected_mm`: the
-/// offset that `own` expects before it turns.
+/// Difference between `other` and its expected position, mm:
+/// docs/energy.md (6). `expected_mm`: expected offset before rotation.
 SOFTSCOPE_HD inline Eigen::Vector3d edgeResidual(const Eigen::Vector3d& own_mm,
                                                  const NodeTransform& own,
                                                  const Eigen::Vector3d& other_mm,
@@ -82,8 +82,8 @@ SOFTSCOPE_HD inline Eigen::Vector3d edgeResidual(const Eigen::Vector3d& own_mm,
   return own.linear * expected_mm - (other_mm - own_mm) + own.translation_mm - other.translation_mm;
 }
 
-/// How far A is from a rotation: three products of columns, three squared lengths less one:
-/// docs/energy.md (5).
+/// Deviation of A from a rotation: three products of columns,
+/// three squared lengths less one: docs/energy.md (5).
 SOFTSCOPE_HD inline Vector6d rotationResidual(const Eigen::Matrix3d& linear) {
   const Eigen::Vector3d a = linear.col(0), b = linear.col(1), c = linear.col(2);
   Vector6d r;
@@ -108,7 +108,7 @@ SOFTSCOPE_HD inline Eigen::Matrix<double, 6, 12> rotationJacobian(const Eigen::M
   return j;
 }
 
-/// The float copy by which points are warped: docs/energy.md (2).
+/// Float copy for warping points: docs/energy.md (2).
 SOFTSCOPE_HD inline PackedNode packNode(const Eigen::Vector3d& rest_mm,
                                         const NodeTransform& transform) {
   PackedNode packed;
@@ -120,8 +120,8 @@ SOFTSCOPE_HD inline PackedNode packNode(const Eigen::Vector3d& rest_mm,
   return packed;
 }
 
-/// alpha of an edge: docs/energy.md (7). Strain counts, not length: (spacing / length)^2, at
-/// most 4.
+/// alpha of an edge: docs/energy.md (7). Depends on
+/// strain, not length: (spacing / length)^2, at most 4.
 SOFTSCOPE_HD inline double edgeWeight(double length_mm, double spacing_mm) {
   const double length = length_mm > spacing_mm / 2 ? length_mm : spacing_mm / 2;
   return spacing_mm * spacing_mm / (length * length);

@@ -40,9 +40,9 @@ SOFTSCOPE_FORMULA Vec3<V> multiply(const V* linear, const Vec3<V>& d) {
           linear[6] * d.x + linear[7] * d.y + linear[8] * d.z};
 }
 
-/// One node's share of n . (warped point - target): docs/energy.md (8). The shares of the stencil's
-/// nodes add up to the residual, because their weights add up to 1.
-/// `turned` = A (p - g), `moved` = g + t.
+/// Contribution of one node to n . (warped point - target): docs/energy.md
+/// (8). The contributions of the nodes of a stencil sum up to the residual,
+/// because their weights sum up to 1. `turned` = A (p - g), `moved` = g + t.
 template <class V>
 SOFTSCOPE_FORMULA V planeShare(const Vec3<V>& turned, const Vec3<V>& moved, const Vec3<V>& target,
                                const Vec3<V>& normal, const V& weight) {

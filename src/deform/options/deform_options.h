@@ -7,32 +7,32 @@
 
 namespace softscope {
 
-/// What one node may do. Affine is the paper's: 12 unknowns, kept near a rotation by E_rot.
-/// Rigid has 6 unknowns, a twist, and needs no E_rot.
+/// Node model. Affine is that of the paper: 12 unknowns, close to a
+/// rotation by E_rot. Rigid has 6 unknowns, a twist, without E_rot.
 enum class NodeModel { kRigid, kAffine };
 
-/// How a term treats residuals that are too large to be noise: docs/energy.md (13), (14).
+/// Robust loss for residuals larger than noise: docs/energy.md (13), (14).
 enum class RobustLoss { kNone, kHuber };
 
-/// How nodes are laid over the model.
+/// Placement of nodes over the model.
 struct GraphOptions {
-  double node_spacing_mm = 4.0;  // no point lies further than this from a node, along the surface
+  double node_spacing_mm = 4.0;  // maximum distance of a point to a node, along the surface
   double cell_mm = 1.0;          // gaps of less than this, up to twice this, count as surface
-  // a node carries a point only if the way along the surface is at most this times the straight
-  // line (plus two cells)
+  // a node carries a point only if the path along the surface
+  // is at most this times the straight line (plus two cells)
   static constexpr double kDetourRatio = 1.6;
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 
-/// Which model points the depth map may pull, and where: docs/energy.md (9) to (11).
+/// Model points in the data term, and their targets: docs/energy.md (9) to (11).
 struct AssociationOptions {
   double max_distance_mm = 5.0;                 // epsilon_d
   static constexpr double kMaxAngleDeg = 45.0;  // epsilon_n
   double reference_sigma_mm = 0.15;  // depth of this sigma weighs 1, others by inverse variance;
                                      // 0: all depths weigh 1
-  static constexpr double kMaxReliability = 4.0;  // no depth weighs more than this
+  static constexpr double kMaxReliability = 4.0;  // upper limit
   int max_points = 0;  // use an even subset, each standing for many; 0 = all
 
   void validate() const;
@@ -41,32 +41,32 @@ struct AssociationOptions {
 /// One term of the energy: docs/energy.md (4).
 struct RobustOptions {
   RobustLoss loss = RobustLoss::kNone;
-  double scale_mm = 0.5;  // residuals beyond it are doubted
+  double scale_mm = 0.5;  // larger residuals are outliers
 };
 
 /// Levenberg-Marquardt: docs/energy.md (16) to (19).
 struct SolverOptions {
-  int max_iterations = 8;  // linear systems solved and accepted, over all associations
+  int max_iterations = 8;  // accepted linear solves, over all associations
   static constexpr int kIterationsPerAssociation = 1;
-  static constexpr int kMaxRejections = 8;         // in a row, before the solver stops
+  static constexpr int kMaxRejections = 8;         // consecutive, before the solver stops
   static constexpr double kInitialDamping = 1e-7;  // lambda, relative to the block diagonal
   static constexpr double kDiagonalFloor = 1e-10;  // added, relative to its largest entry
   static constexpr double kMinDamping = 1e-10;
   static constexpr double kMaxDamping = 1e6;
-  double step_tolerance_mm = 2e-3;  // converged when no node moves further in one step
-  double cost_tolerance = 1e-3;     // or when a step lowers the cost by less than this share
+  double step_tolerance_mm = 2e-3;  // converged if no node moves more than this in a step
+  double cost_tolerance = 1e-3;     // or if a step reduces the cost by less than this share
 };
 
-/// Weights of the energy and all other options of stage 6. The defaults were found on a
-/// simulated sequence with noise (docs/energy.md, "Which weights"), for 0.2 mm between points:
-/// E_data grows with their number.
+/// Weights of the energy and all other options of stage 6. The defaults are
+/// from a simulated sequence with noise (docs/energy.md, "Which weights"),
+/// for a point spacing of 0.2 mm: E_data grows with the number of points.
 struct DeformOptions {
   NodeModel node_model = NodeModel::kRigid;
   double rotation_weight = 40.0;        // w_rot; has no effect on rigid nodes
   double regularisation_weight = 30.0;  // w_reg
-  double seen_stiffness = 0.2;          // of it, between nodes whose every point is in sight
-  double shape_memory = 0.2;            // share of the remembered shape in the expected one
-  double rest_weight = 0.01;            // w_rest, for what hides
+  double seen_stiffness = 0.2;          // share of it between nodes with visible points only
+  double shape_memory = 0.2;            // share of the mean past shape in the expected shape
+  double rest_weight = 0.01;            // w_rest, for invisible nodes
   double data_weight = 3.0;             // w_data
   double correspondence_weight = 60.0;  // w_corr
   RobustOptions data_robust{RobustLoss::kHuber, 1.0};
@@ -74,7 +74,7 @@ struct DeformOptions {
   AssociationOptions association;
   SolverOptions solver;
 
-  /// The paper's choice: affine nodes, weights 1000, 10000, 1, 1, no robust weights.
+  /// Options of the paper: affine nodes, weights 1000, 10000, 1, 1, no robust weights.
   static DeformOptions paper();
 
   void validate() const;

@@ -1,5 +1,5 @@
-// src/deform/solver/cpu_warp_system.h: the least-squares problem of one frame on the processor's
-// cores.
+// src/deform/solver/cpu_warp_system.h: least-squares problem of one frame on the
+// CPU.
 #pragma once
 
 #include <memory>

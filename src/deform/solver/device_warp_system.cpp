@@ -30,7 +30,7 @@ class DeviceWarpSystem final : public WarpSystem {
     const Stopwatch watch(&times_.prepare_ms);
     analyse(graph);
     graph_ = graph;
-    // Neither needs the other.
+    // Independent.
     parallelInvoke([&] { device_->setSurface(surfaceOf(seen)); },
                    [&] {
                      parallelInvoke([&] { takePoints(model, seen); },
@@ -94,7 +94,7 @@ class DeviceWarpSystem final : public WarpSystem {
     device_->setPoints(points);
   }
 
-  /// The constraints hold no rows of points: the device makes those.
+  /// The constraints contain no rows of points: the device creates them.
   void takeMatches(const PointModel& model, const DeformObservation& seen) {
     makeConstraints(model, graph_, noCandidates(graph_), seen.matches,
                     options_.correspondence_weight, &constraints_);
@@ -130,7 +130,7 @@ class DeviceWarpSystem final : public WarpSystem {
   GraphStructure structure_;
   WarpGraph graph_;
   CandidatePoints candidates_;
-  ConstraintSet constraints_;  // matches, and what holds edges and nodes
+  ConstraintSet constraints_;  // matches, and constraints of edges and nodes
   double largest_diagonal_ = 0, pivot_ratio_ = 1;
   DeformTimes times_;
 };

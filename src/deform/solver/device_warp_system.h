@@ -1,4 +1,4 @@
-// src/deform/solver/device_warp_system.h: the least-squares problem of one frame, computed by a
+// src/deform/solver/device_warp_system.h: least-squares problem of one frame on a
 // device.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace softscope {
 
-/// For rigid nodes and targets from a DepthTarget (or none). The energy of makeCpuWarpSystem() up
-/// to rounding. Throws OptionError for affine nodes.
+/// For rigid nodes and targets from a DepthTarget (or none). Same energy as
+/// makeCpuWarpSystem() up to rounding. Throws OptionError for affine nodes.
 std::unique_ptr<WarpSystem> makeDeviceWarpSystem(const DeformOptions& options,
                                                  std::unique_ptr<WarpDevice> device);
 

@@ -76,7 +76,7 @@ class WarpSolver final : public DeformSolver {
     describeCondition(summary);
   }
 
-  /// Both pivots are square roots of what they stand for.
+  /// Both pivots are square roots.
   void describeCondition(DeformSummary* summary) const {
     if (summary->iterations == 0) return;
     summary->pivot_ratio = system_->pivotRatio();
@@ -87,7 +87,7 @@ class WarpSolver final : public DeformSolver {
     summary->warnings.push_back(text.str());
   }
 
-  /// Returns false where nothing pulls at all.
+  /// Returns false without any constraint.
   bool reassociate(const WarpGraph& graph, DeformSummary* summary) {
     const AssociatedEnergy associated = system_->associate();
     current_ = associated.energy;
@@ -112,7 +112,7 @@ class WarpSolver final : public DeformSolver {
     }
   }
 
-  /// One accepted step, or the reason why there is none: docs/energy.md (16) to (19).
+  /// One accepted step, or the reason for none: docs/energy.md (16) to (19).
   Step stepDown(DeformSummary* summary) {
     system_->assemble();
     double growth = 2;
@@ -141,7 +141,7 @@ class WarpSolver final : public DeformSolver {
         std::clamp(damping_ * factor, options_.solver.kMinDamping, options_.solver.kMaxDamping);
   }
 
-  /// A step that is small only because it was damped is no sign of convergence.
+  /// A step that is small because of damping does not indicate convergence.
   Step accept(const TrialStep& trial, double decrease, bool undoubted, DeformSummary* summary) {
     const double cost = current_.terms.total();
     summary->costs.push_back(cost);

@@ -11,20 +11,20 @@
 
 namespace softscope {
 
-/// Levenberg-Marquardt over the nodes' transforms: docs/energy.md (16) to (19). Holds what can be
-/// reused from frame to frame: the sparsity pattern and its elimination order.
+/// Levenberg-Marquardt over the transforms of the nodes: docs/energy.md (16) to
+/// (19). Keeps reusable data between frames: sparsity pattern and elimination order.
 class DeformSolver {
  public:
   virtual ~DeformSolver() = default;
   virtual NodeModel nodeModel() const = 0;
-  /// May do ahead what needs the graph's structure alone. Results don't depend on it.
+  /// May compute in advance what depends on the structure only. Results do not depend on it.
   virtual void prepare(const WarpGraph& /*graph*/) {}
   /// Starts from graph->transforms (the identity after rebase()) and changes nothing else.
   virtual DeformSummary solve(const PointModel& model, const DeformObservation& seen,
                               WarpGraph* graph) = 0;
 };
 
-/// On the processor. Throws OptionError where the options contradict themselves.
+/// On the CPU. Throws OptionError for contradictory options.
 std::unique_ptr<DeformSolver> makeDeformSolver(const DeformOptions& options);
 
 /// With a system for the same options.

@@ -97,7 +97,7 @@ void NormalEquations<Node>::assembleRotations(const WarpGraph& graph, double wei
   }
 }
 
-/// Parts of stencils without rows hold old numbers and are left out.
+/// Parts of stencils without rows are outdated and skipped.
 template <class Node>
 void NormalEquations<Node>::gather(const ConstraintSet& constraints) {
   const auto sumParts = [&](const GatherList& list, int target, int per_stencil, int size,
@@ -121,7 +121,7 @@ void NormalEquations<Node>::gather(const ConstraintSet& constraints) {
   });
 }
 
-/// (7b): nothing but the translations' own blocks.
+/// (7b): only the blocks of the translations.
 template <class Node>
 void NormalEquations<Node>::addRest(const WarpGraph& graph, const std::vector<double>& hidden,
                                     double weight) {

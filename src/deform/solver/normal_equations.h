@@ -14,23 +14,23 @@
 
 namespace softscope {
 
-/// Every stencil, edge and node first sums its own small dense system; then every block of the
-/// whole gathers its parts in a fixed order. Both steps run on all cores, and the result is the
-/// same, to the byte, whatever their number.
+/// Every stencil, edge and node sums its small dense system; then every
+/// block of the matrix gathers its parts in a fixed order. Both steps
+/// are parallel, and the result is identical for any number of threads.
 template <class Node>
 class NormalEquations {
  public:
   static constexpr int kUnknowns = Node::kUnknowns;
   static constexpr int kBlock = kUnknowns * kUnknowns;
 
-  /// Once for every change of nodes, edges or stencils.
+  /// Once per change of nodes, edges or stencils.
   void analyse(const WarpGraph& graph, const BlockPattern& pattern);
 
-  /// At the graph's transforms, with the residuals and weights that `value` has for them.
+  /// At the transforms of the graph, with its residuals and weights in `value`.
   void assemble(const WarpGraph& graph, const ConstraintSet& constraints, const EnergyValue& value,
                 const DeformOptions& options);
 
-  /// The pattern's blocks, column-major, one after the other.
+  /// Blocks of the pattern, column-major, contiguous.
   const std::vector<double>& blocks() const { return blocks_; }
   const Eigen::VectorXd& gradient() const { return gradient_; }
 

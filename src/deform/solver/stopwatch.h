@@ -5,7 +5,7 @@
 
 namespace softscope {
 
-/// Adds the time until its end to one entry.
+/// Adds the time until its destruction to one entry.
 class Stopwatch {
  public:
   explicit Stopwatch(double* total_ms) : total_ms_(total_ms), start_(Clock::now()) {}

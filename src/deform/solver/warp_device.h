@@ -15,7 +15,7 @@
 
 namespace softscope {
 
-/// What a device needs of the options.
+/// Options used by a device.
 struct WarpWeights {
   double regularisation = 0, rest = 0, data = 0;
   RobustOptions data_robust, correspondence_robust;
@@ -26,7 +26,7 @@ inline WarpWeights warpWeights(const DeformOptions& options) {
           options.data_robust, options.correspondence_robust};
 }
 
-/// Model points that the surface may pull, stencil by stencil.
+/// Model points of the data term, sorted by stencil.
 struct WarpPoints {
   int count = 0;
   const Eigen::Vector3f* positions_mm = nullptr;
@@ -43,7 +43,7 @@ struct WarpMatches {
   const int* start = nullptr;  // rows; stencils + 1 entries
 };
 
-/// Nodes, and what holds them together.
+/// Nodes, edges and their weights.
 struct WarpNodes {
   const Eigen::Vector3d* rest_mm = nullptr;
   const NodeTransform* transforms = nullptr;
@@ -63,13 +63,13 @@ struct WarpSums {
   double failures = 0;  // pivots not above 0, steps not finite
 };
 
-/// Residuals, normal equations, their solution and the transforms live on the device.
+/// Residuals, normal equations, their solution and the transforms are on the device.
 class WarpDevice {
  public:
   virtual ~WarpDevice() = default;
   virtual void setStructure(const WarpStructure& structure) = 0;
-  // A frame, for the last structure; all four may be called at the same time. The host's memory may
-  // change when they return. A surface without depth gives no targets.
+  // Inputs of a frame, for the last structure; all four may be called concurrently. The
+  // memory of the host may change after return. A surface without depth gives no targets.
   virtual void setSurface(const DepthLookUp& surface) = 0;
   virtual void setPoints(const WarpPoints& points) = 0;
   virtual void setMatches(const WarpMatches& matches) = 0;
@@ -79,7 +79,7 @@ class WarpDevice {
   virtual WarpSums linearise() = 0;
   /// Per stencil: targets of the last linearise().
   virtual std::vector<int> targetCounts() = 0;
-  /// A step with this damping, and the energy after it.
+  /// Step with this damping, and the energy after it.
   virtual WarpSums tryStep(double damping) = 0;
   virtual void acceptStep() = 0;
   virtual std::vector<NodeTransform> transforms() = 0;
