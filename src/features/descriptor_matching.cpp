@@ -11,75 +11,55 @@
 namespace softscope {
 namespace {
 
-constexpr int kInvalid = kNoDistance;
-
 /// Distances from one descriptor to all in a window of another image's nodes.
 class Window {
  public:
   /// Nodes around (column, row), cut at the grid's ends.
   void compare(const std::uint8_t* one, const DenseDescriptors& others, int column, int row,
                int reach) {
+    nearest_ = {kNoDistance, 0, 0};
     c0_ = std::max(column - reach, 0);
     r0_ = std::max(row - reach, 0);
     columns_ = std::min(column + reach, others.columns() - 1) - c0_ + 1;
     rows_ = std::min(row + reach, others.rows() - 1) - r0_ + 1;
-    if (empty()) return;
-    distances_.resize(static_cast<std::size_t>(columns_) * rows_);
-    const FeatureKernels& kernels = featureKernels();
-    for (int r = 0; r < rows_; ++r) {
-      std::uint16_t* to = distances_.data() + static_cast<std::size_t>(r) * columns_;
-      kernels.descriptorDistances(one, others.descriptor(c0_, r0_ + r), columns_, to);
-      const std::uint8_t* valid = others.valid.row(r0_ + r) + c0_;
-      for (int c = 0; c < columns_; ++c) to[c] = valid[c] != 0 ? to[c] : kInvalid;
-    }
-    findBest();
+    if (columns_ <= 0 || rows_ <= 0) return;
+    stride_ = (columns_ + kDistanceLanes - 1) / kDistanceLanes * kDistanceLanes;
+    values_.resize(std::max(values_.size(),
+                            static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_)));
+    nearest_ =
+        featureKernels().searchWindow(one,
+                                      {others.descriptor(c0_, r0_), others.valid.row(r0_) + c0_,
+                                       others.columns(), columns_, rows_},
+                                      {values_.data(), stride_});
   }
 
-  bool empty() const { return columns_ <= 0 || rows_ <= 0; }
-  bool found() const { return !empty() && best_ < kInvalid; }
-  int best() const { return best_; }
-  int bestColumn() const { return c0_ + best_column_; }
-  int bestRow() const { return r0_ + best_row_; }
+  bool found() const { return nearest_.distance < kNoDistance; }
+  int best() const { return nearest_.distance; }
+  int bestColumn() const { return c0_ + nearest_.column; }
+  int bestRow() const { return r0_ + nearest_.row; }
 
   /// Least distance of nodes more than `reach` columns or rows away from the best one.
-  int bestElsewhere(int reach) const {
-    int least = kInvalid;
-    for (int r = 0; r < rows_; ++r) {
-      const bool near_row = std::abs(r - best_row_) <= reach;
-      const std::uint16_t* from = distances_.data() + static_cast<std::size_t>(r) * columns_;
-      const int left_end = near_row ? std::max(best_column_ - reach, 0) : columns_;
-      const int right_begin = near_row ? best_column_ + reach + 1 : columns_;
-      for (int c = 0; c < left_end; ++c) least = std::min<int>(least, from[c]);
-      for (int c = right_begin; c < columns_; ++c) least = std::min<int>(least, from[c]);
-    }
-    return least;
+  int bestElsewhere(int reach) {
+    return featureKernels().leastElsewhere({values_.data(), stride_}, rows_, nearest_, reach);
   }
 
   /// Where parabolas through the best node and its neighbours are lowest, in nodes; 0 at the rim.
   Eigen::Vector2f parabolaShift() const {
-    return {softscope::parabolaShift(at(best_column_ - 1, best_row_), best_,
-                                     at(best_column_ + 1, best_row_)),
-            softscope::parabolaShift(at(best_column_, best_row_ - 1), best_,
-                                     at(best_column_, best_row_ + 1))};
+    const auto [best, column, row] = nearest_;
+    return {softscope::parabolaShift(at(column - 1, row), best, at(column + 1, row)),
+            softscope::parabolaShift(at(column, row - 1), best, at(column, row + 1))};
   }
 
  private:
-  void findBest() {
-    const auto least = std::min_element(distances_.begin(), distances_.end());
-    const int at = static_cast<int>(least - distances_.begin());
-    best_ = *least;
-    best_column_ = at % columns_;
-    best_row_ = at / columns_;
-  }
-
   int at(int c, int r) const {
-    if (c < 0 || r < 0 || c >= columns_ || r >= rows_) return kInvalid;
-    return distances_[static_cast<std::size_t>(r) * columns_ + static_cast<std::size_t>(c)];
+    if (c < 0 || r < 0 || c >= columns_ || r >= rows_) return kNoDistance;
+    return values_[static_cast<std::size_t>(r) * static_cast<std::size_t>(stride_) +
+                   static_cast<std::size_t>(c)];
   }
 
-  int c0_ = 0, r0_ = 0, columns_ = 0, rows_ = 0;
-  int best_ = kInvalid, best_column_ = 0, best_row_ = 0;
-  std::vector<std::uint16_t> distances_;
+  int c0_ = 0, r0_ = 0, columns_ = 0, rows_ = 0, stride_ = 0;
+  NearestNode nearest_{kNoDistance, 0, 0};
+  std::vector<std::uint16_t> values_;
 };
 
 Eigen::Vector2f pixelOf(const DenseDescriptors& grid, int column, int row) {

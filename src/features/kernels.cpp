@@ -2,35 +2,17 @@
 // compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
 #include "features/kernels.h"
 
-#include "features/subpixel_formulas.h"
+#include "features/lanes.h"
 #include "features/surf_formulas.h"
 #include "features/view_formulas.h"
-
-#define SOFTSCOPE_NAME_(set) featureKernels_##set
-#define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
-#define SOFTSCOPE_TEXT_(set) #set
-#define SOFTSCOPE_TEXT(set) SOFTSCOPE_TEXT_(set)
 
 namespace softscope {
 namespace {
 
 constexpr int kLanes = kSplatLanes;
-typedef float Float8 __attribute__((vector_size(32)));
-typedef std::int32_t Int8 __attribute__((vector_size(32)));
-
-template <class Vector, class Value>
-inline Vector load8(const Value* from) {
-  Vector values;
-  __builtin_memcpy(&values, from, sizeof(values));
-  return values;
-}
-template <class Vector, class Value>
-inline void store8(Value* to, const Vector& values) {
-  __builtin_memcpy(to, &values, sizeof(values));
-}
 template <class Value>
 inline void add8(Value* to, const Float8& values) {
-  store8(to, load8<Float8>(to) + values);
+  store(to, load<Float8>(to) + values);
 }
 constexpr Float8 kCounting = {0, 1, 2, 3, 4, 5, 6, 7};
 
@@ -57,9 +39,9 @@ void splatFront(const SplatDisc* discs, int count, const SplatBand& band) {
       for (int g = 0; g < box.groups; ++g) {
         const Float8 x = kCounting + (static_cast<float>(box.u0 + g * kLanes) - disc.u_px);
         const Float8 depth = discInverseDepth(disc, x, y);
-        const Float8 front = load8<Float8>(row + g * kLanes);
+        const Float8 front = load<Float8>(row + g * kLanes);
         const Int8 nearer = (x * x + y * y < radius_sq) & (depth > front);
-        store8(row + g * kLanes, nearer ? depth : front);
+        store(row + g * kLanes, nearer ? depth : front);
       }
     }
   }
@@ -71,7 +53,7 @@ inline void blendLanes(const SplatDisc& disc, const SplatBand& band, long at, co
   const Float8 none{};
   const Float8 depth = discInverseDepth(disc, x, y);
   const Float8 falloff = discFalloff(x, y, inverse_radius_sq);
-  const Float8 front = load8<Float8>(band.front + at);
+  const Float8 front = load<Float8>(band.front + at);
   const Float8 limit = frontLimit(front, band.tolerance_mm);
   const Float8 w = ((falloff > 0) & (depth >= limit)) ? falloff * falloff : none;
   add8(band.weight + at, w);
@@ -82,11 +64,11 @@ inline void blendLanes(const SplatDisc& disc, const SplatBand& band, long at, co
   add8(band.inverse_depth + at, w * depth);
   add8(band.shift_u + at, w * x);
   add8(band.shift_v + at, w * y);
-  const Float8 best = load8<Float8>(band.best_weight + at);
+  const Float8 best = load<Float8>(band.best_weight + at);
   const Int8 better = w > best;
-  const Int8 point = load8<Int8>(band.point + at);
-  store8(band.point + at, better ? disc.point + Int8{} : point);
-  store8(band.best_weight + at, better ? w : best);
+  const Int8 point = load<Int8>(band.point + at);
+  store(band.point + at, better ? disc.point + Int8{} : point);
+  store(band.best_weight + at, better ? w : best);
 }
 
 void splatBlend(const SplatDisc* discs, int count, const SplatBand& band) {
@@ -134,11 +116,11 @@ void haarRow(const std::int32_t* top, const std::int32_t* middle, const std::int
   int u = 0;
   for (; u + kLanes <= count; u += kLanes) {
     Int8 across, down, invalid;
-    haarAt(rows, u, load8<Int8, std::int32_t>, &across, &down, &invalid);
+    haarAt(rows, u, load<Int8, std::int32_t>, &across, &down, &invalid);
     const Int8 kept = invalid == 0;
-    store8(du + u, across & kept);
-    store8(dv + u, down & kept);
-    store8(valid + u, kept & 1);
+    store(du + u, across & kept);
+    store(dv + u, down & kept);
+    store(valid + u, kept & 1);
   }
   for (; u < count; ++u) {
     std::int32_t across, down, invalid;
@@ -164,57 +146,114 @@ float describe(const float* const* rows, int step, std::uint8_t* __restrict byte
   return length;
 }
 
+inline std::uint16_t distanceOf(const std::uint8_t* one, const std::uint8_t* other) {
+  int sum = 0;
+  for (int k = 0; k < kDescriptorSize; ++k) {
+    const int difference = one[k] - other[k];
+    sum += difference < 0 ? -difference : difference;
+  }
+  return static_cast<std::uint16_t>(sum);
+}
+
+#ifdef __AVX2__
+/// Four partial sums of absolute differences of one pair.
+inline Quads partialDistances(const Bytes32& low, const Bytes32& high, const std::uint8_t* other) {
+  return __builtin_ia32_psadbw256(low, load<Bytes32>(other)) +
+         __builtin_ia32_psadbw256(high, load<Bytes32>(other + 32));
+}
+#endif
+
 void descriptorDistances(const std::uint8_t* one, const std::uint8_t* others, int count,
                          std::uint16_t* distances) {
-  for (int j = 0; j < count; ++j) {
-    const std::uint8_t* other = others + 64L * j;
-    int sum = 0;
-    for (int k = 0; k < 64; ++k) {
-      const int difference = one[k] - other[k];
-      sum += difference < 0 ? -difference : difference;
-    }
-    distances[j] = static_cast<std::uint16_t>(sum);
+  int j = 0;
+#ifdef __AVX2__
+  const Bytes32 low = load<Bytes32>(one), high = load<Bytes32>(one + 32);
+  for (; j + 4 <= count; j += 4) {  // distances have 14 bits: four at once in each 64
+    const std::uint8_t* other = others + kDescriptorSize * static_cast<long>(j);
+    const Quads four = partialDistances(low, high, other) |
+                       partialDistances(low, high, other + kDescriptorSize) << 16 |
+                       partialDistances(low, high, other + 2 * kDescriptorSize) << 32 |
+                       partialDistances(low, high, other + 3 * kDescriptorSize) << 48;
+    store(distances + j, (four[0] + four[2]) + (four[1] + four[3]));
   }
+#endif
+  for (; j < count; ++j)
+    distances[j] = distanceOf(one, others + kDescriptorSize * static_cast<long>(j));
 }
 
-// --- sub-pixel windows ------------------------------------------------------------------------
-
-inline float total(const float* lanes) {
-  float sum = 0;
-  for (int k = 0; k < kWindowLanes; ++k) sum += lanes[k];
-  return sum;
+/// Nodes that are not valid have no distance.
+inline void dropInvalid(const std::uint8_t* valid, int columns, std::uint16_t* distances) {
+  int c = 0;
+  for (; c + 8 <= columns; c += 8) {
+    const Words8 marks = __builtin_convertvector(load<Bytes8>(valid + c), Words8);
+    store(distances + c, load<Words8>(distances + c) | reinterpret_cast<Words8>(marks == 0));
+  }
+  for (; c < columns; ++c) distances[c] = valid[c] != 0 ? distances[c] : kNoDistance;
 }
 
-WindowSums windowSums(const WindowTemplate& fixed, const float* corner, int stride,
-                      float fraction_u, float fraction_v) {
-  float along_u[kWindowLanes] = {}, along_v[kWindowLanes] = {}, contrast[kWindowLanes] = {};
-  float mean[kWindowLanes] = {}, square[kWindowLanes] = {};
-  for (int y = 0; y < fixed.rows; ++y) {
-    const float* upper = corner + static_cast<long>(y) * stride;
-    const float* lower = upper + stride;
-    const long at = static_cast<long>(y) * kWindowLanes;
-    for (int k = 0; k < kWindowLanes; ++k) {
-      const float value =
-          bilinear(upper[k], upper[k + 1], lower[k], lower[k + 1], fraction_u, fraction_v);
-      along_u[k] += fixed.steepest_u[at + k] * value;
-      along_v[k] += fixed.steepest_v[at + k] * value;
-      contrast[k] += fixed.contrast[at + k] * value;
-      mean[k] += fixed.weight[at + k] * value;
-      square[k] += fixed.weight[at + k] * value * value;
+NearestNode searchWindow(const std::uint8_t* one, const DescriptorWindow& window,
+                         const WindowDistances& distances) {
+  const Words16 none = Words16{} + static_cast<std::uint16_t>(kNoDistance);
+  const int groups = distances.stride / kDistanceLanes;
+  Words16 least = none, group_of_least{};
+  for (int r = 0; r < window.rows; ++r) {
+    std::uint16_t* to = distances.values + static_cast<long>(r) * distances.stride;
+    const long node = static_cast<long>(r) * window.grid_columns;
+    store(to + distances.stride - kDistanceLanes, none);
+    descriptorDistances(one, window.others + kDescriptorSize * node, window.columns, to);
+    dropInvalid(window.valid + node, window.columns, to);
+    for (int g = 0; g < groups; ++g) {
+      const Words16 here = load<Words16>(to + kDistanceLanes * g);
+      const auto less = here < least;
+      const std::uint16_t group = static_cast<std::uint16_t>(r * groups + g);
+      group_of_least = less ? Words16{} + group : group_of_least;
+      least = less ? here : least;
     }
   }
-  return {total(along_u), total(along_v), total(contrast), total(mean), total(square)};
+  NearestNode nearest{kNoDistance, 0, 0};
+  for (int k = 0; k < kDistanceLanes; ++k) {
+    const int row = group_of_least[k] / groups,
+              column = group_of_least[k] % groups * kDistanceLanes + k;
+    const bool earlier = row < nearest.row || (row == nearest.row && column < nearest.column);
+    if (least[k] < nearest.distance || (least[k] == nearest.distance && earlier))
+      nearest = {least[k], column, row};
+  }
+  return nearest;
+}
+
+int leastElsewhere(const WindowDistances& distances, int rows, const NearestNode& node, int reach) {
+  Words16 least = Words16{} + static_cast<std::uint16_t>(kNoDistance);
+  for (int g = 0; g < distances.stride / kDistanceLanes; ++g) {
+    Words16 near{};
+    for (int k = 0; k < kDistanceLanes; ++k) {
+      const int apart = g * kDistanceLanes + k - node.column;
+      near[k] = apart >= -reach && apart <= reach ? kNoDistance : 0;
+    }
+    for (int r = 0; r < rows; ++r) {
+      const std::uint16_t* row = distances.values + static_cast<long>(r) * distances.stride;
+      const bool near_row = r >= node.row - reach && r <= node.row + reach;
+      const Words16 here = load<Words16>(row + kDistanceLanes * g) | (near_row ? near : Words16{});
+      least = here < least ? here : least;
+    }
+  }
+  int smallest = kNoDistance;
+  for (int k = 0; k < kDistanceLanes; ++k) smallest = smaller(smallest, least[k]);
+  return smallest;
 }
 
 }  // namespace
 
-extern const FeatureKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET);
-const FeatureKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET) = {SOFTSCOPE_TEXT(SOFTSCOPE_SIMD_SET),
-                                                           splatFront,
-                                                           splatBlend,
-                                                           haarRow,
-                                                           describe,
-                                                           descriptorDistances,
-                                                           windowSums};
+extern const WindowKernels SOFTSCOPE_NAME(windowKernels, SOFTSCOPE_SIMD_SET);
+extern const FeatureKernels SOFTSCOPE_NAME(featureKernels, SOFTSCOPE_SIMD_SET);
+const FeatureKernels SOFTSCOPE_NAME(featureKernels, SOFTSCOPE_SIMD_SET) = {
+    SOFTSCOPE_TEXT(SOFTSCOPE_SIMD_SET),
+    splatFront,
+    splatBlend,
+    haarRow,
+    describe,
+    descriptorDistances,
+    searchWindow,
+    leastElsewhere,
+    &SOFTSCOPE_NAME(windowKernels, SOFTSCOPE_SIMD_SET)};
 
 }  // namespace softscope

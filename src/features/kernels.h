@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include "features/window_kernels.h"
+
 namespace softscope {
 
 /// A model point as a small disc of the image. Its plane makes the inverse depth linear in the
@@ -46,23 +48,24 @@ struct SplatBand {
 constexpr int kDescriptorSize = 64;
 constexpr float kDescriptorUnit = 300;
 
-/// Row of the window that is refined: see subpixel_match.cpp.
-constexpr int kWindowLanes = 16;
-constexpr int kLargestWindow = 15;  // rows
-
-/// What stays fixed while a window looks for its place. Arrays of rows x kWindowLanes, 0 where the
-/// window has no weight.
-struct WindowTemplate {
-  const float* steepest_u;  // weighted, free of the window's mean and contrast
-  const float* steepest_v;
-  const float* contrast;  // weighted brightness minus its mean
-  const float* weight;
-  int rows;
+/// Nodes of a grid of descriptors that one descriptor is compared with.
+struct DescriptorWindow {
+  const std::uint8_t* others;  // the first node's descriptor
+  const std::uint8_t* valid;   // the first node's; 0 = not compared
+  int grid_columns;            // from one row of nodes to the next
+  int columns, rows;
 };
-
-/// Weighted sums over the window of the live image at a sub-pixel place.
-struct WindowSums {
-  float along_u, along_v, along_contrast, mean, square;
+/// Distances of a window by rows of `stride` values, a multiple of kDistanceLanes; kNoDistance
+/// where a node is not valid and beyond the last column.
+constexpr int kDistanceLanes = 16;
+constexpr int kNoDistance = 0xFFFF;
+struct WindowDistances {
+  std::uint16_t* values;
+  int stride;
+};
+/// The first of the least distances, by rows.
+struct NearestNode {
+  int distance, column, row;
 };
 
 struct FeatureKernels {
@@ -85,10 +88,13 @@ struct FeatureKernels {
   /// other.
   void (*descriptorDistances)(const std::uint8_t* one, const std::uint8_t* others, int count,
                               std::uint16_t* distances);
-  /// Bilinear samples of the live image, with (0, 0) of the window at `corner` plus the fraction;
-  /// rows + 1 rows of kWindowLanes + 1 values are read.
-  WindowSums (*windowSums)(const WindowTemplate& fixed, const float* corner, int stride,
-                           float fraction_u, float fraction_v);
+  /// All distances of a window, and the least of them. At least one row and column.
+  NearestNode (*searchWindow)(const std::uint8_t* one, const DescriptorWindow& window,
+                              const WindowDistances& distances);
+  /// Least distance of nodes more than `reach` columns or rows away from `node`.
+  int (*leastElsewhere)(const WindowDistances& distances, int rows, const NearestNode& node,
+                        int reach);
+  const WindowKernels* windows;
 };
 
 /// The fastest set that this processor runs.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/hd.h"
+#include "features/kernels.h"
 #include "features/matcher_options.h"
 
 namespace softscope {
@@ -14,8 +15,6 @@ namespace softscope {
 SOFTSCOPE_HD inline bool isDark(int gray, int darkest_gray) { return gray < darkest_gray; }
 
 // --- descriptor search -----------------------------------------------------------------------
-
-constexpr int kNoDistance = 0xFFFF;
 
 /// The search's options in nodes of the grid.
 struct SearchReach {

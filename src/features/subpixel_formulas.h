@@ -63,8 +63,8 @@ struct WindowMoments {
   float square, along_u, along_v;  // of the contrast with itself and with the gradients
 };
 /// A gradient without the window's mean and contrast.
-SOFTSCOPE_FORMULA float projectedGradient(float gradient, float mean, float contrast, float along,
-                                          float square) {
+template <class V>
+SOFTSCOPE_FORMULA V projectedGradient(V gradient, V mean, V contrast, V along, V square) {
   return gradient - mean - contrast * along / square;
 }
 

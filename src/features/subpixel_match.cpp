@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
 
 #include "core/parallel.h"
 #include "features/subpixel_formulas.h"
@@ -37,16 +40,40 @@ using WindowPlane = std::array<float, kLargestWindow * kWindowLanes>;
 
 /// Everything about one window of the model image.
 struct Patch {
-  WindowPlane steepest_u, steepest_v, contrast, weight;
-  WindowMatrix information;  // per unit of weight
-  float contrast_sq = 0;
-  float weight_sq = 0;
-  int rows = 0;
+  WindowPlane steepest_u, steepest_v, contrast;
+  WindowPlane own_weight;     // where pixels are ignored
+  const WindowPlane* weight;  // sum 1
+  float weight_sq;
+  Eigen::Vector2f rest;  // of the match beside the window's middle
+  WindowSearch search;
 
-  WindowTemplate view() const {
-    return {steepest_u.data(), steepest_v.data(), contrast.data(), weight.data(), rows};
+  WindowTemplate view(int rows) const {
+    return {steepest_u.data(), steepest_v.data(), contrast.data(), weight->data(), rows};
   }
 };
+
+/// Matches whose windows become templates at the same time.
+struct Batch {
+  int count = 0;
+  std::array<Patch, kTemplateLanes> patches;
+  std::array<const float*, kTemplateLanes> corners;
+  std::array<std::size_t, kTemplateLanes> matches;
+};
+
+/// Whether one of the window's pixels is marked; at least 8 columns.
+bool holdsMark(const Mask& mask, int u0, int v0, int side) {
+  if (mask.empty()) return false;
+  std::uint64_t found = 0;
+  for (int y = 0; y < side; ++y) {
+    const std::uint8_t* row = mask.row(v0 + y) + u0;
+    for (const int x : {0, side - 8}) {
+      std::uint64_t eight;
+      std::memcpy(&eight, row + x, sizeof eight);
+      found |= eight;
+    }
+  }
+  return found != 0;
+}
 
 class Refiner {
  public:
@@ -57,142 +84,173 @@ class Refiner {
         live_(smoothed(live.gray)),
         model_ignore_(model.ignore),
         live_ignore_(live.ignore),
-        window_(windowWeights(options.kRadiusPx)) {}
+        window_(windowWeights(options.kRadiusPx)) {
+    std::copy(std::begin(window_.values), std::end(window_.values), whole_.begin());
+    whole_sq_ = scaleToOne(window_.all, &whole_);
+  }
 
-  /// False where the match is refused.
-  bool refine(PixelMatch* match) const {
-    if (anchor_.empty()) return refineBy(model_, match);
-    PixelMatch anchored = *match, present = *match;
-    const bool held = refineBy(anchor_, &anchored);
-    if (anchorDecides(held, anchored.sigma_px, static_cast<float>(options_.kMaxSigmaPx))) {
-      *match = anchored;
-      return true;
+  /// Which are kept.
+  std::vector<std::uint8_t> refine(PixelMatch* matches, std::size_t count) const {
+    if (anchor_.empty()) return refineBy(model_, matches, count);
+    std::vector<PixelMatch> anchored(matches, matches + count);
+    std::vector<std::uint8_t> held = refineBy(anchor_, anchored.data(), count);
+    std::vector<std::size_t> undecided;
+    std::vector<PixelMatch> present;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (anchorDecides(held[i] != 0, anchored[i].sigma_px,
+                        static_cast<float>(options_.kMaxSigmaPx))) {
+        matches[i] = anchored[i];
+      } else {
+        undecided.push_back(i);
+        present.push_back(matches[i]);
+      }
     }
-    const bool seen = refineBy(model_, &present);
-    present.sigma_px = quadratureSum(present.sigma_px, static_cast<float>(options_.kDriftPx));
-    *match = anchorIsBetter(held, anchored.sigma_px, seen, present.sigma_px) ? anchored : present;
-    return held || seen;
+    const std::vector<std::uint8_t> seen = refineBy(model_, present.data(), present.size());
+    for (std::size_t k = 0; k < undecided.size(); ++k) {
+      const std::size_t i = undecided[k];
+      present[k].sigma_px =
+          quadratureSum(present[k].sigma_px, static_cast<float>(options_.kDriftPx));
+      matches[i] =
+          anchorIsBetter(held[i] != 0, anchored[i].sigma_px, seen[k] != 0, present[k].sigma_px)
+              ? anchored[i]
+              : present[k];
+      held[i] = held[i] != 0 || seen[k] != 0;
+    }
+    return held;
   }
 
  private:
-  bool refineBy(const Raster<float>& model, PixelMatch* match) const {
+  int rows() const { return 2 * options_.kRadiusPx + 1; }
+
+  std::vector<std::uint8_t> refineBy(const Raster<float>& model, PixelMatch* matches,
+                                     std::size_t count) const {
+    std::vector<std::uint8_t> held(count, 0);
+    Batch batch;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!place(model, matches[i], &batch)) continue;
+      batch.matches[static_cast<std::size_t>(batch.count++)] = i;
+      if (batch.count < kTemplateLanes) continue;
+      finish(model, &batch, matches, held.data());
+    }
+    if (batch.count > 0) finish(model, &batch, matches, held.data());
+    return held;
+  }
+
+  /// Puts a match into the batch. False where its windows leave an image or are mostly ignored.
+  bool place(const Raster<float>& model, const PixelMatch& match, Batch* batch) const {
     const int r = options_.kRadiusPx;
-    const int mu = static_cast<int>(std::lround(match->model_px.x()));
-    const int mv = static_cast<int>(std::lround(match->model_px.y()));
+    const int mu = static_cast<int>(std::lround(match.model_px.x()));
+    const int mv = static_cast<int>(std::lround(match.model_px.y()));
     if (!isInsideModel(mu, mv, r, model.width_px, model.height_px)) return false;
-    const Eigen::Vector2f rest = match->model_px - Eigen::Vector2f(mu, mv);
-    const Eigen::Vector2f start = match->live_px - rest;  // of the window's middle
+    const Eigen::Vector2f rest = match.model_px - Eigen::Vector2f(mu, mv);
+    const Eigen::Vector2f start = match.live_px - rest;  // of the window's middle
     if (!start.allFinite() ||
         !isInsideLive(start.x(), start.y(), r, live_.width_px, live_.height_px))
       return false;
-    Patch patch;
-    if (!weigh(mu, mv, static_cast<int>(std::lround(start.x())),
-               static_cast<int>(std::lround(start.y())), &patch) ||
-        !prepare(model, mu, mv, &patch))
+    const std::size_t k = static_cast<std::size_t>(batch->count);
+    Patch& patch = batch->patches[k];
+    if (!weigh(mu - r, mv - r, static_cast<int>(std::lround(start.x())) - r,
+               static_cast<int>(std::lround(start.y())) - r, &patch))
       return false;
-    WindowSearch search{
-        start.x(),         start.y(),      start.x(), start.y(), inverseOf(patch.information),
-        patch.contrast_sq, patch.weight_sq};
-    if (!iterate(patch, &search, match)) return false;
-    match->live_px = Eigen::Vector2f(search.u, search.v) + rest;
+    batch->corners[k] = model.row(mv - r) + mu - r;
+    patch.rest = rest;
+    patch.search.u = patch.search.start_u = start.x();
+    patch.search.v = patch.search.start_v = start.y();
     return true;
   }
 
   /// Weights of the window without what either image ignores, sum 1.
-  bool weigh(int mu, int mv, int lu, int lv, Patch* patch) const {
-    const int r = options_.kRadiusPx;
-    patch->rows = 2 * r + 1;
-    patch->weight.fill(0);
+  bool weigh(int model_u, int model_v, int live_u, int live_v, Patch* patch) const {
+    const bool model_marked = holdsMark(model_ignore_, model_u, model_v, rows());
+    const bool live_marked = holdsMark(live_ignore_, live_u, live_v, rows());
+    patch->weight = &whole_;
+    patch->weight_sq = whole_sq_;
+    if (!model_marked && !live_marked) return true;
+    patch->own_weight.fill(0);
     float kept = 0;
-    for (int y = -r; y <= r; ++y)
-      for (int x = -r; x <= r; ++x) {
-        const std::size_t k = static_cast<std::size_t>((y + r) * kWindowLanes + x + r);
-        const bool ignored = (!model_ignore_.empty() && model_ignore_.at(mu + x, mv + y) != 0) ||
-                             (!live_ignore_.empty() && live_ignore_.contains(lu + x, lv + y) &&
-                              live_ignore_.at(lu + x, lv + y) != 0);
-        if (ignored) continue;
-        patch->weight[k] = window_.values[k];
+    for (int y = 0; y < rows(); ++y)
+      for (int x = 0; x < rows(); ++x) {
+        if ((model_marked && model_ignore_.at(model_u + x, model_v + y) != 0) ||
+            (live_marked && live_ignore_.at(live_u + x, live_v + y) != 0))
+          continue;
+        const std::size_t k = static_cast<std::size_t>(y * kWindowLanes + x);
+        patch->own_weight[k] = window_.values[k];
         kept += window_.values[k];
       }
     if (!(kept >= kLeastWindowShare * window_.all)) return false;
-    patch->weight_sq = 0;
-    for (float& w : patch->weight) {
-      w /= kept;
-      patch->weight_sq += w * w;
-    }
+    patch->weight = &patch->own_weight;
+    patch->weight_sq = scaleToOne(kept, &patch->own_weight);
     return true;
   }
 
-  /// Gradients and contrast of the model's window; projects mean and contrast out of the gradients.
-  bool prepare(const Raster<float>& model, int mu, int mv, Patch* patch) const {
-    const int r = options_.kRadiusPx;
-    patch->steepest_u.fill(0);
-    patch->steepest_v.fill(0);
-    patch->contrast.fill(0);
-    WindowMoments moments{};
-    for (int y = 0; y < patch->rows; ++y) {
-      const float* row = model.row(mv - r + y) + mu - r;
-      const float *above = row - model.width_px, *below = row + model.width_px;
-      for (int x = 0; x < patch->rows; ++x) {
-        const std::size_t k = static_cast<std::size_t>(y * kWindowLanes + x);
-        patch->contrast[k] = row[x];
-        patch->steepest_u[k] = 0.5f * (row[x + 1] - row[x - 1]);
-        patch->steepest_v[k] = 0.5f * (below[x] - above[x]);
-        moments.mean += patch->weight[k] * patch->contrast[k];
-        moments.gradient_u += patch->weight[k] * patch->steepest_u[k];
-        moments.gradient_v += patch->weight[k] * patch->steepest_v[k];
-      }
+  /// Returns the sum of the squares.
+  static float scaleToOne(float sum, WindowPlane* weights) {
+    float square = 0;
+    for (float& w : *weights) {
+      w /= sum;
+      square += w * w;
     }
-    return project(moments, patch);
+    return square;
   }
 
-  static bool project(WindowMoments m, Patch* patch) {
-    for (std::size_t k = 0; k < patch->contrast.size(); ++k) {
-      const float t = patch->contrast[k] - m.mean, w = patch->weight[k];
-      m.square += w * t * t;
-      m.along_u += w * t * (patch->steepest_u[k] - m.gradient_u);
-      m.along_v += w * t * (patch->steepest_v[k] - m.gradient_v);
+  /// Empties the batch.
+  void finish(const Raster<float>& model, Batch* batch, PixelMatch* matches,
+              std::uint8_t* held) const {
+    TemplateWindows windows{};
+    TemplateResults results{};
+    windows.stride = model.width_px;
+    windows.rows = rows();
+    for (std::size_t k = 0; k < kTemplateLanes; ++k) {
+      // Lanes to spare repeat the first match.
+      const std::size_t from = k < static_cast<std::size_t>(batch->count) ? k : 0;
+      Patch& patch = batch->patches[k];
+      windows.corner[k] = batch->corners[from];
+      windows.weight[k] = batch->patches[from].weight->data();
+      results.steepest_u[k] = patch.steepest_u.data();
+      results.steepest_v[k] = patch.steepest_v.data();
+      results.contrast[k] = patch.contrast.data();
     }
-    if (!(m.square > kLeastContrastSq)) return false;
-    patch->contrast_sq = m.square;
-    WindowMatrix& information = patch->information = {0, 0, 0, 0};
-    for (std::size_t k = 0; k < patch->contrast.size(); ++k) {
-      const float t = patch->contrast[k] - m.mean, w = patch->weight[k];
-      const float u = projectedGradient(patch->steepest_u[k], m.gradient_u, t, m.along_u, m.square),
-                  v = projectedGradient(patch->steepest_v[k], m.gradient_v, t, m.along_v, m.square);
-      information.uu += w * u * u;
-      information.uv += w * u * v;
-      information.vu += w * v * u;
-      information.vv += w * v * v;
-      patch->steepest_u[k] = w * u;
-      patch->steepest_v[k] = w * v;
-      patch->contrast[k] = w * t;
+    featureKernels().windows->windowTemplates(windows, &results);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(batch->count); ++k) {
+      const std::size_t i = batch->matches[k];
+      const WindowMatrix information{results.uu[k], results.uv[k], results.vu[k], results.vv[k]};
+      held[i] = results.contrast_sq[k] > kLeastContrastSq &&
+                determinantOf(information) > kLeastDeterminant &&
+                iterate(information, results.contrast_sq[k], &batch->patches[k], &matches[i]);
     }
-    return determinantOf(information) > kLeastDeterminant;
+    batch->count = 0;
   }
 
-  bool iterate(const Patch& patch, WindowSearch* search, PixelMatch* match) const {
+  bool iterate(const WindowMatrix& information, float contrast_sq, Patch* patch,
+               PixelMatch* match) const {
+    WindowSearch& search = patch->search;
+    search.inverse = inverseOf(information);
+    search.contrast_sq = contrast_sq;
+    search.weight_sq = patch->weight_sq;
     for (int i = 0; i < options_.kIterations; ++i) {
       const SearchStep step =
-          takeStep(sample(patch, *search), static_cast<float>(options_.kMaxShiftPx),
-                   options_.kRadiusPx, live_.width_px, live_.height_px, search);
+          takeStep(sample(*patch), static_cast<float>(options_.kMaxShiftPx), options_.kRadiusPx,
+                   live_.width_px, live_.height_px, &search);
       if (step == SearchStep::kRefused) return false;
       if (step == SearchStep::kConverged) break;
     }
     const WindowVerdict verdict =
-        judgeWindow(sample(patch, *search), *search, static_cast<float>(options_.kFloorSigmaPx),
+        judgeWindow(sample(*patch), search, static_cast<float>(options_.kFloorSigmaPx),
                     static_cast<float>(options_.kMinSimilarity));
     match->similarity = verdict.similarity;
     match->sigma_px = verdict.sigma_px;
-    return verdict.accepted;
+    if (!verdict.accepted) return false;
+    match->live_px = Eigen::Vector2f(search.u, search.v) + patch->rest;
+    return true;
   }
 
-  WindowSums sample(const Patch& patch, const WindowSearch& search) const {
-    const float u = search.u - static_cast<float>(options_.kRadiusPx);
-    const float v = search.v - static_cast<float>(options_.kRadiusPx);
+  WindowSums sample(const Patch& patch) const {
+    const float u = patch.search.u - static_cast<float>(options_.kRadiusPx);
+    const float v = patch.search.v - static_cast<float>(options_.kRadiusPx);
     const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    return featureKernels().windowSums(patch.view(), live_.row(v0) + u0, live_.width_px,
-                                       u - static_cast<float>(u0), v - static_cast<float>(v0));
+    return featureKernels().windows->windowSums(patch.view(rows()), live_.row(v0) + u0,
+                                                live_.width_px, u - static_cast<float>(u0),
+                                                v - static_cast<float>(v0));
   }
 
   const SubpixelOptions& options_;
@@ -200,6 +258,8 @@ class Refiner {
   const Mask& model_ignore_;
   const Mask& live_ignore_;
   WindowWeights window_;
+  WindowPlane whole_;  // weights where nothing is ignored, sum 1
+  float whole_sq_;
 };
 
 }  // namespace
@@ -211,11 +271,10 @@ std::vector<PixelMatch> refineMatches(const MatchPicture& model, const MatchPict
   const Refiner refiner(model, live, options);
   std::vector<PixelMatch> moved = rough;
   std::vector<std::uint8_t> kept(rough.size(), 0);
-  parallelRanges(static_cast<int>(rough.size()), 64, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const std::size_t k = static_cast<std::size_t>(i);
-      kept[k] = refiner.refine(&moved[k]) ? 1 : 0;
-    }
+  parallelRanges(static_cast<int>(rough.size()), 256, [&](int begin, int end) {
+    const std::vector<std::uint8_t> held = refiner.refine(&moved[static_cast<std::size_t>(begin)],
+                                                          static_cast<std::size_t>(end - begin));
+    std::copy(held.begin(), held.end(), kept.begin() + begin);
   });
   std::vector<PixelMatch> refined;
   for (std::size_t k = 0; k < moved.size(); ++k)

@@ -118,8 +118,9 @@ TEST(FeatureKernels, EveryInstructionSetGivesTheSameBytes) {
     const float length = set.describe(rows, 8, s == 0 ? first : bytes);
     EXPECT_EQ(length, list.sets[0]->describe(rows, 8, first));
     set.descriptorDistances(first, image.values.data(), 40, s == 0 ? first_distances : distances);
-    const WindowSums sums = set.windowSums(window, plane.data(), 40, 0.3f, 0.7f);
-    const WindowSums expected = list.sets[0]->windowSums(window, plane.data(), 40, 0.3f, 0.7f);
+    const WindowSums sums = set.windows->windowSums(window, plane.data(), 40, 0.3f, 0.7f);
+    const WindowSums expected =
+        list.sets[0]->windows->windowSums(window, plane.data(), 40, 0.3f, 0.7f);
     EXPECT_EQ(sums.along_u, expected.along_u);
     EXPECT_EQ(sums.along_contrast, expected.along_contrast);
     EXPECT_EQ(sums.square, expected.square);
