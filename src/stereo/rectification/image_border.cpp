@@ -19,18 +19,46 @@ constexpr int kBesidePx = 8;  // a codec's block
 
 int largestOf(Rgb8 c) { return std::max({c.red, c.green, c.blue}); }
 
-/// 1 where the largest channel is above kBlack, or other than its right neighbour's.
+/// Whether the largest channel is above kBlack, or other than its right neighbour's.
+bool isSignal(const ColourImage& image, int u, int v) {
+  const int here = largestOf(image.at(u, v));
+  if (here > kBlack) return true;
+  const int beside = largestOf(image.at(std::min(u + 1, image.width_px - 1), v));
+  // Beside a bright pixel lies the cut, which the pixel itself marks.
+  return beside <= kBlack && std::abs(here - beside) > kEven;
+}
+
 Raster<std::uint8_t> signal(const ColourImage& image) {
   Raster<std::uint8_t> marks(image.width_px, image.height_px, 0);
   parallelRows(image.height_px, [&](int v) {
-    for (int u = 0; u < image.width_px; ++u) {
-      const int here = largestOf(image.at(u, v));
-      const int beside = largestOf(image.at(std::min(u + 1, image.width_px - 1), v));
-      // Beside a bright pixel lies the cut, which the pixel itself marks.
-      marks.at(u, v) = here > kBlack || (beside <= kBlack && std::abs(here - beside) > kEven);
-    }
+    for (int u = 0; u < image.width_px; ++u) marks.at(u, v) = isSignal(image, u, v);
   });
   return marks;
+}
+
+/// Whether a square around a pixel of one side of the image is black, the side being `count` pixels
+/// long. at(i, k): pixel i of the side, k pixels inwards. Beyond the image all is black.
+template <class At>
+bool isBlackAt(int count, int depth, const At& at) {
+  int black = kReachPx;  // lines of pixels without signal, one after the other
+  for (int i = 0; i < count; ++i) {
+    bool holds_signal = false;
+    for (int k = 0; k <= std::min(kReachPx, depth - 1) && !holds_signal; ++k)
+      holds_signal = at(i, k);
+    black = holds_signal ? 0 : black + 1;
+    if (black > 2 * kReachPx) return true;
+  }
+  return black + kReachPx > 2 * kReachPx;
+}
+
+/// Every border does: an image of tissue alone is told without a look at its inside.
+bool beginsAtAnEdge(const ColourImage& image) {
+  const int width = image.width_px, height = image.height_px;
+  const auto at = [&](int u, int v) { return isSignal(image, u, v); };
+  return isBlackAt(width, height, [&](int i, int k) { return at(i, k); }) ||
+         isBlackAt(width, height, [&](int i, int k) { return at(i, height - 1 - k); }) ||
+         isBlackAt(height, width, [&](int i, int k) { return at(k, i); }) ||
+         isBlackAt(height, width, [&](int i, int k) { return at(width - 1 - k, i); });
 }
 
 /// 1 where the largest channel is above the limit.
@@ -72,6 +100,7 @@ std::size_t countOf(const Mask& mask) {
 }  // namespace
 
 Mask findBlackBorder(const ColourImage& image) {
+  if (!beginsAtAnEdge(image)) return {};
   // 1 where the whole square is black; pixels beyond the image count as black.
   Raster<std::uint8_t> core = dilated(signal(image), kReachPx);
   for (std::uint8_t& value : core.values) value = value == 0;
