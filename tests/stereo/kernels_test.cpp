@@ -1,12 +1,15 @@
 // tests/stereo/kernels_test.cpp: every instruction set gives the same bytes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include "stereo/images/gradient_image.h"
 #include "stereo/kernels/kernel_sets.h"
+#include "stereo/kernels/smoothing_formulas.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -194,6 +197,53 @@ TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
     for (int k = 0; k < 6; ++k) EXPECT_EQ(out[k * width + 50], 0);  // no weight where unmatched
     return out;
   });
+}
+
+TEST_F(EveryInstructionSet, SmoothsACellAsTheFormulasSay) {
+  constexpr int kBegin = 36, kEnd = 43, kRow = 20, kPixels = 64;
+  SmoothingCell cell{};
+  const Floats numbers = randomFloats(60, 0.1f, 1.5f, 21);
+  std::memcpy(&cell, numbers.data(), 44 * sizeof(float));  // all but what is set now
+  for (int k = 0; k < 4; ++k) cell.u0[k] = 30.0f + 8 * numbers[44 + static_cast<std::size_t>(k)];
+  cell.number = 4;
+  cell.size = 8;
+  cell.scale = 1.0f / 16;
+  Floats disparity = randomFloats(kPixels, 1, 3, 22), sigma = randomFloats(kPixels, 0.05f, 1, 23);
+  disparity[38] = std::numeric_limits<float>::quiet_NaN();
+  sigma[39] = 0;
+  Floats expected = disparity;
+  expected.insert(expected.end(), sigma.begin(), sigma.end());
+  for (int u = kBegin; u < kEnd; ++u) {
+    const std::size_t at = static_cast<std::size_t>(u);
+    if (std::isnan(disparity[at]) || !(sigma[at] > 0)) continue;
+    const CellPosition position = cellPosition(u, cell.size);
+    ASSERT_EQ(position.cell, cell.number);
+    float weight[4], variances[4], predictions[4];
+    for (int k = 0; k < 4; ++k) {
+      float c[6];
+      for (int i = 0; i < 6; ++i) c[i] = cell.c[i][k];
+      const float x = (static_cast<float>(u) - cell.u0[k]) * cell.scale,
+                  y = (static_cast<float>(kRow) - cell.v0[k]) * cell.scale;
+      const float predicted = patchValue(c, x, y);
+      const float share =
+          cell.share_left[k] * (1.0f - position.fraction) + cell.share_right[k] * position.fraction;
+      weight[k] =
+          patchWeight(share, disparity[at] - predicted, cell.variance[k], sigma[at] * sigma[at]);
+      variances[k] = weight[k] * cell.variance[k];
+      predictions[k] = weight[k] * predicted;
+    }
+    const SmoothedPixel drawn = drawToPatches(disparity[at], sigma[at], sumFour(weight),
+                                              sumFour(variances), sumFour(predictions));
+    EXPECT_NE(drawn.disparity_px, disparity[at]);
+    expected[at] = drawn.disparity_px;
+    expected[kPixels + at] = drawn.sigma_px;
+  }
+  for (int i = 0; i < list_.count; ++i) {
+    Floats out = disparity;
+    out.insert(out.end(), sigma.begin(), sigma.end());
+    list_.sets[i].smoothing->smoothCell(cell, kRow, kBegin, kEnd, out.data(), out.data() + kPixels);
+    EXPECT_TRUE(sameBytes(out, expected)) << list_.sets[i].name;
+  }
 }
 
 TEST_F(EveryInstructionSet, SolvesNormalsAlike) {

@@ -4,6 +4,7 @@
 #include "stereo/kernels/matching_kernels.h"
 #include "stereo/kernels/normal_kernels.h"
 #include "stereo/kernels/refinement_kernels.h"
+#include "stereo/kernels/smoothing_kernels.h"
 
 namespace softscope {
 
@@ -12,6 +13,7 @@ struct KernelSet {
   const MatchingKernels* matching;
   const RefinementKernels* refinement;
   const NormalKernels* normal;
+  const SmoothingKernels* smoothing;
 };
 
 /// Every set that this processor runs, slowest first.
@@ -25,5 +27,6 @@ KernelSetList allKernelSets();
 const MatchingKernels& matchingKernels();
 const RefinementKernels& refinementKernels();
 const NormalKernels& normalKernels();
+const SmoothingKernels& smoothingKernels();
 
 }  // namespace softscope

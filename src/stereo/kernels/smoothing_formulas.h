@@ -7,6 +7,7 @@
 #include "core/hd.h"
 #include "core/small_solve.h"
 #include "stereo/kernels/filter_formulas.h"
+#include "stereo/kernels/patch_formulas.h"
 #include "stereo/options/stereo_options.h"
 
 namespace softscope {
@@ -31,9 +32,8 @@ struct SmoothingPatch {
 
 /// What all pixels share; by value, so that kernels take it along.
 struct SmoothingRules {
-  static constexpr float kStepPx = 0.5f;  // neighbours of one surface differ by at most this …
-  static constexpr float kSlope = 0.25f;  // … and this much more for every pixel between them
-  static constexpr float kAgree = 2.5f;   // standard errors at which a neighbour counts a quarter
+  static constexpr float kStepPx = 0.5f;     // neighbours of one surface differ by at most this …
+  static constexpr float kSlope = 0.25f;     // … and this much more for every pixel between them
   static constexpr float kFewestPixels = 4;  // of a block that counts
   static constexpr float kRidge = 1e-3f;     // of the weights: patches through a line stay level
   static constexpr int kFits = 2;            // first to near blocks, then to those that agree
@@ -95,7 +95,6 @@ SOFTSCOPE_FORMULA SmoothingBlock blockFromSums(const SmoothingSums& sums, int u0
 SOFTSCOPE_HD inline bool refitPatch(const SmoothingRules& rules, const SmoothingBlock* blocks,
                                     const float* window, int x, int y, bool first,
                                     SmoothingPatch& patch) {
-  constexpr float kAgreeSq = SmoothingRules::kAgree * SmoothingRules::kAgree;
   float normal[triangleSize(6)] = {}, right[6] = {};
   float weights = 0, squares = 0, noise = 0;
   for (int dy = -rules.reach; dy <= rules.reach; ++dy) {
@@ -116,7 +115,8 @@ SOFTSCOPE_HD inline bool refitPatch(const SmoothingRules& rules, const Smoothing
         if (absoluteOf(residual) > SmoothingRules::kStepPx + SmoothingRules::kSlope * apart)
           continue;
       } else {
-        const float q = 1 + residual * residual / (kAgreeSq * (patch.variance + other.variance));
+        const float q =
+            1 + residual * residual / (kPatchAgreeSq * (patch.variance + other.variance));
         trust *= 1 / (q * q);
       }
       const float weight = trust * other.information;
@@ -166,49 +166,14 @@ SOFTSCOPE_HD inline SmoothingPatch fitPatch(const SmoothingRules& rules,
   return patch;
 }
 
-/// Position of a pixel among the centres of the blocks, along one axis.
-struct CellPosition {
-  int cell;        // the block whose centre is at or before the pixel; -1 before the first
-  float fraction;  // of the way to the next
-};
-SOFTSCOPE_FORMULA CellPosition cellPosition(int pixel, int size) {
-  const float x = (static_cast<float>(pixel) + 0.5f) / static_cast<float>(size) - 0.5f;
-  const int cell = x < 0 ? -1 : static_cast<int>(x);
-  return {cell, x - static_cast<float>(cell)};
-}
-
-template <class V>
-SOFTSCOPE_FORMULA float sumFour(const V& x) {
-  return (x[0] + x[2]) + (x[1] + x[3]);
-}
-
-/// What one patch predicts at (x, y), in its windows from its origin.
-template <class V>
-SOFTSCOPE_FORMULA V patchValue(const V (&c)[6], const V& x, const V& y) {
-  return c[0] + x * (c[1] + x * c[3] + y * c[4]) + y * (c[2] + y * c[5]);
-}
-/// Weight of a patch: its share of the pixel, less where the pixel disagrees.
-template <class V>
-SOFTSCOPE_FORMULA V patchWeight(const V& share, const V& apart, const V& variance,
-                                float pixel_variance) {
-  constexpr float kAgreeSq = SmoothingRules::kAgree * SmoothingRules::kAgree;
-  const V q = 1.0f + apart * apart / (kAgreeSq * (variance + pixel_variance));
-  return share / (q * q);
-}
-
+/// A pixel drawn to the weighted mean of its patches: see shareOfPixel().
 struct SmoothedPixel {
   float disparity_px, sigma_px;
 };
-/// A pixel drawn to the weighted mean of its patches. `weights` > 0; the sums are over the patches'
-/// weight * variance and weight * predicted disparity.
 SOFTSCOPE_HD inline SmoothedPixel drawToPatches(float disparity_px, float sigma_px, float weights,
                                                 float variances, float predictions) {
-  // As sure of the patches as the pixel agrees with them.
-  const float variance = sigma_px * sigma_px;
-  const float patch_variance = variances / weights / (weights < 1.0f ? weights : 1.0f);
-  const float share = patch_variance / (patch_variance + variance);
-  return {disparity_px + (1 - share) * (predictions / weights - disparity_px),
-          sigma_px * std::sqrt(share)};
+  const float share = shareOfPixel(sigma_px * sigma_px, weights, variances);
+  return {drawnDisparity(disparity_px, share, weights, predictions), sigma_px * std::sqrt(share)};
 }
 
 }  // namespace softscope

@@ -1,10 +1,10 @@
 #include "stereo/refinement/patch_smoothing.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
 #include "core/parallel.h"
+#include "stereo/kernels/kernel_sets.h"
 #include "stereo/kernels/smoothing_formulas.h"
 
 namespace softscope {
@@ -49,63 +49,37 @@ class Patches {
   }
 
   /// Draws a row of pixels to what the four patches around each say, as far as it agrees with them.
+  /// A register beyond the row is read and written.
   void smoothRow(int v, int width, float* disparity_px, float* sigma_px) const {
     const auto [y0, down] = cellPosition(v, rules_.size);
-    int held = -1;  // the cell of the first pixel
-    Quartet four = around(held, y0, down);
-    for (int u = 0; u < width; ++u) {
-      const auto [x0, right] = cellPosition(u, rules_.size);
-      if (x0 != held) {
-        held = x0;
-        four = around(x0, y0, down);
-      }
-      if (isNumber(disparity_px[u]) && sigma_px[u] > 0)
-        smooth(four, right, static_cast<float>(u), static_cast<float>(v), disparity_px[u],
-               sigma_px[u]);
+    for (int begin = 0; begin < width;) {
+      const int x0 = cellPosition(begin, rules_.size).cell;
+      int end = begin + 1;
+      while (end < width && cellPosition(end, rules_.size).cell == x0) ++end;
+      smoothingKernels().smoothCell(around(x0, y0, down), v, begin, end, disparity_px, sigma_px);
+      begin = end;
     }
   }
 
  private:
-  using Array4f = Eigen::Array4f;
-
-  /// Four neighbouring patches side by side: left, right, below left, below right.
-  struct Quartet {
-    Array4f u0, v0, c[6], variance;
-    Array4f share_left, share_right;  // of each at the left and at the right end of the cell
-  };
-
-  Quartet around(int x0, int y0, float down) const {
-    Quartet four;
+  SmoothingCell around(int x0, int y0, float down) const {
+    SmoothingCell cell{};
+    cell.number = x0;
+    cell.size = rules_.size;
+    cell.scale = rules_.scale;
     for (int k = 0; k < 4; ++k) {
       const int x = x0 + k % 2, y = y0 + k / 2;
       const bool known = patches_.contains(x, y) && patches_.at(x, y).known();
       const SmoothingPatch patch = known ? patches_.at(x, y) : SmoothingPatch();
       const float share = known ? (k < 2 ? 1 - down : down) : 0.0f;
-      four.u0[k] = patch.u0;
-      four.v0[k] = patch.v0;
-      for (int i = 0; i < 6; ++i) four.c[i][k] = patch.c[i];
-      four.variance[k] = known ? patch.variance : 1.0f;
-      four.share_left[k] = k % 2 == 0 ? share : 0.0f;
-      four.share_right[k] = k % 2 == 0 ? 0.0f : share;
+      cell.u0[k] = patch.u0;
+      cell.v0[k] = patch.v0;
+      for (int i = 0; i < 6; ++i) cell.c[i][k] = patch.c[i];
+      cell.variance[k] = known ? patch.variance : 1.0f;
+      cell.share_left[k] = k % 2 == 0 ? share : 0.0f;
+      cell.share_right[k] = k % 2 == 0 ? 0.0f : share;
     }
-    return four;
-  }
-
-  void smooth(const Quartet& four, float right, float u, float v, float& disparity_px,
-              float& sigma_px) const {
-    const float variance = sigma_px * sigma_px;
-    const Array4f x = (u - four.u0) * rules_.scale, y = (v - four.v0) * rules_.scale;
-    const Array4f predicted = patchValue<Array4f>(four.c, x, y);
-    const Array4f share = four.share_left * (1 - right) + four.share_right * right;
-    const Array4f weight =
-        patchWeight<Array4f>(share, disparity_px - predicted, four.variance, variance);
-    const float weights = sumFour(weight);
-    if (!(weights > 0)) return;
-    const SmoothedPixel drawn =
-        drawToPatches(disparity_px, sigma_px, weights, sumFour(Array4f(weight * four.variance)),
-                      sumFour(Array4f(weight * predicted)));
-    disparity_px = drawn.disparity_px;
-    sigma_px = drawn.sigma_px;
+    return cell;
   }
 
   SmoothingRules rules_;
@@ -118,9 +92,19 @@ class Patches {
 void smoothByPatches(const SmoothingOptions& options, const RefinementOptions& refinement,
                      DisparityMap& map) {
   if (options.reach_blocks == 0) return;
+  constexpr int kRowsATask = 16, kRegister = 16;
   const Patches patches(options, refinement, map);
-  parallelRows(map.disparity_px.height_px, [&](int v) {
-    patches.smoothRow(v, map.disparity_px.width_px, map.disparity_px.row(v), map.sigma_px.row(v));
+  const int width = map.disparity_px.width_px;
+  parallelRanges(map.disparity_px.height_px, kRowsATask, [&](int begin, int end) {
+    std::vector<float> disparity_px(static_cast<std::size_t>(width + kRegister)),
+        sigma_px(disparity_px.size());
+    for (int v = begin; v < end; ++v) {
+      std::copy_n(map.disparity_px.row(v), width, disparity_px.begin());
+      std::copy_n(map.sigma_px.row(v), width, sigma_px.begin());
+      patches.smoothRow(v, width, disparity_px.data(), sigma_px.data());
+      std::copy_n(disparity_px.begin(), width, map.disparity_px.row(v));
+      std::copy_n(sigma_px.begin(), width, map.sigma_px.row(v));
+    }
   });
 }
 
