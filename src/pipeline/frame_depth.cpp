@@ -28,7 +28,7 @@ FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOpt
   if (options.source == "files") requireRectified();
 }
 
-/// Depth files belong to the images as they are.
+/// Depth files belong to the unrectified images.
 void FrameDepth::requireRectified() const {
   if (!rectified_)
     throw InputError(calibration_source_ +
@@ -72,8 +72,8 @@ FrameViews FrameDepth::align(const Frame& frame) const {
   const StereoPair rectified = rectifier_.rectify(frame.pair);
   if (!frame.mask.empty()) views.instruments = rectifier_.rectifyMask(frame.mask);
   const Mask& known = frame.mask.empty() ? rectifier_.outside() : views.instruments;
-  // Instruments are dropped afterwards: their mask is one view's, and weak texture beside them
-  // needs the wide windows of the coarser sizes.
+  // Instruments are masked afterwards: their mask is that of one view, and
+  // weak texture next to them needs the wide windows of the coarser sizes.
   const ViewMasks ignored = pixelsToIgnore(rectified, rectifier_, options_.find_border);
   measured.mask = united(known, ignored.left);
   measured.border = ignored.left;

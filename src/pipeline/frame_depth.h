@@ -1,4 +1,4 @@
-// src/pipeline/frame_depth.h: stage 1, one stereo frame to depth.
+// src/pipeline/frame_depth.h: stage 1, depth of one stereo frame.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace softscope {
 
-/// Where depth comes from.
+/// Source of depth.
 struct FrameDepthOptions {
   std::string source =
       "auto";               // the sequence's own depth/ where there is one; or "stereo", "files"
@@ -29,39 +29,39 @@ struct FrameDepthOptions {
 struct MeasuredFrame {
   std::string method;  // elas, sgbm, onnx or files
   ColourImage left;    // rectified
-  Mask mask;    // instruments, black border, what the raw left image does not show; may be empty
-  Mask border;  // of these, what was known before matching; may be empty
-  DisparityMap disparity;  // empty where depth came from a file
+  Mask mask;    // instruments, black border, pixels outside of the raw left image; may be empty
+  Mask border;  // part of it known before matching; may be empty
+  DisparityMap disparity;  // empty with depth from a file
   DepthMap depth;          // NaN under the mask
   NormalMap normals;
-  RowAlignment rows;  // as found after rectification
+  RowAlignment rows;  // as measured after rectification
   bool rows_aligned = false;
   StageTimes times;
 };
 
-/// A frame before it is matched.
+/// A frame before matching.
 struct FrameViews {
   MeasuredFrame
       measured;         // all but disparity, depth and normals; whole where depth came from a file
-  AlignedPair aligned;  // empty there
-  Mask instruments;     // of the frame's own mask, rectified; empty where it has none
+  AlignedPair aligned;  // empty with depth from a file
+  Mask instruments;     // mask file of the frame, rectified; empty without one
 };
 
-/// Rectify, align rows, match, lift; or take the depth that the sequence brings.
+/// Rectifies, aligns rows, matches, converts to depth; or takes the depth of the sequence.
 class FrameDepth {
  public:
-  /// Throws OptionError for bad options, InputError where the calibration doesn't fit them, and
-  /// what `makeStage` throws.
+  /// Throws OptionError for invalid options, InputError for an
+  /// inconsistent calibration, and what `makeStage` throws.
   FrameDepth(const StereoCalibration& calibration, const FrameDepthOptions& options,
              const StereoStageFactory& makeStage = makeCpuStereoStage);
 
   const RectifiedRig& rig() const { return rectifier_.rig(); }
   const Rectifier& rectifier() const { return rectifier_; }
 
-  /// Throws InputError where the frame doesn't fit.
+  /// Throws InputError for an inconsistent frame.
   MeasuredFrame measure(const Frame& frame) { return measure(viewsOf(frame)); }
 
-  // The same in two halves. The first may run beside the second of another frame.
+  // The same in two halves. The first may run in parallel to the second of another frame.
   FrameViews viewsOf(const Frame& frame) const;
   MeasuredFrame measure(FrameViews views);
 

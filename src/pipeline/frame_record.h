@@ -11,27 +11,27 @@
 namespace softscope {
 
 enum class FrameStatus {
-  kStarted,          // the model began with it
-  kFused,            // the model learned from it
-  kRecovered,        // so did it, after the model had been lost
-  kSkippedDepth,     // too little depth; the model stays as it was
-  kLost,             // no pose: the model was not found in it
-  kSkippedResidual,  // located, but the model could not be bent to it
-  kUnconfirmed,      // located and bent, but the model does not show what the frame shows
-  kUnreadable,       // its files are missing or broken
-  kUnpaired,         // the other view has no image of its moment
+  kStarted,          // the model was initialised with it
+  kFused,            // the model was updated with it
+  kRecovered,        // the same, after a loss of the model
+  kSkippedDepth,     // too little depth; the model is unchanged
+  kLost,             // no pose: the model was not found in the frame
+  kSkippedResidual,  // located, but the residual of the warp is too large
+  kUnconfirmed,      // located and warped, but the model does not agree with the frame
+  kUnreadable,       // its files are missing or damaged
+  kUnpaired,         // no image of the other view at the same time
 };
 
 const char* toString(FrameStatus status);
-/// None where no status has this name.
+/// Empty for an unknown name.
 std::optional<FrameStatus> frameStatusNamed(std::string_view name);
 
 struct FrameRecord {
   int frame = 0;
   double time_s = kUnknown;
   FrameStatus status = FrameStatus::kUnreadable;
-  std::string reason;  // why it was not fused; empty where it was
-  /// The last known pose where this frame has none of its own.
+  std::string reason;  // why it was not fused; empty if it was
+  /// The last known pose for a frame without a pose.
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   DepthSummary depth;
   MatchSummary matches;

@@ -11,16 +11,16 @@
 
 namespace softscope {
 
-/// growGraph() with at most one growth under way on a thread of its own. Same results.
+/// growGraph() with at most one growth in progress on a thread. Same results.
 class GraphAhead {
  public:
-  /// Begins, on copies, and prepares the solver for the result. Model and graph must live and stay
-  /// as they are, and the solver must not be used, until grow() or drop().
+  /// Starts growth on copies, and prepares the solver for the result. Model and graph
+  /// must live and be unchanged, and the solver unused, until grow() or drop().
   void prepare(const GraphOptions& options, const PointModel& model, const WarpGraph& graph,
                DeformSolver* solver);
-  /// Takes over what was begun for this model and graph, or grows them now.
+  /// Takes the growth started for this model and graph, or grows them now.
   void grow(const GraphOptions& options, PointModel* model, WarpGraph* graph);
-  /// Waits for the work in progress and discards it.
+  /// Waits for the growth in progress and discards it.
   void drop();
 
  private:
@@ -28,8 +28,8 @@ class GraphAhead {
     std::vector<PointBinding> bindings;
     WarpGraph graph;
   };
-  Grown grown_;               // by result_; else memory to be used again
-  std::future<void> result_;  // its thread ends before grown_ does
+  Grown grown_;               // of result_; otherwise memory to reuse
+  std::future<void> result_;  // its thread ends before grown_ is destroyed
 };
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// src/pipeline/match_stage.h: from the model and a live image to matched points.
+// src/pipeline/match_stage.h: matched points from the model and a live image.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,14 +13,14 @@
 
 namespace softscope {
 
-/// Stages 2 and 3 of a frame: model view, matches, lifted matches. May run on another device.
-/// Every implementation gives the same bytes.
+/// Stages 2 and 3 of a frame: model view, matches, lifted matches. May
+/// run on another device. All implementations give the same bytes.
 class MatchStage {
  public:
   virtual ~MatchStage() = default;
-  /// Draws the model from `viewed_from` and finds it in `live`, the image of the measured frame.
-  /// `seen_gray`: the image that the scope saw from there, matched in place of the drawn one;
-  /// empty: the drawn one. Laps `view` and `match`, or `match` alone for both.
+  /// Renders the model from `viewed_from` and matches it with `live`, the image of the
+  /// measured frame. `seen_gray`: image recorded from there, matched instead of the
+  /// rendering; empty: the rendering. Laps `view` and `match`, or `match` alone for both.
   virtual ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                              const GrayImage& seen_gray, const MatchPicture& live,
                              const MeasuredFrame& frame, StageClock* clock) = 0;
@@ -29,7 +29,7 @@ class MatchStage {
 using MatchStageFactory =
     std::function<std::unique_ptr<MatchStage>(const ReconstructionOptions&, const RectifiedRig&)>;
 
-/// On the processor's cores. Throws OptionError.
+/// On the CPU. Throws OptionError.
 std::unique_ptr<MatchStage> makeCpuMatchStage(const ReconstructionOptions& options,
                                               const RectifiedRig& rig);
 

@@ -1,4 +1,4 @@
-// src/pipeline/material_points.h: material points tracked through the whole run.
+// src/pipeline/material_points.h: material points tracked through the run.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,14 +17,14 @@
 
 namespace softscope {
 
-/// A pixel of the first left image, as it is on disk.
+/// A pixel of the first left image as stored.
 struct TrackSeed {
   int id = 0;
   double u_px = 0, v_px = 0;
 };
 
-/// Where a piece of tissue is. position_mm: world frame; NaN where it was never found. sigma_mm:
-/// predicted root mean square error of the position in the scope's frame; NaN where unknown.
+/// Position of a material point. position_mm: world frame; NaN if never measured. sigma_mm:
+/// predicted root mean square error of the position in the frame of the scope; NaN if unknown.
 struct TrackedPosition {
   int id = 0;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -32,50 +32,50 @@ struct TrackedPosition {
   double sigma_mm = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Follows points by the warp that carries the model point beside them; after fusion they are
-/// placed where the image shows what they looked like at first, and laid back onto the model's
-/// surface, so that points and surface stay one thing.
+/// Moves points by the warp of the nearest model point; after fusion they
+/// are placed where the image shows their first looks, and projected onto
+/// the surface of the model, so that points and surface stay consistent.
 class MaterialPoints {
  public:
   struct Point {
     int id = 0;
-    std::int32_t model_point = -1;  // the one beside it; -1 where the tissue was never measured
+    std::int32_t model_point = -1;  // the nearest one; -1 if the tissue was never measured
     Eigen::Vector3d position_mm =
         Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-    /// Where its neighbours of the first image, one pixel right and one down, lie from it; the warp
-    /// carries them.
+    /// Offsets of its neighbours in the first image,
+    /// one pixel right and one down; moved by the warp.
     Eigen::Matrix<double, 3, 2> pixels_mm = Eigen::Matrix<double, 3, 2>::Zero();
     FirstLook look;
-    /// Predicted, of the place along the surface, in each of two directions; NaN where unknown.
+    /// Predicted, of the position along the surface, per direction; NaN if unknown.
     double variance_mm2 = 0;
   };
 
-  /// A seed in the rectified left camera: lies where its ray meets the depth around the pixel.
+  /// A seed in the rectified left camera: where its ray intersects the depth around the pixel.
   void add(int id, const Eigen::Vector2d& pixel, const PinholeCamera& left,
            const Raster<float>& depth_mm, const Eigen::Isometry3d& world_from_left);
-  /// Ties points that have none to the nearest model point.
+  /// Binds unbound points to the nearest model point.
   void anchor(const PointModel& model);
-  /// Moves them by the graph's warp, before it is re-based.
+  /// Moves them by the warp of the graph, before it is re-based.
   void warp(const WarpGraph& graph, const PointModel& model);
-  /// Model points have new numbers.
+  /// Updates the numbers of model points.
   void renumber(const IndexMap& map, const PointModel& model);
-  /// Takes how they look in the image, now that they lie on the tissue; their surface is the
-  /// model's around them.
+  /// Takes their first looks from the image, once they are on
+  /// the tissue; their surface is that of the model around them.
   void look(const GrayImage& image, const Mask& ignore, const PointModel& model,
             const PinholeCamera& left, const Eigen::Isometry3d& world_from_left);
-  /// Moves them along the surface towards where the image shows their first looks, or with their
-  /// neighbours, and predicts how far off they are: docs/fusion.md (F29). `node_spacing_mm`: of the
-  /// graph that warped them. `inSight`: whether the image shows a point of the left camera's frame.
+  /// Moves them along the surface to where the image shows their first looks, or with their
+  /// neighbours, and predicts their error: docs/fusion.md (F29). `node_spacing_mm`: of the graph
+  /// that warped them. `inSight`: whether the image shows a point of the left camera frame.
   void align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
              const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
              const std::function<bool(const Eigen::Vector3d&)>& inSight);
-  /// Lays them onto the surface that the model's points around them make, along the rays of the
-  /// scope at `scope_mm`, as fusion moves the model's points: docs/fusion.md (F8). `limit_scale`:
-  /// DepthSummary::limit_scale of the frame.
+  /// Projects them onto the surface of the model points around them, along the
+  /// rays of the scope at `scope_mm`, like fusion moves the points of the model:
+  /// docs/fusion.md (F8). `limit_scale`: DepthSummary::limit_scale of the frame.
   void settle(const PointModel& model, const Eigen::Vector3d& scope_mm, double limit_scale);
 
   std::vector<Point> points;
-  /// How far a frame's warp leads astray, per direction: what first looks said last; NaN before.
+  /// Drift variance of a warp, per direction, from the last first looks; NaN before.
   double drift_mm2 = std::numeric_limits<double>::quiet_NaN();
 };
 static_assert(sizeof(MaterialPoints::Point) == 8 + 10 * sizeof(double) + sizeof(FirstLook),

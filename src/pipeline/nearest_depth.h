@@ -1,4 +1,4 @@
-// src/pipeline/nearest_depth.h: depth beside a pixel that may have none.
+// src/pipeline/nearest_depth.h: depth near a pixel that may have none.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,13 +12,13 @@ namespace softscope {
 
 constexpr int kSmallGapPx = 6;
 
-/// As far as a gap of depth is taken for the surface around it: this share of the image's width.
+/// Maximum width of a gap of depth that counts as surface: this share of the width of the image.
 inline int gapPx(int width_px) {
   constexpr int kGapShare = 40;
   return std::max(kSmallGapPx, width_px / kGapShare);
 }
 
-/// Calls visit(x, y, depth) for the measured pixels within `radius_px`, x and y from `pixel`.
+/// Calls visit(x, y, depth) for measured pixels within `radius_px`; x, y relative to `pixel`.
 template <class Visit>
 void visitMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, int radius_px,
                    const Visit& visit) {
@@ -32,14 +32,14 @@ void visitMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
 
 struct NearestDepth {
   double depth_mm = std::numeric_limits<double>::quiet_NaN();
-  Eigen::Vector2d away_px = Eigen::Vector2d::Zero();  // of the pixel that has it
+  Eigen::Vector2d away_px = Eigen::Vector2d::Zero();  // offset of the pixel that has it
 
   bool found() const { return std::isfinite(depth_mm); }
-  /// How far another pixel's surface may lie from it: at 45 degrees, mm.
+  /// Maximum depth difference to the surface of another pixel: at 45 degrees, mm.
   double slackMm(double focal_px) const { return away_px.norm() * depth_mm / focal_px; }
 };
 
-/// Of the measured pixel that is nearest; NaN where none lies within `radius_px`.
+/// Depth of the nearest measured pixel; NaN without one within `radius_px`.
 inline NearestDepth nearestDepth(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel,
                                  int radius_px) {
   NearestDepth nearest;

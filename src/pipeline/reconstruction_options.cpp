@@ -24,7 +24,7 @@ ReconstructionOptions withSharedQuantities(ReconstructionOptions options) {
 
 void ReconstructionOptions::validate() const {
   requireAllowed(*this);
-  depth.stereo.validate();  // what one setting demands of another
+  depth.stereo.validate();  // constraints between settings
 }
 
 }  // namespace softscope

@@ -11,31 +11,31 @@
 
 namespace softscope {
 
-/// Which frames are good enough to change the model.
+/// Conditions for a frame to update the model.
 struct GateOptions {
-  double min_coverage = 0.1;     // share of the unmasked pixels that have depth
+  double min_coverage = 0.1;     // share of the unmasked pixels with depth
   double max_residual_mm = 2.0;  // mean distance of the warped model from the depth
-  double min_explained = 0.3;    // share of the points in sight that the depth still pulls
+  double min_explained = 0.3;    // share of visible points that the depth still constrains
   double min_confidence = 0.1;   // of the evidence for pose and warp: docs/fusion.md (F27)
-  static constexpr int kMaxKeyViews = 12;        // poses kept to find the model again after a loss
-  static constexpr double kKeyViewStepMm = 10;   // the scope moved this far from all of them …
-  static constexpr double kKeyViewStepDeg = 15;  // … or turned this much: another key view
+  static constexpr int kMaxKeyViews = 12;        // poses kept for relocalisation after a loss
+  static constexpr double kKeyViewStepMm = 10;   // distance of the scope from all of them …
+  static constexpr double kKeyViewStepDeg = 15;  // … or rotation that adds a key view
 };
 
-/// What of the image is not tissue.
+/// Parts of the image that are not tissue.
 struct TissueMaskOptions {
-  int margin_px = 6;  // pixels this near to a masked one are left out: the stereo window's reach
-  bool detect_instruments = false;  // by colour, beside mask files
+  int margin_px = 6;  // pixels this close to a masked one are left out: reach of the stereo window
+  bool detect_instruments = false;  // by colour, in addition to mask files
 };
 
-/// One struct a stage, in the order of the loop.
+/// One struct per stage, in the order of the loop.
 struct ReconstructionOptions {
   FrameDepthOptions depth;
   TissueMaskOptions tissue;
   ModelViewOptions model_view;
   MatcherOptions matcher;
   RansacOptions pose;
-  RefinePoseOptions refine_pose;  // 0 iterations: RANSAC's fit is the pose
+  RefinePoseOptions refine_pose;  // 0 iterations: the pose is that of RANSAC
   GraphOptions graph;
   DeformOptions deform;
   bool match_last_picture = false;  // true: frame to frame, on the last image's texture, not on
@@ -43,15 +43,15 @@ struct ReconstructionOptions {
   FusionOptions fusion;
   GateOptions gate;
 
-  /// The paper's choice throughout.
+  /// The options of the paper.
   static ReconstructionOptions paper();
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 
-/// `options` with each quantity that several stages need at its one setting's value:
-/// fusion.point_spacing_mm and graph.node_spacing_mm.
+/// `options` with each quantity that several stages need set from its
+/// one setting: fusion.point_spacing_mm and graph.node_spacing_mm.
 ReconstructionOptions withSharedQuantities(ReconstructionOptions options);
 
 }  // namespace softscope

@@ -62,7 +62,7 @@ FrameRecord Reconstructor::skip(int index, const std::string& reason, double tim
   return record;
 }
 
-/// Where nothing was fused, the scope and the tracked points stay where they were last seen.
+/// Without fusion, the scope and the tracked points keep their last positions.
 void Reconstructor::finish(FrameRecord& record) {
   record.world_from_left = world_from_left_;
   FrameOutcome outcome = backend_->finish(world_from_left_);
@@ -77,8 +77,8 @@ void Reconstructor::finish(FrameRecord& record) {
     point = {point.id, point.position_mm, false, kUnknown};
 }
 
-// Song et al. 2018, section III, in its order: depth, visible model, matches, rigid pose, warp
-// field, fusion.
+// Song et al. 2018, section III, in its order: depth,
+// visible model, matches, rigid pose, warp field, fusion.
 void Reconstructor::reconstruct(const Frame& frame, const Frame* next, const Frame* after,
                                 FrameRecord& record) {
   const bool measured = measure(frame, record);
@@ -126,8 +126,8 @@ bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& 
   return record.pose.found;
 }
 
-// A loss: the model is sought over the whole image, then once more from near, for matches that the
-// warp may trust.
+// After a loss, the model is searched in the whole image, then
+// again from the pose found, for matches that the warp can use.
 bool Reconstructor::findAgain(FrameRecord& record) {
   lost_ = true;
   const RigidPose rough = backend_->relocalise(viewpointsToTry());
@@ -142,8 +142,8 @@ bool Reconstructor::findAgain(FrameRecord& record) {
   return true;
 }
 
-/// The last pose and the key views, latest first. Each frame that stays lost goes on where the one
-/// before it stopped.
+/// The last pose and the key views, latest first. Each frame
+/// that stays lost continues where the previous one stopped.
 std::vector<Eigen::Isometry3d> Reconstructor::viewpointsToTry() const {
   std::vector<Eigen::Isometry3d> all{world_from_left_};
   all.insert(all.end(), key_views_.rbegin(), key_views_.rend());

@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// Everything that a run needs to go on where it stopped.
+/// State of a run that is needed to resume it.
 template <class Model>
 struct StateOf {
   Model model;
@@ -18,27 +18,27 @@ struct StateOf {
   Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
   bool lost = false;
-  int unfused_frames = 0;  // since the last one that was fused
-  int searches = 0;        // of them, in which the model was sought over the whole image
+  int unfused_frames = 0;  // since the last fused one
+  int searches = 0;        // searches over the whole image among them
 };
 using ReconstructionState = StateOf<ModelState>;
-/// Refers to a Reconstructor's model: valid until its next frame is processed.
+/// Refers to the model of a Reconstructor: valid until its next frame is processed.
 using ReconstructionStateView = StateOf<const ModelState&>;
 
-/// Owns the order of the stages; the back end owns what they work on.
+/// Owns the order of the stages; the back end owns their data.
 class Reconstructor {
  public:
   Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
                 const ReconstructionOptions& options);
 
-  /// One frame, from images to the updated model. A frame that isn't good enough leaves the
-  /// model as it was; the record says why. `next` and `after`: the two frames after it, where they
-  /// are known already, so that their depth may begin meanwhile; each must live until it is
-  /// processed itself, or the frame that takes its place. The model doesn't depend on them.
+  /// One frame, from images to the updated model. A rejected frame leaves the model
+  /// unchanged; the record has the reason. `next` and `after`: the two following frames, if
+  /// known already, so that their depth can start in parallel; each must live until it is
+  /// processed itself, or the frame that replaces it. The model does not depend on them.
   FrameRecord process(const Frame& frame, const Frame* next = nullptr,
                       const Frame* after = nullptr);
 
-  /// A frame that could not even be read, or has no partner.
+  /// A frame that is unreadable or has no partner.
   FrameRecord skip(int index, const std::string& reason, double time_s = kUnknown,
                    FrameStatus status = FrameStatus::kUnreadable);
 
@@ -48,7 +48,7 @@ class Reconstructor {
   const ReconstructionBackend& backend() const { return *backend_; }
   /// Valid until the next frame is processed.
   const ModelState& model() const { return backend_->state(); }
-  /// Everything that the next frame needs; the model isn't copied.
+  /// State needed for the next frame; the model is not copied.
   ReconstructionStateView state() const;
   void restore(ReconstructionState state);
 
@@ -67,13 +67,13 @@ class Reconstructor {
 
   std::unique_ptr<ReconstructionBackend> backend_;
   GateOptions gate_;
-  bool matching_;  // false: the scope is taken as static
+  bool matching_;  // false: the scope is treated as static
   Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last reliable motion
   std::vector<Eigen::Isometry3d> key_views_;
   bool lost_ = false;
-  int unfused_frames_ = 0;  // since the last one that was fused
-  int searches_ = 0;        // of them, in which the model was sought over the whole image
+  int unfused_frames_ = 0;  // since the last fused one
+  int searches_ = 0;        // searches over the whole image among them
 };
 
 }  // namespace softscope

@@ -25,7 +25,7 @@ PinholeCamera halved(PinholeCamera camera) {
   return camera;
 }
 
-/// Means of 2 x 2 pixels; NaN where one has no depth or they lie on two surfaces.
+/// Means of 2 x 2 pixels; NaN if one has no depth or they are on two surfaces.
 Raster<float> halved(const Raster<float>& depth_mm) {
   constexpr float kLargestStep = 0.05F;  // of the depth
   Raster<float> coarse(depth_mm.width_px / 2, depth_mm.height_px / 2);
@@ -62,7 +62,7 @@ double typicalDepthMm(const Raster<float>& depth_mm) {
   return medianOf(std::move(known));
 }
 
-/// Model points as patches of the view, to be found by patches of the live image.
+/// Model points as patches of the view, and the live patches that match them.
 PointPairs pairsOf(const std::vector<SurfacePatch>& live, const std::vector<SurfacePatch>& model,
                    const Eigen::Isometry3f& world_from_view, double elsewhere_mm) {
   PointPairs pairs;

@@ -11,10 +11,10 @@
 
 namespace softscope {
 
-/// Where the live left camera is in the world (mm), by surface patches that look alike in the live
-/// image and in views of the model from `viewpoints` (world_from_left): the rigid motion with the
-/// most inliers. Made on small images, whose pixels are those of large structures; no deformation
-/// is sought. `found` is false where no viewpoint has enough.
+/// Pose of the live left camera in the world (mm), from similar surface patches in the
+/// live image and in views of the model from `viewpoints` (world_from_left): the rigid
+/// motion with the most inliers. On small images, whose pixels show large structures;
+/// without deformation. `found` is false if no viewpoint has enough inliers.
 RigidPose relocalise(const PointModel& model, const std::vector<Eigen::Isometry3d>& viewpoints,
                      const MatchPicture& live, const MeasuredFrame& frame,
                      const PinholeCamera& camera, const ModelViewOptions& view_options,

@@ -10,15 +10,15 @@
 
 namespace softscope {
 
-/// Of one run of `softscope reconstruct`.
+/// Options of one run of `softscope reconstruct`.
 struct RunOptions {
   ReconstructionOptions method;
   SequenceOptions sequence;
 
-  /// Of `preset`. Throws OptionError on another name than presetNames() has.
+  /// Options of `preset`. Throws OptionError for a name that presetNames() does not have.
   static RunOptions ofPreset(const std::string& preset);
 
-  /// Throws OptionError: the key, its value, the rule it breaks.
+  /// Throws OptionError: the key, its value, the violated rule.
   void validate() const;
 };
 

@@ -1,4 +1,4 @@
-// src/pipeline/track_sight.h: which tracked points a frame shows, and how sure their places are.
+// src/pipeline/track_sight.h: visibility of tracked points in a frame, and position errors.
 #pragma once
 
 #include <vector>
@@ -10,22 +10,22 @@
 
 namespace softscope {
 
-/// Points are in the left camera's frame, mm. The frame and the rig must outlive it.
+/// Points are in the left camera frame, mm. The frame and the rig must outlive it.
 class TrackSight {
  public:
   TrackSight(const FrameView& frame, const RectifiedRig& rig) : frame_(frame), rig_(rig) {}
 
-  /// Whether the image shows the point, as far as is known: where no depth was measured, nothing
-  /// hides it.
+  /// Whether the image shows the point;
+  /// unmeasured depth occludes nothing.
   bool shows(const Eigen::Vector3d& point_left) const {
     return shows(point_left, surfaceAt(point_left, 0));
   }
-  /// Visible is what the image shows where depth was measured or, in a gap, beside it.
+  /// Visible: shown by the image with measured depth or, in a gap, next to it.
   std::vector<TrackedPosition> positions(const MaterialPoints& tracked,
                                          const Eigen::Isometry3d& world_from_left) const;
 
  private:
-  /// Measured depth at the point's pixel or within so many pixels.
+  /// Measured depth at the pixel of the point or within `gap_px`.
   NearestDepth surfaceAt(const Eigen::Vector3d& point_left, int gap_px) const;
   bool shows(const Eigen::Vector3d& point_left, const NearestDepth& surface) const;
 

@@ -13,19 +13,19 @@ constexpr int kRounds = 3;
 constexpr double kConvergedPx = 0.005;
 constexpr double kLeastCorrelation = 0.8;
 constexpr double kLeastContrast = 1;     // standard deviation of the window, gray levels
-constexpr double kLargestShiftPx = 4;    // from where it is expected
-constexpr double kLargestSigmaPx = 0.3;  // of a place; what is less sure is often another one
+constexpr double kLargestShiftPx = 4;    // from the expected position
+constexpr double kLargestSigmaPx = 0.3;  // of a position; less certain ones are often wrong
 constexpr double kBendSigma = 0.1;  // of the affine map's four numbers around the expected ones
-constexpr double kAlike = 9;        // neighbouring pixels err alike: of so many one counts
-constexpr int kAlikeHalfPx = 2;     // how far they do
-constexpr double kLeastVariance = 1e-4;  // of a pixel's difference, the window's contrast being 1
+constexpr double kAlike = 9;        // number of neighbouring pixels with correlated errors
+constexpr int kAlikeHalfPx = 2;     // their distance
+constexpr double kLeastVariance = 1e-4;  // of a pixel's difference, for a window of contrast 1
 
 using Row = Eigen::Matrix<double, 6, 1>;
 using Normal = Eigen::Matrix<double, 6, 6>;
 using Window = Eigen::Matrix<double, kPixels, 1>;
 using Changes = Eigen::Matrix<double, kPixels, 6>;  // of a window under an affine map
 
-/// Light that falls off across the window: a plane of brightness that is no texture.
+/// Light that varies linearly across the window: a plane of brightness that is no texture.
 class Shading {
  public:
   explicit Shading(const Window& weights) : weights_(weights) {
@@ -43,7 +43,7 @@ class Shading {
         columns->col(c) -= counted.dot(columns->col(c)) * term;
     }
   }
-  /// Removes it and divides by the standard deviation of what is left, which it returns.
+  /// Removes it and divides by the standard deviation of the rest, which it returns.
   double normalise(Window* values) const {
     remove(values);
     const double deviation = std::sqrt(weights_.dot(values->cwiseAbs2()) / weights_.sum());
@@ -61,7 +61,7 @@ class Shading {
   Eigen::Matrix<double, kPixels, kTerms> basis_;  // orthonormal
 };
 
-/// Samples the image; false where a pixel that counts lies outside.
+/// Samples the image; false if a pixel that counts is outside.
 bool sampleWindow(const GrayImage& image, const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map,
                   const Window& weights, Window* values) {
   for (int i = 0; i < kPixels; ++i) {
@@ -74,7 +74,7 @@ bool sampleWindow(const GrayImage& image, const Eigen::Vector2d& pixel, const Ei
   return true;
 }
 
-/// 1 where neither the look nor the image ignores the pixel.
+/// 1 for pixels ignored by neither the look nor the image.
 Window countedPixels(const FirstLook::Window& look, const GrayImage& image, const Mask& ignore,
                      const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map) {
   constexpr double kRoomPx = kLargestShiftPx + 1;
@@ -89,8 +89,8 @@ Window countedPixels(const FirstLook::Window& look, const GrayImage& image, cons
   return weights;
 }
 
-/// Slope of the look at each pixel, in gray levels a pixel; none at its edges, where one-sided
-/// differences would be alike with the pixel's own noise.
+/// Slope of the look per pixel, in gray levels per pixel; 0 at its edges, where
+/// one-sided differences would correlate with the noise of the pixel itself.
 Eigen::Matrix<double, kPixels, 2> slopesOf(const Window& look) {
   Eigen::Matrix<double, kPixels, 2> slopes = Eigen::Matrix<double, kPixels, 2>::Zero();
   for (int y = 1; y < kSide - 1; ++y)
@@ -99,8 +99,8 @@ Eigen::Matrix<double, kPixels, 2> slopesOf(const Window& look) {
   return slopes;
 }
 
-/// The six columns of the look's change under an affine map, without shading, per gray level of
-/// contrast.
+/// The six columns of the change of the look under an
+/// affine map, without shading, per gray level of contrast.
 Changes changesOf(const Eigen::Matrix<double, kPixels, 2>& slopes, double contrast,
                   const Shading& shading) {
   Changes rows;
@@ -113,11 +113,11 @@ Changes changesOf(const Eigen::Matrix<double, kPixels, 2>& slopes, double contra
   return rows;
 }
 
-/// Covariance of the sum of what the pixels say where those within 2 kAlikeHalfPx err alike: sums
+/// Covariance of the sum over pixels if errors within 2 kAlikeHalfPx are correlated: sums
 /// over squares of pixels, squared (triangular kernel: Newey and West, Econometrica 1987).
 Eigen::Matrix2d covarianceOfSum(const Eigen::Matrix<double, kPixels, 2>& said) {
   constexpr int kBorder = 2 * kAlikeHalfPx, kBox = kBorder + 1, kWide = kSide + kBorder;
-  constexpr int kSums = kSide * kWide;  // of five pixels beside each other
+  constexpr int kSums = kSide * kWide;  // of five neighbouring pixels
   using Sums = Eigen::Matrix<double, 2, kSums>;
   Sums across = Sums::Zero();
   for (int v = 0; v < kSide; ++v)
@@ -135,7 +135,7 @@ Eigen::Matrix2d covarianceOfSum(const Eigen::Matrix<double, kPixels, 2>& said) {
   return sum / (kBox * kBox);
 }
 
-/// Of a pixel's difference, as one of so few that it counts alone.
+/// Variance of a pixel difference, counted as independent.
 double varianceOf(double correlation) {
   return std::max(2 * (1 - correlation), kLeastVariance) * kAlike;
 }
@@ -149,26 +149,26 @@ Normal normalOf(const Changes& rows, const Window& weights) {
   return normal;
 }
 
-/// What the last step of the search knows.
+/// Result of the last step of the search.
 struct WindowFit {
   const Window& weights;
   const Changes& rows;
   const Normal& normal;
   const Window& residual;
-  double variance;  // of a pixel's difference, as the search took it
+  double variance;  // of a pixel's difference, as used in the search
 };
 
-/// The search's information about the six parameters: what the pixels say, and that the map bends
-/// little.
+/// Information of the search about the six parameters:
+/// that of the pixels, and the prior of the map.
 Normal informationOf(const Normal& normal, double variance) {
   Normal information = normal / variance;
   information.diagonal().tail<4>().array() += 1 / (kBendSigma * kBendSigma);
   return information;
 }
 
-/// Predicted standard error of the place along its worst direction, from what the difference of the
-/// windows says; infinite where nothing holds it. Half of the difference is the look's own noise,
-/// whose slopes passed for texture.
+/// Predicted standard error of the position along its worst direction, from
+/// the difference of the windows; infinite without information. Half of the
+/// difference is the noise of the look, whose slopes counted as texture.
 double sigmaOf(const WindowFit& fit, const Shading& shading) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Changes noise = changesOf(slopesOf(fit.residual), 1, shading);
@@ -176,7 +176,7 @@ double sigmaOf(const WindowFit& fit, const Shading& shading) {
   const Eigen::LDLT<Normal> information(informationOf(texture, fit.variance));
   const Row right = information.solve(Row::Unit(0)), down = information.solve(Row::Unit(1));
   if (!(right[0] > 0 && right[0] * down[1] > right[1] * down[0])) return kInfinite;
-  Eigen::Matrix<double, 2, 6> place;  // how far it moves for what the pixels say
+  Eigen::Matrix<double, 2, 6> place;  // change of the position per pixel term
   place << right.transpose(), down.transpose();
   place /= fit.variance;
   const Eigen::Matrix<double, kPixels, 2> said =
@@ -188,14 +188,14 @@ double sigmaOf(const WindowFit& fit, const Shading& shading) {
   return covariance.allFinite() ? std::sqrt(covariance.diagonal().maxCoeff()) : kInfinite;
 }
 
-/// By how much the map found so far differs from the expected one, row by row.
+/// Difference of the current map from the expected one, row by row.
 Eigen::Vector4d bendOf(const LookSearch& search, const LookSearch& expected) {
   const Eigen::Matrix2d bend = expected.map.inverse() * search.map - Eigen::Matrix2d::Identity();
   return {bend(0, 0), bend(0, 1), bend(1, 0), bend(1, 1)};
 }
 
-/// Moves the search to where the counted pixels look alike; false where they do so nowhere near
-/// `expected`.
+/// Moves the search to the position where the counted
+/// pixels agree; false if there is none near `expected`.
 bool converge(Window first, const Window& weights, const GrayImage& image,
               const LookSearch& expected, LookSearch* search) {
   const Shading shading(weights);
@@ -255,7 +255,7 @@ bool findWindow(const FirstLook::Window& look, const GrayImage& image, const Mas
   Window first;
   for (int i = 0; i < kPixels; ++i) first[i] = look.gray[static_cast<std::size_t>(i)];
   Window weights = countedPixels(look, image, ignore, search->pixel, search->map);
-  // Another round where other pixels are masked at the place found than at the one expected.
+  // Another round if other pixels are masked at the position found than at the expected one.
   for (int round = 0; round < kRounds; ++round) {
     if (weights.sum() < FirstLook::kLeastShare * kPixels) return false;
     if (!converge(first, weights, image, expected, search)) return false;

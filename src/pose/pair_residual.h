@@ -11,14 +11,14 @@ namespace softscope {
 
 constexpr double kCostScaleSq = 9;  // three standard errors
 
-/// The model's places of a pair: in the last frame that was fused, and in the reference shape.
+/// Model positions of a pair: in the last fused frame, and in the reference shape.
 enum class PairPlace { kNow, kSince };
 
-/// One pair, ready for the inner loops. 11 doubles.
+/// One pair, prepared for the inner loops. 11 doubles.
 struct SeenPair {
   double place_mm[2][3];  // world, by PairPlace
   double live_px[2], disparity_px;
-  double across, along;  // whiten a residual in the image, and in disparity
+  double across, along;  // factors that whiten a residual in the image, and in disparity
 };
 
 /// Left camera from world, row by row.
@@ -26,8 +26,8 @@ struct PoseRows {
   double at[3][4];
 };
 
-/// Whitened residuals of one pair (u, v, disparity) and their slopes by a twist of the pose:
-/// rotation, then translation, p' = p + w x p + t.
+/// Whitened residuals of one pair (u, v, disparity) and their derivatives with
+/// respect to a twist of the pose: rotation, then translation, p' = p + w x p + t.
 struct PairResidual {
   double value[3];
   double slope[3][6];
@@ -72,16 +72,16 @@ SOFTSCOPE_HD inline PairResidual pairResidual(const SeenPair& pair, PairPlace pl
 /// Robust cost of a pair, 0 to 1: docs/energy.md (28).
 SOFTSCOPE_HD inline double pairCost(double squared) { return squared / (squared + kCostScaleSq); }
 
-/// Geman and McClure's weight: docs/energy.md (27).
+/// Weight of Geman and McClure: docs/energy.md (27).
 SOFTSCOPE_HD inline double pairWeight(double squared, double scale_sq) {
   const double share = scale_sq / (scale_sq + squared);
   return share * share;
 }
 
-// Parts of the pairs' extent in the image, whose errors are independent.
+// Parts of the extent of the pairs in the image, with independent errors.
 constexpr int kRegionColumns = 6, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 
-/// The extent that regions divide.
+/// The extent that the regions divide.
 struct PairRegions {
   double first_px[2], size_px[2];
 

@@ -31,12 +31,12 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6d& twist) {
   return by * pose;
 }
 
-/// The pairs, seen from any pose.
+/// The pairs, evaluated at any pose.
 class Pairs {
  public:
   Pairs(const PoseQuestion& question, PairPlace place) : question_(question), place_(place) {}
 
-  /// The best end of the searches that begin at both poses.
+  /// The better result of the searches from both poses.
   Eigen::Isometry3d search(const Eigen::Isometry3d& left_from_world,
                            const Eigen::Isometry3d& other_left_from_world) const {
     Eigen::Isometry3d one, other;
@@ -100,7 +100,7 @@ class Pairs {
     return residuals;
   }
 
-  /// Mean robust cost of a pair, 0 to 1: docs/energy.md (28).
+  /// Mean robust cost per pair, 0 to 1: docs/energy.md (28).
   double costAt(const Eigen::Isometry3d& left_from_world) const {
     const std::vector<Residual> residuals = residualsAt(left_from_world);
     double sum = 0;

@@ -18,23 +18,23 @@ struct PoseQuestion {
   std::vector<SeenPair> pairs;
   RectifiedRig rig;
   PairRegions regions{};
-  Eigen::Isometry3d fitted, old;  // where the search with the places of now begins
-  Eigen::Isometry3d before;       // and, beside the end of that, with the places since
+  Eigen::Isometry3d fitted, old;  // start with positions of the last frame
+  Eigen::Isometry3d before;       // start with positions since the reference
   int iterations = 0;
 };
 
-/// Of the pairs' places of now, or since.
+/// With the positions of the last frame, or since the reference.
 struct PoseFindings {
   static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
   Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
-  // Medians over the pairs that both poses see, standard errors; NaN without any.
-  double shift = kNan;                   // between what `best` and the old pose predict
+  // Medians over the pairs visible at both poses, standard errors; NaN without any.
+  double shift = kNan;                   // between the predictions of `best` and the old pose
   double length = kNan;                  // of the residuals at `best`
   double old_length = kNan;              // and at the old pose
   std::array<double, kRegions> gains{};  // of cost over the old pose, by region
   std::array<int, kRegions> counts{};    // of pairs in it
-  int explained = 0;  // pairs that `best` puts where they were found, to three standard errors
+  int explained = 0;                     // pairs that `best` predicts to three standard errors
   // At `best`: weighted normal matrix, gradients of the regions, and their pairs.
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   std::array<Eigen::Matrix<double, 6, 1>, kRegions> scores{};
@@ -45,18 +45,18 @@ struct PoseAnswer {
   PoseFindings now, since;
 };
 
-/// Iteratively reweighted Gauss-Newton over the pose from both starts, the end with the least cost
-/// counts: docs/energy.md (26) to (28).
+/// Iteratively reweighted Gauss-Newton over the pose from both starts;
+/// the result with the lower cost counts: docs/energy.md (26) to (28).
 class PoseSearch {
  public:
   virtual ~PoseSearch() = default;
   virtual PoseAnswer answer(const PoseQuestion& question) = 0;
 
   static constexpr double kConvergedMm = 1e-4;
-  static constexpr double kTypicalDepthMm = 50;  // turns a rotation into a shift, to judge that
+  static constexpr double kTypicalDepthMm = 50;  // converts a rotation to a shift, to compare it
 };
 
-/// On the processor's cores.
+/// On the CPU.
 class CpuPoseSearch final : public PoseSearch {
  public:
   PoseAnswer answer(const PoseQuestion& question) override;

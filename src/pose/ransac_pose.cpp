@@ -34,7 +34,7 @@ float squaredDistance(const PointPairs& pairs, int i, const Eigen::Isometry3f& m
   return (motion * pairs.sources_mm[k] - pairs.targets_mm[k]).squaredNorm();
 }
 
-/// Sum of truncated squared distances; stops counting once it is no better than `best`.
+/// Sum of truncated squared distances; stops once it exceeds `best`.
 double truncatedScore(const PointPairs& pairs, const std::vector<int>& usable,
                       const Eigen::Isometry3f& motion, float limit, double best) {
   double score = 0;
@@ -52,8 +52,8 @@ std::vector<int> inliersOf(const PointPairs& pairs, const std::vector<int>& usab
   return inliers;
 }
 
-/// Three different pairs. mt19937 gives the same numbers everywhere, the standard distributions
-/// don't.
+/// Three different pairs. mt19937 gives the same numbers
+/// on all platforms, the standard distributions do not.
 std::vector<int> drawThree(const std::vector<int>& usable, std::mt19937* random) {
   std::vector<int> drawn;
   while (drawn.size() < 3) {
@@ -64,7 +64,7 @@ std::vector<int> drawThree(const std::vector<int>& usable, std::mt19937* random)
   return drawn;
 }
 
-/// A triangle that keeps its shape to within the threshold, and is no line.
+/// Whether the triangle keeps its shape to within the threshold and is not degenerate.
 bool plausible(const PointPairs& pairs, const std::vector<int>& drawn, double threshold_mm) {
   const auto source = [&](int k) { return pairs.sources_mm[static_cast<std::size_t>(drawn[k])]; };
   const auto target = [&](int k) { return pairs.targets_mm[static_cast<std::size_t>(drawn[k])]; };
@@ -78,7 +78,7 @@ bool plausible(const PointPairs& pairs, const std::vector<int>& drawn, double th
   return a.cross(b).norm() > 0.05f * longest * longest && longest > threshold_mm;
 }
 
-/// Trials after which an all-inlier sample was drawn with the wanted confidence.
+/// Trials after which an all-inlier sample was drawn with the required confidence.
 int trialsNeeded(double inlier_share, const RansacOptions& options) {
   const double all_good = std::pow(inlier_share, 3);
   if (all_good >= 1) return 1;
@@ -92,7 +92,7 @@ Eigen::Isometry3d bestOfTrials(const PointPairs& pairs, const std::vector<int>& 
   const float limit = static_cast<float>(options.threshold_mm * options.threshold_mm);
   std::mt19937 random(options.seed);
   Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
-  // Standing still is tried first: for free, and right for many frames.
+  // The identity is tried first: free, and right for many frames.
   double best_score = truncatedScore(pairs, usable, best.cast<float>(), limit,
                                      std::numeric_limits<double>::infinity());
   int needed = options.kMaxTrials;

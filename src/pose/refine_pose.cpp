@@ -15,14 +15,14 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// Tissue has its reference shape as long as that explains this share of the matches.
+// Tissue has its reference shape while that explains this share of the matches.
 constexpr double kRigidShare = 2.0 / 3;
 
 constexpr double kSeenSigmas =
     6;  // of a shift that is seen in a single pair: two poses explain it to three
 
-// Of the median residual that a motion of the scope leaves, match errors included; tissue that
-// bends leaves more of it.
+// Of the median residual after a motion of the scope, match
+// errors included; deformed tissue leaves a larger share.
 constexpr double kLeftShare = 1.0 / 3;
 
 /// Upper quantile of the normal distribution (Abramowitz and Stegun 26.2.23, to 4.5e-4).
@@ -39,8 +39,8 @@ double studentQuantile(double probability, double freedom) {
               (((3 * sq + 19) * sq + 17) * sq - 15) / (384 * freedom * freedom * freedom));
 }
 
-/// What the regions divide: the pairs' extent in the live image, but half of the image at least,
-/// because the errors of near pairs are alike.
+/// Area of the regions: the extent of the pairs in the live image, but at
+/// least half of the image, because the errors of near pairs are correlated.
 Eigen::AlignedBox2d extentOf(const std::vector<PosePair>& pairs, const PinholeCamera& camera) {
   Eigen::AlignedBox2d extent;
   for (const PosePair& pair : pairs)
@@ -51,7 +51,7 @@ Eigen::AlignedBox2d extentOf(const std::vector<PosePair>& pairs, const PinholeCa
   return extent.extend(Eigen::AlignedBox2d(middle - half, middle + half));
 }
 
-constexpr int kFewestRegions = 8;  // with pairs; below, neither motion nor error is known
+constexpr int kFewestRegions = 8;  // with pairs; with fewer, motion and error are unknown
 
 SeenPair seenPair(const PosePair& pair) {
   SeenPair seen{};
@@ -71,7 +71,7 @@ int usedOf(const std::array<int, kRegions>& counts) {
   return kRegions - static_cast<int>(std::count(counts.begin(), counts.end(), 0));
 }
 
-/// Student's test that the mean gain is above 0; regions are the samples.
+/// Student's test of a mean gain above 0; the regions are the samples.
 bool isGain(const std::array<double, kRegions>& gains, const std::array<int, kRegions>& counts,
             double significance) {
   const int regions = usedOf(counts);
@@ -84,14 +84,14 @@ bool isGain(const std::array<double, kRegions>& gains, const std::array<int, kRe
   return mean > studentQuantile(significance, regions - 1.0) * error;
 }
 
-/// Whether the best pose is another one than the old: most of the pairs see the difference, it
-/// leaves little of their residuals, and explains them significantly better: docs/energy.md (29).
+/// Whether the best pose differs from the old one: most of the pairs distinguish them, it leaves
+/// a small part of the residuals, and explains them significantly better: docs/energy.md (29).
 bool differs(const PoseFindings& found, double significance) {
   return found.shift > kSeenSigmas && found.length < kLeftShare * found.old_length &&
          isGain(found.gains, found.counts, significance);
 }
 
-/// Of the best pose as a twist in the left camera's frame, clustered by regions: (31).
+/// Of the best pose as a twist in the left camera frame, clustered by regions: (31).
 Matrix6d covarianceOf(const PoseFindings& found) {
   const int regions = usedOf(found.score_counts);
   if (regions < kFewestRegions) return Matrix6d::Constant(PoseFindings::kNan);

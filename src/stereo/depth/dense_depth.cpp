@@ -14,14 +14,14 @@
 namespace softscope {
 namespace {
 
-constexpr int kSweeps = 24;           // of a level of the pyramid
+constexpr int kSweeps = 24;           // per level of the pyramid
 constexpr int kBins = 16;             // of distance from the measured pixels
-constexpr int kLeastInBin = 30;       // trials that make a standard error
-constexpr double kFarthestShare = 2;  // filled depth stays within this factor of the measured
+constexpr int kLeastInBin = 30;       // trials per standard error
+constexpr double kFarthestShare = 2;  // filled depth is within this factor of the measured
 
 using Field = Raster<double>;
 
-/// 1 where a value is known.
+/// 1 for known values.
 using Known = Raster<std::uint8_t>;
 
 /// Plane a + b u + c v through the known values, by least squares.
@@ -43,7 +43,7 @@ struct Level {
   Known known;
 };
 
-/// Half the size; a value is the mean of the known ones below it.
+/// Half the size; a value is the mean of the known ones of its 2 x 2 pixels.
 Level halved(const Level& fine) {
   const int width = (fine.values.width_px + 1) / 2, height = (fine.values.height_px + 1) / 2;
   Level coarse{Field(width, height), Known(width, height)};
@@ -75,8 +75,8 @@ double meanAround(const Field& field, int u, int v) {
   return count > 0 ? sum / count : field.at(u, v);
 }
 
-/// A membrane: every unknown value becomes the mean of its four neighbours (Gauss-Seidel), from
-/// the values of the level above.
+/// A membrane: every unknown value becomes the mean of its four
+/// neighbours (Gauss-Seidel), from the values of the next level.
 void relax(const Level* coarse, Level* level) {
   Field& field = level->values;
   std::vector<std::pair<int, int>> unknown;
@@ -90,7 +90,7 @@ void relax(const Level* coarse, Level* level) {
     for (const auto& [u, v] : unknown) field.at(u, v) = meanAround(field, u, v);
 }
 
-/// Spans what is known over the rest.
+/// Interpolates the known values.
 Field membrane(Field field, const Known& known) {
   std::vector<Level> levels{{std::move(field), known}};
   while (std::max(levels.back().values.width_px, levels.back().values.height_px) > 2)
@@ -100,13 +100,13 @@ Field membrane(Field field, const Known& known) {
   return std::move(levels[0].values);
 }
 
-/// A filled field. A membrane's value is a weighted mean of the known values around a gap; `spread`
-/// is their weighted variance: large where a gap lies between a near and a far surface.
+/// A filled field. A value of the membrane is a weighted mean of the known values around a
+/// gap; `spread` is their weighted variance: large for a gap between a near and a far surface.
 struct Fill {
   Field values, spread;
 };
 
-/// The plane through all that is known, and a membrane for what differs from it.
+/// The plane through all known values, and a membrane for the difference from it.
 Fill filled(const Field& field, const Known& known) {
   const Eigen::Vector3d plane = planeThrough(field, known);
   Fill fill{field, Field(field.width_px, field.height_px)};
@@ -128,7 +128,7 @@ Fill filled(const Field& field, const Known& known) {
   return fill;
 }
 
-/// Of each pixel from the nearest one that is set, px.
+/// Of each pixel from the nearest set pixel, px.
 Raster<float> distanceFrom(const Known& set) {
   Raster<std::uint8_t> clear(set.width_px, set.height_px);
   std::transform(set.values.begin(), set.values.end(), clear.values.begin(),
@@ -140,7 +140,7 @@ Raster<float> distanceFrom(const Known& set) {
   return distance_px;
 }
 
-/// Root mean square error of a fill by distance from what it was filled from; never falls.
+/// Root mean square error of a fill by distance from known pixels; never decreases.
 class FillError {
  public:
   FillError(const std::vector<float>& distances_px, const std::vector<double>& errors) {
@@ -180,17 +180,17 @@ class FillError {
   }
 
  private:
-  std::vector<double> places_px_, errors_;  // rising
+  std::vector<double> places_px_, errors_;  // ascending
 };
 
-/// Takes the measured pixels nearest to the gaps away, as far as the gaps reach, and fills again.
+/// Removes the measured pixels nearest to the gaps, as far as the gaps extend, and fills again.
 FillError triedAround(const Known& gaps, const Field& field, const Known& known,
                       double farthest_px) {
   const Raster<float> from_gap_px = distanceFrom(gaps);
   std::vector<float> distances;
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known.values[i] != 0) distances.push_back(from_gap_px.values[i]);
-  // About half of the measured pixels stay, or more.
+  // About half of the measured pixels are kept, or more.
   const double reach_px = std::min<double>(farthest_px, medianOf(std::move(distances)));
 
   Known kept = known;
@@ -208,7 +208,7 @@ FillError triedAround(const Known& gaps, const Field& field, const Known& known,
   return {places, errors};
 }
 
-/// What was measured of the tissue, and where it was not.
+/// Measured depth of the tissue, and the gaps.
 struct Measured {
   Field inverse;  // of the depth, 1/mm: linear in the pixel on any plane
   Known known, gaps;

@@ -8,16 +8,16 @@
 
 namespace softscope {
 
-/// z = f b / (d + offset); its standard error grows with z²: sigma_z = z² / (f b) sigma_d. NaN
-/// where the disparity is NaN or says that the point lies at infinity or behind the camera.
+/// z = f b / (d + offset); its standard error grows with z²: sigma_z = z² / (f b) sigma_d.
+/// NaN where the disparity is NaN, or the point at infinity or behind the camera.
 DepthMap depthFromDisparity(const DisparityMap& disparity, const RectifiedRig& rig);
 
 /// Normals from a plane fitted to the inverse depth (which is linear in the pixel on any plane) of
-/// the pixels around, leaving out those across a depth step. NaN where too few are measured.
+/// the surrounding pixels, without those across a depth step. NaN with too few measured pixels.
 NormalMap normalsFromDepth(const Raster<float>& depth_mm, const PinholeCamera& camera);
 
-/// Every measured pixel that the mask (may be empty) leaves, in the left camera's frame, mm.
-/// Pixels without a normal are left out, so that every point has one.
+/// All measured pixels outside of the mask (may be empty), in the left camera
+/// frame, mm. Pixels without a normal are left out, so that every point has one.
 PointCloud pointCloud(const Raster<float>& depth_mm, const NormalMap& normals,
                       const ColourImage& colour, const PinholeCamera& camera, const Mask& mask);
 

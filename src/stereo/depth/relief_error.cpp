@@ -12,16 +12,16 @@
 namespace softscope {
 namespace {
 
-// Sums are whole numbers, which any order of adding gives alike.
+// Integer sums: the same in any order of addition.
 using Counts = Raster<std::int32_t>;
 
-constexpr int kReach = 2 * RefinementOptions::radius_px;  // two windows, one after the other
+constexpr int kReach = 2 * RefinementOptions::radius_px;  // two windows in sequence
 constexpr float kStepsAPx = 1024;                         // of disparity: 625 times 3355 px fit
 constexpr float kStepsAPx2 = 65536;                       // of squared bends …
 constexpr float kLargestBendPx2 = 50;                     // … 625 of which fit
 constexpr int kBandRows = 48;
 
-/// Over the `kReach` pixels to either side, in each row.
+/// Over the `kReach` pixels to either side, per row.
 Counts sumsAlongRows(const Counts& in) {
   Counts out(in.width_px, in.height_px);
   parallelRows(in.height_px, [&](int v) {

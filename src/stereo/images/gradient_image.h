@@ -9,10 +9,10 @@
 
 namespace softscope {
 
-/// Horizontal and vertical Sobel responses times `gain`, clamped to 8 bits around 128. A margin of
-/// 128s surrounds the image, wide enough for every disparity and window, so that inner loops
-/// need no border cases. Pixels under `mask` must have been filled (fillMasked()); windows that
-/// reach them are told by blocked().
+/// Horizontal and vertical Sobel responses times `gain`, clamped to 8 bits around
+/// 128. A margin of 128s surrounds the image, wide enough for all disparities and
+/// windows, so that inner loops need no border cases. Pixels under `mask` must
+/// have been filled (fillMasked()); blocked() marks windows that reach them.
 class GradientImage {
  public:
   GradientImage(const GrayImage& image, double gain, int margin_px, const Mask& mask = {});
@@ -22,8 +22,8 @@ class GradientImage {
   /// Row 0 of the view is row `first_row` of the image, within kRowMargin.
   GradientView view(int first_row = 0) const;
 
-  /// 1 where a window of `reach_px` to each side uses a masked pixel; empty where nothing is
-  /// masked.
+  /// 1 where a window of `reach_px` to each side
+  /// uses a masked pixel; empty without a mask.
   Mask blocked(int reach_px) const;
 
   static constexpr int kRowMargin = 2 * kTileHeight;  // rows of 128 above and below

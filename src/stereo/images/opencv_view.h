@@ -1,4 +1,4 @@
-// src/stereo/images/opencv_view.h: our rasters as OpenCV matrices, without a copy.
+// src/stereo/images/opencv_view.h: rasters as OpenCV matrices, without a copy.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -18,7 +18,7 @@ inline cv::Mat opencvView(Raster<float>& raster) {
   return {raster.height_px, raster.width_px, CV_32F, raster.values.data()};
 }
 
-/// OpenCV has no view of constant data; the caller must not write through this one.
+/// OpenCV has no view of constant data; the caller must not write through it.
 template <class T>
 cv::Mat opencvView(const Raster<T>& raster) {
   return opencvView(const_cast<Raster<T>&>(raster));

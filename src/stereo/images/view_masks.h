@@ -14,15 +14,15 @@ struct ViewMasks {
 /// Masked in either; each may be empty.
 Mask united(const Mask& one, const Mask& other);
 
-/// NaN under the mask; unchanged where that is empty or has another shape.
+/// NaN under the mask; unchanged for an empty mask or one of another shape.
 void dropMasked(const Mask& mask, Raster<float>* raster);
 
-/// The image with masked pixels replaced by a smooth continuation of the others (means over
-/// squares of doubling size), so that no gradient arises at the mask's edge. Unchanged where `mask`
-/// is empty or covers everything.
+/// The image with masked pixels replaced by a smooth continuation of the
+/// others (means over squares of doubling size), without a gradient at the
+/// edge of the mask. Unchanged if `mask` is empty or covers everything.
 GrayImage fillMasked(const GrayImage& image, const Mask& mask);
 
-/// A pair as it is matched: gray, filled where ignored.
+/// A pair ready for matching: gray, filled where ignored.
 struct MatchableViews {
   GrayImage left, right;
   ViewMasks ignored;

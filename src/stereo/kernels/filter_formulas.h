@@ -12,8 +12,8 @@ namespace softscope {
 SOFTSCOPE_FORMULA float absoluteOf(float x) { return x < 0.0f ? -x : x; }
 SOFTSCOPE_FORMULA bool isNumber(float x) { return x == x; }
 
-/// Does the right image confirm disparity `d` of column u? `back`: disparity of the right image at
-/// column u - d; -1 where unmatched.
+/// Whether the right image confirms disparity `d` of column u. `back`:
+/// disparity of the right image at column u - d; -1 if unmatched.
 SOFTSCOPE_FORMULA bool confirmsDisparity(int d, int back, int tolerance_px) {
   const int apart = back - d;
   return back >= 0 && (apart < 0 ? -apart : apart) <= tolerance_px;
@@ -24,14 +24,14 @@ SOFTSCOPE_FORMULA float gapValue(float before, float after, int k, int gap) {
   return before + (after - before) * static_cast<float>(k) / static_cast<float>(gap + 1);
 }
 
-/// A step between two measured pixels `apart` pixels from each other.
+/// Whether there is a step between two measured pixels `apart` pixels from each other.
 SOFTSCOPE_FORMULA bool isDepthStep(float a, float b, int apart, float step, float slope) {
   return absoluteOf(a - b) > step + slope * static_cast<float>(apart - 1);
 }
 
-constexpr float kOneSurfacePx = 1.5f;  // four pixels that differ by more lie on two surfaces
+constexpr float kOneSurfacePx = 1.5f;  // four pixels with larger differences are on two surfaces
 
-/// Where a pixel of the full size lies in the half size.
+/// Position of a pixel of the full size in the half size.
 struct HalfPosition {
   int u0, v0;
   float fu, fv;
@@ -54,11 +54,11 @@ SOFTSCOPE_FORMULA FourPixels fourPixels(const float* values, int width, int heig
               *lower = values + static_cast<std::ptrdiff_t>(v1) * width;
   return {upper[u0], upper[u1], lower[u0], lower[u1]};
 }
-/// NaN across a hole.
+/// NaN with an unmeasured pixel.
 SOFTSCOPE_FORMULA float bilinear(const FourPixels& p, float fu, float fv) {
   return (1 - fv) * ((1 - fu) * p.a + fu * p.b) + fv * ((1 - fu) * p.c + fu * p.d);
 }
-/// All four measured, on one surface.
+/// Whether all four are measured, on one surface.
 SOFTSCOPE_FORMULA bool isOneSurface(const FourPixels& p) {
   if (!(isNumber(p.a) && isNumber(p.b) && isNumber(p.c) && isNumber(p.d))) return false;
   float low = p.a, high = p.a;

@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// Slow brightness of the right camera minus that of the left, of one piece of tissue: the cameras
-/// differ in offset, vignetting and gain.
+/// Low-pass brightness of the right camera minus that of the left, for
+/// the same tissue: the cameras differ in offset, vignetting and gain.
 struct LightDifference {
   double at_centre = 0, across = 0, down = 0;  // grey levels; at the right and the lower border
   double gain = 0;                             // grey levels per kBright
@@ -34,7 +34,7 @@ SOFTSCOPE_HD inline LightRow lightOfRow(const LightDifference& light, int v, int
           static_cast<float>(light.across),
           static_cast<float>(light.gain / LightDifference::kBright), static_cast<float>(width_px)};
 }
-/// At a pixel of the row, given the left camera's slow brightness.
+/// At a pixel of the row, given the low-pass brightness of the left camera.
 template <class V>
 SOFTSCOPE_FORMULA V lightAt(const LightRow& row, V u, V slow_left) {
   return row.base + row.across * fromCentre(u, row.width_px) + row.gain * slow_left;
@@ -43,10 +43,10 @@ SOFTSCOPE_FORMULA V lightAt(const LightRow& row, V u, V slow_left) {
 /// Robust least squares on every kStepPx-th pixel.
 struct LightFit {
   static constexpr int kStepPx = 8;
-  static constexpr int kParts = 8;          // of a row, summed by themselves
-  static constexpr double kGray = 4;        // residual that quarters a sample's weight …
-  static constexpr double kFirstGray = 40;  // … and at the very first
-  static constexpr double kRidge = 1e-3;    // samples' worth of each term being zero
+  static constexpr int kParts = 8;          // of a row, summed separately
+  static constexpr double kGray = 4;        // residual that quarters the weight of a sample …
+  static constexpr double kFirstGray = 40;  // … and in the first round
+  static constexpr double kRidge = 1e-3;    // in samples: weight of zero for each term
 
   /// Rounds of reweighting before a step of the refinement.
   SOFTSCOPE_HD static int rounds(int step) { return step == 0 ? 3 : 1; }
@@ -68,7 +68,7 @@ struct LightSums {
   }
 };
 
-/// One part of a row of samples, from left to right. `disparity_px`: NaN where unmatched.
+/// One part of a row of samples, from left to right. `disparity_px`: NaN if unmatched.
 SOFTSCOPE_HD inline LightSums lightSumsOfPart(const float* slow_left, const float* slow_right,
                                               const float* disparity_px, int v, int part,
                                               int width_px, int height_px,

@@ -17,8 +17,8 @@ constexpr float kNoSupport = -1;      // disparity of a grid pixel without a sup
 
 SOFTSCOPE_FORMULA int clampByte(int x) { return x < 0 ? 0 : (x > 255 ? 255 : x); }
 
-/// Both Sobel responses of the middle one of three rows at column u, as GradientView packs them.
-/// u - 1 and u + 1 are readable.
+/// Both Sobel responses of the middle one of three rows at column
+/// u, packed as in GradientView. u - 1 and u + 1 are readable.
 SOFTSCOPE_FORMULA std::uint16_t packedGradient(const std::uint8_t* above,
                                                const std::uint8_t* middle,
                                                const std::uint8_t* below, int before, int u,
@@ -37,11 +37,11 @@ inline int gainQ8(double gradient_gain) {
 }
 
 /// The support window: every second pixel of nine by nine.
-// The range of disparities that is tried in all rows of the grid, from the points of some rows.
-constexpr int kRangeRows = 4;        // every so many rows are tried over the whole range
-constexpr int kFewestForRange = 50;  // points, to know the range
-constexpr int kNearDisparityPx = 2;  // points with disparities as near as that …
-constexpr int kFewestNear = 3;       // … and as many make a surface
+// The range of disparities for all rows of the grid, from the points of some rows.
+constexpr int kRangeRows = 4;        // every fourth row is searched over the whole range
+constexpr int kFewestForRange = 50;  // points, to determine the range
+constexpr int kNearDisparityPx = 2;  // points with disparities this close …
+constexpr int kFewestNear = 3;       // … and this many form a surface
 constexpr int kBeyondRangePx = 16;   // on either side
 
 constexpr int kSupportSide = kSupportMargin + 1;
@@ -62,8 +62,8 @@ SOFTSCOPE_FORMULA int supportTextureSum(const std::uint16_t* centre, int stride)
   return sum;
 }
 
-/// How many disparities from `minimum` on, at most `count`, have a cost at column u: the support
-/// window lies inside both images.
+/// Number of disparities from `minimum` on, at most `count`, with
+/// a cost at column u: the support window is inside both images.
 SOFTSCOPE_FORMULA int supportCountAt(int u, int width, int minimum, int count) {
   const int largest =
       (u < width - kSupportNarrowest ? u : width - kSupportNarrowest) - kSupportMargin;
@@ -78,7 +78,7 @@ SOFTSCOPE_FORMULA float parabolaOffset(int before, int at, int after) {
   return 0.5f * static_cast<float>(before - after) / static_cast<float>(curvature);
 }
 
-/// Cost of a disparity's distance from the prior: a parabola up to a plateau.
+/// Cost of the distance of a disparity from the prior: a parabola up to a plateau.
 struct PriorCost {
   int band_px8;  // half width of the band of allowed disparities
   int slope;     // cost of (1 px)^2, at most kLargestPriorSlope
@@ -96,7 +96,7 @@ inline PriorCost priorCostOf(const ElasOptions& elas) {
   return cost;
 }
 
-/// |disparity - prior| in 1/8 px, in 16 bits as the SIMD loop has it.
+/// |disparity - prior| in 1/8 px, in 16 bits as in the SIMD loop.
 SOFTSCOPE_FORMULA int priorDistancePx8(int disparity_px, std::int16_t prior_px8) {
   const auto away = static_cast<std::int16_t>(disparity_px * 8 - prior_px8);
   const auto back = static_cast<std::int16_t>(-away);
@@ -108,7 +108,7 @@ SOFTSCOPE_FORMULA int costOfDistance(const PriorCost& cost, int distance_px8) {
   return parabola < cost.cap ? parabola : cost.cap;
 }
 
-/// Whole disparities in the band around the priors of a tile, within the range of the search.
+/// Whole disparities in the band around the priors of a tile, within the search range.
 struct DisparityBand {
   int first, last;
 };

@@ -33,7 +33,7 @@ void supportColumnSums(const GradientView& left, const GradientView& right, int 
   }
 }
 
-/// Keeps the better one of each column.
+/// Keeps the better one per column.
 inline void keepBetter(Words cost, std::uint16_t disparity, std::uint16_t* best_cost,
                        std::uint16_t* best_disparity) {
   const Words before = load<Words>(best_cost);
@@ -61,13 +61,13 @@ void supportRow(const GradientView& left, const GradientView& right, int v, int 
   std::uint16_t* sums = out.sums + kSupportMargin;
   for (int i = 0; i < disparity_count; ++i) {
     const int d = disparity_min + i;
-    const int first = d + kSupportMargin;  // the whole window lies inside both images
+    const int first = d + kSupportMargin;  // the whole window is inside both images
     if (first + kSupportNarrowest > width) break;
     supportColumnSums(left, right, v, first, width, d, sums);
     std::uint16_t* cost = out.volume + static_cast<long>(i) * out.stride;
     int u = first;
     for (; u + kWordLanes <= width; u += kWordLanes) supportCosts(out, sums, u, d, cost);
-    // The rest with some columns again, which changes nothing.
+    // The last columns, some of them again with the same result.
     if (u < width) supportCosts(out, sums, width - kWordLanes, d, cost);
   }
 }
@@ -97,8 +97,8 @@ void tileRowSums(const GradientView& reference, const GradientView& other, const
     }
 }
 
-/// Adds the prior to the cost and keeps the better disparity; kWordLanes columns of one row.
-/// `forbidden`: 0xFFFF where the disparity leaves the image.
+/// Adds the prior to the cost and keeps the better disparity; kWordLanes columns
+/// of one row. `forbidden`: 0xFFFF for disparities outside of the image.
 inline void tryDisparity(const DenseTile& tile, int at, int d, std::int16_t band, Words forbidden,
                          Words cost) {
   const SignedWords zero{};
@@ -128,7 +128,7 @@ void denseTile(const GradientView& reference, const GradientView& other, const D
   alignas(64) TileRow forbidden;
   for (int i = 0; i < tile.candidate_count; ++i) {
     const int d = tile.disparities[i];
-    // The other pixel's window lies inside its image.
+    // The window of the other pixel is inside its image.
     const int first = tile.direction < 0 ? d + kReach - tile.u0 : 0;
     const int last = tile.direction < 0 ? kTileWidth : tile.width_px - 1 - kReach - d - tile.u0;
     if (first >= kTileWidth || last < 0) continue;

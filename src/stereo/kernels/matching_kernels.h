@@ -10,18 +10,18 @@
 
 namespace softscope {
 
-/// Tile of the dense matcher; also the cell in which support disparities are shared.
+/// Tile of the dense matcher; also the cell that shares support disparities.
 constexpr int kTileWidth = 32;
 constexpr int kTileHeight = 16;
 constexpr int kSupportMargin = 4;     // reach of the support window
 constexpr int kDenseWindowReach = 2;  // of the dense matcher
 constexpr int kSobelReach = 1;
 constexpr int kSupportScratch = 64;    // margins and the rest of a register
-constexpr int kSupportNarrowest = 32;  // columns that the images must share at a disparity
+constexpr int kSupportNarrowest = 32;  // columns common to the images at a disparity
 constexpr int kLargestPriorSlope = 65535 / (15 * 15);
 
-/// Both 8-bit gradients of a pixel, around 128, side by side: du + 256 dv. With a margin on every
-/// side, see GradientImage.
+/// Both 8-bit gradients of a pixel, around 128, packed: du +
+/// 256 dv. With a margin on every side, see GradientImage.
 struct GradientView {
   const std::uint16_t* packed;  // at pixel (0, 0)
   int stride;                   // pixels between rows
@@ -29,9 +29,9 @@ struct GradientView {
   const std::uint16_t* at(int u, int v) const { return packed + static_cast<long>(v) * stride + u; }
 };
 
-/// One row of support costs. For every u in [0, width): cost_left[u] the least cost over all
-/// disparities, disparity_left[u] where; the same for the right image's pixels; 0xFFFF and 0
-/// where the window fits into both images at none.
+/// One row of support costs. For every u in [0, width): cost_left[u] the minimum cost
+/// over all disparities, disparity_left[u] its disparity; the same for the pixels of
+/// the right image; 0xFFFF and 0 if the window is inside both images at none.
 struct SupportRow {
   std::uint16_t* volume;  // disparity_count x stride; from column d + kSupportMargin on
   std::uint16_t* sums;    // scratch: width + kSupportScratch
@@ -53,9 +53,9 @@ struct DenseTile {
   const std::int16_t* prior_px8;  // kTileHeight x kTileWidth, in 1/8 px
   int band_px8;                   // half width of the band
   int prior_slope;                // cost of (1 px)², at most kLargestPriorSlope
-  int prior_cap;                  // cost of leaving the plane altogether
+  int prior_cap;                  // cost of a disparity far from the plane
   std::uint16_t* best_disparity;  // kTileHeight x kTileWidth
-  std::uint16_t* best_cost;       // 0xFFFF where no candidate was allowed
+  std::uint16_t* best_cost;       // 0xFFFF if no candidate was allowed
 };
 
 struct MatchingKernels {

@@ -18,7 +18,7 @@ void invertRow(const InverseDepthRow& row) {
   }
 }
 
-// A comparison with NaN is false: it counts neither as low nor as high.
+// A comparison with NaN is false: it is neither low nor high.
 inline Floats lower(Floats x, Floats than) { return x < than ? x : than; }
 inline Floats higher(Floats x, Floats than) { return x > than ? x : than; }
 

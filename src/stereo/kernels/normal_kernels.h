@@ -7,12 +7,12 @@
 
 namespace softscope {
 
-/// What a row of inverse depth needs before windows are summed.
+/// Terms of a row of inverse depth before the sums over windows.
 struct InverseDepthRow {
-  const float* depth_mm;  // NaN where unmeasured
+  const float* depth_mm;  // NaN if unmeasured
   int width;
-  float* inverse;   // 1 / depth; NaN where unmeasured
-  float* weighted;  // the same, 0 where unmeasured
+  float* inverse;   // 1 / depth; NaN if unmeasured
+  float* weighted;  // the same, 0 if unmeasured
   float* measured;  // 1 or 0
 };
 
@@ -22,7 +22,7 @@ struct NormalRow {
   MomentRow moments;     // of measured (six) and of inverse depth (three)
   const float* inverse;  // NaN: no normal
   int width;
-  float fewest_pixels;  // NaN where the window has fewer
+  float fewest_pixels;  // NaN if the window has fewer
   float fx_px, fy_px, cx_px;
   float dv_px;       // v - cy
   float* normal[3];  // unit, towards the camera
@@ -30,9 +30,9 @@ struct NormalRow {
 
 struct NormalKernels {
   void (*invertRow)(const InverseDepthRow& row);
-  /// mixed[u] = 1 where a value of the window lies farther from the centre than `share` of the
-  /// centre. `rows` as in columnMoments(); `low` and `high` are scratch, readable and writable
-  /// `radius` beyond both ends, and NaN there.
+  /// mixed[u] = 1 where a value of the window differs from the centre by more
+  /// than `share` of the centre. `rows` as in columnMoments(); `low` and `high`
+  /// are scratch, readable and writable `radius` beyond both ends, and NaN there.
   void (*findMixed)(const float* const* rows, int radius, int width, float share, float* low,
                     float* high, unsigned char* mixed);
   void (*solveNormals)(const NormalRow& row);

@@ -8,15 +8,15 @@
 
 namespace softscope {
 
-/// A disparity interpolated in a row of support points, and how far away its points are.
+/// A disparity interpolated in a row of support points, and the distance of its points.
 struct PriorEvidence {
   float disparity_px;
   float beside_px;  // columns: the harmonic mean of those to both points
   float away_px;    // rows
 };
 
-/// Between the points at columns `last` and `next`, of disparities `from` and `to`; last = -1 or
-/// next = width where there is none on that side.
+/// Between the points at columns `last` and `next`, of disparities `from`
+/// and `to`; last = -1 or next = width without a point on that side.
 SOFTSCOPE_FORMULA PriorEvidence priorBetween(int u, int last, int next, int width, float from,
                                              float to) {
   const bool has_last = last >= 0, has_next = next < width;
@@ -27,7 +27,7 @@ SOFTSCOPE_FORMULA PriorEvidence priorBetween(int u, int last, int next, int widt
   return {from + slope * before, 2 * before * after / (before + after), 0};
 }
 
-/// Value of a row, or of the row before it, `step` rows away, where its points are nearer.
+/// Value of a row, or of the previous row, `step` rows away, if its points are nearer.
 SOFTSCOPE_FORMULA PriorEvidence nearerEvidence(const PriorEvidence& own,
                                                const PriorEvidence& before, float step) {
   if (before.beside_px + before.away_px + step < own.beside_px)
@@ -35,7 +35,7 @@ SOFTSCOPE_FORMULA PriorEvidence nearerEvidence(const PriorEvidence& own,
   return {own.disparity_px, own.beside_px, 0};
 }
 
-/// Linear in rows where the points above and below are equally far to the side.
+/// Linear across rows if the points above and below are equally far to the side.
 SOFTSCOPE_FORMULA float priorBetweenRows(const PriorEvidence& above, const PriorEvidence& below,
                                          float rows_above, float rows_below) {
   const float beside_both = below.beside_px < above.beside_px ? below.beside_px : above.beside_px;

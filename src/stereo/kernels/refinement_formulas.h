@@ -22,8 +22,8 @@ SOFTSCOPE_FORMULA ValueAndSlope<V> catmullRom(V p0, V p1, V p2, V p3, V t) {
   return {p1 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2.0f * c2 + t * (3.0f * c3))};
 }
 
-/// The right camera's slow brightness, as far as both cameras agree about it: less where they
-/// differ by more than light_gray and what a pixel of disparity explains, as at highlights.
+/// Low-pass brightness of the right camera, as far as both cameras agree: less where they
+/// differ by more than light_gray and the effect of a pixel of disparity, as at highlights.
 template <class V>
 SOFTSCOPE_FORMULA ValueAndSlope<V> agreedSlowPart(const ValueAndSlope<V>& right, V left, V light,
                                                   float light_gray_sq) {
@@ -33,9 +33,9 @@ SOFTSCOPE_FORMULA ValueAndSlope<V> agreedSlowPart(const ValueAndSlope<V>& right,
   return {agreed * apart, agreed * right.slope};
 }
 
-/// What ResidualRow names, of one pixel. `slow`: what
-/// agreedSlowPart() gave. `inside`: 1 where the pixel is matched, else 0; `d`: its
-/// disparity, 0 where unmatched.
+/// Fields of ResidualRow for one pixel. `slow`: result of
+/// agreedSlowPart(). `inside`: 1 if the pixel is matched,
+/// otherwise 0; `d`: its disparity, 0 if unmatched.
 template <class V>
 struct PixelResidual {
   V information, target, residual_sq, weight, difference_sq, energy;
@@ -47,7 +47,7 @@ SOFTSCOPE_FORMULA PixelResidual<V> pixelResidual(V left, const ValueAndSlope<V>&
   const float prior_weight = limits.prior_weight;
   const V value = right.value + slow.value, g = right.slope + slow.slope, r = value - left;
   const V w = inside / (1.0f + r * r * limits.inverse_noise_sq);
-  // The error doesn't count all that the slow part told, as it doesn't count the prior.
+  // The error counts the information of the low-pass part in part only, and not the prior.
   const V told = g * g - right.slope * right.slope;
   const V judged = w * (1.0f + (told > 0.0f ? told : V{}) * limits.steadying);
   return {w * (g * g + prior_weight),
@@ -84,8 +84,8 @@ SOFTSCOPE_FORMULA void columnMomentsOf(const Information& information, const Tar
   sums[4] = q1;
 }
 
-/// Sums over the window from the sums of its columns: column(k, x) gives moment k, x columns right
-/// of the centre.
+/// Sums over the window from the sums of its columns:
+/// column(k, x) gives moment k, x columns right of the centre.
 template <class V, class Column>
 SOFTSCOPE_FORMULA void windowMomentsOf(const Column& column, const float* window, int radius,
                                        V (&sums)[9]) {
@@ -115,7 +115,7 @@ SOFTSCOPE_FORMULA void windowMomentsOf(const Column& column, const float* window
   sums[8] = even[4];
 }
 
-/// Disparity by Cramer's rule from the nine moments; `nan` where the window makes no plane.
+/// Disparity by Cramer's rule from the nine moments; `nan` for a degenerate window.
 template <class V>
 SOFTSCOPE_FORMULA V planeDisparity(const V (&m)[9], V before, float farthest_step_px,
                                    float relaxation, V nan) {
@@ -129,13 +129,13 @@ SOFTSCOPE_FORMULA V planeDisparity(const V (&m)[9], V before, float farthest_ste
   return holds ? before + relaxation * step : nan;
 }
 
-/// Squared slope of the right image's noise over the squared noise of both images' difference:
-/// half of that is the right one's, its central difference keeps half, and the 3 x 3 filter, by
-/// which pixels two apart have a sixth of their noise in common, five sixths.
+/// Squared slope of the right image's noise over the squared noise of the difference of
+/// both images: half of that is the right one's, its central difference keeps half, and
+/// the 3 x 3 filter, by which pixels two apart share a sixth of their noise, five sixths.
 constexpr float kSlopeNoise = 0.5f * 0.5f * 5.0f / 6.0f;
 
-/// Variance of planeDisparity() from the moments and residual_sq and weight, and whether the fit
-/// can be trusted, given difference_sq and energy.
+/// Variance of planeDisparity() from the moments and residual_sq and
+/// weight, and whether the fit is reliable, given difference_sq and energy.
 template <class V, class Mask>
 SOFTSCOPE_FORMULA V planeVariance(const V (&m)[9], const V (&evidence_sums)[4], V disparity,
                                   float prior_weight, float noise_floor_sq,
@@ -144,8 +144,8 @@ SOFTSCOPE_FORMULA V planeVariance(const V (&m)[9], const V (&evidence_sums)[4], 
   const V a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
   const V c00 = d * f - e * e;
   const V determinant = a * c00 + b * (c * e - b * f) + c * (b * e - c * d);
-  // Neither what steadies the fit, the matched disparity, nor the slope that noise has is evidence:
-  // they don't lower the error.
+  // The stabilising term, the matched disparity and the slope
+  // of noise are no evidence: they do not lower the error.
   const V weight = evidence_sums[1], noise_sq = evidence_sums[0] / weight + noise_floor_sq;
   const V raw = 1.0f - (prior_weight + kSlopeNoise * noise_sq) * weight / a;
   const V evidence = raw > 1e-3f ? raw : V{} + 1e-3f;
@@ -169,8 +169,8 @@ constexpr int kNormalReach = 3;            // pixels
 constexpr float kNormalDepthStep = 0.05f;  // share of the depth: beyond it another surface
 constexpr float kFewestNormalPixels = 12;  // of 49, for a plane
 
-/// Normal of the plane through inverse depths, not yet of unit length, towards the camera after
-/// scaling by a negative factor. `u_cx`, `v_cy`: pixel minus principal point.
+/// Normal of the plane through inverse depths, not normalised, towards the camera
+/// after scaling by a negative factor. `u_cx`, `v_cy`: pixel minus principal point.
 template <class V>
 struct PlaneNormal {
   V x, y, z, determinant;

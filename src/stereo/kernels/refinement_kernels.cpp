@@ -85,7 +85,7 @@ void rowMoments(const float* const* in, const float* window, int radius, int wid
   }
 }
 
-/// True where the window at column u holds a pixel of another surface.
+/// Whether the window at column u contains a pixel of another surface.
 bool mixesSurfaces(const SelectedRows& rows, int u, Floats centre, Floats scale) {
   Ints found{};
   for (int y = 0; y <= 2 * rows.radius; ++y)
@@ -171,7 +171,7 @@ void selectedMoments(const SelectedRows& rows, const int* columns, int count,
   }
 }
 
-/// D of the 3 x 3 system by Cramer's rule; NaN where the window makes no plane.
+/// D of the 3 x 3 system by Cramer's rule; NaN for a degenerate window.
 void solvePlanes(const PlaneRow& row) {
   for (int u = 0; u < row.width; u += kFloatLanes) {
     Floats m[kFirstEvidence];
@@ -181,8 +181,8 @@ void solvePlanes(const PlaneRow& row) {
   }
 }
 
-/// Standard errors of what solvePlanes() found; NaN, and the disparity too, where it can't be
-/// trusted.
+/// Standard errors of the results of solvePlanes();
+/// NaN, and the disparity too, if unreliable.
 void judgePlanes(const PlaneRow& row) {
   for (int u = 0; u < row.width; u += kFloatLanes) {
     Floats m[kFirstEvidence], evidence[kMomentCount - kFirstEvidence];

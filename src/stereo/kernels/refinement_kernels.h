@@ -1,48 +1,48 @@
-// src/stereo/kernels/refinement_kernels.h: the inner loops of sub-pixel refinement: residuals,
-// moments, planes.
-//
-// Compiled once for each instruction set (kernel_sets.h). Raw pointers only: a header-only
-// container compiled with AVX2 could be picked by the linker for the whole program. Floating point
-// is never contracted, so that every set gives the same bytes. Rows are worked on up to eight
-// values at a time: all must be readable and writable up to the next multiple of eight.
+// src/stereo/kernels/refinement_kernels.h: the inner loops of sub-pixel refinement:
+// residuals, moments, planes. Compiled once for each instruction set
+// (kernel_sets.h). Raw pointers only: a header-only container compiled with AVX2
+// could be picked by the linker for the whole program. Floating point is never
+// contracted, so that every set gives the same bytes. Rows are processed up to eight
+// values at a time: all must be readable and writable up to the next multiple of
+// eight.
 #pragma once
 
 #include "stereo/kernels/light_formulas.h"
 
 namespace softscope {
 
-/// How residuals are weighed.
+/// Weights of residuals.
 struct ResidualLimits {
   float inverse_noise_sq;  // 1 / noise²
   float prior_weight;      // (noise / prior sigma)²
   float light_gray_sq;     // see agreedSlowPart()
-  float steadying;         // of the slow part, that is no evidence, in prior weights
+  float steadying;         // of the low-pass part, which is no evidence, in prior weights
 };
 
 /// Inputs and outputs of one row of brightness residuals, see subpixel_refinement.cpp.
 struct ResidualRow {
   const float* left;       // filtered brightness of the left row
   const float* right;      // of the right row; readable from -1 to width + 2
-  const float* slow_left;  // the slow parts; the right one readable as `right`
+  const float* slow_left;  // low-pass parts; the right one readable as `right`
   const float* slow_right;
   LightRow light;
-  const float* disparity;  // NaN where unmatched
+  const float* disparity;  // NaN if unmatched
   int width;
   ResidualLimits limits;
   float* information;  // w (g² + prior_weight)
   float* target;       // w (g (g d + R - L) + prior_weight d)
-  // What judges the fit, all null but in the last step.
+  // Terms of the error estimate, all null but in the last step.
   float* residual_sq;    // w' (R - L)²
-  float* weight;         // w' = w (1 + steadying * what the slow part told)
-  float* difference_sq;  // (R - L)² where matched, whatever its weight
-  float* energy;         // R² + L² where matched
+  float* weight;         // w' = w (1 + steadying * information of the low-pass part)
+  float* difference_sq;  // (R - L)² of matched pixels, independent of weight
+  float* energy;         // R² + L² of matched pixels
 };
 
 /// Sums along the columns of a window: three moments of information (1, y, y²), two of target.
 constexpr int kColumnMomentCount = 5;
 
-/// Sums over the window of each pixel of a row: six moments of its information (1, x, y, x², xy,
-/// y²), three of its target (1, x, y), then residual_sq, weight, difference_sq and energy.
+/// Sums over the window of each pixel of a row: six moments of its information (1, x, y, x²,
+/// xy, y²), three of its target (1, x, y), then residual_sq, weight, difference_sq and energy.
 constexpr int kMomentCount = 13;
 constexpr int kFirstEvidence = 9;
 struct MomentRow {
@@ -55,22 +55,22 @@ struct PlaneRow {
   MomentRow moments;
   const float* before;  // disparity, NaN = unmatched
   int width;
-  float farthest_step_px;  // NaN where the plane lies farther off
+  float farthest_step_px;  // NaN if the plane is farther away
   float prior_weight;      // see ResidualRow
   float noise_floor_sq;
   float independent_pixels;  // of the window
   float model_variance_px2;
-  float max_variance_px2;  // NaN where the variance is larger
-  float max_difference;    // NaN where difference_sq is a larger share of the energy
-  float relaxation;        // share of the step to take; above 1 converges faster
+  float max_variance_px2;  // NaN if the variance is larger
+  float max_difference;    // NaN if difference_sq is a larger share of the energy
+  float relaxation;        // share of the step applied; above 1 converges faster
   float* disparity;
   float* sigma;
 };
 
-/// Windows near a depth step: of each, those pixels count that lie on the centre's own surface,
-/// their disparity differing by no more than the tolerance. Each array holds the rows v - r .. v +
-/// r (2 r + 1 pointers); window and tolerance have kSelectLanes values a row, 0 and infinity beyond
-/// the radius.
+/// Windows near a depth step: of each, the pixels on the surface of the
+/// centre count, whose disparity differs by at most the tolerance. Each array
+/// holds the rows v - r .. v + r (2 r + 1 pointers); window and tolerance
+/// have kSelectLanes values per row, 0 and infinity beyond the radius.
 constexpr int kSelectLanes = 16;
 struct SelectedRows {
   const float* const* disparity;  // NaN = unmatched
@@ -79,7 +79,7 @@ struct SelectedRows {
   const float* const* evidence[4];  // residual_sq … energy; null but in the last step
   const float* window;
   const float* tolerance;
-  bool relative;  // the tolerance is a share of the centre's value
+  bool relative;  // the tolerance is a share of the centre value
   int radius;
 };
 
@@ -89,13 +89,13 @@ struct RefinementKernels {
   /// k = 0, 1 of `target`.
   void (*columnMoments)(const float* const* information, const float* const* target,
                         const float* window, int radius, int width, float* const* out);
-  /// The same along the row, of what columnMoments() gave; readable `radius` beyond both ends.
+  /// The same along the row, of the results of columnMoments(); readable `radius` beyond both ends.
   void (*rowMoments)(const float* const* in, const float* window, int radius, int width,
                      const MomentRow& out);
-  /// mixed[u] = 1 for those of `count` columns u whose windows hold pixels of another surface, else
-  /// 0; the rest of `mixed` stays.
+  /// mixed[u] = 1 for those of `count` columns u whose windows contain pixels
+  /// of another surface, otherwise 0; the rest of `mixed` is unchanged.
   void (*markMixed)(const SelectedRows& rows, const int* columns, int count, unsigned char* mixed);
-  /// Replaces the moments of `count` columns, whose windows hold pixels of another surface.
+  /// Replaces the moments of `count` columns whose windows contain pixels of another surface.
   void (*selectedMoments)(const SelectedRows& rows, const int* columns, int count,
                           const MomentRow& out);
   void (*solvePlanes)(const PlaneRow& row);

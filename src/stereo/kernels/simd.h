@@ -7,15 +7,15 @@
 #include <cstdint>
 #include <cstring>
 
-// The name of what one set offers.
+// Name of a function of one set.
 #define SOFTSCOPE_NAME_(name, set) name##_##set
 #define SOFTSCOPE_NAME(name, set) SOFTSCOPE_NAME_(name, set)
 
 namespace softscope {
 namespace {
 
-// As many values as a register holds: comparing and choosing is fast on whole registers only. Sums
-// across lanes must not depend on how many there are.
+// As many values as a register holds: comparison and selection are fast on
+// whole registers only. Sums across lanes must not depend on their number.
 #ifdef __AVX2__
 constexpr int kFloatLanes = 8;
 #else

@@ -16,7 +16,7 @@ namespace {
 constexpr int kMaxDisparities = StereoOptions::kLargestDisparityPx + 1;
 using DisparitySet = std::bitset<kMaxDisparities>;
 
-/// No disparity where the window reaches a masked pixel.
+/// No disparity if the window reaches a masked pixel.
 void dropBlocked(const GradientImage& reference, Raster<std::int16_t>& disparity) {
   const Mask blocked = reference.blocked(kDenseWindowReach);
   for (std::size_t i = 0; i < blocked.size(); ++i)
@@ -47,7 +47,7 @@ class SharedDisparities {
   Raster<DisparitySet> cells_;
 };
 
-/// One tile's buffers and how to fill them.
+/// Buffers of one tile, and how to fill them.
 class TileMatcher {
  public:
   TileMatcher(const GradientView& reference, const GradientView& other, int direction,
@@ -77,7 +77,7 @@ class TileMatcher {
   }
 
  private:
-  /// Beyond the image its last row and column are repeated.
+  /// Outside of the image its last row and column are repeated.
   void loadPrior() {
     const int inside = std::min(kTileWidth, prior_.width_px - tile_.u0);
     for (int y = 0; y < kTileHeight; ++y) {

@@ -12,12 +12,12 @@
 
 namespace softscope {
 
-/// Which of the two images gets a disparity.
+/// The image that gets a disparity.
 enum class Reference { kLeft, kRight };
 
-/// Whole disparities of the reference image, -1 where there is none. `points` in the reference
-/// image's pixels. Minimises, per pixel, mean gradient difference + plane prior over the
-/// disparities near its plane and those of the support points around it.
+/// Whole disparities of the reference image, -1 for none. `points` in pixels of the
+/// reference image. Minimises, per pixel, mean gradient difference + plane prior
+/// over the disparities near its plane and those of the surrounding support points.
 Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& right,
                                 Reference reference, const std::vector<SupportPoint>& points,
                                 const StereoOptions& options);

@@ -17,9 +17,9 @@
 namespace softscope {
 namespace {
 
-constexpr double kEverything = 2;  // more than any share
+constexpr double kEverything = 2;  // larger than any share
 
-/// One level of the pyramid, times into `clock`. Ignored pixels are filled.
+/// One level of the pyramid, with times to `clock`. Ignored pixels are filled.
 DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const ViewMasks& ignored,
                         const StereoOptions& options, StageClock& clock) {
   const ElasOptions& elas = options.elas;
@@ -56,8 +56,8 @@ DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const Vie
   return map;
 }
 
-/// Share of the pixels that are bright enough, and right of the strip that the right camera can't
-/// see, for which nothing was found.
+/// Unmatched share of the pixels that are bright enough and
+/// right of the strip that is invisible to the right camera.
 double unmatchedShare(const DisparityMap& map, const GrayImage& left, const Mask& ignored,
                       int darkest_gray) {
   float nearest_px = 0;
@@ -72,7 +72,7 @@ double unmatchedShare(const DisparityMap& map, const GrayImage& left, const Mask
   return matchable == 0 ? 1 : static_cast<double>(unmatched) / static_cast<double>(matchable);
 }
 
-/// `finer_unmatched`: the share that twice the size left open; above 1 at full size.
+/// `finer_unmatched`: unmatched share at twice the size; above 1 at full size.
 DisparityMap matchPyramid(const GrayImage& left, const GrayImage& right, const ViewMasks& ignored,
                           const StereoOptions& options, int coarser_levels, double finer_unmatched,
                           StageClock& clock) {

@@ -10,15 +10,15 @@
 
 namespace softscope {
 
-/// Disparity prior of both views, and the support points from which it is made.
+/// Disparity prior of both views, and its support points.
 struct HostPrior {
-  Raster<float> support;  // on the grid, kNoSupport where there is no point
+  Raster<float> support;  // on the grid, kNoSupport without a point
   int point_count = 0;
   Raster<std::int16_t> left_px8, right_px8;  // see interpolatePlanes()
 };
 
-/// `confirmed`: disparities on the grid of one level, kNoSupport where there is none; `level`: its
-/// options.
+/// `confirmed`: disparities on the grid of one
+/// level, kNoSupport for none; `level`: its options.
 using HostPriorFunction = std::function<HostPrior(
     const Raster<float>& confirmed, const StereoOptions& level, int width_px, int height_px)>;
 

@@ -1,4 +1,4 @@
-// src/stereo/matching/onnx_matcher.h: disparity by the user's network behind our interface.
+// src/stereo/matching/onnx_matcher.h: disparity by a network of the user, as a StereoMatcher.
 #pragma once
 
 #include "stereo/matching/stereo_matcher.h"

@@ -44,7 +44,7 @@ void addBorder(std::vector<SupportPoint>& points, int width, int height) {
   points.insert(points.end(), anchors.begin(), anchors.end());
 }
 
-/// One point a pixel: of several the nearer surface (larger disparity) stays.
+/// One point per pixel: the nearest surface (largest disparity) is kept.
 void makeDistinct(std::vector<SupportPoint>& points) {
   std::sort(points.begin(), points.end(), [](const SupportPoint& a, const SupportPoint& b) {
     if (a.v_px != b.v_px) return a.v_px < b.v_px;
@@ -58,7 +58,7 @@ void makeDistinct(std::vector<SupportPoint>& points) {
                points.end());
 }
 
-/// Columns between which a triangle lies in a row.
+/// Columns of a triangle in a row.
 struct Span {
   double first = 1e9, last = -1e9;
   void widen(double u) {
@@ -86,12 +86,12 @@ class Side {
   double slope_;
 };
 
-/// Rows from `begin` to, not with, `end`.
+/// Rows from `begin` to `end`, exclusive.
 struct RowBand {
   int begin, end;
 };
 
-/// Fills the pixels of one triangle in some rows; every pixel inside or on its edges.
+/// Fills the pixels of one triangle in some rows; all pixels inside or on its edges.
 void fillTriangle(const SupportPoint& a, const SupportPoint& b, const SupportPoint& c,
                   const RowBand& band, Raster<std::int16_t>& prior) {
   const int top = std::max(std::min({a.v_px, b.v_px, c.v_px}), band.begin);
@@ -128,7 +128,7 @@ Raster<std::int16_t> interpolatePlanes(std::vector<SupportPoint> points, int wid
   makeDistinct(points);
   std::vector<Eigen::Vector2i> positions;
   for (const SupportPoint& p : points) positions.emplace_back(p.u_px, p.v_px);
-  // In order: a pixel on a shared edge takes the later triangle, whatever the number of threads.
+  // In order: a pixel on a shared edge gets the later triangle, for any number of threads.
   const std::vector<std::array<int, 3>> triangles = delaunay(positions);
   parallelRanges(height_px, kRowsATask, [&](int begin, int end) {
     for (const auto& [i, j, k] : triangles)

@@ -10,11 +10,11 @@
 
 namespace softscope {
 
-/// For every pixel the disparity of its triangle's plane, in 1/8 px; kNoPrior outside.
+/// Per pixel the disparity of the plane of its triangle, in 1/8 px; kNoPrior outside.
 constexpr std::int16_t kNoPrior = INT16_MIN;
 
-/// Points in the frame of the image that is to be matched; the image's corners are added with
-/// the disparity of their nearest support point.
+/// Points in the frame of the matched image; the corners of the image
+/// are added with the disparity of their nearest support point.
 Raster<std::int16_t> interpolatePlanes(std::vector<SupportPoint> points, int width_px,
                                        int height_px);
 

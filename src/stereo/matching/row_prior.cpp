@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kNone = -1;
 
-/// The rows of the image that have support points, top to bottom: a line of both rasters each.
+/// The rows of the image with support points, top to bottom: one row of both rasters each.
 struct PriorRows {
   std::vector<int> v_px;
   Raster<float> disparity_px;
@@ -23,7 +23,7 @@ struct PriorRows {
   }
 };
 
-/// The largest disparity on each pixel of those rows, kNone elsewhere; distances 0.
+/// The largest disparity per pixel of those rows, otherwise kNone; distances 0.
 PriorRows collectRows(const std::vector<SupportPoint>& points, int width_px, int height_px) {
   const auto is_inside = [&](const SupportPoint& p) {
     return p.u_px >= 0 && p.u_px < width_px && p.v_px >= 0 && p.v_px < height_px;
@@ -48,8 +48,8 @@ PriorRows collectRows(const std::vector<SupportPoint>& points, int width_px, int
   return rows;
 }
 
-/// Fills the columns between two points, or from a point to the border where one of them is kNone's
-/// column: `last` = -1 or `next` = width. The distance is the harmonic mean of those to both.
+/// Fills the columns between two points, or from a point to the border if one of them is the
+/// column of kNone: `last` = -1 or `next` = width. The distance is the harmonic mean of both.
 void fillBetween(int last, int next, int width_px, float* disparity_px, float* beside_px) {
   const bool has_last = last >= 0, has_next = next < width_px;
   const float from = disparity_px[has_last ? last : next];
@@ -74,7 +74,7 @@ void interpolateRow(int width_px, float* disparity_px, float* beside_px) {
   fillBetween(last, width_px, width_px, disparity_px, beside_px);
 }
 
-/// In these columns row i takes over the value of row `before` where its points are nearer.
+/// In these columns row i takes the value of row `before` if its points are nearer.
 void takeNearer(int i, int before, int begin, int end, PriorRows& rows) {
   const float step = rows.rowsBetween(i, before);
   const float *from_d = rows.disparity_px.row(before), *from_beside = rows.beside_px.row(before);
@@ -88,8 +88,8 @@ void takeNearer(int i, int before, int begin, int end, PriorRows& rows) {
   }
 }
 
-/// Interpolates row v of the image, linearly in rows where the points above and below are equally
-/// far to the side.
+/// Interpolates row v of the image, linearly across rows if
+/// the points above and below are equally far to the side.
 void interpolateBetween(const PriorRows& above, const PriorRows& below, int v,
                         std::int16_t* prior) {
   const int count = above.count();
@@ -105,7 +105,7 @@ void interpolateBetween(const PriorRows& above, const PriorRows& below, int v,
     const float to_above = rows_above + above.away_px.at(u, i) + beside_above - beside_both;
     const float to_below = rows_below + below.away_px.at(u, j) + beside_below - beside_both;
     float d = (d_above * to_below + d_below * to_above) / (to_above + to_below);
-    if (next == 0) d = d_below;  // nothing lies above
+    if (next == 0) d = d_below;  // no row above
     if (next == count) d = d_above;
     prior[u] = static_cast<std::int16_t>(static_cast<int>(8 * d + 0.5f));
   }

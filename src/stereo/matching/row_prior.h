@@ -11,11 +11,11 @@
 
 namespace softscope {
 
-/// Prior disparity per pixel, unit 1/8 px (docs/stereo.md 3.2). Each row that has points is
-/// interpolated linearly between them and held constant beyond them; a pixel is interpolated
-/// between the nearest evidence above and below it. `points`: in the frame of the image that is
-/// matched, in any order; of several on one pixel the larger disparity counts; points outside the
-/// image are ignored. All kNoPrior if no point is left.
+/// Prior disparity per pixel, unit 1/8 px (docs/stereo.md 3.2). Each row with points is
+/// interpolated linearly between them and constant beyond them; a pixel is interpolated
+/// between the nearest evidence above and below it. `points`: in the frame of the
+/// matched image, in any order; of several on one pixel the largest disparity counts;
+/// points outside of the image are ignored. All kNoPrior without a point.
 Raster<std::int16_t> interpolateRows(const std::vector<SupportPoint>& points, int width_px,
                                      int height_px);
 

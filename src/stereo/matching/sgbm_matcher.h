@@ -1,12 +1,12 @@
-// src/stereo/matching/sgbm_matcher.h: OpenCV's semi-global matching behind our interface.
+// src/stereo/matching/sgbm_matcher.h: semi-global matching of OpenCV as a StereoMatcher.
 #pragma once
 
 #include "stereo/matching/stereo_matcher.h"
 
 namespace softscope {
 
-/// Semi-global block matching (Hirschmüller 2008) as OpenCV has it; the second choice, and the
-/// yardstick.
+/// Semi-global block matching (Hirschmüller 2008) of OpenCV;
+/// the alternative, and the reference for comparisons.
 class SgbmMatcher final : public StereoMatcher {
  public:
   explicit SgbmMatcher(const StereoOptions& options) : options_(options) {}

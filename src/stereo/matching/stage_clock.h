@@ -10,7 +10,7 @@ namespace softscope {
 
 class StageClock {
  public:
-  /// Ends the stage that began with the last lap; laps of one name add up.
+  /// Ends the stage that started with the last lap; laps with the same name add up.
   void lap(const std::string& stage) {
     const auto now = std::chrono::steady_clock::now();
     const double elapsed_ms = std::chrono::duration<double, std::milli>(now - begin_).count();

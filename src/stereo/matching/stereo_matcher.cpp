@@ -17,7 +17,7 @@ std::unique_ptr<StereoMatcher> make(const StereoOptions& options) {
   return std::make_unique<Matcher>(options);
 }
 
-/// All of them, by the name that a setting gives.
+/// All matchers, by the name in settings.
 struct NamedMatcher {
   const char* name;
   std::unique_ptr<StereoMatcher> (*make)(const StereoOptions&);

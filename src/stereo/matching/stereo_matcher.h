@@ -16,16 +16,16 @@ namespace softscope {
 /// Stage and milliseconds, in the order of work.
 using StageTimes = std::vector<std::pair<std::string, double>>;
 
-/// Finds, for each pixel of the rectified left image, how far left it moved in the right one.
+/// Finds the disparity of each pixel of the rectified left image.
 class StereoMatcher {
  public:
   virtual ~StereoMatcher() = default;
 
-  /// Of stereoMethods(); written into every report.
+  /// One of stereoMethods(); written to every report.
   virtual std::string name() const = 0;
 
-  /// Both images rectified and of one shape, else Error. Result: the left image's shape, NaN
-  /// where there is no match. Same input, same bytes, whatever the number of threads. No matching
+  /// Both images rectified and of one shape, otherwise Error. Result: shape of the left image,
+  /// NaN without a match. Same input, same bytes, for any number of threads. No matching
   /// window reaches `ignored` pixels of its own view, and those of the left have no disparity.
   virtual DisparityMap match(const GrayImage& left, const GrayImage& right,
                              const ViewMasks& ignored) = 0;
@@ -33,12 +33,12 @@ class StereoMatcher {
     return match(left, right, {});
   }
 
-  /// The same for colour images; matchers that need no colour take their luma.
+  /// The same for colour images; matchers without colour use their luma.
   virtual DisparityMap matchColour(const StereoPair& pair, const ViewMasks& ignored) {
     return match(toGray(pair.left), toGray(pair.right), ignored);
   }
 
-  /// What may take long or fail before the first pair of this size. Throws InputError.
+  /// Work that can take long or fail, before the first pair of this size. Throws InputError.
   virtual void prepare(int /*width_px*/, int /*height_px*/) {}
 
   /// Of the last match().
@@ -47,10 +47,10 @@ class StereoMatcher {
 
 constexpr int kSmallestPicturePx = 32;
 
-/// Throws InputError unless both images have one shape, kSmallestPicturePx or more each way.
+/// Throws InputError unless both images have one shape, at least kSmallestPicturePx each way.
 void requireRectifiedPair(const GrayImage& left, const GrayImage& right);
 
-/// Throws OptionError if the options break a rule, InputError where a network can't be read.
+/// Throws OptionError for invalid options, InputError for an unreadable network.
 std::unique_ptr<StereoMatcher> makeStereoMatcher(const StereoOptions& options);
 
 }  // namespace softscope

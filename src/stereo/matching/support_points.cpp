@@ -20,7 +20,7 @@ double texture(const GradientView& image, int u, int v) {
   return static_cast<double>(supportTextureSum(image.at(u, v), image.stride)) / kCostDifferences;
 }
 
-/// Least cost at u over disparities that are not next to `best`.
+/// Minimum cost at u over disparities that are not next to `best`.
 int secondBestCost(const SupportRow& row, int u, int best, int count) {
   int second = 0xFFFF;
   for (int i = 0; i < count; ++i)
@@ -29,7 +29,7 @@ int secondBestCost(const SupportRow& row, int u, int best, int count) {
   return second;
 }
 
-/// The support candidates of one row, kNone where a test fails.
+/// The support candidates of one row, kNone after a failed test.
 class RowMatcher {
  public:
   RowMatcher(const GradientImage& left, const GradientImage& right, const StereoOptions& options,
@@ -64,7 +64,7 @@ class RowMatcher {
     if (isBlocked(right_blocked_, u - disparity, v + row_offset_)) return kNone;
     const int returned = row_.disparity_right[u - disparity];
     if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
-    if (best == 0 || best == count_ - 1) return kNone;  // the true one may lie outside the range
+    if (best == 0 || best == count_ - 1) return kNone;  // the true one may be outside of the range
     const int count = supportCountAt(u, width_, minimum_, count_);
     if (row_.cost_left[u] > elas_.support_uniqueness * secondBestCost(row_, u, best, count))
       return kNone;
@@ -88,7 +88,7 @@ class RowMatcher {
 
 bool hasNeighbours(const Raster<float>& grid, int c, int r, const ElasOptions& options) {
   const int reach = options.support_window_cells;
-  int neighbours = -1;  // not itself
+  int neighbours = -1;  // without the point itself
   for (int y = std::max(0, r - reach); y <= std::min(grid.height_px - 1, r + reach); ++y)
     for (int x = std::max(0, c - reach); x <= std::min(grid.width_px - 1, c + reach); ++x)
       neighbours += grid.at(x, y) != kNone && std::abs(grid.at(x, y) - grid.at(c, r)) <=
@@ -106,7 +106,7 @@ Raster<float> removeLonely(const Raster<float>& grid, const ElasOptions& options
   return kept;
 }
 
-/// True if, within reach, both neighbours along (dx, dy) have this point's disparity.
+/// True if, within reach, both neighbours along (dx, dy) have the disparity of this point.
 bool isRedundant(const Raster<float>& grid, int c, int r, int dx, int dy, int reach) {
   int agreeing = 0;
   for (const int sign : {-1, 1})
@@ -149,8 +149,8 @@ std::vector<float> foundIn(const Raster<float>& grid) {
 StereoOptions narrowedTo(const std::vector<float>& disparities_px, StereoOptions options) {
   if (disparities_px.size() < std::size_t{kFewestForRange}) return options;
   const int first = options.disparity_min_px, last = options.disparity_max_px;
-  // How many lie within kNearDisparityPx of each disparity, those of first - kNearDisparityPx
-  // first.
+  // Number of disparities within kNearDisparityPx of
+  // each, those of first - kNearDisparityPx first.
   std::vector<int> alike(static_cast<std::size_t>(last - first + 1 + 2 * kNearDisparityPx));
   for (const float d : disparities_px) {
     const long shifted = std::clamp<long>(std::lround(d), first, last) - first;
@@ -184,7 +184,7 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
 }
 
 std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options) {
-  if (options.prior == PriorMethod::kPlanes) {  // triangles don't need redundant points
+  if (options.prior == PriorMethod::kPlanes) {  // triangles need no redundant points
     removeRedundant(grid, 0, 1, options.support_redundant_cells);
     removeRedundant(grid, 1, 0, options.support_redundant_cells);
   }

@@ -15,22 +15,22 @@ struct SupportPoint {
   float disparity_px;
 };
 
-/// Matches a grid of pixels over the whole range of disparities (every fourth row; the others over
-/// the range found there), keeps those that are unique, textured, cross-checked and confirmed by
-/// their neighbours, and drops those that their neighbours predict. In raster order. Rows of the
-/// right image are searched `row_offset_px` below those of the left.
+/// Matches a grid of pixels over the whole range of disparities (every fourth row; the others
+/// over the range found there), keeps those that are unique, textured, cross-checked and
+/// confirmed by their neighbours, and removes those that their neighbours predict. In raster
+/// order. Rows of the right image are searched `row_offset_px` below those of the left.
 std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
                                             const StereoOptions& options, int row_offset_px = 0);
 
-/// The points of a grid of disparities, kNoSupport where there is none; for the prior by planes
-/// without those that their neighbours predict. In raster order.
+/// The points of a grid of disparities, kNoSupport for none; for the prior
+/// by planes without those that their neighbours predict. In raster order.
 std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options);
 
 /// The same points in the right image.
 std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points);
 
-/// The same options with the range of disparities in which these lie, and some more on either side;
-/// outliers don't count. As given where there are few.
+/// The same options with the range of these disparities, and a margin on
+/// either side; outliers do not count. Unchanged for few disparities.
 StereoOptions narrowedTo(const std::vector<float>& disparities_px, StereoOptions options);
 
 }  // namespace softscope

@@ -9,7 +9,7 @@
 
 namespace softscope {
 
-/// Which numbers the network takes for the levels 0 to 255 of red, green and blue.
+/// Range of the network input for the levels 0 to 255 of red, green and blue.
 enum class NetworkInput {
   kLevels,    // 0 to 255
   kUnit,      // 0 to 1
@@ -19,19 +19,19 @@ enum class NetworkInput {
 /// A network of two images and one disparity: docs/stereo.md, 8.
 class DisparityNetwork {
  public:
-  /// Reads the file and checks what it declares. Throws InputError.
+  /// Reads the file and checks its declarations. Throws InputError.
   DisparityNetwork(const std::string& file, NetworkInput input);
   ~DisparityNetwork();
   DisparityNetwork(const DisparityNetwork&) = delete;
   DisparityNetwork& operator=(const DisparityNetwork&) = delete;
 
-  /// Tries it on a pair of this size, known to be shifted, in a child process, and loads it. Throws
-  /// InputError where it can't be run, or gives less than half of the pixels a disparity above 0,
-  /// at most `disparity_max_px`.
+  /// Tests it in a child process on a pair of this size with a known shift,
+  /// and loads it. Throws InputError if it cannot be run, or gives less than
+  /// half of the pixels a disparity above 0, at most `disparity_max_px`.
   void prepare(int width_px, int height_px, int disparity_max_px);
 
-  /// How far left each pixel of `left` moved in `right`; NaN where the network's answer is not
-  /// finite. The size must be a prepared one.
+  /// Disparity of each pixel of `left`; NaN where the output of
+  /// the network is not finite. The size must be a prepared one.
   Raster<float> disparity(const ColourImage& left, const ColourImage& right);
 
  private:

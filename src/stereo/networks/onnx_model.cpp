@@ -28,7 +28,7 @@ struct Field {
   std::string_view whole;   // with its key and length
 };
 
-/// The fields of one message, one after the other.
+/// The fields of one message, in order.
 class Message {
  public:
   Message(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
@@ -85,7 +85,7 @@ void forEachField(std::string_view bytes, const std::string& file, const Visit& 
   while (const auto field = message.next()) visit(*field);
 }
 
-/// A nested message; its key says that it is one.
+/// A nested message, as stated by its key.
 template <class Visit>
 void forEachFieldOf(const Field& field, const std::string& file, const Visit& visit) {
   if (field.type == kBytes) forEachField(field.bytes, file, visit);

@@ -28,22 +28,22 @@ struct OnnxOperator {
   int inputs = 0;      // of its first node
 };
 
-/// What a network declares: its inputs without stored weights, its outputs, each operator once.
+/// Declarations of a network: its inputs without stored weights, its outputs, each operator once.
 struct OnnxModel {
   std::vector<OnnxTensor> inputs, outputs;
   std::vector<OnnxOperator> operators;
   bool has_external_weights = false;  // in other files
 };
 
-/// `name` is what messages call the file. Throws InputError where the bytes are no whole ONNX
-/// model.
+/// `name` is the name of the file in messages. Throws
+/// InputError if the bytes are no complete ONNX model.
 OnnxModel parseOnnx(std::string_view bytes, const std::string& name);
 
 /// The model with this shape declared for each of its inputs. Throws InputError as parseOnnx().
 std::string withInputShape(std::string_view bytes, const std::string& name,
                            const std::vector<std::int64_t>& shape);
 
-/// A model of one node of this operator, to find out whether a library has it.
+/// A model of one node of this operator, to test whether a library supports it.
 std::string oneNodeModel(const OnnxOperator& wanted);
 
 }  // namespace softscope

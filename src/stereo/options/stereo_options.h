@@ -8,33 +8,33 @@
 
 namespace softscope {
 
-/// Fields are settings (stereo_settings.h) or vary between the uses of a matcher; everything else
-/// is a constant of the method.
+/// Fields are settings (stereo_settings.h) or differ between
+/// uses of a matcher; all others are constants of the method.
 
 /// Disparity prior between support points: the planes of their triangles, or interpolated along and
-/// between the rows of their grid, which the GPU computes by itself (docs/stereo.md, 3.2).
+/// between the rows of their grid, which the GPU computes without the CPU (docs/stereo.md, 3.2).
 enum class PriorMethod { kPlanes, kRows };
 
 /// ELAS (Geiger, Roser, Urtasun, ACCV 2010), stage by stage. Costs are mean absolute differences
-/// of the gradient descriptors, so that thresholds don't depend on the window's size.
+/// of the gradient descriptors, so that thresholds are independent of the window size.
 struct ElasOptions {
   // Gradients: Sobel responses become 8-bit descriptors, 128 = flat.
   // 8-bit steps per Sobel unit; larger: more sensitive to weak texture
   static constexpr double gradient_gain = 0.5;
 
-  // Support points: pixels that can be matched without help.
-  int support_step_px = 5;                           // grid on which they are sought
-  static constexpr double support_texture = 1.0;     // least mean |gradient| of the window
-  static constexpr double support_uniqueness = 0.8;  // best cost over second best, at most
-  static constexpr int support_left_right_px = 1;    // right-to-left match returns this close
+  // Support points: pixels that are matched without a prior.
+  int support_step_px = 5;                           // grid of candidates
+  static constexpr double support_texture = 1.0;     // minimum mean |gradient| of the window
+  static constexpr double support_uniqueness = 0.8;  // maximum best cost over second best
+  static constexpr int support_left_right_px = 1;    // maximum distance of the reverse match
   static constexpr int support_window_cells = 5;  // neighbours, in grid steps, that must agree …
   static constexpr int support_agreement_px = 5;  // … to this many pixels …
   static constexpr int support_min_neighbours = 5;  // … and at least so many of them
-  int support_redundant_cells = 4;  // a point between two equal ones this near is left out
+  int support_redundant_cells = 4;  // a point between two equal ones this close is left out
 
   PriorMethod prior = PriorMethod::kPlanes;
-  static constexpr double prior_sigma_px = 1.0;  // how far the surface leaves its triangle
-  // cost of leaving it altogether, in mean gradient steps
+  static constexpr double prior_sigma_px = 1.0;  // of the distance of the surface from its triangle
+  // cost of a distant surface, in mean gradient steps
   static constexpr double prior_weight = 1.0;
 
   // Post-processing.
@@ -44,9 +44,9 @@ struct ElasOptions {
   static constexpr int gap_width_px = 6;  // gaps in a row or column up to this are interpolated …
   static constexpr double gap_step_px = 2.0;  // … if both sides differ at most by this
 
-  // Where an image is too weak to be matched pixel by pixel, its half may do, or the half's half.
+  // Where texture is too weak at full size, half size may be sufficient, or a quarter.
   int coarser_levels = 2;
-  // share of unmatched pixels from which that is tried
+  // minimum share of unmatched pixels for that
   static constexpr double coarser_above = 0.05;
 };
 
@@ -54,37 +54,37 @@ struct ElasOptions {
 struct RefinementOptions {
   static constexpr int iterations = 3;
   static constexpr int radius_px = 6;  // window is (2 r + 1)²
-  // Brightness is split at this scale. The fast part always counts; the slow part, which light and
-  // exposure change, where both cameras agree about it (docs/stereo.md, 4).
+  // Brightness is split at this scale. The high-pass part always counts; the low-pass
+  // part, which light and exposure change, where both cameras agree (docs/stereo.md, 4).
   static constexpr double highpass_sigma_px = 2;
-  // difference of the slow parts, in grey levels, that quarters their weight
+  // difference of the low-pass parts, in grey levels, that quarters their weight
   static constexpr double light_gray = 2.0;
-  // share of what the slow part tells that counts as evidence in the standard error
+  // share of the low-pass information that counts in the standard error
   static constexpr double slow_evidence = 0.5;
   // residual, in grey levels, that halves a pixel's weight
   static constexpr double noise_gray = 2.0;
-  static constexpr double noise_floor_gray = 0.4;  // noise that even a perfect match leaves
-  static constexpr double model_sigma_px = 0.05;   // error that no amount of texture removes
+  static constexpr double noise_floor_gray = 0.4;  // noise of a perfect match
+  static constexpr double model_sigma_px = 0.05;   // error independent of texture
   // weight of the matched disparity where texture is weak
   static constexpr double prior_sigma_px = 1.0;
-  static constexpr double relaxation = 1.5;  // share of each step taken, but for the last
+  static constexpr double relaxation = 1.5;  // share of each step applied, except the last
   // (R - L)² as a share of R² + L²; unrelated images have 1
   static constexpr double max_difference = 0.5;
   // pixels whose predicted standard error is larger are dropped
   static constexpr double max_sigma_px = 2.0;
 
-  /// Standard deviation of the window's Gaussian, and the area within which errors are alike.
+  /// Standard deviation of the Gaussian window, and the area of correlated errors.
   double windowSigmaPx() const { return 0.55 * radius_px; }
   double independentPx2() const { return 4 * M_PI * windowSigmaPx() * windowSigmaPx(); }
 
   static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row
 };
 
-/// Smoothing: every pixel moves towards the curved patch that its neighbours agree on.
+/// Smoothing: every pixel moves towards the quadric patch of its neighbours.
 struct SmoothingOptions {
-  int block_px = 0;      // squares whose means stand for their pixels; 0: an 80th of the width
+  int block_px = 0;      // squares whose means represent their pixels; 0: an 80th of the width
   int reach_blocks = 2;  // of a window, to each side; 0: no smoothing
-  static constexpr double relief_px = 0.1;  // that tissue has and no patch follows
+  static constexpr double relief_px = 0.1;  // of tissue, not represented by a patch
 
   static constexpr int kSmallestBlockPx = 4;
   /// In images of this width.
@@ -93,29 +93,29 @@ struct SmoothingOptions {
   }
 };
 
-/// The user's network (docs/stereo.md, 8).
+/// The network of the user (docs/stereo.md, 8).
 struct NetworkOptions {
   static constexpr int agreement_radius_px = 6;  // window of the agreement is (2 r + 1)²
-  static constexpr double model_sigma_px = 0.1;  // error that no agreement shows
+  static constexpr double model_sigma_px = 0.1;  // error that agreement does not show
   static constexpr double left_right_px = 1.0;   // left and right disparity agree to this
 };
 
-/// Names of the matchers, from the one list that makeStereoMatcher() has of them.
+/// Names of the matchers, from the list of makeStereoMatcher().
 std::vector<std::string> stereoMethods();
 
-/// What any matcher needs.
+/// Options common to all matchers.
 struct StereoOptions {
   std::string method = "elas";         // one of stereoMethods()
   std::string model;                   // of "onnx": the network's file
-  std::string model_input = "levels";  // what it takes for a level of 0 to 255
+  std::string model_input = "levels";  // input range for the levels 0 to 255
   int disparity_min_px = 0;
   int disparity_max_px = 255;
-  static constexpr int darkest_gray = 10;  // darker pixels can't be matched …
-  int dark_margin_px = 4;                  // … nor those this near to them
-  // measured pixels this near to a depth step are dropped …
+  static constexpr int darkest_gray = 10;  // darker pixels cannot be matched …
+  int dark_margin_px = 4;                  // … nor those this close to them
+  // measured pixels this close to a depth step are removed …
   static constexpr int erode_edges_px = 1;
   static constexpr double edge_step_px = 2.0;  // … where neighbours differ by more than this
-  static constexpr int border_px = 2;          // pixels this near to the image's border are dropped
+  static constexpr int border_px = 2;          // pixels this close to the border are removed
   ElasOptions elas;
   RefinementOptions refinement;
   SmoothingOptions smoothing;
@@ -123,7 +123,7 @@ struct StereoOptions {
 
   static constexpr int kLargestDisparityPx = 1023;
 
-  /// Throws OptionError: the field, its value, the rule it breaks.
+  /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;
 };
 

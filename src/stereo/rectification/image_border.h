@@ -15,8 +15,8 @@ namespace softscope {
 /// codec has made even is. Nor is a border what leaves less than a quarter of the image.
 Mask findBlackBorder(const ColourImage& image);
 
-/// What is known to be no tissue in a rectified pair before anything is matched: what lies outside
-/// the raw images, and, where asked for, the black borders.
+/// Pixels of a rectified pair known to be no tissue before matching:
+/// those outside of the raw images, and, on request, the black borders.
 ViewMasks pixelsToIgnore(const StereoPair& rectified, const Rectifier& rectifier, bool find_border);
 
 }  // namespace softscope

@@ -52,7 +52,7 @@ void requireSize(const ColourImage& image, const PinholeCamera& camera, const ch
   throw InputError(text.str());
 }
 
-/// Non-zero where the mask is, and outside the raw image.
+/// Non-zero under the mask, and outside of the raw image.
 Mask resample(const Mask& raw, const cv::Mat& map_u, const cv::Mat& map_v) {
   Mask out(map_u.cols, map_u.rows);
   cv::Mat view = opencvView(out);
@@ -121,7 +121,7 @@ Eigen::Vector2d Rectifier::rectifiedPixel(const Eigen::Vector2d& raw_left_px) co
   if (!maps_) return raw_left_px;
   const std::vector<cv::Point2d> raw{{raw_left_px.x(), raw_left_px.y()}};
   std::vector<cv::Point2d> rectified;
-  // The usual five steps stop as far as 0.02 px away.
+  // The usual five steps stop at errors up to 0.02 px.
   const cv::TermCriteria enough(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-6);
   cv::undistortPoints(raw, rectified, maps_->left_k, maps_->left_d, maps_->left_rotation,
                       maps_->left_projection, enough);

@@ -8,37 +8,37 @@
 
 namespace softscope {
 
-/// Removes lens distortion and the rotation between the cameras (Bouguet's method, as OpenCV has
-/// it), so that a point lies in the same row of both images. Images that are rectified already
-/// pass unchanged.
+/// Removes lens distortion and the rotation between the cameras
+/// (Bouguet's method in OpenCV), so that a point is in the same
+/// row of both images. Rectified images are unchanged.
 class Rectifier {
  public:
-  /// Throws InputError where the calibration can't be rectified: no horizontal baseline, or left
-  /// and right exchanged.
+  /// Throws InputError for a calibration that cannot be rectified:
+  /// no horizontal baseline, or left and right exchanged.
   explicit Rectifier(const StereoCalibration& calibration);
   ~Rectifier();
 
   const RectifiedRig& rig() const { return rig_; }
 
-  /// Both images as the rectified cameras would have seen them; black outside the originals.
-  /// Throws InputError where their size isn't the calibration's.
+  /// Both images as seen by the rectified cameras; black outside of the originals.
+  /// Throws InputError for images that are not of the size of the calibration.
   StereoPair rectify(const StereoPair& raw) const;
 
-  /// Where a pixel of the raw left image lies in the rectified one.
+  /// Position of a pixel of the raw left image in the rectified one.
   Eigen::Vector2d rectifiedPixel(const Eigen::Vector2d& raw_left_px) const;
 
-  /// A mask of the left image; what the left camera didn't see counts as masked.
+  /// A mask of the left image; pixels outside of the raw left image count as masked.
   Mask rectifyMask(const Mask& raw) const;
 
-  /// Non-zero where the rectified left pixel lies outside the raw left image; empty if none.
+  /// Non-zero for rectified left pixels outside of the raw left image; empty if none.
   const Mask& outside() const { return outside_; }
-  /// The same of the right view.
+  /// The same for the right view.
   const Mask& outsideRight() const { return outside_right_; }
 
  private:
   struct Maps;
   RectifiedRig rig_;
-  std::unique_ptr<Maps> maps_;  // null where the images are rectified already
+  std::unique_ptr<Maps> maps_;  // null for rectified images
   Mask outside_, outside_right_;
 };
 

@@ -7,17 +7,17 @@
 namespace softscope {
 namespace {
 
-/// Row differences small enough to let the image be, or not known.
+/// Whether row differences are small enough to keep the image, or unknown.
 bool canStay(const RowAlignment& found) {
   return !found.known() ||
          found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||
          found.mean_row_difference_px < RowAlignment::kRemoveAbovePx;
 }
 
-/// Masked wherever the moved image has a share of a masked pixel.
+/// Masked where a masked pixel contributes to the moved image.
 Mask moveMask(const Mask& mask, const RowAlignment& alignment) {
   if (mask.empty()) return {};
-  Mask marks = dilated(mask, 1);  // the cubic's weights of farther rows are small and negative
+  Mask marks = dilated(mask, 1);  // the cubic weights of farther rows are small and negative
   for (std::uint8_t& value : marks.values) value = value == 0 ? 0 : 255;
   return moveRows(marks, alignment);
 }

@@ -8,13 +8,13 @@
 
 namespace softscope {
 
-/// What matched pixels say about the rows of a rectified pair. Row difference = v_right - v_left.
-/// Its model over the right image is a polynomial, so that not only a shift and a tilt but also
-/// what lens and unequal exposure times leave can be removed.
+/// Result of matched pixels for the rows of a rectified pair. Row difference =
+/// v_right - v_left. Its model over the right image is a polynomial, to remove not
+/// only a shift and a tilt but also the effect of lens and unequal exposure times.
 struct RowAlignment {
   int matches = 0;                    // pixels that agree with the model
   double mean_row_difference_px = 0;  // mean absolute difference before
-  double residual_px = 0;             // mean absolute difference once the model is removed
+  double residual_px = 0;             // mean absolute difference after removal of the model
   std::array<double, 6> model{};      // of 1, x, y, x², xy, y² in half widths from the centre
   double half_width_px = 1;           // scale of x and y
   double centre_u_px = 0, centre_v_px = 0;
@@ -27,38 +27,38 @@ struct RowAlignment {
            model[5] * y * y;
   }
 
-  static constexpr int kFewestMatches = 30;      // below, nothing is known
+  static constexpr int kFewestMatches = 30;      // with fewer, the result is unknown
   static constexpr double kWarnAbovePx = 0.5;    // matchers lose pixels beyond
-  static constexpr double kRemoveAbovePx = 0.2;  // below, resampling costs more than it mends
+  static constexpr double kRemoveAbovePx = 0.2;  // below, resampling costs more than it corrects
   bool known() const { return matches >= kFewestMatches; }
 };
 
-/// Matches a coarse grid of pixels over all disparities up to `disparity_max_px` and rows up to
-/// ten off. Never fails: few matches mean !known().
+/// Matches a coarse grid of pixels over all disparities up to `disparity_max_px`
+/// and up to ten rows of offset. Never fails: few matches mean !known().
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
                                  int disparity_max_px, const ViewMasks& ignored = {});
 
-/// The right image moved so that the model's row difference vanishes.
+/// The right image with the row difference of the model removed.
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment);
 
 /// A rectified pair whose rows correspond.
 struct AlignedPair {
   StereoPair pair;
   ViewMasks ignored;     // the right one moved with its view
-  RowAlignment before;   // as found
+  RowAlignment before;   // as measured
   bool removed = false;  // whether the right image was moved
-  /// Of the right camera about its optical axis, as the rows' tilt shows: see removeRoll().
+  /// Of the right camera about its optical axis, from the tilt of the rows: see removeRoll().
   double roll_rad = 0;
 };
 
-/// Measures the rows, and where they are off by more than kRemoveAbovePx moves the right image;
-/// measures once more, since matches are better then, and moves the right image by both at once.
-/// What is ignored says nothing about the rows.
+/// Measures the row difference and, above kRemoveAbovePx, moves the
+/// right image; then measures again, with better matches, and moves
+/// the right image by both at once. Ignored pixels do not count.
 AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px,
                       const ViewMasks& ignored = {});
 
-/// Moving rows removes half of a roll; the other half makes disparities too large by
-/// roll_rad * (v - centre_v), px, which this subtracts.
+/// Moving rows removes half of a roll; the other half makes disparities
+/// too large by roll_rad * (v - centre_v), px, which is subtracted here.
 void removeRoll(double roll_rad, Raster<float>* disparity_px);
 
 }  // namespace softscope

@@ -19,8 +19,8 @@ constexpr int kReach = 4;                // of the window, every second pixel
 constexpr int kRowReach = 2;             // rows tried around a support point's
 constexpr int kCoarseOffset = 2;         // rows between the coarse trials
 constexpr int kFarthestOffset = 10;      // of the trials
-constexpr std::size_t kMany = 150;       // matches that settle where the rows are
-constexpr double kLeastCurvature = 0.3;  // of the cost over rows: less says nothing about rows
+constexpr std::size_t kMany = 150;       // matches sufficient to determine the rows
+constexpr double kLeastCurvature = 0.3;  // of the cost over rows; below, rows are not determined
 
 /// Mean difference of the two windows.
 double windowCost(const GradientView& left, const GradientView& right, int u, int v, int u_right,
@@ -34,7 +34,7 @@ double windowCost(const GradientView& left, const GradientView& right, int u, in
   return sum / 50.0;
 }
 
-/// The row at which a support point's window matches best, to a fraction of a pixel.
+/// The row of the best match of the window of a support point, to a fraction of a pixel.
 std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& right,
                                  const SupportPoint& point, int row_offset) {
   const int disparity = static_cast<int>(std::lround(point.disparity_px));
@@ -55,7 +55,7 @@ std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& r
   return RowMatch{static_cast<double>(point.u_px - disparity), point.v_px + row, row};
 }
 
-/// Many matches in their own row: rows farther off needn't be tried.
+/// With many matches in their own row, farther rows are not needed.
 bool isWellAligned(const std::vector<RowMatch>& matches) {
   if (matches.size() < kMany) return false;
   double sum = 0;
@@ -86,7 +86,7 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right_image, const Mask& 
                             margin_px_, ignored);
   const auto matches = matchRows(right, 0);
   if (isWellAligned(matches)) return matches;
-  // True rows give the most matches, but for those that a roll moves further.
+  // The true rows give the most matches, except those that a roll moves further.
   std::map<int, std::vector<RowMatch>> found{{0, matches}};
   int best = 0;
   for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
@@ -117,7 +117,7 @@ std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_of
     disparities_px.push_back(points[i].disparity_px);
     if (found[i]) matches.push_back(*found[i]);
   }
-  // What comes next is seen in the same range; wrong rows have no range.
+  // The next images have the same range; wrong rows have no range.
   if (disparities_px.size() >= kMany) options_ = narrowedTo(disparities_px, options_);
   return matches;
 }

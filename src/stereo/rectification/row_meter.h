@@ -12,22 +12,22 @@
 
 namespace softscope {
 
-/// Measures right images against one left image, on a coarse grid, over all disparities up to
-/// `disparity_max_px` and rows up to ten off. No support point lies within a window of an ignored
-/// pixel.
+/// Measures right images against one left image, on a coarse grid,
+/// over all disparities up to `disparity_max_px` and up to ten rows of
+/// offset. No support point is within a window of an ignored pixel.
 class RowMeter {
  public:
   RowMeter(const GrayImage& left, int disparity_max_px, const Mask& ignored = {});
 
-  /// What was found; most of it right.
+  /// Matches; most of them correct.
   std::vector<RowMatch> match(const GrayImage& right, const Mask& ignored = {});
 
-  /// The smooth row difference through it.
+  /// The smooth row difference of the matches.
   RowAlignment measure(const GrayImage& right, const Mask& ignored = {}) {
     return fitRowModel(match(right, ignored), scale());
   }
 
-  /// Nothing known yet: the frame of reference of fitRowModel().
+  /// Without measurement: the frame of reference of fitRowModel().
   RowAlignment scale() const;
 
  private:

@@ -10,9 +10,9 @@
 namespace softscope {
 namespace {
 
-constexpr double kMismatchPx = 1;       // from the model: the match counts no longer
+constexpr double kMismatchPx = 1;       // from the model: the match no longer counts
 constexpr int kColumns = 8, kRows = 6;  // of the grid in which matches are counted
-constexpr double kEmptyWeight = 1;      // of no difference, in a cell without matches
+constexpr double kEmptyWeight = 1;      // of zero difference, in a cell without matches
 
 using Terms = Eigen::Matrix<double, 6, 1>;
 
@@ -32,7 +32,7 @@ struct RowEquations {
   }
 };
 
-/// How many matches lie in each cell of a grid.
+/// Number of matches per cell of a grid.
 class CellCounts {
  public:
   explicit CellCounts(const RowAlignment& scale)
@@ -45,7 +45,7 @@ class CellCounts {
     weight_[r][c] += weight;
   }
 
-  /// Where nothing was matched rows stay as they are, rather than follow the curvature of others.
+  /// Without matches rows are unchanged, instead of an extrapolated curvature.
   void addEmptyCells(const RowAlignment& scale, RowEquations& equations) const {
     for (int r = 0; r < kRows; ++r)
       for (int c = 0; c < kColumns; ++c)
@@ -85,7 +85,7 @@ std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlign
     cells.add(matches[i], w);
   }
   cells.addEmptyCells(alignment, equations);
-  // Few matches must not bend the image: slopes cost a little, curvature more.
+  // Few matches must not bend the image: slopes have a small cost, curvature a larger one.
   equations.normal.diagonal() += (Terms() << 0.1, 2, 2, 8, 8, 8).finished();
   const Terms solved = equations.normal.ldlt().solve(equations.rhs);
   std::array<double, 6> model;

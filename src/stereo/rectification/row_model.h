@@ -7,14 +7,14 @@
 
 namespace softscope {
 
-/// Where a pixel of the left image was found in the right one.
+/// Match of a pixel of the left image in the right one.
 struct RowMatch {
   double u_right_px, v_right_px, difference_px;  // v_right - v_left
 };
 
-/// Least squares with Tukey's weights about the median, then about the model. Where there are no
-/// matches the model is drawn to no difference, rather than follow its curvature. Too few matches
-/// leave `alignment` as it is.
+/// Least squares with Tukey's weights about the median, then about the
+/// model. Without matches the model is drawn to zero difference, instead of
+/// an extrapolated curvature. Too few matches leave `alignment` unchanged.
 RowAlignment fitRowModel(const std::vector<RowMatch>& matches, RowAlignment alignment);
 
 }  // namespace softscope

@@ -11,8 +11,8 @@
 namespace softscope {
 namespace {
 
-constexpr int kPhases = 128;     // of a row: 1/256 px is the largest error of its place
-constexpr int kWeightBits = 12;  // whole numbers, so that every machine gives the same bytes
+constexpr int kPhases = 128;     // of a row: 1/256 px is the largest position error
+constexpr int kWeightBits = 12;  // integers, for the same bytes on every machine
 using Weights = std::array<int, 4>;
 
 /// Catmull-Rom weights of four rows for every phase between the two in the middle.
@@ -29,7 +29,7 @@ std::array<Weights, kPhases> cubicWeights() {
   return table;
 }
 
-/// Where the pixels of row v come from, in 1 / kPhases of a row, inside the image.
+/// Source of the pixels of row v, in 1 / kPhases of a row, inside the image.
 void findSources(const RowAlignment& alignment, int v, int height, int width, int* source) {
   const float scale = static_cast<float>(1 / alignment.half_width_px);
   const float centre = static_cast<float>(alignment.centre_u_px);
@@ -59,7 +59,7 @@ inline void mix(const Weights& w, const std::uint8_t* a, const std::uint8_t* b,
 
 template <class Pixel>
 Raster<Pixel> move(const Raster<Pixel>& picture, const RowAlignment& alignment) {
-  constexpr int kChannels = sizeof(Pixel);  // bytes alone
+  constexpr int kChannels = sizeof(Pixel);  // of bytes
   const auto table = cubicWeights();
   const int width = picture.width_px, last = picture.height_px - 1;
   Raster<Pixel> moved(width, picture.height_px);

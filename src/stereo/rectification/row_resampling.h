@@ -6,9 +6,9 @@
 
 namespace softscope {
 
-/// The image moved so that the model's row difference vanishes: (u, v) shows what was at
-/// v + alignment.at(u, v), by a cubic through four rows; beyond the image its last row is
-/// repeated.
+/// The image with the row difference of the model removed: (u, v)
+/// shows the value at v + alignment.at(u, v), by a cubic through
+/// four rows; outside of the image its last row is repeated.
 GrayImage moveRows(const GrayImage& picture, const RowAlignment& alignment);
 ColourImage moveRows(const ColourImage& picture, const RowAlignment& alignment);
 

@@ -6,14 +6,14 @@
 
 namespace softscope {
 
-/// stereoRectify with alpha = 0: enlarged until both rectified images are filled, as SurgT's truth
-/// has it. Images that are rectified already pass unchanged. `Rectifier` keeps the scale instead.
+/// stereoRectify with alpha = 0: enlarged until both rectified images are filled, as in the
+/// truth of SurgT. Rectified images are unchanged. `Rectifier` keeps the scale instead.
 class ValidRectification {
  public:
   explicit ValidRectification(const StereoCalibration& calibration);
 
   const RectifiedRig& rig() const { return rig_; }
-  /// Where a pixel of the rectified left image lies in the raw one.
+  /// Position of a pixel of the rectified left image in the raw one.
   Eigen::Vector2d rawLeftPixel(const Eigen::Vector2d& rectified_px) const;
 
  private:

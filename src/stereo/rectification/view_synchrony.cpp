@@ -6,14 +6,14 @@
 namespace softscope {
 namespace {
 
-constexpr double kAgreesPx = 0.25;    // a match, with the model of all moments
-constexpr double kClearlyMore = 1.2;  // than agree at offset 0
-constexpr int kFewestAgreeing = 200;  // for a judgement
+constexpr double kAgreesPx = 0.25;    // of a match with the model of all frames
+constexpr double kClearlyMore = 1.2;  // than the count at offset 0
+constexpr int kFewestAgreeing = 200;  // for a decision
 
 }  // namespace
 
 void SynchronyMeter::add(const GrayImage& left, const std::array<GrayImage, kOffsets>& rights) {
-  const RowMeter unused(left, disparity_max_px_);  // it narrows its range with every match
+  const RowMeter unused(left, disparity_max_px_);  // each match narrows its range
   scale_ = unused.scale();
   for (int k = 0; k < kOffsets; ++k) {
     RowMeter meter = unused;

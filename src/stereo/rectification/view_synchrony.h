@@ -9,17 +9,17 @@
 
 namespace softscope {
 
-/// Which right image shows the moment of a left one.
+/// Time offset of the right images.
 struct ViewSynchrony {
   int right_offset = 0;    // right image f + right_offset belongs to left image f
-  int agreeing = 0;        // matches whose rows agree with those of all moments, so paired
-  int agreeing_as_is = 0;  // … and paired by equal numbers
+  int agreeing = 0;        // matches whose rows agree with those of all frames, with this offset
+  int agreeing_as_is = 0;  // … and with equal numbers
 };
 
-/// Two videos may have been started or cut a few images apart; then whatever moves sideways has
-/// a wrong depth, and whatever moves up or down differs in its rows. Of one moment, row
-/// differences are the same in every frame: what the calibration leaves. So the offset sought is
-/// the one at which most matches of many moments agree on one row model (docs/stereo.md).
+/// Two videos may have been started or cut a few images apart; then tissue that moves sideways has
+/// a wrong depth, and tissue that moves up or down differs in its rows. For synchronous images,
+/// row differences are the same in every frame: the error of the calibration. The offset is
+/// therefore the one at which most matches of many frames agree on one row model (docs/stereo.md).
 class SynchronyMeter {
  public:
   static constexpr int kReach = 2;  // offsets -kReach … kReach are tried
@@ -27,10 +27,10 @@ class SynchronyMeter {
 
   explicit SynchronyMeter(int disparity_max_px) : disparity_max_px_(disparity_max_px) {}
 
-  /// One moment, rectified: rights[k] is right image f + k - kReach of left image f.
+  /// One frame, rectified: rights[k] is right image f + k - kReach of left image f.
   void add(const GrayImage& left, const std::array<GrayImage, kOffsets>& rights);
 
-  /// Offset 0 unless another one is clearly better: a clip that stands still says nothing.
+  /// Offset 0 unless another one is clearly better: a static clip gives no information.
   ViewSynchrony result() const;
 
  private:

@@ -11,25 +11,25 @@
 
 namespace softscope {
 
-/// Left disparities whose pixel in the right image tells the same within `tolerance_px`; NaN
-/// elsewhere. Input -1 = unmatched.
+/// Left disparities that the right image confirms within
+/// `tolerance_px`; otherwise NaN. Input -1 = unmatched.
 Raster<float> checkLeftRight(const Raster<std::int16_t>& left, const Raster<std::int16_t>& right,
                              int tolerance_px);
 
-/// Removes pixels within `margin_px` of one darker than `darkest_gray`: too dark to be matched, and
-/// next to the dark the window sees more of the dark's border than of the tissue.
+/// Removes pixels within `margin_px` of one darker than `darkest_gray`: too dark to be
+/// matched; next to dark regions the window contains more of their border than of the tissue.
 void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_gray,
                 int margin_px);
 
 /// Removes islands of fewer than `size_px` pixels whose neighbours differ by at most `step_px`.
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px);
 
-/// Fills gaps of up to `width_px` pixels in rows, then in columns, linearly, where both sides
-/// differ by at most `step_px`.
+/// Fills gaps of up to `width_px` pixels in rows, then in
+/// columns, linearly, if both sides differ by at most `step_px`.
 void fillGaps(Raster<float>& disparity_px, int width_px, double step_px);
 
-/// Removes measured pixels within `reach_px` of a step of more than `step_px` between neighbours,
-/// and within `border_px` of the image's border.
+/// Removes measured pixels within `reach_px` of a step of more than `step_px`
+/// between neighbours, and within `border_px` of the border of the image.
 void erodeEdges(DisparityMap& map, int reach_px, double step_px, int border_px);
 
 }  // namespace softscope

@@ -7,11 +7,11 @@
 
 namespace softscope {
 
-/// Tissue is smooth over a few millimetres; noise isn't. Every pixel moves towards a quadric
-/// through its neighbourhood, by as much as its own standard error says against the patch's, which
-/// holds how far the neighbours lie off it beyond their noise: relief that was really measured
-/// stays (docs/stereo.md, §6). Both rasters change; what is NaN stays NaN. `refinement` made the
-/// map: pixels within one of its windows err alike, and no neighbour removes its `model_sigma_px`.
+/// Tissue is smooth over a few millimetres, noise is not. Every pixel moves towards a quadric
+/// through its neighbourhood, by the ratio of its standard error to that of the patch, which
+/// includes the distance of the neighbours from it beyond their noise: measured relief stays
+/// (docs/stereo.md, §6). Both rasters change; NaN stays NaN. `refinement` made the map: errors of
+/// pixels within one of its windows are correlated, and no neighbour reduces its `model_sigma_px`.
 void smoothByPatches(const SmoothingOptions& options, const RefinementOptions& refinement,
                      DisparityMap& map);
 

@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-/// Filters a band of rows from top to bottom; only the rows that the window needs are held.
+/// Filters a band of rows from top to bottom; only the rows of the window are held.
 class BrightnessSplitter {
  public:
   BrightnessSplitter(const GrayImage& image, const std::vector<float>& slow)
@@ -30,10 +30,10 @@ class BrightnessSplitter {
   }
 
  private:
-  static constexpr int kLanes = 8;  // kernels work on so many values at a time
+  static constexpr int kLanes = 8;  // number of values per kernel step
   int slot(int v) const { return (v + taps_) % taps_; }
 
-  /// Both filters along row v, the border repeated beyond the image.
+  /// Both filters along row v, with the border repeated outside of the image.
   void filterRow(int v) {
     const std::uint8_t* row = image_.row(std::clamp(v, 0, image_.height_px - 1));
     float* padded = padded_.data();
@@ -49,7 +49,7 @@ class BrightnessSplitter {
                     image_.width_px, smooth_rows_.row(slot(v)));
   }
 
-  /// The slow rows around v, and the smooth ones minus their sum.
+  /// The low-pass rows around v, and the smooth ones minus their sum.
   void combineRows(int v, float* fast, float* slow) {
     const RefinementKernels& kernels = refinementKernels();
     const int width = image_.width_px;

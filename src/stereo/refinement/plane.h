@@ -1,5 +1,5 @@
-// src/stereo/refinement/plane.h: image of floats with a margin around it, so that windows need no
-// border cases.
+// src/stereo/refinement/plane.h: image of floats with a margin, so that windows need no border
+// cases.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace softscope {
 
-/// Rows may be read and written kMargin values beyond either end, and there are `row_margin` rows
-/// above and below.
+/// Rows are readable and writable kMargin values beyond
+/// either end, with `row_margin` rows above and below.
 class Plane {
  public:
   static constexpr int kMargin = 16;

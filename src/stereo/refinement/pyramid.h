@@ -7,12 +7,12 @@
 
 namespace softscope {
 
-/// Halving again is worth it if the last time closed a quarter of what was open; weak texture does,
-/// what only one camera sees doesn't.
+/// Halving again is useful if the last one matched a quarter of the unmatched
+/// pixels; true for weak texture, not for pixels of one camera only.
 constexpr double kWorthHalving = 0.75;
 
-/// Is half the size worth a try, after a level left the share `unmatched` open and twice its size
-/// `finer_unmatched`?
+/// Whether half the size is worth a trial, after a level left
+/// the share `unmatched` and twice its size `finer_unmatched`.
 inline bool isHalvingWorth(const ElasOptions& elas, double unmatched, double finer_unmatched) {
   return unmatched > elas.coarser_above && unmatched < kWorthHalving * finer_unmatched;
 }
@@ -26,8 +26,8 @@ inline StereoOptions halved(StereoOptions options) {
   return options;
 }
 
-/// Where `fine` is unmeasured, takes the disparity of the half-size map, in the fine image's
-/// pixels, interpolated between four measured pixels of one surface; its standard error doubles.
+/// For unmeasured pixels of `fine`, takes the disparity of the half-size map, in pixels of the fine
+/// image, interpolated between four measured pixels of one surface; its standard error doubles.
 void fillFromHalf(const DisparityMap& half, DisparityMap& fine);
 
 }  // namespace softscope

@@ -14,10 +14,10 @@ namespace softscope {
 
 /// Of one refinement: `radius` to each side of a pixel.
 struct RefinementWindow {
-  static constexpr float kFarthestStepPx = 1.5f;  // a fit that wanders farther has lost its pixel
-  static constexpr float kStepPx = 1.0f;  // neighbours of one surface differ by at most this …
-  static constexpr float kSlope = 0.4f;   // … and this much more for every pixel between them
-  static constexpr float kClearStepPx = 2.0f;  // a step that is no noise of the matching
+  static constexpr float kFarthestStepPx = 1.5f;  // a fit that moves farther has lost its pixel
+  static constexpr float kStepPx = 1.0f;  // maximum difference of neighbours of one surface …
+  static constexpr float kSlope = 0.4f;   // … and this much more per pixel between them
+  static constexpr float kClearStepPx = 2.0f;  // a step larger than noise of the matching
 
   std::vector<float> weights;               // 2 radius + 1: a Gaussian
   std::vector<float> selection, tolerance;  // (2 radius + 1) x kSelectLanes: see SelectedRows
@@ -63,7 +63,7 @@ inline ResidualLimits residualLimits(const RefinementOptions& options) {
           static_cast<float>(1 - options.slow_evidence) / prior_weight};
 }
 
-/// Limits of judgePlanes(), squared where PlaneRow has them squared.
+/// Limits of judgePlanes(), squared as in PlaneRow.
 struct PlaneLimits {
   float farthest_step_px, prior_weight, noise_floor_sq, independent_pixels, model_variance_px2,
       max_variance_px2, max_difference;
@@ -76,8 +76,8 @@ inline PlaneLimits planeLimits(const RefinementOptions& options) {
           static_cast<float>(options.max_difference)};
 }
 
-/// Weights of the slow part of the brightness. Two box means one after the other are close to a
-/// Gaussian: variance 2 (w² - 1) / 12 with a width of w = 2 r + 1. Returns their 4 r + 1 weights.
+/// Weights of the low-pass brightness. Two box means in sequence are close to a Gaussian:
+/// variance 2 (w² - 1) / 12 with a width of w = 2 r + 1. Returns their 4 r + 1 weights.
 inline std::vector<float> slowBrightnessWeights(double sigma_px) {
   const int radius =
       std::max(1, static_cast<int>(std::lround((std::sqrt(6 * sigma_px * sigma_px + 1) - 1) / 2)));
@@ -87,7 +87,7 @@ inline std::vector<float> slowBrightnessWeights(double sigma_px) {
     weights.push_back(static_cast<float>(width - std::abs(x)) / static_cast<float>(width * width));
   return weights;
 }
-/// Weights of the 3 x 3 filter that removes a little noise.
+/// Weights of the 3 x 3 filter against noise.
 constexpr float kBinomialWeights[3] = {0.25f, 0.5f, 0.25f};
 
 }  // namespace softscope

@@ -8,9 +8,9 @@
 namespace softscope {
 
 /// Fits, around every pixel, the plane d(x, y) = D + a x + b y that best explains the brightness of
-/// the window: each pixel's residual is linearised at its own disparity, so the window follows the
+/// the window: each residual is linearised at the disparity of its pixel, so the window follows the
 /// surface (docs/stereo.md §4). Returns refined disparities with their predicted standard error;
-/// pixels whose error exceeds max_sigma_px become NaN. `initial_px`: NaN = unmatched, stays so.
+/// pixels with an error above max_sigma_px become NaN. `initial_px`: NaN = unmatched, unchanged.
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options);
 
