@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-// Names of values that are files; what is neither here nor a folder is a word.
+// Names of values that are files; other names, except folders, are words.
 constexpr std::array<std::string_view, 17> kFiles{
     "CASE",    "CASE...", "DATA",      "FILE",  "LEFT", "MESH",     "MODEL", "PATH",  "PATH...",
     "PICTURE", "POINTS",  "REFERENCE", "RIGHT", "SCAN", "SEQUENCE", "TEST",  "VOLUME"};

@@ -1,5 +1,5 @@
-// packaging/command_list.h: commands with all their options, as man pages and completions need
-// them.
+// packaging/command_list.h: commands with all their options, for man pages and
+// completions.
 #pragma once
 
 #include <memory>
@@ -12,14 +12,14 @@ namespace softscope {
 
 struct ListedCommand {
   std::unique_ptr<Command> command;
-  ArgumentList arguments;                 // the command's own, then the common ones
-  std::vector<std::string> setting_keys;  // of --set; empty where there is none
+  ArgumentList arguments;                 // those of the command, then the common ones
+  std::vector<std::string> setting_keys;  // of --set; may be empty
 };
 
 /// All commands, in the order of `softscope --help`.
 std::vector<ListedCommand> listCommands();
 
-/// What may follow an option, or stand in the place of a positional argument.
+/// Kind of an option value or a positional argument.
 enum class ValueKind { kNone, kWord, kFile, kFolder, kSetting };
 
 ValueKind valueKind(const Argument& argument);

@@ -13,7 +13,7 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-/// Names of the options whose value is of this kind, each followed by a space.
+/// Names of the options with values of this kind, each followed by a space.
 std::string optionsOf(const ListedCommand& listed, ValueKind kind) {
   std::string names;
   for (const Argument& a : listed.arguments.all())

@@ -7,7 +7,7 @@
 namespace softscope {
 namespace {
 
-/// One line of text as roff prints it: hyphens that can be copied, no request at its beginning.
+/// One line of text in roff: hyphens can be copied, no request at its beginning.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char letter : text) {

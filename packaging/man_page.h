@@ -11,7 +11,7 @@ namespace softscope {
 /// softscope.1: the list of commands, exit codes.
 std::string overviewPage(const std::vector<ListedCommand>& commands, const std::string& version);
 
-/// softscope-<command>.1: what `softscope <command> --help` says.
+/// softscope-<command>.1: text of `softscope <command> --help`.
 std::string commandPage(const ListedCommand& listed, const std::string& version);
 
 }  // namespace softscope

@@ -8,8 +8,8 @@
 
 namespace softscope::cuda {
 
-/// Radix selection: four digits of 11 bits, then the least that shares them. So the upper median,
-/// to 2^-32 of its size. Every thread holds kEach keys; bits of positive doubles sort as they do.
+/// Radix selection: four digits of 11 bits, then the least key with these digits: the upper median,
+/// to 2^-32 of its value. A thread holds kEach keys; bits of positive doubles have their order.
 template <int kThreads, int kEach>
 struct BlockMedian {
   static constexpr int kDigitBits = 11, kDigits = 4, kBins = 1 << kDigitBits;
@@ -24,7 +24,7 @@ struct BlockMedian {
     int count;  // of keys
     unsigned long long least;
 
-    /// After the last step; there is a key.
+    /// After the last step, with at least one key.
     SOFTSCOPE_HD double value() const {
       double value;
       const unsigned long long bits = least;

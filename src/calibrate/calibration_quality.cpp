@@ -32,8 +32,8 @@ Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
-/// How the rotation vector follows a small turn from the left: the inverse left Jacobian of SO(3),
-/// to second order (right to 1e-4 below 20 degrees).
+/// Derivative of the rotation vector with respect to a small rotation from the left:
+/// the inverse left Jacobian of SO(3), to second order (error 1e-4 below 20 degrees).
 Eigen::Matrix3d vectorByTurn(const Eigen::Vector3d& r) {
   Eigen::Matrix3d x;
   x << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
@@ -73,7 +73,7 @@ std::vector<cv::Point2d> rectified(const std::vector<Eigen::Vector2d>& pixels,
   return out;
 }
 
-/// Pixels of the corners that both views of one moment show.
+/// Pixels of the corners visible in both views of one pair.
 void addPairs(const BundleView& view, std::vector<Eigen::Vector2d>* left_px,
               std::vector<Eigen::Vector2d>* right_px) {
   const auto key = [](const Eigen::Vector3d& p) { return std::make_pair(p.x(), p.y()); };
@@ -200,13 +200,13 @@ DepthOutlook depthOutlook(const CalibrationSolution& solution, double distance_m
   const Eigen::Vector3d point(0, 0, distance_mm);
   const RigProjection left = projectThroughRig(solution.state, point, false);
   const RigProjection right = projectThroughRig(solution.state, point, true);
-  // The three coordinates that a rectified match has: where it lies left, and its column right.
+  // The three coordinates of a rectified match: its left pixel and its right column.
   Eigen::Matrix3d by_point;
   by_point << left.by_left_point, right.by_left_point.row(0);
   Eigen::Matrix<double, 3, kRigUnknowns> by_rig;
   by_rig << left.by_rig, right.by_rig.row(0);
   const Eigen::Matrix3d point_by_pixels = by_point.inverse();
-  // With the pixels as they are, an error of the unknowns moves the point by -by_point^-1 by_rig.
+  // At constant pixels, an error of the unknowns moves the point by -by_point^-1 by_rig.
   const Eigen::Matrix<double, 1, kRigUnknowns> depth_by_rig = -point_by_pixels.row(2) * by_rig;
   DepthOutlook outlook;
   outlook.distance_mm = distance_mm;

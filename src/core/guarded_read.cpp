@@ -32,10 +32,10 @@ constexpr std::uintmax_t kBaseMemory = 2048 * kMegabyte;
 constexpr std::uintmax_t kMemoryPerByte = 16;
 constexpr int kBaseSeconds = 10;
 
-// The first byte of the child's answer.
+// The first byte of the answer of the child.
 constexpr char kResult = 'r', kInputFault = 'i', kOtherFault = 'o', kOutOfMemory = 'm';
 
-bool inside_guarded_read = false;  // set once, in a process that ends with its reading
+bool inside_guarded_read = false;  // set once, in the child process
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kAddressSanitizer = true;
@@ -45,8 +45,8 @@ constexpr bool kAddressSanitizer = __has_feature(address_sanitizer);
 constexpr bool kAddressSanitizer = false;
 #endif
 
-/// AddressSanitizer's allocator, unlike glibc's, leaves a lock that another thread holds at the
-/// fork locked in the child for ever. Threads that are about to end are waited for.
+/// AddressSanitizer's allocator, unlike that of glibc, leaves a lock that another thread
+/// holds at the fork locked in the child. Waits for threads that are about to end.
 void settleThreads() {
   if (!kAddressSanitizer) return;
   constexpr int kTries = 20;
@@ -58,7 +58,7 @@ void settleThreads() {
 }
 
 struct ReadLimits {
-  rlim_t seconds, memory_bytes;  // beyond what the process has
+  rlim_t seconds, memory_bytes;  // in addition to those of the process
 };
 
 ReadLimits limitsFor(std::uintmax_t input_bytes, const GuardAllowance& allowance) {
@@ -110,7 +110,7 @@ bool answer(int pipe, char kind, const std::string& bytes) {
          writeAll(pipe, bytes.data(), length);
 }
 
-/// Splits what answer() wrote; false where it is not whole.
+/// Splits the output of answer(); false if it is incomplete.
 bool splitAnswer(std::string& bytes, char& kind) {
   constexpr std::size_t kHead = 1 + sizeof(std::size_t);
   if (bytes.size() < kHead) return false;
@@ -132,7 +132,7 @@ bool splitAnswer(std::string& bytes, char& kind) {
     told = answer(pipe, kInputFault, error.what());
   } catch (const std::bad_alloc&) {
     told = answer(pipe, kOutOfMemory, "");
-  } catch (const std::length_error&) {  // a size that no memory holds
+  } catch (const std::length_error&) {  // a size larger than any memory
     told = answer(pipe, kOutOfMemory, "");
   } catch (const std::exception& error) {
     told = answer(pipe, kOtherFault, error.what());
@@ -140,7 +140,7 @@ bool splitAnswer(std::string& bytes, char& kind) {
   _exit(told ? 0 : 1);  // without the parent's destructors
 }
 
-/// The child and the reading end of its pipe; both are gone with this.
+/// The child and the reading end of its pipe; destroyed together.
 class ReadingChild {
  public:
   ReadingChild(const ReadLimits& limits, const std::function<std::string()>& read) {
@@ -154,7 +154,7 @@ class ReadingChild {
     }
     close(ends[1]);
     pipe_ = ends[0];
-    fcntl(pipe_, F_SETPIPE_SZ, 1 << 20);  // fewer switches between the two; a wish
+    fcntl(pipe_, F_SETPIPE_SZ, 1 << 20);  // fewer switches between the two; optional
     if (id_ < 0) {
       close(pipe_);
       throw Error("no process can be started to read a file; is the machine out of memory?");
@@ -168,7 +168,7 @@ class ReadingChild {
   ReadingChild(const ReadingChild&) = delete;
   ReadingChild& operator=(const ReadingChild&) = delete;
 
-  /// All that it answers; false where it didn't end in time.
+  /// The complete answer; false if it did not end in time.
   bool answerBefore(Clock::time_point deadline, std::string& bytes) const {
     for (;;) {
       const auto left =
@@ -187,7 +187,7 @@ class ReadingChild {
     }
   }
 
-  /// Its status once it has ended; 0 where this process ignores SIGCHLD, so that none is known.
+  /// Its status once it has ended; 0 if this process ignores SIGCHLD, because then none is known.
   int wait() {
     int status = 0;
     while (id_ > 0 && waitpid(id_, &status, 0) < 0 && errno == EINTR) {

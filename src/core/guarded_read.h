@@ -8,11 +8,11 @@
 
 namespace softscope {
 
-/// Throws InputError where `file` is missing, a folder, a pipe or a device: opening a pipe waits
-/// for its writer.
+/// Throws InputError if `file` is missing, a folder, a
+/// pipe or a device: opening a pipe waits for its writer.
 void requireRegularFile(const std::filesystem::path& file);
 
-/// What a child may take beyond the limits for its input.
+/// Additions to the limits of the input.
 struct GuardAllowance {
   int seconds = 0;  // of processor time
   std::uintmax_t memory_bytes = 0;
@@ -28,7 +28,7 @@ std::string guardedRead(const std::string& source, std::uintmax_t input_bytes,
                         const std::function<std::string()>& read,
                         const GuardAllowance& allowance = {});
 
-/// True in the child of guardedRead(), and nowhere else.
+/// True in the child of guardedRead() only.
 bool insideGuardedRead();
 
 }  // namespace softscope

@@ -5,7 +5,7 @@
 
 namespace softscope {
 
-/// NaN: std::isnan() and std::isfinite() tell it from a measurement, comparisons with it are false.
+/// NaN: std::isnan() and std::isfinite() detect it, comparisons with it are false.
 template <class Real>
 inline constexpr Real kNotMeasured = std::numeric_limits<Real>::quiet_NaN();
 

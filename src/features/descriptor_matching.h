@@ -10,7 +10,7 @@
 
 namespace softscope {
 
-/// Grid nodes that belong together.
+/// A pair of matched grid nodes.
 struct NodeMatch {
   Eigen::Vector2f model_px;
   Eigen::Vector2f live_px;
@@ -19,7 +19,7 @@ struct NodeMatch {
 };
 
 /// Nodes that pass the ratio test and the mutual test, searched within `radius_px` of the predicted
-/// shift; of each square of spacing_px the most distinct one. By rows of the model's nodes.
+/// shift; the most distinct one per square of spacing_px. In the order of the rows of model nodes.
 std::vector<NodeMatch> matchDescriptors(const DenseDescriptors& model, const DenseDescriptors& live,
                                         const ShiftField& predicted, double radius_px,
                                         const MatcherOptions& options);

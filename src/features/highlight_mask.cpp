@@ -9,9 +9,9 @@ namespace softscope {
 
 namespace {
 
-constexpr int kHighlightBrightness = 235;      // least, of the brightest channel
-constexpr double kHighlightSaturation = 0.25;  // largest (max - min) / max of the channels
-constexpr int kHighlightHaloPx = 3;            // dilation: the halo is a highlight too
+constexpr int kHighlightBrightness = 235;      // minimum, of the brightest channel
+constexpr double kHighlightSaturation = 0.25;  // maximum (max - min) / max of the channels
+constexpr int kHighlightHaloPx = 3;            // dilation: the halo is part of the highlight
 
 }  // namespace
 

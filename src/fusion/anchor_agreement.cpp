@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-/// As of windows that are matched: below it the anchors are of no use there.
+/// As for matched windows: anchors with a lower correlation are not used.
 constexpr double kLeastAnchorCorrelation = 0.7;
 
 bool agree(const BlockCorrelation& block) {

@@ -16,7 +16,7 @@
 namespace softscope {
 namespace {
 
-/// The model's nearest depth in every pixel.
+/// The nearest depth of the model per pixel.
 NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
                          const PosedCamera& camera) {
   NearestSurface drawn(camera.width_px, camera.height_px, 1);
@@ -31,7 +31,7 @@ NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
   return drawn;
 }
 
-/// The model's depths in and around some rows of the image.
+/// The depths of the model in and around some rows of the image.
 class DepthsAround {
  public:
   DepthsAround(const NearestSurface& drawn, const PosedCamera& camera, int begin, int end)
@@ -65,8 +65,8 @@ class DepthsAround {
   Raster<float> depths_mm_;
 };
 
-/// Depths reliable enough to make points, and unexplained: the model has no point within reach
-/// that is not behind their band: (F14). NaN elsewhere.
+/// Depths reliable enough to insert points, and unexplained: all model
+/// points within reach are behind their band: (F14). Otherwise NaN.
 class UnexplainedDepths {
  public:
   UnexplainedDepths(const Observation& observation, const Raster<PixelState>& states,
@@ -120,7 +120,7 @@ class UnexplainedDepths {
   const InsertionLimits limits_;
 };
 
-/// Those that are allowed, in the image's order.
+/// Allowed pixels in the order of the image.
 std::vector<std::int32_t> candidatePixels(const Raster<float>& unexplained_mm,
                                           const std::vector<std::uint8_t>& allowed) {
   const int width = unexplained_mm.width_px;
@@ -145,7 +145,7 @@ int countAboveZero(const Raster<float>& depth_mm) {
   return count;
 }
 
-/// The pixels that become points, in the image's order: (F16), the first of every cell.
+/// Pixels that are converted to points, in the order of the image: (F16), the first of every cell.
 std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
                                        const PosedCamera& camera,
                                        const std::vector<std::uint8_t>& allowed,
@@ -172,14 +172,14 @@ std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
   return chosen;
 }
 
-/// Makes room by a quarter more at a time: doubling would waste too much on a large model.
+/// Grows the capacity by a quarter at a time: doubling would waste memory on a large model.
 void makeRoom(std::size_t more, PointModel* model) {
   const std::size_t needed = model->size() + more;
   if (needed > model->positions_mm.capacity())
     model->reserve(std::max(needed, model->size() + model->size() / 4));
 }
 
-/// Which unexplained pixels may become points now.
+/// Unexplained pixels that may be converted to points now.
 std::vector<std::uint8_t> allowedPixels(const Raster<float>& unexplained_mm,
                                         const PosedCamera& camera, const InsertionMemory& last,
                                         bool at_once, float band_mm) {

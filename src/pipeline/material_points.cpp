@@ -13,11 +13,11 @@
 namespace softscope {
 namespace {
 
-constexpr double kSurfaceMm = 0.7;    // radius of the surface piece that a point is laid onto
-constexpr double kMaxSettleMm = 0.5;  // of near tissue; further off is another surface
+constexpr double kSurfaceMm = 0.7;    // radius of the surface piece of a point
+constexpr double kMaxSettleMm = 0.5;  // of near tissue; a larger distance is another surface
 
-/// Depth at the pixel by a plane fitted to the inverse depth of the measured pixels within
-/// `radius_px`. NaN where fewer than `least` are measured.
+/// Depth at the pixel by a plane fitted to the inverse depth of the
+/// measured pixels within `radius_px`. NaN with fewer than `least` of them.
 double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, int radius_px,
                    int least) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -33,9 +33,9 @@ double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
   return 1 / normal.ldlt().solve(right).x();
 }
 
-/// Depth of the surface at the pixel: of its 5 x 5 neighbours; in a gap or beside an instrument, of
-/// what is measured around, going on from the nearest pixel at 45 degrees at most. NaN where there
-/// is none.
+/// Depth of the surface at the pixel: from its 5 x 5 neighbours; in a gap
+/// or next to an instrument, from measured pixels around it, extrapolated
+/// from the nearest one at 45 degrees at most. NaN without any.
 double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, double focal_px) {
   const double here_mm = planeAround(depth_mm, pixel, 2, 13);
   if (std::isfinite(here_mm)) return here_mm;
@@ -55,7 +55,7 @@ std::int64_t cellOf(const Eigen::Vector3d& position_mm) {
          (static_cast<std::int64_t>(cell.z()) + kBias);
 }
 
-/// Tracked points in and beside each cell.
+/// Tracked points in and next to each cell.
 class TrackedNear {
  public:
   explicit TrackedNear(std::size_t expected) : table_(expected) {
@@ -72,7 +72,7 @@ class TrackedNear {
     first = entry;
   }
   bool empty() const { return keys_.empty(); }
-  /// Calls found(point) for each tracked point in or beside the cell.
+  /// Calls found(point) for each tracked point in or next to the cell.
   template <class Found>
   void forEach(std::int64_t cell, const Found& found) const {
     for (std::int32_t entry = firstOf(static_cast<CellKey>(cell)); entry != CellHashTable::kEmpty;
@@ -81,13 +81,13 @@ class TrackedNear {
   }
 
  private:
-  /// The last entry of the cell, from which the others follow.
+  /// The last entry of the cell; the others follow from it.
   std::int32_t& firstOf(CellKey key) const {
     return table_.find(key, [&](std::int32_t entry) { return keys_[entry] == key; });
   }
 
   mutable CellHashTable table_;
-  std::vector<CellKey> keys_;  // per entry, as the others
+  std::vector<CellKey> keys_;  // per entry, like the others
   std::vector<int> points_;
   std::vector<std::int32_t> next_;
 };
@@ -98,7 +98,7 @@ struct SurfacePiece {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
-/// What one model point adds to the piece of a tracked point.
+/// Contribution of one model point to the piece of a tracked point.
 struct SurfaceShare {
   int point;
   double weight, height_mm;
@@ -159,7 +159,7 @@ void MaterialPoints::add(int id, const Eigen::Vector2d& pixel, const PinholeCame
 }
 
 void MaterialPoints::anchor(const PointModel& model) {
-  constexpr int kSearchesATask = 4;  // each goes through the whole model
+  constexpr int kSearchesATask = 4;  // each visits the whole model
   parallelRanges(static_cast<int>(points.size()), kSearchesATask, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       Point& point = points[static_cast<std::size_t>(k)];
@@ -219,7 +219,7 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
     const Eigen::Vector3d ray = (points[k].position_mm - scope_mm).normalized();
     const double cosine = normal.dot(ray);
     const double along_ray_mm = height / cosine;
-    // Seen at a grazing angle, the ray meets the surface far away.
+    // At a grazing angle, the ray meets the surface far away.
     points[k].position_mm += std::abs(along_ray_mm) < limit_mm ? Eigen::Vector3d(along_ray_mm * ray)
                                                                : Eigen::Vector3d(height * normal);
   }

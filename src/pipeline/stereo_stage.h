@@ -1,4 +1,4 @@
-// src/pipeline/stereo_stage.h: from a rectified pair with aligned rows to depth and normals.
+// src/pipeline/stereo_stage.h: depth and normals of a rectified pair with aligned rows.
 #pragma once
 
 #include <functional>
@@ -19,15 +19,15 @@ struct StereoSurface {
   NormalMap normals;
   StageTimes times;
 
-  /// Nothing was measured under `mask`, which may be empty.
+  /// Removes measurements under `mask`, which may be empty.
   void drop(const Mask& mask);
 };
 
-/// What of stage 1 may run on another device. Every implementation gives the same bytes.
+/// Part of stage 1 that may run on another device. All implementations give the same bytes.
 class StereoStage {
  public:
   virtual ~StereoStage() = default;
-  /// Of the matcher, one of stereoMethods(); written into every report.
+  /// Of the matcher, one of stereoMethods(); written to every report.
   virtual std::string name() const = 0;
   /// No disparity and no depth under `mask`, which may be empty.
   virtual StereoSurface measure(const AlignedPair& aligned, const Mask& mask) = 0;
@@ -36,7 +36,7 @@ class StereoStage {
 using StereoStageFactory =
     std::function<std::unique_ptr<StereoStage>(const StereoOptions&, const RectifiedRig&)>;
 
-/// On the processor's cores. Throws OptionError, InputError where a network doesn't fit.
+/// On the CPU. Throws OptionError, InputError for an inconsistent network.
 std::unique_ptr<StereoStage> makeCpuStereoStage(const StereoOptions& options,
                                                 const RectifiedRig& rig);
 

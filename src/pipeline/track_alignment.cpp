@@ -1,4 +1,4 @@
-// src/pipeline/track_alignment.cpp: tracked points go where the image shows their first looks.
+// src/pipeline/track_alignment.cpp: tracked points moved to the positions of their first looks.
 #include <algorithm>
 #include <cmath>
 
@@ -10,23 +10,23 @@
 namespace softscope {
 namespace {
 
-constexpr double kLargestSlope = 4;  // of a surface that a point is moved along, depth over width
+constexpr double kLargestSlope = 4;  // of a surface along which a point is moved, depth over width
 
-/// What an image says of one tracked point.
+/// Measurement of one tracked point in an image.
 struct SeenLook {
   bool in_sight = false, found = false;
-  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  // where it is found
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  // measured
   double variance_mm2 = 0;                                // predicted, per direction
-  double off_mm2 = 0;  // squared distance from where it was expected, along the surface
+  double off_mm2 = 0;  // squared distance from the expected position, along the surface
 };
 
-/// Finds first looks in one image.
+/// Searches first looks in one image.
 struct FirstLookSearch {
   const LookPicture& picture;
   const PinholeCamera& left;
   const Eigen::Isometry3d& world_from_left;
 
-  /// The image's pixels per pixel of the look, right and down.
+  /// Pixels of the image per pixel of the look, right and down.
   Eigen::Matrix2d imageFromLook(const MaterialPoints::Point& point,
                                 const Eigen::Vector3d& centre) const {
     Eigen::Matrix2d map;
@@ -40,7 +40,7 @@ struct FirstLookSearch {
     return map;
   }
 
-  /// `centre`: where the point is expected, left camera's frame.
+  /// `centre`: expected position, left camera frame.
   void find(const MaterialPoints::Point& point, const Eigen::Vector3d& centre,
             SeenLook* seen) const {
     const Eigen::Vector2d pixel = projectPoint(left, centre);
@@ -60,8 +60,8 @@ struct FirstLookSearch {
   }
 };
 
-/// Variance per direction that the last warp added: what looks are off by, less what they and the
-/// points were unsure of. NaN of fewer than kLeastLooks.
+/// Variance per direction added by the last warp: that of the measured moves,
+/// less the variances of looks and points. NaN with fewer than kLeastLooks.
 double driftOf(const std::vector<MaterialPoints::Point>& points,
                const std::vector<SeenLook>& seen) {
   constexpr std::size_t kLeastLooks = 8;
@@ -76,26 +76,26 @@ double driftOf(const std::vector<MaterialPoints::Point>& points,
   return std::max(0.0, medianOf(std::move(off)) - medianOf(std::move(expected)));
 }
 
-/// How far a look that was found has moved its point, from where it was.
+/// Move of a point by its measured look, and its previous position.
 struct FoundMove {
   Eigen::Vector3d position_mm;
   Eigen::Vector3d move_mm;
 };
 
-/// Kalman's gain: docs/fusion.md (F29).
+/// Kalman gain: docs/fusion.md (F29).
 FoundMove moveTowards(const SeenLook& seen, MaterialPoints::Point* point) {
   double& variance_mm2 = point->variance_mm2;
   const bool known = std::isfinite(variance_mm2);
   const double gain = known ? variance_mm2 / (variance_mm2 + seen.variance_mm2) : 1.0;
   const FoundMove found{point->position_mm, gain * (seen.position_mm - point->position_mm)};
   point->position_mm += found.move_mm;
-  // A look errs alike from frame to frame: many are no surer than one.
+  // Errors of a look are correlated between frames: repeated looks do not reduce them.
   variance_mm2 = known ? std::min(variance_mm2, seen.variance_mm2) : seen.variance_mm2;
   return found;
 }
 
-/// What the warp misses is alike nearby: the mean of the moves, e times less for every `reach_mm`
-/// that they are away, and none where none is near.
+/// The error of the warp is similar nearby: mean of the moves, with weights
+/// that decrease by e per `reach_mm` of distance, and zero without a near one.
 Eigen::Vector3d moveOfNeighbours(const std::vector<FoundMove>& found,
                                  const Eigen::Vector3d& position_mm, double reach_mm) {
   constexpr double kFarthest = 6;  // of the reach; a share of 1/400

@@ -9,10 +9,10 @@
 namespace softscope {
 namespace {
 
-constexpr double kFarthestPx = 1e6;    // beyond it lies no image
+constexpr double kFarthestPx = 1e6;    // limit of pixel coordinates
 constexpr double kFloatingLimits = 3;  // before the surface, in units of the limit behind it
 
-/// Of the pixel that a point is seen at; far outside of every image where there is none.
+/// Pixel of a point; far outside of every image if there is none.
 Eigen::Vector2d pixelOf(const PinholeCamera& left, const Eigen::Vector3d& point_left) {
   const Eigen::Vector2d nowhere(-kFarthestPx, -kFarthestPx);
   if (!point_left.allFinite() || !(point_left.z() > 0)) return nowhere;
@@ -20,7 +20,7 @@ Eigen::Vector2d pixelOf(const PinholeCamera& left, const Eigen::Vector3d& point_
   return pixel.allFinite() && pixel.cwiseAbs().maxCoeff() < kFarthestPx ? pixel : nowhere;
 }
 
-/// Variance of the depth at a pixel that takes its surface from one beside it.
+/// Variance of the depth at a pixel that uses the surface of a neighbour.
 double depthVarianceMm2(const Raster<float>& sigma_mm, const Eigen::Vector2d& pixel,
                         const NearestDepth& surface, double focal_px) {
   if (sigma_mm.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -47,7 +47,7 @@ bool TrackSight::shows(const Eigen::Vector3d& point_left, const NearestDepth& su
   const double behind_mm = point_left.z() - surface.depth_mm;
   const double slack_mm = surface.slackMm(rig_.left.fx_px);
   const double limit_mm = VisibilityOptions::kOcclusionMm * frame_.summary.limit_scale;
-  // Errors of tracks and of depth stay below the second limit; what floats beyond it was lost.
+  // Errors of tracks and of depth stay below the second limit; points beyond it are lost.
   return behind_mm <= limit_mm + slack_mm && -behind_mm <= kFloatingLimits * limit_mm + slack_mm;
 }
 
@@ -55,7 +55,7 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
                                                    const Eigen::Isometry3d& world_from_left) const {
   std::vector<TrackedPosition> positions;
   if (tracked.points.empty()) return positions;
-  DepthMap depth = frame_.measured.depth;  // stages weigh it by its noise alone
+  DepthMap depth = frame_.measured.depth;  // stages weight it by its noise only
   addReliefError(rig_, nullptr, &depth);
   for (const MaterialPoints::Point& point : tracked.points) {
     const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;

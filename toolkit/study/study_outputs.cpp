@@ -91,7 +91,7 @@ std::string pageTable(const StudyTable& table) {
   return html + "</ul>\n";
 }
 
-/// Without the XML declaration, which has no place inside HTML.
+/// Without the XML declaration, which is invalid inside HTML.
 std::string inlineSvg(const VectorDrawing& drawing) {
   const std::string svg = svgBytes(drawing);
   return svg.substr(svg.find("<svg"));
@@ -139,7 +139,7 @@ void writeStudy(const Study& study, const std::vector<Json>& records, const std:
   const auto put = [&](const fs::path& name, const std::string& bytes) {
     writeFile(folder.root / name, bytes, true);
   };
-  fs::remove_all(folder.root / "plots");  // of another state of the study file
+  fs::remove_all(folder.root / "plots");  // of an older state of the study file
   if (!figures.empty()) fs::create_directories(folder.root / "plots");
   for (const auto& [name, drawing] : figures) {
     put("plots/" + name + ".svg", svgBytes(drawing));

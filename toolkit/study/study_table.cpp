@@ -53,7 +53,7 @@ std::string statusOf(const Json& record) {
   return record.is_object() ? record.value("status", "unknown") : "not run";
 }
 
-/// Published values stand right after the name, ours after them.
+/// Headings of published values directly after the name, then those of this study.
 std::vector<std::string> besideHeadings(const Study& study) {
   std::set<std::string> headings;
   for (const StudyCase& one : study.cases)
@@ -67,7 +67,7 @@ std::string listed(const std::vector<double>& levels) {
   return text;
 }
 
-/// What wasn't run can neither hold nor break.
+/// Cases without a result neither hold nor break.
 std::string breakText(const StudyBreak& found) {
   const std::string unknown = found.not_run.empty() ? "" : "; not run: " + listed(found.not_run);
   if (found.broken) return "breaks at " + shortest(found.level) + unknown;
@@ -117,7 +117,7 @@ bool breaks(const Json& record, const StudyPlot& plot) {
          valueAt(record, "run.fused_share") < kLeastFusedShare;
 }
 
-/// Levels come in rising order: the first that breaks stays.
+/// Levels are ascending: the first that breaks is kept.
 void addLevel(const StudyCase& one, const Json& record, const StudyPlot& plot,
               std::vector<StudyBreak>& found) {
   const std::string series = seriesName(one);

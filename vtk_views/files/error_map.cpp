@@ -219,7 +219,7 @@ std::string errorMapVtp(const ErrorMap& map) {
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // a third of the time of the default, a tenth more bytes
+  writer->SetCompressionLevel(1);  // a third of the default time, a tenth more bytes
   writer->WriteToOutputStringOn();
   if (writer->Write() == 0) throw Error("VTK could not write an error map as VTP");
   return writer->GetOutputString();

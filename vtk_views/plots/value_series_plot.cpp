@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::size_t kMostDots = 120;  // more would only thicken the line
+constexpr std::size_t kMostDots = 120;  // more would only make the line thicker
 
 AxisRange rangeOf(const std::vector<double>& values) {
   double low = 0, high = 0;

@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kStencilsPerChunk = 32;  // a fixed partition: sums don't depend on the threads
+constexpr int kStencilsPerChunk = 32;  // a fixed partition: sums are independent of the threads
 
 struct ChunkSum {
   double data = 0;

@@ -41,7 +41,7 @@ Raster<float> fromFloats(const cv::Mat& floats) {
   return out;
 }
 
-/// Either form; a step of a 16-bit file is worth `unit`.
+/// Either format; a step of a 16-bit file is `unit`.
 Raster<float> parseMap(std::string_view bytes, const std::string& name, double unit) {
   if (bytes.substr(0, 2) == "Pf" || bytes.substr(0, 2) == "PF") return parsePfm(bytes, name);
   const cv::Mat image = decodeImage(bytes, name, cv::IMREAD_UNCHANGED);

@@ -19,7 +19,7 @@ constexpr int kHeight = 2 * kReach + 1;
 constexpr int kBandRows = 60;  // solved by one thread at a time
 constexpr float kBox[kHeight] = {1, 1, 1, 1, 1, 1, 1};
 
-/// Which pixels of a window count, for selectedMoments().
+/// Pixels of a window that count, for selectedMoments().
 struct Selection {
   Selection() {
     for (int y = 0; y < kHeight; ++y)
@@ -32,7 +32,7 @@ struct Selection {
   std::array<float, kHeight * kSelectLanes> window, tolerance;
 };
 
-/// A band of rows, from top to bottom; only the rows that a window needs are held.
+/// A band of rows, from top to bottom; only the rows of the window are held.
 class NormalBand {
  public:
   NormalBand(const Raster<float>& depth_mm, const PinholeCamera& camera, NormalMap& normals)
@@ -61,7 +61,7 @@ class NormalBand {
   static int slot(int v) { return (v + kHeight) % kHeight; }
 
   void invert(int v) {
-    float* depth = normal_.row(0);  // not in use yet
+    float* depth = normal_.row(0);  // not yet in use
     std::fill_n(depth, width_ + Plane::kMargin, kNotMeasured<float>);
     if (v >= 0 && v < depth_.height_px) std::copy_n(depth_.row(v), width_, depth);
     normalKernels().invertRow(
@@ -98,7 +98,7 @@ class NormalBand {
     for (int u = 0; u < width_; ++u) normals_.at(u, v) = {x[u], y[u], z[u]};
   }
 
-  /// Where a window reaches across a step, the pixels of the centre's surface alone count.
+  /// If a window reaches across a step, only the pixels of the centre's surface count.
   void selectWindows(int v, const MomentRow& moments, const RowsOfWindow& measured,
                      const RowsOfWindow& weighted) {
     const RowsOfWindow inverse = rowsAround(inverse_, v);

@@ -1,4 +1,4 @@
-// src/stereo/matching/delaunay.h: the triangulation of points at whole pixels.
+// src/stereo/matching/delaunay.h: Delaunay triangulation of points at whole pixels.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,11 +7,11 @@
 
 namespace softscope {
 
-/// Delaunay triangles as indices into `points`, counter-clockwise on the screen (x right, y down).
-/// Computed in integers, so exact. Of several points on one circle without a point inside, the
-/// first in raster order (smallest y, then x) is joined to all others, so the triangles depend on
-/// the positions alone; they are in raster order of their first corner. Of equal points the first
-/// is used. Throws Error where two coordinates differ by 2^30 or more.
+/// Delaunay triangles as indices into `points`, counter-clockwise in the image (x right, y
+/// down). Computed in integers, so exact. Of several points on one circle without a point
+/// inside, the first in raster order (smallest y, then x) is joined to all others, so the
+/// triangles depend on the positions only; they are in raster order of their first corner. Of
+/// equal points the first is used. Throws Error if two coordinates differ by 2^30 or more.
 std::vector<std::array<int, 3>> delaunay(const std::vector<Eigen::Vector2i>& points);
 
 }  // namespace softscope

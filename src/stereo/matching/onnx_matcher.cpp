@@ -57,7 +57,7 @@ ColourImage halvedColour(const ColourImage& image) {
   return byChannel(image, [](const GrayImage& plane) { return halve(plane); });
 }
 
-/// Difference to the right image's disparity at the matched column; NaN where that is outside.
+/// Difference to the disparity of the right image at the matched column; NaN outside of it.
 float leftRightDifference(const Raster<float>& left, const Raster<float>& right, int u, int v) {
   const float d = left.at(u, v), x = static_cast<float>(u) - d;
   if (!(x >= 0 && x <= static_cast<float>(right.width_px - 1))) return kNotMeasured<float>;
@@ -66,7 +66,7 @@ float leftRightDifference(const Raster<float>& left, const Raster<float>& right,
   return (1 - share) * right.at(u0, v) + share * right.at(u1, v) - d;
 }
 
-/// Difference to twice the half size's disparity.
+/// Difference to twice the disparity of the half size.
 float scaleDifference(const Raster<float>& full, const Raster<float>& half, int u, int v) {
   const HalfPosition at = halfPosition(u, v);
   if (!half.contains(at.u0, at.v0)) return kNotMeasured<float>;
@@ -75,7 +75,7 @@ float scaleDifference(const Raster<float>& full, const Raster<float>& half, int 
   return 2 * bilinear(four, at.fu, at.fv) - full.at(u, v);
 }
 
-/// Mean square over a window, of its values that are numbers.
+/// Mean square over a window, of its finite values.
 Raster<float> localMeanSquare(const Raster<float>& differences, int radius_px) {
   const int width = differences.width_px, height = differences.height_px;
   Raster<float> rows(width, height), counts(width, height),
@@ -104,7 +104,7 @@ Raster<float> localMeanSquare(const Raster<float>& differences, int radius_px) {
 
 bool isBlocked(const Mask& mask, int u, int v) { return mask.contains(u, v) && mask.at(u, v) != 0; }
 
-/// NaN where the disparity is out of range, masked in either view, or denied by the right image.
+/// NaN where the disparity is out of range, masked in either view, or rejected by the right image.
 void dropDenied(const Raster<float>& left_right, const ViewMasks& ignored,
                 const StereoOptions& options, Raster<float>* disparity_px) {
   parallelRows(disparity_px->height_px, [&](int v) {
@@ -121,8 +121,8 @@ void dropDenied(const Raster<float>& left_right, const ViewMasks& ignored,
   });
 }
 
-/// Sigma from how far the right image and the half size disagree around each pixel; NaN disparity
-/// where that is too far.
+/// Sigma from the differences to the right image and to the half
+/// size around each pixel; NaN disparity if they are too large.
 void predictSigma(const Raster<float>& left_right, const Raster<float>& scale, DisparityMap* map) {
   const int radius_px = NetworkOptions::agreement_radius_px;
   const Raster<float> left_right_2 = localMeanSquare(left_right, radius_px);
@@ -181,7 +181,7 @@ DisparityMap OnnxMatcher::matchColour(const StereoPair& pair, const ViewMasks& i
     }
   });
   dropDenied(left_right, ignored, options_, &map.disparity_px);
-  for (std::size_t i = 0; i < left_right.size(); ++i)  // what is denied tells nothing of the rest
+  for (std::size_t i = 0; i < left_right.size(); ++i)  // rejected pixels say nothing of others
     if (std::isnan(map.disparity_px.values[i]))
       left_right.values[i] = scale.values[i] = kNotMeasured<float>;
   predictSigma(left_right, scale, &map);

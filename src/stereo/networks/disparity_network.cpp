@@ -27,8 +27,8 @@ namespace {
 
 constexpr int kMultiplePx = 32;  // free lengths are padded to this: networks halve five times
 constexpr int kTrialShiftPx = 8;
-// A trial on one core: seconds for a network that takes one on all cores of a workstation, and the
-// memory of a cost volume of 1280 x 1024 pixels at a quarter of the size.
+// A trial on one core: time for a network that takes a second on all cores of a workstation,
+// and the memory of a cost volume of 1280 x 1024 pixels at a quarter of the size.
 constexpr GuardAllowance kTrialAllowance{110, std::uintmax_t{6} << 30};
 
 std::string lowerCase(std::string text) {
@@ -46,7 +46,7 @@ std::string listOf(const std::vector<OnnxTensor>& tensors) {
   return text.empty() ? "none" : text;
 }
 
-/// Of a message of several lines, the words.
+/// The words of a message of several lines.
 std::string oneLine(const std::string& text) {
   std::istringstream words(text);
   std::string line;
@@ -71,13 +71,13 @@ LevelScale scaleOf(NetworkInput input) {
   return scale;
 }
 
-/// How a pair is fitted into the network's images: scaled down, then padded right and below.
+/// Fit of a pair to the images of the network: scaled down, then padded right and below.
 struct Fit {
-  int width_px = 0, height_px = 0;      // of the network's images
+  int width_px = 0, height_px = 0;      // of the images of the network
   int used_width = 0, used_height = 0;  // of the pair within them
 };
 
-/// Smooth noise, the same each time.
+/// Smooth noise, deterministic.
 ColourImage trialImage(int width_px, int height_px) {
   cv::Mat noise(height_px, width_px, CV_8UC3);
   cv::RNG random(1);
@@ -123,7 +123,7 @@ struct DisparityNetwork::Impl {
   int channels = 3;
   std::int64_t fixed_width = OnnxTensor::kFree, fixed_height = OnnxTensor::kFree;
   std::string left_input, right_input, output;
-  std::map<std::pair<int, int>, cv::dnn::Net> nets;  // by the size of the network's images
+  std::map<std::pair<int, int>, cv::dnn::Net> nets;  // by size of the images of the network
 };
 
 void DisparityNetwork::Impl::read() {
@@ -229,7 +229,7 @@ std::string DisparityNetwork::Impl::outputShapeText(const cv::Mat& found, const 
          "disparity at the size of the images";
 }
 
-/// Disparity in pixels of the pair's own size, its sign made positive.
+/// Disparity in pixels of the original pair, with positive sign.
 Raster<float> DisparityNetwork::Impl::run(cv::dnn::Net& net, const Fit& fit,
                                           const ColourImage& left, const ColourImage& right) const {
   net.setInput(blobOf(left, fit), left_input);
@@ -291,7 +291,7 @@ void DisparityNetwork::Impl::tryOut(int width_px, int height_px, int disparity_m
                    "left image its first input, and does stereo.model_input fit?");
 }
 
-/// Names of those that OpenCV has not; empty: it has all. In the child.
+/// Operators that OpenCV does not have; empty: it has all. In the child.
 std::string DisparityNetwork::Impl::lackingOperators() const {
   std::string lacking;
   for (const OnnxOperator& wanted : model.operators) {

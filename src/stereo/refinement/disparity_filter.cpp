@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-/// Measured pixels of one row that lie side by side on one surface.
+/// Measured adjacent pixels of one row on one surface.
 struct Run {
   int begin, end;  // columns
   int parent;      // run of the same island, itself at the root
@@ -36,7 +36,7 @@ class Islands {
     }
   }
 
-  /// Joins the last row's runs with those above that they touch.
+  /// Joins the runs of the last row with adjacent ones above.
   void joinRows(const float* above, const float* row) {
     int a = above_, b = row_;
     while (a < row_ && b < static_cast<int>(runs_.size())) {
@@ -74,7 +74,7 @@ class Islands {
   int above_ = 0, row_ = 0;  // first runs of the last two rows
 };
 
-/// Fills the gaps of one line of `count` values that lie `stride` apart.
+/// Fills the gaps of one line of `count` values with a distance of `stride`.
 void fillLine(float* line, int count, std::size_t stride, int width, float step) {
   int last = -1;  // last measured position
   for (int i = 0; i < count; ++i) {
@@ -90,7 +90,7 @@ void fillLine(float* line, int count, std::size_t stride, int width, float step)
   }
 }
 
-/// Marks pixels that a step of more than `step` parts from their right or lower neighbour.
+/// Marks pixels separated by a step of more than `step` from their right or lower neighbour.
 Raster<std::uint8_t> findEdges(const Raster<float>& d, float step) {
   Raster<std::uint8_t> edges(d.width_px, d.height_px, 0);
   parallelRows(d.height_px, [&](int v) {
@@ -141,7 +141,7 @@ void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_
 
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px) {
   Islands islands(static_cast<float>(step_px));
-  std::vector<int> ends;  // of each row's runs
+  std::vector<int> ends;  // of the runs of each row
   for (int v = 0; v < disparity_px.height_px; ++v) {
     islands.addRow(disparity_px.row(v), disparity_px.width_px);
     if (v > 0) islands.joinRows(disparity_px.row(v - 1), disparity_px.row(v));
@@ -173,7 +173,7 @@ void erodeEdges(DisparityMap& map, int reach_px, double step_px, int border_px) 
     if (v < border_px || v >= height - border_px) return forget(map, v, 0, width);
     forget(map, v, 0, border_px);
     forget(map, v, width - border_px, width);
-    // An edge lies between a pixel and its neighbours to the right and below.
+    // An edge is between a pixel and its right or lower neighbour.
     for (int y = std::max(v - reach_px, 0); y <= std::min(v - 1 + reach_px, height - 1); ++y) {
       const std::uint8_t* edge = edges.row(y);
       for (int u = 0; u < width; ++u)

@@ -12,8 +12,8 @@ namespace softscope {
 namespace {
 
 constexpr int kWindowPx = RefinementOptions::radius_px;
-constexpr int kReachPx = 2 * (kWindowPx + 2);  // with the window of the matching, at half size
-constexpr int kLongestWay = kReachPx * 3 / 2;  // in pixels, diagonal steps counted as one
+constexpr int kReachPx = 2 * (kWindowPx + 2);  // with the matching window, at half size
+constexpr int kLongestWay = kReachPx * 3 / 2;  // in pixels; diagonal steps count as one
 
 struct Pixel {
   int u = 0, v = 0;

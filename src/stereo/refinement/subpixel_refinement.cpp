@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kBandRows = 80;  // solved by one thread at a time
 
-/// What all bands share: the images, the window, and how to weigh.
+/// Shared by all bands: the images, the window, and the weights.
 struct RefinementContext {
   RefinementContext(const GrayImage& left_image, const GrayImage& right_image,
                     const RefinementOptions& refinement)
@@ -38,17 +38,17 @@ struct RefinementContext {
   PlaneLimits limits;
 };
 
-/// A band of rows, solved from top to bottom. Only the rows that a window needs are held, so that
-/// they stay in the cache.
+/// A band of rows, solved from top to bottom. Only the rows
+/// of a window are held, so that they stay in the cache.
 class Band {
  public:
-  /// What a step starts from and gives.
+  /// Input and output of a step.
   struct Step {
     const LightDifference& light;
     const Plane& disparity;
     Plane& next;
-    Plane* sigma;                 // null but in the last step, which is a whole one and is judged
-    Raster<std::uint8_t>& mixed;  // windows that may hold two surfaces; after the first step: do
+    Plane* sigma;                 // null but in the last step, which is complete and gives errors
+    Raster<std::uint8_t>& mixed;  // windows that may contain two surfaces; after the first step: do
     bool first;                   // mixed windows, slow to solve, wait for the next step
   };
 
@@ -80,7 +80,7 @@ class Band {
   int height() const { return 2 * radius_ + 1; }
   int slot(int v) const { return (v + height()) % height(); }
 
-  /// Residual and gradient of every pixel of a row at its present disparity.
+  /// Residual and gradient of every pixel of a row at its current disparity.
   void linearise(int v) {
     const auto pixel = [&](int plane) {
       return sigma_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
@@ -146,7 +146,7 @@ class Band {
 
   bool holdsMixed() const { return first_ && sigma_ == nullptr; }
 
-  /// Lists the mixed windows of a row and, unless they wait, sums the pixels of their own surface.
+  /// Lists the mixed windows of a row and, unless deferred, sums the pixels of their centres.
   void selectWindows(int v, const MomentRow& moments) {
     listNear(v);
     if (near_.empty()) return;
@@ -193,7 +193,7 @@ class Band {
   bool first_;
   std::vector<Plane> pixels_;
   Plane columns_, moments_;
-  std::vector<int> near_;  // columns of a row whose window may reach across a step
+  std::vector<int> near_;  // columns of a row with windows that may reach across a step
 };
 
 /// Margins stay NaN: unmatched.
