@@ -10,24 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/made_run.h"
+#include "support/made_run.h"
 #include "tests/apps/run_softscope.h"
 
 namespace softscope::test {
 
 using Json = nlohmann::json;
 
-inline constexpr int kFrames = 6;
-inline constexpr double kFloats =
-    2e-5;  // floats near 100 mm, and text with 6 digits after the point
-
-class Evaluate : public InFolder {
+class Evaluate : public WallTest {
  protected:
-  void SetUp() override {
-    InFolder::SetUp();
-    makeWallTruth(at("truth"), kFrames, /*with_depth=*/true);
-    makeWallRun(at("run"), kFrames);
-  }
   Outcome evaluate(std::vector<std::string> more = {}) const {
     std::vector<std::string> line{"evaluate", at("run"), "--reference", at("truth")};
     line.insert(line.end(), more.begin(), more.end());

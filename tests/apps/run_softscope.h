@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "core/stereo_rig.h"
-#include "support/folder_test.h"
+#include "support/in_folder.h"
 
 namespace softscope::test {
 
@@ -24,21 +22,5 @@ struct Outcome {
 Outcome run(const std::vector<std::string>& arguments);
 
 std::string executable();
-
-/// All bytes of a file; nothing where there is none.
-std::string textOf(const std::filesystem::path& file);
-
-class InFolder : public FolderTest {
- protected:
-  /// Path of something in the folder.
-  std::string at(const std::string& name) const { return folder / name; }
-  /// A sequence of `frames` pairs, 160 x 120, of a textured slope some 50 mm away.
-  std::string makeSequence(const std::string& name, int frames) const;
-  /// How many files there are, temporary ones included.
-  static int countFiles(const std::string& path);
-};
-
-/// What the sequence's calibration says.
-RectifiedRig sequenceRig();
 
 }  // namespace softscope::test

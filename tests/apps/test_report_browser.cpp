@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "io/images/image_reader.h"
+#include "support/made_case.h"
 #include "tests/apps/evaluate_fixture.h"
-#include "tests/apps/made_case.h"
 
 namespace softscope::test {
 namespace {

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "tests/apps/run_softscope.h"
-#include "toolkit/study/study_case.h"
 
 namespace softscope::test {
 namespace {
@@ -117,24 +116,6 @@ TEST_F(StudyCommand, TheTableLeavesOutWhatWasRunWithOtherSettings) {
   EXPECT_FALSE(result()["cases"][1].contains("run")) << "numbers of other settings";
   EXPECT_EQ(study(toml, {"--table"}).exit_code, 0);
   EXPECT_EQ(result()["cases"][1]["status"], "done");
-}
-
-TEST_F(StudyCommand, TruthThatChangedMakesACaseOutdated) {
-  const std::string toml = small();
-  write("clip/groundtruth/mesh/000000.ply", "one");
-  write("truth/groundtruth/mesh/000000.ply", "one");
-  const std::string with_reference = toml + "[evaluate]\nreference = 'truth'\n";
-  const auto digestNow = [&](const std::string& text) {
-    const Study read = readStudy(write("study.toml", text));
-    return digestOf(read.cases[0]);
-  };
-  const std::string own = digestNow(toml), named = digestNow(with_reference);
-  write("clip/groundtruth/mesh/000000.ply", "two");
-  EXPECT_NE(digestNow(toml), own);
-  const std::string named_later = digestNow(with_reference);
-  write("truth/groundtruth/mesh/000000.ply", "two");
-  EXPECT_NE(digestNow(with_reference), named_later);
-  EXPECT_NE(named, named_later);
 }
 
 TEST_F(StudyCommand, ADamagedRecordIsACaseThatWasNotRun) {

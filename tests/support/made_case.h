@@ -1,4 +1,4 @@
-// tests/apps/made_case.h: an evaluation as `evaluate --out` leaves it, by hand.
+// tests/support/made_case.h: an evaluation as `evaluate --out` leaves it, by hand.
 #pragma once
 
 #include <filesystem>

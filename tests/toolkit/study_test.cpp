@@ -1,10 +1,11 @@
-// tests/apps/test_study_parts.cpp: which cases a study file means, and how records become a table.
+// tests/toolkit/study_test.cpp: cases of a study file; records as a table.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
 
 #include "core/error.h"
-#include "tests/apps/run_softscope.h"
+#include "support/in_folder.h"
+#include "toolkit/study/study_case.h"
 #include "toolkit/study/study_outputs.h"
 #include "toolkit/study/study_settings.h"
 
@@ -97,6 +98,22 @@ TEST_F(StudyFile, SaysWhatIsWrongBeforeAnyWork) {
   EXPECT_THAT(complaintAbout("[reconstruct]\nframes = '9-3'\n"), HasSubstr("reconstruct.frames"));
   EXPECT_THAT(complaintAbout("[evaluate]\nalign = 'ridgid'\n"), HasSubstr("mean `rigid`"));
   EXPECT_THAT(complaintAbout("[evaluate]\nalign = 'icp'\n"), HasSubstr("is for a mesh"));
+}
+
+TEST_F(StudyFile, TruthThatChangedMakesACaseOutdated) {
+  const std::string toml =
+      "sequence = '" + makeSequence("clip", 2) + "'\n[reconstruct]\nsave_every = 0\n";
+  write("clip/groundtruth/mesh/000000.ply", "one");
+  write("truth/groundtruth/mesh/000000.ply", "one");
+  const std::string with_reference = toml + "[evaluate]\nreference = 'truth'\n";
+  const auto digestNow = [&](const std::string& text) { return digestOf(read(text).cases[0]); };
+  const std::string own = digestNow(toml), named = digestNow(with_reference);
+  write("clip/groundtruth/mesh/000000.ply", "two");
+  EXPECT_NE(digestNow(toml), own);
+  const std::string named_later = digestNow(with_reference);
+  write("truth/groundtruth/mesh/000000.ply", "two");
+  EXPECT_NE(digestNow(with_reference), named_later);
+  EXPECT_NE(named, named_later);
 }
 
 /// One sweep of three levels with a mean of 0.1, 0.7 and none.

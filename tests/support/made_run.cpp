@@ -1,5 +1,5 @@
-// tests/apps/made_run.cpp: closed forms, written as files.
-#include "tests/apps/made_run.h"
+// tests/support/made_run.cpp: closed forms, written as files.
+#include "support/made_run.h"
 
 #include <cstdio>
 #include <string>
@@ -9,7 +9,7 @@
 #include "io/geometry/depth_files.h"
 #include "io/geometry/ply_writer.h"
 #include "io/geometry/trajectory_file.h"
-#include "tests/apps/run_softscope.h"
+#include "support/in_folder.h"
 #include "toolkit/simulation/simulate_outputs.h"
 
 namespace softscope::test {

@@ -1,4 +1,4 @@
-// tests/apps/test_export_formats.cpp: what we write, read by readers that aren't ours.
+// tests/toolkit/export_formats_test.cpp: our files, read by readers that aren't ours.
 #include <gtest/gtest.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -21,7 +21,7 @@
 
 #include "core/error.h"
 #include "mesh/mesh_writer.h"
-#include "tests/apps/run_softscope.h"
+#include "support/in_folder.h"
 #include "toolkit/export/export_files.h"
 #include "toolkit/export/export_gltf.h"
 

@@ -1,11 +1,11 @@
-// tests/apps/test_evaluate_parts.cpp: models from bytes, limits from texts.
+// tests/toolkit/evaluation_parts_test.cpp: models from bytes, limits from texts.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.h"
 #include "io/geometry/ply_writer.h"
-#include "tests/apps/made_run.h"
+#include "support/made_run.h"
 #include "toolkit/evaluation/thresholds.h"
 #include "toolkit/run/frame_clock.h"
 #include "toolkit/run/frame_outcomes.h"

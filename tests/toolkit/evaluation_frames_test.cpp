@@ -1,11 +1,10 @@
-// tests/apps/test_evaluate_frames.cpp: which frames of a run its evaluation counts.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
+// tests/toolkit/evaluation_frames_test.cpp: frames of a run that its evaluation counts.
 #include <algorithm>
 
 #include "io/images/image_reader.h"
-#include "tests/apps/evaluate_fixture.h"
+#include "tests/toolkit/evaluation_fixture.h"
+#include "tests/toolkit/made_sequences.h"
+#include "toolkit/report/write_report.h"
 
 namespace softscope::test {
 namespace {
@@ -13,11 +12,20 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+/// The page that a report of the evaluation in this folder makes.
+std::string pageOf(const std::string& evaluation) {
+  ReportOptions options;
+  options.cases = {evaluation};
+  options.html = evaluation + "/page.html";
+  writeReport(options);
+  return textOf(options.html);
+}
+
 /// Of six frames the run loses the fourth to the sixth, and then repeats what it knew.
-class EvaluateLost : public Evaluate {
+class EvaluationLost : public Evaluation {
  protected:
   void SetUp() override {
-    Evaluate::SetUp();
+    Evaluation::SetUp();
     write("run/frames.csv",
           "frame,status,backprojection_mean_mm,coverage,reason\n0,started,0,0.5,\n"
           "1,fused,0.2,0.5,\n2,fused,0.4,0.5,\n3,lost,,0.5,\"no pose, nowhere\"\n"
@@ -25,7 +33,7 @@ class EvaluateLost : public Evaluate {
   }
 };
 
-TEST_F(EvaluateLost, NothingIsCountedFromFramesThatWereNotFused) {
+TEST_F(EvaluationLost, NothingIsCountedFromFramesThatWereNotFused) {
   const Json result = evaluated();
   EXPECT_EQ(result["outcomes"]["frames"], 6);
   EXPECT_EQ(result["outcomes"]["fused"], 3);
@@ -44,60 +52,71 @@ TEST_F(EvaluateLost, NothingIsCountedFromFramesThatWereNotFused) {
   EXPECT_TRUE(result["frames"][3]["mean_mm"].is_null());
 }
 
-TEST_F(EvaluateLost, EveryOutputBeginsWithTheFrames) {
-  const Outcome told = evaluate({"--out", at("out")});
-  ASSERT_EQ(told.exit_code, 0) << told.err;
-  const std::size_t frames = told.out.find("3 of 6 fused, 1 skipped, 2 lost");
-  ASSERT_NE(frames, std::string::npos) << told.out;
-  EXPECT_LT(frames, told.out.find("surface"));
-  EXPECT_THAT(told.out, HasSubstr("###LsL"));
+TEST_F(EvaluationLost, EveryOutputBeginsWithTheFrames) {
+  const std::string told = evaluateInto("out").facts.text();
+  const std::size_t frames = told.find("3 of 6 fused, 1 skipped, 2 lost");
+  ASSERT_NE(frames, std::string::npos) << told;
+  EXPECT_LT(frames, told.find("surface"));
+  EXPECT_THAT(told, HasSubstr("###LsL"));
   EXPECT_THAT(textOf(at("out/frames.csv")), testing::StartsWith("frame,time_s,outcome,"));
   EXPECT_THAT(textOf(at("out/frames.csv")), HasSubstr("\n4,0.16,skipped,"));
   for (const char* name : {"error_series.svg", "error_histogram.svg", "worst_frames.svg"})
     EXPECT_THAT(textOf(at(std::string("out/") + name)), HasSubstr(">3 fused of 6 frames<")) << name;
-  ASSERT_EQ(softscope::test::run({"report", at("out"), "--out", at("page.html")}).exit_code, 0);
-  const std::string page = textOf(at("page.html"));
+  const std::string page = pageOf(at("out"));
   const std::size_t said = page.find("Of 6 frames 3 were fused, 1 skipped, 2 lost.");
   ASSERT_NE(said, std::string::npos);
   EXPECT_LT(said, page.find("The frames over time."));
   EXPECT_LT(page.find("The frames over time."), page.find("Mean distance"));
-  EXPECT_EQ(evaluate({"--fail-if", "lost>30%"}).exit_code, 1);
-  EXPECT_EQ(evaluate({"--fail-if", "lost>40%"}).exit_code, 0);
 }
 
-TEST_F(EvaluateLost, AStatusThatNoFrameCanHaveIsRefused) {
+TEST_F(EvaluationLost, AShareOfTheFramesIsALimit) {
+  EvaluateOptions limited = options();
+  limited.thresholds = limits({"lost>30%", "lost>40%"});
+  const auto outcomes = evaluateRun(limited).outcomes;
+  EXPECT_TRUE(outcomes.at(0).failed);
+  EXPECT_FALSE(outcomes.at(1).failed);
+}
+
+TEST_F(EvaluationLost, AStatusThatNoFrameCanHaveIsRefused) {
   write("run/frames.csv", "frame,status\n0,started\n1,fused\n2,fsued\n3,lost\n4,lost\n5,lost\n");
-  expectRefused({"frames.csv", "line 4", "fsued"}, evaluate());
+  expectRefused({"frames.csv", "line 4", "fsued"});
 }
 
-TEST_F(Evaluate, ARunThatWasStoppedIsCalledSo) {
+TEST_F(Evaluation, ARunThatWasStoppedIsCalledSo) {
   EXPECT_EQ(evaluated()["warnings"].dump().find("was stopped"), std::string::npos);
   write("run/checkpoint.bin", "left by a run that was killed");
   EXPECT_THAT(evaluated()["warnings"].dump(), HasSubstr("was stopped, killed, or is not over: its "
                                                         "last frame is 5"));
 }
 
-TEST_F(Evaluate, AClipWithoutTimestampsHasFramesOnEveryAxis) {
+TEST_F(Evaluation, AClipWithoutTimestampsHasFramesOnEveryAxis) {
   for (const char* file : {"truth/groundtruth/trajectory.txt", "run/trajectory.txt"}) {
     std::string lines;
     for (int k = 0; k < kFrames; ++k) lines += std::to_string(k) + " 0 0 0 0 0 0 1\n";
     write(file, lines);
   }
-  const Outcome outcome = evaluate({"--out", at("out"), "--json"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_TRUE(outcome.json()["surface"]["drift_mm_per_s"].is_null());
-  EXPECT_FALSE(outcome.json()["surface"]["drift_mm_per_frame"].is_null());
-  EXPECT_TRUE(outcome.json()["frames"][2]["time_s"].is_null());
+  const Json result = written(evaluateInto("out").record);
+  EXPECT_TRUE(result["surface"]["drift_mm_per_s"].is_null());
+  EXPECT_FALSE(result["surface"]["drift_mm_per_frame"].is_null());
+  EXPECT_TRUE(result["frames"][2]["time_s"].is_null());
   EXPECT_THAT(textOf(at("out/error_series.svg")), HasSubstr(">frame<"));
   EXPECT_THAT(textOf(at("out/error_series.svg")), testing::Not(HasSubstr("time [s]")));
-  ASSERT_EQ(softscope::test::run({"report", at("out"), "--out", at("page.html")}).exit_code, 0);
-  EXPECT_THAT(textOf(at("page.html")), testing::Not(HasSubstr("time [s]")));
-  EXPECT_THAT(textOf(at("page.html")), testing::Not(HasSubstr("mm/s")));
+  const std::string page = pageOf(at("out"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("time [s]")));
+  EXPECT_THAT(page, testing::Not(HasSubstr("mm/s")));
 }
 
-class EvaluateWithoutTruth : public InFolder {};
+class EvaluationWithoutTruth : public InFolder {
+ protected:
+  static EvaluateOptions optionsOf(const std::string& run, const std::string& sequence) {
+    EvaluateOptions options;
+    options.run = run;
+    options.reference = sequence;
+    return options;
+  }
+};
 
-TEST_F(EvaluateWithoutTruth, ALostFramesStepIsNone) {
+TEST_F(EvaluationWithoutTruth, ALostFramesStepIsNone) {
   const std::string clip = makeSequence("clip", 6);
   makeWallRun(at("run"), 6);
   fs::remove_all(at("run/models"));
@@ -105,10 +124,7 @@ TEST_F(EvaluateWithoutTruth, ALostFramesStepIsNone) {
   for (int k = 1; k < 6; ++k)
     table += std::to_string(k) + (k < 3 ? ",fused,0.2,0.6\n" : ",lost,,0.1\n");
   write("run/frames.csv", table);
-  const Outcome outcome =
-      softscope::test::run({"evaluate", at("run"), "--reference", clip, "--json", "--quiet"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json record = outcome.json();
+  const Json record = written(evaluateRun(optionsOf(at("run"), clip)).record);
   EXPECT_EQ(record["camera"]["step"]["n"], 2);
   EXPECT_EQ(record["camera"]["poses"], 3);
   EXPECT_EQ(record["backprojection"]["n"], 2);
@@ -116,25 +132,18 @@ TEST_F(EvaluateWithoutTruth, ALostFramesStepIsNone) {
   EXPECT_TRUE(record["frames"][4]["step_mm"].is_null());
 }
 
-TEST_F(EvaluateWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
-  const std::string clip = makeSequence("clip", 4);
-  ASSERT_EQ(softscope::test::run({"reconstruct", clip, "--out", at("run"), "--save-every", "1",
-                                  "--set", "stereo.disparity_max_px=63", "--quiet"})
-                .exit_code,
-            0);
-  const std::vector<std::string> line{"evaluate", at("run"), "--reference", clip,
-                                      "--out",    at("out"), "--force",     "--quiet"};
-  std::vector<std::string> as_json = line;
-  as_json.emplace_back("--json");
-  const Outcome outcome = softscope::test::run(as_json);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json record = outcome.json();
+TEST_F(EvaluationWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
+  const SlopeRun& made = slopeRun();
+  const EvaluateOptions options = optionsOf(made.run, made.sequence);
+  const RunEvaluation evaluation = evaluateRun(options);
+  EvaluateOutputs(at("out"), false).write(evaluation);
+  const Json record = written(evaluation.record);
   EXPECT_EQ(record["comparison"]["reference_kind"], "pictures");
   EXPECT_EQ(record["view"]["models_judged"], 4);
   EXPECT_GT(record["view"]["psnr_db"], 20) << "the model was coloured by these pictures";
   EXPECT_GT(record["view"]["ssim"], 0.5);
   EXPECT_LT(record["backprojection"]["mean_mm"], 0.5);
-  const Json run = Json::parse(textOf(at("run/run.json")));
+  const Json run = Json::parse(textOf(made.run + "/run.json"));
   EXPECT_NEAR(record["backprojection"]["mean_mm"], run["mean_backprojection_mm"], 1e-4)
       << "frames.csv has four digits";
   EXPECT_EQ(record["outcomes"], run["outcomes"]);
@@ -160,27 +169,34 @@ TEST_F(EvaluateWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
     EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(letter));
   EXPECT_THAT(textOf(at("out/quality_series.svg")), HasSubstr(">frame<"))
       << "the clip has no clock";
-  const Outcome told = softscope::test::run(line);
-  EXPECT_THAT(told.out, HasSubstr("no ground truth"));
-  const std::size_t frames = told.out.find("4 of 4 fused, 0 skipped, 0 lost");
-  ASSERT_NE(frames, std::string::npos) << told.out;
-  EXPECT_LT(frames, told.out.find("PSNR"));
-  EXPECT_THAT(told.out, HasSubstr("####  # fused"));
-  EXPECT_THAT(told.out, HasSubstr("groundtruth/tracks.csv"));
-  std::vector<std::string> limited = line;
-  limited.insert(limited.end(), {"--fail-if", "psnr_db<99"});
-  EXPECT_EQ(softscope::test::run(limited).exit_code, 1);
-  limited.back() = "p95_mm>1 mm";
-  EXPECT_EQ(softscope::test::run(limited).exit_code, 2);
-  const Outcome report = softscope::test::run(
-      {"report", at("out"), "--out", at("page.html"), "--json", "--fail-if", "psnr_db<20"});
-  ASSERT_EQ(report.exit_code, 0) << report.err;
-  EXPECT_EQ(report.json()["cases"][0]["record"]["view"], record["view"]);
+  const std::string told = evaluation.facts.text();
+  EXPECT_THAT(told, HasSubstr("no ground truth"));
+  const std::size_t frames = told.find("4 of 4 fused, 0 skipped, 0 lost");
+  ASSERT_NE(frames, std::string::npos) << told;
+  EXPECT_LT(frames, told.find("PSNR"));
+  EXPECT_THAT(told, HasSubstr("####  # fused"));
+  EXPECT_THAT(told, HasSubstr("groundtruth/tracks.csv"));
+  ReportOptions report;
+  report.cases = {at("out")};
+  report.html = at("page.html");
+  report.thresholds = limits({"psnr_db<20"});
+  const ReportDocument document = writeReport(report);
+  EXPECT_FALSE(document.outcomes.at(0).failed);
+  EXPECT_EQ(written(document.metrics)["cases"][0]["record"]["view"], record["view"]);
   const std::string page = textOf(at("page.html"));
   for (const char* part :
        {"There is no ground truth", ">PSNR [dB]<", "s step [mm]", "Of 4 frames 4 were fused",
         "4 fused of 4 frames", "drawn into that frame, minus the"})
     EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST_F(EvaluationWithoutTruth, LimitsAreOfWhatNeedsNone) {
+  EvaluateOptions limited = optionsOf(slopeRun().run, slopeRun().sequence);
+  limited.thresholds = limits({"psnr_db<99"});
+  EXPECT_TRUE(evaluateRun(limited).outcomes.at(0).failed);
+  limited.thresholds = limits({"p95_mm>1"});
+  expectError<OptionError>([&] { evaluateRun(limited); }, {"p95_mm"});
+  EXPECT_THROW(limits({"p95_mm>1 mm"}), OptionError);
 }
 
 }  // namespace

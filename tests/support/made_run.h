@@ -1,10 +1,11 @@
-// tests/apps/made_run.h: a moving wall, and a run that is off from it by known lengths.
+// tests/support/made_run.h: a moving wall, and a run that is off from it by known lengths.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <filesystem>
 
 #include "core/point_cloud.h"
+#include "support/in_folder.h"
 
 namespace softscope::test {
 
@@ -23,5 +24,19 @@ Eigen::Isometry3d runWallPose(int frame, int first = 0);
 
 /// What makeWallRun writes of one frame, in the run's world.
 PointCloud wallModel(int frame, int first = 0);
+
+inline constexpr int kFrames = 6;
+inline constexpr double kFloats =
+    2e-5;  // floats near 100 mm, and text with 6 digits after the point
+
+/// Both of them, of kFrames frames with true depths, in the folders `truth` and `run`.
+class WallTest : public InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    makeWallTruth(at("truth"), kFrames, /*with_depth=*/true);
+    makeWallRun(at("run"), kFrames);
+  }
+};
 
 }  // namespace softscope::test

@@ -1,5 +1,5 @@
-// tests/apps/made_case.cpp: numbers that follow from one.
-#include "tests/apps/made_case.h"
+// tests/support/made_case.cpp: numbers that follow from one.
+#include "support/made_case.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>

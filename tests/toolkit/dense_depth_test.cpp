@@ -1,12 +1,13 @@
-// tests/apps/test_dense_depth.cpp: `softscope depth --dense` from files to files.
+// tests/toolkit/dense_depth_test.cpp: depth of every pixel, measured or filled.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "io/geometry/depth_files.h"
-#include "support/data_folder.h"
+#include "support/in_folder.h"
 #include "support/scene.h"
-#include "tests/apps/run_softscope.h"
+#include "tests/toolkit/made_sequences.h"
+#include "tests/toolkit/records.h"
 
 namespace softscope::test {
 namespace {
@@ -18,7 +19,9 @@ class DenseDepthFiles : public InFolder {};
 // A third of the picture has no partner or no texture: there, too, lies the slope.
 TEST_F(DenseDepthFiles, GiveEveryPixelAValueAndAStandardError) {
   const std::string sequence = makeSequence("s", 1);
-  const auto json = run({"depth", sequence, "--out", at("out"), "--dense", "--json"}).json();
+  MeasureOptions options = measurement(sequence, at("out"));
+  options.dense = true;
+  const Json json = written(measureSequence(options).record);
   const Raster<float> depth_mm = readDepth(at("out/000000_depth.pfm"));
   const Raster<float> dense_mm = readDepth(at("out/000000_dense.pfm"));
   const Raster<float> sigma_mm = readDepth(at("out/000000_dense_sigma.pfm"));

@@ -1,4 +1,4 @@
-// tests/apps/test_evaluate_maps.cpp: `softscope evaluate` of disparity and depth maps.
+// tests/toolkit/evaluation_maps_test.cpp: disparity and depth maps against true ones.
 #include <cmath>
 #include <fstream>
 
@@ -6,7 +6,7 @@
 #include "io/geometry/depth_files.h"
 #include "io/images/image_reader.h"
 #include "io/images/image_writer.h"
-#include "tests/apps/evaluate_fixture.h"
+#include "tests/toolkit/evaluation_fixture.h"
 
 namespace softscope::test {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class EvaluateMaps : public InFolder {
+class EvaluationOfMaps : public InFolder {
  protected:
   /// The truth is 20 px; the measured map is 1.5 px too high in its left half, 0.25 px elsewhere,
   /// and lacks its two lowest rows.
@@ -32,30 +32,44 @@ class EvaluateMaps : public InFolder {
       writePfm(at(std::string("truth/") + number + ".pfm"), truth);
     }
   }
-  Outcome evaluate(std::vector<std::string> more) const {
-    more.insert(more.begin(), "evaluate");
-    return softscope::test::run(more);
+  static EvaluateOptions optionsOf(const std::string& measured, const std::string& reference) {
+    EvaluateOptions options;
+    options.run = measured;
+    options.reference = reference;
+    return options;
+  }
+  /// The first of the maps.
+  EvaluateOptions first() const {
+    return optionsOf(at("maps/000000_disparity.pfm"), at("truth/000000.pfm"));
+  }
+  static Json evaluated(const EvaluateOptions& options) {
+    return written(evaluateRun(options).record);
+  }
+  /// Writes the files of the evaluation.
+  Json evaluateInto(const std::string& out, const EvaluateOptions& options) const {
+    const EvaluateOutputs outputs(at(out), /*overwrite=*/true);
+    const RunEvaluation evaluation = evaluateRun(options);
+    outputs.write(evaluation);
+    return written(evaluation.record);
   }
 };
 
-TEST_F(EvaluateMaps, ADisparityMapHasItsErrorsCoverageAndBadPixels) {
-  const Outcome outcome =
-      evaluate({at("maps/000000_disparity.pfm"), "--reference", at("truth/000000.pfm"), "--json"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json disparity = outcome.json()["disparity"];
+TEST_F(EvaluationOfMaps, ADisparityMapHasItsErrorsCoverageAndBadPixels) {
+  const Json record = evaluated(first());
+  const Json& disparity = record["disparity"];
   EXPECT_NEAR(disparity["epe_px"], 0.875, 1e-6);
   EXPECT_NEAR(disparity["bad_1px_percent"], 50, 1e-6);
   EXPECT_NEAR(disparity["bad_2px_percent"], 0, 1e-6);
   EXPECT_NEAR(disparity["coverage_percent"], 90, 1e-6) << "two of twenty rows lack";
-  EXPECT_TRUE(outcome.json()["depth"]["mae_mm"].is_null()) << "mm take a calibration";
+  EXPECT_TRUE(record["depth"]["mae_mm"].is_null()) << "mm take a calibration";
 }
 
-TEST_F(EvaluateMaps, TheErrorsOfTheWorstMapAreDrawnPixelByPixel) {
+TEST_F(EvaluationOfMaps, TheErrorsOfTheWorstMapAreDrawnPixelByPixel) {
   // The second map is 1 px worse: it is the one that is drawn.
   Raster<float> worse = readDisparity(at("maps/000005_disparity.pfm"));
   for (float& value : worse.values) value += 1;
   writePfm(at("maps/000005_disparity.pfm"), worse, true);
-  ASSERT_EQ(evaluate({at("maps"), "--reference", at("truth"), "--out", at("out")}).exit_code, 0);
+  evaluateInto("out", optionsOf(at("maps"), at("truth")));
   const std::string svg = textOf(at("out/error_map.svg"));
   EXPECT_THAT(svg, HasSubstr("000005_disparity.pfm: mean error 1.88 px, the largest of 2 maps"));
   EXPECT_THAT(svg, HasSubstr("error of disparity [px]"));
@@ -69,51 +83,46 @@ TEST_F(EvaluateMaps, TheErrorsOfTheWorstMapAreDrawnPixelByPixel) {
   EXPECT_LT(right.red, 90) << "its middle";
   EXPECT_GT(right.green, 110);
   EXPECT_TRUE(fs::exists(at("out/error_map.pdf")));
-  ASSERT_EQ(evaluate({at("out/../maps/000000_disparity.pfm"), "--reference", at("truth/000000.pfm"),
-                      "--out", at("out"), "--force"})
-                .exit_code,
-            0);
+  evaluateInto("out", optionsOf(at("out/../maps/000000_disparity.pfm"), at("truth/000000.pfm")));
   EXPECT_THAT(textOf(at("out/error_map.svg")), HasSubstr("000000_disparity.pfm: mean error 0.88"));
 }
 
-TEST_F(EvaluateMaps, WithACalibrationErrorsAreInMillimetresToo) {
+TEST_F(EvaluationOfMaps, WithACalibrationErrorsAreInMillimetresToo) {
   makeWallTruth(at("clip"), 1, false);
   const RectifiedRig rig = sequenceRig();
   const double product = rig.left.fx_px * rig.baseline_mm;
-  const Outcome outcome = evaluate({at("maps"), "--reference", at("truth"), "--calibration",
-                                    at("clip/calibration.yaml"), "--json", "--out", at("out")});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.json()["maps_judged"], 2);
+  EvaluateOptions calibrated = optionsOf(at("maps"), at("truth"));
+  calibrated.calibration = at("clip/calibration.yaml");
+  const Json record = evaluateInto("out", calibrated);
+  EXPECT_EQ(record["maps_judged"], 2);
   const double left_mm = product / 20 - product / 21.5, right_mm = product / 20 - product / 20.25;
-  EXPECT_NEAR(outcome.json()["depth"]["mae_mm"], (left_mm + right_mm) / 2, 1e-4);
-  EXPECT_NEAR(outcome.json()["depth"]["bias_mm"], -(left_mm + right_mm) / 2, 1e-4) << "too near";
-  EXPECT_EQ(Json::parse(textOf(at("out/evaluation.json"))), outcome.json());
+  EXPECT_NEAR(record["depth"]["mae_mm"], (left_mm + right_mm) / 2, 1e-4);
+  EXPECT_NEAR(record["depth"]["bias_mm"], -(left_mm + right_mm) / 2, 1e-4) << "too near";
+  EXPECT_EQ(Json::parse(textOf(at("out/evaluation.json"))), record);
   EXPECT_THAT(textOf(at("out/maps.csv")), testing::StartsWith("map,epe_px,"));
 }
 
-TEST_F(EvaluateMaps, ConfidenceIsHeldAgainstTheErrors) {
+TEST_F(EvaluationOfMaps, ConfidenceIsHeldAgainstTheErrors) {
   GrayImage confidence(40, 20, 230);  // a sigma of 0.30 px
   for (int v = 0; v < 20; ++v)
     for (int u = 0; u < 20; ++u) confidence.at(u, v) = 40;  // of 2.5 px
   writePng(at("confidence.png"), confidence);
-  const Outcome outcome =
-      evaluate({at("maps/000000_disparity.pfm"), "--reference", at("truth/000000.pfm"),
-                "--confidence", at("confidence.png"), "--json"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.json()["sigma"]["within_95_share"], 1);
-  EXPECT_NEAR(outcome.json()["sigma"]["half_left"], 0.25, 1e-6) << "the unsure half is the bad one";
-  EXPECT_NEAR(outcome.json()["sigma"]["ause"], 0, 1e-6);
-  const Outcome told = evaluate({at("maps/000000_disparity.pfm"), "--reference",
-                                 at("truth/000000.pfm"), "--confidence", at("confidence.png")});
-  EXPECT_THAT(told.out, HasSubstr("50, 68 and 95 % intervals"));
+  EvaluateOptions options = first();
+  options.confidence = at("confidence.png");
+  const RunEvaluation evaluation = evaluateRun(options);
+  const Json sigma = written(evaluation.record)["sigma"];
+  EXPECT_EQ(sigma["within_95_share"], 1);
+  EXPECT_NEAR(sigma["half_left"], 0.25, 1e-6) << "the unsure half is the bad one";
+  EXPECT_NEAR(sigma["ause"], 0, 1e-6);
+  EXPECT_THAT(evaluation.facts.text(), HasSubstr("50, 68 and 95 % intervals"));
 }
 
-TEST_F(EvaluateMaps, ADepthMapIsNotTakenForADisparityMap) {
+TEST_F(EvaluationOfMaps, ADepthMapIsNotTakenForADisparityMap) {
   const std::string map = at("maps/000000_disparity.pfm");
   const auto refused = [&](const std::string& truth, const char* part) {
-    const Outcome outcome = evaluate({map, "--reference", truth, "--map", "disparity"});
-    EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
-    EXPECT_THAT(outcome.err, HasSubstr(part));
+    EvaluateOptions options = optionsOf(map, truth);
+    options.map_kind = "disparity";
+    expectError<InputError>([&] { evaluateRun(options); }, {part});
   };
   // By its name, or that of its folder.
   writeDepthPng(at("000000_depth.png"), Raster<float>(40, 20, 50.0f));
@@ -133,33 +142,33 @@ TEST_F(EvaluateMaps, ADepthMapIsNotTakenForADisparityMap) {
   }
   writePfm(at("slope_disparity.pfm"), disparity);
   writeDepthPng(at("slope.png"), depth);
-  const Outcome doubted =
-      evaluate({at("slope_disparity.pfm"), "--reference", at("slope.png"), "--json"});
-  ASSERT_EQ(doubted.exit_code, 0) << doubted.err;
-  EXPECT_THAT(doubted.json()["warnings"].dump(),
+  const Json doubted = evaluated(optionsOf(at("slope_disparity.pfm"), at("slope.png")));
+  EXPECT_THAT(doubted["warnings"].dump(),
               HasSubstr("its values fall where the true ones rise (correlation -0.9"));
   writeDisparityPng(at("same.png"), disparity);
-  const Outcome same =
-      evaluate({at("slope_disparity.pfm"), "--reference", at("same.png"), "--json"});
-  EXPECT_EQ(same.json()["warnings"].size(), 0u) << same.err;
-  EXPECT_EQ(same.json()["comparison"]["measured_values"], "px");
-  EXPECT_EQ(same.json()["comparison"]["reference_values"], "16 bits, 256 steps per px");
+  const Json same = evaluated(optionsOf(at("slope_disparity.pfm"), at("same.png")));
+  EXPECT_EQ(same["warnings"].size(), 0u) << same["warnings"];
+  EXPECT_EQ(same["comparison"]["measured_values"], "px");
+  EXPECT_EQ(same["comparison"]["reference_values"], "16 bits, 256 steps per px");
 }
 
-TEST_F(EvaluateMaps, LimitsAndMistakesAreTold) {
-  const std::string map = at("maps/000000_disparity.pfm"), truth = at("truth/000000.pfm");
-  EXPECT_EQ(evaluate({map, "--reference", truth, "--fail-if", "epe_px>0.5"}).exit_code, 1);
-  EXPECT_EQ(evaluate({map, "--reference", truth, "--fail-if", "epe>0.5"}).exit_code, 2);
-  EXPECT_EQ(evaluate({map, "--reference", truth, "--align", "icp"}).exit_code, 2);
-  fs::copy_file(map, at("map.pfm"));
-  const Outcome unnamed = evaluate({at("map.pfm"), "--reference", truth});
-  EXPECT_EQ(unnamed.exit_code, 2);
-  EXPECT_THAT(unnamed.err, HasSubstr("--map"));
-  EXPECT_EQ(evaluate({at("map.pfm"), "--reference", truth, "--map", "disparity"}).exit_code, 0);
+TEST_F(EvaluationOfMaps, LimitsAndMistakesAreTold) {
+  EvaluateOptions options = first();
+  options.thresholds = limits({"epe_px>0.5"});
+  EXPECT_TRUE(evaluateRun(options).outcomes.at(0).failed);
+  options.thresholds = limits({"epe>0.5"});
+  expectError<OptionError>([&] { evaluateRun(options); }, {"epe"});
+  options = first();
+  options.alignment = MeshAlignment::kIcp;
+  expectError<OptionError>([&] { evaluateRun(options); }, {"`align=`"});
+  fs::copy_file(at("maps/000000_disparity.pfm"), at("map.pfm"));
+  options = optionsOf(at("map.pfm"), at("truth/000000.pfm"));
+  expectError<OptionError>([&] { evaluateRun(options); }, {"`map_kind=`"});
+  options.map_kind = "disparity";
+  EXPECT_NEAR(evaluated(options)["disparity"]["epe_px"], 0.875, 1e-6);
   fs::remove(at("truth/000005.pfm"));
-  const Outcome lonely = evaluate({at("maps"), "--reference", at("truth")});
-  EXPECT_EQ(lonely.exit_code, 3);
-  EXPECT_THAT(lonely.err, HasSubstr("000005_disparity.pfm: has no partner"));
+  expectError<InputError>([&] { evaluateRun(optionsOf(at("maps"), at("truth"))); },
+                          {"000005_disparity.pfm: has no partner"});
 }
 
 }  // namespace
