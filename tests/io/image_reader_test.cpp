@@ -84,6 +84,19 @@ TEST(ImageReader, DamageInAPngIsFound) {
                           {"x.png", "damaged", "check sum"});
 }
 
+TEST(ImageReader, JpegsAreDecodedAsOpenCvDoes) {
+  cv::Mat gray;
+  cv::cvtColor(bgrTexture(), gray, cv::COLOR_BGR2GRAY);
+  for (const cv::Mat& image : {bgrTexture(), bgrTexture(64, 48), bgrTexture(1, 1), gray})
+    for (const int progressive : {0, 1}) {
+      const std::string jpeg =
+          encodeImage(".jpg", image, {cv::IMWRITE_JPEG_PROGRESSIVE, progressive});
+      const cv::Mat raw(1, static_cast<int>(jpeg.size()), CV_8U, const_cast<char*>(jpeg.data()));
+      EXPECT_EQ(parseColourImage(jpeg, "x").values,
+                colourFromBgr(cv::imdecode(raw, cv::IMREAD_COLOR)).values);
+    }
+}
+
 // libjpeg only warns, and gives a picture that is grey or shifted from the damage on.
 TEST(ImageReader, DamageInAJpegIsFoundWhereItsCodesBreak) {
   const std::string jpeg = encodeImage(".jpg", bgrTexture(320, 240));

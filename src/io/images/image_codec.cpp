@@ -24,7 +24,13 @@ cv::Mat decodeOrEmpty(std::string_view bytes, int flags) {
 
 cv::Mat decodeImage(std::string_view bytes, const std::string& name, int flags) {
   const ImageHeader header = inspectImage(bytes, name);
-  if (header.form == ImageForm::kJpeg) requireSoundJpeg(bytes, name);
+  if (header.form == ImageForm::kJpeg) {
+    cv::Mat bgr;
+    if (flags == cv::IMREAD_COLOR) bgr.create(header.height_px, header.width_px, CV_8UC3);
+    if (!bgr.empty() && decodeSoundJpeg(bytes, name, header.width_px, header.height_px, bgr.data))
+      return bgr;
+    requireSoundJpeg(bytes, name);
+  }
   cv::Mat image = decodeOrEmpty(bytes, flags);
   if (image.cols != header.width_px || image.rows != header.height_px)
     throw InputError(name +

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <csetjmp>
+#include <cstddef>
 
 #include "core/error.h"
 
@@ -38,8 +39,10 @@ void listen(j_common_ptr jpeg, int level) {
 
 void staySilent(j_common_ptr) {}
 
-/// No object here has a destructor that longjmp would skip.
-void readCodes(std::string_view bytes, Listener& listener) {
+/// No object here has a destructor that longjmp would skip. use(jpeg) works on the header that was
+/// read.
+template <class Use>
+void readJpeg(std::string_view bytes, Listener& listener, const Use& use) {
   jpeg_decompress_struct jpeg;
   jpeg.err = jpeg_std_error(&listener.manager);
   listener.manager.error_exit = fail;
@@ -50,20 +53,53 @@ void readCodes(std::string_view bytes, Listener& listener) {
     jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()),
                  static_cast<unsigned long>(bytes.size()));
     jpeg_read_header(&jpeg, TRUE);
-    jpeg_read_coefficients(&jpeg);
-    jpeg_finish_decompress(&jpeg);
+    use(jpeg);
   }
   jpeg_destroy_decompress(&jpeg);
+}
+
+void requireNoComplaint(const Listener& listener, const std::string& name) {
+  if (listener.complaint[0] != '\0')
+    throw InputError(name + ": the image is damaged inside (" + listener.complaint.data() +
+                     "); copy or export it again.");
+}
+
+bool isUsual(const jpeg_decompress_struct& jpeg, int width_px, int height_px) {
+  return (jpeg.jpeg_color_space == JCS_GRAYSCALE || jpeg.jpeg_color_space == JCS_YCbCr) &&
+         jpeg.image_width == static_cast<unsigned>(width_px) &&
+         jpeg.image_height == static_cast<unsigned>(height_px);
 }
 
 }  // namespace
 
 void requireSoundJpeg(std::string_view bytes, const std::string& name) {
   Listener listener;
-  readCodes(bytes, listener);
-  if (listener.complaint[0] != '\0')
-    throw InputError(name + ": the image is damaged inside (" + listener.complaint.data() +
-                     "); copy or export it again.");
+  readJpeg(bytes, listener, [](jpeg_decompress_struct& jpeg) {
+    jpeg_read_coefficients(&jpeg);
+    jpeg_finish_decompress(&jpeg);
+  });
+  requireNoComplaint(listener, name);
+}
+
+bool decodeSoundJpeg(std::string_view bytes, const std::string& name, int width_px, int height_px,
+                     unsigned char* bgr) {
+  Listener listener;
+  bool decoded = false;
+  readJpeg(bytes, listener, [&](jpeg_decompress_struct& jpeg) {
+    if (!isUsual(jpeg, width_px, height_px)) return;
+    jpeg.out_color_space = JCS_EXT_BGR;
+    jpeg_start_decompress(&jpeg);
+    const std::size_t stride = 3 * static_cast<std::size_t>(width_px);
+    while (jpeg.output_scanline < jpeg.output_height) {
+      JSAMPROW row = bgr + stride * jpeg.output_scanline;
+      jpeg_read_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_decompress(&jpeg);
+    decoded = true;
+  });
+  if (!decoded && listener.complaint[0] == '\0') return false;
+  requireNoComplaint(listener, name);
+  return true;
 }
 
 }  // namespace softscope
