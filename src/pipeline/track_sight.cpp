@@ -21,12 +21,15 @@ Eigen::Vector2d pixelOf(const PinholeCamera& left, const Eigen::Vector3d& point_
 }
 
 /// Variance of the depth at a pixel that uses the surface of a neighbour.
-double depthVarianceMm2(const Raster<float>& sigma_mm, const Eigen::Vector2d& pixel,
-                        const NearestDepth& surface, double focal_px) {
-  if (sigma_mm.empty()) return std::numeric_limits<double>::quiet_NaN();
+double depthVarianceMm2(const DepthMap& depth, const Raster<float>& relief_px,
+                        const Eigen::Vector2d& pixel, const NearestDepth& surface,
+                        const RectifiedRig& rig) {
+  if (depth.sigma_mm.empty()) return std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector2d at = (pixel + surface.away_px).array().round();
-  const double sigma = sigma_mm.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
-  const double slack_mm = surface.slackMm(focal_px);
+  const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
+  const double sigma =
+      sigmaWithRelief(rig, depth.sigma_mm.at(u, v), depth.depth_mm.at(u, v), relief_px.at(u, v));
+  const double slack_mm = surface.slackMm(rig.left.fx_px);
   return sigma * sigma + slack_mm * slack_mm;
 }
 
@@ -55,17 +58,18 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
                                                    const Eigen::Isometry3d& world_from_left) const {
   std::vector<TrackedPosition> positions;
   if (tracked.points.empty()) return positions;
-  DepthMap depth = frame_.measured.depth;  // stages weight it by its noise only
-  addReliefError(rig_, nullptr, &depth);
+  const DepthMap& depth = frame_.measured.depth;  // stages weight it by its noise only
+  const Raster<float> relief_px =
+      depth.sigma_mm.empty() ? Raster<float>() : reliefErrorPx(depth.depth_mm, rig_);
   for (const MaterialPoints::Point& point : tracked.points) {
     const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
     const NearestDepth surface = surfaceAt(centre, gapPx(depth.depth_mm.width_px));
     TrackedPosition position{point.id, point.position_mm,
                              surface.found() && shows(centre, surface)};
     if (position.visible)
-      position.sigma_mm = std::sqrt(
-          2 * point.variance_mm2 +
-          depthVarianceMm2(depth.sigma_mm, pixelOf(rig_.left, centre), surface, rig_.left.fx_px));
+      position.sigma_mm =
+          std::sqrt(2 * point.variance_mm2 +
+                    depthVarianceMm2(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_));
     positions.push_back(position);
   }
   return positions;
