@@ -3,6 +3,7 @@
 #include "features/kernels.h"
 
 #include "features/lanes.h"
+#include "features/match_formulas.h"
 #include "features/surf_formulas.h"
 #include "features/view_formulas.h"
 
@@ -241,6 +242,35 @@ int leastElsewhere(const WindowDistances& distances, int rows, const NearestNode
   return smallest;
 }
 
+// --- consistency ------------------------------------------------------------------------------
+
+inline Float8 squareRoot(Float8 x) {
+  for (int k = 0; k < 8; ++k) x[k] = __builtin_sqrtf(x[k]);
+  return x;
+}
+
+NeighbourCounts countNeighbours(const MatchPlaces& places, int count, const MatchPlaces& own,
+                                const ConsistencyRules& rules) {
+  Int8 others{}, agreeing{};
+  const Float8 last = Float8{} + static_cast<float>(count);
+  for (int i = 0; i < count; i += 8) {
+    const Float8 u = load<Float8>(places.model_u + i) - *own.model_u,
+                 v = load<Float8>(places.model_v + i) - *own.model_v;
+    const Int8 near =
+        areNeighbours<Float8>(u, v, rules) & (kCounting + static_cast<float>(i) < last);
+    others -= near;
+    agreeing -= near & movedAlike<Float8>(squareRoot(u * u + v * v), u, v,
+                                          load<Float8>(places.live_u + i) - *own.live_u,
+                                          load<Float8>(places.live_v + i) - *own.live_v, rules);
+  }
+  NeighbourCounts counts{0, 0};
+  for (int k = 0; k < 8; ++k) {
+    counts.others += others[k];
+    counts.agreeing += agreeing[k];
+  }
+  return counts;
+}
+
 }  // namespace
 
 extern const WindowKernels SOFTSCOPE_NAME(windowKernels, SOFTSCOPE_SIMD_SET);
@@ -254,6 +284,7 @@ const FeatureKernels SOFTSCOPE_NAME(featureKernels, SOFTSCOPE_SIMD_SET) = {
     descriptorDistances,
     searchWindow,
     leastElsewhere,
+    countNeighbours,
     &SOFTSCOPE_NAME(windowKernels, SOFTSCOPE_SIMD_SET)};
 
 }  // namespace softscope

@@ -68,6 +68,16 @@ struct NearestNode {
   int distance, column, row;
 };
 
+struct ConsistencyRules;
+/// Places of matches: on the model and in the live image, px.
+struct MatchPlaces {
+  const float *model_u, *model_v, *live_u, *live_v;
+};
+/// How many matches are neighbours of one, and how many of those moved alike.
+struct NeighbourCounts {
+  int others, agreeing;
+};
+
 struct FeatureKernels {
   const char* instruction_set;
   /// Nearest surface of every pixel.
@@ -94,6 +104,9 @@ struct FeatureKernels {
   /// Least distance of nodes more than `reach` columns or rows away from `node`.
   int (*leastElsewhere)(const WindowDistances& distances, int rows, const NearestNode& node,
                         int reach);
+  /// Of match `own` among the `count` first of `places`; itself counts too where it is one of them.
+  NeighbourCounts (*countNeighbours)(const MatchPlaces& places, int count, const MatchPlaces& own,
+                                     const ConsistencyRules& rules);
   const WindowKernels* windows;
 };
 

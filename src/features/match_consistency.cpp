@@ -1,15 +1,17 @@
 #include "features/match_consistency.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include "core/parallel.h"
+#include "features/kernels.h"
 #include "features/match_formulas.h"
 
 namespace softscope {
 namespace {
 
-/// Indices of the matches in squares of the model image.
+/// Places of the matches by squares of the model image, so that those of neighbouring squares of a
+/// row follow each other.
 class MatchSquares {
  public:
   MatchSquares(const std::vector<PixelMatch>& matches, float side_px) : side_px_(side_px) {
@@ -17,18 +19,38 @@ class MatchSquares {
       columns_ = std::max(columns_, column(match) + 1);
       rows_ = std::max(rows_, row(match) + 1);
     }
-    members_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-    for (std::size_t i = 0; i < matches.size(); ++i)
-      members_[at(column(matches[i]), row(matches[i]))].push_back(i);
+    first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+    for (const PixelMatch& match : matches) ++first_[at(column(match), row(match)) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    constexpr std::size_t kRegister = 8;  // is read beyond the last
+    for (std::vector<float>* places : {&model_u_, &model_v_, &live_u_, &live_v_})
+      places->assign(matches.size() + kRegister, 0);
+    std::vector<std::size_t> next = first_;
+    for (const PixelMatch& match : matches) {
+      const std::size_t place = next[at(column(match), row(match))]++;
+      model_u_[place] = match.model_px.x();
+      model_v_[place] = match.model_px.y();
+      live_u_[place] = match.live_px.x();
+      live_v_[place] = match.live_px.y();
+    }
   }
 
-  /// Calls visit(i) for every match in the nine surrounding squares.
-  template <class Visit>
-  void around(const PixelMatch& match, const Visit& visit) const {
-    for (int r = std::max(row(match) - 1, 0); r <= std::min(row(match) + 1, rows_ - 1); ++r)
-      for (int c = std::max(column(match) - 1, 0); c <= std::min(column(match) + 1, columns_ - 1);
-           ++c)
-        for (const std::size_t i : members_[at(c, r)]) visit(i);
+  /// Of a match, itself left out.
+  NeighbourCounts countAround(const PixelMatch& match, const ConsistencyRules& rules) const {
+    const float place[4] = {match.model_px.x(), match.model_px.y(), match.live_px.x(),
+                            match.live_px.y()};
+    NeighbourCounts all{-1, -1};
+    const int left = std::max(column(match) - 1, 0),
+              right = std::min(column(match) + 1, columns_ - 1);
+    for (int r = std::max(row(match) - 1, 0); r <= std::min(row(match) + 1, rows_ - 1); ++r) {
+      const std::size_t begin = first_[at(left, r)], end = first_[at(right, r) + 1];
+      const NeighbourCounts counts = featureKernels().countNeighbours(
+          {&model_u_[begin], &model_v_[begin], &live_u_[begin], &live_v_[begin]},
+          static_cast<int>(end - begin), {&place[0], &place[1], &place[2], &place[3]}, rules);
+      all.others += counts.others;
+      all.agreeing += counts.agreeing;
+    }
+    return all;
   }
 
  private:
@@ -40,7 +62,8 @@ class MatchSquares {
 
   float side_px_;
   int columns_ = 0, rows_ = 0;
-  std::vector<std::vector<std::size_t>> members_;
+  std::vector<std::size_t> first_;  // of each square, and the end
+  std::vector<float> model_u_, model_v_, live_u_, live_v_;
 };
 
 }  // namespace
@@ -53,15 +76,8 @@ std::vector<PixelMatch> keepConsistent(const std::vector<PixelMatch>& matches,
   std::vector<std::uint8_t> kept(matches.size(), 0);
   parallelRanges(static_cast<int>(matches.size()), 256, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      int others = 0, agreeing = 0;
-      squares.around(matches[i], [&](std::size_t k) {
-        const Eigen::Vector2f apart = matches[k].model_px - matches[i].model_px;
-        if (k == i || !areNeighbours(apart.x(), apart.y(), rules)) return;
-        ++others;
-        const Eigen::Vector2f live_apart = matches[k].live_px - matches[i].live_px;
-        agreeing += moveAlike(apart.x(), apart.y(), live_apart.x(), live_apart.y(), rules);
-      });
-      kept[i] = isConsistent(agreeing, others, rules);
+      const NeighbourCounts counts = squares.countAround(matches[i], rules);
+      kept[i] = isConsistent(counts.agreeing, counts.others, rules);
     }
   });
   std::vector<PixelMatch> consistent;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "features/match_formulas.h"
 #include "features/subpixel_formulas.h"
 
 namespace softscope {
@@ -96,6 +97,39 @@ TEST(FeatureKernels, SearchAWindowAsPlainLoopsDo) {
           ASSERT_EQ(set.leastElsewhere({values.data(), stride}, rows, found, reach), elsewhere);
         }
       }
+}
+
+TEST(FeatureKernels, CountNeighboursAsPlainLoopsDo) {
+  constexpr int kMatches = 45;
+  const ConsistencyRules rules = consistencyRules(ConsistencyOptions());
+  Numbers numbers;
+  std::array<std::vector<float>, 4> places;
+  for (int i = 0; i < kMatches + 8; ++i)
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      places[axis].push_back(0.125f * static_cast<float>(numbers.below(240)));
+      places[axis + 2].push_back(places[axis].back() +
+                                 0.125f * static_cast<float>(numbers.below(40)));
+    }
+  const FeatureKernelList list = allFeatureKernels();
+  for (int count = 0; count <= kMatches; ++count) {
+    NeighbourCounts plain{0, 0};
+    const auto apart = [&](std::size_t axis, int i) {
+      return places[axis][static_cast<std::size_t>(i)] - places[axis][10];
+    };
+    for (int i = 0; i < count; ++i) {
+      if (!areNeighbours(apart(0, i), apart(1, i), rules)) continue;
+      ++plain.others;
+      plain.agreeing += moveAlike(apart(0, i), apart(1, i), apart(2, i), apart(3, i), rules);
+    }
+    for (int s = 0; s < list.count; ++s) {
+      const NeighbourCounts found = list.sets[s]->countNeighbours(
+          {places[0].data(), places[1].data(), places[2].data(), places[3].data()}, count,
+          {&places[0][10], &places[1][10], &places[2][10], &places[3][10]}, rules);
+      EXPECT_EQ(found.others, plain.others) << list.sets[s]->instruction_set;
+      EXPECT_EQ(found.agreeing, plain.agreeing) << list.sets[s]->instruction_set;
+    }
+    if (count == kMatches) EXPECT_TRUE(plain.agreeing > 3 && plain.agreeing < plain.others);
+  }
 }
 
 constexpr int kRows = kLargestWindow, kStride = 40;
