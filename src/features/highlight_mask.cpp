@@ -17,13 +17,15 @@ constexpr int kHighlightHaloPx = 3;            // dilation: the halo is part of 
 
 Mask highlightMask(const ColourImage& image) {
   Mask mask(image.width_px, image.height_px, 0);
+  const int width = image.width_px;
   const int saturation_q8 = static_cast<int>(256 * kHighlightSaturation);
   parallelRows(image.height_px, [&](int v) {
     const Rgb8* in = image.row(v);
-    for (int u = 0; u < image.width_px; ++u) {
+    std::uint8_t* mark = mask.row(v);
+    for (int u = 0; u < width; ++u) {
       const int most = std::max({in[u].red, in[u].green, in[u].blue});
       const int least = std::min({in[u].red, in[u].green, in[u].blue});
-      mask.at(u, v) = most >= kHighlightBrightness && 256 * (most - least) <= saturation_q8 * most;
+      mark[u] = most >= kHighlightBrightness && 256 * (most - least) <= saturation_q8 * most;
     }
   });
   return dilated(mask, kHighlightHaloPx);

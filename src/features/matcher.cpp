@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/mask_morphology.h"
 #include "core/median.h"
+#include "core/parallel.h"
 #include "features/descriptor_matching.h"
 #include "features/feature_settings.h"
 #include "features/kernels.h"
@@ -128,12 +129,20 @@ class NoMatcher : public FeatureMatcher {
 /// Image with its dark pixels ignored as well: they are the unlit background,
 /// whose edge with the tissue moves with the silhouette, not with the tissue.
 MatchPicture withoutDark(const MatchPicture& picture, const MatcherOptions& options) {
-  Mask dark(picture.gray.width_px, picture.gray.height_px, 0);
-  for (std::size_t i = 0; i < dark.size(); ++i)
-    dark.values[i] = isDark(picture.gray.values[i], options.kDarkestGray);
+  const int width = picture.gray.width_px, height = picture.gray.height_px;
+  Mask dark(width, height, 0);
+  parallelRows(height, [&](int v) {
+    const std::uint8_t* gray = picture.gray.row(v);
+    std::uint8_t* mark = dark.row(v);
+    for (int u = 0; u < width; ++u) mark[u] = isDark(gray[u], options.kDarkestGray);
+  });
   MatchPicture out{picture.gray, dilated(dark, options.kDarkMarginPx), picture.anchor};
-  for (std::size_t i = 0; i < picture.ignore.size(); ++i)
-    if (picture.ignore.values[i] != 0) out.ignore.values[i] = 1;
+  if (picture.ignore.empty()) return out;
+  parallelRows(height, [&](int v) {
+    const std::uint8_t* ignore = picture.ignore.row(v);
+    std::uint8_t* mark = out.ignore.row(v);
+    for (int u = 0; u < width; ++u) mark[u] = ignore[u] != 0 ? std::uint8_t{1} : mark[u];
+  });
   return out;
 }
 

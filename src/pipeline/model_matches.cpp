@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/mask_morphology.h"
+#include "core/parallel.h"
 #include "features/highlight_mask.h"
 #include "features/instrument_detector.h"
 
@@ -12,13 +13,21 @@ namespace softscope {
 namespace {
 
 void addTo(Mask& mask, const Mask& more) {
-  for (std::size_t i = 0; i < more.size(); ++i)  // no branch: many pixels at a time
-    mask.values[i] = more.values[i] != 0 ? std::uint8_t{1} : mask.values[i];
+  std::uint8_t* to = mask.values.data();
+  const std::uint8_t* from = more.values.data();
+  const std::size_t count = more.size();
+  for (std::size_t i = 0; i < count; ++i)  // no branch: many pixels at a time
+    to[i] = from[i] != 0 ? std::uint8_t{1} : to[i];
 }
 
 Mask unseen(const ModelView& view) {
-  Mask ignore(view.colour.width_px, view.colour.height_px, 0);
-  for (std::size_t i = 0; i < ignore.size(); ++i) ignore.values[i] = view.point_index.values[i] < 0;
+  const int width = view.colour.width_px, height = view.colour.height_px;
+  Mask ignore(width, height, 0);
+  parallelRows(height, [&](int v) {
+    const std::int32_t* point = view.point_index.row(v);
+    std::uint8_t* mark = ignore.row(v);
+    for (int u = 0; u < width; ++u) mark[u] = point[u] < 0;
+  });
   return ignore;
 }
 

@@ -130,13 +130,19 @@ Raster<float> checkLeftRight(const Raster<std::int16_t>& left, const Raster<std:
 
 void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_gray,
                 int margin_px) {
-  Raster<std::uint8_t> dark(left.width_px, left.height_px, 0);
+  const int width = left.width_px;
+  Raster<std::uint8_t> dark(width, left.height_px, 0);
   parallelRows(left.height_px, [&](int v) {
-    for (int u = 0; u < left.width_px; ++u) dark.at(u, v) = left.at(u, v) < darkest_gray;
+    const std::uint8_t* gray = left.row(v);
+    std::uint8_t* mark = dark.row(v);
+    for (int u = 0; u < width; ++u) mark[u] = gray[u] < darkest_gray;
   });
   const Raster<std::uint8_t> near_dark = dilated(dark, margin_px);
-  for (std::size_t i = 0; i < disparity_px.size(); ++i)
-    if (near_dark.values[i] != 0) disparity_px.values[i] = kNotMeasured<float>;
+  parallelRows(left.height_px, [&](int v) {
+    const std::uint8_t* mark = near_dark.row(v);
+    float* d = disparity_px.row(v);
+    for (int u = 0; u < width; ++u) d[u] = mark[u] != 0 ? kNotMeasured<float> : d[u];
+  });
 }
 
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px) {
