@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tests/apps/run_softscope.h"
+#include "tests/io/temporary_folder.h"
 
 namespace softscope::test {
 namespace {
@@ -27,23 +28,29 @@ int framesIn(const fs::path& run_folder) {
 
 class Resume : public InFolder {
  protected:
+  /// Four frames, simulated once for all tests.
+  static const TemporaryFolder& fourFrames() {
+    static const TemporaryFolder folder;
+    static const Outcome made =
+        softscope::test::run({"simulate", "--out", folder / "clip", "--frames", "4", "--size",
+                              "160x120", "--set", "organ.cells_per_side=30", "--quiet"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return folder;
+  }
   /// 60 frames of four moments, there and back: a motion as smooth as that of 60 simulated ones.
   void makeLongClip() const {
-    const Outcome made =
-        softscope::test::run({"simulate", "--out", at("four"), "--frames", "4", "--size", "160x120",
-                              "--set", "organ.cells_per_side=30", "--quiet"});
-    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const fs::path four = fourFrames() / "clip", clip = at("clip");
     const auto picture = [](int number) {
       const std::string digits = std::to_string(number);
       return std::string(6 - digits.size(), '0') + digits + ".png";
     };
     for (const char* view : {"left", "right"}) {
-      fs::create_directories(fs::path(at("clip")) / view);
+      fs::create_directories(clip / view);
       for (int i = 0; i < 60; ++i)
-        fs::copy_file(fs::path(at("four")) / view / picture(i % 6 < 4 ? i % 6 : 6 - i % 6),
-                      fs::path(at("clip")) / view / picture(i));
+        fs::copy_file(four / view / picture(i % 6 < 4 ? i % 6 : 6 - i % 6),
+                      clip / view / picture(i));
     }
-    fs::copy_file(at("four/calibration.yaml"), at("clip/calibration.yaml"));
+    fs::copy_file(four / "calibration.yaml", clip / "calibration.yaml");
   }
 
   /// Ends a run over a long clip by `signal_number`, or by what `act` does, once the model of frame
