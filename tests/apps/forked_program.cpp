@@ -64,7 +64,7 @@ void redirect(int descriptor, const std::string& file) {
   close(opened);
 }
 
-/// The request: files for stdout and stderr, the folder to stand in, then words and environment.
+/// The request: files for stdout and stderr, the working folder, then words and environment.
 [[noreturn]] void become(const Words& place, const Words& words, const Words& environment) {
   redirect(STDOUT_FILENO, place[0]);
   redirect(STDERR_FILENO, place[1]);

@@ -56,7 +56,7 @@ TEST_F(DatasetLayouts, StirClipsAreRecognisedRunAndJudgedAsOurOwn) {
   EXPECT_EQ(predictions["seq_1"]["3"]["coords"].size(), truth.at(0).size());
   EXPECT_LT(predictions["seq_1"]["3"]["coords"][0][2], 0.3);  // metres
 
-  // The same clip in our own form, the same pixels followed, judged by `evaluate`.
+  // The same clip in the form of softscope, the same tracked pixels, evaluated by `evaluate`.
   ASSERT_EQ(run({"reconstruct", at("own"), "--track", at("b/clips/seq_1/points.csv"), "--out",
                  at("run"), "--quiet"})
                 .exit_code,
@@ -65,7 +65,7 @@ TEST_F(DatasetLayouts, StirClipsAreRecognisedRunAndJudgedAsOurOwn) {
       run({"evaluate", at("run"), "--reference", at("own"), "--out", at("e"), "--json", "--quiet"});
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
   const auto tracks = evaluated.json()["tracks"];
-  // Truth is rounded to 1e-4 mm in our own form.
+  // In the form of softscope, truth is rounded to 1e-4 mm.
   EXPECT_NEAR(json["measured_error"]["mean_mm"].get<double>(), tracks["mean_mm"].get<double>(),
               0.0005)
       << tracks;

@@ -40,7 +40,7 @@ TEST(Doctor, EveryLineIsFineOrSaysWhatToDo) {
 
 class DoctorFonts : public InFolder {
  protected:
-  /// What doctor says where fontconfig knows these fonts of the machine alone.
+  /// Output of doctor if fontconfig knows only these fonts.
   nlohmann::json fontAmong(const std::string& kind) const {
     write("fonts.conf",
           "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\"><fontconfig>"

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 class Export : public InFolder {
  protected:
-  /// Of a square that lies in the folder.
+  /// Of a square in the folder.
   Outcome exported(const std::string& out, std::vector<std::string> more = {}) const {
     write("square.obj", squareObj(0, 0));
     more.insert(more.begin(), {"export", at("square.obj"), "--out", at(out)});

@@ -57,7 +57,7 @@ TEST_F(Info, UnknownThingsAreInputErrorsThatSayWhatIsAccepted) {
 }
 
 TEST_F(Info, LibrariesAddNothingToOurError) {
-  // An MP4's data without its table: "moov atom not found", FFmpeg would say.
+  // Data of an MP4 without its table: "moov atom not found" in FFmpeg.
   const char bytes[] =
       "\0\0\0\x18"
       "ftypmp42\0\0\0\0mp42isom\0\0\0\x10"

@@ -104,7 +104,7 @@ TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
   EXPECT_EQ(result()["cases"][1]["status"], "not run");
 }
 
-// A table of yesterday's numbers under today's settings would be believed.
+// A table of old numbers with new settings would be misleading.
 TEST_F(StudyCommand, TheTableLeavesOutWhatWasRunWithOtherSettings) {
   const std::string toml = small() + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
   ASSERT_EQ(study(toml).exit_code, 0);
@@ -192,7 +192,7 @@ TEST_F(StudyCommand, WhatCannotBeIsOneLine) {
   expectOneLine(study(kSimulated), "is no folder of a study");
 }
 
-// A folder that happens to hold `cases` as well belongs to somebody.
+// A foreign folder that happens to contain `cases`.
 TEST_F(StudyCommand, LeavesFoldersOfOthersAlone) {
   write("out/cases/one.txt", "mine");
   write("out/plots/mine.txt", "mine");
@@ -202,7 +202,7 @@ TEST_F(StudyCommand, LeavesFoldersOfOthersAlone) {
   EXPECT_EQ(textOf(at("out/plots/mine.txt")), "mine");
 }
 
-// An ignored SIGCHLD is inherited; then nobody could wait for a child.
+// An ignored SIGCHLD is inherited; then waiting for a child is impossible.
 TEST_F(StudyCommand, WaitsForItsCasesWhereItsParentIgnoresChildren) {
   const std::string file = write("study.toml", small()), out = at("out");
   const pid_t child = fork();

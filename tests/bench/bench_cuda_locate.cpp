@@ -26,7 +26,7 @@ using namespace softscope::bench;
 
 namespace {
 
-/// A scene: its model, where the camera stands now, and what it sees.
+/// A scene: its model, the current camera pose, and the visible part.
 struct Scene {
   PinholeCamera camera;
   PointModel model;

@@ -1,6 +1,6 @@
-// tests/bench/bench_surface_distance.cpp: distances from points to surfaces, ours beside VTK's (and
-// Embree's where it is installed): times and differences, as tables for docs/benchmarks.md.
-//   SOFTSCOPE_TEST_DATA=… build/release/tests/bench/bench_surface_distance
+// tests/bench/bench_surface_distance.cpp: distances from points to surfaces, compared with VTK (and
+// Embree if installed): times and differences, as tables for docs/benchmarks.md.
+// SOFTSCOPE_TEST_DATA=… build/release/tests/bench/bench_surface_distance
 #include <vtkCellArray.h>
 #include <vtkGenericCell.h>
 #include <vtkImplicitPolyDataDistance.h>
@@ -72,8 +72,8 @@ void locatorDistances(vtkStaticCellLocator* locator, const Points& points,
   });
 }
 
-/// How far another's distances are from ours, and how many signs differ (of points that are not on
-/// the surface).
+/// Difference of the distances of another library, and number
+/// of different signs (of points that are not on the surface).
 void printDifference(const char* who, const std::vector<ClosestPoint>& ours,
                      const std::vector<double>& theirs_mm, bool with_sign) {
   double largest_mm = 0;

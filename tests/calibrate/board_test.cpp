@@ -101,7 +101,7 @@ TEST(Board, ABoardThatCannotBeIsRefused) {
   board.square_mm = 3;
   EXPECT_NO_THROW(board.validate());
   board.rows = 9;
-  EXPECT_THROW(board.validate(), OptionError);  // a quarter turn looks the same
+  EXPECT_THROW(board.validate(), OptionError);  // symmetric for a quarter turn
   board.marker_mm = 2;
   EXPECT_NO_THROW(board.validate());
   board.dictionary = "7X7_1";

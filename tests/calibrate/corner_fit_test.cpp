@@ -1,4 +1,4 @@
-// tests/calibrate/corner_fit_test.cpp: corners drawn by formula, found from beside them.
+// tests/calibrate/corner_fit_test.cpp: corners drawn by formula, found from nearby positions.
 #include "calibrate/corner_fit.h"
 
 #include <gtest/gtest.h>

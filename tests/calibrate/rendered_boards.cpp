@@ -42,8 +42,8 @@ cv::Mat charucoPicture(const BoardOptions& board, double pixels_per_mm) {
   return picture;
 }
 
-/// 1 and -1 by turns between whole numbers, averaged over `width`: a ray stands for its part of the
-/// pixel, and without it edges would lie on a grid of thirds of a pixel.
+/// 1 and -1 alternating between integers, averaged over `width`: a ray represents its
+/// part of the pixel, and without it edges would be on a grid of thirds of a pixel.
 double squareWave(double x, double width) {
   const double line = std::round(x);
   const double after = std::clamp(2 * (x - line) / width, -1.0, 1.0);
@@ -147,7 +147,7 @@ std::vector<Eigen::Isometry3d> boardPoses(const BoardRendering& rendering, int c
   const Eigen::Vector3d middle = board.cornerPosition(board.cornerCount() - 1) / 2;
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < count; ++i) {
-    // Far enough that the tilted board is inside both images, wherever it lies.
+    // Far enough that the tilted board is inside both images, at any position.
     const double width_mm = (board.cornerColumns() + 2) * board.square_mm;
     const double fill = 0.42 + 0.22 * (unit(random) + 1) / 2;
     const double z = width_mm * left.pinhole.fx_px / (fill * left.pinhole.width_px);

@@ -29,8 +29,8 @@ inline std::vector<MatchCase> matchCases() {
           {"longReach", 120, 97, true, false, far}};
 }
 
-/// A bent texture. Anchored: in one part the model looks as it did at first, in another it has
-/// slipped, and a third was never alike. Dark, masked and untextured parts.
+/// A curved texture. Anchored: one part of the model has its first appearance,
+/// another has slipped, and a third differs. Dark, masked and untextured parts.
 inline WarpedPair pairOf(const MatchCase& of) {
   WarpedPair pair = makeWarpedPair(2.0, of.width, of.height);
   const int width = of.width, height = of.height;

@@ -15,7 +15,7 @@ namespace softscope::test {
 struct PoseCase {
   const char* name;
   double step_mm;       // between pairs
-  double moving_share;  // of the pairs lie on tissue that moves by itself
+  double moving_share;  // of the pairs on moving tissue
   double shift_mm;      // of the scope
   bool broken = false;  // some pairs aren't finite, or behind the camera
 };
@@ -92,7 +92,7 @@ inline void expectSame(const PoseFindings& found, const PoseFindings& expected) 
   }
 }
 
-/// By the CPU within rounding, and by itself to the byte.
+/// Equal to the CPU within rounding, and to itself to the byte.
 inline void expectSame(const PoseAnswer& found, const PoseAnswer& expected) {
   expectSame(found.now, expected.now);
   expectSame(found.since, expected.since);

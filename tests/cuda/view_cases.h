@@ -12,7 +12,7 @@
 
 namespace softscope::test {
 
-/// A model, a camera and where it stands.
+/// A model, a camera and its pose.
 struct ViewCase {
   const char* name;
   int width, height;

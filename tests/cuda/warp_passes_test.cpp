@@ -64,7 +64,7 @@ TEST(WarpPassesEdge, AffineNodesAreRefused) {
                OptionError);
 }
 
-/// Each node is eliminated once, and whatever it touches then lies in its front.
+/// Each node is eliminated once, and its neighbours then are in its front.
 TEST(Dissection, FrontsHoldAllThatTheirPivotsTouch) {
   PointModel model = scenes::makeHill(60, 40, 0.7);
   const BlockPattern pattern = makeBlockPattern(scenes::bindGraph(&model, 3));

@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-/// docs/energy.md (25) as it stands: all of the cell's nodes sorted.
+/// docs/energy.md (25) literally: all nodes of the cell sorted.
 Carriers carriersByDefinition(const NodeReach::Near& near, const Eigen::Vector3f& point_mm,
                               const WarpGraph& graph, double spacing_mm) {
   std::vector<std::pair<double, int>> sorted;

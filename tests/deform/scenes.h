@@ -30,7 +30,7 @@ inline Eigen::Vector3d surfaceNormal(const std::function<Eigen::Vector3d(double,
   const double h = 1e-4;
   const Eigen::Vector3d along_x = surface(x_mm + h, y_mm) - surface(x_mm - h, y_mm);
   const Eigen::Vector3d along_y = surface(x_mm, y_mm + h) - surface(x_mm, y_mm - h);
-  return along_y.cross(along_x).normalized();  // towards the scope, which looks along +z
+  return along_y.cross(along_x).normalized();  // towards the scope, which views along +z
 }
 
 /// Points every `step_mm` (jittered by a fixed seed) over width x height, row by row.
@@ -80,7 +80,7 @@ inline View renderHill(const PinholeCamera& camera, const Motion& motion, double
       const Eigen::Vector3d ray = liftPixel<double>(camera, u, v, 1.0);
       Eigen::Vector2d at = 60 * ray.head<2>();
       Eigen::Vector3d hit = surface(at.x(), at.y());
-      for (int i = 0; i < 12; ++i) {  // Newton: the hit lies on the ray
+      for (int i = 0; i < 12; ++i) {  // Newton: the hit is on the ray
         const double h = 1e-3;
         const Eigen::Vector2d miss = hit.head<2>() - hit.z() * ray.head<2>();
         Eigen::Matrix2d slope;

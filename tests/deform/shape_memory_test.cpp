@@ -1,4 +1,4 @@
-// tests/deform/shape_memory_test.cpp: what edges remember, by hand.
+// tests/deform/shape_memory_test.cpp: offsets that edges store, by hand.
 #include "deform/graph/shape_memory.h"
 
 #include <gtest/gtest.h>

@@ -105,7 +105,7 @@ TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
   EXPECT_EQ(growth.nodes_added, static_cast<int>(graph.size() - before.size()));
   EXPECT_GT(growth.nodes_added, 10);
   EXPECT_EQ(growth.points_bound, static_cast<int>(model.size() - old_points));
-  EXPECT_GT(growth.points_rebound, 0);  // old points beside the seam have nearer nodes now
+  EXPECT_GT(growth.points_rebound, 0);  // old points near the seam have nearer nodes now
   for (std::size_t j = 0; j < before.size(); ++j)
     EXPECT_EQ(graph.positions_mm[j], before.positions_mm[j]);
   std::vector<char> used(graph.stencils.size(), 0);

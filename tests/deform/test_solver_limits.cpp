@@ -1,4 +1,4 @@
-// tests/deform/test_solver_limits.cpp: whatever comes in, no crash and no NaN comes out.
+// tests/deform/test_solver_limits.cpp: no crash and no NaN for any input.
 #include <gtest/gtest.h>
 
 #include <limits>

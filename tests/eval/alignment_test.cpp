@@ -113,7 +113,7 @@ TEST(SurfaceErrors, OfAShiftedPlaneAreTheShift) {
 }
 
 TEST(SurfaceErrors, OfConcentricSpheresAreTheGap) {
-  // The polyhedron of a sphere lies inside it by at most 1 - cos of half its widest facet.
+  // The polyhedron of a sphere is inside it by at most 1 - cos of half its widest facet.
   const double sagitta_mm = 30 * (1 - std::cos(3.1416 / 200)) * 2;
   const TriangleTree sphere(makeSphere(200, 100, 30));
   std::vector<Eigen::Vector3f> points;

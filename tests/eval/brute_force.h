@@ -7,8 +7,8 @@
 
 namespace softscope {
 
-/// Least distance, mm, to all triangles of the mesh, in double: the foot on each triangle's
-/// plane, the edges where that lies outside.
+/// Minimum distance, mm, to all triangles of the mesh, in double: the
+/// foot on the plane of each triangle, the edges if that is outside.
 double bruteForceDistance(const TriangleMesh& mesh, const Eigen::Vector3d& point_mm);
 
 /// How often the surface winds around the point: 1 inside, 0 outside of a closed surface

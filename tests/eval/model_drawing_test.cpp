@@ -72,8 +72,8 @@ TEST(ModelDrawing, ASphereHasItsFrontAlone) {
       worst_mm = std::max(worst_mm, std::abs(drawn.depth_mm.at(u, v) - (b - std::sqrt(root)) / a));
     }
   EXPECT_GT(inside, 2500);
-  // A disc of radius r lies r^2 / (2 * 10 mm) before the sphere at most: here r is 0.36 mm, and the
-  // ray meets the rim of the disc at up to 60 degrees.
+  // A disc of radius r is r^2 / (2 * 10 mm) in front of the sphere at most: here
+  // r is 0.36 mm, and the ray meets the rim of the disc at up to 60 degrees.
   EXPECT_LT(worst_mm, 0.02);
 }
 

@@ -18,8 +18,8 @@ ObservedSplit split(const TriangleMesh& reference, const TriangleMesh& test,
   return splitByObserved(reference, observed, compareSurfaces(reference, test, {1}), reach_mm);
 }
 
-// The reference is a patch of 10 x 10 mm in steps of 1. The test lies 0.5 mm above and reaches 3 mm
-// farther to the right, where the patch has ended; the whole patch was seen.
+// The reference is a patch of 10 x 10 mm in steps of 1. The test is 0.5 mm above and
+// extends 3 mm farther to the right, beyond the patch; the complete patch is observed.
 TEST(ObservedSplit, WhatLiesBeyondAnOpenReferenceIsNeitherObservedNorPredicted) {
   const TriangleMesh patch = makeRectangle(10, 10, 10, 10);
   const TriangleMesh test = shifted(makeRectangle(13, 10, 13, 10), {0, 0, 0.5f});

@@ -38,7 +38,7 @@ TEST(SurfaceComparison, AShiftedPlaneThatReachesBeyondKnowsItsShares) {
   const TriangleMesh reference = makeRectangle(10, 10, 10, 10);
   const TriangleMesh test = shifted(reference, {5, 0, 1});
   const SurfaceComparison c = compareSurfaces(reference, test, {1.2});
-  // Six of eleven columns lie over the reference, the others 1 … 5 mm beside it.
+  // Six of eleven columns are above the reference, the others 1 … 5 mm outside of it.
   EXPECT_NEAR(c.scores[0].precision, 6.0 / 11, 1e-12);
   EXPECT_NEAR(c.scores[0].recall, 6.0 / 11, 1e-12);
   EXPECT_NEAR(c.scores[0].f_score, 6.0 / 11, 1e-12);
@@ -74,7 +74,7 @@ TEST(WeightedStatistics, AHeavyValueCountsForMany) {
   const Statistics s = weightedStatistics({1, 5, 100}, {9, 1, 0});
   EXPECT_NEAR(s.mean, 1.4, 1e-12);
   EXPECT_EQ(s.max, 5) << "no weight, no value";
-  // Middles of the weights: 4.5 and 9.5 of 10; the median, 5, lies a tenth of the way.
+  // Middles of the weights: 4.5 and 9.5 of 10; the median, 5, is at a tenth between them.
   EXPECT_NEAR(s.median, 1.4, 1e-12);
   EXPECT_EQ(s.p95, 5);
   EXPECT_THROW(weightedStatistics({1}, {}), InputError);

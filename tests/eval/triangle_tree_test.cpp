@@ -186,8 +186,8 @@ TEST(TriangleTree, KnowsTheSideAmongSharpSpikes) {
 }
 
 TEST(TriangleTree, TakesNoFaceForTheWholeTip) {
-  // A thin blade ending in a tip. From the query the tip is closest, and the plane of one of its
-  // faces has the query behind it: that face's normal alone would say "inside".
+  // A thin blade ending in a tip. From the query the tip is closest, and the query is behind
+  // the plane of one of its faces: the normal of that face alone would give "inside".
   TriangleMesh blade;
   blade.vertices_mm = {{0, 0, 0}, {-10, 1, 0}, {-10, -1, 0}, {-10, 0, 1}};
   blade.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};

@@ -69,11 +69,11 @@ TEST(Anchor, KeepsThePlacesOfATextureThatSlipped) {
   EXPECT_GT(held.count, 1000u);
   EXPECT_LT(held.median_px, 0.1);
   pair.model.anchor = {};
-  EXPECT_GT(test::errorsOf(matchBy({}, pair)).median_px, 0.5);  // nothing remembers
+  EXPECT_GT(test::errorsOf(matchBy({}, pair)).median_px, 0.5);  // no stored anchors
 }
 
-// What the anchor shows is gone (here: another tissue), so the model as it looks now decides, and
-// says that it may have drifted.
+// The appearance of the anchor is gone (here: another tissue), so the
+// present appearance of the model decides, with a sigma that includes drift.
 TEST(Anchor, IsLeftWhereTheTissueLooksDifferent) {
   test::WarpedPair pair = slippedPair(0);
   const auto plain = test::errorsOf(matchBy({}, pair));
@@ -138,7 +138,7 @@ TEST(DenseSurfMatcher, RatioTestRefusesAPatternThatRepeats) {
     for (int u = 0; u < pair.model.gray.width_px; ++u)
       pair.model.gray.at(u, v) = pair.live.gray.at(u, v) =
           static_cast<std::uint8_t>(128 + 60 * ((u / 6 + v / 6) % 2));
-  // 12 px period, 24 px reach: everything looks alike, but for the picture's own corners.
+  // 12 px period, 24 px reach: all positions are similar, except the corners of the image.
   EXPECT_LT(matchBy({}, pair).size(), 20u);
 }
 

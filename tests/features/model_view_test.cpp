@@ -162,7 +162,7 @@ TEST(ModelView, BadPointsAreLeftOut) {
   model.add({1e30f, 0, 1e30f}, facing, {1, 1, 1}, 1);
   const ModelView view = renderModelView(model, camera(), kHome, {});
   for (const std::int32_t point : view.point_index.values) EXPECT_LT(point, 0);
-  model.add({0, 0, 50}, {kNothing, 0, 0}, {5, 5, 5}, 1);  // without a normal it faces us
+  model.add({0, 0, 50}, {kNothing, 0, 0}, {5, 5, 5}, 1);  // without a normal it faces the camera
   EXPECT_EQ(renderModelView(model, camera(), kHome, {}).point_index.at(160, 120), 6);
   EXPECT_TRUE(std::isnan(renderModelView({}, camera(), kHome, {}).depth_mm.at(0, 0)));
 }

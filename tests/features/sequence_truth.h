@@ -27,7 +27,7 @@ inline std::string frameName(int frame) {
   return name.str();
 }
 
-/// The left picture, whatever its form.
+/// The left image, in any form.
 inline ColourImage readLeft(const std::filesystem::path& folder, int frame) {
   const std::filesystem::path jpg = folder / "left" / (frameName(frame) + ".jpg");
   return readColourImage(
@@ -84,7 +84,7 @@ class TrueFlow {
   std::vector<Eigen::Vector2d> from_, shift_;
 };
 
-/// Errors of many matches, as far as the truth knows them.
+/// Errors of many matches, as far as the truth is known.
 struct FlowErrors {
   std::size_t matches = 0;
   std::vector<double> error_px, in_sigmas;
@@ -98,7 +98,7 @@ struct FlowErrors {
       in_sigmas.push_back(error_px.back() / match.sigma_px);
     }
   }
-  /// Value below which this share of the errors lies; NaN without errors.
+  /// Value that this share of the errors does not exceed; NaN without errors.
   static double quantile(std::vector<double> values, double share) {
     if (values.empty()) return std::nan("");
     const auto at = values.begin() +

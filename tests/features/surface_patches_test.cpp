@@ -38,7 +38,7 @@ DepthImage imageOfPlane(const Eigen::Isometry3d& world_from_camera) {
   return image;
 }
 
-/// Looks at the plane from `distance_mm`, tilted from its normal and turned about the axis.
+/// View of the plane from `distance_mm`, tilted from its normal and rotated about the axis.
 Eigen::Isometry3d lookingDown(double distance_mm, double tilt_deg, double roll_deg) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.rotate(Eigen::AngleAxisd(tilt_deg * M_PI / 180, Eigen::Vector3d::UnitX()));

@@ -1,5 +1,5 @@
 // tests/fusion/anchor_agreement_test.cpp: anchors stay where the texture slips, and follow tissue
-// that looks different.
+// of another appearance.
 #include "fusion/anchor_agreement.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace softscope::test {
 namespace {
 
-/// A texture of high contrast on a plane, 0.1 mm a pixel, moved along the rows.
+/// A texture of high contrast on a plane, 0.1 mm per pixel, moved along the rows.
 Shot texturedShot(double slip_px, double gain = 1, double other_mm = 0) {
   Shot shot = takeShot(plane(55), smallCamera(192, 144));
   for (int v = 0; v < shot.left.height_px; ++v)

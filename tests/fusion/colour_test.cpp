@@ -134,7 +134,7 @@ TEST(Anchor, StaysWhereColoursSlip) {
   EXPECT_GT(judged, 100);
 }
 
-// Tissue that is another for good is anchored anew, to within the steps that count.
+// Tissue with a permanent change is anchored again, to within the steps that count.
 TEST(Anchor, FollowsALastingChange) {
   InsertionMemory memory;
   FusionOptions options;

@@ -65,7 +65,7 @@ TEST(KeepDensity, MapsEveryOldPointToTheOneThatStandsForIt) {
     ASSERT_GE(k, 0);
     ++carriers[k];
     EXPECT_LE((model.positions_mm[k] - before.positions_mm[i]).norm(), 0.2f * std::sqrt(3.0f));
-    EXPECT_GE(model.weights[k], before.weights[i]);  // the heaviest stands for all
+    EXPECT_GE(model.weights[k], before.weights[i]);  // the point of the largest weight is kept
   }
   EXPECT_EQ(std::count(carriers.begin(), carriers.end(), 0), 0);
 }

@@ -60,8 +60,8 @@ double rmsOfSide(const PointModel& model, std::int32_t stencil) {
   return rmsOf(errors);
 }
 
-// The difference's variance is the depth's plus the model's (sigma² / 9) plus the slip². About 600
-// points a side know a mean square to 6 %; each side counts as five points like the whole frame.
+// Variance of the difference: that of depth plus that of the model (sigma² / 9) plus the slip².
+// About 600 points per side have a mean square to 6 %; a side counts as five points like the frame.
 TEST(Innovation, TellsTheModelsErrorFromTheDepths) {
   const InnovationField field = fieldOf(carriedPlane(9, kSlipMm), noisyPlane(1));
   const WarpGraph graph = twoNodes();
@@ -71,7 +71,7 @@ TEST(Innovation, TellsTheModelsErrorFromTheDepths) {
   EXPECT_NEAR(left.difference_mm2, depth_mm2 + model_mm2, 0.25 * depth_mm2);
   EXPECT_NEAR(left.excess_mm2, model_mm2, 0.25 * depth_mm2);
   EXPECT_NEAR(right.excess_mm2, kSlipMm * kSlipMm + model_mm2, 0.08 * kSlipMm * kSlipMm);
-  // What both carry lies between.
+  // Points of both are in between.
   WarpGraph shared = graph;
   shared.stencils.push_back({0, 1, 1, 1});
   const Innovation between = field.at(shared, {2, {0.25f, 0.75f, 0, 0}});
@@ -111,8 +111,8 @@ TEST(Innovation, BringsBackATissueThatIsFurtherOffThanTau) {
   EXPECT_LT(rmsOfSide(updated(carried, true), 1), 0.3);
 }
 
-// Two points in a hundred that are 1.5 mm off are mistakes, and say nothing about those around
-// them: these keep averaging, to sigma / sqrt(10).
+// Two points in a hundred with an error of 1.5 mm are outliers, and do not
+// affect those around them: these keep averaging, to sigma / sqrt(10).
 TEST(Innovation, IsNotMovedByAFewWrongDepths) {
   PointModel model = carriedPlane(9, 0);
   for (std::size_t i = 0; i < model.size(); i += 50) model.positions_mm[i].z() -= 1.5f;

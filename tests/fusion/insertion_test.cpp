@@ -29,7 +29,7 @@ TEST(Insertion, TakesTheFirstFrameAtTheRightDensity) {
   }
 }
 
-// At 20 mm a pixel is 0.036 mm: points 0.2 mm apart leave holes and blur the model view.
+// At 20 mm a pixel is 0.036 mm: points 0.2 mm apart leave gaps and blur the model view.
 TEST(Insertion, NearTissueGetsAPointEvery2Point4Pixels) {
   const Shot shot = takeShot(plane(20), smallCamera());
   PointModel model;

@@ -16,7 +16,7 @@ namespace softscope::test {
 
 constexpr float kNoDepth = std::numeric_limits<float>::quiet_NaN();
 
-/// An observation that owns its rasters, with the truth beside it.
+/// An observation that owns its rasters, with its truth.
 struct Shot {
   DepthMap depth;
   NormalMap normals;
@@ -121,8 +121,8 @@ inline ModelUpdateSummary update(const Shot& shot, const FusionOptions& options,
   return update(shot, WarpGraph{}, options, memory, model);
 }
 
-/// How far each point lies behind the surface, mm along the camera's axis, as this shot's camera
-/// sees it; NaN where the ray misses.
+/// Distance of each point behind the surface, mm along the
+/// axis of the camera of this shot; NaN if its ray misses.
 inline std::vector<double> depthErrors(const PointModel& model, const Surface& surface,
                                        const Shot& shot) {
   std::vector<double> errors;

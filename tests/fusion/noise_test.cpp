@@ -106,7 +106,7 @@ TEST_P(FusedNoise, DropsAsTheoryOnAStandingSurface) {
   EXPECT_NEAR(meanOf(errors), 0, 4 * expected / std::sqrt(errors.size()));
 }
 
-// Sigma grows with z², by up to 11 % here, and the camera looks from elsewhere: 12 %.
+// Sigma grows with z², by up to 11 % here, and the camera has another pose: 12 %.
 TEST_P(FusedNoise, DropsAsTheoryOnAMovingSurface) {
   const int n = GetParam();
   const std::vector<double> errors = errorsAfter(n, breathing(), plainOptions());

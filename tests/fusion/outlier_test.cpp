@@ -16,7 +16,7 @@ double offSurface(const Eigen::Vector3f& p) {
   return std::min(ball, std::abs(p.z() - 58.0));
 }
 
-/// Stereo's silhouettes: pixels beside a step see anything between the two surfaces.
+/// Silhouettes in stereo: pixels next to a step have any depth between the two surfaces.
 void smearEdges(Shot* shot) {
   const Raster<float> truth = shot->truth_mm;
   for (int v = 1; v + 1 < truth.height_px; ++v)
@@ -102,8 +102,8 @@ TEST(FreeSpace, RemovesTissueThatHasGone) {
   ASSERT_GT(all, 400);
   const Shot after = takeShot(plane(58), smallCamera(128, 96));
   update(after, {}, &memory, &model);
-  EXPECT_EQ(onBall(), all);  // one frame against ten is not believed yet
-  // Five frames if the wall's depth were as sure as the reference; its error is 0.11 mm: six.
+  EXPECT_EQ(onBall(), all);  // one frame against ten is not yet sufficient
+  // Five frames if the depth of the wall had the reference sigma; its error is 0.11 mm: six.
   for (int k = 0; k < 7; ++k) update(after, {}, &memory, &model);
   EXPECT_EQ(onBall(), 0);
   const Raster<PixelState> states = judgePixels(after.observation(), {});

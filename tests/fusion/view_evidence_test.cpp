@@ -38,7 +38,7 @@ PointModel modelOf(const test::Shot& shot) {
   return model;
 }
 
-/// Of the model, held against the shot as if the camera had stood at `claimed`.
+/// Of the model, compared with the shot as if the camera pose were `claimed`.
 ViewEvidence evidenceAt(const PointModel& model, test::Shot shot,
                         const Eigen::Isometry3d& claimed) {
   shot.world_from_left = claimed;
@@ -57,7 +57,7 @@ TEST(ViewEvidence, ConfirmsTheRightPose) {
   EXPECT_GT(evidence.confidence(), 0.9);
 }
 
-// On a plane depth hardly changes with a shift or a turn: the image must tell.
+// On a plane depth hardly changes with a shift or a rotation: the image decides.
 TEST(ViewEvidence, RefusesAPoseThatIsThreeMillimetresOff) {
   const PointModel model = modelOf(texturedShot(test::shifted(0, 0, 0)));
   const test::Shot shot = texturedShot(test::shifted(2, -1, 1.5));

@@ -58,7 +58,7 @@ TEST(FusionWeights, GoFromTenInFiveContradictionsAndFromOneInTwo) {
   };
   EXPECT_EQ(contradictions(10), 5);
   EXPECT_EQ(contradictions(1), 2);
-  EXPECT_FLOAT_EQ(contradictedWeight(10, 0.5f, 0.5f), 7.375f);  // by a depth that is less sure
+  EXPECT_FLOAT_EQ(contradictedWeight(10, 0.5f, 0.5f), 7.375f);  // by a depth of larger sigma
   EXPECT_FLOAT_EQ(contradictedWeight(10, 1, 0), 10);            // off
 }
 

@@ -1,5 +1,5 @@
-// tests/fuzz/onnx_fuzz.cpp: ONNX files: our own reading of what they declare, and a network's load
-// and trial in its child process.
+// tests/fuzz/onnx_fuzz.cpp: ONNX files: the reader of their declarations, and load and trial of a
+// network in its child process.
 #include <unistd.h>
 
 #include <algorithm>

@@ -15,7 +15,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// The YAML with one thing changed must end in an InputError that holds all `parts`.
+/// The YAML with one change must cause an InputError that contains all `parts`.
 void expectRefused(const std::string& from, const std::string& to,
                    const std::vector<std::string>& parts) {
   SCOPED_TRACE(from + " → " + to);

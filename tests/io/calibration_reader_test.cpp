@@ -136,14 +136,14 @@ TEST(CalibrationReader, ReadsScaredJsonAndYaml) {
   const auto json = parseCalibration(scaredJson(), "frame_data.json");
   expectTheRig(json);
   EXPECT_EQ(json.form, "SCARED");
-  expectSize(json, 0, 0);  // the pictures will tell
+  expectSize(json, 0, 0);  // determined by the images
   const auto yaml = parseCalibration(openCvYaml(""), "keyframe_1/endoscope_calibration.yaml");
   expectTheRig(yaml);
   EXPECT_EQ(yaml.form, "SCARED");
 }
 
 TEST(CalibrationReader, ReadsJsonThatWasWrittenOverManyLines) {
-  std::string pretty;  // one number a line, as json.dump(..., indent=2) has it
+  std::string pretty;  // one number per line, as in json.dump(..., indent=2)
   for (const char c : scaredJson()) {
     if (c == ']') pretty += '\n';
     pretty += c;
@@ -238,7 +238,7 @@ TEST(CalibrationReader, TurnsRosRectificationIntoPoseAndMetresIntoMm) {
   expectCamera(found.right, 502, 505, 318, 239, -0.11);
   EXPECT_LT((found.right_from_left.linear() - right.transpose() * left).norm(), kRounding);
   EXPECT_NEAR(found.baseline_mm(), 4.2, 1e-9);  // 2.142 m px / 510 px
-  // A point on the rectified axis lies at the same row and 4.2 mm apart in both.
+  // A point on the rectified axis is in the same row and 4.2 mm apart in both.
   const Eigen::Vector3d p_left(1, 2, 80);
   const Eigen::Vector3d difference = right * (found.right_from_left * p_left) - left * p_left;
   EXPECT_LT((difference - Eigen::Vector3d(-4.2, 0, 0)).norm(), 1e-9);

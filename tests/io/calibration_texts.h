@@ -27,7 +27,7 @@ inline std::string yamlMatrix(const std::string& name, int rows, int columns,
          " ]\n";
 }
 
-/// `head`: what stands before the matrices; `translation`: T.
+/// `head`: text before the matrices; `translation`: T.
 inline std::string openCvYaml(const std::string& head = "image_width: 640\nimage_height: 480\n",
                               const std::string& translation = "-5 0.02 0.03") {
   return "%YAML:1.0\n---\n" + head + yamlMatrix("M1", 3, 3, "500 0 321 0 500 241 0 0 1") +

@@ -38,7 +38,7 @@ TEST(DevelopmentData, OpenCasInOneFileAndSplit) {
   EXPECT_EQ(split.left.distortion.coefficients[5], 0);
   ASSERT_EQ(split.warnings.size(), 1U);
   EXPECT_NE(split.warnings[0].find("rational"), std::string::npos);
-  // Both forms tell one rig, the split one with one digit less in R.
+  // Both forms have the same rig, the split one with one digit less in R.
   EXPECT_LT((split.right_from_left.matrix() - whole.right_from_left.matrix()).norm(), 1e-8);
 }
 

@@ -146,7 +146,7 @@ TEST(ImageReader, MasksCountWhatIsNotZero) {
   cv::Mat colour(2, 3, CV_8UC3, cv::Scalar(0, 0, 0));
   colour.at<cv::Vec3b>(0, 1)[2] = 9;
   EXPECT_EQ(parseMask(encodeImage(".png", colour), "x").at(1, 0), 255);
-  const cv::Mat opaque(2, 3, CV_8UC4, cv::Scalar(0, 0, 0, 255));  // alpha says nothing
+  const cv::Mat opaque(2, 3, CV_8UC4, cv::Scalar(0, 0, 0, 255));  // alpha is ignored
   EXPECT_EQ(parseMask(encodeImage(".png", opaque), "x").at(1, 1), 0);
   const cv::Mat faint(2, 3, CV_16U, cv::Scalar(1));  // would vanish in 8 bits
   EXPECT_EQ(parseMask(encodeImage(".png", faint), "x").at(1, 1), 255);

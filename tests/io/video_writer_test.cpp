@@ -36,7 +36,7 @@ class VideoWriterTest : public ::testing::Test {
   test::TemporaryFolder folder_;
 };
 
-/// While it lives, files can't grow beyond so many bytes: a disk that is full.
+/// During its lifetime, files cannot exceed this number of bytes: a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

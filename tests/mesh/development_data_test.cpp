@@ -24,7 +24,7 @@ void expectAsOpenMesh(const std::filesystem::path& file) {
   SCOPED_TRACE(file.filename());
   const TriangleMesh mesh = readMesh(file);
   OpenMesh::TriMesh_ArrayKernelT<> other;
-  testing::internal::CaptureStderr();  // it doesn't know VTK's header lines, and says so
+  testing::internal::CaptureStderr();  // it warns of unknown header lines of VTK
   const bool read = OpenMesh::IO::read_mesh(other, file.string());
   testing::internal::GetCapturedStderr();
   ASSERT_TRUE(read);

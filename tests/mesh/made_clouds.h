@@ -10,8 +10,8 @@
 
 namespace softscope {
 
-/// Points of the plane z = `height_mm` that face `normal`, one a square of `spacing_mm`, somewhere
-/// in it, where `keep(x, y)`; with colours that tell where they are.
+/// Points of the plane z = `height_mm` that face `normal`, one per square of `spacing_mm`,
+/// at a random position in it, if `keep(x, y)`; their colours encode their positions.
 inline PointCloud planePoints(double width_mm, double spacing_mm, double height_mm = 0,
                               const Eigen::Vector3f& normal = {0, 0, 1},
                               const std::function<bool(double, double)>& keep = nullptr) {
@@ -29,7 +29,7 @@ inline PointCloud planePoints(double width_mm, double spacing_mm, double height_
   return cloud;
 }
 
-/// Points of the cap of a sphere around the origin that lies above `least_z_mm`, evenly spread.
+/// Points of the cap of a sphere around the origin above `least_z_mm`, evenly distributed.
 inline PointCloud capPoints(double radius_mm, double least_z_mm, double spacing_mm) {
   PointCloud cloud;
   const double golden = 3.14159265358979 * (3 - std::sqrt(5.0));

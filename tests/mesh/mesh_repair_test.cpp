@@ -1,4 +1,4 @@
-// tests/mesh/mesh_repair_test.cpp: flaws that were put in are found, told and mended, or refused.
+// tests/mesh/mesh_repair_test.cpp: inserted flaws are found, reported and repaired, or rejected.
 #include "mesh/mesh_repair.h"
 
 #include <gmock/gmock.h>
@@ -113,7 +113,7 @@ TEST(MeshRepair, DropsFoldedAndDoubledTrianglesAndUnusedVertices) {
 TEST(MeshRepair, PartsSheetsThatTouchInAPoint) {
   TriangleMesh mesh = ball();
   const auto offset = static_cast<std::int32_t>(mesh.vertices_mm.size());
-  // A second ball beside the first shares the vertex where they touch.
+  // A second ball next to the first shares the vertex where they touch.
   std::int32_t outermost = 0;
   for (std::int32_t i = 0; i < offset; ++i)
     if (mesh.vertices_mm[i].x() > mesh.vertices_mm[outermost].x()) outermost = i;

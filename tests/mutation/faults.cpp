@@ -37,7 +37,7 @@ bool comes() {
   return armed.fault == Fault::kFull || event == armed.event;
 }
 
-/// -1 where the event fails with errno, 0 where it goes on.
+/// -1 if the event fails with errno, 0 if it continues.
 int strike(bool is_write) {
   switch (armed.fault) {
     case Fault::kKill:

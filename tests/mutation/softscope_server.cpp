@@ -164,7 +164,7 @@ class KeptChild {
   KeptChild(const KeptChild&) = delete;
   KeptChild& operator=(const KeptChild&) = delete;
 
-  /// Its end, which must be a sound one, as each must have been that it came to by itself.
+  /// Its end must be regular, like each of its previous ends.
   bool end() {
     for (int* descriptor : {&requests_, &answers_, &death_}) {
       if (*descriptor >= 0) close(*descriptor);

@@ -110,7 +110,7 @@ TEST(FirstLook, IsNotFoundWhereItIsNot) {
   expectNothing(find(look, noise, Mask(), kMiddle, same), "another tissue");
 }
 
-// Stripes do not tell how far they have moved along themselves.
+// Stripes do not show motion along themselves.
 TEST(FirstLook, IsNotFoundWhereItsPlaceIsUnsure) {
   GrayImage stripes(120, 100);
   for (int v = 0; v < 100; ++v)

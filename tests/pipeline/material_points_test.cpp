@@ -45,7 +45,7 @@ TEST(MaterialPoints, TakeDepthFromNearbyOrStayUnknown) {
   EXPECT_EQ(tracked.points[1].model_point, -1);
 }
 
-// Half of the picture is an instrument. The tissue beside it slants: its nearest depth is wrong.
+// Half of the image is an instrument. The tissue next to it is slanted: its nearest depth is wrong.
 TEST(MaterialPoints, BeginOnTheSurfaceThatGoesOnBesideAnInstrument) {
   const PinholeCamera left{640, 480, 500, 500, 320, 240};
   Raster<float> depth_mm(640, 480, std::numeric_limits<float>::quiet_NaN());
@@ -94,8 +94,8 @@ TEST(MaterialPoints, FollowASurfaceFartherAwayByMore) {
   EXPECT_NEAR(tracked.points[0].position_mm.z(), 50.6, 1e-5);
 }
 
-// Fusion moves the model's points along their rays; along the normal the point would lie 0.02 mm
-// beside its tissue, and so in each frame.
+// Fusion moves the points of the model along their rays; along the normal
+// the point would be 0.02 mm from its tissue, and more in each frame.
 TEST(MaterialPoints, StayOnTheirRay) {
   MaterialPoints tracked;
   tracked.add(0, {60, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
@@ -147,7 +147,7 @@ TEST(MaterialPoints, GoToWhereTheImageShowsTheirFirstLook) {
   EXPECT_LT((there.points[0].position_mm - Eigen::Vector3d(0, 0, 50)).norm(), 0.03);
 }
 
-/// Points of a flat wall, `step_px` apart, with their looks.
+/// Points of a flat wall, `step_px` apart, with their first looks.
 MaterialPoints lookedAt(int columns, int rows, const Eigen::Vector2d& step_px) {
   const auto still = Eigen::Isometry3d::Identity();
   MaterialPoints tracked;
@@ -201,7 +201,7 @@ TEST(MaterialPoints, GoWithTheirNeighboursWhereTheyAreNotSeen) {
     const double off_mm = (tracked.points[k].position_mm - truth[k].position_mm).norm();
     EXPECT_LT(off_mm, k % 4 == 0 ? 0.2 : 0.03) << k;
   }
-  // What is seen far away says nothing.
+  // Distant points have no effect.
   far.points[0].position_mm.x() += 60;
   const Eigen::Vector3d alone_mm = far.points[0].position_mm;
   far.align(texture(), Mask(), kLeft, still, kNodeSpacingMm, everywhere);

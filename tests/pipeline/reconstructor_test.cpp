@@ -121,8 +121,8 @@ TEST_P(UselessFrame, IsSkippedAndLeavesTheModelAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Levels, UselessFrame, testing::Values(0, 128, 255));
 
-// Nothing can be as sure as that: located and bent, the model is as it was before, and so is the
-// pose.
+// Required confidence that is impossible: located and
+// warped, the model is unchanged, and so is the pose.
 TEST(Reconstructor, UndoesWhatTheFrameDoesNotConfirm) {
   const ShortClip& clip = shortClip();
   ReconstructionOptions options = smallOptions();
@@ -179,7 +179,7 @@ TEST(Reconstructor, StaysStillOnAFrozenPicture) {
   }
 }
 
-// The scope looks at something else, then comes back.
+// The scope views another place, then returns.
 TEST(Reconstructor, FindsTheModelAgainAfterALoss) {
   const ShortClip& clip = shortClip();
   Reconstructor reconstructor = reconstructorOf(clip, smallOptions());

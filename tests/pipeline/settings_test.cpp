@@ -29,7 +29,7 @@ std::set<std::string> keys() {
   return all;
 }
 
-/// What validate() says; empty where it is content.
+/// Complaint of validate(); empty without one.
 std::string complaintOf(const RunOptions& options) {
   try {
     options.validate();
@@ -127,8 +127,8 @@ int ownSettingCount() {
   return settingCount<Options>() - (0 + ... + settingCount<Nested>());
 }
 
-// A struct's fields are its settings, the structs in it, and what the second number says: fields
-// that code sets, or that several stages share.
+// The fields of a struct are its settings, the structs in it, and the
+// number given second: fields set by code, or shared by several stages.
 TEST(SettingsList, EveryFieldOfEveryStructIsDescribed) {
   EXPECT_EQ(fieldCount<ElasOptions>() - 4, settingCount<ElasOptions>());  // row meter, half, prior
   EXPECT_EQ(fieldCount<RefinementOptions>(), 0);
@@ -155,7 +155,7 @@ TEST(SettingsList, EveryFieldOfEveryStructIsDescribed) {
   EXPECT_EQ(fieldCount<GateOptions>(), settingCount<GateOptions>());
 }
 
-// What a user can't judge is a constant beside its formula.
+// A value that a user cannot choose is a constant next to its formula.
 TEST(SettingsList, HasAtMostSixtySettings) { EXPECT_LE(listOf().size(), 60U); }
 
 TEST(SettingsList, OneQuantityHasOneSetting) {

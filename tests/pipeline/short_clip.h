@@ -26,7 +26,7 @@ const ShortClip& shortClip();
 /// comes back 12 mm aside, turned by 40 degrees. Made once a program.
 const ShortClip& clipWithAWithdrawal();
 
-/// What a clip of this size wants: fewer disparities, smaller search.
+/// Options for a clip of this size: fewer disparities, smaller search.
 ReconstructionOptions smallOptions();
 
 Reconstructor reconstructorOf(const ShortClip& clip, const ReconstructionOptions& options);

@@ -1,5 +1,5 @@
-// tests/pipeline/track_sight_test.cpp: which tracked points count as visible, and how sure they
-// are.
+// tests/pipeline/track_sight_test.cpp: visibility of tracked points, and their predicted
+// sigma.
 #include "pipeline/track_sight.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(TrackSight, DoesNotSeeWhatIsHiddenFloatsOrHasLeft) {
   }
 }
 
-/// Beside the hole's rim the surface may go on at 45 degrees.
+/// At the rim of the hole the surface may continue at 45 degrees.
 TEST(TrackSight, InAGapIsSureOfTheSurfaceBesideItAlone) {
   const WallWithHole wall;
   const double slack_mm = 4 * kDepthMm / 500;

@@ -86,7 +86,7 @@ TEST(RefinePose, AveragesNoiseAway) {
   expectNear(found.world_from_left, truth, 0.05, 1e-3);
 }
 
-// Over many samples, to a factor of 1.5 either way; 24 regions know a variance to 30 %.
+// Over many samples, to a factor of 1.5 either way; 24 regions give a variance to 30 %.
 TEST(RefinePose, PredictsItsError) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
   double error_sq = 0, sigma_sq = 0;
@@ -138,7 +138,7 @@ std::vector<PosePair> creepingPairs(int frame, double step_mm, double noise_px) 
   return pairs;
 }
 
-// 0.02 mm is a fifth of a pixel, less than the match errors; no frame alone can tell.
+// 0.02 mm is a fifth of a pixel, less than the match errors; no single frame shows it.
 TEST(RefinePose, FindsASlowMotionOnceItHasAddedUp) {
   const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   constexpr double kStepMm = 0.02;
@@ -228,8 +228,8 @@ TEST(RefinePose, FollowsTheUsersWordThatTheScopeIsStatic) {
   EXPECT_GT(found.moved_mm, 2);
 }
 
-// Pairs in one corner can't tell a turn from a shift.
-// After a loss only a part of the image shows tissue that the model knows.
+// Pairs in one corner do not distinguish a rotation from a shift.
+// After a loss only a part of the image shows tissue of the model.
 TEST(RefinePose, FindsAMotionThatHalfOfTheImageSees) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
   std::vector<PosePair> pairs;

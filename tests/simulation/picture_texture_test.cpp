@@ -1,4 +1,4 @@
-// tests/simulation/picture_texture_test.cpp: a photograph lies where it should and has no seam.
+// tests/simulation/picture_texture_test.cpp: a photograph has its correct position and no seam.
 #include "eval/simulation/texture/picture_texture.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ ColourImage halves(int width_px, int height_px) {
   return picture;
 }
 
-/// The organ's y is up, the scope looks along its -z.
+/// y of the organ is up, the scope views along its -z.
 Eigen::Isometry3d viewAlongMinusZ() {
   Eigen::Isometry3d body_from_view = Eigen::Isometry3d::Identity();
   body_from_view.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
@@ -110,7 +110,7 @@ TEST(PictureTexture, KeepsToItsTissueAsThatMoves) {
     const Eigen::Vector2d now_px =
         projectPoint(simulator.rig().left, left_from_world * later.tracks_world_mm[id]);
     const int before = greenOf(first.pictures.left, {point.u_px, point.v_px});
-    // The left camera stands half a baseline left of the picture's middle: 2.6 mm, 9 px.
+    // The left camera is half a baseline left of the image centre: 2.6 mm, 9 px.
     if (std::abs(point.u_px - 88.6) < 4) continue;
     EXPECT_EQ(before > 0, point.u_px > 88) << "mirrored or turned";
     EXPECT_EQ(before > 0, greenOf(later.pictures.left, now_px) > 0) << "it slid over the tissue";

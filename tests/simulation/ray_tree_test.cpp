@@ -1,4 +1,4 @@
-// tests/simulation/ray_tree_test.cpp: rays meet what formulas say.
+// tests/simulation/ray_tree_test.cpp: ray hits agree with formulas.
 #include "eval/simulation/surface/ray_tree.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(RayTree, TakesAxisParallelRays) {
   ASSERT_TRUE(hit.met());
   EXPECT_EQ(hit.distance, 7);
   EXPECT_FALSE(tree.cast({1, 1, 7}, {0, 0, 1}).met());   // behind
-  EXPECT_FALSE(tree.cast({6, 1, 7}, {0, 0, -1}).met());  // beside
+  EXPECT_FALSE(tree.cast({6, 1, 7}, {0, 0, -1}).met());  // next to it
 }
 
 TEST(RayTree, RefusesWhatIsNoSurface) {

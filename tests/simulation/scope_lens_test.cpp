@@ -46,7 +46,7 @@ TEST(ScopeLens, ALensThatFoldsThePictureIsRefused) {
   EXPECT_THROW(options.validate(), OptionError);
 }
 
-// OpenCV's own inverse, through our rectification: no formula is shared with the lens.
+// The inverse of OpenCV, in the rectification: no formula is shared with the lens.
 TEST(ScopeLens, OpenCvTakesTheDistortionOffAgain) {
   const ScopeOptions scope = bentOptions().scope;
   const Rectifier rectifier(scope.calibration());

@@ -1,4 +1,4 @@
-// tests/simulation/simulator_test.cpp: pictures, depth, mesh, tracks and path tell one story.
+// tests/simulation/simulator_test.cpp: images, depth, mesh, tracks and path are consistent.
 #include "eval/simulation/sequence/simulator.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(Simulator, MeasuresASphereAsTheFormulaSays) {
   Simulator simulator(test::makeSphere(20, 100), options);
   const SimulatedFrame frame = simulator.frame(0);
   const RectifiedRig& rig = simulator.rig();
-  // The scope looks at the sphere's nearest point with the middle of its baseline.
+  // The scope views the nearest point of the sphere with the middle of its baseline.
   const Eigen::Vector3d centre(0.5 * rig.baseline_mm, 0, 60);
   for (int v = 5; v < 90; v += 5)
     for (int u = 5; u < 120; u += 5) {

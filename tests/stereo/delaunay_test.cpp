@@ -27,8 +27,8 @@ long doubleArea(const Points& p, const std::vector<std::array<int, 3>>& triangle
   return sum;
 }
 
-/// > 0 where d lies strictly inside the circle through a, b, c, 0 on it; exact for coordinates up
-/// to thousands.
+/// > 0 if d is strictly inside the circle through a, b,
+/// c, 0 on it; exact for coordinates up to thousands.
 long inCircle(Eigen::Vector2i a, Eigen::Vector2i b, Eigen::Vector2i c, Eigen::Vector2i d) {
   const auto row = [&](const Eigen::Vector2i& p) {
     const long x = p.x() - d.x(), y = p.y() - d.y();
@@ -103,7 +103,7 @@ long turn(const Eigen::Vector2i& a, const Eigen::Vector2i& b, const Eigen::Vecto
   return static_cast<long>(ab.x()) * ac.y() - static_cast<long>(ab.y()) * ac.x();
 }
 
-/// By definition: is the triangle i < j < k of distinct points in raster order in the result?
+/// By definition: whether the result has the triangle i < j < k of distinct points in raster order.
 bool belongs(const Points& p, std::size_t i, std::size_t j, std::size_t k) {
   const long side = turn(p[j], p[k], p[i]);
   if (side == 0) return false;
@@ -113,7 +113,7 @@ bool belongs(const Points& p, std::size_t i, std::size_t j, std::size_t k) {
     if (inside > 0) return false;
     if (inside < 0) continue;
     if (d < i) return false;  // i isn't the first on the circle
-    if ((turn(p[j], p[k], p[d]) > 0) != (side > 0)) return false;  // d lies between j and k
+    if ((turn(p[j], p[k], p[d]) > 0) != (side > 0)) return false;  // d is between j and k
   }
   return true;
 }

@@ -17,8 +17,8 @@ TEST(CheckLeftRight, KeepsWhatBothPicturesSay) {
   right.values = {3, 3, 4, 5, -1, 3, 3, 0, 0, 0};
   const auto checked = checkLeftRight(left, right, 1);
   // u = 3: right(0) = 3 agrees; u = 5: right(2) = 4 agrees to 1; u = 6: right(3) = 5 doesn't.
-  EXPECT_TRUE(std::isnan(checked.at(0, 0)));  // right(0) says 3, not 0
-  EXPECT_TRUE(std::isnan(checked.at(1, 0)));  // its match lies outside
+  EXPECT_TRUE(std::isnan(checked.at(0, 0)));  // right(0) is 3, not 0
+  EXPECT_TRUE(std::isnan(checked.at(1, 0)));  // its match is outside
   EXPECT_EQ(checked.at(3, 0), 3);
   EXPECT_EQ(checked.at(4, 0), 3);
   EXPECT_EQ(checked.at(5, 0), 3);

@@ -1,4 +1,4 @@
-// tests/stereo/mask_leaks_test.cpp: an instrument's disparity beside its mask.
+// tests/stereo/mask_leaks_test.cpp: disparity of an instrument next to its mask.
 #include "stereo/refinement/mask_leaks.h"
 
 #include <gtest/gtest.h>

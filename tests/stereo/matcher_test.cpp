@@ -43,7 +43,7 @@ class EveryStereoMatcher : public testing::TestWithParam<const char*> {
     options.disparity_max_px = 127;
     return makeStereoMatcher(options);
   }
-  // SGBM's parabola pulls towards whole pixels; ours follows the brightness.
+  // The parabola of SGBM is biased to whole pixels; that of softscope follows the brightness.
   static double medianTolerancePx() { return GetParam() == std::string("elas") ? 0.05 : 0.15; }
 };
 

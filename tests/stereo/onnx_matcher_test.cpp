@@ -53,7 +53,7 @@ class OnnxNetwork : public FolderTest {
     return makeStereoMatcher(options);
   }
 
-  /// What an error says of these bytes; empty where there is none.
+  /// Error for these bytes; empty if there is none.
   std::string complaintOf(const std::string& bytes) const {
     try {
       matcher(bytes)->prepare(96, 64);

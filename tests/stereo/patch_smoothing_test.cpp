@@ -78,7 +78,7 @@ TEST(PatchSmoothing, TakesMuchOfTheNoiseFromASlope) {
 }
 
 TEST(PatchSmoothing, DoesNotMoveABulge) {
-  // A curved patch follows a quadric exactly: what is left is the noise.
+  // A curved patch follows a quadric exactly: the residual is the noise.
   const Surface bulge = [](int u, int v) {
     return 60 - 0.004 * (u - 80) * (u - 80) - 0.003 * (v - 60) * (v - 60);
   };
@@ -118,7 +118,7 @@ TEST(PatchSmoothing, KeepsReliefThatWasReallyMeasured) {
 TEST(PatchSmoothing, LeavesHolesAndTheUnknownAlone) {
   DisparityMap map = noisy(kSlope, 0.2);
   map.disparity_px.at(50, 50) = map.sigma_px.at(50, 50) = std::numeric_limits<float>::quiet_NaN();
-  map.sigma_px.at(60, 50) = 0;  // a matcher that knows no error
+  map.sigma_px.at(60, 50) = 0;  // a matcher without predicted errors
   const float untouched = map.disparity_px.at(60, 50);
   const DisparityMap after = smoothed(map);
   EXPECT_TRUE(std::isnan(after.disparity_px.at(50, 50)));

@@ -23,7 +23,7 @@ std::vector<SupportPoint> planePoints(int first, int last_u, int last_v) {
   return points;
 }
 
-/// Every pixel between the outermost points lies on the plane; 1/16 px is half a unit.
+/// Every pixel between the outermost points is on the plane; 1/16 px is half a unit.
 void expectPlane(const Raster<std::int16_t>& prior, int first, int last_u, int last_v) {
   for (int v = first; v <= last_v; ++v)
     for (int u = first; u <= last_u; ++u)
@@ -45,7 +45,7 @@ TEST(RowPrior, IsAPlaneWhereWholeRowsOrColumnsAreMissing) {
 }
 
 TEST(RowPrior, TakesAHoleFromTheRowsAboveAndBelowIt) {
-  // Rows 20 and 25 have points at the left border only: what they say is far, rows 15 and 30 near.
+  // Rows 20 and 25 have points at the left border only: their evidence is far, rows 15 and 30 near.
   auto points = planePoints(5, 60, 40);
   points.erase(std::remove_if(points.begin(), points.end(),
                               [](const SupportPoint& p) {

@@ -143,7 +143,7 @@ TEST(SubpixelRefinement, ForgivesCamerasThatDifferInGainAndOffset) {
 TEST(SubpixelRefinement, TakesNoHighlightForTissue) {
   auto scene = test::makeScene(test::endoscope(), test::plane(55), 1.0);
   Raster<float> truth = scene.disparity_px;
-  // A broad highlight of the same place in both images: it lies at infinity.
+  // A broad highlight at the same position in both images: it is at infinity.
   for (GrayImage* image : {&scene.left, &scene.right})
     for (int v = 0; v < 240; ++v)
       for (int u = 0; u < 320; ++u) {

@@ -23,7 +23,7 @@ TEST(SupportPoints, LieOnASlantedPlaneToAQuarterPixel) {
   int wrong = 0;
   for (const SupportPoint& p : points)
     wrong += std::abs(p.disparity_px - scene.disparity_px.at(p.u_px, p.v_px)) > 0.5f;
-  // A parabola through three costs is good to a quarter pixel; beyond half lies a mismatch.
+  // A parabola through three costs is accurate to a quarter pixel; beyond half is a mismatch.
   EXPECT_LE(wrong, static_cast<int>(points.size() / 100));
 }
 

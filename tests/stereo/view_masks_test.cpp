@@ -66,7 +66,7 @@ TEST_P(FramedPair, HasNoDisparityInTheFrameAndARimAsGoodAsTheInside) {
         EXPECT_TRUE(std::isnan(found.sigma_px.at(u, v))) << u << ", " << v;
         continue;
       }
-      // The right camera's frame hides what lies left of this.
+      // The frame of the right camera hides pixels left of this.
       const bool is_rim = near_frame.at(u, v) != 0 && u > 100;
       rim += is_rim;
       if (std::isnan(error)) continue;
@@ -215,7 +215,7 @@ TEST(BlackBorder, IsFoundOnAnySideFromSixPixelsOn) {
 }
 
 TEST(BlackBorder, IsNotTheDarkBackgroundOfAnOrgan) {
-  // A ball before nothing; the sensor's noise lies on the background, too.
+  // A ball in front of nothing; the background has the noise of the sensor, too.
   const auto scene = test::makeScene(test::endoscope(), test::sphere({0, 0, 60}, 18), 3.0);
   EXPECT_TRUE(findBlackBorder(test::colourOf(scene.left)).empty());
 }

@@ -57,8 +57,8 @@ TEST(DepthAccuracy, OfARealClip) {
   for (const FrameScore& f : score.frames) {
     if (f.errors.known_count == 0) continue;
     EXPECT_GE(f.errors.coverage_percent, 80) << f.frame;
-    // Frame 35: tissue moves between the exposures, and the reference lies 0.8 px off what the
-    // pictures show (docs/benchmarks.md).
+    // Frame 35: tissue moves between the exposures, and the reference
+    // differs by 0.8 px from the images (docs/benchmarks.md).
     EXPECT_LE(f.errors.absolute_mm.median, f.frame == 35 ? 2.5 : 1.5) << f.frame;
   }
 }

@@ -49,8 +49,8 @@ struct SequenceScore {
   int failed_frames = 0;             // that could not be read or measured
 };
 
-/// A sequence folder with `truth`/NNNNNN.png (16-bit, 0.01 mm) beside some of its frames. Frames
-/// without truth are measured too; their errors are empty.
+/// A sequence folder with `truth`/NNNNNN.png (16-bit, 0.01 mm) for some of
+/// its frames. Frames without truth are measured too; their errors are empty.
 SequenceScore scoreSequence(const std::filesystem::path& folder, const std::string& truth);
 
 /// opencas_ct: depth from the raw pair, in the raw left frame, against the CT patch.

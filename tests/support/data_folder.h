@@ -18,7 +18,7 @@ inline std::filesystem::path dataFolder(const std::string& name) {
 
 }  // namespace softscope::test
 
-/// Names a folder of the larger test data, or skips the test and says so.
+/// Folder of the larger test data; skips the test with a message if it is missing.
 #define SOFTSCOPE_DATA_OR_SKIP(variable, name)                                     \
   const std::filesystem::path variable = softscope::test::dataFolder(name);        \
   if (variable.empty())                                                            \

@@ -18,7 +18,7 @@ int countFiles(const std::filesystem::path& folder);
 /// Writes `frames` pairs, 160 x 120, of a textured slope some 50 mm away, with their calibration.
 void writeSequence(const std::filesystem::path& folder, int frames);
 
-/// What that calibration says.
+/// Text of that calibration.
 RectifiedRig sequenceRig();
 
 class InFolder : public FolderTest {

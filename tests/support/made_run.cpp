@@ -27,7 +27,7 @@ std::string numbered(int frame, const char* extension) {
   return name;
 }
 
-/// Faces the camera, which looks along +z.
+/// Faces the camera, which views along +z.
 std::string wallPly(int frame) {
   const float z = wallZ(frame);
   return meshPly({{-90, -90, z}, {90, -90, z}, {90, 90, z}, {-90, 90, z}}, {{0, 2, 1}, {0, 3, 2}});

@@ -9,14 +9,14 @@
 
 namespace softscope::test {
 
-/// The scope slides right by 1 mm a frame before a wall that comes nearer by 0.5 mm a frame, from
-/// 50 mm. No pictures, for none are needed: calibration, true meshes, poses, tracks, and on wish
-/// true depths.
+/// The scope moves right by 1 mm per frame in front of a wall that
+/// approaches by 0.5 mm per frame, from 50 mm. Without images:
+/// calibration, true meshes, poses, tracks, and optional true depths.
 void makeWallTruth(const std::filesystem::path& sequence, int frames, bool with_depth);
 
-/// What a run of these frames would leave if its surface were 0.1 mm + 0.02 mm a frame too near to
-/// the camera where that sees it, twice as much elsewhere; its scope off by 0.1 mm a frame
-/// downwards; its tracks off by 0.5 mm. `first` > 0: the run began there, with a world of its own.
+/// Files of a run of these frames with a surface 0.1 mm + 0.02 mm per frame too near to the
+/// camera where visible, twice as much elsewhere; scope error 0.1 mm per frame downwards;
+/// track error 0.5 mm. `first` > 0: the run started there, with its own world frame.
 void makeWallRun(const std::filesystem::path& run, int frames, int first = 0);
 
 Eigen::Isometry3d trueWallPose(int frame);  // world_from_left

@@ -52,8 +52,8 @@ inline Surface nearest(const Surface& one, const Surface& other) {
   };
 }
 
-/// Smooth noise in space, 0 to 1, with structure of about `size_mm`: both cameras see the same
-/// tissue, whatever its shape.
+/// Smooth noise in space, 0 to 1, with structure of about
+/// `size_mm`: both cameras see the same tissue, for any shape.
 inline double solidTexture(const Eigen::Vector3d& point_mm, double size_mm) {
   const auto lattice = [](long x, long y, long z) {
     std::uint64_t h = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15ULL ^

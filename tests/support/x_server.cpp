@@ -1,4 +1,4 @@
-// tests/support/x_server.cpp: Xvfb tells the number of its display through a pipe.
+// tests/support/x_server.cpp: Xvfb writes the number of its display to a pipe.
 #include "support/x_server.h"
 
 #include <fcntl.h>

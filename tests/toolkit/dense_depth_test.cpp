@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class DenseDepthFiles : public InFolder {};
 
-// A third of the picture has no partner or no texture: there, too, lies the slope.
+// A third of the image has no partner or no texture: the slope is there, too.
 TEST_F(DenseDepthFiles, GiveEveryPixelAValueAndAStandardError) {
   const std::string sequence = makeSequence("s", 1);
   MeasureOptions options = measurement(sequence, at("out"));

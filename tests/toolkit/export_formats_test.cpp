@@ -1,4 +1,4 @@
-// tests/toolkit/export_formats_test.cpp: our files, read by readers that aren't ours.
+// tests/toolkit/export_formats_test.cpp: exported files, read by readers of other libraries.
 #include <gtest/gtest.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -167,7 +167,7 @@ TEST_F(ExportFormats, VtkReadsOurStl) {
 
 using OpenMeshSurface = OpenMesh::TriMesh_ArrayKernelT<>;
 
-/// Reads positions, normals and colours; OpenMesh warns of properties that it doesn't know.
+/// Reads positions, normals and colours; OpenMesh warns of unknown properties.
 OpenMeshSurface readByOpenMesh(const std::string& file, bool with_colours) {
   OpenMeshSurface mesh;
   mesh.request_vertex_normals();
@@ -192,7 +192,7 @@ TEST_F(ExportFormats, OpenMeshReadsOurPlyAndObj) {
       const Rgb8& colour = strip.vertices.colours[i];
       for (unsigned axis = 0; axis < 3; ++axis)
         ASSERT_NEAR(mesh.point(vertex)[axis], strip.vertices.points_mm[i][axis], 6 * kFloat);
-      // An OBJ's colours have four digits; OpenMesh cuts, we round: one step of 255.
+      // Colours of an OBJ have four digits; OpenMesh truncates, softscope rounds: one step of 255.
       ASSERT_NEAR(mesh.color(vertex)[0], colour.red, 1);
       ASSERT_NEAR(mesh.color(vertex)[1], colour.green, 1);
       ASSERT_NEAR(mesh.color(vertex)[2], colour.blue, 1);
@@ -200,7 +200,7 @@ TEST_F(ExportFormats, OpenMeshReadsOurPlyAndObj) {
   }
 }
 
-/// The one polygon data of a glTF file, as VTK reads it, and who keeps it.
+/// The single polygon data of a glTF file, as read by VTK, and its owner.
 vtkPolyData* firstPolyData(vtkMultiBlockDataSet* blocks) {
   for (unsigned i = 0; i < blocks->GetNumberOfBlocks(); ++i) {
     if (auto* data = vtkPolyData::SafeDownCast(blocks->GetBlock(i))) return data;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 class Layouts : public InFolder {
  protected:
-  /// `layout` empty: our own form.
+  /// `layout` empty: the form of softscope.
   void simulate(const std::string& out, const std::string& layout,
                 const std::vector<std::string>& more) const {
     SimulateOptions options;

@@ -37,15 +37,15 @@ bool isNumbered(const fs::path& name) {
   return name.stem().string().find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Whether a clip of so many frames has this file of a frame: the truth of every fifth and of the
-/// last one, the images of all.
+/// Whether a clip of this number of frames has this file of a frame:
+/// the truth of every fifth and of the last one, the images of all.
 bool belongs(const fs::path& name, int frames) {
   const int frame = std::stoi(name.stem().string());
   const bool truth = *name.begin() == "groundtruth";
   return frame < frames && (!truth || frame % 5 == 0 || frame + 1 == frames);
 }
 
-/// Keeps the heading and a line a frame.
+/// Keeps the heading and one line per frame.
 void cutTable(const fs::path& file, int headings, int frames) {
   std::istringstream lines(textOf(file));
   std::string kept;

@@ -1,4 +1,4 @@
-// tests/toolkit/run_tables_test.cpp: lines fit their headings, whatever a frame has to say.
+// tests/toolkit/run_tables_test.cpp: lines fit their headings, for any content.
 #include "toolkit/run/run_tables.h"
 
 #include <gtest/gtest.h>

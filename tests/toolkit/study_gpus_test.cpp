@@ -56,7 +56,7 @@ TEST(StudyGpus, ThePoolGivesTheLeastUsed) {
 
 class StudyOnGpus : public test::FolderTest {
  protected:
-  /// A stand-in for softscope: leaves the GPU that it was given and the GPUs in use beside it.
+  /// A stand-in for softscope: writes its own GPU and the other GPUs in use.
   StudyRun studyOf(int cases, const std::vector<std::string>& gpus) const {
     write("program",
           "#!/bin/sh\nmkdir \"$0.$CUDA_VISIBLE_DEVICES\" || echo shared >> \"$0.log\"\n"

@@ -43,7 +43,7 @@ class MadeSource : public ViewSource {
     return moment;
   }
 
-  /// A run that still goes on, with `grown` moments at the next look.
+  /// A run in progress, with `grown` frames at the next poll.
   void goOn(int grown) {
     live_ = true;
     grown_ = grown;

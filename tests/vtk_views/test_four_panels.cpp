@@ -55,7 +55,7 @@ TEST(SlicePanel, ContoursLieOnTheirSidesOfThePanel) {
   const PanelPlace place{{0, 0}, 200, 200};
   struct Case {
     ViewPlane view;
-    int right, up;  // where the small box lies from the big one's middle
+    int right, up;  // offset of the small box from the centre of the big one
   };
   const auto patient = SceneFrame::kPatient;
   for (const Case& c : {Case{axialView({0, 0, 0}, patient, SideRule::kRadiological), 1, 1},

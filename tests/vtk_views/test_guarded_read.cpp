@@ -1,4 +1,4 @@
-// tests/vtk_views/test_guarded_read.cpp: whatever a reader does, its caller lives and is told.
+// tests/vtk_views/test_guarded_read.cpp: the caller survives any reader, with an error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>

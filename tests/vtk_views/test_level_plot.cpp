@@ -1,4 +1,4 @@
-// tests/vtk_views/test_level_plot.cpp: what stands in plots of studies.
+// tests/vtk_views/test_level_plot.cpp: contents of plots of studies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

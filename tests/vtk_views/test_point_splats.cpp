@@ -50,7 +50,7 @@ TEST(PointSplats, LieInTheSurfaceAndCoverIt) {
 
 TEST(PointSplats, ColoursAndErrorsGoOverIntoThoseOfTheNeighbours) {
   const SceneSurface points = leaningSquare(), splats = splatsOf(points, 1, kEye);
-  // White, beside black ones at its left.
+  // White, next to black ones on its left.
   EXPECT_GT(splats.mesh.colours[kMiddle * kCorners].red, 200);
   int least = 255, most = 0;
   double low = 1, high = -1;

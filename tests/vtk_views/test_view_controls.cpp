@@ -34,7 +34,7 @@ TEST_F(ViewControls, StopsAfterTheLastMomentHasHadItsTime) {
   playback.pass(1.99);
   EXPECT_EQ(playback.index(), 4);
   EXPECT_TRUE(playback.playing);
-  EXPECT_TRUE(playback.pass(0.02));  // the foot must say that it stopped
+  EXPECT_TRUE(playback.pass(0.02));  // the foot must show that it stopped
   EXPECT_FALSE(playback.playing);
   press("space");
   EXPECT_EQ(playback.index(), 0) << "playing again begins at the beginning";
@@ -110,7 +110,7 @@ TEST_F(ViewControls, FollowsALiveRunOnlyFromItsEnd) {
   source.look();
   EXPECT_TRUE(playback.follow(5));
   EXPECT_EQ(playback.index(), 7);
-  playback.goTo(2);  // who looks back isn't torn away
+  playback.goTo(2);  // a selected past frame is kept
   source.goOn(9);
   source.look();
   EXPECT_FALSE(playback.follow(8));

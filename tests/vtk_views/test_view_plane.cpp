@@ -1,4 +1,4 @@
-// tests/vtk_views/test_view_plane.cpp: who stands where, and what the letters say.
+// tests/vtk_views/test_view_plane.cpp: orientation of views, and their letters.
 #include <gtest/gtest.h>
 
 #include <cmath>

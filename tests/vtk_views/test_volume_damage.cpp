@@ -1,5 +1,5 @@
-// tests/vtk_views/test_volume_damage.cpp: geometry that a file doesn't say is never made up, and
-// damaged voxels are never drawn.
+// tests/vtk_views/test_volume_damage.cpp: missing geometry is never invented, and damaged voxels
+// are never drawn.
 #include <sys/stat.h>
 
 #include <cmath>
@@ -160,7 +160,7 @@ TEST_F(DamagedVolume, WithADamagedHeaderIsAnErrorAndNeverACrash) {
            {"encoding: raw", "data file: a%03d.raw 1 12 1\nencoding: raw"},
            {"encoding: raw", "byte skip: -7\nencoding: raw"}})
     errorOf("h.nrrd", replaced(nrrd, what, with) + voxels);
-  // What stands in `kinds` moves no voxel; a reader of another library came to no end there.
+  // The content of `kinds` moves no voxel; a reader of another library did not terminate there.
   EXPECT_EQ(readVolume(write("k.nrrd", replaced(nrrd, "kinds: domain", "kinds: d#omain") + voxels))
                 .values.size(),
             std::size_t{20 * 24 * 12});

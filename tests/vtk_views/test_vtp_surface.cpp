@@ -1,4 +1,4 @@
-// tests/vtk_views/test_vtp_surface.cpp: what we write comes back; broken files are told.
+// tests/vtk_views/test_vtp_surface.cpp: written files can be read; broken files are reported.
 #include <gtest/gtest.h>
 
 #include <filesystem>

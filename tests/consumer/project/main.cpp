@@ -1,4 +1,4 @@
-// tests/consumer/project/main.cpp: a program beside the installed library.
+// tests/consumer/project/main.cpp: a program that uses the installed library.
 #include <softscope/softscope.h>
 
 #include <iostream>
