@@ -17,8 +17,9 @@ FirstLook::Window takeWindow(const GrayImage& image, const Mask& ignore,
     const std::size_t at = static_cast<std::size_t>(i);
     const Eigen::Vector2d place = pixel + windowOffset(i);
     const Eigen::Vector2d nearest = place.cwiseMax(0).cwiseMin(last);
-    window.gray[at] = static_cast<std::uint8_t>(std::lround(sampleAt(image, nearest)));
-    window.ignore[at] = !sampleable(image, place) || ignoredAt(ignore, nearest);
+    window.gray[at] =
+        static_cast<std::uint8_t>(std::lround(sampleAt(image, nearest.x(), nearest.y())));
+    window.ignore[at] = !sampleable(image, place) || ignoredAt(ignore, nearest.x(), nearest.y());
     counted += window.ignore[at] == 0;
   }
   window.taken = counted >= FirstLook::kLeastShare * FirstLook::kPixels;

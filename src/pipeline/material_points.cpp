@@ -47,12 +47,17 @@ double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
   return std::clamp(around_mm, nearest.depth_mm - limit_mm, nearest.depth_mm + limit_mm);
 }
 
+/// Without std::floor(), which is a call into the C library where SSE4.1 is not taken for granted.
+std::int64_t floorOf(double x) {
+  const std::int64_t whole = static_cast<std::int64_t>(x);
+  return whole - (static_cast<double>(whole) > x ? 1 : 0);
+}
+
 std::int64_t cellOf(const Eigen::Vector3d& position_mm) {
-  const Eigen::Vector3d cell = (position_mm / kSurfaceMm).array().floor();
   constexpr std::int64_t kBias = 1 << 20;
-  return (static_cast<std::int64_t>(cell.x()) + kBias) << 42 |
-         (static_cast<std::int64_t>(cell.y()) + kBias) << 21 |
-         (static_cast<std::int64_t>(cell.z()) + kBias);
+  return (floorOf(position_mm.x() / kSurfaceMm) + kBias) << 42 |
+         (floorOf(position_mm.y() / kSurfaceMm) + kBias) << 21 |
+         (floorOf(position_mm.z() / kSurfaceMm) + kBias);
 }
 
 /// Tracked points in and next to each cell.

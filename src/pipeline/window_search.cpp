@@ -1,6 +1,7 @@
 #include "pipeline/window_search.h"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -61,15 +62,35 @@ class Shading {
   Eigen::Matrix<double, kPixels, kTerms> basis_;  // orthonormal
 };
 
+/// Positions of the pixels of a window in the image.
+struct WindowPlaces {
+  std::array<double, kPixels> u, v;
+
+  WindowPlaces(const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map) {
+    for (int y = 0; y < kSide; ++y) {
+      const double down = y - FirstLook::kHalfPx;
+      const double u_down = map(0, 1) * down, v_down = map(1, 1) * down;
+      for (int x = 0; x < kSide; ++x) {
+        const double across = x - FirstLook::kHalfPx;
+        const std::size_t i = static_cast<std::size_t>(y * kSide + x);
+        u[i] = pixel.x() + (map(0, 0) * across + u_down);
+        v[i] = pixel.y() + (map(1, 0) * across + v_down);
+      }
+    }
+  }
+};
+
 /// Samples the image; false if a pixel that counts is outside.
 bool sampleWindow(const GrayImage& image, const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map,
                   const Window& weights, Window* values) {
+  const WindowPlaces places(pixel, map);
   for (int i = 0; i < kPixels; ++i) {
+    const double u = places.u[static_cast<std::size_t>(i)],
+                 v = places.v[static_cast<std::size_t>(i)];
     (*values)[i] = 0;
     if (weights[i] == 0) continue;
-    const Eigen::Vector2d place = pixel + map * windowOffset(i);
-    if (!sampleable(image, place)) return false;
-    (*values)[i] = sampleAt(image, place);
+    if (!sampleable(image, u, v)) return false;
+    (*values)[i] = sampleAt(image, u, v);
   }
   return true;
 }
@@ -78,13 +99,14 @@ bool sampleWindow(const GrayImage& image, const Eigen::Vector2d& pixel, const Ei
 Window countedPixels(const FirstLook::Window& look, const GrayImage& image, const Mask& ignore,
                      const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map) {
   constexpr double kRoomPx = kLargestShiftPx + 1;
+  const double last_u = image.width_px - 1 - kRoomPx, last_v = image.height_px - 1 - kRoomPx;
+  const WindowPlaces places(pixel, map);
   Window weights = Window::Zero();
   for (int i = 0; i < kPixels; ++i) {
-    const Eigen::Vector2d place = pixel + map * windowOffset(i);
-    const bool room = place.minCoeff() > kRoomPx && place.x() < image.width_px - 1 - kRoomPx &&
-                      place.y() < image.height_px - 1 - kRoomPx;
-    if (look.ignore[static_cast<std::size_t>(i)] == 0 && room && !ignoredAt(ignore, place))
-      weights[i] = 1;
+    const std::size_t k = static_cast<std::size_t>(i);
+    const double u = places.u[k], v = places.v[k];
+    const bool room = u > kRoomPx && v > kRoomPx && u < last_u && v < last_v;
+    if (look.ignore[k] == 0 && room && !ignoredAt(ignore, u, v)) weights[i] = 1;
   }
   return weights;
 }
@@ -230,23 +252,6 @@ bool converge(Window first, const Window& weights, const GrayImage& image,
 }
 
 }  // namespace
-
-double sampleAt(const GrayImage& image, const Eigen::Vector2d& pixel) {
-  const int u0 = static_cast<int>(pixel.x()), v0 = static_cast<int>(pixel.y());
-  const double across = pixel.x() - u0, down = pixel.y() - v0;
-  const std::uint8_t* above = image.row(v0) + u0;
-  const std::uint8_t* below = above + image.width_px;
-  const double first = above[0] + across * (above[1] - above[0]);
-  const double second = below[0] + across * (below[1] - below[0]);
-  return first + down * (second - first);
-}
-
-bool ignoredAt(const Mask& ignore, const Eigen::Vector2d& pixel) {
-  if (ignore.empty()) return false;
-  const int u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());
-  return (ignore.at(u, v) | ignore.at(u + 1, v) | ignore.at(u, v + 1) | ignore.at(u + 1, v + 1)) !=
-         0;
-}
 
 bool findWindow(const FirstLook::Window& look, const GrayImage& image, const Mask& ignore,
                 const Eigen::Matrix2d& image_from_look, LookSearch* search) {

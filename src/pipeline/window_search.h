@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "pipeline/first_look.h"
 
@@ -26,15 +27,30 @@ inline Eigen::Vector2d windowOffset(int i) {
 }
 
 /// Whether a bilinear sample is inside the image.
+inline bool sampleable(const GrayImage& image, double u, double v) {
+  return u >= 0 && v >= 0 && u < image.width_px - 1 && v < image.height_px - 1;
+}
 inline bool sampleable(const GrayImage& image, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < image.width_px - 1 &&
-         pixel.y() < image.height_px - 1;
+  return sampleable(image, pixel.x(), pixel.y());
 }
 
 /// Bilinear sample at a position inside the image.
-double sampleAt(const GrayImage& image, const Eigen::Vector2d& pixel);
+inline double sampleAt(const GrayImage& image, double u, double v) {
+  const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
+  const double across = u - u0, down = v - v0;
+  const std::uint8_t* above = image.row(v0) + u0;
+  const std::uint8_t* below = above + image.width_px;
+  const double first = above[0] + across * (above[1] - above[0]);
+  const double second = below[0] + across * (below[1] - below[0]);
+  return first + down * (second - first);
+}
 
 /// Whether a masked pixel contributes to it.
-bool ignoredAt(const Mask& ignore, const Eigen::Vector2d& pixel);
+inline bool ignoredAt(const Mask& ignore, double u, double v) {
+  if (ignore.empty()) return false;
+  const std::uint8_t* above = ignore.row(static_cast<int>(v)) + static_cast<int>(u);
+  const std::uint8_t* below = above + ignore.width_px;
+  return (above[0] | above[1] | below[0] | below[1]) != 0;
+}
 
 }  // namespace softscope
