@@ -29,15 +29,19 @@ int secondBestCost(const SupportRow& row, int u, int best, int count) {
   return second;
 }
 
+/// Pixels whose windows reach a masked one, in both views; empty without a mask.
+struct BlockedPixels {
+  Mask left, right;
+};
+
 /// The support candidates of one row, kNone after a failed test.
 class RowMatcher {
  public:
-  RowMatcher(const GradientImage& left, const GradientImage& right, const StereoOptions& options,
-             int row_offset_px)
+  RowMatcher(const GradientImage& left, const GradientImage& right, const BlockedPixels& blocked,
+             const StereoOptions& options, int row_offset_px)
       : left_(left.view()),
         right_(right.view(row_offset_px)),
-        left_blocked_(left.blocked(kReach)),
-        right_blocked_(right.blocked(kReach)),
+        blocked_(blocked),
         row_offset_(row_offset_px),
         width_(left.width_px()),
         minimum_(options.disparity_min_px),
@@ -60,8 +64,8 @@ class RowMatcher {
     if (u < kReach || u >= width_ - kReach || row_.cost_left[u] == 0xFFFF) return kNone;
     const int disparity = row_.disparity_left[u], best = disparity - minimum_;
     if (texture(left_, u, v) < elas_.support_texture) return kNone;
-    if (isBlocked(left_blocked_, u, v)) return kNone;
-    if (isBlocked(right_blocked_, u - disparity, v + row_offset_)) return kNone;
+    if (isBlocked(blocked_.left, u, v)) return kNone;
+    if (isBlocked(blocked_.right, u - disparity, v + row_offset_)) return kNone;
     const int returned = row_.disparity_right[u - disparity];
     if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
     if (best == 0 || best == count_ - 1) return kNone;  // the true one may be outside of the range
@@ -78,7 +82,7 @@ class RowMatcher {
   int cost(int i, int u) const { return row_.volume[static_cast<long>(i) * row_.stride + u]; }
 
   GradientView left_, right_;
-  Mask left_blocked_, right_blocked_;
+  const BlockedPixels& blocked_;
   int row_offset_;
   int width_, minimum_, count_;
   const ElasOptions& elas_;
@@ -126,10 +130,11 @@ void removeRedundant(Raster<float>& grid, int dx, int dy, int reach) {
       if (grid.at(c, r) != kNone && isRedundant(grid, c, r, dx, dy, reach)) grid.at(c, r) = kNone;
 }
 
-void matchRows(const GradientImage& left, const GradientImage& right, const StereoOptions& options,
-               int row_offset_px, const std::vector<int>& rows, Raster<float>& grid) {
+void matchRows(const GradientImage& left, const GradientImage& right, const BlockedPixels& blocked,
+               const StereoOptions& options, int row_offset_px, const std::vector<int>& rows,
+               Raster<float>& grid) {
   parallelRanges(static_cast<int>(rows.size()), 4, [&](int begin, int end) {
-    RowMatcher matcher(left, right, options, row_offset_px);
+    RowMatcher matcher(left, right, blocked, options, row_offset_px);
     for (int i = begin; i < end; ++i) {
       const int r = rows[static_cast<std::size_t>(i)];
       matcher.match(r * options.elas.support_step_px, grid.row(r), grid.width_px);
@@ -177,8 +182,12 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
   for (int r = 0; r < grid.height_px; ++r)
     if (r * step >= kReach && r * step < left.height_px() - kReach)
       (r % kRangeRows == 1 ? first_rows : other_rows).push_back(r);
-  matchRows(left, right, options, row_offset_px, first_rows, grid);
-  matchRows(left, right, narrowedTo(foundIn(grid), options), row_offset_px, other_rows, grid);
+  BlockedPixels blocked;
+  parallelInvoke([&] { blocked.left = left.blocked(kReach); },
+                 [&] { blocked.right = right.blocked(kReach); });
+  matchRows(left, right, blocked, options, row_offset_px, first_rows, grid);
+  matchRows(left, right, blocked, narrowedTo(foundIn(grid), options), row_offset_px, other_rows,
+            grid);
   grid = removeLonely(grid, options.elas);
   return pointsOf(grid, options.elas);
 }
