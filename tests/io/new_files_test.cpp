@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "core/error.h"
 #include "temporary_folder.h"
 
 namespace softscope::test {
@@ -26,6 +27,19 @@ TEST(NewFiles, AreTakenBackUnlessKept) {
   files.make(folder / "new.txt", [&] { put(folder / "new.txt", "two"); });
   files.keep();
   EXPECT_EQ(get(folder / "new.txt"), "two");
+}
+
+TEST(NewFiles, AFolderBelowAFileIsAnErrorThatNamesIt) {
+  const TemporaryFolder folder;
+  put(folder / "file", "text");
+  NewFiles files;
+  try {
+    files.makeFolder(folder / "file/below");
+    ADD_FAILURE() << "was made";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("file/below: Not a directory"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(NewFiles, LeaveWhatOthersWrote) {

@@ -2,6 +2,9 @@
 
 #include <system_error>
 
+#include "core/error.h"
+#include "io/text/message.h"
+
 namespace softscope {
 
 namespace fs = std::filesystem;
@@ -25,9 +28,13 @@ void NewFiles::add(const fs::path& file) {
 
 void NewFiles::makeFolder(const fs::path& folder) {
   std::vector<fs::path> missing;
-  for (fs::path at = folder; !at.empty() && !fs::exists(at); at = at.parent_path())
+  std::error_code problem;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, problem); at = at.parent_path())
     missing.push_back(at);
-  fs::create_directories(folder);
+  fs::create_directories(folder, problem);
+  if (problem)
+    throw Error(say(shown(folder), ": ", problem.message(),
+                    ". Check the path and the rights of its folders."));
   const std::lock_guard<std::mutex> lock(mutex_);
   folders_.insert(folders_.end(), missing.rbegin(), missing.rend());
 }

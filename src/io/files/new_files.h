@@ -20,7 +20,7 @@ class NewFiles {
   /// Calls `write`, which writes `file`.
   template <class Write>
   void make(const std::filesystem::path& file, const Write& write);
-  /// Creates the folder with missing parents. Throws filesystem_error.
+  /// Creates the folder with missing parents. Throws Error: the folder, the reason of the system.
   void makeFolder(const std::filesystem::path& folder);
   void keep();
 
