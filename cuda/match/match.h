@@ -22,7 +22,7 @@ class Matcher : public FeatureMatcher {
   Matcher(const Matcher&) = delete;
   Matcher& operator=(const Matcher&) = delete;
 
-  std::string name() const override { return "dense-surf"; }
+  std::string name() const override { return MatcherOptions::kDenseSurf; }
   /// upload(), compute(), download().
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override;
 

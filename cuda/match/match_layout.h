@@ -192,7 +192,7 @@ void requireMatchShape(const Raster<T>& image, const View<T>& prepared) {
 
 /// Throws OptionError for options without GPU version.
 inline void requireMatchLimits(const MatcherOptions& options, int width_px, int height_px) {
-  require(options.method == "dense-surf", "matcher.method", options.method,
+  require(options.method == MatcherOptions::kDenseSurf, "matcher.method", options.method,
           "only dense-surf runs on the GPU");
   require(options.dense_surf.cell_px == DescribeKernel::kReach * DenseSurfOptions::kGridPx,
           "dense_surf.cell_px", options.dense_surf.cell_px, "the GPU takes 6");

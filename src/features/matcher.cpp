@@ -1,6 +1,7 @@
 #include "features/matcher.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/error.h"
 #include "core/mask_morphology.h"
@@ -73,7 +74,7 @@ std::vector<PixelMatch> keepSure(std::vector<PixelMatch> matches, double max_sig
 class DenseSurfMatcher : public FeatureMatcher {
  public:
   explicit DenseSurfMatcher(const MatcherOptions& options) : options_(options) {}
-  std::string name() const override { return "dense-surf"; }
+  std::string name() const override { return MatcherOptions::kDenseSurf; }
 
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
     const std::vector<MatchLevel> levels = matchPyramid(model, live, kLeastMatchSidePx);
@@ -122,7 +123,7 @@ class DenseSurfMatcher : public FeatureMatcher {
 
 class NoMatcher : public FeatureMatcher {
  public:
-  std::string name() const override { return "surf-off"; }
+  std::string name() const override { return MatcherOptions::kNoMatches; }
   std::vector<PixelMatch> match(const MatchPicture&, const MatchPicture&) override { return {}; }
 };
 
@@ -163,20 +164,37 @@ class CheckedMatcher : public FeatureMatcher {
   std::unique_ptr<FeatureMatcher> inner_;
 };
 
-std::unique_ptr<FeatureMatcher> makeUnchecked(const MatcherOptions& options) {
-  if (options.method == "dense-surf") return std::make_unique<DenseSurfMatcher>(options);
-  if (options.method == "sift") return makeSiftMatcher(options);
-  if (options.method == "dis-flow") return makeFlowMatcher(options);
-  return std::make_unique<NoMatcher>();
-}
+/// All matchers, by the name in settings.
+struct NamedMatcher {
+  const char* name;
+  std::unique_ptr<FeatureMatcher> (*make)(const MatcherOptions&);
+};
+const NamedMatcher kMatchers[] = {
+    {MatcherOptions::kDenseSurf,
+     [](const MatcherOptions& options) -> std::unique_ptr<FeatureMatcher> {
+       return std::make_unique<DenseSurfMatcher>(options);
+     }},
+    {MatcherOptions::kSift, makeSiftMatcher},
+    {MatcherOptions::kDisFlow, makeFlowMatcher},
+    {MatcherOptions::kNoMatches, [](const MatcherOptions&) -> std::unique_ptr<FeatureMatcher> {
+       return std::make_unique<NoMatcher>();
+     }}};
 
 }  // namespace
+
+std::vector<std::string> matcherMethods() {
+  std::vector<std::string> names;
+  for (const NamedMatcher& matcher : kMatchers) names.emplace_back(matcher.name);
+  return names;
+}
 
 void MatcherOptions::validate() const { requireAllowed(*this); }
 
 std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options) {
   options.validate();
-  return std::make_unique<CheckedMatcher>(options, makeUnchecked(options));
+  const auto named = [&](const NamedMatcher& matcher) { return options.method == matcher.name; };
+  const NamedMatcher& matcher = *std::find_if(std::begin(kMatchers), std::end(kMatchers), named);
+  return std::make_unique<CheckedMatcher>(options, matcher.make(options));
 }
 
 }  // namespace softscope

@@ -30,7 +30,7 @@ class FeatureMatcher {
  public:
   virtual ~FeatureMatcher() = default;
 
-  /// "dense-surf", "sift", "dis-flow" or "surf-off"; written into every report.
+  /// One of matcherMethods(); written into every report.
   virtual std::string name() const = 0;
 
   /// Matches inside both images, by rows of the model image. Images

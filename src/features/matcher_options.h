@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "features/dense_surf.h"
 
@@ -31,8 +32,16 @@ struct ConsistencyOptions {
   static constexpr double kMinShare = 0.4;  // of the neighbours that must agree; 0 = no test
 };
 
+/// Names of all matchers: values of the setting matcher.method.
+std::vector<std::string> matcherMethods();
+
 struct MatcherOptions {
-  std::string method = "dense-surf";             // or "sift", "dis-flow", or "surf-off": no matches
+  static constexpr const char* kDenseSurf = "dense-surf";
+  static constexpr const char* kSift = "sift";
+  static constexpr const char* kDisFlow = "dis-flow";
+  static constexpr const char* kNoMatches = "surf-off";
+
+  std::string method = kDenseSurf;               // one of matcherMethods()
   double reach = 0.2;                            // longest shift, share of the image's longer side
   static constexpr double kSearchRadiusPx = 12;  // around the prediction of the coarser level
   // squares of this size without a match use a coarser level

@@ -61,7 +61,7 @@ class SiftMatcher : public FeatureMatcher {
  public:
   explicit SiftMatcher(const MatcherOptions& options)
       : options_(options), sift_(cv::SIFT::create(options.kSiftFeatures)) {}
-  std::string name() const override { return "sift"; }
+  std::string name() const override { return MatcherOptions::kSift; }
 
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
     std::vector<PixelMatch> matches;
@@ -88,7 +88,7 @@ class FlowMatcher : public FeatureMatcher {
  public:
   explicit FlowMatcher(const MatcherOptions& options)
       : options_(options), flow_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) {}
-  std::string name() const override { return "dis-flow"; }
+  std::string name() const override { return MatcherOptions::kDisFlow; }
 
   std::vector<PixelMatch> match(const MatchPicture& model, const MatchPicture& live) override {
     std::vector<PixelMatch> rough;

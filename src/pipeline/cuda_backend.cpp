@@ -89,7 +89,7 @@ ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometr
 /// Other methods have no kernels.
 std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& options,
                                                const RectifiedRig& rig) {
-  if (options.matcher.method != "dense-surf") return makeCpuMatchStage(options, rig);
+  if (options.matcher.method != MatcherOptions::kDenseSurf) return makeCpuMatchStage(options, rig);
   return std::make_unique<CudaMatchStage>(options, rig);
 }
 

@@ -35,7 +35,7 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
                              const ReconstructionOptions& options)
     : backend_(std::move(backend)),
       gate_(options.gate),
-      matching_(options.matcher.method != "surf-off") {
+      matching_(options.matcher.method != MatcherOptions::kNoMatches) {
   options.validate();
 }
 

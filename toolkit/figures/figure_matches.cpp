@@ -153,7 +153,8 @@ RunFigure drawMatchFigure(const RunFigureOptions& options, SceneInputs& inputs) 
                    {"frame", moment.frame},
                    {"model_frame", moment.model_frame},
                    {"inlier_threshold_mm", settings.method.pose.threshold_mm}};
-  for (const auto& [method, name] : {std::pair{"dense-surf", "dense SURF"}, {"sift", "SIFT"}}) {
+  for (const auto& [method, name] :
+       {std::pair{MatcherOptions::kDenseSurf, "dense SURF"}, {MatcherOptions::kSift, "SIFT"}}) {
     Answer answer = answerOf(method, name, view, live, measured, settings.method);
     figure.panels.push_back(std::move(answer.panel));
     result.record["matchers"].push_back(std::move(answer.json));
