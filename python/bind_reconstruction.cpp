@@ -52,7 +52,14 @@ void bindRuns(py::module_& module) {
             const auto& model = self.cast<api::Model&>();
             return arrayOver(model.weights, {py::ssize_t(model.weights.size())}, self);
           },
-          "N, float32: how often, and how well, each point was seen.");
+          "N, float32: how often, and how well, each point was seen.")
+      .def_property_readonly(
+          "sigmas_mm",
+          [](const py::object& self) {
+            const auto& model = self.cast<api::Model&>();
+            return arrayOver(model.sigmas_mm, {py::ssize_t(model.sigmas_mm.size())}, self);
+          },
+          "N, float32: predicted standard errors, mm; NaN where unknown, empty of a run without.");
 
   py::class_<api::Run>(module, "Run", "The folder that a reconstruction leaves.")
       .def(py::init<std::string>(), "folder"_a, Released())

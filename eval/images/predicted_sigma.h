@@ -28,6 +28,9 @@ struct Sparsification {
   /// Area between the two curves divided by the mean of all (AUSE;
   /// Ilg et al., ECCV 2018). 0: sigma and error have the same order.
   double area = Statistics::kNone;
+
+  /// Mean error of the surer half.
+  double halfLeft() const { return mean_left.empty() ? Statistics::kNone : mean_left[5]; }
 };
 
 /// Input as in intervalCoverage(). Equal sigmas are removed in the order of the values.

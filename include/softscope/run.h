@@ -16,6 +16,8 @@ struct Model {
   std::vector<float> normals;         // N x 3, unit length, out of the tissue
   std::vector<std::uint8_t> colours;  // N x 3: red, green, blue
   std::vector<float> weights;         // N: how often, and how well, each point was seen
+  std::vector<float> sigmas_mm;       // N: predicted standard errors; NaN where unknown, empty of
+                                      // a run that has none
 
   std::size_t size() const { return weights.size(); }
 };

@@ -13,7 +13,8 @@ struct PointCloud {
   std::vector<Eigen::Vector3f> points_mm;
   std::vector<Eigen::Vector3f> normals;
   std::vector<Rgb8> colours;
-  std::vector<float> weights;  // PointModel's
+  std::vector<float> weights;    // PointModel's
+  std::vector<float> sigmas_mm;  // predicted standard errors; NaN where unknown
 };
 
 }  // namespace softscope

@@ -63,6 +63,7 @@ std::string plyHeader(const ModelSurface& surface, const LengthUnit& unit) {
   if (!surface.vertices.colours.empty())
     out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!surface.vertices.weights.empty()) out += "property float weight\n";
+  if (!surface.vertices.sigmas_mm.empty()) out += "property float sigma_mm\n";
   if (!surface.triangles.empty())
     out += "element face " + std::to_string(surface.triangles.size()) +
            "\nproperty list uchar int vertex_indices\n";
@@ -89,6 +90,7 @@ void requireConsistent(const ModelSurface& surface) {
   requireOneEach(surface.vertices.normals.size(), surface, "normals");
   requireOneEach(surface.vertices.colours.size(), surface, "colours");
   requireOneEach(surface.vertices.weights.size(), surface, "weights");
+  requireOneEach(surface.vertices.sigmas_mm.size(), surface, "sigmas");
   const auto count = std::int64_t(surface.vertices.points_mm.size());
   for (const Triangle& t : surface.triangles)
     for (const std::int32_t vertex : t)
@@ -101,7 +103,7 @@ std::string plyFile(const ModelSurface& surface, const LengthUnit& unit) {
   requireConsistent(surface);
   const PointCloud& vertices = surface.vertices;
   std::string out = plyHeader(surface, unit);
-  out.reserve(out.size() + 31 * vertices.points_mm.size() + 13 * surface.triangles.size());
+  out.reserve(out.size() + 35 * vertices.points_mm.size() + 13 * surface.triangles.size());
   for (std::size_t i = 0; i < vertices.points_mm.size(); ++i) {
     append(out, inUnit(vertices.points_mm[i], unit));
     if (!vertices.normals.empty()) append(out, finite(vertices.normals[i]));
@@ -110,6 +112,7 @@ std::string plyFile(const ModelSurface& surface, const LengthUnit& unit) {
            {vertices.colours[i].red, vertices.colours[i].green, vertices.colours[i].blue})
         out += static_cast<char>(channel);
     if (!vertices.weights.empty()) append(out, vertices.weights[i]);
+    if (!vertices.sigmas_mm.empty()) append(out, vertices.sigmas_mm[i]);
   }
   for (const Triangle& t : surface.triangles) {
     out += static_cast<char>(3);

@@ -8,8 +8,9 @@
 namespace softscope {
 
 // The bytes of a file. Headers name the unit, and the space or the scope's frame where it is known.
-// A normal that isn't finite becomes 0 0 0. All throw Error where normals, colours or weights are
-// neither none nor one a vertex, or a triangle names a vertex that isn't there.
+// A normal that isn't finite becomes 0 0 0. Sigmas are in mm whatever the unit. All throw Error
+// where normals, colours, weights or sigmas are neither none nor one a vertex, or a triangle names
+// a vertex that isn't there.
 
 /// Binary little-endian: vertices as writePly has them, then triangles (none for points alone).
 std::string plyFile(const ModelSurface& surface, const LengthUnit& unit = {});

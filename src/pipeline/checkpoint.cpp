@@ -9,7 +9,9 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 7\n";
+constexpr std::string_view kMagic = "softscope checkpoint 8\n";
+constexpr std::string_view kEarlierMagic = "softscope checkpoint 7\n";  // without LastingErrors
+static_assert(kMagic.size() == kEarlierMagic.size());
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -111,17 +113,22 @@ void visitGraph(Archive& archive, Graph& graph) {
   archive.array(graph.stencils);
 }
 
+template <class Archive, class Camera>
+void visitCamera(Archive& archive, Camera& camera) {
+  archive.value(camera.width_px);
+  archive.value(camera.height_px);
+  archive.value(camera.fx_px);
+  archive.value(camera.fy_px);
+  archive.value(camera.cx_px);
+  archive.value(camera.cy_px);
+}
+
 template <class Archive, class Memory>
 void visitMemory(Archive& archive, Memory& memory) {
   archive.value(memory.unexplained_mm.width_px);
   archive.value(memory.unexplained_mm.height_px);
   archive.array(memory.unexplained_mm.values);
-  archive.value(memory.left.width_px);
-  archive.value(memory.left.height_px);
-  archive.value(memory.left.fx_px);
-  archive.value(memory.left.fy_px);
-  archive.value(memory.left.cx_px);
-  archive.value(memory.left.cy_px);
+  visitCamera(archive, memory.left);
   archive.pose(memory.world_from_left);
 }
 
@@ -131,6 +138,22 @@ void visitLast(Archive& archive, Last& last) {
   archive.value(last.left.height_px);
   archive.array(last.left.values);
   archive.pose(last.world_from_left);
+}
+
+template <class Archive, class Errors>
+void visitErrors(Archive& archive, Errors& errors) {
+  visitCamera(archive, errors.camera);
+  archive.pose(errors.world_from_left);
+  archive.value(errors.depth_mm.width_px);
+  archive.value(errors.depth_mm.height_px);
+  archive.array(errors.depth_mm.values);
+  archive.value(errors.variance_mm2.width_px);
+  archive.value(errors.variance_mm2.height_px);
+  archive.array(errors.variance_mm2.values);
+  archive.value(errors.same_surface_mm);
+  archive.array(errors.nodes_mm2);
+  archive.array(errors.nodes_mm);
+  archive.value(errors.reference_sigma_mm);
 }
 
 template <class Archive, class Whole>
@@ -159,6 +182,7 @@ void visit(Archive& archive, Whole& checkpoint) {
 std::string checkpointBytes(const CheckpointView& checkpoint) {
   Writer writer;
   visit(writer, checkpoint);
+  visitErrors(writer, checkpoint.state.model.errors);
   const std::uint64_t checksum = checksumOf(writer.bytes);
   std::string bytes(kMagic);
   bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
@@ -168,7 +192,8 @@ std::string checkpointBytes(const CheckpointView& checkpoint) {
 Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name) {
   std::uint64_t checksum = 0;
   const std::size_t head = kMagic.size() + sizeof checksum;
-  if (bytes.size() < head || bytes.substr(0, kMagic.size()) != kMagic)
+  const std::string_view magic = bytes.substr(0, kMagic.size());
+  if (bytes.size() < head || (magic != kMagic && magic != kEarlierMagic))
     throw InputError(name + ": is no checkpoint of this version. Start again without `resume=`");
   std::memcpy(&checksum, bytes.data() + kMagic.size(), sizeof checksum);
   if (checksumOf(bytes.substr(head)) != checksum)
@@ -176,6 +201,7 @@ Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name) {
   Reader reader(bytes.substr(head), name);
   Checkpoint checkpoint;
   visit(reader, checkpoint);
+  if (magic == kMagic) visitErrors(reader, checkpoint.state.model.errors);
   return checkpoint;
 }
 

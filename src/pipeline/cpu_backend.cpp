@@ -322,7 +322,11 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
       },
-      [&] { fused_.corrected = comparer_->error(state_.model, observation, frame_.states); });
+      [&] {
+        fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
+        state_.errors.observe(frame_.measured.depth, rig(), world_from_left, state_.graph,
+                              frame_.fusion);
+      });
   fused_.points = static_cast<int>(state_.model.size());
   fused_.seen = update.seen;
   fused_.fused = update.points.fused;

@@ -17,6 +17,7 @@
 #include "fusion/point_insertion.h"
 #include "fusion/view_evidence.h"
 #include "pipeline/material_points.h"
+#include "pipeline/model_sigma.h"
 #include "pose/ransac_pose.h"
 #include "stereo/matching/stereo_matcher.h"
 
@@ -94,6 +95,7 @@ struct ModelState {
   WarpGraph graph;
   InsertionMemory memory;
   MaterialPoints tracked;
+  LastingErrors errors;
   LastPicture last;     // kept only where it is matched
   ColourGain exposure;  // of the last image that was fused, against the model's colours
 };

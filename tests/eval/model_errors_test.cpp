@@ -183,6 +183,24 @@ TEST(ErrorPool, ALargeModelCountsAsOftenAsASmallOne) {
   EXPECT_EQ(pool.predicted_mm().size(), 19999u);
 }
 
+TEST(ErrorPool, KeepsSigmasBesideTheirErrors) {
+  ModelErrors errors;
+  errors.each_mm = {1, 2, 3};
+  errors.each_signed_mm = {1, 2, 3};
+  errors.each_observed = {0, 1, 0};
+  errors.each_beyond = {0, 0, 1};
+  ErrorPool pool(2);
+  pool.add(errors, {10, 20, 30});
+  pool.add(errors);
+  ASSERT_EQ(pool.all_sigma_mm().size(), 6u);
+  EXPECT_EQ(pool.all_sigma_mm()[2], 30);
+  EXPECT_TRUE(std::isnan(pool.all_sigma_mm()[3])) << "the model has none";
+  ASSERT_EQ(pool.observed_sigma_mm().size(), 2u);
+  EXPECT_EQ(pool.observed_sigma_mm()[0], 20);
+  ASSERT_EQ(pool.predicted_sigma_mm().size(), 2u);
+  EXPECT_EQ(pool.predicted_sigma_mm()[0], 10);
+}
+
 TEST(ErrorPool, StaysWithinItsMemory) {
   ModelErrors errors;
   errors.each_mm.assign(30000, 1.0);

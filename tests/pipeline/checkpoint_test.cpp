@@ -28,6 +28,10 @@ Checkpoint someCheckpoint() {
   model.tracked.points.push_back(point);
   model.last.left = ColourImage(2, 1, {7, 8, 9});
   model.exposure = {0.9f, 1.1f, 1.2f};
+  model.errors.depth_mm = Raster<float>(2, 1, 80.0f);
+  model.errors.variance_mm2 = Raster<float>(2, 1, 0.25f);
+  model.errors.nodes_mm2 = {0.5f, 0.75f};
+  model.errors.reference_sigma_mm = 0.1;
   checkpoint.state.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
   checkpoint.state.key_views.resize(2, checkpoint.state.world_from_left);
   checkpoint.state.lost = true;
@@ -58,6 +62,9 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.tracked.points[0].look.windows.back().gray.back(), 77);
   EXPECT_EQ(after.state.model.exposure.green, 1.1f);
   EXPECT_EQ(after.state.model.last.left.at(1, 0), (Rgb8{7, 8, 9}));
+  EXPECT_EQ(after.state.model.errors.variance_mm2.at(1, 0), 0.25f);
+  EXPECT_EQ(after.state.model.errors.nodes_mm2[1], 0.75f);
+  EXPECT_EQ(after.state.model.errors.reference_sigma_mm, 0.1);
   EXPECT_TRUE(after.state.lost);
   EXPECT_EQ(after.state.unfused_frames, 3);
   EXPECT_EQ(after.state.searches, 2);

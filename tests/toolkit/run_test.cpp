@@ -60,6 +60,7 @@ TEST_F(RunOfAClip, HasTheFilesThatOthersRead) {
   EXPECT_EQ(linesOf(at("run/trajectory.txt")), 1 + 5);
   EXPECT_EQ((linesOf(at("run/tracks.csv")) - 1) % 5, 0);
   EXPECT_THAT(textOf(at("run/model.ply")), HasSubstr("property float weight"));
+  EXPECT_THAT(textOf(at("run/model.ply")), HasSubstr("property float sigma_mm"));
   const Json record = Json::parse(textOf(at("run/run.json")));
   EXPECT_EQ(done, record);
   EXPECT_EQ(std::string(record["inputs"]["calibration"]["sha256"]).size(), 64u);

@@ -165,10 +165,7 @@ std::vector<MapColumn> sigmaColumns() {
   return {{"within_50_share", [](const JudgedMap& m) { return m.intervals.within_50; }},
           {"within_68_share", [](const JudgedMap& m) { return m.intervals.within_68; }},
           {"within_95_share", [](const JudgedMap& m) { return m.intervals.within_95; }},
-          {"half_left",
-           [](const JudgedMap& m) {
-             return m.sparse.mean_left.empty() ? Statistics::kNone : m.sparse.mean_left[5];
-           }},
+          {"half_left", [](const JudgedMap& m) { return m.sparse.halfLeft(); }},
           {"ause", [](const JudgedMap& m) { return m.sparse.area; }}};
 }
 

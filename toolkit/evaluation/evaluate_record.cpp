@@ -19,6 +19,20 @@ Json poseErrorsJson(const PoseErrors& errors) {
   return json;
 }
 
+Json sigmaJson(const JudgedSigma& judged) {
+  Json json{{"points", judged.intervals.count},
+            {"known_share", judged.known_share},
+            {"within_50_share", judged.intervals.within_50},
+            {"within_68_share", judged.intervals.within_68},
+            {"within_95_share", judged.intervals.within_95},
+            {"half_left_mm", judged.sparse.halfLeft()},
+            {"ause", judged.sparse.area}};
+  json["sparsification"] = {{"removed_share", judged.sparse.removed_share},
+                            {"mean_left_mm", judged.sparse.mean_left},
+                            {"best_left_mm", judged.sparse.best_left}};
+  return json;
+}
+
 /// Means over the models of what is defined per model.
 void addViewMeans(const SurfaceSeries& surface, Json& json) {
   using E = const ModelErrors&;
@@ -53,7 +67,12 @@ Json surfaceJson(const EvaluationResult& result) {
   json["worst_frame_mean_mm"] =
       worst == nullptr ? Statistics::kNone : worst->errors.distance_mm.mean;
   json["signed"] = statisticsJson(surface.signed_mm, "_mm");
-  if (!result.against_mesh) addViewMeans(surface, json);
+  json["sigma"] = sigmaJson(surface.all_sigma);
+  if (!result.against_mesh) {
+    json["sigma"]["observed"] = sigmaJson(surface.observed_sigma);
+    json["sigma"]["predicted"] = sigmaJson(surface.predicted_sigma);
+    addViewMeans(surface, json);
+  }
   json["drift_mm_per_s"] = surface.drift_mm_per_s;
   json["drift_mm_per_frame"] = surface.drift_mm_per_frame;
   json["jitter_rms_mm"] = surface.jitter_rms_mm;
@@ -161,13 +180,25 @@ std::string percent(double share) {
   return std::isnan(share) ? "unknown" : fixed(100 * share, 1) + " %";
 }
 
+void addSigmaFacts(const char* label, const JudgedSigma& judged, FactSheet& facts) {
+  if (judged.intervals.count == 0) return;
+  facts.addLine(
+      label, percent(judged.intervals.within_50) + ", " + percent(judged.intervals.within_68) +
+                 ", " + percent(judged.intervals.within_95) +
+                 " of the distances within its 50, 68, 95 % intervals; mean " +
+                 fixed(judged.sparse.halfLeft(), 3) + " mm without the least sure half; known of " +
+                 percent(judged.known_share) + " of the points");
+}
+
 void addViewFacts(const SurfaceSeries& surface, FactSheet& facts) {
   using E = const ModelErrors&;
   const auto hd95 = [&](auto value) { return fixed(surface.meanOf(value), 2); };
   facts.addLine("  observed", spreadText(surface.observed_mm) + "; " +
                                   percent(surface.meanOf([](E e) { return e.observed_share; })) +
                                   " of the points");
+  addSigmaFacts("    sigma", surface.observed_sigma, facts);
   facts.addLine("  predicted", spreadText(surface.predicted_mm));
+  addSigmaFacts("    sigma", surface.predicted_sigma, facts);
   facts.addLine("completeness",
                 percent(surface.meanOf([](E e) { return e.both.share; })) +
                     " of the tissue that both cameras see has a model point within 1 mm; " +
@@ -188,7 +219,10 @@ void addSurfaceFacts(const EvaluationResult& result, FactSheet& facts) {
                                std::to_string(surface.models.size()) +
                                (surface.models.size() == 1 ? " model" : " models"));
   facts.addLine("  signed", "mean " + fixed(surface.signed_mm.mean, 3) + " mm, + = outside");
-  if (!result.against_mesh) addViewFacts(surface, facts);
+  if (!result.against_mesh)
+    addViewFacts(surface, facts);
+  else
+    addSigmaFacts("  sigma", surface.all_sigma, facts);
   facts.addLine("worst", "frame " + std::to_string(worst->frame) + ", mean " +
                              fixed(worst->errors.distance_mm.mean, 3) + " mm");
   if (!std::isnan(surface.drift_mm_per_frame))

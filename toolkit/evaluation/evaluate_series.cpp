@@ -38,8 +38,9 @@ Moment readMoment(const JudgedRun& run, const SequenceTruth& truth, int frame,
   return moment;
 }
 
-JudgedModel& keep(int frame, double time_s, ModelErrors errors, SurfaceSeries& series) {
-  series.pool.add(errors);
+JudgedModel& keep(int frame, double time_s, ModelErrors errors, const std::vector<float>& sigmas_mm,
+                  SurfaceSeries& series) {
+  series.pool.add(errors, sigmas_mm);
   errors.each_mm = {};
   errors.each_signed_mm = {};
   errors.each_observed = {};
@@ -48,11 +49,24 @@ JudgedModel& keep(int frame, double time_s, ModelErrors errors, SurfaceSeries& s
   return series.models.back();
 }
 
+JudgedSigma judgeSigma(const std::vector<double>& errors_mm, const std::vector<double>& sigmas_mm) {
+  JudgedSigma judged;
+  judged.intervals = intervalCoverage(errors_mm, sigmas_mm);
+  judged.sparse = sparsification(errors_mm, sigmas_mm);
+  if (!errors_mm.empty())
+    judged.known_share =
+        static_cast<double>(judged.intervals.count) / static_cast<double>(errors_mm.size());
+  return judged;
+}
+
 void sumUp(SurfaceSeries& series) {
   series.all_mm = statistics(series.pool.all_mm());
   series.signed_mm = statistics(series.pool.signed_mm());
   series.observed_mm = statistics(series.pool.observed_mm());
   series.predicted_mm = statistics(series.pool.predicted_mm());
+  series.all_sigma = judgeSigma(series.pool.all_mm(), series.pool.all_sigma_mm());
+  series.observed_sigma = judgeSigma(series.pool.observed_mm(), series.pool.observed_sigma_mm());
+  series.predicted_sigma = judgeSigma(series.pool.predicted_mm(), series.pool.predicted_sigma_mm());
   std::vector<double> times_s, frames, means_mm;
   for (const JudgedModel& model : series.models) {
     times_s.push_back(model.time_s);
@@ -120,7 +134,7 @@ SurfaceSeries judgeSeries(const JudgedRun& run, const SequenceTruth& truth, bool
         });
     const double time_s = truth.timeOf(frames[i]);
     maps.add(frames[i], time_s, now.points_mm, errors, now.mesh, now.world_from_left);
-    keep(frames[i], time_s, std::move(errors), series).view = std::move(view);
+    keep(frames[i], time_s, std::move(errors), now.file.sigmas_mm, series).view = std::move(view);
     if (!after_model()) {
       series.interrupted = true;
       return series;
@@ -142,7 +156,8 @@ AlignedSeries judgeAgainstMesh(const JudgedRun& run, const FrameFiles& models,
   ErrorMaps maps(models.size());
   Eigen::Isometry3d mesh_from_run = Eigen::Isometry3d::Identity();
   for (const auto& [frame, file] : models) {
-    const std::vector<Eigen::Vector3f> points_mm = readModel(file).model.positions_mm;
+    const ModelFile read = readModel(file);
+    const std::vector<Eigen::Vector3f>& points_mm = read.model.positions_mm;
     const bool first = result.alignments.empty();
     if (alignment == MeshAlignment::kIcp || (alignment == MeshAlignment::kRigid && first)) {
       result.alignments.push_back(alignToSurface(points_mm, surface, {}, mesh_from_run));
@@ -151,7 +166,7 @@ AlignedSeries judgeAgainstMesh(const JudgedRun& run, const FrameFiles& models,
     const std::vector<Eigen::Vector3f> moved_mm = movePoints(mesh_from_run, points_mm);
     ModelErrors errors = modelErrors(moved_mm, {surface, no_depth, no_rig, {}});
     maps.add(frame, run.timeOf(frame), moved_mm, errors, mesh, mesh_from_run);
-    keep(frame, run.timeOf(frame), std::move(errors), result.surface);
+    keep(frame, run.timeOf(frame), std::move(errors), read.sigmas_mm, result.surface);
     if (!after_model()) {
       result.surface.interrupted = true;
       return result;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
+#include "eval/images/predicted_sigma.h"
 #include "eval/surfaces/error_pool.h"
 #include "eval/surfaces/model_errors.h"
 #include "eval/surfaces/surface_alignment.h"
@@ -27,11 +28,19 @@ struct JudgedModel {
   std::optional<ViewErrors> view;  // none against a mesh, or where it wasn't asked for
 };
 
+/// Predicted standard errors of model points against their distances from the surface.
+struct JudgedSigma {
+  double known_share = Statistics::kNone;  // of the points, those that have one
+  IntervalCoverage intervals;
+  Sparsification sparse;
+};
+
 /// Values over all judged models.
 struct SurfaceSeries {
   std::vector<JudgedModel> models;
   ErrorPool pool{1};
   Statistics all_mm, signed_mm, observed_mm, predicted_mm;  // of the pool
+  JudgedSigma all_sigma, observed_sigma, predicted_sigma;   // of the pool
   double drift_mm_per_s = Statistics::kNone;      // Theil-Sen slope of the models' mean errors
   double drift_mm_per_frame = Statistics::kNone;  // the same over frame numbers
   std::vector<double> second_differences_mm;      // of the mean errors, one a model

@@ -40,6 +40,7 @@ ModelSurface pointsOf(std::string_view bytes, const std::string& name) {
   if (file.with_normals) surface.vertices.normals = std::move(file.model.normals);
   if (file.coloured) surface.vertices.colours = std::move(file.model.colours);
   if (file.weighted) surface.vertices.weights = std::move(file.model.weights);
+  surface.vertices.sigmas_mm = std::move(file.sigmas_mm);
   readRemarks(bytes, surface);
   return surface;
 }

@@ -46,6 +46,9 @@ ModelSurface makeSurface(const ModelSurface& points, const SurfaceOptions& optio
   if (!points.vertices.weights.empty())
     for (const std::int32_t point : made.points)
       surface.vertices.weights.push_back(points.vertices.weights[std::size_t(point)]);
+  if (!points.vertices.sigmas_mm.empty())
+    for (const std::int32_t point : made.points)
+      surface.vertices.sigmas_mm.push_back(points.vertices.sigmas_mm[std::size_t(point)]);
   return surface;
 }
 

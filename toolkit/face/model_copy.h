@@ -11,7 +11,7 @@ namespace softscope::api {
 
 Model modelOf(const std::vector<Eigen::Vector3f>& points_mm,
               const std::vector<Eigen::Vector3f>& normals, const std::vector<Rgb8>& colours,
-              const std::vector<float>& weights);
+              const std::vector<float>& weights, std::vector<float> sigmas_mm);
 
 /// x, y, z of each.
 std::vector<float> floatsOf(const std::vector<Eigen::Vector3f>& vectors);

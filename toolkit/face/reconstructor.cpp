@@ -82,8 +82,9 @@ FrameReport Reconstructor::process(const FrameView& view) {
 }
 
 Model Reconstructor::model() const {
-  const PointCloud cloud = cloudOf(impl_->loop.model());
-  return modelOf(cloud.points_mm, cloud.normals, cloud.colours, cloud.weights);
+  PointCloud cloud = cloudOf(impl_->loop.model());
+  return modelOf(cloud.points_mm, cloud.normals, cloud.colours, cloud.weights,
+                 std::move(cloud.sigmas_mm));
 }
 
 Run Reconstructor::finish() {

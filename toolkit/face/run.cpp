@@ -20,8 +20,8 @@ std::vector<float> floatsOf(const std::vector<Eigen::Vector3f>& vectors) {
 
 Model modelOf(const std::vector<Eigen::Vector3f>& points_mm,
               const std::vector<Eigen::Vector3f>& normals, const std::vector<Rgb8>& colours,
-              const std::vector<float>& weights) {
-  Model model{floatsOf(points_mm), floatsOf(normals), {}, weights};
+              const std::vector<float>& weights, std::vector<float> sigmas_mm) {
+  Model model{floatsOf(points_mm), floatsOf(normals), {}, weights, std::move(sigmas_mm)};
   for (const Rgb8& colour : colours)
     model.colours.insert(model.colours.end(), {colour.red, colour.green, colour.blue});
   return model;
@@ -43,8 +43,10 @@ Run::Run(std::string folder) : folder_(std::move(folder)) {
 namespace {
 
 Model readModelAt(const fs::path& file) {
-  const PointModel model = readModel(file).model;
-  return modelOf(model.positions_mm, model.normals, model.colours, model.weights);
+  ModelFile read = readModel(file);
+  const PointModel& model = read.model;
+  return modelOf(model.positions_mm, model.normals, model.colours, model.weights,
+                 std::move(read.sigmas_mm));
 }
 
 }  // namespace

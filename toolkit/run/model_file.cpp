@@ -76,6 +76,7 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
   const auto normal = findTriple(vertices, {"nx", "ny", "nz"}, PlyType::kFloat);
   const auto colour = findTriple(vertices, {"red", "green", "blue"}, PlyType::kUint8);
   const auto weight = findFloat(vertices, "weight");
+  const auto sigma = findFloat(vertices, "sigma_mm");
   if (!position)
     throw InputError(name +
                      ": its points have no x, y, z as floats one after the other; give a model "
@@ -88,6 +89,7 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
   file.weighted = weight.has_value();
   PointModel& model = file.model;
   model.reserve(vertices.count);
+  if (sigma) file.sigmas_mm.resize(vertices.count);
   const char* at = bytes.data() + header.bytes;
   for (std::size_t i = 0; i < vertices.count; ++i, at += vertices.leastBytes(header.encoding)) {
     Eigen::Vector3f point_mm, direction = Eigen::Vector3f::Zero();
@@ -98,6 +100,7 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
     if (normal) std::memcpy(direction.data(), at + *normal, 3 * sizeof(float));
     if (colour) std::memcpy(&looks, at + *colour, 3);
     if (weight) std::memcpy(&sureness, at + *weight, sizeof(float));
+    if (sigma) std::memcpy(&file.sigmas_mm[i], at + *sigma, sizeof(float));
     model.add(point_mm, direction, looks, sureness);
   }
   return file;

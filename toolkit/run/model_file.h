@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/point_model.h"
 
@@ -14,12 +15,13 @@ namespace softscope {
 struct ModelFile {
   PointModel model;
   bool coloured = false, with_normals = false, weighted = false;
+  std::vector<float> sigmas_mm;  // predicted standard errors; empty where the file has none
 };
 
 /// Reads a binary little-endian PLY whose vertices have float x, y, z and, one after the other as
-/// well, maybe nx, ny, nz (float), red, green, blue (uchar) and weight (float), as `reconstruct`
-/// writes it. Throws InputError: not such a file, cut short, no point at all, or a point that is
-/// not finite or beyond 1 km.
+/// well, maybe nx, ny, nz (float), red, green, blue (uchar), weight and sigma_mm (float), as
+/// `reconstruct` writes it. Throws InputError: not such a file, cut short, no point at all, or a
+/// point that is not finite or beyond 1 km.
 ModelFile readModel(const std::filesystem::path& file);
 ModelFile parseModel(std::string_view bytes, const std::string& name);
 

@@ -13,7 +13,7 @@ TriangleMesh modelSurface(const ModelFile& file) {
   if (!file.with_normals) return mesh;
   PointSurface surface;
   try {
-    surface = surfaceFromPoints({mesh.vertices_mm, file.model.normals, {}, {}});
+    surface = surfaceFromPoints({mesh.vertices_mm, file.model.normals, {}, {}, {}});
   } catch (const InputError&) {
     return mesh;  // too few points, or too far apart: they are shown as points
   }

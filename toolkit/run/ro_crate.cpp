@@ -13,7 +13,8 @@ struct CrateFile {
 };
 
 const CrateFile kCrateFiles[] = {
-    {"model.ply", "model/ply", "last model: points with normals, colours and weights; mm, world"},
+    {"model.ply", "model/ply",
+     "last model: points with normals, colours, weights, sigmas; mm, world"},
     {"models/", "", "models of single frames (PLY and VTP)"},
     {"models.pvd", "application/xml", "the models over time, for ParaView"},
     {"nodes/", "", "nodes of the warp at the same moments (CSV)"},

@@ -16,6 +16,7 @@
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
+#include "pipeline/model_sigma.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_tables.h"
@@ -133,7 +134,8 @@ std::string today() {
 
 PointCloud cloudOf(const ModelState& state) {
   const PointModel& model = state.model;
-  PointCloud cloud{model.positions_mm, model.normals, model.colours, model.weights};
+  PointCloud cloud{model.positions_mm, model.normals, model.colours, model.weights,
+                   modelSigmas(model, state.graph, state.errors)};
   const ColourGain& exposure = state.exposure;
   for (Rgb8& colour : cloud.colours)
     colour = scaled(colour, exposure.red, exposure.green, exposure.blue);

@@ -51,10 +51,12 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const PointCloud& cloud) {
                                    *out++ = colour.blue;
                                    return out;
                                  });
-  addArray<vtkFloatArray>(data, "weight", 1, cloud.weights, [](float weight, float* out) {
-    *out++ = weight;
+  const auto one = [](float value, float* out) {
+    *out++ = value;
     return out;
-  });
+  };
+  addArray<vtkFloatArray>(data, "weight", 1, cloud.weights, one);
+  addArray<vtkFloatArray>(data, "sigma_mm", 1, cloud.sigmas_mm, one);
   return data;
 }
 

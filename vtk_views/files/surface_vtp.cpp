@@ -48,7 +48,7 @@ void addCells(const ModelSurface& surface, vtkPolyData* data) {
 }
 
 void addArrays(const PointCloud& vertices, vtkPolyData* data) {
-  vtkNew<vtkFloatArray> normals, weights;
+  vtkNew<vtkFloatArray> normals, weights, sigmas;
   vtkNew<vtkUnsignedCharArray> colours;
   normals->SetName("Normals");
   normals->SetNumberOfComponents(3);
@@ -64,9 +64,12 @@ void addArrays(const PointCloud& vertices, vtkPolyData* data) {
   }
   weights->SetName("weight");
   for (const float weight : vertices.weights) weights->InsertNextValue(weight);
+  sigmas->SetName("sigma_mm");
+  for (const float sigma_mm : vertices.sigmas_mm) sigmas->InsertNextValue(sigma_mm);
   if (!vertices.normals.empty()) data->GetPointData()->SetNormals(normals);
   if (!vertices.colours.empty()) data->GetPointData()->AddArray(colours);
   if (!vertices.weights.empty()) data->GetPointData()->AddArray(weights);
+  if (!vertices.sigmas_mm.empty()) data->GetPointData()->AddArray(sigmas);
 }
 
 }  // namespace

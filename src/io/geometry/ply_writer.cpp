@@ -27,6 +27,7 @@ std::string headerOf(const PointCloud& cloud, const PlyComments& comments) {
   if (!cloud.colours.empty())
     out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!cloud.weights.empty()) out += "property float weight\n";
+  if (!cloud.sigmas_mm.empty()) out += "property float sigma_mm\n";
   return out + "end_header\n";
 }
 
@@ -51,14 +52,16 @@ std::string plyBytes(const PointCloud& cloud, const PlyComments& comments) {
   requireOneAPoint(cloud.normals.size(), cloud, "normals");
   requireOneAPoint(cloud.colours.size(), cloud, "colours");
   requireOneAPoint(cloud.weights.size(), cloud, "weights");
+  requireOneAPoint(cloud.sigmas_mm.size(), cloud, "sigmas");
   std::string out = headerOf(cloud, comments);
-  out.reserve(out.size() + 31 * cloud.points_mm.size());
+  out.reserve(out.size() + 35 * cloud.points_mm.size());
   for (std::size_t i = 0; i < cloud.points_mm.size(); ++i) {
     append(out, cloud.points_mm[i]);
     if (!cloud.normals.empty())
       append(out, cloud.normals[i].allFinite() ? cloud.normals[i] : Eigen::Vector3f(0, 0, 0));
     if (!cloud.colours.empty()) append(out, cloud.colours[i]);
     if (!cloud.weights.empty()) append(out, cloud.weights[i]);
+    if (!cloud.sigmas_mm.empty()) append(out, cloud.sigmas_mm[i]);
   }
   return out;
 }

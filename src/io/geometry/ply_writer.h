@@ -16,9 +16,9 @@ struct PlyComments {
   std::vector<std::string> more = {};  // one line each, "time_s 1.52"
 };
 
-/// Binary little-endian PLY: x y z (float, mm), then nx ny nz (float), red green blue (uchar) and
-/// weight (float) where the cloud has them. A normal that isn't finite is written as 0 0 0.
-/// Throws Error where normals, colours or weights aren't one a point.
+/// Binary little-endian PLY: x y z (float, mm), then nx ny nz (float), red green blue (uchar),
+/// weight and sigma_mm (float) where the cloud has them. A normal that isn't finite is written as
+/// 0 0 0. Throws Error where normals, colours, weights or sigmas aren't one a point.
 std::string plyBytes(const PointCloud& cloud, const PlyComments& comments);
 
 /// Throws OptionError where the file exists and `overwrite` is false, Error where it can't be
