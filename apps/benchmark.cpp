@@ -22,11 +22,12 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "NAME: stir2026, stir, surgt, scared, servct or stereomis. DATA: a clip as it is shipped, or a "
-    "folder of clips.\n"
-    "Each clip is run by a process of its own; a clip that is done is not run again, one that "
-    "fails\n"
-    "is excluded and named. Prints the official table with its control (nothing moves, no depth),\n"
+    "NAME: stir2026, stir, surgt, scared, servct or stereomis. DATA: a clip in its original "
+    "layout, or a\n"
+    "folder of clips. Each clip is run in its own process; a complete clip is not repeated, a "
+    "failed\n"
+    "clip is excluded and named. Prints the official table with its control (no motion, no "
+    "depth),\n"
     "protocol, exclusions, coverage, 95 % intervals and latency; writes DIR/benchmark.json,\n"
     "DIR/preds.json (for STIR's board) and DIR/clips/NAME with run and log (docs/datasets.md).";
 
@@ -34,7 +35,7 @@ class BenchmarkCommand : public Command {
  public:
   std::string name() const override { return "benchmark"; }
   std::string summary() const override {
-    return "clips of a data set to its official scores and submission file";
+    return "official scores and submission file of a data set";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -46,11 +47,10 @@ class BenchmarkCommand : public Command {
     arguments.positional("DATA", data_, "a clip, or a folder of clips", true);
     arguments.option("--out", "DIR", out_, "folder for runs and results", true);
     arguments.option("--set", "KEY=VALUE", settings_,
-                     "a setting of what is run; repeatable (`softscope settings`)");
+                     "setting of the command that is run; repeatable (`softscope settings`)");
     arguments.option("--jobs", "N", jobs_,
-                     "clips at the same time, which share --threads (1, the default, for latencies "
-                     "that count)");
-    arguments.flag("--force", force_, "run clips again that are done");
+                     "parallel clips, which share --threads (1, the default, for valid latencies)");
+    arguments.flag("--force", force_, "repeat complete clips");
   }
   int run() override;
 
@@ -99,7 +99,7 @@ int BenchmarkCommand::run() {
           "must be stir2026, stir, surgt, scared, servct or stereomis");
   require(jobs_ >= 1, "--jobs", jobs_, "must be 1 or more");
   if (isThere(out_) && !isFolder(out_))
-    throw OptionError("--out " + out_ + ": is a file, but must be a folder, there or not yet");
+    throw OptionError("--out " + out_ + ": is a file, but must be a new or existing folder");
   const InterruptGuard interrupt;
   std::optional<FactSheet> facts = table({data_, out_, settings_, force_, jobs_}, interrupt);
   if (!facts) return kInterrupted;

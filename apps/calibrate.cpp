@@ -25,29 +25,27 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kDetails =
-    "LEFT and RIGHT: folders of images or videos of the same moments; or LEFT alone with both\n"
-    "views in one image. Film a flat board that fills a third to a half of the image: 15 to 30\n"
-    "still views, tilted by 20 to 40 degrees to all sides, near and far, in all parts of the "
+    "LEFT and RIGHT: folders of images or videos of the same times; or LEFT alone with both\n"
+    "views in one image. Record a flat board that fills a third to a half of the image: 15 to 30\n"
+    "static views, tilted by 20 to 40 degrees to all sides, near and far, in all parts of the "
     "image.\n"
-    "Blurred and doubled views, and views that don't fit, are left out and named. Writes the\n"
-    "calibration with its quality, and an image of where the board was seen, beside it.\n"
+    "Blurred, duplicate and inconsistent views are rejected and named. Writes the calibration\n"
+    "with its quality, and next to it an image of the coverage by the board.\n"
     "More examples:\n"
     "  softscope calibrate stereo.mp4 --layout top-bottom --board 9x6 --square 3 --out c.yaml\n"
     "  softscope calibrate left/ right/ --board 8x6 --square 4 --marker 3 --out c.yaml   "
     "(ChArUco)\n"
     "--refine CALIBRATION takes a clip of tissue instead of a board (or a sequence folder as "
     "LEFT):\n"
-    "row error, roll and offset between the views by that calibration, whether its focal length "
-    "is\n"
-    "plausible; pitch and roll of the right camera are corrected in the calibration that is "
-    "written.\n"
+    "it measures row error, roll and offset between the views and checks the focal length; pitch\n"
+    "and roll of the right camera are corrected in the written calibration.\n"
     "  softscope calibrate clip --refine calibration.yaml --out refined.yaml";
 
 class CalibrateCommand : public Command {
  public:
   std::string name() const override { return "calibrate"; }
   std::string summary() const override {
-    return "films of a checkerboard or ChArUco board to a stereo calibration and its quality";
+    return "stereo calibration from images of a checkerboard or ChArUco board, with its quality";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -72,25 +70,25 @@ class CalibrateCommand : public Command {
 void CalibrateCommand::declare(ArgumentList& arguments) {
   arguments.positional("LEFT", left_, "folder of images or video; alone: both views in one image",
                        true);
-  arguments.positional("RIGHT", right_, "the same moments by the right camera", false);
+  arguments.positional("RIGHT", right_, "the same for the right camera", false);
   arguments.option("--out", "FILE", out_, "calibration to write (YAML)", true);
   arguments.option("--board", "CxR", board_,
                    "inner corners of a checkerboard, squares of a ChArUco board");
   arguments.option("--square", "MM", square_, "side of a square");
   arguments.option("--refine", "CALIBRATION", refine_,
-                   "calibration to judge and correct by a clip of tissue; without a board");
+                   "calibration to check and correct with a clip of tissue; without a board");
   arguments.option("--marker", "MM", marker_, "side of a marker: the board is a ChArUco board");
   arguments.option("--dictionary", "NAME", dictionary_, "of the markers (default 4X4_50)");
   arguments.option("--layout", "NAME", layout_,
                    "of both views in one image: side-by-side, top-bottom, interlaced or auto");
-  arguments.flag("--right-first", right_first_, "in such an image the right view comes first");
+  arguments.flag("--right-first", right_first_, "the right view is first in such an image");
   arguments.option("--every", "N", every_, "each n-th frame (default: 300 frames at most)");
   arguments.option("--lens", "N", lens_, "coefficients of distortion: 0, 2, 4 or 5 (default)");
   arguments.option("--distances", "LIST", distances_,
-                   "mm at which depth errors are predicted (default 50,80,120)");
+                   "depths in mm for the prediction of errors (default 50,80,120)");
   arguments.option("--coverage", "FILE", coverage_,
                    "image of the coverage (default: FILE of --out with _coverage.png)");
-  arguments.flag("--force", force_, "overwrite what is there");
+  arguments.flag("--force", force_, "overwrite existing files");
 }
 
 double lengthOf(const std::string& option, const std::string& text) {
@@ -160,7 +158,7 @@ int CalibrateCommand::refine(const InterruptGuard& interrupt) const {
   require(board_.empty() && square_.empty() && marker_.empty(), "--refine", refine_,
           "takes a clip of tissue; leave --board, --square and --marker out");
   if (isThere(out_) && !force_)
-    throw OptionError(out_ + ": is there already; give another name, or --force to replace it");
+    throw OptionError(out_ + ": exists already; give another name, or --force to replace it");
   SequenceOptions sequence;
   sequence.layout = layout_;
   sequence.right_first = right_first_;
@@ -196,7 +194,7 @@ int CalibrateCommand::run() {
                     .string();
   for (const std::string& file : {out_, coverage_})
     if (isThere(file) && !force_)
-      throw OptionError(file + ": is there already; give another name, or --force to replace it");
+      throw OptionError(file + ": exists already; give another name, or --force to replace it");
 
   BoardFilm film;
   {

@@ -15,21 +15,21 @@ namespace {
 class CalibrationTemplateCommand : public Command {
  public:
   std::string name() const override { return "calibration-template"; }
-  std::string summary() const override { return "a commented calibration file to fill in"; }
+  std::string summary() const override { return "template of a calibration file, with comments"; }
   std::string details() const override {
     return "KIND is\n"
-           "  stereo      raw images: M1 D1 M2 D2 R T, as OpenCV's stereoCalibrate names them\n"
+           "  stereo      raw images: M1 D1 M2 D2 R T, named as in OpenCV's stereoCalibrate\n"
            "  rectified   rectified images: f, cx, cy and baseline\n"
            "  rgb-d       one camera, for depth files with or without colour images: fx fy cx cy\n"
-           "Printed, or written to --out. `softscope info FILE` checks what was filled in.";
+           "Printed, or written to --out. `softscope info FILE` checks the completed file.";
   }
   std::string example() const override {
     return "softscope calibration-template rectified --out calibration.yaml";
   }
   void declare(ArgumentList& arguments) override {
     arguments.positional("KIND", kind_, "stereo, rectified or rgb-d", true);
-    arguments.option("--out", "FILE", out_, "where to (default: stdout)");
-    arguments.flag("--force", force_, "overwrite what is there");
+    arguments.option("--out", "FILE", out_, "output file (default: stdout)");
+    arguments.flag("--force", force_, "overwrite an existing file");
   }
 
   int run() override {

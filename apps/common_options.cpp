@@ -8,10 +8,10 @@ namespace softscope {
 void CommonOptions::declare(ArgumentList& arguments) {
   arguments.flag("--json", json, "print the result on stdout as JSON");
   arguments.flag("--quiet", quiet, "only warnings and errors on stderr, no progress bar");
-  arguments.flag("--verbose", verbose, "say more on stderr");
+  arguments.flag("--verbose", verbose, "more messages on stderr");
   arguments.option("--color", "WHEN", color,
                    "auto (the default: on a terminal, unless NO_COLOR is set), always or never");
-  arguments.option("--threads", "N", threads, "work on N threads (0: every core, the default)");
+  arguments.option("--threads", "N", threads, "number of threads (0: every core, the default)");
 }
 
 void CommonOptions::validate() const {
@@ -25,7 +25,7 @@ void SettingsArguments::declare(ArgumentList& arguments) {
   arguments.option("--config", "FILE", config_file, "settings file (TOML)");
   arguments.option(
       "--set", "KEY=VALUE", assignments,
-      "one of `softscope settings`, e.g. stereo.method=sgbm; stronger than --config; repeatable");
+      "one of `softscope settings`, e.g. stereo.method=sgbm; overrides --config; repeatable");
 }
 
 Settings SettingsArguments::read() const {

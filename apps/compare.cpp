@@ -16,17 +16,16 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "Distances both ways, point to triangle: accuracy (the test from the reference), completeness\n"
-    "(the reference from the test), by vertex and by area; signed; three HD95 by name; precision,\n"
-    "recall, F and surface Dice at each tau. The test may be a mesh or a model of points.\n"
-    "Completeness and what is built on it mean little where the test shows a part of the "
+    "Distances in both directions, point to triangle: accuracy (test to reference), completeness\n"
+    "(reference to test), by vertex and by area; signed distances; three definitions of HD95;\n"
+    "precision, recall, F-score and surface Dice at each tau. The test is a mesh or a point "
+    "model.\n"
+    "Completeness and derived values are not meaningful if the test covers a part of the "
     "reference:\n"
-    "with --observed SCAN the values are split into what was seen and what was not.\n"
-    "With --out DIR it writes comparison.json, metrics.csv, errors.vtp (the test in the "
-    "reference's\n"
-    "place with arrays Signed, Absolute and ToReference), error_histogram and error_map as SVG, "
-    "PDF\n"
-    "and PNG, and error_map.vtp; `softscope report DIR` makes a page of it all.\n"
+    "--observed SCAN splits all values into the observed part and the rest.\n"
+    "--out DIR writes comparison.json, metrics.csv, errors.vtp (the aligned test with the arrays\n"
+    "Signed, Absolute and ToReference), error_histogram and error_map as SVG, PDF and PNG, and\n"
+    "error_map.vtp; `softscope report DIR` makes a report of them.\n"
     "Landmarks: CSV test_x_mm,test_y_mm,test_z_mm,reference_x_mm,reference_y_mm,reference_z_mm.\n"
     "docs/evaluation.md defines every value.";
 
@@ -46,7 +45,7 @@ class CompareCommand : public Command {
  public:
   std::string name() const override { return "compare"; }
   std::string summary() const override {
-    return "a model against a reference surface: distances both ways";
+    return "distances between a model and a reference surface, in both directions";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -65,32 +64,35 @@ class CompareCommand : public Command {
 
 void CompareCommand::declare(ArgumentList& arguments) {
   arguments.option("--reference", "MESH", options_.reference,
-                   "surface to judge by (STL, PLY, OBJ, VTP)", true);
+                   "reference surface (STL, PLY, OBJ, VTP)", true);
   arguments.option("--test", "MODEL", options_.test,
                    "surface, or points as reconstruct writes them, or a run", true);
-  arguments.option("--frame", "N", options_.frame, "of a run: its saved model of frame N");
-  arguments.option("--align", "HOW", align_,
-                   "none (the default), landmarks, or icp, which begins at the landmarks if given");
+  arguments.option("--frame", "N", options_.frame, "for a run: its saved model of frame N");
+  arguments.option(
+      "--align", "HOW", align_,
+      "none (the default), landmarks, or icp, which starts from the landmarks if given");
   arguments.option("--landmarks", "FILE", landmarks_, "pairs of points; alone: --align landmarks");
   arguments.option("--transform", "FILE", transform_,
-                   "reference_from_test, a 4 x 4 matrix in mm; icp begins at it");
+                   "reference_from_test, a 4 x 4 matrix in mm; initial alignment of icp");
   arguments.option("--tau", "LIST", taus_, "thresholds in mm (default 0.5,1,2)");
-  arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
-  arguments.option("--observed", "SCAN", options_.observed,
-                   "what was seen, points or surface in the reference's place: splits the values");
+  arguments.option("--out", "DIR", out_,
+                   "folder for the results; without it they are only printed");
+  arguments.option(
+      "--observed", "SCAN", options_.observed,
+      "observed part, points or surface in the space of the reference: splits the values");
   arguments.option("--observed-within-mm", "N", options_.observed_reach_mm,
-                   "the reference counts as seen this near to it (default 2)");
+                   "distance within which the reference counts as observed (default 2)");
   arguments.option("--errors", "KIND", picture_.kind,
                    "colours of error_map: absolute (default) or signed");
   arguments.option("--range-mm", "N", picture_.range_mm,
-                   "end of its colour bar (default: a round number, not below the P95)");
+                   "end of the colour bar (default: a round number, at least the P95)");
   arguments.option("--fail-if", "LIMIT", fail_if_,
                    "e.g. accuracy.p95_mm>2: then exit code 1; repeatable");
   arguments.option("--reference-unit-mm", "N", options_.reference_unit_mm,
-                   "what one unit of the file measures: 1000 for metres");
-  arguments.option("--test-unit-mm", "N", options_.test_unit_mm, "the same of the test");
+                   "mm per unit of the file: 1000 for metres");
+  arguments.option("--test-unit-mm", "N", options_.test_unit_mm, "the same for the test");
   softscope::declare(options_.paths, arguments);
-  arguments.flag("--force", force_, "overwrite what is there");
+  arguments.flag("--force", force_, "overwrite existing files");
 }
 
 int CompareCommand::run() {

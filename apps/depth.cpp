@@ -16,31 +16,30 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "Writes into DIR, for a sequence with the frame's number before each name:\n"
-    "  disparity.pfm, disparity.png   px; the png has 16 bits, 256 steps a px, 0 = none\n"
-    "  depth.pfm, depth.png           mm along the optical axis; png 16 bits, 0.01 mm a step\n"
-    "  dense.pfm, dense.png           with --dense: mm, gaps between the measured pixels filled\n"
+    "Writes into DIR, for a sequence with the frame number before each name:\n"
+    "  disparity.pfm, disparity.png   px; png with 16 bits, 256 steps per px, 0 = none\n"
+    "  depth.pfm, depth.png           mm along the optical axis; png 16 bits, 0.01 mm per step\n"
+    "  dense.pfm, dense.png           with --dense: mm, gaps between measured pixels filled\n"
     "  dense_sigma.pfm                with --dense: predicted standard error, mm\n"
-    "  confidence.png                 255 x probability that the error is below 0.5 px\n"
+    "  confidence.png                 255 x probability of an error below 0.5 px\n"
     "  cloud.ply                      points with normals and colours, mm\n"
-    "  picture.png                    the depth beside the left image, with its scale\n"
+    "  picture.png                    left image and depth side by side, with a colour bar\n"
     "  summary.json                   coverage, percentiles, row alignment, times, options\n"
-    "Of several frames only depth.png and summary.json are written unless --write asks for more.\n"
+    "For several frames, only depth.png and summary.json are written by default (see --write).\n"
     "Rasters are those of the rectified left camera. Raw pairs are rectified first.\n"
-    "--write disparity,confidence needs no calibration: two images or folders are then taken to "
-    "be\n"
-    "rectified.\n"
-    "LEFT alone may be a sequence folder, or an image or video that holds both views\n"
+    "--write disparity,confidence needs no calibration: two images or folders are then assumed to\n"
+    "be rectified.\n"
+    "LEFT alone may be a sequence folder, or an image or video with both views\n"
     "(side by side, top and bottom, interlaced). Settings: stereo.*, sequence.*, calibration.*,\n"
-    "depth.source, depth.align_rows; a wrong key is answered with the nearest one. A learned "
+    "depth.source, depth.align_rows; for a wrong key the nearest one is suggested. A custom "
     "stereo\n"
-    "network of yours: --set stereo.method=onnx --set stereo.model=FILE.onnx.";
+    "network: --set stereo.method=onnx --set stereo.model=FILE.onnx.";
 
 class DepthCommand : public Command {
  public:
   std::string name() const override { return "depth"; }
   std::string summary() const override {
-    return "a stereo pair or sequence to disparity, depth, confidence and point cloud";
+    return "disparity, depth, confidence and point cloud of a stereo pair or sequence";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -70,15 +69,15 @@ void DepthCommand::declare(ArgumentList& arguments) {
   source_.declareOptions(arguments);
   arguments.option("--frame", "NAME", frame_,
                    "frame of the point cloud: left (rectified, the default) or raw-left");
-  arguments.option("--range", "A:B", range_text_, "mm that the image's colour bar spans");
+  arguments.option("--range", "A:B", range_text_, "range of the colour bar in mm");
   arguments.option("--backend", "NAME", backend_, "auto (the default), cpu or cuda");
-  arguments.option(
-      "--write", "LIST", write_,
-      "some of disparity,depth,confidence,cloud,picture,dense (default: all of a pair, "
-      "depth.png alone of several)");
-  arguments.flag("--dense", dense_,
-                 "depth and its standard error for every pixel of tissue, gaps filled, besides");
-  arguments.flag("--force", force_, "overwrite what is there");
+  arguments.option("--write", "LIST", write_,
+                   "some of disparity,depth,confidence,cloud,picture,dense (default: all for a "
+                   "pair, only depth.png for several)");
+  arguments.flag(
+      "--dense", dense_,
+      "additionally depth and its standard error for every pixel of tissue, gaps filled");
+  arguments.flag("--force", force_, "overwrite existing files");
   softscope::declare(paths_, arguments);
   settings_.declare(arguments);
 }

@@ -35,7 +35,7 @@ Finding examineProcessor(const Machine& machine, Json& json) {
     if (there) finding.found += ", " + name;
     if (name == "AVX2" && !there) {
       finding.fine = false;
-      finding.to_do = "works, but slower: the fast loops want AVX2";
+      finding.to_do = "works, but slower: the fast loops need AVX2";
     }
   }
   json["processor"] = machine.processor;
@@ -54,7 +54,7 @@ Finding examineMemory(const Machine& machine, Json& json) {
   const double memory_gib = double(machine.memory_bytes) / double(1ull << 30);
   json["memory_bytes"] = machine.memory_bytes;
   return {"memory", memory_gib >= 2, fixed(memory_gib, 1) + " GiB",
-          "softscope wants 2 GiB; give the machine or container more"};
+          "softscope needs 2 GiB; give the machine or container more"};
 }
 
 std::string capability(const cuda::Device& device) {
@@ -82,11 +82,12 @@ std::vector<Finding> examineCuda(Json& json) {
       info.driver_version.empty() ? "" : ", driver for " + info.driver_version;
   json["cuda"] = {{"built_with", info.runtime_version}, {"driver", info.driver_version}};
   Json& devices = json["cuda"]["devices"] = Json::array();
-  const std::string use = whyNoCuda().empty()
-                              ? ": the first GPU does stereo, matching, pose and the warp's solver"
-                              : "";
+  const std::string use =
+      whyNoCuda().empty()
+          ? ": the first GPU computes stereo, matching, pose and the solver of the warp"
+          : "";
   std::vector<Finding> findings{{"CUDA", !info.devices.empty(), built + driver + use,
-                                 info.why_none + ". The CPU does all work"}};
+                                 info.why_none + ". The CPU computes everything"}};
   for (const cuda::Device& device : info.devices)
     findings.push_back(examineDevice(device, devices));
   return findings;
@@ -100,7 +101,7 @@ Finding examineRendering(Json& json) {
                        {"problem", check.problem}};
   return {"rendering", check.works,
           check.works ? check.renderer + ", first image " + fixed(check.first_frame_ms, 0) + " ms"
-                      : "nothing draws on this machine",
+                      : "no renderer on this machine",
           check.problem};
 }
 
@@ -110,8 +111,8 @@ Finding examineFonts(Json& json) {
                   {"family", font.family},
                   {"file", font.path}};
   return {"font", figureFontHasArialsWidths(),
-          font.path.empty() ? "no font at all" : font.family + ", " + font.path,
-          "figures want Arial, Helvetica or letters as wide: install fonts-liberation"};
+          font.path.empty() ? "no font found" : font.family + ", " + font.path,
+          "figures need Arial, Helvetica or a font of the same widths: install fonts-liberation"};
 }
 
 class DoctorCommand : public Command {
@@ -121,8 +122,8 @@ class DoctorCommand : public Command {
     return "checks versions, processor, CUDA, rendering and fonts";
   }
   std::string details() const override {
-    return "Draws a small image off screen and reads its pixels back. Exit code 4 where nothing\n"
-           "on this machine draws; every other lack is a warning that says what to do.";
+    return "Renders a small image off-screen and reads it back. Exit code 4 without a renderer;\n"
+           "every other missing part is a warning with advice.";
   }
   std::string example() const override { return "softscope doctor --json"; }
   void declare(ArgumentList&) override {}

@@ -19,33 +19,32 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "RUN is a folder that `reconstruct` wrote. Against a sequence with groundtruth/, every model\n"
-    "whose frame has a true mesh is compared in the frame of that moment's camera: accuracy, "
-    "split\n"
-    "into observed and predicted points, signed distance, completeness, three HD95 by name, drift\n"
-    "and jitter; tracks beside the no-motion control; the scope's path (ATE, RPE); the model "
-    "drawn\n"
-    "from the run's pose beside true depth and image (PSNR, SSIM).\n"
-    "Against a mesh (STL, PLY, OBJ; a CT's, say) the last model, or each one, is compared.\n"
-    "Of a sequence without groundtruth/ it gives what needs no truth: PSNR and SSIM of the drawn\n"
-    "model, back-projection, coverage, steps and jitter of the scope; and says what is missing.\n"
-    "In the place of RUN a disparity or depth map, or a folder of maps, is judged against the "
-    "true\n"
-    "ones (--reference): EPE, bad-1, 2, 3, MAE and RMSE in mm, coverage; with --confidence "
-    "whether\n"
-    "predicted sigmas tell the errors (intervals, sparsification).\n"
-    "With --out DIR it writes evaluation.json, frames.csv, tracks.csv, and the figures\n"
-    "error_series, error_histogram and worst_frames as SVG, PDF and PNG; errors.pvd shows the\n"
-    "error of every point in ParaView, `softscope report DIR` makes a page of it all.\n"
+    "RUN is a folder written by `reconstruct`. Against a sequence with groundtruth/, every model\n"
+    "with a true mesh of its frame is compared in the camera frame of that time: accuracy, split\n"
+    "into observed and predicted points, signed distance, completeness, three definitions of "
+    "HD95,\n"
+    "drift and jitter; tracks with the no-motion control; the camera path (ATE, RPE); the model\n"
+    "rendered from the pose of the run against true depth and image (PSNR, SSIM).\n"
+    "Against a mesh (STL, PLY, OBJ; for example from CT) the last model, or each one, is "
+    "compared.\n"
+    "A sequence without groundtruth/ gives the values that need no truth: PSNR and SSIM of the\n"
+    "rendered model, back-projection, coverage, steps and jitter of the scope; missing values are\n"
+    "listed.\n"
+    "Instead of RUN, a disparity or depth map, or a folder of maps, is compared with true maps\n"
+    "(--reference): EPE, bad-1, 2, 3, MAE and RMSE in mm, coverage; with --confidence also the\n"
+    "quality of predicted sigmas (intervals, sparsification).\n"
+    "--out DIR writes evaluation.json, frames.csv, tracks.csv, and the figures error_series,\n"
+    "error_histogram and worst_frames as SVG, PDF and PNG; errors.pvd shows the error of every\n"
+    "point in ParaView, `softscope report DIR` makes a report of them.\n"
     "docs/evaluation.md defines every value.\n"
-    "--fail-if METRIC>LIMIT ends with exit code 1 where that holds, or the metric isn't known;\n"
+    "--fail-if METRIC>LIMIT ends with exit code 1 if that is true, or if the metric is unknown;\n"
     "METRIC is a path in evaluation.json (surface.observed.p95_mm), or its last part.";
 
 class EvaluateCommand : public Command {
  public:
   std::string name() const override { return "evaluate"; }
   std::string summary() const override {
-    return "a run against ground truth or a mesh: errors over time";
+    return "errors of a run against ground truth or a mesh, over time";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -65,28 +64,29 @@ class EvaluateCommand : public Command {
 
 void EvaluateCommand::declare(ArgumentList& arguments) {
   arguments.positional("RUN", options_.run,
-                       "folder that reconstruct wrote; or maps of disparity or depth", true);
+                       "folder written by reconstruct; or maps of disparity or depth", true);
   arguments.option("--reference", "PATH", options_.reference,
-                   "sequence, best with groundtruth/, or a mesh", true);
-  arguments.option("--out", "DIR", out_, "folder for the results; without it they are only told");
+                   "sequence, preferably with groundtruth/, or a mesh", true);
+  arguments.option("--out", "DIR", out_,
+                   "folder for the results; without it they are only printed");
   arguments.option("--fail-if", "LIMIT", fail_if_, "e.g. p95_mm>2: then exit code 1; repeatable");
   arguments.option("--align", "HOW", align_,
                    "to a mesh: none (the default), rigid (one for all models), icp (each model)");
   arguments.option("--reference-unit-mm", "N", options_.reference_unit_mm,
-                   "what one unit of a mesh measures: 1000 for metres");
+                   "mm per unit of a mesh: 1000 for metres");
   arguments.option("--map", "KIND", options_.map_kind,
-                   "of maps whose names don't say it: disparity (px) or depth (mm)");
+                   "for maps with ambiguous names: disparity (px) or depth (mm)");
   arguments.option("--calibration", "FILE", options_.calibration,
-                   "of rectified views: errors of disparity maps in mm, too");
+                   "of rectified views: adds errors of disparity maps in mm");
   arguments.option("--confidence", "PATH", options_.confidence,
-                   "confidence.png of `depth`, or a folder of them: judges predicted sigmas");
+                   "confidence.png of `depth`, or a folder of them: evaluates predicted sigmas");
   softscope::declare(options_.paths, arguments);
   arguments.option("--frame", "N", options_.frame,
-                   "against a mesh: the saved model of frame N, not the last");
-  arguments.flag("--each", options_.each_model, "against a mesh: every model, not the last alone");
+                   "against a mesh: the saved model of frame N instead of the last");
+  arguments.flag("--each", options_.each_model, "against a mesh: every model instead of the last");
   arguments.flag("--no-views", no_views_,
-                 "don't draw the model for depth, PSNR and SSIM: saves a fifth of the time");
-  arguments.flag("--force", force_, "overwrite what is there");
+                 "do not render the model for depth, PSNR and SSIM: saves a fifth of the time");
+  arguments.flag("--force", force_, "overwrite existing files");
 }
 
 /// A single model needs no progress bar.

@@ -12,21 +12,22 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "MODEL is a folder that `reconstruct` wrote (its last model, or that of --frame), a PLY of\n"
-    "points, or a mesh (PLY, STL, OBJ, VTP, VTK). Points become a surface whose vertices they "
-    "are;\n"
-    "--points leaves them points. The ending of --out chooses the format:\n"
+    "MODEL is a folder written by `reconstruct` (its last model, or that of --frame), a PLY of\n"
+    "points, or a mesh (PLY, STL, OBJ, VTP, VTK). Points are triangulated and become its "
+    "vertices;\n"
+    "--points keeps them as points. The file extension of --out selects the format:\n"
     "  .ply .vtp    colours, normals, weights; triangles or points\n"
     "  .glb .gltf   colours and normals, in metres by the standard; triangles or points\n"
-    "  .obj         colours behind the coordinates (MeshLab, Blender, CloudCompare), normals\n"
-    "  .stl         triangles alone\n"
-    "  .pvd         all saved models of a run, a .vtp each in the folder beside it, for ParaView\n"
+    "  .obj         colours after the coordinates (MeshLab, Blender, CloudCompare), normals\n"
+    "  .stl         triangles only\n"
+    "  .pvd         all saved models of a run, one .vtp each in the folder next to it, for "
+    "ParaView\n"
     "  .dcm         by MODEL: a PDF becomes an Encapsulated PDF, the .html of `softscope report` "
     "a\n"
     "               Structured Report (TID 1500) with each of its numbers, an image a Secondary\n"
-    "               Capture, a model an Encapsulated STL; needs dcmtk. The patient's name and ID\n"
+    "               Capture, a model an Encapsulated STL; needs dcmtk. Name and ID of the patient\n"
     "               are empty unless --patient-name and --patient-id are given.\n"
-    "docs/export.md tells how the surface is made and what each format keeps.";
+    "docs/export.md describes the triangulation and the content of each format.";
 
 class ExportCommand : public Command {
  public:
@@ -51,25 +52,24 @@ class ExportCommand : public Command {
 void ExportCommand::declare(ArgumentList& arguments) {
   arguments.positional("MODEL", request_.input,
                        "a run, points or a mesh; for .dcm also a report or an image", true);
-  arguments.option("--out", "FILE", request_.out, "what to write; its ending is the format", true);
-  arguments.option("--frame", "N", request_.frame,
-                   "of a run: the model that was saved at this frame");
+  arguments.option("--out", "FILE", request_.out, "output file; its extension is the format", true);
+  arguments.option("--frame", "N", request_.frame, "for a run: the model saved at this frame");
   arguments.option("--every", "N", request_.every, "for .pvd: each N-th saved model (default 1)");
-  arguments.flag("--points", request_.points, "write the points, no triangles");
+  arguments.flag("--points", request_.points, "write points instead of triangles");
   arguments.option("--unit", "UNIT", request_.unit,
                    "of the file: mm (default), cm or m; glTF: always m");
   arguments.option("--input-unit-mm", "N", request_.input_unit_mm,
-                   "what one unit of MODEL measures: 1000 for metres (default 1)");
+                   "mm per unit of MODEL: 1000 for metres (default 1)");
   arguments.option("--gap-mm", "N", request_.surface.gap_mm,
                    "wider gaps between points are holes (default: 5 point spacings)");
   arguments.option("--island-mm2", "N", request_.surface.least_island_mm2,
-                   "smaller pieces are dropped (default 10)");
+                   "smaller components are dropped (default 10)");
   arguments.option("--patient-name", "TEXT", request_.dicom.patient_name, "for .dcm: Family^Given");
   arguments.option("--patient-id", "TEXT", request_.dicom.patient_id,
                    "for .dcm: ID of the patient");
   arguments.option("--title", "TEXT", request_.dicom.title,
                    "for .dcm: of the document or the series");
-  arguments.flag("--force", request_.overwrite, "overwrite what is there");
+  arguments.flag("--force", request_.overwrite, "overwrite existing files");
 }
 
 int ExportCommand::run() {

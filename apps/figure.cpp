@@ -19,15 +19,17 @@ namespace {
 
 const char* const kDetails =
     "Four panels: axial, coronal and sagittal slices with the contours of all surfaces, and the\n"
-    "surfaces in 3-D, coloured by the test's distance to the reference where both are given.\n"
+    "surfaces in 3-D, coloured by the distance of the test to the reference if both are given.\n"
     "Points (a model of reconstruct) are dots near each plane, those of --scan in red. Without\n"
-    "--ct contours lie on white. Views are radiological; letters come from the axes of the data.\n"
-    "With a RUN and its sequence as --reference: the model beside the true surface, as the scope\n"
-    "sees them at the last frame that has both, or at --frame.\n"
-    "Of whole runs: --kind frames shows the model at some frames, --kind series its error maps\n"
+    "--ct contours are drawn on white. Views are radiological; letters follow the axes of the "
+    "data.\n"
+    "With a RUN and its sequence as --reference: the model and the true surface in the camera\n"
+    "frame, at the last frame with both, or at --frame.\n"
+    "For whole runs: --kind frames shows the model at several frames, --kind series its error "
+    "maps\n"
     "over time with the series of all frames, --kind compare two runs side by side, --kind\n"
-    "matches what dense SURF and SIFT find of the model in a new image.\n"
-    "Beside the figure lies a JSON file with inputs, hashes, views, range and counts. The same\n"
+    "matches the matches of dense SURF and SIFT between the model and a new image.\n"
+    "A JSON file next to the figure has inputs, hashes, views, range and counts. The same\n"
     "inputs give the same bytes. Research use only.";
 
 class FigureCommand : public Command {
@@ -50,34 +52,34 @@ class FigureCommand : public Command {
 
 void FigureCommand::declare(ArgumentList& arguments) {
   arguments.positional("RUN", request_.run,
-                       "folder that reconstruct wrote, with its truth as --reference", false);
+                       "folder written by reconstruct, with its truth as --reference", false);
   arguments.option("--ct", "VOLUME", request_.ct, "DICOM folder, NIfTI, NRRD or MetaImage");
   arguments.option("--reference", "MESH", request_.reference,
-                   "surface of the CT (STL, PLY, OBJ, VTP); of a RUN the sequence with its truth");
-  arguments.option("--test", "MODEL", request_.test, "surface or points to show with it");
-  arguments.option("--surface", "MESH", request_.surfaces, "one more surface or model; repeatable");
+                   "surface of the CT (STL, PLY, OBJ, VTP); for a RUN the sequence with its truth");
+  arguments.option("--test", "MODEL", request_.test, "surface or points to compare");
+  arguments.option("--surface", "MESH", request_.surfaces,
+                   "additional surface or model; repeatable");
   arguments.option("--scan", "POINTS", request_.scans, "points to draw in red; repeatable");
   arguments.option("--kind", "NAME", request_.kind,
-                   "four (default), or of a RUN: frames, series, compare, matches");
-  arguments.option("--other", "RUN", request_.other, "of --kind compare: the second run");
+                   "four (default), or for a RUN: frames, series, compare, matches");
+  arguments.option("--other", "RUN", request_.other, "for --kind compare: the second run");
   arguments.option("--name", "TEXT", request_.names,
-                   "of --kind compare: what the two runs are called; give it twice");
+                   "for --kind compare: names of the two runs; give it twice");
   arguments.option("--frames", "LIST", frames_,
                    "of the panels, e.g. 0,10,20 (default: up to four, evenly spread)");
-  arguments.option("--frame", "N", request_.frame,
-                   "of a RUN (default: the last one that can be judged)");
+  arguments.option("--frame", "N", request_.frame, "of a RUN (default: the last one with truth)");
   arguments.option("--align", "HOW", align_,
-                   "the test to the reference: none (default), landmarks or icp, as compare does");
+                   "test to reference: none (default), landmarks or icp, as in compare");
   arguments.option("--align-landmarks", "FILE", align_landmarks_,
-                   "pairs of points, as compare's --landmarks; alone: --align landmarks");
+                   "pairs of points, as in compare; alone: --align landmarks");
   arguments.option("--errors", "KIND", request_.errors.kind,
-                   "of the test from the reference: absolute (default), signed or none");
+                   "test to reference: absolute (default), signed or none");
   arguments.flag("--observed", request_.observed_only,
-                 "of a RUN: errors of the points seen now, grey for the others");
+                 "for a RUN: errors of the currently visible points, grey for the others");
   arguments.option("--range-mm", "N", request_.errors.range_mm,
-                   "end of the colour bar (default: a round number, not below the P95)");
-  arguments.option("--eye", "X,Y,Z", eye_, "side that the 3-D panel is seen from");
-  arguments.option("--columns", "N", request_.columns, "1, 2 or 4 panels in a row");
+                   "end of the colour bar (default: a round number, at least the P95)");
+  arguments.option("--eye", "X,Y,Z", eye_, "view direction of the 3-D panel");
+  arguments.option("--columns", "N", request_.columns, "1, 2 or 4 panels per row");
   softscope::declare(request_.page, arguments);
 }
 

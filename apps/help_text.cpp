@@ -41,7 +41,7 @@ std::string overviewText(const std::vector<std::unique_ptr<Command>>& commands) 
                      "usage: softscope <command> [options]\n\n";
   for (const auto& command : commands) text += entry(command->name(), command->summary());
   text += "\n";
-  text += entry("--help", "this text; `softscope <command> --help` tells a command's options");
+  text += entry("--help", "this text; `softscope <command> --help` lists the options of a command");
   text += entry("--version, -V", "the version");
   text += "\nexample:\n  softscope doctor\n";
   return text;

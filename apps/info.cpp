@@ -13,19 +13,19 @@ class InfoCommand : public Command {
  public:
   std::string name() const override { return "info"; }
   std::string summary() const override {
-    return "what a sequence, image, mesh, volume, calibration or settings file holds";
+    return "content of a sequence, image, mesh, volume, calibration or settings file";
   }
   std::string details() const override {
-    return "Tells size, units, geometry, what is implausible and what is missing.";
+    return "Prints size, units, geometry, implausible values and missing parts.";
   }
   std::string example() const override { return "softscope info my_sequence"; }
 
   void declare(ArgumentList& arguments) override {
     softscope::declare(volume_, arguments);
-    arguments.positional("PATH", path_, "the file or folder", true);
-    arguments.flag("--check", check_, "read every frame of a sequence, not the first alone");
+    arguments.positional("PATH", path_, "file or folder", true);
+    arguments.flag("--check", check_, "read every frame of a sequence instead of the first");
     arguments.flag("--patient", patient_,
-                   "tell a DICOM series' patient fields and its description as well");
+                   "also print patient fields and description of a DICOM series");
   }
 
   int run() override {

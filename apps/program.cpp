@@ -30,7 +30,7 @@ int runCommand(Command& command) {
 /// Throws if the output was not written: full disk, closed pipe.
 void requirePrinted() {
   if (!std::cout.flush())
-    throw Error("the output can't be written: is the disk full, or its reader gone?");
+    throw Error("the output can't be written: is the disk full, or the pipe closed?");
 }
 
 int runLine(const std::vector<std::string>& words) {
@@ -86,7 +86,7 @@ int runProgram(const std::vector<std::string>& words) {
     spdlog::error("{}", tell(error));
     return kInput;
   } catch (const std::bad_alloc&) {
-    spdlog::error("out of memory. Smaller images or fewer threads need less");
+    spdlog::error("out of memory. Use smaller images or fewer threads");
     return kBug;
   } catch (const std::exception& error) {
     spdlog::error("unexpected: {}. Please report this with the command line", error.what());

@@ -13,23 +13,22 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "Writes model.ply (the last model: mm, world = the left camera at the first frame),\n"
+    "Writes model.ply (the last model: mm, world = left camera at the first frame),\n"
     "models/NNNNNN.ply and .vtp with models.pvd for ParaView, trajectory.txt (TUM lines,\n"
-    "world_from_left), frames.csv (what became of each frame), tracks.csv (with --track), "
-    "run.json.\n"
+    "world_from_left), frames.csv (status of each frame), tracks.csv (with --track), run.json.\n"
     "A sequence is a folder with left/ and right/ images or videos and calibration.yaml;\n"
-    "two videos and a calibration do as well: see the second example.\n"
-    "A frame that isn't good enough is skipped and reported, never fused. Ctrl-C ends the run\n"
-    "cleanly; --resume goes on from there, with the same result as if it had not been stopped.\n"
-    "--fail-if METRIC>LIMIT ends with exit code 1 where that holds: a number of run.json, or per\n"
-    "cent of the frames: lost>10%, skipped>5%, fused<80%. A learned stereo network of yours takes\n"
-    "the place of ours with --set stereo.method=onnx --set stereo.model=FILE.onnx.";
+    "two videos and a calibration are accepted too: see the second example.\n"
+    "An insufficient frame is skipped and reported, never fused. Ctrl-C ends the run cleanly;\n"
+    "--resume continues it, with the same result as without the interruption.\n"
+    "--fail-if METRIC>LIMIT ends with exit code 1 if that is true: a number of run.json, or a\n"
+    "percentage of the frames: lost>10%, skipped>5%, fused<80%. A custom stereo network:\n"
+    "--set stereo.method=onnx --set stereo.model=FILE.onnx.";
 
 class ReconstructCommand : public Command {
  public:
   std::string name() const override { return "reconstruct"; }
   std::string summary() const override {
-    return "a stereo clip to a live, coloured, deforming model with the scope's pose";
+    return "deforming, coloured model and camera poses from a stereo clip";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -59,23 +58,24 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
   arguments.option("--out", "DIR", out_, "folder for the run", true);
   source_.declareOptions(arguments);
   arguments.option("--save-every", "N", options_.save_every,
-                   "save the model every N frames (default 10; 0: only the last)");
+                   "save the model every N frames (default 10; 0: last only)");
   arguments.option("--hold-out", "N", hold_out_,
-                   "leave frames 1, N+1, 2N+1, … out; `evaluate` draws the model for each");
+                   "hold out frames 1, N+1, 2N+1, …; `evaluate` renders the model for each");
   arguments.option("--track", "FILE", track_,
-                   "follow pixels of the first left image: CSV id,u_px,v_px");
+                   "track pixels of the first left image: CSV id,u_px,v_px");
   arguments.option("--backend", "NAME", options_.backend, "auto (the default), cpu or cuda");
-  arguments.option("--preset", "NAME", preset_, "default, or paper: the paper's nodes and weights");
+  arguments.option("--preset", "NAME", preset_,
+                   "default, or paper: nodes and weights of the paper");
   arguments.option("--matcher", "NAME", matcher_, "dense-surf (the default), sift or surf-off");
-  arguments.option("--scope", "STATE", scope_, "static or moving, where that is known; else auto");
+  arguments.option("--scope", "STATE", scope_, "static or moving, if known; else auto");
   arguments.flag("--no-correspondence", no_correspondence_,
-                 "matches give the pose, but don't pull the warp");
+                 "use matches for the pose, but not for the warp");
   arguments.option("--checkpoint-every", "N", options_.checkpoint_every,
-                   "bring all files up to date every N frames (default 100)");
-  arguments.flag("--resume", options_.resume, "go on with an interrupted run");
+                   "update all files every N frames (default 100)");
+  arguments.flag("--resume", options_.resume, "continue an interrupted run");
   arguments.flag("--force", options_.overwrite, "replace an earlier run");
   arguments.option("--fail-if", "LIMIT", fail_if_,
-                   "e.g. lost>10%: then exit code 1, the run stays; repeatable");
+                   "e.g. lost>10%: then exit code 1, the run is kept; repeatable");
   softscope::declare(options_.paths, arguments);
   settings_.declare(arguments);
 }

@@ -10,19 +10,18 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "CASE is a folder that `evaluate --out` or `compare --out` wrote; several make a cohort.\n"
-    "The page opens from disk in any browser and asks the network for nothing: what was compared,\n"
-    "how it was aligned, the result and how sure it is, a map of the errors that turns, limits,\n"
-    "methods, provenance, and all metrics as JSON inside.\n"
-    "Names of files and folders stay out unless --with-paths asks for them; cases are numbered, "
-    "or\n"
-    "named by --name. docs/report.md tells how to read it.";
+    "CASE is a folder written by `evaluate --out` or `compare --out`; several form a cohort.\n"
+    "The page opens from disk in any browser without network access: compared data, alignment,\n"
+    "result with its uncertainty, a rotatable map of the errors, limits, methods, provenance, and\n"
+    "all metrics as JSON.\n"
+    "Names of files and folders are removed unless --with-paths is given; cases are numbered, or\n"
+    "named by --name. docs/report.md explains the report.";
 
 class ReportCommand : public Command {
  public:
   std::string name() const override { return "report"; }
   std::string summary() const override {
-    return "evaluations and comparisons as one page for people";
+    return "report of evaluations and comparisons as one page";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -38,24 +37,26 @@ class ReportCommand : public Command {
 };
 
 void ReportCommand::declare(ArgumentList& arguments) {
-  arguments.positionals("CASE", options_.cases, "folders that evaluate or compare wrote");
+  arguments.positionals("CASE", options_.cases, "folders written by evaluate or compare");
   arguments.option("--out", "FILE", out_, "the page, .html", true);
-  arguments.option("--pdf", "FILE", pdf_, "the same on paper");
-  arguments.option("--name", "TEXT", options_.names, "of each case, in their order; repeatable");
+  arguments.option("--pdf", "FILE", pdf_, "the same page as PDF");
+  arguments.option("--name", "TEXT", options_.names,
+                   "name of each case, in their order; repeatable");
   arguments.option("--versus", "CASE", options_.versus,
-                   "another method's result of each case, in their order; repeatable");
+                   "result of another method for each case, in their order; repeatable");
   arguments.option("--title", "TEXT", options_.title, "of the page");
   arguments.option("--limit-mm", "N", options_.limit_mm,
-                   "where the colours end (default: a round number above the largest P95)");
+                   "end of the colour range (default: a round number above the largest P95)");
   arguments.option("--seed", "N", options_.seed,
-                   "of resampling for confidence intervals (default 1)");
+                   "of the bootstrap for confidence intervals (default 1)");
   arguments.option("--fail-if", "LIMIT", fail_if_,
-                   "e.g. p95_mm>2: exit code 1 where it holds for a case; repeatable");
-  arguments.option("--checklist", "NAME", options_.checklist,
-                   "claim, stard-ai: adds that guideline's items, where each stands, what is left");
+                   "e.g. p95_mm>2: exit code 1 if true for a case; repeatable");
+  arguments.option(
+      "--checklist", "NAME", options_.checklist,
+      "claim, stard-ai: adds the items of that guideline, with their place in the report");
   arguments.flag("--with-paths", options_.with_paths,
-                 "show the names of inputs, and their paths where the record kept them");
-  arguments.flag("--force", options_.overwrite, "overwrite what is there");
+                 "show names of inputs, and their paths if recorded");
+  arguments.flag("--force", options_.overwrite, "overwrite existing files");
 }
 
 int ReportCommand::run() {

@@ -9,10 +9,10 @@ namespace softscope {
 
 void SequenceArguments::declareOptions(ArgumentList& arguments) {
   arguments.option("--calibration", "FILE", calibration,
-                   "calibration; a sequence folder has its own");
+                   "calibration; a sequence folder contains its own");
   arguments.option("--mask", "PATH", mask, "image or folder; non-zero pixels are ignored");
   arguments.option("--frames", "A:B:STEP", frames,
-                   "frames A up to, not with, B, every STEP-th of them; each may be left out");
+                   "frames A to B (exclusive), every STEP-th; each part is optional");
 }
 
 SequencePaths SequenceArguments::paths(const std::string& command, bool calibrated) const {
@@ -24,7 +24,7 @@ SequencePaths SequenceArguments::paths(const std::string& command, bool calibrat
     paths = findSequence(left);
   } else if (calibration.empty() && (calibrated || right.empty())) {
     throw OptionError("softscope " + command +
-                      ": --calibration is missing; only a sequence folder has its own");
+                      ": --calibration is missing; only a sequence folder contains its own");
   } else if (right.empty()) {
     paths.stereo = left;
   } else {

@@ -49,12 +49,12 @@ class SettingsCommand : public Command {
  public:
   std::string name() const override { return "settings"; }
   std::string summary() const override {
-    return "every setting with its range, default, unit and meaning; or a settings file";
+    return "all settings with range, default, unit and meaning; or a settings file";
   }
   std::string details() const override {
-    return "These are the keys of --set and of the TOML files of --config, for simulate of "
-           "--scenario.\n"
-           "--toml writes a file of the defaults with comments, which reads back.";
+    return "These are the keys of --set and of the TOML files of --config (for simulate: "
+           "--scenario).\n"
+           "--toml writes a commented file with all defaults.";
   }
   std::string example() const override { return "softscope settings --toml > settings.toml"; }
   void declare(ArgumentList& arguments) override {
@@ -69,7 +69,7 @@ class SettingsCommand : public Command {
     if (toml_ + markdown_ + common.json > 1)
       throw OptionError("--toml, --markdown and --json exclude each other; give one");
     if (command_ != "reconstruct" && (markdown_ || preset_ != "default"))
-      throw OptionError("--markdown and --preset are for the settings of reconstruct alone");
+      throw OptionError("--markdown and --preset are for the settings of reconstruct only");
     const std::vector<SettingInfo> settings = listOf(command_, preset_);
     if (common.json)
       printJson(jsonOf(settings));

@@ -18,21 +18,19 @@ const char* const kDetails =
     "Writes a sequence folder: left/, right/, calibration.yaml, timestamps.txt, track_points.csv,\n"
     "groundtruth/ with mesh/ and depth/ of every 5th frame, trajectory.txt and tracks.csv (world "
     "=\n"
-    "the left camera at the first frame, mm), and simulation.json with every setting.\n"
+    "left camera at the first frame, mm), and simulation.json with every setting.\n"
     "The same settings and seed give the same bytes on any number of threads.\n"
     "Keys of a scenario: frames, seed, truth_every, pictures, organ.*, texture.*, breathing.*,\n"
     "heartbeat.*, push.*, cut.*, scope.*, camera.*, instrument.*, smoke, event.*,\n"
-    "light.*, sensor.*;\n"
-    "data/scenario.toml has them all.\n"
-    "--layout writes one clip with its truth as a data set ships it (docs/datasets.md).\n"
-    "--frames, --size, --seed, --organ and --texture are stronger than --set, --set than "
-    "--scenario.";
+    "light.*, sensor.*; data/scenario.toml lists all of them.\n"
+    "--layout writes one clip with its truth in the layout of a data set (docs/datasets.md).\n"
+    "--frames, --size, --seed, --organ and --texture override --set, --set overrides --scenario.";
 
 class SimulateCommand : public Command {
  public:
   std::string name() const override { return "simulate"; }
   std::string summary() const override {
-    return "an organ to a stereo sequence with exact ground truth";
+    return "stereo sequence with exact ground truth from an organ";
   }
   std::string details() const override { return kDetails; }
   std::string example() const override {
@@ -57,16 +55,15 @@ void SimulateCommand::declare(ArgumentList& arguments) {
                    "one setting, e.g. push.amplitude_mm=3; repeatable");
   arguments.option("--organ", "FILE", organ_, "closed mesh in mm (STL, PLY, OBJ, VTP), or builtin");
   arguments.option("--texture", "PICTURE", texture_,
-                   "photograph of tissue (PNG, JPEG, TIFF …); left out: procedural tissue");
-  arguments.option("--frames", "N", frames_, "how many (default 40)");
+                   "image of tissue (PNG, JPEG, TIFF …); default: procedural tissue");
+  arguments.option("--frames", "N", frames_, "number of frames (default 40)");
   arguments.option("--size", "WxH", size_, "of the images (default 640x480)");
-  arguments.option("--seed", "S", seed_, "of everything that chance decides (default 1)");
+  arguments.option("--seed", "S", seed_, "of all random numbers (default 1)");
   arguments.option("--truth", "LIST", truth_,
                    "some of mesh,depth,trajectory,tracks (the default), normals,flow; or none");
-  arguments.option(
-      "--layout", "NAME", layout_,
-      "one clip as a data set ships it: stir2026, surgt, scared, servct, stereomis, d4d, "
-      "stir, hamlyn or c3vd");
+  arguments.option("--layout", "NAME", layout_,
+                   "one clip in the layout of a data set: stir2026, surgt, scared, servct, "
+                   "stereomis, d4d, stir, hamlyn or c3vd");
   arguments.flag("--force", force_, "overwrite an earlier simulation");
 }
 
@@ -92,14 +89,14 @@ int SimulateCommand::run() {
   const auto start = std::chrono::steady_clock::now();
   const TruthKinds truth = TruthKinds::parse(truth_);
   if (!layout_.empty()) {
-    require(truth_.empty(), "--truth", truth_, "is not chosen with --layout: the form has its own");
-    require(!force_, "--force", "given",
-            "nothing is overwritten with --layout; choose a new folder");
+    require(truth_.empty(), "--truth", truth_,
+            "cannot be combined with --layout, which defines the truth");
+    require(!force_, "--force", "given", "--layout overwrites nothing; choose a new folder");
   }
   const SimulatedSequence made =
       layout_.empty() ? simulateSequence(options, truth, out_, force_, listenerOf(progress))
                       : simulateLayout(options, layout_, out_, listenerOf(progress));
-  if (made.interrupted) spdlog::warn("interrupted: a sequence of {} frames stays", made.frames);
+  if (made.interrupted) spdlog::warn("interrupted: a sequence of {} frames is kept", made.frames);
   if (made.frames == 0) return kInterrupted;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   report(made, elapsed.count());

@@ -13,10 +13,10 @@ namespace {
 
 const char* const kDetails =
     "Each --plane gives a panel: axial, coronal, sagittal, or oblique by its --normal. With\n"
-    "--positions one plane gives a panel at each place along its axis (LPS, mm; an oblique one:\n"
-    "along its normal from --at), so a stack of slices is one figure. Surfaces are contours,\n"
-    "points within --dots-within-mm of a plane are dots, those of --scan red.\n"
-    "Beside the figure lies a JSON file with inputs, hashes and views.";
+    "--positions one plane gives a panel at each position along its axis (LPS, mm; oblique: along\n"
+    "its normal from --at), so a stack of slices is one figure. Surfaces are contours, points\n"
+    "within --dots-within-mm of a plane are dots, those of --scan red.\n"
+    "A JSON file next to the figure has inputs, hashes and views.";
 
 class SliceCommand : public Command {
  public:
@@ -40,14 +40,14 @@ void SliceCommand::declare(ArgumentList& arguments) {
                        "DICOM folder, NIfTI, NRRD or MetaImage; without it: white", false);
   arguments.option("--reference", "MESH", request_.reference, "surface of the CT to outline");
   arguments.option("--surface", "MESH", request_.surfaces,
-                   "model to outline; repeatable; --at model is the middle of the first");
+                   "model to outline; repeatable; --at model is the centre of the first");
   arguments.option("--scan", "POINTS", request_.scans, "points to draw in red; repeatable");
   arguments.option("--plane", "NAME", request_.planes,
                    "axial, coronal, sagittal or oblique; repeatable (default: the first three)");
   arguments.option("--normal", "X,Y,Z", request_.normal, "of the oblique plane");
   arguments.option("--positions", "LIST", request_.positions,
-                   "places of one plane along its axis, mm: 10,20,30, or FIRST:LAST:STEP");
-  arguments.option("--columns", "N", request_.columns, "panels in a row");
+                   "positions of one plane along its axis, mm: 10,20,30, or FIRST:LAST:STEP");
+  arguments.option("--columns", "N", request_.columns, "panels per row");
   softscope::declare(request_.page, arguments);
 }
 

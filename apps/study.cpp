@@ -17,21 +17,18 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "FILE names cases: a sequence that exists or is simulated, settings of `reconstruct`, what it\n"
-    "is judged by; variants and sweeps multiply them (docs/studies.md, data/studies). Each case "
-    "is\n"
-    "a process; one that fails is told and doesn't stop the others; one that is done is not run\n"
-    "again unless its settings or inputs changed. Ctrl-C stops cleanly, the same line goes on.\n"
+    "FILE lists cases: an existing or simulated sequence, settings of `reconstruct`, a reference;\n"
+    "variants and sweeps multiply them (docs/studies.md, data/studies). Each case is a process; a\n"
+    "failed case is reported and does not stop the others; a complete case is not repeated unless\n"
+    "its settings or inputs changed. Ctrl-C stops cleanly, the same command continues.\n"
     "Writes DIR/study.json, table.csv, table.md, report.html, plots/, and cases/NAME/\n"
-    "with each case's run, evaluation and log.txt. Exit code 1: a case failed.\n"
-    "--list, --case and --table are what a workflow manager needs (data/studies/Snakefile).";
+    "with run, evaluation and log.txt of each case. Exit code 1: a case failed.\n"
+    "--list, --case and --table are for workflow managers (data/studies/Snakefile).";
 
 class StudyCommand : public Command {
  public:
   std::string name() const override { return "study"; }
-  std::string summary() const override {
-    return "many simulated or real cases to one table of errors";
-  }
+  std::string summary() const override { return "table of errors of many simulated or real cases"; }
   std::string details() const override { return kDetails; }
   std::string example() const override {
     return "softscope study data/studies/stress.toml --out stress --jobs 4";
@@ -51,15 +48,16 @@ class StudyCommand : public Command {
 };
 
 void StudyCommand::declare(ArgumentList& arguments) {
-  arguments.positional("FILE", file_, "the study (TOML)", true);
-  arguments.option("--out", "DIR", out_, "folder for everything; an earlier study in it goes on");
+  arguments.positional("FILE", file_, "study file (TOML)", true);
+  arguments.option("--out", "DIR", out_,
+                   "folder for all results; an earlier study in it is continued");
   arguments.option("--jobs", "N", jobs_,
-                   "cases at the same time, which share --threads (0, the default: one a GPU, "
-                   "without GPUs one a core)");
-  arguments.flag("--list", list_, "print the names of all cases, run nothing");
-  arguments.option("--case", "NAME", case_, "run this case alone, write no table");
-  arguments.flag("--table", table_, "run nothing, write the table of what is there");
-  arguments.flag("--force", force_, "run cases that are done again");
+                   "parallel cases, which share --threads (0, the default: one per GPU, "
+                   "without GPUs one per core)");
+  arguments.flag("--list", list_, "print the names of all cases only");
+  arguments.option("--case", "NAME", case_, "run only this case, without the table");
+  arguments.flag("--table", table_, "write only the table of existing results");
+  arguments.flag("--force", force_, "repeat complete cases");
 }
 
 StudyRun StudyCommand::readRun() const {
@@ -76,7 +74,7 @@ int StudyCommand::run() {
     for (const StudyCase& one : run.study.cases) std::cout << printable(one.name) << "\n";
     return kDone;
   }
-  if (out_.empty()) throw OptionError("softscope study: --out is missing: folder for everything");
+  if (out_.empty()) throw OptionError("softscope study: --out is missing: folder for all results");
   run.folder.requireUsable();
   if (table_ && !std::filesystem::exists(run.folder.marker()))
     throw OptionError("--table: there is no study in " + shown(run.folder.root) +

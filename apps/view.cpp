@@ -19,14 +19,13 @@ namespace softscope {
 namespace {
 
 const char* const kDetails =
-    "Shows the models that `reconstruct` saved (--save-every), one after the other, with the "
-    "scope,\n"
-    "its path, the nodes of the warp and how they moved. A run that still goes on is followed: "
-    "its\n"
-    "new models appear as they are written. With --reference (a mesh, or the sequence with its\n"
-    "truth) or --evaluation the model is coloured by its errors; with --ct slices lie under it.\n"
+    "Shows the models saved by `reconstruct` (--save-every) over time, with the scope, its path,\n"
+    "the nodes of the warp and their motion. New models of a running reconstruction appear as "
+    "they\n"
+    "are written. With --reference (a mesh, or the sequence with its truth) or --evaluation the\n"
+    "model is coloured by its errors; with --ct slices are drawn below it.\n"
     "--screenshot and --movie need no display; without them a window opens.\n"
-    "Drawn as the figures are: parallel, with a scale bar; the scope's own view is in perspective.";
+    "Parallel projection with a scale bar, as in figures; the view of the scope is in perspective.";
 
 std::string keysText() {
   std::string text = "\n\nKeys of the window:\n";
@@ -43,7 +42,7 @@ class ViewCommand : public Command {
  public:
   std::string name() const override { return "view"; }
   std::string summary() const override {
-    return "a run in a window, also while it is made; screenshots and movies";
+    return "interactive view of a run, also during reconstruction; screenshots and movies";
   }
   std::string details() const override { return kDetails + keysText(); }
   std::string example() const override {
@@ -64,44 +63,45 @@ class ViewCommand : public Command {
 };
 
 void ViewCommand::declare(ArgumentList& arguments) {
-  arguments.positional("RUN", request_.run.run, "folder that reconstruct wrote, or still writes",
-                       true);
+  arguments.positional("RUN", request_.run.run,
+                       "folder written by reconstruct, finished or running", true);
   arguments.option("--colour", "NAME", request_.colour, "texture (default), errors or weights");
   arguments.option("--look", "NAME", request_.look, "free (default), scope, front, above or right");
   arguments.flag("--nodes", request_.nodes, "show the nodes of the warp");
-  arguments.flag("--arrows", request_.arrows, "show how the nodes moved since the model before");
+  arguments.flag("--arrows", request_.arrows,
+                 "show the motion of the nodes since the previous model");
   arguments.flag("--no-scope", request_.no_scope, "hide the scope and its path");
   arguments.option("--reference", "PATH", request_.run.reference,
-                   "mesh to show with it, or the sequence with its truth");
+                   "mesh to compare, or the sequence with its truth");
   arguments.option("--evaluation", "DIR", request_.run.evaluation,
-                   "errors that `evaluate --out DIR` measured");
+                   "errors measured by `evaluate --out DIR`");
   arguments.option("--errors", "KIND", request_.run.errors.kind, "absolute (default) or signed");
   arguments.option("--range-mm", "N", request_.run.errors.range_mm,
-                   "end of the colour bar (default: a round number, not below the P95)");
+                   "end of the colour bar (default: a round number, at least the P95)");
   arguments.option("--ct", "VOLUME", request_.run.ct,
                    "slices of a DICOM folder, NIfTI, NRRD, MetaImage");
   softscope::declare(request_.run.volume, arguments);
   arguments.option("--ct-from-run", "FILE", request_.run.ct_from_run,
-                   "motion into the CT: 4 x 4 numbers, or evaluation.json of --align rigid");
+                   "transform into the CT: 4 x 4 numbers, or evaluation.json of --align rigid");
   arguments.option("--window", "NAME", request_.run.window,
                    "grey window of the CT: auto (default), "
                    "soft-tissue, lung, bone, liver, vessels, or WIDTH,LEVEL");
   arguments.option("--frame", "N", request_.frame,
-                   "begin with this frame, or the last one saved before it");
+                   "start at this frame, or at the last one saved before it");
   arguments.option("--screenshot", "FILE", request_.screenshot, "write a PNG, open no window");
   arguments.option("--movie", "FILE", movie_file_, "write a video (mp4), open no window");
   arguments.option("--size", "WxH", request_.size, "in pixels (default 960x720)");
   arguments.option("--fps", "N", request_.movie.frames_per_second, "of the movie (default 25)");
   arguments.option("--speed", "N", request_.movie.speed,
-                   "seconds of the clip a second (default 1)");
+                   "seconds of the clip per second (default 1)");
   arguments.option("--seconds", "N", request_.movie.seconds,
-                   "length of the movie, whatever the speed");
+                   "length of the movie; overrides the speed");
   arguments.option("--turn", "DEG", request_.movie.turn_deg,
-                   "turn the camera in the movie, all in all");
-  arguments.flag("--clean", request_.movie.clean, "a screenshot or movie without slider and words");
+                   "total rotation of the camera in the movie");
+  arguments.flag("--clean", request_.movie.clean, "a screenshot or movie without slider and texts");
   arguments.flag("--play", play_, "play at once");
-  arguments.flag("--wait", wait_, "wait for the first model of a run that has just begun");
-  arguments.flag("--force", request_.overwrite, "overwrite a screenshot or movie that is there");
+  arguments.flag("--wait", wait_, "wait for the first model of a new run");
+  arguments.flag("--force", request_.overwrite, "overwrite an existing screenshot or movie");
 }
 
 void ViewCommand::openWindow(RunSource& source) const {

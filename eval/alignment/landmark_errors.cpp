@@ -21,7 +21,8 @@ LandmarkErrors landmarkErrors(const Points& test_mm, const Points& reference_mm)
   errors.fit = fitRigid(test_mm, reference_mm);
   if (!errors.fit.unique)
     throw InputError(
-        "the landmarks lie on one line, so a rotation about it stays open; add one beside it");
+        "the landmarks are collinear, so the rotation about their line is undetermined; add one "
+        "outside of it");
   std::vector<double> fre_mm, tre_mm;
   for (std::size_t i = 0; i < test_mm.size(); ++i) {
     fre_mm.push_back((errors.fit.target_from_source * test_mm[i] - reference_mm[i]).norm());

@@ -15,7 +15,7 @@ using Points = std::vector<Eigen::Vector3d>;
 void check(const Points& source_mm, const Points& target_mm) {
   if (source_mm.size() != target_mm.size())
     throw InputError("a rigid fit got " + std::to_string(source_mm.size()) + " points and " +
-                     std::to_string(target_mm.size()) + " partners; give one partner a point");
+                     std::to_string(target_mm.size()) + " partners; give one partner per point");
   if (source_mm.size() < 3)
     throw InputError("a rigid fit got " + std::to_string(source_mm.size()) +
                      " pairs of points, but it takes three or more");

@@ -16,7 +16,7 @@ void check(const Poses& truth, const Poses& estimate) {
   if (truth.size() != estimate.size() || truth.empty())
     throw InputError("a trajectory of " + std::to_string(estimate.size()) +
                      " poses can't be compared with " + std::to_string(truth.size()) +
-                     " true ones; give one true pose a pose, and at least one");
+                     " true ones; give one true pose per pose, and at least one");
   for (std::size_t i = 0; i < truth.size(); ++i)
     if (!truth[i].matrix().allFinite() || !estimate[i].matrix().allFinite())
       throw InputError("pose " + std::to_string(i) +

@@ -16,7 +16,7 @@ constexpr std::size_t kMostSamples = 2000;  // two million slopes
 void requireSameLength(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() != y.size())
     throw InputError("a series of " + std::to_string(y.size()) + " errors has " +
-                     std::to_string(x.size()) + " times; give one a sample");
+                     std::to_string(x.size()) + " times; give one per sample");
 }
 
 std::vector<std::pair<double, double>> finiteSamples(const std::vector<double>& x,

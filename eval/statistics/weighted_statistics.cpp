@@ -18,7 +18,7 @@ Samples sortedSamples(const std::vector<double>& values, const std::vector<doubl
                       Statistics& result) {
   if (values.size() != weights.size())
     throw InputError(std::to_string(values.size()) + " values have " +
-                     std::to_string(weights.size()) + " weights; give one a value");
+                     std::to_string(weights.size()) + " weights; give one per value");
   Samples samples;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!(weights[i] >= 0 && std::isfinite(weights[i])))

@@ -184,7 +184,7 @@ void BoardOptions::validate() const {
   require(cornerRows() >= 3 && rows <= 60, "rows", rows,
           "a board has 3 to 60 inner corners a column");
   require(hasMarkers() || columns != rows, "columns and rows", columns,
-          "a checkerboard with as many columns as rows can't be told from itself turned by 90 "
+          "a checkerboard with equal numbers of columns and rows is ambiguous by rotations of 90 "
           "degrees; use one of 9x6 inner corners, or a ChArUco board");
   require(square_mm > 0 && square_mm <= 200, "square_mm", square_mm,
           "must be above 0, at most 200");

@@ -133,9 +133,8 @@ RigMatrix scaledInverse(const RigMatrix& matrix) {
   const RigVector pivots = solver.vectorD();
   if (solver.info() != Eigen::Success || !(pivots.minCoeff() > 1e-13))
     throw InputError(
-        "the views do not determine the cameras: the board lies too much alike in all of them. "
-        "Film it tilted in several directions, at several distances and in all parts of the "
-        "image.");
+        "the views do not determine the cameras: the poses of the board are too similar. Record it "
+        "tilted in several directions, at several distances and in all parts of the image.");
   const RigMatrix inverse = solver.solve(RigMatrix::Identity());
   return scale.asDiagonal() * inverse * scale.asDiagonal();
 }

@@ -68,7 +68,7 @@ void parseLine(std::string_view line, const TextScanner& file, PlyHeader& header
     element.count = file.toNumber<std::uint64_t>(words.word());
     header.elements.push_back(element);
   } else if (key == "property") {
-    if (header.elements.empty()) file.fail("a property stands before the first element");
+    if (header.elements.empty()) file.fail("a property precedes the first element");
     header.elements.back().properties.push_back(parseProperty(words, file));
   } else if (key != "comment" && key != "obj_info" && !key.empty()) {
     file.fail("found " + TextScanner::shownWord(key) + " in a PLY header");

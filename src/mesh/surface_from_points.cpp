@@ -43,7 +43,7 @@ FitPoints fitPoints(const PointCloud& cloud) {
   if (cloud.points_mm.empty()) throw InputError("there are no points, so there is no surface");
   if (cloud.normals.size() != cloud.points_mm.size())
     throw InputError(
-        "the points have no normals, which tell sides apart; give points with nx ny nz");
+        "the points have no normals, which define the orientation; give points with nx ny nz");
   FitPoints fit;
   for (std::size_t i = 0; i < cloud.points_mm.size(); ++i) {
     const float length = cloud.normals[i].norm();
@@ -182,9 +182,9 @@ void fill(const PointCloud& cloud, const FitPoints& fit, SurfacePieces pieces,
   pieces.points.erase(std::unique(pieces.points.begin(), pieces.points.end()), pieces.points.end());
   surface.dropped_points = fit.places.size() - pieces.points.size();
   if (surface.mesh.empty())
-    throw InputError(
-        "no surface came about from " + std::to_string(cloud.points_mm.size()) +
-        " points: they lie too far apart or face different ways; a larger gap may help");
+    throw InputError("no surface came about from " + std::to_string(cloud.points_mm.size()) +
+                     " points: their distances are too large or their orientations differ; a "
+                     "larger gap may help");
 }
 
 }  // namespace

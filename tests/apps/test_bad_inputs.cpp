@@ -191,7 +191,7 @@ TEST_F(BadInputs, DepthOfNothingIsAnError) {
     writePng(sequence + "/" + view + "/000000.png", ColourImage(160, 120, Rgb8{0, 0, 0}), true);
   const Outcome outcome = run({"depth", sequence, "--out", at("d")});
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("not one pixel could be measured"));
+  EXPECT_THAT(outcome.err, HasSubstr("no pixel could be measured"));
 }
 
 TEST_F(BadInputs, TimesThatAreNoSecondsAreToldAtTheStart) {

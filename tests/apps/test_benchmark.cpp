@@ -117,7 +117,7 @@ TEST_F(Benchmark, ScaredKeyframesWithoutTruthAreExcludedAndDataSet5IsDoubted) {
   fs::remove_all(at("data/dataset_5"));
   const Outcome none = run({"benchmark", "scared", at("data"), "--out", at("b"), "--quiet"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_THAT(none.err, HasSubstr("not one of 1 clips could be judged"));
+  EXPECT_THAT(none.err, HasSubstr("none of 1 clips could be evaluated"));
   EXPECT_EQ(run({"benchmark", "scared", at("data"), "--out", at("b"), "--jobs", "0"}).exit_code, 2);
 }
 

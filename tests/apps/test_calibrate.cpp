@@ -148,7 +148,7 @@ TEST_F(Calibrate, WhatCannotBeIsOneLine) {
   fails(with(4, "8x5"), 3, "Is --board right");
   fails(with(4, "9"), 2, "--board");
   fails(with(4, "9x0.5"), 2, "--board");
-  fails(with(4, "6x6"), 2, "turned by 90");
+  fails(with(4, "6x6"), 2, "by rotations of 90");
   fails(with(6, "0"), 2, "--square");
   fails(with(1, at("nowhere")), 3, "nowhere");
   fails(words({"--lens", "3"}), 2, "lens_coefficients");

@@ -84,7 +84,7 @@ TEST_F(Depth, ABadFrameIsOneLineAndTheOthersGoOn) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("000001.png"));
-  EXPECT_THAT(outcome.err, HasSubstr("not measured: 2 more frames, 2 to 4; summary.json has each"));
+  EXPECT_THAT(outcome.err, HasSubstr("not measured: 2 more frames, 2 to 4; details: summary.json"));
   EXPECT_EQ(outcome.json()["frames_done"], 2);
 }
 

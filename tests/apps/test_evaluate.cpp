@@ -142,7 +142,7 @@ TEST_F(EvaluateMaps, LimitsAndMistakesAreTold) {
   const Outcome foreign = run({"evaluate", at("000000_disparity.pfm"), "--reference",
                                at("000000_depth.png"), "--map", "disparity"});
   EXPECT_EQ(foreign.exit_code, 3) << foreign.out;
-  EXPECT_THAT(foreign.err, HasSubstr("is called a depth map"));
+  EXPECT_THAT(foreign.err, HasSubstr("is named a depth map"));
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_F(Figure, WarningsAreOnStandardError) {
   const Outcome outcome = figure(
       {"--ct", at("ct.mha"), "--reference", at("far.obj"), "--dpi", "60", "--out", at("far.svg")});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.err, HasSubstr("beside the volume"));
+  EXPECT_THAT(outcome.err, HasSubstr("mm outside of the volume"));
 }
 
 TEST_F(Figure, BadInputEndsInOneLine) {

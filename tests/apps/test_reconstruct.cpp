@@ -55,7 +55,7 @@ TEST_F(Reconstruct, OptionsReachTheRun) {
   EXPECT_EQ(record["configuration"]["pose.scope"], "static");
   EXPECT_EQ(record["configuration"]["deform.correspondence_weight"], 0);
   EXPECT_TRUE(fs::exists(at("run/tracks.csv")));
-  EXPECT_THAT(done.err, HasSubstr("the scope was never seen to move"));
+  EXPECT_THAT(done.err, HasSubstr("no motion of the scope was detected"));
   const Outcome paper = reconstruct({"--out", at("paper"), "--preset", "paper", "--json"});
   ASSERT_EQ(paper.exit_code, 0) << paper.err;
   EXPECT_EQ(paper.json()["configuration"]["deform.node_model"], "affine");

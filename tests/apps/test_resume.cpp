@@ -134,7 +134,7 @@ TEST_F(Resume, ARunKilledBeforeItsFirstCheckpointStartsAnew) {
   EXPECT_EQ(none, -1) << "no table yet";
   const Outcome resumed = resume({"--frames", "0:3"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_THAT(resumed.err, HasSubstr("starts anew"));
+  EXPECT_THAT(resumed.err, HasSubstr("starts from the first frame"));
   EXPECT_EQ(nlohmann::json::parse(textOf(at("run/run.json")))["frames"], 3);
   EXPECT_EQ(countFiles(at("run/models")), 6)
       << "nothing of the killed run, a PLY and VTP per frame";

@@ -43,7 +43,7 @@ TEST_F(View, OptionsReachTheScreenshot) {
   ASSERT_EQ(shown.exit_code, 0) << shown.err;
   EXPECT_EQ(shown.json()["screenshot"]["frame"], 3);
   EXPECT_EQ(readColourImage(at("view.png")).width_px, 480);
-  EXPECT_THAT(shown.err, HasSubstr("nothing tells what the scope sees"));
+  EXPECT_THAT(shown.err, HasSubstr("the camera is unknown; shown with a free view"));
   EXPECT_EQ(screenshot({}).exit_code, 2) << "it is there already";
   EXPECT_EQ(screenshot({"--force"}).exit_code, 0);
 }
@@ -59,7 +59,7 @@ TEST_F(View, OptionsReachTheMovieAndItsProgressIsShown) {
 TEST_F(View, BadRunsAreRefusedInOneLine) {
   expectRefused({"nowhere"}, run({"view", at("nowhere"), "--screenshot", at("x.png")}));
   fs::create_directories(at("empty"));
-  expectRefused({"empty", "holds no model", "--wait"},
+  expectRefused({"empty", "contains no model", "--wait"},
                 run({"view", at("empty"), "--screenshot", at("x.png")}));
 }
 

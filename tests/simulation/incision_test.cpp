@@ -296,7 +296,7 @@ TEST(Incision, RefusesACutThatDoesNotFit) {
   };
   CutOptions off = cutOf(10, 3, 3);
   off.x_mm = 25;
-  EXPECT_NE(message(off).find("past the organ"), std::string::npos) << message(off);
+  EXPECT_NE(message(off).find("misses the organ"), std::string::npos) << message(off);
   EXPECT_NE(message(cutOf(100, 3, 3)).find("turns away"), std::string::npos);
   EXPECT_NE(message(cutOf(10, 3, 40)).find("40 mm thick"), std::string::npos)
       << message(cutOf(10, 3, 40));

@@ -83,7 +83,7 @@ TEST_F(Comparison, WithoutASideThereIsNoSignedMean) {
   picture.kind = "signed";
   const std::string told =
       comparisonFacts(compareInto("aside", options("aside.ply"), picture).result).text();
-  EXPECT_NE(told.find("5 vertices at the reference's border have no side"), std::string::npos);
+  EXPECT_NE(told.find("5 vertices at the border of the reference have no sign"), std::string::npos);
   EXPECT_EQ(told.find("nan"), std::string::npos) << told;
   EXPECT_EQ(textOf(at("aside/error_map.svg")).find("nan"), std::string::npos);
 }
@@ -244,7 +244,7 @@ TEST_F(Comparison, BadInputIsRefusedInOneLine) {
         "0,0,1e34,0,0,0\n0,0,1,0,0,0\n0,0,2,0,0,0\n");
   CompareOptions points = options("above.obj");
   points.reference = at("points.ply");
-  expectError<InputError>([&] { compareFiles(points); }, {"a reference is a surface"});
+  expectError<InputError>([&] { compareFiles(points); }, {"the reference must be a surface"});
   expectError<InputError>([&] { compareFiles(options("nothing.ply")); }, {"nothing.ply"});
   for (const char* pairs : {"few.csv", "hole.csv", "far.csv"}) {
     CompareOptions marked = options("above.obj");

@@ -219,7 +219,7 @@ TEST_F(MeasuredDepth, WarningsComeOnceWithACount) {
   const Json json = written(measureSequence(options(sequence), told.listener()).record);
   EXPECT_THAT(told.failures,
               ElementsAre(HasSubstr("000001.png"),
-                          HasSubstr("not measured: 2 more frames, 2 to 4; summary.json has each")));
+                          HasSubstr("not measured: 2 more frames, 2 to 4; details: summary.json")));
   EXPECT_THAT(told.warnings, testing::IsEmpty());
   EXPECT_EQ(json["failed"].size(), 3u);
 }

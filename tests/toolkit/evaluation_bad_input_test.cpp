@@ -33,7 +33,7 @@ TEST_F(Evaluation, TablesThatDisagreeAreRefused) {
   write("run/frames.csv", "frame,status\n0,fused\n1,fused\n");
   expectRefused({"frames.csv", "2 frames", "6 poses"});
   write("run/frames.csv", "frame,status\n0,a\n1,a\n1,a\n2,a\n3,a\n4,a\n");
-  expectRefused({"frames.csv", "must rise"});
+  expectRefused({"frames.csv", "must ascend"});
   write("run/frames.csv", "frame,status\n0,a\n1\n");
   expectRefused({"frames.csv", "line 3", "1 cells"});
   write("run/frames.csv", "number,status\n0,a\n");

@@ -85,8 +85,8 @@ TEST_F(EvaluationLost, AStatusThatNoFrameCanHaveIsRefused) {
 TEST_F(Evaluation, ARunThatWasStoppedIsCalledSo) {
   EXPECT_EQ(evaluated()["warnings"].dump().find("was stopped"), std::string::npos);
   write("run/checkpoint.bin", "left by a run that was killed");
-  EXPECT_THAT(evaluated()["warnings"].dump(), HasSubstr("was stopped, killed, or is not over: its "
-                                                        "last frame is 5"));
+  EXPECT_THAT(evaluated()["warnings"].dump(), HasSubstr("was stopped or killed, or is in progress: "
+                                                        "its last frame is 5"));
 }
 
 TEST_F(Evaluation, AClipWithoutTimestampsHasFramesOnEveryAxis) {
@@ -185,8 +185,8 @@ TEST_F(EvaluationWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
   EXPECT_EQ(written(document.metrics)["cases"][0]["record"]["view"], record["view"]);
   const std::string page = textOf(at("page.html"));
   for (const char* part :
-       {"There is no ground truth", ">PSNR [dB]<", "s step [mm]", "Of 4 frames 4 were fused",
-        "4 fused of 4 frames", "drawn into that frame, minus the"})
+       {"There is no ground truth", ">PSNR [dB]<", "camera step [mm]", "Of 4 frames 4 were fused",
+        "4 fused of 4 frames", "rendered after the fusion of a frame, minus the"})
     EXPECT_THAT(page, HasSubstr(part));
 }
 

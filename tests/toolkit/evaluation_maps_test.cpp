@@ -126,10 +126,10 @@ TEST_F(EvaluationOfMaps, ADepthMapIsNotTakenForADisparityMap) {
   };
   // By its name, or that of its folder.
   writeDepthPng(at("000000_depth.png"), Raster<float>(40, 20, 50.0f));
-  refused(at("000000_depth.png"), "is called a depth map");
+  refused(at("000000_depth.png"), "is named a depth map");
   fs::create_directories(at("depth"));
   writeDepthPng(at("depth/000000.png"), Raster<float>(40, 20, 50.0f));
-  refused(at("depth/000000.png"), "is called a depth map");
+  refused(at("depth/000000.png"), "is named a depth map");
   // By its values: 50 mm are no disparity in an image of 40 px.
   writePfm(at("wide.pfm"), Raster<float>(40, 20, 50.0f));
   refused(at("wide.pfm"), "a disparity is at most 40 px");

@@ -301,7 +301,7 @@ TEST_F(Evaluation, AMeshInMetresIsSuspectedAndCanBeSaid) {
 TEST_F(Evaluation, ARunWithoutModelsStillHasItsPath) {
   fs::remove_all(at("run/models"));
   const Json result = written(evaluateInto("out").record);
-  EXPECT_THAT(result["warnings"].dump(), HasSubstr("no model was judged"));
+  EXPECT_THAT(result["warnings"].dump(), HasSubstr("no model was evaluated"));
   EXPECT_TRUE(result["surface"]["mean_mm"].is_null());
   EXPECT_NEAR(result["camera"]["rpe"]["mean_mm"], 0.1, kFloats);
   EXPECT_FALSE(fs::exists(at("out/error_series.svg"))) << "a figure of nothing";

@@ -285,7 +285,7 @@ TEST_F(Figures, ARasMeshIsTurnedAndADistantOneTold) {
   distant.reference = at("far.obj");
   std::vector<std::string> warnings;
   drawn(distant, &warnings);
-  EXPECT_THAT(warnings, testing::Contains(HasSubstr("beside the volume")));
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("mm outside of the volume")));
 }
 
 TEST_F(Figures, SidesAreNamedAsInAComparison) {
@@ -321,7 +321,7 @@ TEST_F(Figures, AModelInItsScopesFrameIsTold) {
   request.page.out = {at("n.svg")};
   std::vector<std::string> warnings;
   drawn(request, &warnings);
-  EXPECT_THAT(warnings, testing::Contains(HasSubstr("lies in a scope's frame (world)")));
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("is in a camera frame (world)")));
 }
 
 TEST_F(Figures, AStrangeNameAndACtAloneAreDrawn) {

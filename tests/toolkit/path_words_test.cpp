@@ -38,7 +38,7 @@ TEST(PathWords, ShortFoldersAreNoUnits) {
 
 TEST(PathWords, SentencesWithoutFilesStayAsTheyAre) {
   for (const char* text :
-       {"the run has no tracks.csv; reconstruct with --track to judge tracks",
+       {"the run has no tracks.csv; reconstruct with --track to evaluate tracks",
         "12 of 40 frames were fused: 3 were blurred", "", " two  blanks ", "a / b", "10:30 h"})
     EXPECT_EQ(hidden(text), text);
 }

@@ -44,7 +44,7 @@ class ReportPages : public InFolder {
 TEST_F(ReportPages, TellsAnEvaluationInReadingOrder) {
   const std::string html = page({at("result")});
   std::size_t place = html.find("Research use only, not for diagnosis.");
-  for (const char* title : {"What was compared", "Result, and how sure it is", "Pictures", "Limits",
+  for (const char* title : {"What was compared", "Result and uncertainty", "Pictures", "Limits",
                             "Methods", "Provenance"}) {
     const std::size_t next = html.find("<h2>" + std::string(title), place);
     ASSERT_NE(next, std::string::npos) << title;
@@ -52,7 +52,7 @@ TEST_F(ReportPages, TellsAnEvaluationInReadingOrder) {
   }
   EXPECT_THAT(html, HasSubstr("id=\"maps\""));
   EXPECT_THAT(html, HasSubstr("Error over time"));
-  EXPECT_THAT(html, HasSubstr("Spread of the distances"));
+  EXPECT_THAT(html, HasSubstr("Histogram of the distances"));
   EXPECT_THAT(html, Not(HasSubstr("http:")));
 }
 
@@ -124,19 +124,19 @@ TEST_F(ReportPages, BadInputsAreNamedAndLeaveNoPage) {
   fs::create_directories(at("hollow"));
   write("hollow/evaluation.json", "{\"schema_version\": 1, \"command\": \"evaluate\"}");
   expectRefused({"nowhere", "is not there"}, "nowhere");
-  expectRefused({"empty", "holds no evaluation.json"}, "empty");
+  expectRefused({"empty", "contains no evaluation.json"}, "empty");
   expectRefused({"broken/evaluation.json", "is no JSON"}, "broken");
   expectRefused({"foreign/evaluation.json", "written by `<b>`"}, "foreign");
   expectRefused({"newer/evaluation.json", "schema_version 2"}, "newer");
   expectRefused({"hollow/evaluation.json", "no part `surface`"}, "hollow");
   fs::create_directories(at("run"));
   write("run/trajectory.txt", "");
-  expectRefused({"run", "has not been judged yet"}, "run");
+  expectRefused({"run", "is a run without evaluation"}, "run");
   write("result/errors/000002.vtp", "not VTK");
   expectRefused({"000002.vtp"}, "result");
   writeCase(at("pictured"), 1);
   write("pictured/figure.png", "<svg onload=alert(1)>");
-  expectRefused({"figure.png", "is no PNG"}, "pictured");
+  expectRefused({"figure.png", "is not a PNG"}, "pictured");
   EXPECT_FALSE(fs::exists(at("page.html")));
 }
 
@@ -163,11 +163,13 @@ TEST_F(ReportPages, WithoutTruthItSaysSoAndClaimsNoDistance) {
   writeTruthlessCase(at("real"), 28);
   const std::string html = page({at("real")});
   for (const char* part :
-       {"There is no ground truth: how far the model lies from the tissue is not known.",
-        "a PSNR of 28.0 dB", "it lies 0.250 mm on average from the depth that it was made of",
-        "over 75.0 % of the tissue", "judged at 4 moments",
+       {"There is no ground truth: the distance of the model from the tissue is unknown.",
+        "a PSNR of 28.0 dB",
+        "Visible points are 0.250 mm on average from the depth used for the model",
+        "over 75.0 % of the tissue", "evaluated at 4 frames",
         "an interval over them would be too narrow",
-        "Not measured, because it takes ground truth: surface errors; errors of the drawn depth.",
+        "Not measured, because ground truth is required: surface errors; errors of the drawn "
+        "depth.",
         ">frame<", "back-projection [mm]"})
     EXPECT_THAT(html, HasSubstr(part));
   for (const char* part :
@@ -188,11 +190,11 @@ TEST_F(ReportPages, WithoutTruthTheFirstPictureIsTheModelBesideTheImage) {
   ASSERT_NE(picture, std::string::npos);
   EXPECT_LT(picture, html.find("<h2>What was compared"));
   EXPECT_THAT(html, HasSubstr("image of frame 30"));
-  EXPECT_THAT(html, HasSubstr("It covers 75.0 % of the tissue in sight. It is 2 frames old"));
-  EXPECT_THAT(html, HasSubstr("of the moments for which a model was saved"))
+  EXPECT_THAT(html, HasSubstr("It covers 75.0 % of the visible tissue. It is 2 frames old"));
+  EXPECT_THAT(html, HasSubstr("of the frames with a saved model"))
       << "why it is not the share that has depth";
   write("real/drawn_view.png", "none");
-  expectRefused({"drawn_view.png", "is no PNG"}, "real");
+  expectRefused({"drawn_view.png", "is not a PNG"}, "real");
 }
 
 TEST_F(ReportPages, AChecklistNamesEachItemAndItsPlace) {
@@ -245,7 +247,7 @@ TEST_F(ReportPages, SmallNumbersAndCountsAreReadable) {
   write("result/evaluation.json", record.dump());
   const std::string html = page({at("result")});
   for (const char* part : {"drift [mm per frame]", ">0.000030<", ">-0.00040<", ">0.003<", ">value<",
-                           "that the run did not see, over 2 frames"})
+                           "that the run did not use, over 2 frames"})
     EXPECT_THAT(html, HasSubstr(part));
   EXPECT_THAT(html, Not(HasSubstr(">2.00<"))) << "a count has no decimals";
 }
@@ -254,7 +256,7 @@ TEST_F(ReportPages, CasesWithoutTruthDontCountAmongTheDistances) {
   writeTruthlessCase(at("real"), 28);
   writeTruthlessCase(at("other"), 32);
   const std::string mixed = page({at("result"), at("real"), at("other")});
-  EXPECT_THAT(mixed, HasSubstr("In one case the model lies 0.500"));
+  EXPECT_THAT(mixed, HasSubstr("In one case the distance of the model is 0.500"));
   EXPECT_THAT(mixed, HasSubstr("2 more have no ground truth"));
   const Json blind = written(writeReport(options({at("real"), at("other")})).metrics);
   EXPECT_NEAR(blind["cohort"]["psnr_db"]["mean"], 30, 1e-12);

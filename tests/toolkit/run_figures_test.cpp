@@ -55,7 +55,7 @@ TEST_F(RunFigures, TheModelIsShownBesideTheTruthInItsCamera) {
   for (const char* word : {">true surface<", ">model<", ">scan of this frame<", ">near<", ">far<"})
     EXPECT_THAT(svg, HasSubstr(word));
   EXPECT_THAT(svg, testing::Not(HasSubstr(">R<"))) << "a scope's scene has no patient's sides";
-  EXPECT_THAT(svg, HasSubstr("Model and scan of frame 5, 0.20 s, as the scope sees them."));
+  EXPECT_THAT(svg, HasSubstr("Model and scan of frame 5, 0.20 s, in the view of the scope."));
   EXPECT_THAT(svg, testing::Not(HasSubstr("stroke-linecap=\"round\"")))
       << "a model is cut as a surface, to lines: no dots";
 
@@ -96,7 +96,7 @@ TEST_F(RunFigures, ASeriesHasOneRangeAndEveryFrame) {
   EXPECT_LT(series["errors"][0]["distance"]["mean_mm"], series["errors"][3]["distance"]["mean_mm"])
       << "the made run gets worse by 0.02 mm a frame";
   for (const char* word : {">up to P95<", ">time [s]<", ">not observed<", ">(a) frame 0, 0.00 s<",
-                           ">(d) frame 5, 0.20 s<", ">(e) every judged frame<"})
+                           ">(d) frame 5, 0.20 s<", ">(e) all evaluated frames<"})
     EXPECT_THAT(textOf(at("s.svg")), HasSubstr(word));
 }
 
@@ -131,7 +131,7 @@ TEST_F(RunFigures, TwoRunsAreToldApartAndShownAtTheSameFrame) {
   EXPECT_EQ(drawn(request)["frame"], 2) << "the last one of the shorter run";
   for (const char* word :
        {">(a) paper<", ">(b) ours<",
-        ">Two reconstructions, each at frame 2, 0.08 s; one place and one scale.<"})
+        ">Two reconstructions, each at frame 2, 0.08 s; common viewpoint and scale.<"})
     EXPECT_THAT(textOf(at("c.svg")), HasSubstr(word));
   // What run.json says of the images tells whether both are of one clip.
   const auto clip = [&](const char* file, const char* hash) {
@@ -146,7 +146,7 @@ TEST_F(RunFigures, TwoRunsAreToldApartAndShownAtTheSameFrame) {
   EXPECT_THAT(
       textOf(at("c.svg")),
       HasSubstr(
-          ">Two reconstructions of two clips, each at frame 2, 0.08 s of its own; one scale.<"));
+          ">Two reconstructions of two clips, each at frame 2, 0.08 s of its own; common scale.<"));
   fs::remove(at("paper/run/run.json"));
   fs::remove(at("ours/run/run.json"));
   request.reference = at("truth");

@@ -82,13 +82,13 @@ TEST_F(RunOfAClip, SaysWhetherTheScopeMoved) {
   Told told;
   EXPECT_EQ(reconstructSequence(stated, told.listener()).record["frames_scope_static"], 3)
       << "of the three after the first";
-  EXPECT_THAT(told.warnings, Contains(HasSubstr("the scope was never seen to move")));
+  EXPECT_THAT(told.warnings, Contains(HasSubstr("no motion of the scope was detected")));
   ReconstructOptions moving = options("moving");
   set({"pose.scope=moving"}, &moving.settings);
   Told nothing;
   const ReconstructedRun run = reconstructSequence(moving, nothing.listener());
   EXPECT_THAT(run.facts.text(), HasSubstr("static in 0 of 3 frames"));
-  EXPECT_THAT(nothing.warnings, Not(Contains(HasSubstr("never seen to move"))));
+  EXPECT_THAT(nothing.warnings, Not(Contains(HasSubstr("no motion of the scope"))));
 }
 
 TEST_F(RunOfAClip, SaysWhatWasNotFused) {
@@ -105,7 +105,8 @@ TEST_F(RunOfAClip, SaysWhatWasNotFused) {
   EXPECT_EQ(record["outcomes"]["skipped"], 3);
   EXPECT_THAT(told.warnings, Contains(HasSubstr("frame 1: unconfirmed: ")));
   EXPECT_THAT(told.warnings, Not(Contains(HasSubstr("frame 2: ")))) << "one line per kind";
-  EXPECT_THAT(told.warnings, Contains(HasSubstr("unconfirmed: 2 more frames, 2 to 3; frames.csv")));
+  EXPECT_THAT(told.warnings,
+              Contains(HasSubstr("unconfirmed: 2 more frames, 2 to 3; reasons: frames.csv")));
   EXPECT_TRUE(run.outcomes.at(0).failed);
   EXPECT_EQ(run.outcomes.at(0).path, "outcomes.skipped_share");
   EXPECT_EQ(run.outcomes.at(0).value, 0.75);
@@ -188,7 +189,7 @@ TEST_F(RunOfAClip, HeldOutFramesAreNotSeenAndAreComparedWithTheModelBeforeThem) 
   report.cases = {at("error")};
   report.html = at("page.html");
   writeReport(report);
-  EXPECT_THAT(textOf(at("page.html")), HasSubstr("that the run did not see, over 3 frames"));
+  EXPECT_THAT(textOf(at("page.html")), HasSubstr("that the run did not use, over 3 frames"));
 
   // A range may begin at such a frame, and a run that was stopped goes on with the same split.
   const auto ofFrames = [&](const std::string& run, const std::string& frames) {

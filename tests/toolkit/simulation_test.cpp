@@ -242,7 +242,7 @@ TEST_F(SimulatedFolder, ACutIsReconstructedAndJudged) {
 
 TEST_F(SimulatedFolder, ACutThatDoesNotFitIsOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> lines{
-      {{"cut.length_mm=15", "cut.x_mm=80"}, "past the organ"},
+      {{"cut.length_mm=15", "cut.x_mm=80"}, "misses the organ"},
       {{"cut.length_mm=150"}, "turns away"},
       {{"cut.length_mm=15", "cut.depth_mm=60"}, "thick"},
       {{"cut.length_mm=15", "cut.opening_mm=9"}, "cut.opening_mm"},

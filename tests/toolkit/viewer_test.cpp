@@ -212,7 +212,7 @@ TEST_F(Viewer, BadRunsAreRefused) {
   };
   refused("nowhere", {"nowhere"});
   fs::create_directories(at("empty"));
-  refused("empty", {"empty", "holds no model", "`wait=`"});
+  refused("empty", {"empty", "contains no model", "`wait=`"});
   const std::string whole = textOf(at("run/models/000005.ply"));
   fs::remove(at("run/models/000005.ply"));
   write("run/models/000005.ply", whole.substr(0, whole.size() / 2));
@@ -238,7 +238,7 @@ TEST_F(Viewer, AMotionIntoTheCtMustBeRigid) {
   ViewRequest request = screenshot();
   request.run.reference = at("truth/groundtruth/mesh/000000.ply");
   request.run.ct_from_run = write("m.txt", "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
-  expectError<InputError>([&] { show(request); }, {"m.txt", "rigid motion"});
+  expectError<InputError>([&] { show(request); }, {"m.txt", "rigid transform"});
 }
 
 class SavedRun : public InFolder {};

@@ -246,7 +246,7 @@ TEST_F(DicomFolder, OneSliceOfAnotherKindDropsNoOther) {
 
 TEST_F(DicomFolder, SlicesInOnePlaceOrAtUnevenDistancesAreErrors) {
   writeSeries(DC::ImagePositionPatient, "10\\20\\30", -1);
-  EXPECT_THAT(errorOf({}), HasSubstr("lie in one place"));
+  EXPECT_THAT(errorOf({}), HasSubstr("have the same ImagePositionPatient"));
   writeSeries(DC::ImagePositionPatient, "12\\20\\30", 1);
   EXPECT_THAT(errorOf({}), HasSubstr("ImagePositionPatient (0020,0032) puts it"));
 }

@@ -149,7 +149,7 @@ std::vector<BenchmarkClip> findClips(const fs::path& data,
   requireFolder(data);
   std::vector<BenchmarkClip> clips;
   collectClips(data, "", kDeepestClip, is_clip, &clips);
-  if (clips.empty()) throw InputError(say(shown(data), ": holds no clip of ", expected));
+  if (clips.empty()) throw InputError(say(shown(data), ": contains no clip of ", expected));
   std::sort(clips.begin(), clips.end(), [](const BenchmarkClip& a, const BenchmarkClip& b) {
     return naturallyBefore(a.name, b.name);
   });

@@ -90,8 +90,8 @@ template <class Clip>
 void requireOneJudged(const std::vector<Clip>& clips, const std::filesystem::path& data) {
   for (const Clip& clip : clips)
     if (clip.excluded.empty()) return;
-  throw InputError(say(shown(data), ": not one of ", clips.size(),
-                       " clips could be judged; the first: ", clips[0].excluded));
+  throw InputError(say(shown(data), ": none of ", clips.size(),
+                       " clips could be evaluated; the first: ", clips[0].excluded));
 }
 
 /// Clip excluded from a table, with the reason.

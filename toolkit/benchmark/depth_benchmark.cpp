@@ -34,7 +34,7 @@ struct BenchmarkPair {
 Raster<float> measuredDepth(const fs::path& run) {
   for (const char* name : {"depth.pfm", "000000_depth.pfm"})
     if (isFile(run / name)) return readDepth(run / name);
-  throw InputError(shown(run) + ": holds no depth.pfm. Run again with `overwrite=`.");
+  throw InputError(shown(run) + ": contains no depth.pfm. Run again with `overwrite=`.");
 }
 
 /// Processing time per pair without writing, ms.
@@ -154,9 +154,9 @@ DepthBenchmarkResult benchmarkServCt(const BenchmarkOptions& options,
     for (const fs::path& left : filesIn(clip.folder / "Left_rectified", {".png"}))
       pairs.push_back(servCtPair(clip.folder, clip.name + "_" + left.stem().string(), clip.name,
                                  left, clip.folder / reference, options));
-    if (!has_ct) result.warnings.push_back(clip.name + ": judged against Reference_RGB");
+    if (!has_ct) result.warnings.push_back(clip.name + ": evaluated against Reference_RGB");
   }
-  if (pairs.empty()) throw InputError(shown(options.data) + ": Left_rectified holds no PNG.");
+  if (pairs.empty()) throw InputError(shown(options.data) + ": Left_rectified contains no PNG.");
   result.protocol = "pairs as shipped, against DepthL of Reference_CT (mm, 16 bits / 256)";
   return benchmarkPairs(pairs, std::move(result), options, run_softscope, progress);
 }
@@ -167,8 +167,9 @@ DepthBenchmarkResult benchmarkScared(const BenchmarkOptions& options,
   DepthBenchmarkResult result;
   result.title = "SCARED";
   result.protocol =
-      "keyframes alone, for the depth between them is interpolated; points of "
-      "left_depth_map.tiff are rotated into the rectified camera and projected, the nearest stays";
+      "keyframes only, because the depth between them is interpolated; points of "
+      "left_depth_map.tiff are rotated into the rectified camera and projected, the nearest is "
+      "kept";
   for (const BenchmarkClip& clip :
        findClips(options.data, isScaredKeyframe,
                  "SCARED; a folder with Left_Image.png, Right_Image.png, "

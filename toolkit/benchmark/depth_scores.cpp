@@ -110,7 +110,7 @@ void addDepthIntervals(const std::vector<DepthPairResult>& pairs, FactSheet* fac
   addClusterMean("MAE a " + unit, "cluster_mae_mm", " mm", unit + "s", errors, facts);
   addClusterMean("dense, below the control", "cluster_mae_mm_below_control", " mm", unit + "s",
                  gains, facts);
-  if (errors.size() < 3) facts->addLine("intervals", "none: a bootstrap takes three or more pairs");
+  if (errors.size() < 3) facts->addLine("intervals", "none: a bootstrap needs three or more pairs");
 }
 
 }  // namespace
@@ -160,8 +160,8 @@ FactSheet depthBenchmarkFacts(const DepthBenchmarkResult& result) {
   addClips(judged, excluded, &facts);
   facts.add("protocol", "protocol",
             result.protocol +
-                "; mean of each pair, of each group's pairs, of the groups; pairs "
-                "with less than 10 % of truth are left out");
+                "; mean per pair, per group of pairs, over the groups; pairs with less than 10 % "
+                "of truth are excluded");
   addDepthRow("measured", "measured", result.pairs, &DepthPairResult::measured, &facts);
   addDepthRow("dense", "dense", result.pairs, &DepthPairResult::dense, &facts);
   addDepthRow("no depth", "control", result.pairs, &DepthPairResult::control, &facts);
@@ -170,7 +170,7 @@ FactSheet depthBenchmarkFacts(const DepthBenchmarkResult& result) {
   addDisparityRow(result.pairs, &facts);
   addDepthIntervals(result.pairs, &facts);
   addPairs(result.pairs, &facts);
-  addLatency(latency_ms, "a pair, in a process of its own", &facts);
+  addLatency(latency_ms, "per pair, in its own process", &facts);
   return facts;
 }
 

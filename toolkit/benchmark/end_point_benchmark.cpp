@@ -187,14 +187,16 @@ FactSheet endPointFacts(const EndPointBenchmarkResult& result) {
   addEndPoints("2-D", "scores_2d", found_px, &facts);
   addEndPoints("2-D, nothing moves", "control_2d", control_px, &facts);
   const double coverage = points == 0 ? std::nan("") : static_cast<double>(measured) / points;
-  facts.add("coverage", fixed(100 * coverage, 1) + " % of the points have an end; the others stay",
+  facts.add("coverage",
+            fixed(100 * coverage, 1) +
+                " % of the points have an end point; the others keep their first position",
             "coverage", orNull(coverage));
-  addClusterMean("delta_avg a sequence", "clip_delta_avg_2d", "", "sequences", delta, &facts);
+  addClusterMean("delta_avg per sequence", "clip_delta_avg_2d", "", "sequences", delta, &facts);
   addClusterMean("over the control", "clip_delta_avg_2d_over_control", "", "sequences", gain,
                  &facts);
   if (judged.size() < 3)
-    facts.addLine("intervals", "none: a bootstrap over sequences takes three or more");
-  addLatency(latency_ms, "a frame, without the first of each run", &facts);
+    facts.addLine("intervals", "none: a bootstrap over sequences needs three or more");
+  addLatency(latency_ms, "per frame, without the first of each run", &facts);
   return facts;
 }
 

@@ -63,11 +63,11 @@ FactSheet pathBenchmarkFacts(const PathBenchmarkResult& result) {
   }
   FactSheet facts(result.title);
   addClips(judged, excluded, &facts);
-  facts.add("protocol", "protocol",
-            std::string("each range of test_split.csv (whole sequence without one) by itself; "
-                        "ATE after rigid alignment of all positions, SE(3), no scale; RPE from "
-                        "frame to frame; means over ranges; frames that the run gives as lost are "
-                        "left out and counted"));
+  facts.add(
+      "protocol", "protocol",
+      std::string("each range of test_split.csv (whole sequence without one) separately; ATE after "
+                  "rigid alignment of all positions, SE(3), no scale; RPE from frame to frame; "
+                  "means over ranges; frames reported as lost are excluded and counted"));
   addPathRow("path", "path", found, &facts);
   addPathRow("nothing moves", "control", control, &facts);
   const double coverage = frames == 0 ? Statistics::kNone : 1 - static_cast<double>(lost) / frames;
@@ -75,11 +75,11 @@ FactSheet pathBenchmarkFacts(const PathBenchmarkResult& result) {
             "coverage", orNull(coverage));
   std::vector<double> sequences;
   for (const auto& [name, values] : by_sequence) sequences.push_back(statistics(values).mean);
-  addClusterMean("ATE a sequence", "sequence_ate_rmse_mm", " mm", "sequences", sequences, &facts);
+  addClusterMean("ATE per sequence", "sequence_ate_rmse_mm", " mm", "sequences", sequences, &facts);
   if (sequences.size() < 3)
-    facts.addLine("intervals", "none: a bootstrap over sequences takes three or more");
+    facts.addLine("intervals", "none: a bootstrap over sequences needs three or more");
   facts.addQuietly("ranges", ranges);
-  addLatency(latency_ms, "a frame, without the first of each run", &facts);
+  addLatency(latency_ms, "per frame, without the first of each run", &facts);
   return facts;
 }
 

@@ -87,8 +87,7 @@ std::size_t extrapolate(const std::vector<Eigen::Vector2d>& queries_px, const Cl
                                           (queries_px[q] - queries_px[n]).y() / left.fy_px * z, 0);
       }
       if (!positions[q].allFinite() && f > 0) positions[q] = tracks->positions_mm[f - 1][q];
-      if (!positions[q].allFinite())
-        throw InputError("not one query was measured in the first frame");
+      if (!positions[q].allFinite()) throw InputError("no query was measured in the first frame");
     }
   }
   return count;

@@ -68,13 +68,13 @@ void addIntervals(const Pool& pool, FactSheet* facts) {
                                        {"over_control", orNull(gain.mean)},
                                        {"over_control_ci_95", intervalJson(gain.mean_ci)}});
   if (std::isfinite(clips.mean_ci.low))
-    facts->addLine("AJ 3-D a clip",
+    facts->addLine("AJ 3-D per clip",
                    fixed(clips.mean, 4) + " [" + fixed(clips.mean_ci.low, 4) + ", " +
                        fixed(clips.mean_ci.high, 4) + "], over the control " + fixed(gain.mean, 4) +
                        " [" + fixed(gain.mean_ci.low, 4) + ", " + fixed(gain.mean_ci.high, 4) +
                        "] (95 %, bootstrap over clips)");
   else
-    facts->addLine("intervals", "none: a bootstrap over clips takes three or more");
+    facts->addLine("intervals", "none: a bootstrap over clips needs three or more");
 }
 
 }  // namespace

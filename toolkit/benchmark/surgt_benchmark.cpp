@@ -143,7 +143,8 @@ class SurgtCase {
             judgeBoxTrack(truths_[target], standingStill(target, start), valid.rig()));
       }
     }
-    if (result.missing_starts == result.starts) throw InputError("not one run: " + failures[0]);
+    if (result.missing_starts == result.starts)
+      throw InputError("no run succeeded: " + failures[0]);
     result.found = merged(found);
     result.control = merged(still);
   }

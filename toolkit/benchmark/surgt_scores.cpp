@@ -77,7 +77,7 @@ FactSheet surgtBenchmarkFacts(const SurgtBenchmarkResult& result) {
   facts.add("starts", "starts", starts);
   if (missing > 0)
     facts.warn(std::to_string(missing) + " of " + std::to_string(starts) +
-               " starts have no run and count as trackers that answer nothing");
+               " starts have no run and count as trackers without estimates");
   facts.addQuietly("missing_starts", missing);
   addScores("tracked", "scores", found, &facts);
   addScores("nothing moves", "control", control, &facts);
@@ -85,14 +85,15 @@ FactSheet surgtBenchmarkFacts(const SurgtBenchmarkResult& result) {
     facts.addLine("EAO", "not defined: no track has 150 frames");
   const double coverage =
       frames == 0 ? Statistics::kNone : static_cast<double>(boxes) / static_cast<double>(frames);
-  facts.add("coverage", fixed(100 * coverage, 1) + " % of the judged frames have an estimate",
+  facts.add("coverage", fixed(100 * coverage, 1) + " % of the evaluated frames have an estimate",
             "coverage", orNull(coverage));
-  addClusterMean("robustness 2-D a video", "clip_robustness_2d", "", "videos", robustness, &facts);
+  addClusterMean("robustness 2-D per video", "clip_robustness_2d", "", "videos", robustness,
+                 &facts);
   addClusterMean("over the control", "clip_robustness_2d_over_control", "", "videos", gain, &facts);
-  addClusterMean("error a video", "clip_error_mm", " mm", "videos", error_mm, &facts);
+  addClusterMean("error per video", "clip_error_mm", " mm", "videos", error_mm, &facts);
   if (judged.size() < 3)
-    facts.addLine("intervals", "none: a bootstrap over videos takes three or more");
-  addLatency(latency_ms, "a frame, without the first of each run", &facts);
+    facts.addLine("intervals", "none: a bootstrap over videos needs three or more");
+  addLatency(latency_ms, "per frame, without the first of each run", &facts);
   return facts;
 }
 

@@ -59,7 +59,7 @@ class PairSource {
                              image == &pair.left ? "left" : "right", " image is ", image->width_px,
                              " x ", image->height_px, " pixels, but the first left one is ",
                              width_px_, " x ", height_px_,
-                             ". Give films of both cameras in one size."));
+                             ". Give images of both cameras in one size."));
     return pair;
   }
 

@@ -101,7 +101,7 @@ void addViews(const CalibrationReport& report, FactSheet* facts) {
     if (told++ < 12)
       facts->addLine("left out", "frame " + std::to_string(view.frame) + ": " + view.why);
   }
-  if (told > 12) facts->addLine("left out", std::to_string(told - 12) + " more: --json names them");
+  if (told > 12) facts->addLine("left out", std::to_string(told - 12) + " more: --json lists them");
   facts->addQuietly("views.used", used);
   facts->addQuietly("views.left_out", left_out);
 }
@@ -198,7 +198,7 @@ FactSheet calibrationFacts(const CalibrationReport& report, const BoardFilm& fil
   for (const std::string& line : film.unreadable) facts.warn(line);
   for (const std::string& line : report.warnings) facts.warn(line);
   if (!solution.summary.converged)
-    facts.warn("the solution has not converged; the numbers above are of its last step");
+    facts.warn("the solution has not converged; the values above are those of its last step");
   return facts;
 }
 

@@ -165,7 +165,7 @@ ClipFrames readClipFrames(const SequencePaths& clip, const SequenceOptions& sequ
   }
   goesOn(progress, count, count);
   if (out.matches.empty())
-    throw InputError(say("not one of ", count, " frames has ", RowAlignment::kFewestMatches,
+    throw InputError(say("none of ", count, " frames has ", RowAlignment::kFewestMatches,
                          " points that both views show. Are they of one moment, of textured "
                          "tissue, and left and right not exchanged?"));
   return out;

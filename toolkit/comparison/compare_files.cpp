@@ -39,7 +39,7 @@ std::string testFile(const CompareOptions& options, std::vector<std::string>& wa
   for (const std::string& warning : run.warnings()) warnings.push_back(warning);
   if (options.frame >= 0 && !run.counts(options.frame))
     warnings.push_back(say("frame ", options.frame, " of ", options.test,
-                           " was not fused: its model shows an earlier moment"));
+                           " was not fused: its model is that of an earlier frame"));
   return savedModel(options.test, options.frame).file.string();
 }
 
@@ -48,7 +48,7 @@ void readSurfaces(const CompareOptions& options, const std::string& test,
   compared.reference = readSurfaceOrPoints(options.reference, options.reference_unit_mm);
   if (compared.reference.empty())
     throw InputError(options.reference +
-                     ": is a set of points, but a reference is a surface; give a mesh");
+                     ": is a set of points, but the reference must be a surface; give a mesh");
   compared.test = readSurfaceOrPoints(test, options.test_unit_mm);
   addMeshWarnings(compared.reference, options.reference, compared.result.warnings);
   addMeshWarnings(compared.test, options.test, compared.result.warnings);

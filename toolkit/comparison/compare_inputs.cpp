@@ -67,9 +67,8 @@ Landmarks readLandmarks(const std::filesystem::path& file) {
 }
 
 std::string matchSpaces(const TriangleMesh& reference, TriangleMesh& test) {
-  if (reference.space.empty() || test.space.empty())
-    return "not said by both files; taken to be the same";
-  if (reference.space == test.space) return reference.space + ", as both files say";
+  if (reference.space.empty() || test.space.empty()) return "unknown in a file; assumed equal";
+  if (reference.space == test.space) return reference.space + ", according to both files";
   for (Eigen::Vector3f& p : test.vertices_mm) {
     p.x() = -p.x();
     p.y() = -p.y();

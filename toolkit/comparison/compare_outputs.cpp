@@ -40,7 +40,7 @@ CompareOutputs::CompareOutputs(fs::path folder, bool overwrite)
     : folder_(std::move(folder)), overwrite_(overwrite) {
   if (fs::exists(folder_) && !fs::is_directory(folder_))
     throw OptionError("`out=` " + shown(folder_) +
-                      ": is a file, but must be a folder, there or not yet");
+                      ": is a file, but must be a new or existing folder");
   removeAbandoned(folder_);
   for (const char* name : {"comparison.json", "metrics.csv", "errors.vtp", "error_map.vtp",
                            "error_histogram.svg", "error_histogram.pdf", "error_histogram.png",

@@ -46,7 +46,7 @@ Json observedJson(const ObservedSplit& split) {
 /// A vertex whose closest point is on the border of the reference has no sign.
 std::string signedText(const Statistics& signed_mm) {
   const std::string without =
-      std::to_string(signed_mm.nan_count) + " vertices at the reference's border have no side";
+      std::to_string(signed_mm.nan_count) + " vertices at the border of the reference have no sign";
   if (signed_mm.count == 0) return without;
   return "mean " + fixed(signed_mm.mean, 3) + " mm, + = outside; " + without;
 }
@@ -58,7 +58,7 @@ void addObservedFacts(const ObservedSplit& split, FactSheet& facts) {
   facts.addLine("  predicted", spreadText(split.predicted_mm) + ", of the test's other vertices");
   if (split.beyond_share > 0)
     facts.addLine("  beyond", fixed(100 * split.beyond_share, 1) +
-                                  " % of the test, past the reference's border: not judged");
+                                  " % of the test, beyond the border of the reference: excluded");
   facts.addLine("  completeness", spreadText(split.completeness_mm) + "; " +
                                       fixed(100 * split.not_reconstructed_share, 1) +
                                       " % not reconstructed");

@@ -95,7 +95,7 @@ void PlacesReader::addRow(const Cells& cells, int line) {
   if (ras_) place_mm.head<2>() = -place_mm.head<2>();
   if (cell(0).empty()) fail(say("line ", line, ": the landmark has no name"));
   if (!places_.emplace(std::string(cell(0)), place_mm).second)
-    fail(say("line ", line, ": ", excerpt(cell(0)), " is there twice"));
+    fail(say("line ", line, ": ", excerpt(cell(0)), " is a duplicate"));
 }
 
 LandmarkPlaces PlacesReader::read(std::string_view text) {

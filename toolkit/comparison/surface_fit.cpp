@@ -71,7 +71,7 @@ SurfaceFit fitSurface(const TriangleMesh& reference, const std::vector<Eigen::Ve
   fit.method = fit.method == "none" ? "icp" : fit.method + ", then icp";
   if (!fit.icp->converged())
     fit.warnings.emplace_back(
-        "the alignment did not converge; a better start may help: --landmarks");
+        "the alignment did not converge; a better initial alignment may help: --landmarks");
   return fit;
 }
 

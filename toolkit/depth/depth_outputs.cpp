@@ -141,7 +141,7 @@ std::vector<std::string> DepthOutputs::told(int frames) const {
     lines.push_back(files.substr(0, files.size() - 2) + " of each of " + std::to_string(frames) +
                     " frames; summary.json");
   if (frames > 1 && !options_.kinds.floats)
-    lines.emplace_back("--write disparity,depth,confidence,cloud,picture asks for more");
+    lines.emplace_back("--write disparity,depth,confidence,cloud,picture selects more");
   return lines;
 }
 

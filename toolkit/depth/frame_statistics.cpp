@@ -83,7 +83,7 @@ std::string coverageWarning(const DepthResult& measured) {
       ": are left and right of one moment, not exchanged, not black, and is the calibration this "
       "scope's? `softscope info` tells";
   const FrameStatistics statistics = statisticsOf(measured);
-  if (statistics.measured_pixels == 0) throw InputError("not one pixel could be measured" + advice);
+  if (statistics.measured_pixels == 0) throw InputError("no pixel could be measured" + advice);
   if (statistics.coverage >= kLeastCoverage) return {};
   return "only " + fixed(100 * statistics.coverage, 1) + " % of the pixels could be measured" +
          advice;
@@ -96,7 +96,8 @@ std::string rowWarning(const DepthResult& measured) {
                      " px on average after rectification, but " +
                      fixed(RowAlignment::kWarnAbovePx, 1) + " px is the most that matches well";
   if (measured.rows_aligned)
-    return text + "; removed, " + fixed(rows.residual_px, 2) + " px stay. Recalibrate if you can";
+    return text + "; removed, " + fixed(rows.residual_px, 2) +
+           " px remain. Recalibrate if possible";
   return text + ". Recalibrate, or set depth.align_rows=true";
 }
 

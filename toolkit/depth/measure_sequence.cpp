@@ -80,7 +80,7 @@ void SequenceMeasurement::settleOffset() {
 void SequenceMeasurement::requireFree(const DepthOutputs& outputs, int frames) const {
   if (fs::exists(options_.out) && !isFolder(options_.out))
     throw OptionError("`out=` " + shown(options_.out) +
-                      ": is a file, but must be a folder, there or not yet");
+                      ": is a file, but must be a new or existing folder");
   std::vector<std::string> prefixes;
   const FrameRange& range = options_.settings.sequence.frames;
   for (int i = 0; i < frames; ++i) prefixes.push_back(prefixOf(range.begin + i * range.step));
@@ -118,14 +118,14 @@ MeasuredSequence SequenceMeasurement::measure() {
   record.addSettings(settingsOf(options_.settings).list());
   measureAll(reader, estimator, outputs, record);
   if (record.goodFrames() == 0 && !interrupted_)
-    throw InputError(options_.name + ": not one frame could be measured; the reasons stand above");
+    throw InputError(options_.name + ": no frame could be measured; see the reasons above");
   if (interrupted_) record.setInterrupted();
   MeasuredSequence measured{options_.paths.applyTo(record.json()), record.text(),
                             outputs.told(record.goodFrames()), interrupted_};
   if (record.goodFrames() > 0) outputs.writeSummary(jsonText(measured.record));
   outputs.keep();
   if (!failure_.empty())
-    throw BackendError(failure_ + ". What is finished stays; `backend=` cpu needs no GPU");
+    throw BackendError(failure_ + ". Finished results are kept; `backend=` cpu needs no GPU");
   return measured;
 }
 
@@ -153,9 +153,9 @@ void SequenceMeasurement::measureAll(SequenceReader& reader, DepthEstimator& est
     }
     interrupted_ = !goesOn(listener_.progress, ++done, count) && done < count;
   }
-  if (interrupted_ && failure_.empty()) listener_.warn("interrupted: what is finished stays");
-  failures_.conclude("summary.json has each");
-  warnings_.conclude("summary.json has each");
+  if (interrupted_ && failure_.empty()) listener_.warn("interrupted: finished results are kept");
+  failures_.conclude("details: summary.json");
+  warnings_.conclude("details: summary.json");
 }
 
 void SequenceMeasurement::measureOne(const FrameResult& result, DepthEstimator& estimator,

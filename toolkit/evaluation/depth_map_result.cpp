@@ -52,7 +52,8 @@ std::vector<fs::path> depthMapsIn(const fs::path& path, const std::string& part)
   }
   const std::vector<fs::path>& found = named.empty() ? all : named;
   if (found.empty())
-    throw InputError(shown(path) + ": holds no map; 16-bit PNG, PFM and float TIFF are expected");
+    throw InputError(shown(path) +
+                     ": contains no map; 16-bit PNG, PFM and float TIFF are expected");
   return found;
 }
 
@@ -229,7 +230,7 @@ MapKind DepthMapOptions::mapKind() const {
   if (disparity != depth) return disparity ? MapKind::kDisparity : MapKind::kDepth;
   throw OptionError("`map_kind=` is `" + kind + "`, but must be disparity (px) or depth (mm): " +
                     (disparity ? "names in " + shown(measured) + " say both"
-                               : shown(measured) + " doesn't say it in its name"));
+                               : shown(measured) + " does not contain the kind in its name"));
 }
 
 bool holdsDepthMaps(const fs::path& path) {
@@ -247,7 +248,7 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
   result.kind = options.mapKind();
   const bool of_depth = result.kind == MapKind::kDepth;
   if (of_depth && !options.confidence.empty())
-    throw OptionError("`confidence=` is of disparities; give it with a disparity map");
+    throw OptionError("`confidence=` requires disparity maps; give it with a disparity map");
   const std::string part = nameOf(result.kind);
   const auto measured = depthMapsIn(options.measured, part),
              truth = depthMapsIn(options.reference, part);
@@ -354,8 +355,9 @@ FactSheet depthMapFacts(const DepthMapResult& result) {
   facts.addLine("predicted sigma", percent("within_50_share") + ", " + percent("within_68_share") +
                                        " and " + percent("within_95_share") +
                                        " % of the errors within its 50, 68 and 95 % intervals");
-  facts.addLine("  least sure half",
-                "without it EPE is " + mean(s, "half_left", 3) + " px; AUSE " + mean(s, "ause", 3));
+  facts.addLine("  sparsification", "EPE without the half with the largest sigma " +
+                                        mean(s, "half_left", 3) + " px; AUSE " +
+                                        mean(s, "ause", 3));
   return facts;
 }
 

@@ -74,7 +74,7 @@ EvaluateOutputs::EvaluateOutputs(fs::path folder, bool overwrite)
     : folder_(std::move(folder)), overwrite_(overwrite) {
   if (fs::exists(folder_) && !fs::is_directory(folder_))
     throw OptionError("`out=` " + shown(folder_) +
-                      ": is a file, but must be a folder, there or not yet");
+                      ": is a file, but must be a new or existing folder");
   for (const fs::path& written : {folder_, folder_ / "errors"}) removeAbandoned(written);
   for (const char* name : kFiles) requireWritable(folder_ / name, overwrite_);
 }

@@ -214,7 +214,7 @@ void addViewFacts(const SurfaceSeries& surface, FactSheet& facts) {
 void addSurfaceFacts(const EvaluationResult& result, FactSheet& facts) {
   const SurfaceSeries& surface = result.surface;
   const JudgedModel* worst = worstOf(surface);
-  if (worst == nullptr) return facts.addLine("surface", "no model was judged");
+  if (worst == nullptr) return facts.addLine("surface", "no model was evaluated");
   facts.addLine("surface", spreadText(surface.all_mm) + " over " +
                                std::to_string(surface.models.size()) +
                                (surface.models.size() == 1 ? " model" : " models"));
@@ -248,10 +248,10 @@ void addCameraFacts(const CameraResult& camera, FactSheet& facts) {
 
 void addTrackFacts(const TrackErrors& tracks, FactSheet& facts) {
   facts.addLine("tracks", spreadText(tracks.error_mm) + "; " + percent(tracks.reported_share) +
-                              " of the true positions reported");
+                              " of the true positions have an estimate");
   if (tracks.sigma.count > 0)
     facts.addLine("  sigma", "errors are " + fixed(tracks.sigma.error_over_sigma, 2) +
-                                 " times what was predicted (root mean square); " +
+                                 " times the prediction (root mean square); " +
                                  percent(tracks.sigma.within_2_sigma_share) + " within twice that");
   facts.addLine("  no motion", spreadText(tracks.control_mm) + ", had nothing been tracked");
 }
@@ -298,7 +298,7 @@ void addDrawnFacts(const EvaluationResult& result, FactSheet& facts) {
   if (backprojection.count > 0)
     facts.addLine("back-projection", "mean " + fixed(backprojection.mean, 3) + " mm over " +
                                          std::to_string(backprojection.count) +
-                                         " frames, as the run measured it");
+                                         " frames, as reported by the run");
 }
 
 void addAlignmentFacts(const EvaluationResult& result, FactSheet& facts) {
@@ -338,7 +338,7 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
 
 FactSheet evaluationFacts(const EvaluationResult& result) {
   FactSheet facts(result.run + " against " + result.reference +
-                  (result.against_mesh ? "" : ", in the current camera's frame"));
+                  (result.against_mesh ? "" : ", in the current camera frame"));
   addOutcomeFacts(result.outcomes, facts);
   if (result.against_mesh) addAlignmentFacts(result, facts);
   addSurfaceFacts(result, facts);

@@ -68,10 +68,9 @@ std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth
     if (run.counts(frame)) moves[frame] = move;
   TrackErrors errors = trackErrors(true_tracks, tracks, moves, unseen);
   if (!tracks.empty() && errors.without_truth == tracks.size())
-    throw InputError(say(shown(run.tracks), ": has no frame and id in common with ",
-                         shown(truth.tracks),
-                         "; tracks of other points? Give `track=` the "
-                         "sequence's track_points.csv"));
+    throw InputError(
+        say(shown(run.tracks), ": has no frame and id in common with ", shown(truth.tracks),
+            "; tracks of other points? Give `track=` the track_points.csv of the sequence"));
   return errors;
 }
 
@@ -121,21 +120,20 @@ std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTr
   const auto& models = result.surface.models;
   if (models.empty())
     warnings.push_back(
-        "no model was judged: no frame has both models/NNNNNN.ply and a true mesh. Reconstruct "
+        "no model was evaluated: no frame has both models/NNNNNN.ply and a true mesh. Reconstruct "
         "with --save-every, or simulate with --truth mesh");
   else if (models.front().errors.distance_mm.median > kForeignMm)
-    warnings.push_back(say("the first model lies ", models.front().errors.distance_mm.median,
+    warnings.push_back(say("the first model is ", models.front().errors.distance_mm.median,
                            " mm from the truth in the median; a run of another sequence, or in "
                            "another unit?"));
   if (run.frames.size() < truth.trajectory.size())
     warnings.push_back(say("the run has ", run.frames.size(), " of the sequence's ",
-                           truth.trajectory.size(), " frames; only these are judged"));
+                           truth.trajectory.size(), " frames; only these are evaluated"));
   if (run.outcomes.empty())
     warnings.push_back(
-        "the run's frames.csv says of no frame whether it was fused, so all of them count; "
-        "reconstruct again");
+        "frames.csv of the run has no status, so all frames count; reconstruct again");
   if (run.tracks.empty() && !truth.tracks.empty())
-    warnings.push_back("the run has no tracks.csv; reconstruct with --track to judge tracks");
+    warnings.push_back("the run has no tracks.csv; reconstruct with --track to evaluate tracks");
   if (result.tracks && result.tracks->without_truth > 0)
     warnings.push_back(say(result.tracks->without_truth, " tracked positions have no truth"));
   return warnings;

@@ -77,13 +77,14 @@ FrameFiles modelsFor(const EvaluateOptions& options, const JudgedRun& run) {
     const std::filesystem::path file = savedModel(options.run, options.frame).file;
     if (!run.counts(options.frame))
       throw InputError(say(options.run, ": frame ", options.frame,
-                           " was not fused, so that its model shows an earlier moment; take a "
-                           "frame that frames.csv has as fused"));
+                           " was not fused: its model is that of an earlier frame; give a frame "
+                           "with the status fused in frames.csv"));
     return {{options.frame, file}};
   }
   if (run.last_model.empty())
-    throw InputError(shown(run.folder / "model.ply") +
-                     ": is missing, but it is what a mesh is compared with; reconstruct again");
+    throw InputError(
+        shown(run.folder / "model.ply") +
+        ": is missing, but required for the comparison with a mesh; reconstruct again");
   return {{run.lastCounted(), run.last_model}};
 }
 

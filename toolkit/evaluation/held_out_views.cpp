@@ -80,21 +80,20 @@ Json heldOutJson(const HeldOutResult& result) {
 void addHeldOutFacts(const HeldOutResult& result, FactSheet& facts) {
   if (result.every == 0) return;
   if (result.views.empty())
-    return facts.addLine("held-out views",
-                         "none was drawn: of no held-out frame there are the model "
-                         "of the frame before and an image");
+    return facts.addLine(
+        "held-out views",
+        "none rendered: no held-out frame has both a model of the previous frame and an image");
   const Json json = heldOutJson(result);
   const auto text = [](const Json& value, int decimals) {
     return value.is_number() ? fixed(value.get<double>(), decimals) : std::string("?");
   };
-  facts.addLine(
-      "held-out views",
-      say("PSNR ", text(json["psnr_db"], 1), " dB, SSIM ", text(json["ssim"], 3), " over ",
-          result.views.size(), " frames (every ", result.every,
-          "th) that the run did not see, each against the model of the frame before; pixels as "
-          "above, ",
-          text(Json(100 * json.value("judged_share", 0.0)), 1), " % of the tissue"));
-  facts.addLine("  control", "the image of the frame before: PSNR " +
+  facts.addLine("held-out views",
+                say("PSNR ", text(json["psnr_db"], 1), " dB, SSIM ", text(json["ssim"], 3),
+                    " over ", result.views.size(), " frames (every ", result.every,
+                    "th) that were not used by the run, each against the model of the previous "
+                    "frame; pixels as above, ",
+                    text(Json(100 * json.value("judged_share", 0.0)), 1), " % of the tissue"));
+  facts.addLine("  control", "image of the previous frame: PSNR " +
                                  text(json["control"]["psnr_db"], 1) + " dB, SSIM " +
                                  text(json["control"]["ssim"], 3) + " over the same pixels");
 }
@@ -102,7 +101,8 @@ void addHeldOutFacts(const HeldOutResult& result, FactSheet& facts) {
 std::vector<std::string> heldOutWarnings(const HeldOutResult& result) {
   if (result.not_drawn.empty()) return {};
   return {say(result.not_drawn.size(), " held-out frames, the first ", result.not_drawn.front(),
-              ", have no model of the frame before or no image, and are in no held-out number")};
+              ", have no model of the previous frame or no image, and are excluded from all "
+              "held-out values")};
 }
 
 }  // namespace softscope

@@ -41,8 +41,8 @@ void requireNamedAs(MapKind kind, const fs::path& file) {
              says_other = name.find(other) != std::string::npos;
   const bool other_folder = file.parent_path().filename() == other;
   if (says_own || !(says_other || other_folder)) return;
-  throw InputError(say(shown(file), ": is called a ", other, " map, but the maps are compared as ",
-                       own, " maps; give two maps of one kind and say it by `map_kind=`"));
+  throw InputError(say(shown(file), ": is named a ", other, " map, but the maps are compared as ",
+                       own, " maps; give two maps of one kind, with `map_kind=`"));
 }
 
 void requireDisparities(const Raster<float>& disparity_px, const fs::path& file) {

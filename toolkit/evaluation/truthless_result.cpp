@@ -25,10 +25,10 @@ constexpr double kDegPerRad = 57.29577951308232;
 
 /// Values that cannot be measured without truth.
 const std::vector<std::string> kMissing{
-    "surface errors: they take true meshes, groundtruth/mesh/NNNNNN.ply, or a mesh as --reference",
-    "errors of material points: they take groundtruth/tracks.csv",
-    "errors of the scope's path: they take groundtruth/trajectory.txt",
-    "errors of the drawn depth: they take groundtruth/depth/NNNNNN.png"};
+    "surface errors: they need true meshes, groundtruth/mesh/NNNNNN.ply, or a mesh as --reference",
+    "errors of material points: they need groundtruth/tracks.csv",
+    "errors of the camera path: they need groundtruth/trajectory.txt",
+    "errors of the rendered depth: they need groundtruth/depth/NNNNNN.png"};
 
 double angleDeg(const Eigen::Isometry3d& motion) {
   return kDegPerRad * Eigen::AngleAxisd(motion.linear()).angle();
@@ -93,8 +93,8 @@ void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
     result.warnings.push_back(std::move(warning));
   if (run.models.empty())
     result.warnings.push_back(
-        "the run has no models of single frames, so no drawn view; reconstruct with --save-every "
-        "1");
+        "the run has no models of single frames, so no rendered view; reconstruct with "
+        "--save-every 1");
 }
 
 Statistics overFrames(const TruthlessResult& result, const Value& value) {
@@ -255,15 +255,15 @@ FactSheet truthlessFacts(const TruthlessResult& result) {
   if (backprojection.count > 0)
     facts.addLine("back-projection", spreadText(backprojection) + " over " +
                                          std::to_string(backprojection.count) +
-                                         " frames, as the run measured it");
+                                         " frames, as reported by the run");
   if (overFrames(result, kCoverage).count > 0)
     facts.addLine("coverage", fixed(100 * overFrames(result, kCoverage).mean, 1) +
                                   " % of the tissue has depth, mean of " +
                                   std::to_string(overFrames(result, kCoverage).count) + " frames");
-  facts.addLine("scope", "moved " + fixed(result.moved_mm, 2) + " mm and turned " +
-                             fixed(result.turned_deg, 2) +
-                             " deg from the first fused frame to the last; of a scope that stands "
-                             "still that is drift");
+  facts.addLine(
+      "scope", "moved " + fixed(result.moved_mm, 2) + " mm and turned " +
+                   fixed(result.turned_deg, 2) +
+                   " deg from the first fused frame to the last; for a static scope this is drift");
   facts.addLine("  jitter", fixed(result.jitter_rms_mm, 4) + " mm rms of second differences");
   for (const std::string& missing : kMissing) facts.addLine("missing", missing);
   for (const std::string& warning : result.warnings) facts.warn(warning);
@@ -302,7 +302,7 @@ VectorDrawing truthlessPlots(const TruthlessResult& result) {
   addPlot(result, "PSNR [dB]", kPsnr, style, &letter, drawing);
   addPlot(result, "SSIM", kSsim, style, &letter, drawing);
   addPlot(result, "back-projection [mm]", kBackProjection, style, &letter, drawing);
-  addPlot(result, "scope's step [mm]", kStep, style, &letter, drawing);
+  addPlot(result, "camera step [mm]", kStep, style, &letter, drawing);
   return drawing;
 }
 

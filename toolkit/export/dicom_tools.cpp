@@ -35,7 +35,7 @@ fs::path findTool(const std::string& name) {
 
 std::string firstComplaint(const fs::path& log) {
   std::error_code ignored;
-  if (fs::file_size(log, ignored) == 0 || ignored) return "it doesn't say why";
+  if (fs::file_size(log, ignored) == 0 || ignored) return "without a message";
   const std::string text = readBytes(log, kTextLimitBytes);
   const auto at = std::min(text.find("E: "), text.find("F: "));
   const std::string rest = text.substr(at == text.npos ? 0 : at + 3);
@@ -47,7 +47,7 @@ std::string firstComplaint(const fs::path& log) {
 TemporaryFolder::TemporaryFolder() {
   std::string form = (fs::temp_directory_path() / "softscope_dicom_XXXXXX").string();
   if (mkdtemp(form.data()) == nullptr)
-    throw Error(shown(fs::temp_directory_path()) + ": no folder can be made there");
+    throw Error(shown(fs::temp_directory_path()) + ": a temporary folder could not be created");
   folder_ = form;
 }
 

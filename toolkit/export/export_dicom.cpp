@@ -92,12 +92,12 @@ FactSheet::Json metricsOfReport(const fs::path& report) {
   const auto end = at == html.npos ? at : html.find("</script>", at);
   if (end == html.npos)
     throw InputError(shown(report) +
-                     ": this is no report with metrics in it; a DICOM report is made of the page "
-                     "that `softscope report` writes");
+                     ": is not a report with metrics; a DICOM report needs the page written by "
+                     "`softscope report`");
   FactSheet::Json json = FactSheet::Json::parse(
       html.substr(at + begin.size(), end - at - begin.size()), nullptr, /*allow_exceptions=*/false);
   if (!json.is_object() || !json.contains("cases") || !json["cases"].is_array())
-    throw InputError(shown(report) + ": its metrics are damaged; make the report anew");
+    throw InputError(shown(report) + ": its metrics are damaged; write the report again");
   return json;
 }
 

@@ -56,8 +56,7 @@ LengthUnit unitOf(const std::string& name, ModelFormat format) {
   if (found == kUnits.end())
     throw OptionError("`unit=` is `" + name + "`, but must be mm, cm or m");
   if (gltf && found->first != "m")
-    throw OptionError("`unit=` is " + name +
-                      ", but glTF is in metres by its standard; leave it out");
+    throw OptionError("`unit=` is " + name + ", but glTF is in metres by its standard; omit it");
   return found->second;
 }
 

@@ -58,9 +58,9 @@ ModelSurface vtkSurfaceOf(const fs::path& file) {
   requireFile(file);
   TriangleMesh mesh = readVtkSurface(file.string());
   if (mesh.triangles.empty())
-    throw InputError(shown(file) +
-                     ": holds points without triangles; give the PLY of the same model, whose "
-                     "points know their normals");
+    throw InputError(
+        shown(file) +
+        ": contains points without triangles; give the PLY of the same model, which has normals");
   return surfaceOf(std::move(mesh));
 }
 

@@ -154,9 +154,9 @@ void ExportRequest::validate() const {
   require(frame >= -1, "`frame=`", frame, "must be 0 or more");
   if (frame >= 0 && !run) throw OptionError("`frame=` needs a run, but MODEL is a file");
   if (ending == ".dcm") {
-    if (points) throw OptionError("`points=` makes no DICOM file, which holds triangles alone");
-    if (!unit.empty() && unit != "mm")
-      throw OptionError("`unit=` of a DICOM file is mm; leave it out");
+    if (points)
+      throw OptionError("`points=` cannot be used for DICOM, which contains triangles only");
+    if (!unit.empty() && unit != "mm") throw OptionError("`unit=` of a DICOM file is mm; omit it");
     if (every != 1) throw OptionError("`every=` belongs to .pvd files");
     return;
   }

@@ -37,7 +37,7 @@ Evaluation evaluate(const Run& run, const std::string& reference,
   std::optional<EvaluateOutputs> outputs;
   if (!options.out.empty()) outputs.emplace(options.out, options.overwrite);
   const RunEvaluation found = evaluateRun(optionsOf(run, reference, options), options.progress);
-  if (found.interrupted) throw Error("evaluate: stopped by progress(); nothing is written");
+  if (found.interrupted) throw Error("evaluate: stopped by progress(); no files were written");
   if (outputs) outputs->write(found);
   Evaluation evaluation;
   if (const auto* judged = std::get_if<EvaluationResult>(&found.result)) {

@@ -54,7 +54,7 @@ Image imageOf(const Mask& mask) { return {mask.width_px, mask.height_px, 1, mask
 const StereoCalibration& sized(const StereoCalibration& calibration) {
   if (calibration.left.pinhole.width_px > 0) return calibration;
   throw InputError(calibration.source +
-                   ": does not say how large the images are; give width_px and height_px");
+                   ": the size of the images is unknown; give width_px and height_px");
 }
 
 softscope::Frame frameOf(const FrameView& view, const StereoCalibration& calibration, int index) {

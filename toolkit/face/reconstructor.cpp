@@ -91,7 +91,7 @@ Run Reconstructor::finish() {
   require(impl_->folder.has_value(), "finish()", "called without a folder",
           "recordTo() names one before the first frame");
   if (impl_->loop.backend().empty())
-    throw InputError(impl_->out + ": not one frame could be used; the reports say why");
+    throw InputError(impl_->out + ": no frame could be used; see the reason in the reports");
   impl_->folder->saveLastModel(impl_->loop.model());
   impl_->folder->flush({"", impl_->frames, impl_->loop.state()});
   impl_->folder->writeRecord(impl_->record->json(), /*complete=*/true);

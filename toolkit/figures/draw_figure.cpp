@@ -69,7 +69,7 @@ void FigureMaker::fit(SceneInputs& inputs, FigureFoot& foot, Json& record) const
 const SceneSurface& FigureMaker::requireSurface(const Scene& scene) const {
   if (scene.surfaces[0].isPoints())
     throw InputError(request_.reference +
-                     ": is a set of points, but a reference is a surface; give a mesh");
+                     ": is a set of points, but the reference must be a surface; give a mesh");
   return scene.surfaces[0];
 }
 
@@ -203,8 +203,7 @@ void validateKind(const FigureRequest& r) {
           r.other.empty() ? "missing" : r.other, "belongs to `kind=` compare, which needs it");
   if (!r.ct.empty() || !r.test.empty() || !r.surfaces.empty() || !r.scans.empty())
     throw OptionError("`kind=` " + r.kind +
-                      " shows runs alone; leave `ct=`, `test=`, `surfaces=` and "
-                      "`scans=` out");
+                      " shows runs only; omit `ct=`, `test=`, `surfaces=` and `scans=`");
 }
 
 }  // namespace
@@ -222,7 +221,8 @@ void FigureRequest::validate() const {
   if (kind != "four") return;
   if (run.empty()) {
     require(frame < 0, "`frame=`", frame, "needs a RUN");
-    require(!observed_only, "`observed_only=`", "given", "needs a RUN, whose scope sees a part");
+    require(!observed_only, "`observed_only=`", "given",
+            "needs a RUN, whose camera determines the visible points");
     if (ct.empty() && reference.empty() && test.empty() && surfaces.empty() && scans.empty())
       throw OptionError("there is nothing to show; give `ct=`, `reference=`, `test=` or a RUN");
     return;
@@ -231,8 +231,8 @@ void FigureRequest::validate() const {
     throw OptionError("a RUN needs `reference=` SEQUENCE, the sequence with its ground truth");
   if (!ct.empty() || !test.empty())
     throw OptionError(
-        "a RUN excludes `ct=` and `test=`: it lies in its scope's frame. Give "
-        "`test=` RUN/model.ply to show it on CT");
+        "a RUN excludes `ct=` and `test=`: it is in its camera frame. Give `test=` RUN/model.ply "
+        "to show it on CT");
 }
 
 DrawnFigure drawFigure(const FigureRequest& request) {

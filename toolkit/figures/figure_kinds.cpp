@@ -178,7 +178,7 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
   figure.drawing = drawScenes(panels, sheet);
   const PlotStyle plot{sheet.style.width_mm, 0.35 * std::max(sheet.style.width_mm, 120.0),
                        sheet.style.font_pt};
-  series.title = std::string("(") + char('a' + panels.size()) + ") every judged frame";
+  series.title = std::string("(") + char('a' + panels.size()) + ") all evaluated frames";
   if (series.times.size() > 1)
     appendBelow(drawErrorSeries(series, plot), sheet.style.font_pt, figure.drawing);
   return figure;
@@ -249,9 +249,9 @@ Clips clipsOf(const RunFigureOptions& options) {
 
 std::string twoRunsText(Clips clips, const std::string& moment) {
   if (clips == Clips::kTwo)
-    return "Two reconstructions of two clips, each at " + moment + " of its own; one scale.";
+    return "Two reconstructions of two clips, each at " + moment + " of its own; common scale.";
   return std::string("Two reconstructions") + (clips == Clips::kOne ? " of one clip" : "") +
-         ", each at " + moment + "; one place and one scale.";
+         ", each at " + moment + "; common viewpoint and scale.";
 }
 
 RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs) {

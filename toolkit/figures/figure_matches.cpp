@@ -28,7 +28,7 @@ RunOptions optionsOf(const fs::path& run) {
   const fs::path file = run / "run.json";
   const Json record = Json::parse(readBytes(file, kRecordLimitBytes), nullptr, false);
   if (!record.is_object() || !record.contains("configuration"))
-    throw InputError(shown(file) + ": says nothing of the run's settings; reconstruct again");
+    throw InputError(shown(file) + ": has no settings of the run; reconstruct again");
   Settings settings;
   for (const auto& [key, value] : record["configuration"].items()) {
     if (!value.is_string()) addAssignment(settings, key + "=" + value.dump());
@@ -71,7 +71,7 @@ MatchMoment momentOf(const JudgedRun& run, const std::vector<int>& wanted) {
   if (after == run.models.begin() ||
       !std::binary_search(run.frames.begin(), run.frames.end(), moment.frame))
     throw OptionError(say("`frame=` is ", moment.frame, ", but must be one of the run's, after ",
-                          run.models.begin()->first, ", whose model is the first that was saved"));
+                          run.models.begin()->first, ", whose model is the first saved one"));
   moment.model_frame = std::prev(after)->first;
   const auto before = std::lower_bound(run.frames.begin(), run.frames.end(), moment.frame) - 1;
   moment.viewed_from =

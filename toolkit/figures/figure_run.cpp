@@ -24,7 +24,7 @@ Json addRunMoment(const RunMomentOptions& options, SceneInputs& inputs, FigureFo
   inputs.addMade({"true surface", std::move(moment.truth), {170, 170, 170}, {}}, "reference",
                  moment.truth_file);
   foot.notes.push_back("Model and scan of " + momentText(moment.frame, moment.time_s) +
-                       ", as the scope sees them.");
+                       ", in the view of the scope.");
   SceneSurface& scan = inputs.addMade({"scan of this frame", std::move(moment.scan), kScanRed, {}},
                                       "scan", moment.scan_file);
   scan.dot_scale = kScanLine;

@@ -21,7 +21,7 @@ using Json = FactSheet::Json;
 
 /// Description of the transform of the mesh into LPS.
 std::string bringToLps(TriangleMesh& mesh) {
-  if (mesh.space.empty()) return "not said; taken as LPS";
+  if (mesh.space.empty()) return "unknown; assumed LPS";
   if (mesh.space == "LPS") return "LPS";
   for (Eigen::Vector3f& p : mesh.vertices_mm) p.head<2>() = -p.head<2>();
   const std::string was = mesh.space;
@@ -108,9 +108,9 @@ void SceneInputs::checkFrames() {
   if (!scene_.volume && !space_is_said_) scene_.frame = SceneFrame::kAxes;
   for (std::size_t i = 0; i < frames_.size(); ++i)
     if (of_scope(frames_[i]))
-      warn(surface_paths_[i] + ": lies in a scope's frame (" + frames_[i] +
-           "), so its place among the others means nothing unless it was registered; then write "
-           "SPACE=LPS into its header");
+      warn(surface_paths_[i] + ": is in a camera frame (" + frames_[i] +
+           "), so its position relative to the others is undefined unless it was registered; then "
+           "write SPACE=LPS into its header");
 }
 
 void SceneInputs::checkPlaces() {
@@ -127,8 +127,8 @@ void SceneInputs::checkPlaces() {
     const auto volume = boxOf(*scene_.volume), surface = boxOf({scene_.surfaces[i]});
     if (volume.intersects(surface)) continue;
     warn(say(surface_paths_[i], ": lies ", volume.exteriorDistance(surface.center()),
-             " mm beside the volume; of another patient, or in RAS without saying so? Then write "
-             "SPACE=RAS into its header"));
+             " mm outside of the volume; of another patient, or in RAS without a header entry? "
+             "Then write SPACE=RAS into its header"));
   }
 }
 

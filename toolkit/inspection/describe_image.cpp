@@ -86,7 +86,7 @@ FactSheet describeFloatMap(const std::string& file) {
   const double coverage = double(values.size()) / double(raster.size());
   facts.add("measured", fixed(100 * coverage, 1) + " % of the pixels", "coverage", coverage);
   if (values.empty()) {
-    facts.warn("not one pixel has a value");
+    facts.warn("no pixel has a value");
     return facts;
   }
   const auto [least, most] = std::minmax_element(values.begin(), values.end());

@@ -48,7 +48,7 @@ FactSheet describePoints(const std::string& bytes, const std::string& file) {
   facts.addQuietly("comments", points.comments);
   if (!points.box_mm.isEmpty())
     addBox<Eigen::Vector3d>(points.box_mm.min(), points.box_mm.max(), facts);
-  if (points.count == 0) facts.warn("not one point");
+  if (points.count == 0) facts.warn("no points");
   if (points.invalid > 0)
     facts.warn(std::to_string(points.invalid) +
                " points have coordinates that are no numbers within 10 km");
@@ -72,8 +72,7 @@ FactSheet describeMesh(const std::string& file) {
   addSurface(check, facts);
   facts.addQuietly("likely_unit_mm", check.likely_unit_mm);
   for (const std::string& warning : meshWarnings(check)) facts.warn(warning);
-  if (mesh.space.empty())
-    facts.missing("SPACE=LPS or SPACE=RAS in the header; taken as LPS where it matters");
+  if (mesh.space.empty()) facts.missing("SPACE=LPS or SPACE=RAS in the header; LPS is assumed");
   return facts;
 }
 

@@ -1,4 +1,4 @@
-// toolkit/inspection/describe_path.cpp: the kind of a folder by what it holds, of a file by its
+// toolkit/inspection/describe_path.cpp: kind of a folder by its content, of a file by its
 // ending.
 #include "toolkit/inspection/describe_path.h"
 
@@ -26,12 +26,12 @@ bool hasEnding(const std::string& path, std::initializer_list<const char*> endin
   return false;
 }
 
-/// Two views, one, or, with a calibration beside it, depth alone.
+/// One or two views, or depth only with a calibration.
 bool looksLikeSequence(const fs::path& folder) {
   bool depth = false, calibration = false;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
-    std::error_code ignored;  // a link that leads nowhere is the reader's to report
+    std::error_code ignored;  // the reader reports a dangling link
     const bool view = stem == "left" || stem == "right" || stem == "stereo";
     if (view && (entry.is_directory(ignored) || isVideo(entry.path()))) return true;
     depth |= stem == "depth" && entry.is_directory(ignored);
@@ -40,11 +40,12 @@ bool looksLikeSequence(const fs::path& folder) {
   return depth && calibration;
 }
 
-/// For a folder that can't be read itself: throws InputError where clips of data sets lie below it.
+/// For a folder that is not readable itself: throws InputError if there are clips of data sets
+/// below.
 void nameClipsBelow(const std::string& folder) {
   const std::vector<FoundClip> clips = clipsBelow(folder);
   if (clips.empty()) return;
-  throw InputError(say(shown(folder), ": is no clip itself; clips below it: ", clips.size(),
+  throw InputError(say(shown(folder), ": is not a clip; clips below it: ", clips.size(),
                        ", the first of them ", shown(clips.front().folder), " (",
                        clips.front().form, "). Name one."));
 }
@@ -89,8 +90,7 @@ FactSheet describeFile(const std::string& path, const DescribeOptions& options) 
 FactSheet describePath(const std::string& path, const DescribeOptions& options) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (!fs::exists(status))
-    throw InputError(path + ": does not exist, or is a link that leads nowhere");
+  if (!fs::exists(status)) throw InputError(path + ": does not exist, or is a dangling link");
   return fs::is_directory(status) ? describeFolder(path, options) : describeFile(path, options);
 }
 

@@ -24,7 +24,7 @@ constexpr double kSlowestRate = 0.2;  // frames per second; below, the unit of t
 
 std::string layoutOf(const SequencePaths& paths) {
   if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
-  if (paths.left.empty()) return "depth alone, in " + paths.depth.filename().string();
+  if (paths.left.empty()) return "depth only, in " + paths.depth.filename().string();
   const std::string left = paths.left.filename().string();
   if (!paths.depth_files.empty()) return "images with depth in " + left;
   if (!paths.form.empty()) return left + " and " + paths.right.filename().string();
@@ -67,7 +67,7 @@ void addDataset(const DatasetClip& clip, FactSheet& facts) {
   }
   facts.addQuietly("dataset_truth", list);
   if (names.empty())
-    facts.missing("ground truth: the clip can be reconstructed, but not judged");
+    facts.missing("ground truth: the clip can be reconstructed, but not evaluated");
   else
     facts.addLine("ground truth", names);
 }
@@ -103,8 +103,8 @@ void addRows(const Frame& frame, const StereoCalibration& calibration, FactSheet
             "mean_row_difference_px", rows.mean_row_difference_px);
   if (rows.mean_row_difference_px > RowAlignment::kWarnAbovePx)
     facts.warn("rows differ by " + fixed(rows.mean_row_difference_px, 2) +
-               " px after rectification, more than 0.5. Is the calibration this scope's? "
-               "`softscope depth` removes what it can");
+               " px after rectification, more than 0.5. Is the calibration of this scope? "
+               "`softscope depth` reduces the error");
 }
 
 /// One warning per unreadable frame.
@@ -138,8 +138,7 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
   SequenceReader reader(paths, options);
   auto first = reader.next();
   while (first && first->unpaired) first = reader.next();
-  if (!first || !first->ok())
-    throw InputError(first ? first->error : folder + ": has not one frame");
+  if (!first || !first->ok()) throw InputError(first ? first->error : folder + ": has no frames");
   const ColourImage& left = first->frame.pair.left;
   facts.add("frames", "frames", reader.totalCount());
   facts.add("size", std::to_string(left.width_px) + " x " + std::to_string(left.height_px) + " px",

@@ -46,8 +46,8 @@ std::string targetErrorText(const ReportCase& c) {
   const double n = value("n"), mean_mm = value("mean_mm"), sd_mm = value("sd_mm");
   if (!(n >= 2 && n < 1e9) || !std::isfinite(mean_mm) || !std::isfinite(sd_mm)) return {};
   const double half_mm = studentQuantile(0.975, n - 1) * sd_mm / std::sqrt(n - 1);  // sd: over n
-  return "At a place that was not fitted the error is " + millimetresText(mean_mm) +
-         " on average (TRE over " + std::to_string(std::llround(n)) +
+  return "At a position that was not used for the alignment the error is " +
+         millimetresText(mean_mm) + " on average (TRE over " + std::to_string(std::llround(n)) +
          " landmarks, 95 % confidence " + intervalText({mean_mm - half_mm, mean_mm + half_mm}) +
          " mm, by Student's t).";
 }
@@ -60,18 +60,17 @@ bool wasAligned(const ReportCase& c) {
 }
 
 std::string alignmentText(const ReportCase& c) {
-  if (!c.hasTruth()) return "none: there is nothing to align with";
-  if (!wasAligned(c)) return "none: no error is hidden by fitting the model to the reference";
+  if (!c.hasTruth()) return "none: there is no reference";
+  if (!wasAligned(c)) return "none: no error is removed by an alignment to the reference";
   const std::string how = c.alignment();
-  if (how == "rigid")
-    return "rigid: one fit to the reference, found with the first model, holds for all";
+  if (how == "rigid") return "rigid: one transform, from the first model, for all models";
   if (how == "icp")
-    return "ICP: the model was fitted to the reference by the closest points; whatever a rigid "
-           "motion explains is not in the errors below";
-  if (how == "landmarks") return "landmarks: fitted by named pairs of points";
+    return "ICP: the model was aligned to the reference by closest points; errors due to a rigid "
+           "motion are not included below";
+  if (how == "landmarks") return "landmarks: aligned by pairs of landmarks";
   if (how == "landmarks, then icp")
-    return "landmarks, then ICP: fitted by named pairs of points, then by the closest points; "
-           "whatever a rigid motion explains is not in the errors below";
+    return "landmarks, then ICP: aligned by pairs of landmarks, then by closest points; errors due "
+           "to a rigid motion are not included below";
   return how;
 }
 
@@ -84,7 +83,7 @@ std::vector<ReportPart> alignmentParts(const ReportCase& c) {
   if (c.kind == Kind::kPair) {
     rows = {{"before the alignment", "alignment.before"},
             {"after it", "accuracy"},
-            {"landmarks: FRE, what the fit leaves at them", "alignment.fre"},
+            {"landmarks: FRE, residual of the fit", "alignment.fre"},
             {"landmarks: TRE, each left out in turn", "alignment.tre_leave_one_out"}};
     addTable(statisticsTable("Distances [mm]", c.record, rows), parts);
     if (const std::string tre = targetErrorText(c); !tre.empty())

@@ -31,10 +31,10 @@ fs::path recordIn(const fs::path& path) {
     if (isThere(path / name)) return path / name;
   if (isThere(path / "trajectory.txt"))
     throw InputError(shown(path) +
-                     ": is a run that has not been judged yet; run softscope evaluate on it, with "
-                     "`reference=` and `out=`, and report what that wrote");
+                     ": is a run without evaluation; run softscope evaluate on it, with "
+                     "`reference=` and `out=`, and report its output");
   throw InputError(shown(path) +
-                   ": holds no evaluation.json and no comparison.json; give a folder that "
+                   ": contains no evaluation.json and no comparison.json; give a folder that "
                    "softscope evaluate or compare wrote with `out=`");
 }
 
@@ -84,8 +84,9 @@ constexpr std::uintmax_t kPictureLimitBytes = std::uintmax_t{64} << 20;
 std::string readPng(const fs::path& file) {
   std::string png = readBytes(file, kPictureLimitBytes);
   if (png.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0)
-    throw InputError(shown(file) +
-                     ": is no PNG picture, but would be shown; make it again or move it away");
+    throw InputError(
+        shown(file) +
+        ": is not a PNG image, but required for the report; make it again or move it away");
   return png;
 }
 

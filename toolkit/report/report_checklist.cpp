@@ -33,7 +33,7 @@ const std::vector<ChecklistItem> kClaim{
      "say why these frames or clips"},
     {"11", "definition of data elements", kMethodsHere, ""},
     {"12", "removal of identifying data", "", "write how; file names stay out of this report"},
-    {"13", "missing data", "Result: frames skipped and lost", "say what was left out besides"},
+    {"13", "missing data", "Result: frames skipped and lost", "state other exclusions"},
     {"14", "definition of the reference standard", "What was compared", "say how it was made"},
     {"15", "why that reference", "", "write"},
     {"16", "who annotated the reference", "", "name qualifications"},
@@ -49,7 +49,7 @@ const std::vector<ChecklistItem> kClaim{
     {"26", "choice of the final model", "", "say on which clips settings were chosen"},
     {"27", "ensembles", "", "none; say so"},
     {"28", "measures of performance", kMethodsHere, ""},
-    {"29", "statistics and uncertainty", "Result, and how sure it is",
+    {"29", "statistics and uncertainty", "Result and uncertainty",
      "one clip has no interval; several clips give one"},
     {"30", "robustness", "", "vary settings or clips (softscope study)"},
     {"31", "explanation", "Pictures: error map", ""},
@@ -57,7 +57,7 @@ const std::vector<ChecklistItem> kClaim{
     {"33", "flow of cases", "Result: frames fused, skipped, lost", "draw the flow of the cases"},
     {"34", "characteristics of the cases", "", "write"},
     {"35", "performance on every part of the data", "Result", "every clip, not the best one"},
-    {"36", "accuracy with its precision", "Result, and how sure it is", ""},
+    {"36", "accuracy with its precision", "Result and uncertainty", ""},
     {"37", "analysis of failures", "Result: strip over time; Limits", "look at lost frames"},
     {"38", "limitations", "Limits", "add those of the study"},
     {"39", "meaning for practice", "", "write; research use only"},
@@ -99,13 +99,13 @@ const std::vector<ChecklistItem> kStardAi{
      "say how it was made"},
     {"16b", "why that reference", "", "write"},
     {"16c", "cut-offs of the reference standard", "", "write, or none"},
-    {"17a", "whether the reference was known to who ran the index test", "",
+    {"17a", "whether the reference was known to the users of the index test", "",
      "the program does not see it; say whether settings were chosen by it"},
-    {"17b", "whether the result was known to who made the reference", "", "write"},
+    {"17b", "whether the result was known to the authors of the reference", "", "write"},
     {"18", "how accuracy is estimated and compared", kMethodsHere, ""},
     {"19", "how indeterminate results are handled", "Methods; Result: frames fused, skipped, lost",
-     "lost frames count in no mean; say so"},
-    {"20", "how missing data are handled", "Result; Limits", "say what was left out besides"},
+     "lost frames are not included in means; say so"},
+    {"20", "how missing data are handled", "Result; Limits", "state other exclusions"},
     {"21", "analyses of variability, planned or exploratory", "", "vary clips or settings (study)"},
     {"22", "sample size and how it was chosen", "", "write"},
     {"23", "analysis of errors, bias and fairness", "Pictures: error map; Result: strip over time",
@@ -158,10 +158,11 @@ void requireChecklist(const std::string& name) {
 ReportTable checklistTable(const std::string& name) {
   const Checklist& list = checklistNamed(name);
   const auto orDash = [](const char* text) { return *text == '\0' ? "\u2013" : text; };
-  ReportTable table{std::string(list.title) + ", in our words: the guideline's own text counts",
-                    {"item", "asks for", "in this report", "left to the author"},
-                    {},
-                    /*words=*/true};
+  ReportTable table{
+      std::string(list.title) + ", in our words: the text of the guideline is authoritative",
+      {"item", "asks for", "in this report", "left to the author"},
+      {},
+      /*words=*/true};
   for (const ChecklistItem& item : *list.items)
     table.rows.push_back({item.number, item.asks, orDash(item.here), orDash(item.author)});
   return table;

@@ -51,7 +51,7 @@ ReportTable casesTable(const Cases& cases) {
 }
 
 ReportTable summaryTable(const Cases& cases, const ReportChoices& choices) {
-  ReportTable table{"All cases together, each counting once",
+  ReportTable table{"All cases together, with equal weights",
                     {"", "mean \xC2\xB1 SD", "median [quartiles]", "95 % CI of the mean", "n"},
                     {},
                     /*words=*/false};
@@ -126,12 +126,12 @@ std::vector<ReportPart> truthlessCohortParts(const Cases& cases, const ReportCho
                       kept = summary(metric_paths::kCohortBackProjection);
   std::string text =
       "None of the " + std::to_string(cases.size()) +
-      " cases has ground truth: how far the models lie from the tissue is not known.";
+      " cases has ground truth: the distance of the models from the tissue is unknown.";
   if (std::isfinite(psnr.mean))
-    text += " Drawn from their own poses, they resemble the pictures with a PSNR of " +
+    text += " Rendered from their own poses, they resemble the images with a PSNR of " +
             spread(psnr) + " dB.";
   if (std::isfinite(kept.mean))
-    text += " In sight, they lie " + spread(kept) + " mm from the depth that they were made of.";
+    text += " Visible points are " + spread(kept) + " mm from the depth used for them.";
   return {ReportParagraph{text, /*important=*/true}, summaryTable(cases, choices),
           casesTable(cases)};
 }
@@ -176,7 +176,7 @@ ReportTable cohortComparedTable(const Cases& cases) {
     table.rows.push_back({c.name, pair ? "surface model" : "live model of a video",
                           pair                                ? "surface"
                           : !c.hasTruth()                     ? "none: no ground truth"
-                          : c.kind == ReportCase::Kind::kMesh ? "surface that does not move"
+                          : c.kind == ReportCase::Kind::kMesh ? "static surface"
                                                               : "ground truth of the video",
                           how.empty() ? "not said" : how});
   }
@@ -199,20 +199,19 @@ std::vector<ReportPart> cohortParts(const Cases& cases, const ReportChoices& cho
       std::count_if(cases.begin(), cases.end(), [](const ReportCase& c) { return c.hasTruth(); }));
   parts.emplace_back(ReportParagraph{
       (judged == 1 ? std::string("In one case") : "Over " + std::to_string(judged) + " cases") +
-          " the model lies " + spread(mean) +
-          " mm from the reference (mean and SD of the cases' means); 95 % of a case's points lie "
-          "within " +
+          " the distance of the model is " + spread(mean) +
+          " mm from the reference (mean and SD of the means of the cases); 95 % of the points of a "
+          "case are within " +
           spread(p95) + " mm." +
           (judged == cases.size() ? ""
                                   : " " + std::to_string(cases.size() - judged) +
-                                        " more have no ground truth, so that nothing is known of "
-                                        "their distances."),
+                                        " more have no ground truth: their distances are unknown."),
       /*important=*/true});
   parts.emplace_back(ReportTiles{
       {{"Mean distance", numberText(mean.mean) + " mm", "SD of the cases " + numberText(mean.sd)},
        {"95 % CI of that mean", intervalText(mean.mean_ci),
         std::isfinite(mean.mean_ci.low) ? "mm, bootstrap over the cases"
-                                        : "it takes three cases or more"},
+                                        : "needs three cases or more"},
        {"95th percentile", numberText(p95.mean) + " mm", "median " + numberText(p95.median)},
        {"Worst case by P95", worst == nullptr ? "not measured" : worst->name,
         worst == nullptr ? "" : millimetresText(worst->main(metric_paths::kP95))}}});
@@ -266,15 +265,14 @@ std::vector<ReportPart> pairedParts(const Cases& cases, const Cases& versus,
 ReportList cohortMethods(bool paired) {
   ReportList list;
   list.items = {
-      "Cohort: every case counts once, whatever its number of points. SD over n - 1; quartiles "
+      "Cohort: every case has the same weight, for any number of points. SD over n - 1; quartiles "
       "linear between ranks. Confidence interval of a mean: percentile bootstrap over the cases, "
       "2000 resamples, seeded; none below three cases.",
-      "Bland-Altman: bias and bias \xC2\xB1 1.96 SD of one difference a case, intervals by "
-      "Student's t (Bland and Altman 1999). A handful of cases gives wide limits: read the "
-      "intervals."};
+      "Bland-Altman: bias and bias \xC2\xB1 1.96 SD of one difference per case, intervals by "
+      "Student's t (Bland and Altman 1999). For few cases the limits are wide: see the intervals."};
   if (paired)
     list.items.push_back(
-        "Paired: Wilcoxon's signed-rank test, two-sided, zeros left out, exact up to 25 cases; not "
+        "Paired: Wilcoxon's signed-rank test, two-sided, without zeros, exact up to 25 cases; not "
         "corrected for the number of metrics.");
   return list;
 }

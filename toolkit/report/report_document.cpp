@@ -65,11 +65,11 @@ ReportMapPlace mapPlace(const std::vector<ReportCase>& cases, double limit_mm) {
   const bool series = std::any_of(cases.begin(), cases.end(),
                                   [](const ReportCase& c) { return c.maps.size() > 1; });
   const std::string same = "Colours run to " + millimetresText(limit_mm) +
-                           " for every case and moment, and are not shaded; ";
-  return {"Error map. " + same + "grey is the reference where no model lies before it.",
-          (series ? "Error maps, last moment. " : "Error maps. ") + same +
-              "arrows at the bar: some values lie beyond. Grey: the reference where no model lies "
-              "before it."};
+                           " for every case and frame, and are not shaded; ";
+  return {"Error map. " + same + "grey is the reference without a model in front of it.",
+          (series ? "Error maps, last frame. " : "Error maps. ") + same +
+              "arrows at the bar: some values are outside of the range. Grey: the reference "
+              "without a model in front of it."};
 }
 
 /// Both kinds of distance for one case, absolute distances
@@ -90,7 +90,7 @@ std::optional<VectorDrawing> mapFigure(const std::vector<ReportMap>& maps, doubl
   try {
     return drawErrorMaps(cells, style);
   } catch (const BackendError& error) {
-    warnings->push_back(std::string("the report has no picture of its map: ") + error.what());
+    warnings->push_back(std::string("the report has no image of its map: ") + error.what());
     return std::nullopt;
   }
 }
@@ -106,11 +106,12 @@ std::vector<ReportSection> caseSections(const ReportRequest& request, double lim
   const ReportCase& c = request.cases.front();
   std::vector<ReportSection> sections;
   if (!c.drawn_view.empty())
-    sections.push_back(
-        {"view", "The model beside the image", {ReportPicture{c.drawn_view, drawnViewCaption(c)}}});
+    sections.push_back({"view",
+                        "Image and model side by side",
+                        {ReportPicture{c.drawn_view, drawnViewCaption(c)}}});
   sections.push_back({"compared", "What was compared", {comparedTable(c, request.choices)}});
   append(alignmentParts(c), sections.back().parts);
-  sections.push_back({"result", "Result, and how sure it is", {}});
+  sections.push_back({"result", "Result and uncertainty", {}});
   if (hasOutcomes(request)) sections.back().parts.push_back(outcomesTable(request));
   append(resultParts(c), sections.back().parts);
   sections.push_back({"pictures", "Pictures", {}});
@@ -156,7 +157,7 @@ std::vector<ReportSection> cohortSections(const ReportRequest& request, double l
   const ReportChoices& choices = request.choices;
   std::vector<ReportSection> sections;
   sections.push_back({"compared", "What was compared", {cohortComparedTable(request.cases)}});
-  sections.push_back({"result", "Result, and how sure it is", {}});
+  sections.push_back({"result", "Result and uncertainty", {}});
   if (hasOutcomes(request)) sections.back().parts.push_back(outcomesTable(request));
   append(cohortParts(request.cases, choices), sections.back().parts);
   if (!request.versus.empty())

@@ -55,8 +55,8 @@ std::optional<CaptionedFigure> seriesFigure(const ReportCase& c) {
   }
   if (statistics(data.mean).count < 2) return std::nullopt;
   return CaptionedFigure{withOutcomeStrip(outcomeStrip(frames), drawErrorSeries(data)),
-                         "Distance of the model's points from the reference, moment by moment. A "
-                         "gap: frames that were not fused."};
+                         "Distance of the points of the model from the reference, per frame. Gap: "
+                         "frames that were not fused."};
 }
 
 std::optional<CaptionedFigure> histogramFigure(const ReportCase& c) {
@@ -71,7 +71,7 @@ std::optional<CaptionedFigure> histogramFigure(const ReportCase& c) {
   for (const double count : counts) total += count;
   if (counts.empty() || !(total > 0)) return std::nullopt;
   ErrorHistogramData data;
-  data.title = "Spread of the distances";
+  data.title = "Histogram of the distances";
   data.low = low;
   data.high = high;
   for (const double count : counts) {
@@ -82,9 +82,9 @@ std::optional<CaptionedFigure> histogramFigure(const ReportCase& c) {
   data.share_beyond = beyond / total;
   data.median = c.main(metric_paths::kMedian);
   data.p95 = c.main(metric_paths::kP95);
-  return CaptionedFigure{drawErrorHistogram(data),
-                         "Share of the points in each bin, and of all below; median and 95th "
-                         "percentile marked."};
+  return CaptionedFigure{
+      drawErrorHistogram(data),
+      "Share of the points per bin, and cumulative share; median and 95th percentile are marked."};
 }
 
 }  // namespace softscope

@@ -26,18 +26,19 @@ std::string testedText(const ReportCase& c) {
   if (c.kind == Kind::kPair)
     return "a 3-D model of " + whole(numberAt(c.record, "accuracy.n")) + " vertices";
   const double models = numberAt(c.record, c.mainPart() + ".models_judged");
-  return "a 3-D model reconstructed from stereo-endoscopic video, judged at " + whole(models) +
-         (models == 1 ? " moment" : " moments");
+  return "a 3-D model reconstructed from stereo-endoscopic video, evaluated at " + whole(models) +
+         (models == 1 ? " frame" : " frames");
 }
 
 std::string referenceText(const ReportCase& c) {
   switch (c.kind) {
     case Kind::kSequence:
-      return "ground truth of the video: the true surface, depth and scope pose of each moment";
+      return "ground truth of the video: the true surface, depth and camera pose of each frame";
     case Kind::kMesh:
-      return "a surface that does not move, from CT for example";
+      return "a static surface, for example from CT";
     case Kind::kPictures:
-      return "none: there is no ground truth; the video's own left images stand beside the model";
+      return "none: there is no ground truth; the left images of the video are compared with the "
+             "model";
     case Kind::kPair:
       return "a surface of " + whole(numberAt(c.record, "completeness.n")) + " vertices";
   }
@@ -46,11 +47,10 @@ std::string referenceText(const ReportCase& c) {
 
 std::string frameText(const ReportCase& c) {
   if (c.kind == Kind::kSequence)
-    return "each moment in the frame of its own left camera, so that a motion of the scope is not "
-           "counted as an error of the surface";
+    return "each frame in its own left camera frame, so that a motion of the scope is not counted "
+           "as an error of the surface";
   if (c.kind == Kind::kMesh) return "the reference's";
-  if (c.kind == Kind::kPictures)
-    return "the left image of each moment, from the pose that the run estimated";
+  if (c.kind == Kind::kPictures) return "the left image of each frame, from the estimated pose";
   const std::string space = textAt(c.record, "space");
   return "the reference's; space: " + (space.empty() ? "not said" : space);
 }
@@ -63,8 +63,8 @@ std::vector<NamedPart> distanceParts(const ReportCase& c) {
             {"reference to model, by area", "completeness.by_area"},
             {"signed, + = outside", "signed"}};
   return {{"all points", "surface"},
-          {"seen now (observed)", "surface.observed"},
-          {"not seen now (predicted)", "surface.predicted"},
+          {"visible now (observed)", "surface.observed"},
+          {"not visible now (predicted)", "surface.predicted"},
           {"signed, + = outside", "surface.signed"},
           {"visible tissue to model", "surface.tissue_to_model"}};
 }
@@ -79,13 +79,14 @@ ReportTable bothWaysTable(const ReportCase& c) {
 }
 
 ReportTable motionTable(const ReportCase& c) {
-  return statisticsTable("Motion [mm]", c.record,
-                         {{"material points (tracks)", "tracks"},
-                          {"the same, had nothing been tracked", "tracks.no_motion"},
-                          {"scope's position, not aligned", "camera.pose"},
-                          {"scope's position, path aligned (ATE)", "camera.ate"},
-                          {"scope's step from frame to frame (RPE)", "camera.rpe"},
-                          {"back-projection, by the run itself", metric_paths::kBackProjection}});
+  return statisticsTable(
+      "Motion [mm]", c.record,
+      {{"material points (tracks)", "tracks"},
+       {"control: no motion", "tracks.no_motion"},
+       {"camera position, not aligned", "camera.pose"},
+       {"camera position, path aligned (ATE)", "camera.ate"},
+       {"camera step from frame to frame (RPE)", "camera.rpe"},
+       {"back-projection, as reported by the run", metric_paths::kBackProjection}});
 }
 
 std::string shareText(double value) {
@@ -111,11 +112,11 @@ void addFrames(const ReportCase& c, std::vector<ReportPart>& parts) {
     return numberAt(c.record, std::string("outcomes.") + outcome);
   };
   if (!(all > 0)) return;
-  parts.emplace_back(ReportParagraph{
-      "Of " + whole(all) + " frames " + whole(count("fused")) + " were fused, " +
-      whole(count("skipped")) + " skipped, " + whole(count("lost")) +
-      " lost. Every number below is of the fused frames alone; of what happened in the others "
-      "nothing is known."});
+  parts.emplace_back(ReportParagraph{"Of " + whole(all) + " frames " + whole(count("fused")) +
+                                     " were fused, " + whole(count("skipped")) + " skipped, " +
+                                     whole(count("lost")) +
+                                     " lost. All numbers below are of the fused frames only; the "
+                                     "errors in other frames are unknown."});
   const OutcomeStripData strip = outcomeStrip(framesOf(c));
   if (strip.x.empty()) return;
   parts.emplace_back(ReportFigures{{{drawOutcomeStrip(strip), "The frames over time."}}});
@@ -123,13 +124,14 @@ void addFrames(const ReportCase& c, std::vector<ReportPart>& parts) {
 
 ReportParagraph headline(const ReportCase& c) {
   if (!c.hasTruth()) return truthlessHeadline(c);
-  std::string text = "The model lies " + millimetresText(c.main(metric_paths::kMean)) +
-                     " from the reference on average; 95 % of its points lie within " +
+  std::string text = "The mean distance of the model is " +
+                     millimetresText(c.main(metric_paths::kMean)) +
+                     " from the reference; 95 % of its points are within " +
                      millimetresText(c.main(metric_paths::kP95)) + ".";
   const double completeness = numberAt(c.record, metric_paths::kCompleteness);
   if (std::isfinite(completeness))
-    text +=
-        " Of the tissue that both cameras see, " + percentText(completeness) + " is reconstructed.";
+    text += " Of the tissue visible to both cameras, " + percentText(completeness) +
+            " is reconstructed.";
   return {text, /*important=*/true};
 }
 
@@ -163,7 +165,7 @@ ReportTiles tiles(const ReportCase& c) {
   const double completeness = numberAt(c.record, metric_paths::kCompleteness);
   if (std::isfinite(completeness))
     tiles.tiles.push_back({"Reconstructed", percentText(completeness),
-                           "of the tissue that both cameras see, within 1 mm"});
+                           "of the tissue visible to both cameras, within 1 mm"});
   else if (auto within = withinTile(c))
     tiles.tiles.push_back(std::move(*within));
   return tiles;
@@ -172,11 +174,11 @@ ReportTiles tiles(const ReportCase& c) {
 ReportParagraph confidence(const ReportCase& c) {
   if (c.kind == Kind::kPair)
     return {
-        "How sure: this is one comparison, so it has no confidence interval; the spread over "
-        "the surface is in the table."};
+        "Uncertainty: this is one comparison, so it has no confidence interval; the table shows "
+        "the distribution over the surface."};
   return {
-      "How sure: this is one video. Its moments resemble each other, so that an interval over them "
-      "would be too narrow; a report of several videos has one, with each video counted once."};
+      "Uncertainty: this is one video. Its frames are correlated, so an interval over them would "
+      "be too narrow; a report of several videos has one, with equal weight per video."};
 }
 
 ReportTable thresholdsTable(const ReportCase& c) {
@@ -247,26 +249,25 @@ ReportList limitsList(const ReportCase& c, const ReportChoices& choices) {
   if (!c.hasTruth()) list.items = truthlessLimits(c);
   if (c.kind == Kind::kMesh || c.kind == Kind::kPair)
     list.items.push_back(
-        "A scope sees part of an organ. Where the model covers a part of the reference only, "
-        "distances from the reference to the model, and what is built on them (HD95, Hausdorff, "
-        "ASSD, recall, F, Dice), say little.");
+        "A scope sees a part of an organ. If the model covers only a part of the reference, "
+        "distances from the reference to the model, and derived values (HD95, Hausdorff, ASSD, "
+        "recall, F, Dice), are not meaningful.");
   if (wasAligned(c))
     list.items.push_back(
-        "The model was aligned to the reference: every error that a rigid motion explains, of "
-        "calibration for one, is not in these numbers.");
+        "The model was aligned to the reference: errors due to a rigid motion, for example of the "
+        "calibration, are not included.");
   if (c.kind == Kind::kSequence)
     list.items.push_back(
-        "Points that the camera does not see now were carried along by the estimated deformation; "
-        "their errors are larger and are listed apart.");
+        "Points not visible to the camera are moved by the estimated deformation; their errors are "
+        "larger and are listed separately.");
   if (c.kind == Kind::kMesh)
     list.items.push_back(
-        "The reference does not move. Where tissue moved between its scan and the video, that "
-        "motion counts as an error.");
+        "The reference is static. Tissue motion between its scan and the video counts as an "
+        "error.");
   if (!c.maps.empty())
     list.items.push_back(
-        "The map shows fewer points than were measured (at most 20 000 a moment of a series, 60 "
-        "000 "
-        "of a single surface) and a coarser reference; the numbers are of the full data.");
+        "The map shows a subset of the points (at most 20 000 per frame of a series, 60 000 of a "
+        "single surface) and a decimated reference; the numbers are of the full data.");
   if (c.record.contains("warnings") && c.record["warnings"].is_array())
     for (const auto& warning : c.record["warnings"])
       if (warning.is_string()) {
@@ -287,27 +288,27 @@ ReportList methodsList(const ReportCase& c) {
   }
   list.items = {
       "Distance: from a point of the model to the closest point on the triangles of the reference, "
-      "not to its nearest vertex. Signed: positive outside the reference, by the angle-weighted "
-      "pseudo-normal of what is closest; none where that lies on the border of an open surface.",
+      "not to its nearest vertex. Signed: positive outside of the reference, by the angle-weighted "
+      "pseudo-normal at the closest point; none if that is on the border of an open surface.",
       "SD over n; RMSE about zero; P95: 95 % of the values are smaller.",
-      "HD95 has three definitions in use that differ by a factor of two on some data; all three "
-      "are given. ASSD: mean of both directions' distances together; MASD: mean of the two means."};
+      "HD95 has three common definitions that differ by a factor of two on some data; all three "
+      "are given. ASSD: mean over the distances of both directions; MASD: mean of the two means."};
   if (c.kind != Kind::kPair)
     list.items.push_back(
-        "Series: points pooled from all judged moments, at most 20 000 of each, so that every "
-        "moment counts the same. Drift: Theil-Sen slope of the moments' means.");
+        "Series: points pooled over all evaluated frames, at most 20 000 of each, so that every "
+        "frame has the same weight. Drift: Theil-Sen slope of the means per frame.");
   if (c.kind == Kind::kSequence)
     list.items.push_back(
-        "Observed: the closest true tissue is in the left camera's view at that moment. "
-        "Reconstructed: a sample of tissue that both cameras see has a model point nearer than "
-        "1 mm. Tracks are set beside the control that nothing had moved.");
+        "Observed: the closest true tissue is currently in view of the left camera. Reconstructed: "
+        "a sample of tissue visible to both cameras has a model point within 1 mm. Tracks are "
+        "compared with a control without motion.");
   if (c.kind == Kind::kPair)
     list.items.push_back(
         "By area: each vertex weighted by a third of the area of its triangles. Precision, recall: "
-        "share of the model's, of the reference's vertices nearer than the distance; F: their "
-        "harmonic mean; surface Dice: area within the distance, both ways, over both areas. FRE is "
-        "what the fit leaves at the landmarks it was made of, TRE the error at one it has not "
-        "seen.");
+        "share of the vertices of the model, of the reference within the distance; F: their "
+        "harmonic mean; surface Dice: area within the distance, both directions, over both areas. "
+        "FRE is the residual at the landmarks used for the fit, TRE the error at a landmark not "
+        "used.");
   list.items.push_back(all);
   return list;
 }

@@ -30,20 +30,20 @@ void addFigure(const CaseFrames& frames, const std::string& key, const std::stri
 }
 
 ReportTable viewTable(const ReportCase& c) {
-  ReportTable table =
-      valueTable("Model drawn from the run's own pose, beside the image", "mean", c.record,
-                 {{"PSNR over the pixels that the model covers [dB]", metric_paths::kPsnr},
-                  {"the same, every other pixel counted as right [dB]", metric_paths::kPsnrOverAll},
-                  {"SSIM", metric_paths::kSsim}});
+  ReportTable table = valueTable(
+      "Model rendered from the pose of the run, compared with the image", "mean", c.record,
+      {{"PSNR over the pixels covered by the model [dB]", metric_paths::kPsnr},
+       {"the same, every other pixel counted as correct [dB]", metric_paths::kPsnrOverAll},
+       {"SSIM", metric_paths::kSsim}});
   if (const double share = numberAt(c.record, metric_paths::kJudgedShare); std::isfinite(share))
-    table.rows.push_back({"tissue that the model covers", percentText(share)});
+    table.rows.push_back({"tissue covered by the model", percentText(share)});
   if (const double share = numberAt(c.record, metric_paths::kDepthShare); std::isfinite(share))
-    table.rows.push_back({"tissue that has depth, by the run itself", percentText(share)});
+    table.rows.push_back({"tissue with depth, as reported by the run", percentText(share)});
   return table;
 }
 
 ReportTable pathTable(const ReportCase& c) {
-  return valueTable("The scope's path, as estimated", "value", c.record,
+  return valueTable("Estimated camera path", "value", c.record,
                     {{"moved from first to last fused frame [mm]", metric_paths::kScopeMoved},
                      {"turned from first to last fused frame [degrees]", "camera.turned_deg"},
                      {"jitter, rms of second differences [mm]", "camera.jitter_rms_mm"}});
@@ -70,31 +70,28 @@ std::string drawnViewCaption(const ReportCase& c) {
   const auto whole = [](double number) { return std::to_string(std::llround(number)); };
   std::string text = "Left: the video's image";
   if (std::isfinite(value("frame"))) text += " of frame " + whole(value("frame"));
-  text +=
-      ". Right: the model, drawn from the pose that the run estimated; grey where it shows "
-      "nothing.";
+  text += ". Right: the model, rendered from the estimated pose; grey without a model.";
   if (std::isfinite(value("covers_share")))
-    text += " It covers " + percentText(value("covers_share")) + " of the tissue in sight.";
+    text += " It covers " + percentText(value("covers_share")) + " of the visible tissue.";
   const double age = value("age_frames");
-  if (age == 0) text += " It is of the run's last frame.";
+  if (age == 0) text += " It is the last frame of the run.";
   if (age > 0)
     text += " It is " + whole(age) + (age == 1 ? " frame" : " frames") +
-            " old: of what the run saw later no model was fused or saved.";
+            " old: no later model was fused or saved.";
   return text;
 }
 
 ReportParagraph truthlessHeadline(const ReportCase& c) {
   std::string text =
-      "There is no ground truth: how far the model lies from the tissue is not known.";
+      "There is no ground truth: the distance of the model from the tissue is unknown.";
   if (const double psnr_db = numberAt(c.record, metric_paths::kPsnr); std::isfinite(psnr_db))
     text +=
-        " Drawn from the pose that the run estimated, it resembles the video's images with "
-        "a PSNR of " +
+        " Rendered from the estimated pose, it resembles the images of the video with a PSNR of " +
         decibels(psnr_db) + ".";
   if (const double mean_mm = numberAt(c.record, metric_paths::kBackProjectionMean);
       std::isfinite(mean_mm))
-    text += " In sight, it lies " + millimetresText(mean_mm) +
-            " on average from the depth that it was made of (back-projection).";
+    text += " Visible points are " + millimetresText(mean_mm) +
+            " on average from the depth used for the model (back-projection).";
   return {text, /*important=*/true};
 }
 
@@ -106,62 +103,62 @@ std::string truthlessSummary(const ReportCase& c) {
 
 ReportTiles truthlessTiles(const ReportCase& c) {
   const auto value = [&](const char* path) { return numberAt(c.record, path); };
-  return {
-      {{"PSNR of the drawn view", decibels(value(metric_paths::kPsnr)),
-        "over " + percentText(value(metric_paths::kJudgedShare)) + " of the tissue"},
-       {"Back-projection", millimetresText(value(metric_paths::kBackProjectionMean)),
-        "by the run itself; no accuracy"},
-       {"Tissue with depth", percentText(value(metric_paths::kDepthShare)), "by the run itself"},
-       {"Scope moved", millimetresText(value(metric_paths::kScopeMoved)),
-        "first to last fused frame; drift if it stood still"}}};
+  return {{{"PSNR of the rendered view", decibels(value(metric_paths::kPsnr)),
+            "over " + percentText(value(metric_paths::kJudgedShare)) + " of the tissue"},
+           {"Back-projection", millimetresText(value(metric_paths::kBackProjectionMean)),
+            "as reported by the run; not an accuracy"},
+           {"Tissue with depth", percentText(value(metric_paths::kDepthShare)),
+            "as reported by the run"},
+           {"Scope moved", millimetresText(value(metric_paths::kScopeMoved)),
+            "first to last fused frame; drift for a static scope"}}};
 }
 
 std::vector<ReportTable> truthlessTables(const ReportCase& c) {
-  return {viewTable(c), heldOutTable(c.record),
-          statisticsTable("Over the frames [mm]", c.record,
-                          {{"back-projection, by the run itself", metric_paths::kBackProjection},
-                           {"the scope's step from frame to frame", metric_paths::kScopeStep}}),
-          pathTable(c)};
+  return {
+      viewTable(c), heldOutTable(c.record),
+      statisticsTable("Over the frames [mm]", c.record,
+                      {{"back-projection, as reported by the run", metric_paths::kBackProjection},
+                       {"camera step from frame to frame", metric_paths::kScopeStep}}),
+      pathTable(c)};
 }
 
 std::vector<CaptionedFigure> truthlessFigures(const ReportCase& c) {
   std::vector<CaptionedFigure> figures;
   const CaseFrames frames = framesOf(c);
-  addFigure(frames, "view_psnr_db", "PSNR [dB]", "The drawn model beside the image.", figures);
-  addFigure(frames, "view_ssim", "SSIM", "The same, by structure: 1 is the image itself.", figures);
+  addFigure(frames, "view_psnr_db", "PSNR [dB]", "The rendered model and the image.", figures);
+  addFigure(frames, "view_ssim", "SSIM", "Structural similarity: 1 for equal images.", figures);
   addFigure(frames, "backprojection_mean_mm", "back-projection [mm]",
-            "Distance of the model in sight from the depth of that frame.", figures);
-  addFigure(frames, "step_mm", "scope's step [mm]",
-            "How far the scope moved since the frame before.", figures);
+            "Distance of the visible model from the depth of that frame.", figures);
+  addFigure(frames, "step_mm", "camera step [mm]", "Camera motion since the previous frame.",
+            figures);
   return figures;
 }
 
 std::vector<std::string> truthlessLimits(const ReportCase& c) {
   std::vector<std::string> limits{
-      "These values tell a bad run from a good one, never how far it is from the tissue: a model "
-      "that slides along the surface can look right.",
-      "Back-projection is the distance from the run's own depth: an error that depth and model "
-      "share, of calibration or of stereo, is not in it.",
-      "A motion of all tissue together is taken for one of the scope. Only where the scope is "
-      "known to have stood still is its estimated motion an error."};
+      "These values distinguish a bad run from a good one, but do not measure the distance from "
+      "the tissue: a model that slides along the surface can have good values.",
+      "Back-projection is the distance from the depth of the run itself: an error common to depth "
+      "and model, of calibration or of stereo, is not included.",
+      "A motion of all tissue together is interpreted as one of the scope. Only for a static scope "
+      "is its estimated motion an error."};
   if (const std::string missing = missingText(c); !missing.empty())
-    limits.push_back("Not measured, because it takes ground truth: " + missing + ".");
+    limits.push_back("Not measured, because ground truth is required: " + missing + ".");
   return limits;
 }
 
 std::vector<std::string> truthlessMethods() {
   return {
-      "PSNR and SSIM: each saved model drawn from the pose that the run estimated, against the "
-      "left image of that moment, over the pixels that the model covers, without masks and black "
-      "borders. Over all pixels: the same differences shared out over the whole image, the higher "
-      "the less is covered. SSIM: "
-      "windows of 11 x 11, sigma 1.5.",
-      "Two shares of the tissue, without masks and black borders: the depth's is of each frame by "
-      "itself, the model's of the moments for which a model was saved. The model shows more than "
-      "the depth where earlier frames saw tissue that this one did not measure, and less where a "
-      "depth was too uncertain, or not yet the same in two frames in a row, to become part of it.",
+      "PSNR and SSIM: each saved model rendered from the estimated pose, against the left image of "
+      "that frame, over the pixels covered by the model, without masks and black borders. Over all "
+      "pixels: the same differences averaged over the whole image, which increases the value for a "
+      "small coverage. SSIM: windows of 11 x 11, sigma 1.5.",
+      "Two shares of the tissue, without masks and black borders: that of the depth is of each "
+      "frame, that of the model of the frames with a saved model. The share of the model is larger "
+      "if earlier frames saw tissue that this frame did not measure, and smaller if a depth was "
+      "too uncertain, or not yet confirmed by a second frame.",
       kBackProjectionMeaning,
-      "Jitter: root mean square of the second differences of the scope's positions."};
+      "Jitter: root mean square of the second differences of the camera positions."};
 }
 
 }  // namespace softscope

@@ -18,9 +18,9 @@ std::string countText(double count) {
 }  // namespace
 
 const char* const kBackProjectionMeaning =
-    "Back-projection: the model, after the fusion of a frame, drawn into that frame, minus the "
-    "frame's own depth; mean of absolutes over the pixels that show the model and have a sure "
-    "depth, then the mean over the fused frames after the first.";
+    "Back-projection: depth of the model, rendered after the fusion of a frame, minus the depth of "
+    "the frame; mean absolute value over the pixels with a model and an accepted depth, then the "
+    "mean over the fused frames after the first.";
 
 std::string numberText(double value) {
   if (!std::isfinite(value)) return kDash;
@@ -79,12 +79,13 @@ void addTable(ReportTable table, std::vector<ReportPart>& parts) {
 
 ReportTable heldOutTable(const FactSheet::Json& record) {
   ReportTable table = valueTable(
-      "Held-out views: the model of the frame before, drawn for frames that the run did not see",
+      "Held-out views: the model of the previous frame, rendered for frames that the run did not "
+      "use",
       "mean", record,
-      {{"PSNR over the pixels that the model covers [dB]", "held_out.psnr_db"},
-       {"the same, every other pixel counted as right [dB]", "held_out.psnr_over_all_pixels_db"},
+      {{"PSNR over the pixels covered by the model [dB]", "held_out.psnr_db"},
+       {"the same, every other pixel counted as correct [dB]", "held_out.psnr_over_all_pixels_db"},
        {"SSIM", "held_out.ssim"},
-       {"control, the image of the frame before: PSNR over the same pixels [dB]",
+       {"control, the image of the previous frame: PSNR over the same pixels [dB]",
         "held_out.control.psnr_db"},
        {"control: SSIM", "held_out.control.ssim"}});
   if (const double views = numberAt(record, "held_out.views"); views > 0)

@@ -54,8 +54,8 @@ void ReportOptions::validate() const {
   require(limit_mm >= 0 && std::isfinite(limit_mm), "`limit_mm=`", limit_mm, "must be above 0");
   require(seed >= 0, "`seed=`", seed, "must be 0 or more");
   requireChecklist(checklist);
-  requireEnding(html, "`out=`", {".html", ".htm"}, "a page; `pdf=` writes the same on paper");
-  if (!pdf.empty()) requireEnding(pdf, "`pdf=`", {".pdf"}, "a report on paper");
+  requireEnding(html, "`out=`", {".html", ".htm"}, "page; `pdf=` writes the same as PDF");
+  if (!pdf.empty()) requireEnding(pdf, "`pdf=`", {".pdf"}, "report as PDF");
   requireWritable(html, overwrite);
   if (!pdf.empty()) requireWritable(pdf, overwrite);
   if (html == pdf) throw OptionError("`out=` and `pdf=` name the same file; give two");

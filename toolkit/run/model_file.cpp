@@ -79,10 +79,10 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
   const auto sigma = findFloat(vertices, "sigma_mm");
   if (!position)
     throw InputError(name +
-                     ": its points have no x, y, z as floats one after the other; give a model "
-                     "that softscope reconstruct wrote");
+                     ": its points have no consecutive floats x, y, z; give a model that softscope "
+                     "reconstruct wrote");
   if (vertices.count == 0)
-    throw InputError(name + ": holds no point; was the run lost from its first frame on?");
+    throw InputError(name + ": contains no points; was the run lost from its first frame on?");
   ModelFile file;
   file.coloured = colour.has_value();
   file.with_normals = normal.has_value();

@@ -24,7 +24,7 @@ bool liesIn(const fs::path& path, const fs::path& folder) {
 
 [[noreturn]] void refuseInput(const fs::path& out, const char* what) {
   throw OptionError("`out=` " + out.string() + ": " + what +
-                    "; choose a folder of its own for the results");
+                    "; choose a separate folder for the results");
 }
 
 }  // namespace
@@ -34,7 +34,9 @@ void requireApart(const fs::path& out, const SequencePaths& sequence) {
   for (const fs::path& part :
        {sequence.left, sequence.right, sequence.stereo, sequence.mask, sequence.depth})
     if (!part.empty() && fs::is_directory(part, ignored) && liesIn(settled(out), settled(part)))
-      refuseInput(out, "is, or lies in, a folder of the sequence, whose frames would be mixed up");
+      refuseInput(out,
+                  "is, or is inside, a folder of the sequence, whose frames would be mixed with "
+                  "the results");
 }
 
 void requireOutside(const fs::path& out, const SequencePaths& sequence) {

@@ -61,9 +61,9 @@ void readBinary(std::string_view bytes, const PlyHeader& header, const PlyElemen
   }
   const std::string_view data = bytes.substr(header.bytes);
   if (data.size() / stride < vertex.count)
-    throw InputError(name + ": is cut short: " + std::to_string(vertex.count) +
-                     " points are promised, " + std::to_string(data.size() / stride) +
-                     " are there. Copy it again");
+    throw InputError(name + ": is truncated: " + std::to_string(vertex.count) +
+                     " points are announced, " + std::to_string(data.size() / stride) +
+                     " found. Copy it again");
   const bool little = header.encoding == PlyEncoding::kLittleEndian;
   for (std::size_t i = 0; i < vertex.count; ++i) {
     Eigen::Vector3d point;
@@ -81,7 +81,7 @@ void readAscii(std::string_view bytes, const PlyHeader& header, const PlyElement
   for (std::size_t i = 0; i < vertex.count; ++i) {
     const auto words = i < lines.size() ? wordsOf(lines[i]) : std::vector<std::string_view>();
     if (words.size() < vertex.properties.size())
-      throw InputError(name + ": point " + std::to_string(i) + " is cut short. Copy it again");
+      throw InputError(name + ": point " + std::to_string(i) + " is truncated. Copy it again");
     Eigen::Vector3d point;
     for (int axis = 0; axis < 3; ++axis)
       point[axis] = numberOf(words[std::size_t(columns[std::size_t(axis)])]).value_or(NAN);

@@ -58,8 +58,8 @@ std::string pictureWarning(const Json& record, const SequenceTruth& truth) {
     return {};
   }
   if (paths.left.empty() || sha256Of(paths.left) == record.at(place).get<std::string>()) return {};
-  return "the run was made from other images than " + shown(paths.left) +
-         " holds now; a run of another sequence?";
+  return "the run was made from other images than those in " + shown(paths.left) +
+         "; a run of another sequence?";
 }
 
 }  // namespace

@@ -94,12 +94,12 @@ std::optional<Checkpoint> SequenceRun::earlierState(const RunFolder& folder,
     throw OptionError("`resume=`: " + out +
                       " holds no interrupted run; start it without `resume=`");
   if (!earlier)
-    listener_.warn("the run in " + out + " was killed before its first checkpoint: it starts anew");
+    listener_.warn("the run in " + out +
+                   " was killed before its first checkpoint: it starts from the first frame");
   if (earlier && earlier->settings != settings)
-    throw OptionError(
-        "`resume=`: the run in " + out +
-        " was begun with other settings, images, calibration or tracked pixels; give the "
-        "same, or start again without `resume=`");
+    throw OptionError("`resume=`: the run in " + out +
+                      " was started with other settings, images, calibration or tracked pixels; "
+                      "give the same, or start again without `resume=`");
   return earlier;
 }
 
@@ -196,10 +196,10 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     }
     wanted = goesOn(listener_.progress, processed, frame_count);
   }
-  rejections_.conclude("frames.csv has the reason of each");
+  rejections_.conclude("reasons: frames.csv");
   interrupted_ = (!wanted || input_gone_ || !failure_.empty()) && !at_end;
   if (interrupted_ && !input_gone_ && failure_.empty())
-    listener_.warn("interrupted: what is finished stays; `resume=` goes on");
+    listener_.warn("interrupted: finished results are kept; `resume=` continues");
   if (reconstructor.backend().empty()) return;
   if (!interrupted_) folder.saveLastModel(reconstructor.model());
   folder.flush({digest, next_frame, reconstructor.state()});  // resumable until run.json is written
@@ -208,7 +208,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
 ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord& record) const {
   record.set("interrupted", interrupted_);
   if (nothing && !interrupted_)
-    throw InputError(options_.name + ": not one frame could be used; the reasons stand above");
+    throw InputError(options_.name + ": no frame could be used; see the reasons above");
   for (const std::string& conclusion : record.conclusions()) listener_.warn(conclusion);
   Json all = record.json();
   const auto outcomes = checkThresholds(options_.thresholds, all, kOutcomes);
@@ -216,13 +216,14 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   const Json written = options_.paths.applyTo(all);
   if (!nothing) folder.writeRecord(written, /*complete=*/!interrupted_);
   if (!failure_.empty())
-    throw BackendError(failure_ + (nothing ? ". `backend=` cpu needs no GPU"
-                                           : ". What is finished stays; go on with `resume=`, "
-                                             "without the GPU with `resume=` and `backend=` cpu"));
+    throw BackendError(failure_ + (nothing
+                                       ? ". `backend=` cpu needs no GPU"
+                                       : ". Finished results are kept; continue with `resume=`, "
+                                         "without the GPU with `resume=` and `backend=` cpu"));
   if (input_gone_)
     throw InputError(options_.name +
-                     ": was removed while it was read, or its disk; what is finished "
-                     "stays. Put it back and go on with `resume=`");
+                     ": was removed during the run, or its disk; finished results are kept. Put it "
+                     "back and continue with `resume=`");
   return {written, record.text(options_.out.string()), outcomes, interrupted_};
 }
 

@@ -20,8 +20,8 @@ const CrateFile kCrateFiles[] = {
     {"nodes/", "", "nodes of the warp at the same moments (CSV)"},
     {"trajectory.txt", "text/plain", "pose of the left camera per frame: TUM's form, mm"},
     {"trajectory_kitti.txt", "text/plain", "the same poses in KITTI's form, mm"},
-    {"frames.csv", "text/csv", "what became of each frame, and why"},
-    {"images.csv", "text/csv", "which files each frame was made of"},
+    {"frames.csv", "text/csv", "status of each frame, with the reason"},
+    {"images.csv", "text/csv", "image files of each frame"},
     {"tracks.csv", "text/csv", "paths of the tracked points, mm"},
     {kRecordFile, "application/json", "version, configuration, input hashes, timings, summary"}};
 

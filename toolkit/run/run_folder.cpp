@@ -71,7 +71,7 @@ void requireUsable(const RunFolderOptions& options, bool resume) {
   if (isHeld(folder / kRunLock)) refuseBusy(folder);
   if (!resume && !options.overwrite && holdsRun(folder))
     throw OptionError("`out=` " + shown(folder) + ": holds a run already; choose another folder, " +
-                      (fs::exists(folder / kCheckpoint) ? "go on with `resume=`, " : "") +
+                      (fs::exists(folder / kCheckpoint) ? "continue with `resume=`, " : "") +
                       "or replace it with `overwrite=`");
 }
 
@@ -181,7 +181,7 @@ void RunFolder::takeOver(int next_frame) {
   if (trajectory_.size() < frames)
     throw InputError(shown(options_.folder) + ": frames.csv has " + std::to_string(frames) +
                      " frames, trajectory.txt " + std::to_string(trajectory_.size()) +
-                     "; they don't belong together. Start again without `resume=`");
+                     "; they are inconsistent. Start again without `resume=`");
   trajectory_.resize(frames);
   std::size_t line = 0;
   for (const std::string_view text : linesOf(frames_csv_)) {

@@ -68,8 +68,8 @@ FrameFiles numberedFiles(const fs::path& folder, std::string_view extension) {
 
 std::vector<std::string> JudgedRun::warnings() const {
   if (!stopped) return {};
-  return {say("the run was stopped, killed, or is not over: its last frame is ", frames.back(),
-              ", and what followed is not in these numbers; go on with reconstruct --resume")};
+  return {say("the run was stopped or killed, or is in progress: its last frame is ", frames.back(),
+              ", and later frames are not in these numbers; continue with reconstruct --resume")};
 }
 
 double JudgedRun::timeOf(int frame) const {
@@ -138,8 +138,8 @@ SequenceTruth openSequenceTruth(const fs::path& sequence) {
   const fs::path truth_folder = sequence / "groundtruth";
   if (!isThere(truth_folder / "trajectory.txt"))
     throw InputError(shown(truth_folder / "trajectory.txt") +
-                     ": is missing, but the true poses of the scope are needed to judge by; give a "
-                     "sequence with ground truth, or a mesh");
+                     ": is missing, but the true camera poses are required; give a sequence with "
+                     "ground truth, or a mesh");
   SequenceTruth truth;
   truth.folder = sequence;
   truth.trajectory = readTrajectory(truth_folder / "trajectory.txt");

@@ -97,14 +97,14 @@ std::vector<std::string> RunRecord::conclusions() const {
   if (left_out > kToldShare * frames_)
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
-                  "): the model does not know them; the column reason of frames.csv says why");
+                  ") and did not update the model; the reasons are in frames.csv, column reason");
   if (doubtful_ > kToldShare * frames_)
     all.push_back(std::to_string(doubtful_) + " of " + std::to_string(frames_) +
                   " frames were fused with a confidence below " + fixed(kDoubtful, 1) +
-                  ": the image shows the tissue elsewhere in many places; blur, weak texture or "
-                  "changing light are likely");
+                  ": the model does not fit the image in many places; possible causes: blur, weak "
+                  "texture, changing light");
   if (located_ > 0 && scope_static_ == located_)
-    all.push_back("the scope was never seen to move; if it did, state --scope moving");
+    all.push_back("no motion of the scope was detected; if it moved, state --scope moving");
   return all;
 }
 
@@ -157,13 +157,13 @@ FactSheet RunRecord::text(const std::string& folder) const {
   facts.addLine("model",
                 std::to_string(points_) + " points on " + std::to_string(nodes_) + " nodes");
   if (!matches_.empty())
-    facts.addLine("matches", fixed(meanOf(matches_), 0) + " that agree with the pose, a frame");
+    facts.addLine("matches", fixed(meanOf(matches_), 0) + " inliers of the pose per frame");
   if (!backprojection_mm_.empty())
     facts.addLine("back-projection",
                   fixed(meanOf(backprojection_mm_), 3) +
-                      " mm mean distance of the model from each frame's depth, " +
+                      " mm mean distance of the model to the depth of each frame, " +
                       fixed(meanOf(prediction_mm_), 3) +
-                      " mm before it learns from the frame; over " +
+                      " mm before the fusion of the frame; over " +
                       std::to_string(backprojection_mm_.size()) + " frames");
   if (!frame_ms_.empty()) facts.addLine("time", fixed(meanOf(frame_ms_), 0) + " ms a frame");
   facts.addLine("written to", folder);

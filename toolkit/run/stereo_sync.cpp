@@ -63,11 +63,10 @@ std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& optio
   if (found.right_offset == 0) return "";
   std::array<char, 16> offset{};
   std::snprintf(offset.data(), offset.size(), "%+d", found.right_offset);
-  return say("the views are not of one moment: right image f ", offset.data(),
-             " belongs to left image f (", found.agreeing, " matches agree about the rows then, ",
+  return say("the views are not synchronous: right image f ", offset.data(),
+             " belongs to left image f (", found.agreeing, " matches have consistent rows then, ",
              found.agreeing_as_is,
-             " as the images are numbered) and is paired with it; sequence.right_offset=0 takes "
-             "them as they are");
+             " without the offset) and is paired with it; sequence.right_offset=0 disables this");
 }
 
 }  // namespace softscope

@@ -33,7 +33,7 @@ FrameStatus statusAt(const NumberTable& table, std::size_t row, const std::strin
   if (const auto status = frameStatusNamed(table.wordAt(row))) return *status;
   throw InputError(say(name, ": line ", table.lineOf(row), " has the status ",
                        excerpt(table.wordAt(row)),
-                       ", which no frame can have; is the file damaged? Reconstruct again"));
+                       ", which is unknown; is the file damaged? Reconstruct again"));
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ NumberTable::NumberTable(std::string_view text, const std::string& name,
     else
       readRow(line, line_number);
   }
-  if (cells_ == 0) throw InputError(name + ": is empty, but a line of headings is expected");
+  if (cells_ == 0) throw InputError(name + ": is empty, but a heading is expected");
 }
 
 void NumberTable::readHeading(std::string_view line, const std::vector<std::string>& needed,
@@ -76,7 +76,7 @@ void NumberTable::readRow(std::string_view line, int line_number) {
   const auto cells = commaCells(line);
   if (cells.size() != cells_)
     throw InputError(say(name_, ": line ", line_number, " has ", cells.size(), " cells, but ",
-                         cells_, " are expected; is the file cut short?"));
+                         cells_, " are expected; is the file truncated?"));
   std::vector<double> values;
   for (const int place : places_) {
     const std::string_view cell = place < 0 ? "" : cells[static_cast<std::size_t>(place)];
@@ -130,7 +130,7 @@ FrameRows readFrameRows(const std::filesystem::path& file) {
     rows.confidence.push_back(table.at(i, 3));
     if (i > 0 && rows.frames[i] <= rows.frames[i - 1])
       throw InputError(say(shown(file), ": frame ", rows.frames[i], " stands below frame ",
-                           rows.frames[i - 1], "; they must rise"));
+                           rows.frames[i - 1], "; they must ascend"));
   }
   for (std::size_t i = 0; i < table.rows(); ++i)
     if (!table.wordAt(i).empty()) rows.statuses.push_back(statusAt(table, i, shown(file)));

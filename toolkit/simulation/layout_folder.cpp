@@ -26,8 +26,8 @@ std::vector<SeenPoint> seenPoints(const SimulatedFrame& frame, const RectifiedRi
     const Eigen::Vector3d p = left_from_world * frame.tracks_world_mm[i];
     if (!(p.z() > 0))
       throw InputError(say("tracked point ", i,
-                           " is behind the camera, where no image shows it; this form can't hold "
-                           "such a clip: use a camera path that withdraws less."));
+                           " is behind the camera; this layout does not support such a clip: use a "
+                           "camera path that withdraws less."));
     points.push_back({projectPoint(rig.left, p), rig.disparityPx(p.z()), p.z(),
                       frame.tracks_visible[i], frame.tracks_visible_right[i]});
   }

@@ -22,8 +22,9 @@ OrganFile readOrgan(const SimulateOptions& options) {
             {}};
   TriangleMesh mesh = readSurfaceOrPoints(options.organ, options.organ_unit_mm);
   if (mesh.triangles.empty())
-    throw InputError(shown(options.organ) +
-                     ": holds points without triangles, but a scope sees surfaces; give a mesh");
+    throw InputError(
+        shown(options.organ) +
+        ": contains points without triangles, but a simulation needs surfaces; give a mesh");
   std::vector<std::string> warnings;
   RepairedMesh repaired = repairMesh(std::move(mesh), shown(options.organ));
   for (const std::string& repair : repaired.repairs)

@@ -75,7 +75,7 @@ void requireUsableFolder(const fs::path& folder, bool overwrite) {
   if (!fs::exists(folder / kRecord))
     throw OptionError(
         "`out=`: " + shown(folder) + " holds no " + kRecord +
-        ", so it is no simulation, and `overwrite=` won't touch it; choose another folder");
+        ", so it is not a simulation, and `overwrite=` does not change it; choose another folder");
 }
 
 template <class Value>

@@ -143,7 +143,7 @@ bool runStudy(const StudyRun& run, const WorkListener& listener) {
   const auto waiting = pendingCases(run);
   const std::size_t all = run.study.cases.size(), finished = all - waiting.size();
   if (waiting.empty()) return true;
-  if (finished > 0) listener.tell(say(finished, " of ", all, " cases are done already"));
+  if (finished > 0) listener.tell(say(finished, " of ", all, " cases are complete already"));
   const int jobs = jobCount(run, waiting.size()), total = static_cast<int>(waiting.size());
   const int threads = std::max(1, coresOf(run) / jobs);
   GpuPool gpus(run.gpus);
@@ -165,7 +165,7 @@ bool runStudy(const StudyRun& run, const WorkListener& listener) {
     }
     waitAMoment();
   }
-  if (!goes_on) listener.warn("interrupted: cases that are done stay; the same line goes on");
+  if (!goes_on) listener.warn("interrupted: complete cases are kept; the same command continues");
   return goes_on;
 }
 

@@ -91,7 +91,7 @@ void ViewRequest::validate() const {
   if (chosen == ViewColour::kErrors && run.reference.empty() && run.evaluation.empty())
     throw OptionError("`colour=` errors needs `reference=` or `evaluation=` to take errors from");
   if (!run.ct_from_run.empty() && run.ct.empty() && run.reference.empty())
-    throw OptionError("`ct_from_run=` needs `ct=` or `reference=`, which it leads to");
+    throw OptionError("`ct_from_run=` needs `ct=` or `reference=` as its target");
   if (!screenshot.empty()) requireWritable(screenshot, overwrite);
   if (!movie.file.empty()) requireWritable(movie.file, overwrite);
   if (!movie.file.empty() && (width_px % 2 != 0 || height_px % 2 != 0))
@@ -125,14 +125,14 @@ std::vector<std::string> viewWarnings(const ViewRequest& request, const RunSourc
   const ViewState state = request.state();
   std::vector<std::string> warnings = source.warnings();
   if (source.stopped())
-    warnings.push_back(run + ": stopped before its end; what it wrote until then is shown");
+    warnings.push_back(run + ": stopped before its end; the existing models are shown");
   if ((request.nodes || request.arrows) && !source.world().has_nodes && !source.live())
     warnings.push_back(run +
-                       ": no nodes were saved with its models; reconstruct it again to see them");
+                       ": no nodes were saved with its models; reconstruct it again to show them");
   if (state.colour == ViewColour::kWeights && !source.world().has_weights)
     warnings.push_back(run + ": its models carry no weights");
   if (state.look == Look::kScope && source.world().left.width_px == 0)
-    warnings.push_back(run + ": nothing tells what the scope sees; shown freely");
+    warnings.push_back(run + ": the camera is unknown; shown with a free view");
   return warnings;
 }
 

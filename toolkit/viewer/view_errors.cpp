@@ -88,8 +88,8 @@ class Evaluated : public MomentErrors {
         if (const auto number = frameNumber(file)) files_[int(*number)] = file;
     if (files_.empty())
       throw InputError(shown(folder) +
-                       ": holds no errors/NNNNNN.vtp; give a folder that softscope evaluate "
-                       "wrote of this run with `out=`");
+                       ": contains no errors/NNNNNN.vtp; give a folder that softscope evaluate "
+                       "wrote for this run with `out=`");
   }
 
   std::shared_ptr<const TriangleMesh> reference(const ViewMoment&) override { return nullptr; }
@@ -151,7 +151,7 @@ std::unique_ptr<MomentErrors> errorsFromReference(const fs::path& reference,
   TriangleMesh mesh = readSurfaceOrPoints(reference, 1);
   if (mesh.empty())
     throw InputError(shown(reference) +
-                     ": is a set of points, but a reference is a surface; give a mesh, or a "
+                     ": is a set of points, but the reference must be a surface; give a mesh, or a "
                      "sequence with groundtruth/");
   if (mesh.space == "RAS")
     for (Eigen::Vector3f& p : mesh.vertices_mm) p.head<2>() = -p.head<2>();

@@ -71,7 +71,7 @@ Eigen::Isometry3d readMotion(const fs::path& file) {
   if (!rigid)
     throw InputError(
         shown(file) +
-        ": holds no rigid motion; give four rows of four numbers (mm), or the "
+        ": contains no rigid transform; give four rows of four numbers (mm), or the "
         "evaluation.json of softscope evaluate with a mesh as `reference=` and `align=` rigid");
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.matrix() = matrix;
@@ -82,7 +82,7 @@ RunSource::RunSource(const ViewRunOptions& options) : options_(options), run_(op
   models_ = findModelsOnDisk(run_, {});
   if (models_.empty())
     throw InputError(shown(run_) +
-                     ": holds no model (models/NNNNNN.ply or model.ply); give a folder that "
+                     ": contains no model (models/NNNNNN.ply or model.ply); give a folder that "
                      "softscope reconstruct wrote, or `wait=` for the first one");
   describeModels();
   const ViewMoment last = read(count() - 1, false);  // the first model has no nodes
@@ -126,8 +126,8 @@ void RunSource::addVolume() {
     model.mesh.vertices_mm = moment(0, false)->model.vertices_mm;
     if (!boxOf(*world_.volume).intersects(boxOf({model})))
       warnings_.push_back(options_.ct +
-                          ": the model lies beside it; a run has its scope's frame, so give "
-                          "`ct_from_run=` FILE, the motion that brings it into the CT");
+                          ": the model is outside of it; a run is in its camera frame, so give "
+                          "`ct_from_run=` FILE, the transform into the CT");
   }
   kept_.clear();
   describeModels();
@@ -145,7 +145,7 @@ void RunSource::addErrors() {
     if (some.errors_mm.empty()) continue;
     return chooseErrorColours(some.errors_mm, options_.errors, world_);
   }
-  warnings_.push_back(shown(run_) + ": no errors are known of any of its frames");
+  warnings_.push_back(shown(run_) + ": the errors of all its frames are unknown");
 }
 
 double RunSource::secondsOf(int index) const {
@@ -217,9 +217,9 @@ void RunSource::look() {
   if (!live_) return;
   std::vector<ModelOnDisk> now = findModelsOnDisk(run_, models_);
   if (now.size() < models_.size())
-    throw InputError(shown(run_) +
-                     ": models have gone; was the run started anew? Open it again with softscope "
-                     "view");
+    throw InputError(
+        shown(run_) +
+        ": models were deleted; was the run restarted? Open it again with softscope view");
   const bool grown = now.size() > models_.size(), ended = runHasEnded(run_);
   stopped_ = runHasStopped(run_);
   if (!grown && !ended) return;

@@ -142,7 +142,7 @@ std::vector<std::string> largestSeries(const std::string& path,
   for (auto other = series.begin(); other != series.end(); ++other)
     if (other != largest)
       warnings.push_back(
-          "another series lies in this folder, of " + std::to_string(other->size()) + " files" +
+          "the folder contains another series, of " + std::to_string(other->size()) + " files" +
           (with_patient ? ": " + text(directory->GetMetaDataForSeries(int(other - series.begin())),
                                       DC::SeriesDescription)
                         : ""));

@@ -181,8 +181,8 @@ std::vector<int> placesInStack(const std::string& path, const std::vector<DicomS
     gaps_mm.push_back(normal.dot(slices[i].position_mm - slices[i - 1].position_mm));
     if (gaps_mm.back() < 1e-3)
       throw InputError(path + ": " + shortName(slices[i - 1]) + " and " + shortName(slices[i]) +
-                       " lie in one place by their ImagePositionPatient; a volume has one slice "
-                       "there. Give a folder with one phase, or one copy of each slice");
+                       " have the same ImagePositionPatient; a volume has one slice per position. "
+                       "Give a folder with one phase, or one copy of each slice");
   }
   const double median_mm = medianOf(gaps_mm);
   std::vector<int> places{0};

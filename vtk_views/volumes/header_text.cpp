@@ -131,7 +131,7 @@ HeaderText HeaderText::readNrrd(const std::string& path) {
 void HeaderText::add(const std::string& key, const std::string& value) {
   const auto [place, is_new] = fields_.emplace(key, value);
   if (!is_new && place->second != value)
-    fail(key, "before, and " + inQuotes(value) + " in a second line; which one holds?");
+    fail(key, "before, and " + inQuotes(value) + " in a second line; which one is valid?");
 }
 
 std::string HeaderText::firstOf(std::initializer_list<const char*> keys) const {

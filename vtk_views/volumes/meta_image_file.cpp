@@ -53,7 +53,7 @@ void warnOfUnknownKeys(const HeaderText& header, VolumeSummary& summary) {
   for (const std::string& key : header.unknownKeys(kReadKeys, kHarmlessKeys))
     if (!isNoteOfAProgram(key)) names += (names.empty() ? "" : ", ") + key;
   if (!names.empty())
-    summary.warnings.emplace_back("the header has lines that mean nothing to softscope: " + names);
+    summary.warnings.emplace_back("the header has lines unknown to softscope: " + names);
 }
 
 VoxelType metaImageType(const HeaderText& header) {

@@ -170,7 +170,7 @@ double niftiUnitMm(const std::string& path, const NiftiHeader& header, VolumeSum
     case 3:
       return 0.001;
     case 0:
-      summary.warnings.emplace_back("the header names no unit of length; taken as mm");
+      summary.warnings.emplace_back("the header has no unit of length; mm is assumed");
       return 1;
     default:
       failNifti(path, "xyzt_units", header.xyzt_units, "which is no unit of length of NIfTI");

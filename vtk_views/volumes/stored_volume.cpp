@@ -62,8 +62,7 @@ void checkAxes(const std::string& path, const std::string& what,
                      kStateSpacing);
   if (!(std::abs(axes.determinant()) >= kLeastDeterminant * lengths.prod()))
     throw InputError(path + ": its voxel axes (" + what +
-                     ") lie in one plane, or nearly, so voxels have no place; is the header "
-                     "damaged?");
+                     ") are coplanar, or nearly so; is the header damaged?");
   const Eigen::Vector3d origin = space_from_voxel.topRightCorner<3, 1>();
   if (!(origin.cwiseAbs().maxCoeff() <= kFarthestOriginMm))
     throw InputError(path + ": its header (" + what + ") puts the first voxel at " +
@@ -92,9 +91,8 @@ void placeVolume(Eigen::Matrix4d space_from_voxel, bool spacing_said, const Volu
   if (summary.file_space != "unknown") return;
   summary.axes = "unknown";
   summary.warnings.emplace_back(
-      "the header names no patient space, so left and right are unknown; x, y, z are taken as LPS "
-      "to "
-      "lay surfaces over it");
+      "the header has no patient space, so left and right are unknown; x, y, z are interpreted as "
+      "LPS for surfaces");
 }
 
 }  // namespace softscope

@@ -35,7 +35,7 @@ void describe(Visitor& v, SensorOptions& o) {
 template <class Visitor>
 void describe(Visitor& v, ScopeEventOptions& o) {
   v("event.kind", o.kind, oneOf({"none", "withdraw", "cover", "wipe", "smoke"}),
-    "what takes the tissue out of sight");
+    "event that hides the tissue");
   v("event.start_s", o.start_s, aboveUpTo(0, 1e4), "first image that shows it");
   v("event.length_s", o.length_s, aboveUpTo(0, 1e4),
     "from the first image that shows it to the last");

@@ -25,7 +25,7 @@ RayHit entryOf(const RayTree& tree, const CutOptions& options, const Eigen::Vect
   const RayHit hit = tree.cast(from_mm, forward);
   require(hit.met(), "cut.x_mm, cut.y_mm",
           std::to_string(options.x_mm) + ", " + std::to_string(options.y_mm),
-          "there the scope looks past the organ; choose a place on it");
+          "the view ray misses the organ there; choose a place on it");
   return hit;
 }
 

@@ -35,8 +35,8 @@ void setBaseline(const CalibrationDraft& draft, const CalibrationHints& hints,
                                            : Eigen::Vector3d(-hints.baseline_mm, 0, 0);
   } else if (!draft.has_baseline) {
     throw InputError(out.source +
-                     ": this form doesn't say the baseline. Give it in mm: "
-                     "calibration.baseline_mm=… (4.3 for a da Vinci Si).");
+                     ": this format has no baseline. Give it in mm: calibration.baseline_mm=… (4.3 "
+                     "for a da Vinci Si).");
   }
   out.right_from_left.translation() = t;
 }

@@ -100,8 +100,7 @@ void requireUniqueKeys(const Document& document, const std::string& name) {
     const auto [earlier, is_new] = first.emplace(key, &value);
     if (!is_new && !isSame(*earlier->second, value))
       throw InputError(say(name, ": ", excerpt(key),
-                           " stands there twice with different values, but each key has one. "
-                           "Delete the wrong one."));
+                           " occurs twice with different values. Delete the wrong one."));
   }
   for (const Document& item : document.items) requireUniqueKeys(item, name);
 }

@@ -25,7 +25,7 @@ Json jsonOf(const toml::node& node, const std::string& name) {
   const auto* table = node.as_table();
   if (table == nullptr)
     throw OptionError(say(name, ":", node.source().begin.line,
-                          ": a date stands here, but a number, a text, a list or a table is "
+                          ": a date is not supported, but a number, a text, a list or a table is "
                           "expected. Put a date between quotes."));
   Json json = Json::object();
   for (const auto& [key, value] : *table) json[std::string(key.str())] = jsonOf(value, name);

@@ -52,7 +52,7 @@ std::vector<TrackPixel> parseTrackPixels(std::string_view text, const std::strin
     }
     const TrackPixel pixel = pixelOf(line, name, number);
     if (!known.insert(pixel.id).second)
-      fail(name, number, line, "; its id stands there a second time. Number points uniquely");
+      fail(name, number, line, "; its id is a duplicate. Number points uniquely");
     pixels.push_back(pixel);
   }
   if (pixels.empty()) throw InputError(say(name, ": holds no point", kAdvice));

@@ -120,9 +120,9 @@ StereoLayout mostSimilar(const ColourImage& image, const std::vector<StereoLayou
     best_similarity = found;
   }
   if (best) return *best;
-  throw InputError(
-      say(name, ": can't tell how two views share the ", image.width_px, " x ", image.height_px,
-          " pixels. Give sequence.layout: side-by-side, top-bottom or ", "interlaced."));
+  throw InputError(say(
+      name, ": ambiguous arrangement of two views in the ", image.width_px, " x ", image.height_px,
+      " pixels. Give sequence.layout: side-by-side, top-bottom or ", "interlaced."));
 }
 
 StereoLayout findLayout(const ColourImage& image, const ExpectedView& view,
