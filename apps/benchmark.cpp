@@ -70,7 +70,7 @@ std::optional<FactSheet> BenchmarkCommand::table(const BenchmarkOptions& options
   const int threads = std::max(1, cores / jobs_);
   const RunSoftscope run_softscope = [&](std::vector<std::string> words,
                                          const std::filesystem::path& log) {
-    words.insert(words.begin(), ownExecutable().string());
+    words.insert(words.begin(), executablePath().string());
     words.insert(words.end(), {"--threads", std::to_string(threads)});
     return runToEnd(ChildProcess(words, log), [&] { return interrupt.requested(); });
   };

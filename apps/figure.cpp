@@ -105,7 +105,7 @@ int FigureCommand::run() {
   const DrawnFigure figure = drawFigure(request_);
   for (const std::string& warning : figure.warnings) spdlog::warn("{}", warning);
   writeFigure(figure.drawing, request_.page, figure.record);
-  tellWritten(request_.page.out, request_.page.recordFile());
+  reportWritten(request_.page.out, request_.page.recordFile());
   if (common.json) printJson(figure.record);
   return kDone;
 }

@@ -43,14 +43,14 @@ int runLine(const std::vector<std::string>& words) {
 }
 
 /// File, reason of the system, advice: the structure of our own errors.
-std::string tell(const std::filesystem::filesystem_error& error) {
+std::string messageOf(const std::filesystem::filesystem_error& error) {
   return say(shown(error.path1()), ": ", error.code().message(),
              ". Check the path and the rights of its folders.");
 }
 
 /// Every frame needs the same buffers; the C library would return each to the system
 /// and fault its pages in again, a tenth of the time of a frame (docs/benchmarks.md).
-void keepMemoryAtHand() {
+void keepFreedMemory() {
   constexpr int kLargestBuffer = 256 << 20;
   mallopt(M_MMAP_THRESHOLD, kLargestBuffer);
   mallopt(M_TRIM_THRESHOLD, kLargestBuffer);
@@ -70,7 +70,7 @@ int runProgram(const std::vector<std::string>& words) {
   secureStreams();
   quietLibraries();
   setUpLog({});
-  keepMemoryAtHand();
+  keepFreedMemory();
   try {
     return runLine(words);
   } catch (const OptionError& error) {
@@ -83,7 +83,7 @@ int runProgram(const std::vector<std::string>& words) {
     spdlog::error("{}", error.what());
     return kInput;
   } catch (const std::filesystem::filesystem_error& error) {
-    spdlog::error("{}", tell(error));
+    spdlog::error("{}", messageOf(error));
     return kInput;
   } catch (const std::bad_alloc&) {
     spdlog::error("out of memory. Use smaller images or fewer threads");

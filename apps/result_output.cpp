@@ -27,7 +27,7 @@ void printResult(const FactSheet::Json& record, FactSheet facts,
   printFacts(facts, false);
 }
 
-void tellWritten(const std::vector<std::string>& files, const std::string& record) {
+void reportWritten(const std::vector<std::string>& files, const std::string& record) {
   std::string all;
   for (const std::string& file : files) all += file + ", ";
   spdlog::info("written: {}{}", all, record);

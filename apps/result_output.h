@@ -17,6 +17,6 @@ void printResult(const FactSheet::Json& record, FactSheet facts,
                  const std::vector<std::string>& written, bool as_json);
 
 /// One line on stderr: files of a figure and its record.
-void tellWritten(const std::vector<std::string>& files, const std::string& record);
+void reportWritten(const std::vector<std::string>& files, const std::string& record);
 
 }  // namespace softscope

@@ -55,7 +55,7 @@ int SliceCommand::run() {
   const DrawnFigure figure = drawSliceFigure(request_);
   for (const std::string& warning : figure.warnings) spdlog::warn("{}", warning);
   writeFigure(figure.drawing, request_.page, figure.record);
-  tellWritten(request_.page.out, request_.page.recordFile());
+  reportWritten(request_.page.out, request_.page.recordFile());
   if (common.json) printJson(figure.record);
   return kDone;
 }

@@ -61,7 +61,8 @@ void StudyCommand::declare(ArgumentList& arguments) {
 }
 
 StudyRun StudyCommand::readRun() const {
-  StudyRun run{readStudy(file_), file_, {out_}, ownExecutable(), jobs_, common.threads, force_, {}};
+  StudyRun run{readStudy(file_), file_,  {out_}, executablePath(), jobs_,
+               common.threads,   force_, {}};
   run.validate();
   return run;
 }

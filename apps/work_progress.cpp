@@ -12,10 +12,10 @@ WorkProgress::WorkProgress(std::string what, ProgressBar::Style style,
     : what_(std::move(what)), style_(style), interrupt_(interrupt) {}
 
 Progress WorkProgress::callback() {
-  return [this](int done, int total) { return tell(done, total); };
+  return [this](int done, int total) { return update(done, total); };
 }
 
-bool WorkProgress::tell(int done, int total) {
+bool WorkProgress::update(int done, int total) {
   if (!bar_ && !ended_) bar_.emplace(what_, total, style_, std::cerr);
   for (; bar_ && shown_ < done; ++shown_) bar_->advance();
   ended_ = interrupted() || (done >= total && total > 0);

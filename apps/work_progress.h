@@ -21,7 +21,7 @@ class WorkProgress {
   bool interrupted() const { return interrupt_.requested(); }
 
  private:
-  bool tell(int done, int total);
+  bool update(int done, int total);
 
   std::string what_;
   ProgressBar::Style style_;

@@ -11,7 +11,7 @@ namespace softscope {
 using Progress = std::function<bool(int done, int total)>;
 
 /// True without a callback.
-inline bool goesOn(const Progress& progress, int done, int total) {
+inline bool reportProgress(const Progress& progress, int done, int total) {
   return !progress || progress(done, total);
 }
 

@@ -20,8 +20,8 @@ std::vector<std::uint8_t> findObserved(const std::vector<ClosestPoint>& closest,
     for (int i = begin; i < end; ++i)
       observed[static_cast<std::size_t>(i)] =
           !isBeyondBorder(closest[static_cast<std::size_t>(i)]) &&
-          seesSurfacePoint(truth.depth_mm, truth.rig.left,
-                           left_from_world * closest[static_cast<std::size_t>(i)].point_mm);
+          isSurfacePointVisible(truth.depth_mm, truth.rig.left,
+                                left_from_world * closest[static_cast<std::size_t>(i)].point_mm);
   });
   return observed;
 }

@@ -11,8 +11,8 @@ namespace {
 
 using Marks = std::vector<std::uint8_t>;
 
-Marks findSeen(const TriangleMesh& observed, const std::vector<Eigen::Vector3f>& points_mm,
-               double reach_mm) {
+Marks markObserved(const TriangleMesh& observed, const std::vector<Eigen::Vector3f>& points_mm,
+                   double reach_mm) {
   Marks seen;
   if (observed.empty()) {
     for (const double distance_mm : PointTree(observed.vertices_mm).distances_mm(points_mm))
@@ -46,14 +46,14 @@ ObservedSplit splitByObserved(const TriangleMesh& reference, const TriangleMesh&
   for (const ClosestPoint& c : comparison.closest) closest_mm.push_back(c.point_mm.cast<float>());
   ObservedSplit split;
   split.reach_mm = reach_mm;
-  split.each_observed = findSeen(observed, closest_mm, reach_mm);
+  split.each_observed = markObserved(observed, closest_mm, reach_mm);
   Marks predicted, beyond;
   for (std::size_t i = 0; i < comparison.closest.size(); ++i) {
     beyond.push_back(isBeyondBorder(comparison.closest[i]));
     predicted.push_back(split.each_observed[i] == 0 && beyond[i] == 0);
     if (beyond[i] != 0) split.each_observed[i] = 0;
   }
-  const Marks reference_in = findSeen(observed, reference.vertices_mm, reach_mm);
+  const Marks reference_in = markObserved(observed, reference.vertices_mm, reach_mm);
   const auto& each_mm = comparison.accuracy.each_mm;
   const auto seen_mm = chosen(each_mm, split.each_observed);
   const auto back_mm = chosen(comparison.completeness.each_mm, reference_in);

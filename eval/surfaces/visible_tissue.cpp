@@ -47,8 +47,8 @@ TissueSamples sampleVisibleTissue(const Raster<float>& depth_mm, const Rectified
   return samples;
 }
 
-bool seesSurfacePoint(const Raster<float>& depth_mm, const PinholeCamera& left,
-                      const Eigen::Vector3d& point_left_mm, double slack_mm) {
+bool isSurfacePointVisible(const Raster<float>& depth_mm, const PinholeCamera& left,
+                           const Eigen::Vector3d& point_left_mm, double slack_mm) {
   if (!(point_left_mm.z() > 0)) return false;
   const Eigen::Vector2d pixel = projectPoint(left, point_left_mm);
   if (!(pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < left.width_px - 0.5 &&

@@ -35,7 +35,7 @@ TissueSamples sampleVisibleTissue(const Raster<float>& depth_mm, const Rectified
 
 /// True if the left camera sees a point of the true surface (in its frame, mm): it is
 /// inside the image, and not more than `slack_mm` behind all four neighbouring pixels.
-bool seesSurfacePoint(const Raster<float>& depth_mm, const PinholeCamera& left,
-                      const Eigen::Vector3d& point_left_mm, double slack_mm = 0.2);
+bool isSurfacePointVisible(const Raster<float>& depth_mm, const PinholeCamera& left,
+                           const Eigen::Vector3d& point_left_mm, double slack_mm = 0.2);
 
 }  // namespace softscope

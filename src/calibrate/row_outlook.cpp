@@ -29,7 +29,7 @@ std::optional<Eigen::Vector3d> directionAt(const RawCamera& camera, const Eigen:
   return direction;
 }
 
-bool rightSees(const BundleState& state, const Eigen::Vector3d& point_left_mm) {
+bool isVisibleToRight(const BundleState& state, const Eigen::Vector3d& point_left_mm) {
   const Eigen::Vector3d point_mm = state.right_from_left * point_left_mm;
   if (point_mm.z() <= 0) return false;
   const Eigen::Vector2d pixel = projectWithLens(state.right, point_mm, nullptr, nullptr);
@@ -82,7 +82,7 @@ RowOutlook rowOutlook(const CalibrationSolution& solution) {
     const std::optional<Eigen::Vector3d> direction = directionAt(left, pixel);
     if (!direction) continue;
     const Eigen::Vector3d point_mm = *direction * outlook.distance_mm;
-    if (!rightSees(solution.state, point_mm)) continue;
+    if (!isVisibleToRight(solution.state, point_mm)) continue;
     sigmas_px.push_back(rowSigmaPx(solution, point_mm));
     if (sigmas_px.back() <= worst_px) continue;
     worst_px = sigmas_px.back();

@@ -45,7 +45,7 @@ class Repair {
 
  private:
   template <class... Parts>
-  void tell(bool holds, const Parts&... parts) {
+  void record(bool holds, const Parts&... parts) {
     if (holds) repairs_.push_back(say(parts...));
   }
 
@@ -65,7 +65,7 @@ class Repair {
     for (Triangle& t : mesh_.triangles)
       for (std::int32_t& corner : t)
         if (const auto found = joined.find(corner); found != joined.end()) corner = found->second;
-    tell(!joined.empty(), "joined ", joined.size(), " doubled vertices along open edges");
+    record(!joined.empty(), "joined ", joined.size(), " doubled vertices along open edges");
   }
 
   void dropTriangles() {
@@ -83,8 +83,8 @@ class Repair {
         kept.push_back(t);
     }
     mesh_.triangles = std::move(kept);
-    tell(folded > 0, "dropped ", folded, " triangles that name a vertex twice");
-    tell(doubled > 0, "dropped ", doubled, " triangles that were there already");
+    record(folded > 0, "dropped ", folded, " triangles that name a vertex twice");
+    record(doubled > 0, "dropped ", doubled, " triangles that were there already");
     if (mesh_.triangles.empty()) throw InputError(name_ + ": no triangle of the mesh has an area");
   }
 
@@ -109,8 +109,8 @@ class Repair {
       throw InputError(name_ +
                        ": the surface has one side only, like a Moebius strip, but tissue has an "
                        "inside and an outside; mend the faces where it is twisted");
-    tell(turned.count > 0, "turned ", turned.count,
-         " triangles that faced against their neighbours");
+    record(turned.count > 0, "turned ", turned.count,
+           " triangles that faced against their neighbours");
   }
 
   /// One vertex per sheet of edge-connected triangles.
@@ -138,8 +138,8 @@ class Repair {
         if (is_new && std::size_t(vertex) < before) taken[vertex] = true;
         vertex = known->second;
       }
-    tell(mesh_.vertices_mm.size() > before, "parted sheets that touched in ",
-         mesh_.vertices_mm.size() - before, " points");
+    record(mesh_.vertices_mm.size() > before, "parted sheets that touched in ",
+           mesh_.vertices_mm.size() - before, " points");
   }
 
   std::int32_t copyOf(std::int32_t vertex) {
@@ -152,16 +152,16 @@ class Repair {
     const MeshCheck check = checkMesh(mesh_);
     if (check.border_edges == 0) return;
     const ClosedHoles holes = closeHoles(mesh_, kWidestHole * check.size_mm().norm());
-    tell(holes.closed > 0, "closed ", holes.closed, " holes of ", holes.edges,
-         " edges, the widest ", holes.widest_mm, " mm");
-    tell(holes.left_open > 0, "left ", holes.left_open,
-         " holes open that are wider than a third of the mesh");
+    record(holes.closed > 0, "closed ", holes.closed, " holes of ", holes.edges,
+           " edges, the widest ", holes.widest_mm, " mm");
+    record(holes.left_open > 0, "left ", holes.left_open,
+           " holes open that are wider than a third of the mesh");
   }
 
   void turnOutward() {
     if (!(checkMesh(mesh_).volume_mm3 < 0)) return;  // NaN for an open mesh
     for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
-    tell(true, "turned the surface, which was inside out");
+    record(true, "turned the surface, which was inside out");
   }
 
   void dropVertices() {
@@ -175,8 +175,8 @@ class Repair {
       if (!mesh_.colours.empty()) mesh_.colours[kept] = mesh_.colours[i];
       number[i] = kept++;
     }
-    tell(std::size_t(kept) < number.size(), "dropped ", number.size() - kept,
-         " vertices that no triangle names");
+    record(std::size_t(kept) < number.size(), "dropped ", number.size() - kept,
+           " vertices that no triangle names");
     mesh_.vertices_mm.resize(kept);
     if (!mesh_.colours.empty()) mesh_.colours.resize(kept);
     for (Triangle& t : mesh_.triangles)

@@ -88,7 +88,7 @@ class RunQueue {
   bool tell(int more) {
     const std::lock_guard<std::mutex> lock(mutex_);
     finished_ += more;
-    if (!goesOn(progress_, finished_, total_)) stopped_ = true;
+    if (!reportProgress(progress_, finished_, total_)) stopped_ = true;
     return !stopped_;
   }
 

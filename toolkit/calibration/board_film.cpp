@@ -125,7 +125,7 @@ BoardFilm readBoardFilm(const BoardFilmOptions& options, const Progress& progres
   const int step = options.every > 0 ? options.every : std::max(1, (count - 1) / kUsualFrames + 1);
   BoardFilm film;
   std::vector<GrayPair> batch;
-  if (!goesOn(progress, 0, count)) film.stopped = true;
+  if (!reportProgress(progress, 0, count)) film.stopped = true;
   for (int frame = 0; frame < count && !film.stopped; frame += step) {
     try {
       batch.push_back(source.read(frame));
@@ -139,7 +139,7 @@ BoardFilm readBoardFilm(const BoardFilmOptions& options, const Progress& progres
     if (batch.size() < kBatch && frame + step < count) continue;
     addBatch(batch, options.board, &film);
     batch.clear();
-    film.stopped = !goesOn(progress, std::min(count, frame + step), count);
+    film.stopped = !reportProgress(progress, std::min(count, frame + step), count);
   }
   if (!film.stopped) addBatch(batch, options.board, &film);
   requireSightings(film, options);

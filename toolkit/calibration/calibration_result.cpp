@@ -95,13 +95,14 @@ void addViews(const CalibrationReport& report, FactSheet* facts) {
                     {"rms_px", view.rms_px},
                     {"tilt_deg", view.tilt_deg},
                     {"distance_mm", view.distance_mm}});
-  std::size_t told = 0;
+  std::size_t listed = 0;
   for (const LeftOutView& view : report.left_out) {
     left_out.push_back({{"frame", view.frame}, {"why", view.why}});
-    if (told++ < 12)
+    if (listed++ < 12)
       facts->addLine("left out", "frame " + std::to_string(view.frame) + ": " + view.why);
   }
-  if (told > 12) facts->addLine("left out", std::to_string(told - 12) + " more: --json lists them");
+  if (listed > 12)
+    facts->addLine("left out", std::to_string(listed - 12) + " more: --json lists them");
   facts->addQuietly("views.used", used);
   facts->addQuietly("views.left_out", left_out);
 }

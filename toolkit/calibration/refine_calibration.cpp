@@ -147,7 +147,7 @@ ClipFrames readClipFrames(const SequencePaths& clip, const SequenceOptions& sequ
   const int count = reader.frameCount(), every = (count - 1) / options.frames + 1;
   const int disparity_px = std::min(options.disparity_max_px, rectifier.rig().left.width_px / 2);
   for (int i = 0; auto result = reader.next(); ++i) {
-    if (!goesOn(progress, i, count)) {
+    if (!reportProgress(progress, i, count)) {
       out.stopped = true;
       return out;
     }
@@ -163,7 +163,7 @@ ClipFrames readClipFrames(const SequencePaths& clip, const SequenceOptions& sequ
     if (static_cast<int>(out.kept.size()) < options.depth_frames)
       out.kept.push_back(std::move(result->frame));
   }
-  goesOn(progress, count, count);
+  reportProgress(progress, count, count);
   if (out.matches.empty())
     throw InputError(say("none of ", count, " frames has ", RowAlignment::kFewestMatches,
                          " points that both views show. Are they of one moment, of textured "

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMostOfTest = 60000, kMostOfReference = 8000;
 
 /// Every n-th point of a point cloud; a decimated surface of a mesh.
-CoarseMesh fewer(const TriangleMesh& test) {
+CoarseMesh decimated(const TriangleMesh& test) {
   const std::size_t count = test.vertices_mm.size();
   if (!test.empty() || count <= kMostOfTest) return coarsen(test, kMostOfTest);
   CoarseMesh points;
@@ -26,7 +26,7 @@ CoarseMesh fewer(const TriangleMesh& test) {
 ErrorMap comparisonMap(const ComparisonResult& result, const TriangleMesh& reference,
                        const TriangleMesh& test) {
   ErrorMap map;
-  const CoarseMesh shown = fewer(test);
+  const CoarseMesh shown = decimated(test);
   map.surface = shown.at(test.vertices_mm);
   map.surface.space = reference.space;
   for (const std::int32_t vertex : shown.vertices) {

@@ -14,7 +14,8 @@ const Eigen::Vector3d kFromTheFront(0.45, -0.8, 0.4);
 constexpr double kFacesOneSide = 0.3;  // length of the mean normal: 0 closed surface, 1 plane
 
 /// Mean normal of the part of the reference near the test; zero for a closed surface.
-Eigen::Vector3d facing(const TriangleMesh& reference, const std::vector<ClosestPoint>& closest) {
+Eigen::Vector3d meanNormal(const TriangleMesh& reference,
+                           const std::vector<ClosestPoint>& closest) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t count = 0;
   for (const ClosestPoint& c : closest) {
@@ -69,7 +70,7 @@ ScenePanel panelFrom(const Eigen::Vector3d& eye, const Scene& scene) {
 
 Eigen::Vector3d comparisonEye(const TriangleMesh& reference,
                               const std::vector<ClosestPoint>& closest) {
-  const Eigen::Vector3d eye = facing(reference, closest);
+  const Eigen::Vector3d eye = meanNormal(reference, closest);
   return eye.norm() < kFacesOneSide ? kFromTheFront : eye;
 }
 

@@ -51,7 +51,7 @@ bool complete(const Columns& columns) {
 }
 
 /// Space in the header of a Slicer file: words in later versions, numbers in earlier ones (0: RAS).
-bool saysRas(std::string_view line) {
+bool isRas(std::string_view line) {
   const std::string_view value = trimmed(line.substr(line.find('=') + 1));
   return value == "RAS" || value == "0";
 }
@@ -74,7 +74,7 @@ class PlacesReader {
 };
 
 void PlacesReader::readComment(std::string_view line) {
-  if (line.find("CoordinateSystem") != line.npos) ras_ = saysRas(line);
+  if (line.find("CoordinateSystem") != line.npos) ras_ = isRas(line);
   const auto at = line.find("columns =");
   if (at != line.npos) columns_ = columnsOf(cellsOf(line.substr(at + 9)));
 }

@@ -131,7 +131,7 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
   });
 }
 
-std::vector<std::string> DepthOutputs::told(int frames) const {
+std::vector<std::string> DepthOutputs::writtenFiles(int frames) const {
   std::string files;
   for (const std::string& name : names()) files += name + ", ";
   std::vector<std::string> lines{options_.folder.string()};

@@ -49,7 +49,7 @@ class DepthOutputs {
              const std::string& title) const;
 
   /// Description of the output for the user: the folder, then the files of `frames` frames.
-  std::vector<std::string> told(int frames) const;
+  std::vector<std::string> writtenFiles(int frames) const;
 
   void writeSummary(const std::string& json) const;
   void keep() const { new_files_.keep(); }

@@ -49,7 +49,7 @@ class SequenceMeasurement {
   MeasuredSequence measure();
 
  private:
-  void settleOffset();
+  void estimateOffset();
   void requireFree(const DepthOutputs& outputs, int frames) const;
   DepthEstimator estimatorFor(const SequenceReader& reader) const;
   void measureAll(SequenceReader& reader, DepthEstimator& estimator, const DepthOutputs& outputs,
@@ -69,11 +69,11 @@ class SequenceMeasurement {
 };
 
 /// As in reconstruct, for more than one pair with stereo depth.
-void SequenceMeasurement::settleOffset() {
+void SequenceMeasurement::estimateOffset() {
   DepthOptions& settings = options_.settings;
   if (settings.measurement.source != "stereo" && !options_.sequence.depth.empty()) return;
-  const std::string warning = settleRightOffset(options_.sequence, settings.sequence,
-                                                settings.measurement.stereo.disparity_max_px);
+  const std::string warning = estimateRightOffset(options_.sequence, settings.sequence,
+                                                  settings.measurement.stereo.disparity_max_px);
   if (!warning.empty()) listener_.warn(warning);
 }
 
@@ -99,7 +99,7 @@ DepthEstimator SequenceMeasurement::estimatorFor(const SequenceReader& reader) c
 MeasuredSequence SequenceMeasurement::measure() {
   options_.settings.validate();
   options_.settings.sequence.uncalibrated = options_.uncalibrated();
-  settleOffset();
+  estimateOffset();
   SequenceReader reader(options_.sequence, options_.settings.sequence);
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
   options_.numbered = options_.numbered || reader.totalCount() > 1;
@@ -121,7 +121,7 @@ MeasuredSequence SequenceMeasurement::measure() {
     throw InputError(options_.name + ": no frame could be measured; see the reasons above");
   if (interrupted_) record.setInterrupted();
   MeasuredSequence measured{options_.paths.applyTo(record.json()), record.text(),
-                            outputs.told(record.goodFrames()), interrupted_};
+                            outputs.writtenFiles(record.goodFrames()), interrupted_};
   if (record.goodFrames() > 0) outputs.writeSummary(jsonText(measured.record));
   outputs.keep();
   if (!failure_.empty())
@@ -132,7 +132,7 @@ MeasuredSequence SequenceMeasurement::measure() {
 void SequenceMeasurement::measureAll(SequenceReader& reader, DepthEstimator& estimator,
                                      const DepthOutputs& outputs, DepthRecord& record) {
   const int count = reader.frameCount();
-  interrupted_ = !goesOn(listener_.progress, 0, count);
+  interrupted_ = !reportProgress(listener_.progress, 0, count);
   int done = 0;
   while (!interrupted_) {
     const auto result = reader.next();
@@ -151,7 +151,7 @@ void SequenceMeasurement::measureAll(SequenceReader& reader, DepthEstimator& est
       failures_.add(result->unpaired ? "without a partner" : "not measured", result->index, error);
       record.addFailure(result->index, error);
     }
-    interrupted_ = !goesOn(listener_.progress, ++done, count) && done < count;
+    interrupted_ = !reportProgress(listener_.progress, ++done, count) && done < count;
   }
   if (interrupted_ && failure_.empty()) listener_.warn("interrupted: finished results are kept");
   failures_.conclude("details: summary.json");

@@ -256,7 +256,7 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
   if (!options.confidence.empty()) sure = depthMapsIn(options.confidence, "confidence");
   const auto count = static_cast<int>(measured.size());
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    result.interrupted = !goesOn(progress, static_cast<int>(i), count);
+    result.interrupted = !reportProgress(progress, static_cast<int>(i), count);
     if (result.interrupted) return result;
     const fs::path& true_file =
         partnerOfMap(measured[i], i, measured.size(), truth, options.reference);
@@ -270,7 +270,7 @@ DepthMapResult judgeDepthMaps(const DepthMapOptions& options, const Progress& pr
                 partnerOfMap(measured[i], i, measured.size(), sure, options.confidence),
                 result.maps.back());
   }
-  goesOn(progress, count, count);
+  reportProgress(progress, count, count);
   return result;
 }
 

@@ -43,7 +43,7 @@ const char* const kFiles[] = {"evaluation.json",
                               "quality_series.png"};
 
 /// Separated by a white gap.
-ColourImage besideEachOther(const DrawnPair& pair) {
+ColourImage sideBySide(const DrawnPair& pair) {
   const int width_px = pair.image.width_px, height_px = pair.image.height_px;
   const int gap_px = std::max(4, width_px / 60);
   ColourImage both(2 * width_px + gap_px, height_px, {255, 255, 255});
@@ -130,7 +130,7 @@ void EvaluateOutputs::write(const TruthlessResult& result) const {
   if (!result.last_drawn.image.empty()) {
     const fs::path png = folder_ / "drawn_view.png";
     new_files_.make(
-        png, [&] { writePng(png, besideEachOther(result.last_drawn), kDotsPerInch, overwrite_); });
+        png, [&] { writePng(png, sideBySide(result.last_drawn), kDotsPerInch, overwrite_); });
   }
   const VectorDrawing plots = truthlessPlots(result);
   if (plots.height_pt > 0) putFigure("quality_series", plots);

@@ -36,8 +36,8 @@ ReferenceKind kindOf(const EvaluateOptions& options) {
 /// Progress over a series of `total` models.
 AfterModel counting(const Progress& progress, std::size_t total) {
   const auto count = static_cast<int>(total);
-  goesOn(progress, 0, count);
-  return [&progress, count, done = 0]() mutable { return goesOn(progress, ++done, count); };
+  reportProgress(progress, 0, count);
+  return [&progress, count, done = 0]() mutable { return reportProgress(progress, ++done, count); };
 }
 
 EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun& run,

@@ -42,7 +42,7 @@ Json meansJson(const HeldOutResult& result, PictureErrors HeldOutView::*part) {
 }  // namespace
 
 HeldOutResult judgeHeldOut(const JudgedRun& run, const SequenceTruth& pictures,
-                           const std::function<bool()>& goes_on) {
+                           const std::function<bool()>& progress_continues) {
   HeldOutResult result;
   result.every = run.hold_out_every;
   if (result.every == 0 || run.frames.empty()) return result;
@@ -57,7 +57,7 @@ HeldOutResult judgeHeldOut(const JudgedRun& run, const SequenceTruth& pictures,
       result.views.push_back(view);
     else if (frame < run.frames.back())  // else the clip may end before that frame
       result.not_drawn.push_back(frame);
-    if (!goes_on()) break;
+    if (!progress_continues()) break;
   }
   return result;
 }

@@ -27,10 +27,10 @@ struct HeldOutResult {
 };
 
 /// `pictures`: rig and folder of the sequence. Throws InputError as ViewJudge
-/// does. `goes_on` is called after each view; false requests a stop.
+/// does. `progress_continues` is called after each view; false requests a stop.
 HeldOutResult judgeHeldOut(
     const JudgedRun& run, const SequenceTruth& pictures,
-    const std::function<bool()>& goes_on = [] { return true; });
+    const std::function<bool()>& progress_continues = [] { return true; });
 
 /// Means over the views; null without views.
 FactSheet::Json heldOutJson(const HeldOutResult& result);

@@ -72,10 +72,10 @@ ExportResult exportSeries(const ExportRequest& request, const Progress& progress
   NewFiles files;
   files.makeFolder(folder);
   const int count = static_cast<int>(models.size());
-  bool goes_on = goesOn(progress, 0, count);
+  bool progress_continues = reportProgress(progress, 0, count);
   Json frames = Json::array();
   std::string list;
-  for (int i = 0; i < count && goes_on; ++i) {
+  for (int i = 0; i < count && progress_continues; ++i) {
     const SavedModel& model = models[static_cast<std::size_t>(i)];
     FactSheet facts(shown(model.file));
     const ModelSurface surface = surfaceOf(request, model.file, facts);
@@ -88,10 +88,10 @@ ExportResult exportSeries(const ExportRequest& request, const Progress& progress
     facts.addQuietly("time_s", model.time_s);
     facts.addQuietly("out", file.string());
     frames.push_back(facts.json());
-    goes_on = goesOn(progress, i + 1, count);
+    progress_continues = reportProgress(progress, i + 1, count);
   }
   FactSheet facts(shown(request.input));
-  if (!goes_on) return {facts, true};
+  if (!progress_continues) return {facts, true};
   files.make(request.out, [&] { writeFile(request.out, pvdFile(list), overwrite); });
   files.keep();
   facts.add("models", "models", count);
@@ -116,7 +116,7 @@ ExportResult exportDicom(const ExportRequest& request, const Progress& progress)
   const DicomTexts& texts = request.dicom;
   requireWritable(request.out, request.overwrite);
   const DicomTarget target{request.out, texts, request.overwrite,
-                           [&] { return !goesOn(progress, 0, 1); }};
+                           [&] { return !reportProgress(progress, 0, 1); }};
   FactSheet facts(shown(request.input));
   const auto becomes = [&](const char* what) { facts.add("becomes", "kind", std::string(what)); };
   switch (dicomKindOf(request.input)) {

@@ -13,7 +13,7 @@ namespace {
 /// Opened as by `softscope reconstruct`.
 SequenceReader openSequence(const SequencePaths& paths) {
   RunOptions options;
-  settleRightOffset(paths, options.sequence, options.method.depth.stereo.disparity_max_px);
+  estimateRightOffset(paths, options.sequence, options.method.depth.stereo.disparity_max_px);
   return SequenceReader(paths, options.sequence);
 }
 

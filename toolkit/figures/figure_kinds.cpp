@@ -118,7 +118,7 @@ ErrorColourOptions sharedRange(const RunFigureOptions& options,
 }
 
 /// Adds the bar of the map to a foot that contains other bars of the same range.
-void explainToo(const SurfaceErrorMap& map, FigureFoot& foot) {
+void addColourBar(const SurfaceErrorMap& map, FigureFoot& foot) {
   ColourBarText bar = map.bar;
   bar.any_above |= foot.bar.any_above;
   bar.any_below |= foot.bar.any_below;
@@ -167,7 +167,7 @@ RunFigure drawSeries(const RunFigureOptions& options, SceneInputs& inputs) {
   FigureFoot foot;
   for (const RunMoment& moment : moments) {
     const SurfaceErrorMap map = mapOf(moment, options.observed_only, errors);
-    explainToo(map, foot);
+    addColourBar(map, foot);
     scenes.push_back(errorScene(moment, map));
     panels.push_back(
         panelOf(scenes.back(), eyeOf(options), momentText(moment.frame, moment.time_s)));
@@ -269,7 +269,7 @@ RunFigure compareWithTruth(const RunFigureOptions& options, SceneInputs& inputs)
   for (const auto& [moment, name] : {std::pair{&a, names.first}, {&b, names.second}}) {
     noteMoment(*moment, inputs);
     const SurfaceErrorMap map = mapOf(*moment, options.observed_only, errors);
-    explainToo(map, foot);
+    addColourBar(map, foot);
     figure.record["errors"].push_back(map.json);
     scenes.push_back(sceneOf(moment->model));
     coloured.push_back(panelOf(scenes.back(), eyeOf(options), name));

@@ -20,7 +20,7 @@ namespace {
 using Json = FactSheet::Json;
 
 /// Description of the transform of the mesh into LPS.
-std::string bringToLps(TriangleMesh& mesh) {
+std::string transformToLps(TriangleMesh& mesh) {
   if (mesh.space.empty()) return "unknown; assumed LPS";
   if (mesh.space == "LPS") return "LPS";
   for (Eigen::Vector3f& p : mesh.vertices_mm) p.head<2>() = -p.head<2>();
@@ -74,7 +74,7 @@ SceneSurface& SceneInputs::addSurface(const std::string& path, const std::string
   frames_.push_back(surface.mesh.space.empty() ? frameOf(path) : "");
   space_is_said_ |= !surface.mesh.space.empty();
   if (!frames_.back().empty() && surface.isPoints()) addTriangles(path, surface.mesh);
-  assumptions_.push_back(frames_.back().empty() ? bringToLps(surface.mesh)
+  assumptions_.push_back(frames_.back().empty() ? transformToLps(surface.mesh)
                                                 : "a scope's frame: " + frames_.back());
   surface_paths_.push_back(path);
   note(role, path);

@@ -134,7 +134,7 @@ void addView(const fs::path& view, const std::string& key, FactSheet& facts) {
 void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool check_all,
                    FactSheet& facts) {
   SequenceOptions options;
-  const std::string shifted = settleRightOffset(paths, options, StereoOptions().disparity_max_px);
+  const std::string shifted = estimateRightOffset(paths, options, StereoOptions().disparity_max_px);
   SequenceReader reader(paths, options);
   auto first = reader.next();
   while (first && first->unpaired) first = reader.next();

@@ -100,8 +100,8 @@ void ChildProcess::interrupt() {
   if (id_ > 0) kill(id_, SIGINT);
 }
 
-fs::path ownExecutable() { return fs::read_symlink("/proc/self/exe"); }
+fs::path executablePath() { return fs::read_symlink("/proc/self/exe"); }
 
-void waitAMoment() { std::this_thread::sleep_for(std::chrono::milliseconds(20)); }
+void sleepBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(20)); }
 
 }  // namespace softscope

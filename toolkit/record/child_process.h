@@ -35,11 +35,11 @@ class ChildProcess {
 template <class Interrupted>
 int runToEnd(ChildProcess child, const Interrupted& interrupted);
 
-/// The file of the running program.
-std::filesystem::path ownExecutable();
+/// Path of the running program.
+std::filesystem::path executablePath();
 
-/// A moment between two looks at what children do.
-void waitAMoment();
+/// Sleeps between two polls of the child processes.
+void sleepBriefly();
 
 template <class Interrupted>
 int runToEnd(ChildProcess child, const Interrupted& interrupted) {
@@ -50,7 +50,7 @@ int runToEnd(ChildProcess child, const Interrupted& interrupted) {
       child.interrupt();
       told = true;
     }
-    waitAMoment();
+    sleepBriefly();
   }
 }
 

@@ -32,7 +32,7 @@ bool isUnit(const std::string& word) {
 }
 
 /// File names of softscope contain no personal data.
-bool isOurName(const std::string& word) {
+bool isSoftscopeFile(const std::string& word) {
   constexpr std::array<const char*, 7> kOurs{
       "tracks.csv",     "frames.csv",       "model.ply",        "run.json",
       "trajectory.txt", "track_points.csv", "models/NNNNNN.ply"};
@@ -52,7 +52,7 @@ bool hasFileEnding(const std::string& word) {
 }
 
 bool namesFile(const std::string& word) {
-  if (isOurName(word) || isUnit(word)) return false;
+  if (isSoftscopeFile(word) || isUnit(word)) return false;
   if (word == "/" || word == "\\") return false;
   return word.find_first_of("/\\") != std::string::npos || hasFileEnding(word);
 }

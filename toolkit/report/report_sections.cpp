@@ -323,9 +323,9 @@ ReportTable provenanceTable(const ReportCase& c, const ReportChoices& choices) {
          {std::pair{"run", "Run"}, {"test", "Model"}, {"reference", "Reference"}})
       if (const std::string path = textAt(c.record, std::string("inputs.") + key); !path.empty())
         table.rows.push_back({name, path});
-  std::size_t told = 0;
+  std::size_t listed = 0;
   for (const auto& [what, hash] : c.hashes)
-    if (++told <= 3) table.rows.push_back({"SHA-256 of " + what, hash});
+    if (++listed <= 3) table.rows.push_back({"SHA-256 of " + what, hash});
   if (c.hashes.size() > 3)
     table.rows.push_back({"Further maps", std::to_string(c.hashes.size() - 3) +
                                               ", their SHA-256 in the embedded metrics"});

@@ -88,7 +88,7 @@ void addFromTables(const fs::path& run, std::vector<ModelOnDisk>& models) {
 }
 
 /// model.ply, which belongs to the last frame.
-std::vector<ModelOnDisk> lastModelAlone(const fs::path& run) {
+std::vector<ModelOnDisk> lastModelOnly(const fs::path& run) {
   const fs::path file = run / "model.ply";
   if (!fs::exists(file)) return {};
   const int frame = hasTables(run) ? openJudgedRun(run).frames.back() : 0;
@@ -130,7 +130,7 @@ std::vector<ModelOnDisk> findModelsOnDisk(const fs::path& run,
       const auto found = by_frame.find(frame);
       models.push_back(found != by_frame.end() ? *found->second : readModelHead(frame, file));
     }
-  if (models.empty()) return lastModelAlone(run);
+  if (models.empty()) return lastModelOnly(run);
   addFromTables(run, models);
   return models;
 }

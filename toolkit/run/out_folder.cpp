@@ -10,14 +10,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Without links and dots; for a missing path, of its existing part.
-fs::path settled(const fs::path& path) {
+fs::path canonicalPath(const fs::path& path) {
   std::error_code problem;
   const fs::path found = fs::weakly_canonical(fs::absolute(path), problem);
   const fs::path plain = problem ? path.lexically_normal() : found;
   return plain.has_filename() ? plain : plain.parent_path();
 }
 
-bool liesIn(const fs::path& path, const fs::path& folder) {
+bool isInside(const fs::path& path, const fs::path& folder) {
   const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   return end == folder.end();
 }
@@ -33,7 +33,8 @@ void requireApart(const fs::path& out, const SequencePaths& sequence) {
   std::error_code ignored;
   for (const fs::path& part :
        {sequence.left, sequence.right, sequence.stereo, sequence.mask, sequence.depth})
-    if (!part.empty() && fs::is_directory(part, ignored) && liesIn(settled(out), settled(part)))
+    if (!part.empty() && fs::is_directory(part, ignored) &&
+        isInside(canonicalPath(out), canonicalPath(part)))
       refuseInput(out,
                   "is, or is inside, a folder of the sequence, whose frames would be mixed with "
                   "the results");
@@ -44,7 +45,7 @@ void requireOutside(const fs::path& out, const SequencePaths& sequence) {
   const fs::path& view = !sequence.left.empty()     ? sequence.left
                          : !sequence.stereo.empty() ? sequence.stereo
                                                     : sequence.depth;
-  if (settled(out) == settled(view).parent_path())
+  if (canonicalPath(out) == canonicalPath(view).parent_path())
     refuseInput(out, "is the folder of the sequence, whose own files would be replaced");
 }
 

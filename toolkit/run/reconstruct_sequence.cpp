@@ -28,7 +28,7 @@ using Json = FactSheet::Json;
 constexpr const char* kOutcomes = "outcomes";  // part of the record for metrics without path
 
 /// True if images of the run were deleted.
-bool isGone(const SequencePaths& sequence) {
+bool wasDeleted(const SequencePaths& sequence) {
   for (const std::filesystem::path& view :
        {sequence.left, sequence.right, sequence.stereo, sequence.depth})
     if (!view.empty() && !isThere(view)) return true;
@@ -130,7 +130,7 @@ ReconstructedRun SequenceRun::run() {
   const ReconstructionOptions& method = options_.settings.method;
   if (method.depth.source == "stereo" || options_.sequence.depth.empty())
     if (const std::string warning =
-            settleRightOffset(options_.sequence, sequence, method.depth.stereo.disparity_max_px);
+            estimateRightOffset(options_.sequence, sequence, method.depth.stereo.disparity_max_px);
         !warning.empty())
       listener_.warn(warning);
   const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model);
@@ -164,11 +164,11 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
                                  int next_frame) {
   int since_flush = 0, processed = 0;
   bool at_end = all_done_;
-  bool wanted = goesOn(listener_.progress, 0, frame_count);
+  bool wanted = reportProgress(listener_.progress, 0, frame_count);
   while (wanted && !at_end) {
     const FrameResult* result = frames.advance();
     if (result == nullptr) break;
-    input_gone_ = !result->ok() && isGone(options_.sequence);
+    input_gone_ = !result->ok() && wasDeleted(options_.sequence);
     if (input_gone_) break;
     FrameRecord frame;
     try {
@@ -194,7 +194,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
       folder.flush({digest, next_frame, reconstructor.state()});
       since_flush = 0;
     }
-    wanted = goesOn(listener_.progress, processed, frame_count);
+    wanted = reportProgress(listener_.progress, processed, frame_count);
   }
   rejections_.conclude("reasons: frames.csv");
   interrupted_ = (!wanted || input_gone_ || !failure_.empty()) && !at_end;

@@ -36,7 +36,7 @@ Json rigJson(const RectifiedRig& rig, bool one_camera) {
 }
 
 constexpr double kDoubtful = 0.5;   // confidence of a frame
-constexpr double kToldShare = 0.1;  // smallest share of frames for a warning
+constexpr double kWarnShare = 0.1;  // smallest share of frames for a warning
 
 Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -94,11 +94,11 @@ void RunRecord::add(const FrameRecord& record) {
 std::vector<std::string> RunRecord::conclusions() const {
   std::vector<std::string> all;
   const int left_out = frames_ - outcomes_.count(FusionOutcome::kFused);
-  if (left_out > kToldShare * frames_)
+  if (left_out > kWarnShare * frames_)
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
                   ") and did not update the model; the reasons are in frames.csv, column reason");
-  if (doubtful_ > kToldShare * frames_)
+  if (doubtful_ > kWarnShare * frames_)
     all.push_back(std::to_string(doubtful_) + " of " + std::to_string(frames_) +
                   " frames were fused with a confidence below " + fixed(kDoubtful, 1) +
                   ": the model does not fit the image in many places; possible causes: blur, weak "

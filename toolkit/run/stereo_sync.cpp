@@ -55,8 +55,8 @@ ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options
 
 }  // namespace
 
-std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& options,
-                              int disparity_max_px) {
+std::string estimateRightOffset(const SequencePaths& paths, SequenceOptions& options,
+                                int disparity_max_px) {
   if (options.right_offset != "auto" || paths.right.empty() || isPicture(paths.left)) return "";
   const ViewSynchrony found = measure(paths, options, disparity_max_px);
   options.right_offset = std::to_string(found.right_offset);

@@ -13,7 +13,7 @@ namespace softscope {
 /// step of the range, and writes it into `options`. Returns a warning if
 /// it is not 0. Unreadable or unmatched images change nothing: the
 /// reconstruction reports them. Throws InputError as the reader does.
-std::string settleRightOffset(const SequencePaths& paths, SequenceOptions& options,
-                              int disparity_max_px);
+std::string estimateRightOffset(const SequencePaths& paths, SequenceOptions& options,
+                                int disparity_max_px);
 
 }  // namespace softscope

@@ -44,7 +44,7 @@ class StirLayout : public DatasetLayout {
         videos_.emplace_back(folder_ / name, pair.left.width_px, pair.left.height_px, rate_, false);
     videos_[0].add(pair.left);
     videos_[1].add(pair.right);
-    for (const SeenPoint& point : seenPoints(frame, simulator.rig()))
+    for (const VisiblePoint& point : visiblePoints(frame, simulator.rig()))
       annotations_[index].push_back({point.left_px.x(), point.left_px.y(), point.disparity_px,
                                      point.in_left, point.in_right});
   }
@@ -79,7 +79,7 @@ class SurgtLayout : public DatasetLayout {
     if (video_.empty())
       video_.emplace_back(folder_ / "video.mp4", both.width_px, both.height_px, rate_, false);
     video_[0].add(both);
-    const std::vector<SeenPoint> points = seenPoints(frame, simulator.rig());
+    const std::vector<VisiblePoint> points = visiblePoints(frame, simulator.rig());
     if (targets_.empty()) chooseTargets(points.size());
     for (Target& target : targets_)
       target.frames.push_back(frameOf(points[target.point], simulator.rig()));
@@ -114,7 +114,7 @@ class SurgtLayout : public DatasetLayout {
       targets_.push_back({points * (2 * i + 1) / (2 * kSurgtTargets), {}});
   }
 
-  static SurgtFrame frameOf(const SeenPoint& point, const RectifiedRig& rig) {
+  static SurgtFrame frameOf(const VisiblePoint& point, const RectifiedRig& rig) {
     SurgtFrame frame;
     frame.visible_in_both = point.in_left && point.in_right;
     if (!frame.visible_in_both) return frame;

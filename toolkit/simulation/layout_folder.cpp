@@ -19,9 +19,9 @@ LayoutFolder::LayoutFolder(fs::path folder) : folder_(std::move(folder)) {
   files_.makeFolder(folder_);
 }
 
-std::vector<SeenPoint> seenPoints(const SimulatedFrame& frame, const RectifiedRig& rig) {
+std::vector<VisiblePoint> visiblePoints(const SimulatedFrame& frame, const RectifiedRig& rig) {
   const Eigen::Isometry3d left_from_world = frame.pose.world_from_left.inverse();
-  std::vector<SeenPoint> points;
+  std::vector<VisiblePoint> points;
   for (std::size_t i = 0; i < frame.tracks_world_mm.size(); ++i) {
     const Eigen::Vector3d p = left_from_world * frame.tracks_world_mm[i];
     if (!(p.z() > 0))

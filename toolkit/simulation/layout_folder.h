@@ -39,7 +39,7 @@ class LayoutFolder {
 };
 
 /// Tracked point in both rectified images.
-struct SeenPoint {
+struct VisiblePoint {
   Eigen::Vector2d left_px;
   double disparity_px = 0;
   double depth_mm = 0;
@@ -47,7 +47,7 @@ struct SeenPoint {
 };
 
 /// Throws InputError for a point behind the camera.
-std::vector<SeenPoint> seenPoints(const SimulatedFrame& frame, const RectifiedRig& rig);
+std::vector<VisiblePoint> visiblePoints(const SimulatedFrame& frame, const RectifiedRig& rig);
 
 /// Left image above the right one.
 ColourImage stackedViews(const StereoPair& pair);

@@ -161,7 +161,7 @@ class StirEndsLayout : public DatasetLayout {
   /// Discs on the tissue at the visible tracked points.
   static GrayImage marks(const SimulatedFrame& frame, const RectifiedRig& rig) {
     GrayImage image(rig.left.width_px, rig.left.height_px, 0);
-    for (const SeenPoint& point : seenPoints(frame, rig)) {
+    for (const VisiblePoint& point : visiblePoints(frame, rig)) {
       const double radius_px = rig.left.fx_px * kTattooMm / point.depth_mm;
       if (!point.in_left) continue;
       for (int v = 0; v < image.height_px; ++v)

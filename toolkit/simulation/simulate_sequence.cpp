@@ -25,10 +25,10 @@ std::string recordOf(SimulateOptions& options) {
 template <class Add>
 int addFrames(int frames, const Progress& progress, const Add& add) {
   for (int i = 0; i < frames; ++i) {
-    if (!goesOn(progress, i, frames)) return i;
+    if (!reportProgress(progress, i, frames)) return i;
     add(i);
   }
-  goesOn(progress, frames, frames);
+  reportProgress(progress, frames, frames);
   return frames;
 }
 

@@ -108,7 +108,7 @@ bool tellIfBad(const StudyRun& run, const StudyCase& one, const Json& record,
 
 void StudyRun::validate() const {
   require(jobs >= 0 && jobs <= 1024, "`jobs=`", jobs,
-          "must be 0 (one a GPU, without GPUs one a core) to 1024");
+          "must be 0 (one per GPU, without GPUs one per core) to 1024");
 }
 
 /// As a shell takes it, without options that decide no result, and without the machine's folders.
@@ -150,23 +150,24 @@ bool runStudy(const StudyRun& run, const WorkListener& listener) {
   std::list<RunningCase> running;
   std::size_t next = 0;
   int done = 0;
-  bool goes_on = goesOn(listener.progress, done, total);
-  while (!running.empty() || (next < waiting.size() && goes_on)) {
-    while (goes_on && next < waiting.size() && static_cast<int>(running.size()) < jobs)
+  bool progress_continues = reportProgress(listener.progress, done, total);
+  while (!running.empty() || (next < waiting.size() && progress_continues)) {
+    while (progress_continues && next < waiting.size() && static_cast<int>(running.size()) < jobs)
       running.emplace_back(run, *waiting[next++], threads, &gpus);
     for (auto child = running.begin(); child != running.end();) {
       const bool ended = child->ended();
-      done += ended && goes_on ? 1 : 0;
+      done += ended && progress_continues ? 1 : 0;
       child = ended ? running.erase(child) : std::next(child);
     }
-    if (goes_on && !goesOn(listener.progress, done, total)) {
-      goes_on = false;
+    if (progress_continues && !reportProgress(listener.progress, done, total)) {
+      progress_continues = false;
       for (RunningCase& child : running) child.interrupt();
     }
-    waitAMoment();
+    sleepBriefly();
   }
-  if (!goes_on) listener.warn("interrupted: complete cases are kept; the same command continues");
-  return goes_on;
+  if (!progress_continues)
+    listener.warn("interrupted: complete cases are kept; the same command continues");
+  return progress_continues;
 }
 
 WrittenStudy writeStudyTable(const StudyRun& run, bool check, const WorkListener& listener) {

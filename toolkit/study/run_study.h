@@ -18,9 +18,9 @@ struct StudyRun {
   std::string file;               // of the study
   StudyFolder folder;             // of all results
   std::filesystem::path program;  // softscope, which runs each case
-  int jobs = 0;                   // cases at the same time; 0: one a GPU, without GPUs one a core
-  int threads = 0;                // that all cases share; 0: one a core
-  bool again = false;             // run cases that are done, too
+  int jobs = 0;        // cases at the same time; 0: one per GPU, without GPUs one per core
+  int threads = 0;     // shared by all cases; 0: one per core
+  bool again = false;  // run cases that are done, too
   std::vector<std::string> gpus;  // to distribute the cases over; empty: none
 
   /// Throws OptionError.

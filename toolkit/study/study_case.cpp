@@ -148,7 +148,7 @@ void CaseRunner::step(const std::string& name, std::vector<std::string> words) {
 void CaseRunner::waitFor(const FileLock& lock) const {
   while (!lock.tryToHold()) {
     if (interrupted_()) throw Interrupted();
-    waitAMoment();
+    sleepBriefly();
   }
 }
 
@@ -169,7 +169,7 @@ void CaseRunner::simulate(const fs::path& target) {
 fs::path CaseRunner::sequence() {
   if (!case_.sequence.empty()) return case_.sequence;
   fs::create_directories(folder_.sequences());
-  const std::string made_by = simulationDigest(case_) + sha256Of(ownExecutable());
+  const std::string made_by = simulationDigest(case_) + sha256Of(executablePath());
   const fs::path target = folder_.sequences() / sha256OfBytes(made_by).substr(0, kFolderLetters);
   const FileLock lock(target.string() + ".lock");
   waitFor(lock);
@@ -211,7 +211,7 @@ Json CaseRunner::run() {
   try {
     if (case_.skip.empty()) {
       record["digest"] = digestOf(case_);
-      record["executable_sha256"] = sha256Of(ownExecutable());
+      record["executable_sha256"] = sha256Of(executablePath());
       judge(record);
       record["status"] = "done";
     } else {

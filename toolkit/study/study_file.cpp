@@ -20,7 +20,7 @@ using Json = FactSheet::Json;
 const std::vector<std::string> kParts{"simulate", "reconstruct", "evaluate"};
 
 /// For the table: last part of an absolute path.
-std::string notHere(const fs::path& path) {
+std::string shortPath(const fs::path& path) {
   return shown(path.is_absolute() ? path.filename() : path) + " is not here";
 }
 
@@ -172,7 +172,7 @@ void StudyReader::resolvePaths(StudyCase& target) const {
     const std::string path = expanded(text, known);
     const fs::path place =
         fs::path(path).is_absolute() || !known ? fs::path(path) : file_.parent_path() / path;
-    if ((!known || !fs::exists(place)) && target.skip.empty()) target.skip = notHere(text);
+    if ((!known || !fs::exists(place)) && target.skip.empty()) target.skip = shortPath(text);
     return place.string();
   };
   if (!target.sequence.empty()) target.sequence = resolved(target.sequence);
@@ -197,10 +197,10 @@ void StudyReader::resolveOrgan(StudyCase& target) const {
   if (known && fs::exists(place)) {
     mesh->second = place.string();
   } else if (otherwise == "builtin") {
-    target.notes.push_back("built-in organ, as " + notHere(mesh->second));
+    target.notes.push_back("built-in organ, as " + shortPath(mesh->second));
     mesh->second = "builtin";
   } else {
-    target.skip = notHere(mesh->second);
+    target.skip = shortPath(mesh->second);
   }
 }
 

@@ -54,7 +54,7 @@ std::string statusOf(const Json& record) {
 }
 
 /// Headings of published values directly after the name, then those of this study.
-std::vector<std::string> besideHeadings(const Study& study) {
+std::vector<std::string> publishedHeadings(const Study& study) {
   std::set<std::string> headings;
   for (const StudyCase& one : study.cases)
     for (const auto& [heading, value] : one.beside) headings.insert(heading);
@@ -216,7 +216,7 @@ Json studyJson(const Study& study, const std::vector<Json>& records, const std::
 StudyTable studyTable(const Study& study, const std::vector<Json>& records) {
   StudyTable table;
   table.headings = {"case"};
-  const std::vector<std::string> beside = besideHeadings(study);
+  const std::vector<std::string> beside = publishedHeadings(study);
   table.headings.insert(table.headings.end(), beside.begin(), beside.end());
   std::vector<StudyMetric> columns = study.columns.empty() ? usualColumns() : study.columns;
   columns.erase(std::remove_if(columns.begin(), columns.end(),

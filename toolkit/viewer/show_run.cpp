@@ -111,11 +111,11 @@ int ViewRequest::firstMoment(const ViewSource& source, bool last_by_default) con
 
 void waitForModel(const std::string& run, const std::function<bool()>& stopped,
                   const WorkListener& listener) {
-  bool told = false;
+  bool reported = false;
   while (!stopped()) {
     if (fs::is_directory(run) && !findModelsOnDisk(run, {}).empty()) return;
-    if (!told) listener.tell("waiting for the first model in " + run);
-    told = true;
+    if (!reported) listener.tell("waiting for the first model in " + run);
+    reported = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
 }

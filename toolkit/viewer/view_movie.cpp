@@ -42,12 +42,12 @@ int writeMovie(ViewSource& source, const ViewMovieOptions& options, const Progre
   playback.playing = true;  // as shown in the foot line
   playback.speed = options.speed;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    if (!goesOn(progress, static_cast<int>(k), count)) return 0;
+    if (!reportProgress(progress, static_cast<int>(k), count)) return 0;
     playback.goToTime(times[k]);
     const double turned_deg = options.turn_deg * double(k) / double(times.size());
     video.add(picture.draw(playback, state, turned_deg));
   }
-  goesOn(progress, count, count);
+  reportProgress(progress, count, count);
   video.finish();
   return static_cast<int>(times.size());
 }

@@ -86,7 +86,7 @@ class Silence {
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
 
-  bool heardOfShortFile() const { return silent_->cut_short; }
+  bool reportedShortFile() const { return silent_->cut_short; }
 
  private:
   vtkSmartPointer<vtkOutputWindow> before_;
@@ -104,7 +104,7 @@ void updateOrThrow(vtkAlgorithm& reader, const std::string& source) {
   reader.Update();
   const std::string& error =
       of_reader.first_error.empty() ? of_executive.first_error : of_reader.first_error;
-  if (silence.heardOfShortFile())
+  if (silence.reportedShortFile())
     throw InputError(source + ": is cut short: its data end before its header says. Copy it again");
   if (!error.empty() || reader.GetErrorCode() != 0)
     throw InputError(source + ": can't be read: " + (error.empty() ? "broken file" : error) +

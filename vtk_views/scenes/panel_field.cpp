@@ -54,7 +54,7 @@ Eigen::AlignedBox2d projectedBox(const FieldView& view, const ViewPlane& plane) 
 }
 
 /// Same world and direction.
-bool lookAlike(const FieldView& a, const FieldView& b) {
+bool haveSameView(const FieldView& a, const FieldView& b) {
   return a.world == b.world && a.plane.right.isApprox(b.plane.right) &&
          a.plane.up.isApprox(b.plane.up);
 }
@@ -62,7 +62,7 @@ bool lookAlike(const FieldView& a, const FieldView& b) {
 /// Uses the centre of the first view with the same direction, at the depth of this plane.
 void shareCentre(const std::vector<FieldView>& views, const FieldView& view, ViewPlane& plane) {
   for (const FieldView& first : views) {
-    if (!lookAlike(first, view)) continue;
+    if (!haveSameView(first, view)) continue;
     const Eigen::Vector3d axis = plane.towardsViewer();
     const double depth_mm = axis.dot(plane.centre_mm - first.plane.centre_mm);
     plane.centre_mm = first.plane.centre_mm + depth_mm * axis;
@@ -83,7 +83,7 @@ PanelField fitField(const std::vector<FieldView>& views, double panel_pt, const 
     if (!keep_centres) shareCentre(views, view, plane);
     Eigen::AlignedBox2d box;
     for (const FieldView& other : views)
-      if (lookAlike(other, view)) box.extend(projectedBox(other, plane));
+      if (haveSameView(other, view)) box.extend(projectedBox(other, plane));
     if (keep_centres && !box.isEmpty()) {
       const Eigen::Vector2d reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
       widest_mm = std::max(widest_mm, 2 * reach.maxCoeff());

@@ -230,8 +230,8 @@ ViewPlane ViewScene::viewFor(Look look) const {
 
 /// Visible extent in the plane of the view, relative to its centre: the
 /// model without distant outliers; for a rotation, the full swept extent.
-Eigen::AlignedBox2d ViewScene::boxSeen(const ViewMoment& moment, const ViewPlane& plane,
-                                       bool turning) const {
+Eigen::AlignedBox2d ViewScene::visibleBox(const ViewMoment& moment, const ViewPlane& plane,
+                                          bool turning) const {
   const auto place = [&](const Eigen::Vector3f& point_mm) {
     Eigen::Vector2d at = plane.project(point_mm.cast<double>());
     const double depth_mm = plane.towardsViewer().dot(point_mm.cast<double>() - plane.centre_mm);
@@ -273,7 +273,7 @@ void ViewScene::look(const ViewMoment& moment, const ViewState& state, double as
                       aspect);
   }
   ViewPlane plane = viewFor(look);
-  const Eigen::AlignedBox2d box = boxSeen(moment, plane, state.turning);
+  const Eigen::AlignedBox2d box = visibleBox(moment, plane, state.turning);
   double height_mm = aspect > 1 ? width_mm_ : width_mm_ / aspect;
   if (!box.isEmpty() && box.sizes().maxCoeff() > 0) {
     height_mm = kRoomAround * std::max(box.sizes().y(), box.sizes().x() / aspect);

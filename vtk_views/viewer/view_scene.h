@@ -46,7 +46,8 @@ class ViewScene {
   void addSlices(const Eigen::Vector3d& towards_viewer);
   ViewPlane viewFor(Look look) const;
   LineSet scopeOf(const ViewMoment& moment) const;
-  Eigen::AlignedBox2d boxSeen(const ViewMoment& moment, const ViewPlane& plane, bool turning) const;
+  Eigen::AlignedBox2d visibleBox(const ViewMoment& moment, const ViewPlane& plane,
+                                 bool turning) const;
   void measure(const ViewMoment& moment);
 
   const ViewWorld& world_;

@@ -145,7 +145,7 @@ class ViewWindow::Parts : public ViewHandler {
   void render();
   void beforeRender();
   void layOut();
-  void lookForMore();
+  void pollSource();
   double aspect() const;
   int width() const { return window_->GetSize()[0]; }
   int height() const { return window_->GetSize()[1]; }
@@ -290,7 +290,7 @@ void ViewWindow::Parts::cameraMoves() {
   guarded([&] { scene_.show(*moment_, state); });
 }
 
-void ViewWindow::Parts::lookForMore() {
+void ViewWindow::Parts::pollSource() {
   if (!source.live() || secondsSince(last_look_) < kLookEvery_s) return;
   last_look_ = Clock::now();
   const int before = source.count();
@@ -307,7 +307,7 @@ void ViewWindow::Parts::tick() {
     const double passed_s = secondsSince(last_tick_);
     last_tick_ = Clock::now();
     if (options.closes()) return interactor_->TerminateApp();
-    lookForMore();
+    pollSource();
     const double before = playback.share();
     if (playback.pass(passed_s) || (playback.playing && playback.share() != before)) showMoment();
   });

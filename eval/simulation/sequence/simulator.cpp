@@ -72,8 +72,8 @@ std::vector<Eigen::Vector3f> transformed(const std::vector<Eigen::Vector3f>& poi
 }
 
 /// Tissue that lies no deeper than what the nearest pixel sees.
-bool isSeen(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_mm,
-            const ScopeLens& left) {
+bool isVisible(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_mm,
+               const ScopeLens& left) {
   if (point_left_mm.z() <= 0) return false;
   const Eigen::Vector2d at = left.project(point_left_mm);
   if (!(at.x() >= 0 && at.y() >= 0 && at.x() <= depth_mm.width_px - 1 &&
@@ -84,8 +84,8 @@ bool isSeen(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_mm,
 }
 
 /// Tissue in the right image with nothing before it.
-bool isSeenByRight(const Eigen::Vector3d& point_left_mm, const ScopeScene& scene,
-                   const ScopeTool& instrument, const ScopeLens& lens, double baseline_mm) {
+bool isVisibleToRight(const Eigen::Vector3d& point_left_mm, const ScopeScene& scene,
+                      const ScopeTool& instrument, const ScopeLens& lens, double baseline_mm) {
   const Eigen::Vector3d centre_mm(baseline_mm, 0, 0), ray = point_left_mm - centre_mm;
   if (ray.z() <= 0) return false;
   const Eigen::Vector2d at = lens.project(ray);
@@ -200,10 +200,10 @@ void Simulator::addTruth(const ScopeScene& scene, double time_s, SimulatedFrame&
   for (const TrackPoint& point : track_points_) {
     frame.tracks_world_mm.push_back(positionOf(point, frame.vertices_world_mm, triangles()));
     frame.tracks_visible.push_back(
-        isSeen(left_from_world * frame.tracks_world_mm.back(), frame.depth_mm, lens_));
+        isVisible(left_from_world * frame.tracks_world_mm.back(), frame.depth_mm, lens_));
     frame.tracks_visible_right.push_back(
-        isSeenByRight(left_from_world * frame.tracks_world_mm.back(), scene, instrumentAt(time_s),
-                      lens_, rig_.baseline_mm));
+        isVisibleToRight(left_from_world * frame.tracks_world_mm.back(), scene,
+                         instrumentAt(time_s), lens_, rig_.baseline_mm));
   }
 }
 

@@ -125,7 +125,7 @@ Frame FrameLoader::load(int index) {
   frame.index = index;
   frame.time_s = timeOf(index);
   frame.pair = readPair(index);
-  if (!is_settled_) settleSize(frame.pair.left, left_->nameOf(index));
+  if (!is_settled_) determineSize(frame.pair.left, left_->nameOf(index));
   requireShape(frame.pair.left.width_px, frame.pair.left.height_px, left_->nameOf(index));
   if (right_)
     requireShape(frame.pair.right.width_px, frame.pair.right.height_px, right_->nameOf(index));
@@ -179,7 +179,7 @@ void FrameLoader::requirePartner(int index) const {
                          "(sequence.right_offset is ", options_.right_offset, ")"));
 }
 
-void FrameLoader::settleSize(const ColourImage& left, const std::string& name) {
+void FrameLoader::determineSize(const ColourImage& left, const std::string& name) {
   is_settled_ = true;
   PinholeCamera& camera = calibration_.left.pinhole;
   if (camera.width_px != 0 && camera.height_px != 0) return;

@@ -47,7 +47,7 @@ class FrameLoader {
   void setCalibration(const SequencePaths& paths);
   StereoPair readPair(int index);
   void requirePartner(int index) const;
-  void settleSize(const ColourImage& left, const std::string& name);
+  void determineSize(const ColourImage& left, const std::string& name);
   void requireShape(int width_px, int height_px, const std::string& name) const;
 
   SequenceOptions options_;
