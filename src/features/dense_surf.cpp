@@ -82,7 +82,7 @@ Squares squaresOf(const Integrals& integrals, int width, int height,
 
 /// Sums over `reach` x `reach` squares that begin at each square.
 struct Cells {
-  Raster<float> sums;  // kSums values a cell
+  Raster<float> sums;  // kSums values per cell
   Raster<std::int32_t> valid;
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kCannotStart = 127;  // as shells say it
+constexpr int kCannotStart = 127;  // as in shells
 
 int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
@@ -29,7 +29,7 @@ int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + 
 [[noreturn]] void become(char* const* words, char* const* environment, int log, int parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(kCannotStart);  // the parent died before it was asked
+  if (getppid() != parent) _exit(kCannotStart);  // the parent ended before the request
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
@@ -38,7 +38,7 @@ int codeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + 
   _exit(kCannotStart);
 }
 
-/// As exec takes them: ends with null, valid as long as `words`.
+/// In the form that exec requires: ends with null, valid as long as `words`.
 std::vector<char*> pointersTo(const std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
@@ -69,7 +69,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, const fs::path
   const std::vector<char*> environment = pointersTo(entries);
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) throw Error(shown(log) + ": can't be written to; check the rights of its folder");
-  signal(SIGCHLD, SIG_DFL);  // who ignores it, as some parents make us, can't wait for anyone
+  signal(SIGCHLD, SIG_DFL);  // ignored, as some parents set it, waiting fails
   const int parent = getpid();
   id_ = fork();
   if (id_ == 0) become(pointers.data(), environment.data(), file, parent);
@@ -91,7 +91,7 @@ std::optional<int> ChildProcess::ended() {
   if (id_ <= 0) return exit_code_;
   const int found = waitpid(id_, &status, WNOHANG);
   if (found == id_) exit_code_ = codeOf(status);
-  if (found < 0 && errno != EINTR) exit_code_ = kCannotStart;  // somebody else waited for it
+  if (found < 0 && errno != EINTR) exit_code_ = kCannotStart;  // waited for elsewhere
   if (exit_code_) id_ = -1;
   return exit_code_;
 }

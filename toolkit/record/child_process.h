@@ -8,8 +8,8 @@
 
 namespace softscope {
 
-/// A program that runs beside this one, in a process group of its own: Ctrl-C reaches it by
-/// interrupt() alone. It is asked to end when this process ends.
+/// A program in a process group of its own: Ctrl-C reaches it by
+/// interrupt() only. It receives a request to end when this process ends.
 class ChildProcess {
  public:
   /// `words[0]` is the program. Its output and errors are appended to `log`. `variables`
@@ -21,9 +21,9 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Its exit code once it has ended (128 + signal where one ended it); never waits.
+  /// Its exit code once it has ended (128 + the signal, if any); never waits.
   std::optional<int> ended();
-  /// Asks it to end cleanly.
+  /// Requests a clean end.
   void interrupt();
 
  private:
@@ -31,7 +31,7 @@ class ChildProcess {
   std::optional<int> exit_code_;
 };
 
-/// Runs it to its end; passes on an interrupt that `interrupted` reports.
+/// Waits for its end; passes on an interrupt that `interrupted` reports.
 template <class Interrupted>
 int runToEnd(ChildProcess child, const Interrupted& interrupted);
 

@@ -1,4 +1,4 @@
-// toolkit/study/run_study.cpp: what waits, what runs, what came of it.
+// toolkit/study/run_study.cpp: pending and running cases, and their results.
 #include "toolkit/study/run_study.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using Json = FactSheet::Json;
 
 constexpr int kInterruptedExit = 130;  // of softscope
 
-/// Cases with a sequence of their own come first: those that share one needn't wait for it then.
+/// Cases with a sequence of their own come first, so that those that share one need not wait.
 std::vector<const StudyCase*> pendingCases(const StudyRun& run) {
   std::vector<const StudyCase*> first, later;
   std::vector<std::pair<std::string, StudyValues>> sequences;
@@ -48,7 +48,7 @@ int jobCount(const StudyRun& run, std::size_t cases) {
   return std::max(1, std::min(jobs, static_cast<int>(cases)));
 }
 
-/// A case as a process, with the GPU that it may use.
+/// A case as a process, with its GPU.
 class RunningCase {
  public:
   RunningCase(const StudyRun& run, const StudyCase& study_case, int threads, GpuPool* gpus)
@@ -111,7 +111,7 @@ void StudyRun::validate() const {
           "must be 0 (one per GPU, without GPUs one per core) to 1024");
 }
 
-/// As a shell takes it, without options that decide no result, and without the machine's folders.
+/// As shell text, without options that do not affect results, and without folders of the machine.
 std::string StudyRun::command() const {
   const auto word = [](const fs::path& path) {
     const auto whole = path.lexically_normal();

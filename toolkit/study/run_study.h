@@ -31,12 +31,12 @@ struct StudyRun {
 
 enum class CaseEnd { kDone, kFailed, kInterrupted };
 
-/// One case in this process's own time; a failure and a skip are told. Writes no table.
+/// One case within this process; a failure and a skip are reported. Writes no table.
 CaseEnd runStudyCase(const StudyRun& run, const StudyCase& study_case,
                      const std::function<bool()>& interrupted, const WorkListener& listener = {});
 
-/// Every case that is not done, several at a time; cases with a sequence of their own come first.
-/// `listener.progress` counts cases. Returns false where it was stopped: cases that are done stay.
+/// All pending cases, several in parallel; cases with a sequence of their own come first.
+/// `listener.progress` counts cases. Returns false if it was stopped: complete cases are kept.
 bool runStudy(const StudyRun& run, const WorkListener& listener = {});
 
 struct WrittenStudy {
@@ -45,8 +45,8 @@ struct WrittenStudy {
   int failed = 0;          // cases
 };
 
-/// Tables, plots and page of what is there. `check`: a case whose settings or inputs changed since
-/// it was run is outdated.
+/// Tables, plots and page of the existing results. `check`: a case
+/// with settings or inputs changed since its run is outdated.
 WrittenStudy writeStudyTable(const StudyRun& run, bool check, const WorkListener& listener = {});
 
 }  // namespace softscope

@@ -1,4 +1,4 @@
-// eval/simulation/sequence/simulator.cpp: the parts of the simulation, put together.
+// eval/simulation/sequence/simulator.cpp: the parts of the simulation, combined.
 #include "eval/simulation/sequence/simulator.h"
 
 #include <algorithm>
@@ -13,20 +13,20 @@
 namespace softscope {
 namespace {
 
-// One seed a part, so that changing one part leaves the others as they were.
+// One seed per part: a change of one part does not affect the others.
 enum Part : std::uint64_t { kTexture = 1, kMotion = 2, kPath = 3, kNoise = 4 };
 
-constexpr int kShutterMoments = 7;      // that motion blur is made of
-constexpr double kSmokeShare = 0.5;     // smoke hangs half-way to the tissue
+constexpr int kShutterMoments = 7;      // for motion blur
+constexpr double kSmokeShare = 0.5;     // smoke is half-way to the tissue
 constexpr double kSeenWithin_mm = 0.3;  // of the depth at the nearest pixel: slopes between pixels
 
 std::uint64_t seedOf(const SimulationOptions& options, Part part) {
   return mixBits(static_cast<std::uint64_t>(options.seed) * 16 + part);
 }
 
-/// The tissue that the scope looks at: the first that lies between it and the middle of the mesh.
+/// The tissue in view: the first between the scope and the middle of the mesh.
 Eigen::Vector3d findTarget(const TriangleMesh& mesh, const CameraPathOptions& camera) {
-  const RayTree tree(mesh.vertices_mm, mesh.triangles);  // refuses what is no surface
+  const RayTree tree(mesh.vertices_mm, mesh.triangles);  // rejects an invalid surface
   Eigen::Array3f low = mesh.vertices_mm[0].array(), high = low;
   for (const Eigen::Vector3f& vertex : mesh.vertices_mm) {
     low = low.min(vertex.array());
@@ -43,7 +43,7 @@ Eigen::Vector3d findTarget(const TriangleMesh& mesh, const CameraPathOptions& ca
   return (middle + (away_mm - hit.distance) * to_scope).cast<double>();
 }
 
-/// The scope's first image: right, down, forward from the tissue in its middle.
+/// The first image of the scope: right, down, forward from the tissue in its middle.
 Eigen::Isometry3d viewOf(const CameraPath& path, const Eigen::Vector3d& target_body_mm) {
   Eigen::Isometry3d body_from_view = path.bodyFromLeft(0);
   body_from_view.translation() = target_body_mm;
@@ -55,7 +55,7 @@ double texelMm(const SimulationOptions& options, const RectifiedRig& rig) {
   return 0.75 * options.camera.distance_mm / rig.left.fx_px;
 }
 
-/// Laid from where the scope stands first.
+/// From the first pose of the scope.
 std::optional<PictureTexture> pictureTexture(const TextureOptions& options, double texel_mm,
                                              const Eigen::Isometry3d& body_from_view) {
   if (options.picture.empty()) return std::nullopt;
@@ -71,7 +71,7 @@ std::vector<Eigen::Vector3f> transformed(const std::vector<Eigen::Vector3f>& poi
   return result;
 }
 
-/// Tissue that lies no deeper than what the nearest pixel sees.
+/// Tissue at most as deep as the depth at the nearest pixel.
 bool isVisible(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_mm,
                const ScopeLens& left) {
   if (point_left_mm.z() <= 0) return false;
@@ -80,10 +80,10 @@ bool isVisible(const Eigen::Vector3d& point_left_mm, const Raster<float>& depth_
         at.y() <= depth_mm.height_px - 1))
     return false;
   const float seen_mm = depth_mm.at(int(std::lround(at.x())), int(std::lround(at.y())));
-  return point_left_mm.z() <= seen_mm + kSeenWithin_mm;  // false where it is NaN
+  return point_left_mm.z() <= seen_mm + kSeenWithin_mm;  // false for NaN
 }
 
-/// Tissue in the right image with nothing before it.
+/// Tissue visible to the right camera.
 bool isVisibleToRight(const Eigen::Vector3d& point_left_mm, const ScopeScene& scene,
                       const ScopeTool& instrument, const ScopeLens& lens, double baseline_mm) {
   const Eigen::Vector3d centre_mm(baseline_mm, 0, 0), ray = point_left_mm - centre_mm;
@@ -130,7 +130,7 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
             texelMm(options, rig_)),
       light_(options.light, rig_.baseline_mm, options.camera.distance_mm),
       world_from_body_(path_.bodyFromLeft(0).inverse()) {
-  options_.texture.picture = {};  // the skin has it
+  options_.texture.picture = {};  // already in the skin
   const ScopeScene first(worldVertices(0), body_, 0);
   Raster<RayHit> hits = castCentres(first, lens_);
   const Mask hidden = instrumentMask(hits, instrumentAt(0), lens_);
@@ -227,7 +227,7 @@ Raster<Eigen::Vector2f> Simulator::flowTo(double time_s, const Raster<RayHit>& h
   return flow;
 }
 
-/// With an open shutter, the mean of moments around the frame's own; truth is of the middle one.
+/// With an open shutter, the mean of exposures around the frame's time; truth is of the middle one.
 SimulatedFrame Simulator::frame(int index, bool flow) {
   require(index >= 0, "frame", index, "must be 0 or above");
   const double frame_s = 1 / options_.frames_per_second,

@@ -34,7 +34,7 @@ struct CandidatePoints {
   std::vector<Eigen::Vector3f> normals;
   std::vector<PointBinding> bindings;
   std::vector<int> stencil_start;  // model points per candidate
-  float points_each = 1;           // how many model points each stands for
+  float points_each = 1;           // number of model points represented by each
 };
 
 /// Keeps bound, finite points; of more than max_points (0 = no
@@ -63,7 +63,7 @@ struct ConstraintSet {
   int matches = 0;
   int matches_dropped = 0;  // not finite, or with an unbound model point
   int points = 0;
-  std::vector<double> stiffness;          // one an edge of the graph, 1 = as stiff as unseen tissue
+  std::vector<double> stiffness;          // one per graph edge, 1 = as stiff as unseen tissue
   std::vector<ExpectedOffsets> expected;  // one per edge
   std::vector<double> hidden;             // one per node: invisible share of its points
 };
