@@ -1,6 +1,7 @@
 #include "pipeline/window_search.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <limits>
