@@ -29,7 +29,7 @@ struct Sparsification {
   /// Ilg et al., ECCV 2018). 0: sigma and error have the same order.
   double area = Statistics::kNone;
 
-  /// Mean error of the surer half.
+  /// Mean error without the half with the largest sigma.
   double halfLeft() const { return mean_left.empty() ? Statistics::kNone : mean_left[5]; }
 };
 

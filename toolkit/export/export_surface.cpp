@@ -1,4 +1,4 @@
-// toolkit/export/export_surface.cpp: src/mesh makes the surface, we tell of it.
+// toolkit/export/export_surface.cpp: calls src/mesh, and reports the result.
 #include "toolkit/export/export_surface.h"
 
 #include "core/error.h"

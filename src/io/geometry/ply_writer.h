@@ -9,20 +9,20 @@
 
 namespace softscope {
 
-/// What the header's comments say of the coordinates.
+/// Information on the coordinates in comments of the header.
 struct PlyComments {
   std::string frame;  // "left", "raw left", "world", …
-  std::string space;  // "LPS" or "RAS" where the cloud lies in a patient's space; else empty
+  std::string space;  // "LPS" or "RAS" for a cloud in patient space; otherwise empty
   std::vector<std::string> more = {};  // one line each, "time_s 1.52"
 };
 
 /// Binary little-endian PLY: x y z (float, mm), then nx ny nz (float), red green blue (uchar),
-/// weight and sigma_mm (float) where the cloud has them. A normal that isn't finite is written as
-/// 0 0 0. Throws Error where normals, colours, weights or sigmas aren't one a point.
+/// weight and sigma_mm (float) if the cloud has them. A normal that is not finite is written
+/// as 0 0 0. Throws Error unless there is one normal, colour, weight and sigma per point.
 std::string plyBytes(const PointCloud& cloud, const PlyComments& comments);
 
-/// Throws OptionError where the file exists and `overwrite` is false, Error where it can't be
-/// written.
+/// Throws OptionError if the file exists and
+/// `overwrite` is false, Error if it cannot be written.
 void writePly(const std::filesystem::path& file, const PointCloud& cloud,
               const PlyComments& comments, bool overwrite = false);
 
