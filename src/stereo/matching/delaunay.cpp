@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "stereo/matching/edge_rings.h"
 
 namespace softscope {
@@ -16,6 +17,8 @@ __extension__ typedef __int128 Int128;
 
 /// Where coordinates differ by less than this, determinants stay below 12 * 2^56 and 12 * 2^120.
 constexpr std::int64_t kExtent64 = std::int64_t{1} << 14, kExtent128 = std::int64_t{1} << 30;
+
+constexpr int kSitesATask = 512;
 
 /// The first axis of the algorithm is the image's y, so that points in raster order are sorted.
 struct Site {
@@ -72,7 +75,7 @@ class Triangulation {
       : count_(static_cast<int>(sites.size())),
         rings_(sites.size()),
         predicates_(std::move(sites)) {
-    if (count_ > 1) first_ = triangulate(0, count_).of_first;
+    if (count_ > 1) first_ = triangulate(0, count_).hull.of_first;
   }
 
   /// Ranks of the corners; the smallest first.
@@ -100,6 +103,12 @@ class Triangulation {
     int of_first, of_last;
   };
 
+  /// A triangulated part, and the edges that it left over.
+  struct Part {
+    Hull hull;
+    EdgeRings::Pool pool;
+  };
+
   bool isLeft(int site, int edge) const {
     return predicates_.turn(rings_.origin(edge), rings_.destination(edge), site) > 0;
   }
@@ -107,49 +116,65 @@ class Triangulation {
     return predicates_.turn(rings_.origin(edge), rings_.destination(edge), site) < 0;
   }
 
-  Hull triangulate(int begin, int end) {
-    if (end - begin == 2) return joinTwo(begin);
-    if (end - begin == 3) return joinThree(begin);
+  /// Large parts on all cores. Which edges a part takes does not matter to its triangles.
+  Part triangulate(int begin, int end) {
+    if (end - begin <= kSitesATask) {
+      EdgeRings::Pool pool = rings_.poolOf(begin, end);
+      const Hull hull = triangulate(begin, end, &pool);
+      return {hull, pool};
+    }
     const int middle = begin + (end - begin) / 2;
-    const Hull left = triangulate(begin, middle);
-    return merge(left, triangulate(middle, end));
+    Part left, right;
+    parallelInvoke([&] { left = triangulate(begin, middle); },
+                   [&] { right = triangulate(middle, end); });
+    EdgeRings::Pool pool = rings_.join(left.pool, right.pool);
+    const Hull hull = merge(left.hull, right.hull, &pool);
+    return {hull, pool};
   }
 
-  Hull joinTwo(int first) {
-    const int edge = rings_.make(first, first + 1);
+  Hull triangulate(int begin, int end, EdgeRings::Pool* pool) {
+    if (end - begin == 2) return joinTwo(begin, pool);
+    if (end - begin == 3) return joinThree(begin, pool);
+    const int middle = begin + (end - begin) / 2;
+    const Hull left = triangulate(begin, middle, pool);
+    return merge(left, triangulate(middle, end, pool), pool);
+  }
+
+  Hull joinTwo(int first, EdgeRings::Pool* pool) {
+    const int edge = rings_.make(first, first + 1, pool);
     return {edge, EdgeRings::twin(edge)};
   }
 
-  Hull joinThree(int first) {
-    const int a = rings_.make(first, first + 1), b = rings_.make(first + 1, first + 2);
+  Hull joinThree(int first, EdgeRings::Pool* pool) {
+    const int a = rings_.make(first, first + 1, pool), b = rings_.make(first + 1, first + 2, pool);
     rings_.insertAfter(EdgeRings::twin(a), b);
     const Wide turn = predicates_.turn(first, first + 1, first + 2);
     if (turn == 0) return {a, EdgeRings::twin(b)};
-    const int c = rings_.connect(b, a);
+    const int c = rings_.connect(b, a, pool);
     if (turn > 0) return {a, EdgeRings::twin(b)};
     return {EdgeRings::twin(c), c};
   }
 
   /// The common tangent below both parts, from right to left.
-  int joinBelow(int left, int right) {
+  int joinBelow(int left, int right, EdgeRings::Pool* pool) {
     for (;;) {
       if (isLeft(rings_.origin(right), left))
         left = rings_.nextOfFace(left);
       else if (isRight(rings_.origin(left), right))
         right = rings_.next(EdgeRings::twin(right));
       else
-        return rings_.connect(EdgeRings::twin(right), left);
+        return rings_.connect(EdgeRings::twin(right), left, pool);
     }
   }
 
-  Hull merge(Hull left, Hull right) {
-    int base = joinBelow(left.of_last, right.of_first);
+  Hull merge(Hull left, Hull right, EdgeRings::Pool* pool) {
+    int base = joinBelow(left.of_last, right.of_first, pool);
     Hull hull = {left.of_first, right.of_last};
     if (rings_.destination(base) == rings_.origin(hull.of_first))
       hull.of_first = EdgeRings::twin(base);
     if (rings_.origin(base) == rings_.origin(hull.of_last)) hull.of_last = base;
     for (;;) {
-      const int in_left = leftCandidate(base), in_right = rightCandidate(base);
+      const int in_left = leftCandidate(base, pool), in_right = rightCandidate(base, pool);
       const bool left_fits = isRight(rings_.destination(in_left), base);
       const bool right_fits = isRight(rings_.destination(in_right), base);
       if (!left_fits && !right_fits) return hull;
@@ -157,30 +182,30 @@ class Triangulation {
           !left_fits || (right_fits && predicates_.inCircle(
                                            rings_.destination(in_left), rings_.origin(in_left),
                                            rings_.origin(in_right), rings_.destination(in_right)));
-      base = take_right ? rings_.connect(in_right, EdgeRings::twin(base))
-                        : rings_.connect(EdgeRings::twin(base), EdgeRings::twin(in_left));
+      base = take_right ? rings_.connect(in_right, EdgeRings::twin(base), pool)
+                        : rings_.connect(EdgeRings::twin(base), EdgeRings::twin(in_left), pool);
     }
   }
 
   /// The first edge of the left part above `base` whose circle with it contains no further site of
   /// that part. Removes the edges before it.
-  int leftCandidate(int base) {
+  int leftCandidate(int base, EdgeRings::Pool* pool) {
     int edge = rings_.next(EdgeRings::twin(base));
     while (isRight(rings_.destination(edge), base)) {
       const int behind = rings_.next(edge);
       if (behind == EdgeRings::twin(base) || !fails(edge, behind, base)) break;
-      rings_.remove(edge);
+      rings_.remove(edge, pool);
       edge = behind;
     }
     return edge;
   }
 
-  int rightCandidate(int base) {
+  int rightCandidate(int base, EdgeRings::Pool* pool) {
     int edge = rings_.previous(base);
     while (isRight(rings_.destination(edge), base)) {
       const int behind = rings_.previous(edge);
       if (behind == base || !fails(edge, behind, base)) break;
-      rings_.remove(edge);
+      rings_.remove(edge, pool);
       edge = behind;
     }
     return edge;

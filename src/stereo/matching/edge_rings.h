@@ -10,7 +10,26 @@ namespace softscope {
 /// the dual graph).
 class EdgeRings {
  public:
-  explicit EdgeRings(std::size_t vertices) { edges_.reserve(6 * vertices); }
+  /// Edges that are not in use. Parts of the graph that are built at the same time have pools of
+  /// their own.
+  struct Pool {
+    int first = -1, last = -1;  // the `next` of a free edge is the one behind it; -1: none
+  };
+
+  /// A planar graph has less than three edges per vertex.
+  explicit EdgeRings(std::size_t vertices) : edges_(6 * vertices) {}
+
+  /// Enough for a graph of the vertices from `begin` to, not with, `end`. No two pools may overlap.
+  Pool poolOf(int begin, int end) {
+    for (int edge = 6 * begin; edge < 6 * end; edge += 2)
+      at(edge).next = edge + 2 < 6 * end ? edge + 2 : -1;
+    return {6 * begin, 6 * end - 2};
+  }
+  Pool join(const Pool& a, const Pool& b) {
+    if (a.first < 0) return b;
+    if (b.first >= 0) at(a.last).next = b.first;
+    return {a.first, b.first < 0 ? a.last : b.last};
+  }
 
   static int twin(int edge) { return edge ^ 1; }
   int origin(int edge) const { return at(edge).origin; }
@@ -21,18 +40,13 @@ class EdgeRings {
   /// Around the face on the edge's left.
   int nextOfFace(int edge) const { return previous(twin(edge)); }
 
-  /// One past the largest edge; removed edges among them have no origin (-1).
+  /// One past the largest edge; free edges among them have no origin (-1).
   int end() const { return static_cast<int>(edges_.size()); }
 
   /// An edge that is alone in its two rings.
-  int make(int origin, int destination) {
-    int edge = free_;
-    if (edge < 0) {
-      edge = end();
-      edges_.resize(edges_.size() + 2);
-    } else {
-      free_ = at(edge).next;
-    }
+  int make(int origin, int destination, Pool* pool) {
+    const int edge = pool->first;
+    pool->first = at(edge).next;
     at(edge) = {origin, edge, edge};
     at(twin(edge)) = {destination, twin(edge), twin(edge)};
     return edge;
@@ -49,24 +63,25 @@ class EdgeRings {
 
   /// A new edge from the destination of `from` to the origin of `to`; all three have the same face
   /// on their left.
-  int connect(int from, int to) {
-    const int edge = make(destination(from), origin(to));
+  int connect(int from, int to, Pool* pool) {
+    const int edge = make(destination(from), origin(to), pool);
     insertAfter(nextOfFace(from), edge);
     insertAfter(to, twin(edge));
     return edge;
   }
 
-  void remove(int edge) {
+  void remove(int edge, Pool* pool) {
     takeOut(edge);
     takeOut(twin(edge));
     edge &= ~1;
-    at(edge).next = free_;
-    free_ = edge;
+    at(edge).next = pool->first;
+    if (pool->first < 0) pool->last = edge;
+    pool->first = edge;
   }
 
  private:
   struct Edge {
-    int origin, next, previous;
+    int origin = -1, next = -1, previous = -1;
   };
 
   Edge& at(int edge) { return edges_[static_cast<std::size_t>(edge)]; }
@@ -79,7 +94,6 @@ class EdgeRings {
   }
 
   std::vector<Edge> edges_;
-  int free_ = -1;  // the last removed edge, whose `next` is the one removed before it
 };
 
 }  // namespace softscope
