@@ -2,17 +2,25 @@
 
 namespace softscope {
 
-FrameView FrameAhead::measureNow(std::future<FrameViews> begun, const Frame& frame,
+FrameAhead::Aligned FrameAhead::align(const Frame& frame) const {
+  Aligned aligned{depth_->viewsOf(frame), {}};
+  aligned.pictures = framePictures(aligned.views, options_);
+  return aligned;
+}
+
+FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
                                  StageClock* clock) {
-  MeasuredFrame measured = depth_->measure(begun.valid() ? begun.get() : depth_->viewsOf(frame));
+  Aligned aligned = begun.valid() ? begun.get() : align(frame);
+  MeasuredFrame measured = depth_->measure(std::move(aligned.views));
   clock->lap("depth");
-  FrameView view = viewFrame(std::move(measured), depth_->rig(), options_);
+  FrameView view =
+      viewFrame(std::move(measured), std::move(aligned.pictures), depth_->rig(), options_);
   clock->lap("mask");
   return view;
 }
 
 /// What was begun for this frame; of another one it is of no use.
-std::future<FrameViews> FrameAhead::takeViews(const Frame& frame) {
+std::future<FrameAhead::Aligned> FrameAhead::takeViews(const Frame& frame) {
   if (views_.valid() && aligned_ != &frame) {
     views_.wait();
     views_ = {};
@@ -29,7 +37,7 @@ void FrameAhead::prepare(const Frame& next, const Frame* after) {
   });
   if (after == nullptr) return;
   aligned_ = after;
-  views_ = std::async(std::launch::async, [this, after] { return depth_->viewsOf(*after); });
+  views_ = std::async(std::launch::async, [this, after] { return align(*after); });
 }
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {

@@ -28,13 +28,19 @@ class FrameAhead {
   FrameView measure(const Frame& frame, StageClock* clock);
 
  private:
-  FrameView measureNow(std::future<FrameViews> begun, const Frame& frame, StageClock* clock);
-  std::future<FrameViews> takeViews(const Frame& frame);
+  /// Everything that is found before the frame is measured.
+  struct Aligned {
+    FrameViews views;
+    FramePictures pictures;
+  };
+  Aligned align(const Frame& frame) const;
+  FrameView measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
+  std::future<Aligned> takeViews(const Frame& frame);
 
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
   const Frame *prepared_ = nullptr, *aligned_ = nullptr;
-  std::future<FrameViews> views_;  // of aligned_; both end before depth_ does
+  std::future<Aligned> views_;     // of aligned_; both end before depth_ does
   std::future<FrameView> result_;  // of prepared_
 };
 

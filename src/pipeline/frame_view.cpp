@@ -74,16 +74,34 @@ DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
   return summary;
 }
 
+FramePictures picturesOf(const ColourImage& left, const MeasuredFrame& measured,
+                         const ReconstructionOptions& options) {
+  FramePictures pictures;
+  pictures.not_tissue = notTissue(left, measured, options.tissue);
+  pictures.live = livePicture(left, pictures.not_tissue);
+  return pictures;
+}
+
 }  // namespace
+
+FramePictures framePictures(const FrameViews& views, const ReconstructionOptions& options) {
+  const ColourImage& aligned = views.aligned.pair.left;
+  return picturesOf(aligned.empty() ? views.measured.left : aligned, views.measured, options);
+}
 
 FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
                     const ReconstructionOptions& options) {
+  FramePictures pictures = picturesOf(measured.left, measured, options);
+  return viewFrame(std::move(measured), std::move(pictures), rig, options);
+}
+
+FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const RectifiedRig& rig,
+                    const ReconstructionOptions& options) {
   FrameView view;
   view.measured = std::move(measured);
-  view.not_tissue = notTissue(view.measured, options.tissue);
-  // Neither needs the other.
-  parallelInvoke([&] { view.live = livePicture(view.measured, view.not_tissue); },
-                 [&] { view.summary = summarise(view.measured, view.not_tissue, rig); });
+  view.not_tissue = std::move(pictures.not_tissue);
+  view.live = std::move(pictures.live);
+  view.summary = summarise(view.measured, view.not_tissue, rig);
   scaleOptions(options, &view);
   // The state of a pixel does not depend on the camera's pose.
   view.states = judgePixels({view.measured.depth, view.measured.normals, view.measured.left,

@@ -24,7 +24,17 @@ struct FrameView {
   RansacOptions pose;
 };
 
-/// Depends on nothing else: may run ahead.
+/// What the rectified left image and its masks alone tell of a frame.
+struct FramePictures {
+  Mask not_tissue;
+  MatchPicture live;
+};
+
+/// Both depend on nothing else, and may run ahead: the first before the frame is measured.
+FramePictures framePictures(const FrameViews& views, const ReconstructionOptions& options);
+FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const RectifiedRig& rig,
+                    const ReconstructionOptions& options);
+/// The same, where the pictures are still to be made.
 FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
                     const ReconstructionOptions& options);
 

@@ -33,20 +33,21 @@ Mask unseen(const ModelView& view) {
 
 }  // namespace
 
-Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options) {
-  Mask mask(frame.left.width_px, frame.left.height_px, 0);
+Mask notTissue(const ColourImage& left, const MeasuredFrame& frame,
+               const TissueMaskOptions& options) {
+  Mask mask(left.width_px, left.height_px, 0);
   if (!frame.mask.empty()) addTo(mask, frame.mask);
   for (std::size_t i = 0; i < frame.border.size(); ++i)
     mask.values[i] = frame.border.values[i] != 0 ? std::uint8_t{0} : mask.values[i];
-  if (options.detect_instruments) addTo(mask, detectInstruments(frame.left));
+  if (options.detect_instruments) addTo(mask, detectInstruments(left));
   if (options.margin_px > 0) mask = dilated(mask, options.margin_px);
   addTo(mask, frame.border);  // without a margin: no matching window reached it
   return mask;
 }
 
-MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue) {
-  MatchPicture live{toGray(frame.left), not_tissue};
-  addTo(live.ignore, highlightMask(frame.left));
+MatchPicture livePicture(const ColourImage& left, const Mask& not_tissue) {
+  MatchPicture live{toGray(left), not_tissue};
+  addTo(live.ignore, highlightMask(left));
   return live;
 }
 

@@ -11,11 +11,13 @@
 
 namespace softscope {
 
-/// What of a frame is no tissue: its mask, and instruments where they are to be detected.
-Mask notTissue(const MeasuredFrame& frame, const TissueMaskOptions& options);
+/// What of a frame is no tissue: its mask, and instruments where they are to be detected in `left`,
+/// the rectified image.
+Mask notTissue(const ColourImage& left, const MeasuredFrame& frame,
+               const TissueMaskOptions& options);
 
 /// The rectified left image as it is matched: without what is no tissue, without highlights.
-MatchPicture livePicture(const MeasuredFrame& frame, const Mask& not_tissue);
+MatchPicture livePicture(const ColourImage& left, const Mask& not_tissue);
 
 struct ModelMatches {
   std::vector<PixelMatch> pixels;
