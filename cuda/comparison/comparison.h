@@ -5,13 +5,15 @@
 
 #include "core/camera.h"
 #include "cuda/device/shared_rasters.h"
+#include "cuda/model/shared_model.h"
 #include "fusion/frame_comparer.h"
 
 namespace softscope::cuda {
 
-/// `shared`: where it tells what rasters lie on the device; may be null. Throws BackendError where
-/// no GPU works.
+/// `shared`: where it tells what rasters lie on the device; `model`: ComparisonRun::share(). Both
+/// may be null. Throws BackendError where no GPU works.
 std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left,
-                                                 std::shared_ptr<SharedRasters> shared = nullptr);
+                                                 std::shared_ptr<SharedRasters> shared = nullptr,
+                                                 std::shared_ptr<SharedModel> model = nullptr);
 
 }  // namespace softscope::cuda

@@ -9,6 +9,7 @@
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "cuda/device/arena.h"
+#include "cuda/model/model_layout.h"
 #include "fusion/block_correlation.h"
 #include "fusion/colour_gain.h"
 #include "fusion/drawn_points.h"
@@ -110,24 +111,15 @@ struct ComparisonFrameLayout {
   std::size_t totals_bytes = 0;
 };
 
-/// The model's points, and the comparison of each with the frame.
-struct ComparisonModelLayout {
+/// The model's points, which lie elsewhere, and the comparison of each with the frame.
+struct ComparisonModelLayout : ModelArrays {
   ComparisonModelLayout() = default;
   ComparisonModelLayout(Arena& arena, std::size_t points) {
-    positions_mm = arena.array<Eigen::Vector3f>(points);
-    normals = arena.array<Eigen::Vector3f>(points);
-    colours = arena.array<Rgb8>(points);
-    anchors = arena.array<std::uint8_t>(points);
-    bindings = arena.array<PointBinding>(points);
     sights = arena.array<PointSight>(points);
     seen = arena.array<std::uint8_t>(points);
   }
 
   int count = 0;
-  Eigen::Vector3f *positions_mm = nullptr, *normals = nullptr;
-  Rgb8* colours = nullptr;
-  std::uint8_t* anchors = nullptr;
-  PointBinding* bindings = nullptr;
   PointSight* sights = nullptr;
   std::uint8_t* seen = nullptr;
 };

@@ -11,6 +11,7 @@
 
 #include "cuda/comparison/comparison_passes.h"
 #include "cuda/device/shared_rasters.h"
+#include "cuda/model/model_home.h"
 #include "fusion/frame_comparer.h"
 
 namespace softscope::cuda {
@@ -40,6 +41,9 @@ class ComparisonRun final : public FrameComparer {
   }
   /// Tells other stages what lies on the device.
   void share(std::shared_ptr<SharedRasters> shared) { shared_ = std::move(shared); }
+  /// A model that knows what has changed; what compare() says of its points stays there, and the
+  /// visibility that it returns is empty.
+  void share(std::shared_ptr<ModelHome<Machine>> home) { shared_home_ = std::move(home); }
   ~ComparisonRun() override {
     if (sending_.valid()) sending_.wait();
   }
@@ -63,7 +67,7 @@ class ComparisonRun final : public FrameComparer {
                                        const Raster<PixelState>& states,
                                        const VisibilityOptions& options) override {
     needFrame(observation, states);
-    sendShape(model);
+    takeModel(model, kModelShape);
     const bool draws = false;
     passes_.findSight(frame_, model_, cameraOf(observation), sightLimits(options), draws);
     seen_.resize(model.size());
@@ -81,23 +85,22 @@ class ComparisonRun final : public FrameComparer {
                           const FusionOptions& options) override {
     options.validate();
     needFrame(observation, states);
-    sendShape(model);
-    send(model_.colours, model.colours);
+    const SeenQuestions asked = questionsOf(options, model.size());
+    takeModel(model, kModelShape | kModelLooks | (asked.innovation ? kModelBindings : 0));
     const PosedCamera camera = cameraOf(observation);
     const bool draws = true, compares_images = true;
     passes_.findSight(frame_, model_, camera, sightLimits(options.visibility), draws);
     passes_.comparePixels(frame_, model_, camera, compares_images);
-    send(model_.anchors, model.anchors);  // beside the kernels
-    const SeenQuestions asked = questionsOf(options, model.size());
-    if (asked.innovation) {
-      send(model_.bindings, model.bindings);
-      sendGraph(graph);
-    }
+    if (asked.innovation) sendGraph(graph);  // beside the kernels
     passes_.askSeen(frame_, model_, graph_, asked);
     FrameComparison found;
-    std::vector<PointSight>& sights = found.model.visibility.points;
-    sights.resize(model.size());
-    machine_.fromDevice(sights.data(), model_.sights, sights.size() * sizeof(PointSight));
+    if (shared_home_) {
+      shared_home_->setSights(model_.sights);
+    } else {
+      std::vector<PointSight>& sights = found.model.visibility.points;
+      sights.resize(model.size());
+      machine_.fromDevice(sights.data(), model_.sights, sights.size() * sizeof(PointSight));
+    }
     std::vector<InnovationSums> nodes(asked.innovation ? graph.size() : 0);
     if (!nodes.empty())
       machine_.fromDevice(nodes.data(), graph_.sums, nodes.size() * sizeof(InnovationSums));
@@ -117,7 +120,7 @@ class ComparisonRun final : public FrameComparer {
   BackProjectionError error(const PointModel& model, const Observation& observation,
                             const Raster<PixelState>& states) override {
     needFrame(observation, states);
-    sendShape(model);
+    takeModel(model, kModelShape);
     const PosedCamera camera = cameraOf(observation);
     const bool draws = true, compares_images = false;
     passes_.findSight(frame_, model_, camera, sightLimits({}), draws);
@@ -148,13 +151,20 @@ class ComparisonRun final : public FrameComparer {
     send(frame_.colour, colour.values);
     machine_.wait();
     if (shared_)
-      *shared_ = {depth.depth_mm.values.data(), frame_.depth_mm, frame_.sigma_mm, frame_.normals};
+      *shared_ = {depth.depth_mm.values.data(),
+                  frame_.depth_mm,
+                  frame_.sigma_mm,
+                  frame_.normals,
+                  frame_.states,
+                  frame_.colour};
   }
-  void sendShape(const PointModel& model) {
+  void takeModel(const PointModel& model, ModelParts parts) {
+    ModelHome<Machine>& home = shared_home_ ? *shared_home_ : own_home_;
+    if (!shared_home_) home.changed(kWholeModel);
+    home.setSights(nullptr);  // they are found anew
     reserveModel(model.size());
+    static_cast<ModelArrays&>(model_) = home.bring(model, parts, 0, machine_);
     model_.count = static_cast<int>(model.size());
-    send(model_.positions_mm, model.positions_mm);
-    send(model_.normals, model.normals);
   }
   void sendGraph(const WarpGraph& graph) {
     Arena counting;
@@ -262,6 +272,8 @@ class ComparisonRun final : public FrameComparer {
   std::vector<std::uint8_t> seen_;
   std::vector<char> totals_;
   std::shared_ptr<SharedRasters> shared_;
+  std::shared_ptr<ModelHome<Machine>> shared_home_;
+  ModelHome<Machine> own_home_;
   std::future<void> sending_;
   bool has_frame_ = false;
 };

@@ -11,6 +11,7 @@ namespace softscope::cuda {
 class DeviceMachine {
  public:
   using Memory = DeviceMemory;
+  using Pinned = PinnedMemory;
   using Executor = DeviceExecutor<EventClock>;
 
   DeviceMachine() : executor_(stream_, nullptr) {}

@@ -82,6 +82,13 @@ template <class T>
 SOFTSCOPE_HD inline T atomicPlus(T* at, T value) {
   SOFTSCOPE_ATOMIC(return atomicAdd(at, value), const T old = *at; *at = old + value; return old);
 }
+/// Writes `value` where `expected` was; returns what was there.
+SOFTSCOPE_HD inline unsigned long long atomicClaim(unsigned long long* at,
+                                                   unsigned long long expected,
+                                                   unsigned long long value) {
+  SOFTSCOPE_ATOMIC(return atomicCAS(at, expected, value), const unsigned long long old = *at;
+                   if (old == expected)* at = value; return old);
+}
 SOFTSCOPE_HD inline void atomicUnite(std::uint32_t* at, std::uint32_t bits) {
   SOFTSCOPE_ATOMIC(atomicOr(at, bits), *at |= bits);
 }

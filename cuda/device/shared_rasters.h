@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 
+#include "core/image.h"
+#include "fusion/observation.h"
+
 namespace softscope::cuda {
 
 /// Known by their place in the host's memory. Whoever copies them sets this once they are there,
@@ -12,6 +15,8 @@ struct SharedRasters {
   const float* host_depth_mm = nullptr;
   const float *depth_mm = nullptr, *sigma_mm = nullptr;  // on the device
   const Eigen::Vector3f* normals = nullptr;
+  const PixelState* states = nullptr;
+  const Rgb8* colour = nullptr;
 
   bool holds(const float* depth) const { return depth != nullptr && depth == host_depth_mm; }
 };

@@ -1,8 +1,10 @@
+#include "cuda/device/copy_kernel.h"
 #include "cuda/device/device_executor.cuh"
 #include "cuda/device/device_stream.h"
 #include "cuda/device/event_clock.h"
 #include "cuda/locate/locate.h"
 #include "cuda/locate/locate_passes.h"
+#include "cuda/model/shared_model.cuh"
 #include "cuda/view/view_upload.h"
 
 namespace softscope::cuda {
@@ -48,6 +50,19 @@ class Locator::Device {
 
   void setModel(const PointModel& model) {
     point_count_ = uploadModel(stream_, layout_.view, model);
+  }
+  void setModel(const PointModel& model, SharedModel& on_device) {
+    requireRoom(model.size(), layout_.view);
+    point_count_ = static_cast<int>(model.size());
+    Link link{stream_, executor_};
+    const ModelArrays& from = on_device.bring(model, kModelShape | kModelLooks, 0, link);
+    CopyKernel copy;  // the graphs read from one place
+    copy.add(reinterpret_cast<const ViewVector*>(from.positions_mm), layout_.view.positions_mm,
+             model.size());
+    copy.add(reinterpret_cast<const ViewVector*>(from.normals), layout_.view.normals, model.size());
+    copy.add(from.colours, layout_.view.colours, model.size());
+    copy.add(from.anchors, layout_.view.anchors, model.size());
+    executor_.launch("copy", copy, copy.blocks());
   }
   void setLive(const MatchPicture& live, const DepthMap& depth) {
     send(live.gray, layout_.match.levels.front().gray[1]);
@@ -121,6 +136,17 @@ class Locator::Device {
   }
 
   using Executor = DeviceExecutor<EventClock>;
+  /// For ModelHome::bring().
+  struct Link {
+    Stream& stream;
+    Executor& work;
+    Executor& executor() { return work; }
+    void toDevice(void* to, const void* from, std::size_t bytes) const {
+      stream.toDevice(to, from, bytes);
+    }
+    void wait() const { stream.wait(); }
+  };
+
   PinholeCamera camera_;
   ModelViewOptions view_options_;
   DeviceMemory memory_;
@@ -145,6 +171,9 @@ Locator::Locator(const PinholeCamera& camera, const ModelViewOptions& view,
 Locator::~Locator() = default;
 
 void Locator::setModel(const PointModel& model) { device_->setModel(model); }
+void Locator::setModel(const PointModel& model, SharedModel& on_device) {
+  device_->setModel(model, on_device);
+}
 void Locator::setLive(const MatchPicture& live, const DepthMap& depth) {
   device_->setLive(live, depth);
 }

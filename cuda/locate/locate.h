@@ -10,6 +10,7 @@
 
 #include "core/depth_map.h"
 #include "core/point_model.h"
+#include "cuda/model/shared_model.h"
 #include "features/lift_matches.h"
 #include "features/matcher.h"
 #include "features/model_view.h"
@@ -36,6 +37,8 @@ class Locator {
 
   /// Throws Error for more points than the capacity.
   void setModel(const PointModel& model);
+  /// The same; copies what of it has changed on the host.
+  void setModel(const PointModel& model, SharedModel& on_device);
   /// Throws InputError for another shape. `depth.sigma_mm` may be empty.
   void setLive(const MatchPicture& live, const DepthMap& depth);
   /// Seen from there, the model looked so; empty: as it is drawn.

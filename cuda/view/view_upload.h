@@ -10,13 +10,18 @@
 
 namespace softscope::cuda {
 
+/// Throws Error for more points than the capacity.
+inline void requireRoom(std::size_t points, const ViewLayout& layout) {
+  if (points > static_cast<std::size_t>(layout.capacity))
+    throw Error("the model has " + std::to_string(points) +
+                " points, but the GPU was prepared for " + std::to_string(layout.capacity));
+}
+
 /// Returns the number of points, once all are there. Throws Error for more than the capacity.
 inline int uploadModel(const Stream& stream, const ViewLayout& layout, const PointModel& model) {
   static_assert(sizeof(ViewVector) == sizeof(Eigen::Vector3f));
   const std::size_t count = model.size();
-  if (count > static_cast<std::size_t>(layout.capacity))
-    throw Error("the model has " + std::to_string(count) +
-                " points, but the GPU was prepared for " + std::to_string(layout.capacity));
+  requireRoom(count, layout);
   stream.toDevice(layout.positions_mm, model.positions_mm.data(), count * sizeof(ViewVector));
   stream.toDevice(layout.normals, model.normals.data(), count * sizeof(ViewVector));
   stream.toDevice(layout.colours, model.colours.data(), count * sizeof(Rgb8));

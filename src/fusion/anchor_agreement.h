@@ -31,6 +31,10 @@ class AnchorAgreement {
   bool at(std::int32_t pixel) const {
     return !agrees_.empty() && agrees_.values[blockOf(pixel)] != 0;
   }
+  /// Not 0 for blocks that agree, row by row, of that many pixels a side; empty: nothing agrees.
+  const Mask& blocks() const { return agrees_; }
+  int blockPx() const { return block_px_; }
+  int imageWidthPx() const { return width_px_; }
 
  private:
   AnchorAgreement(int width_px, int height_px);

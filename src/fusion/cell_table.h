@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,8 +29,14 @@ SOFTSCOPE_HD inline CellKey cellKey(const Eigen::Vector3f& point_mm,
   return key;
 }
 
-/// Open addressing over indices whose keys the caller holds. Eight cells that follow each other in
-/// x share a cache line's neighbourhood, as surface points come row by row.
+/// Where the search for a key begins in a table of mask + 1 slots, a power of two. Eight cells that
+/// follow each other in x share a cache line's neighbourhood, as surface points come row by row.
+SOFTSCOPE_HD inline std::size_t firstSlot(CellKey key, std::size_t mask) {
+  const CellKey mixed = (key >> 3) * 0x9E3779B97F4A7C15ULL;
+  return static_cast<std::size_t>((mixed >> 29) << 3 | (key & 7)) & mask;
+}
+
+/// Open addressing over indices whose keys the caller holds.
 class CellHashTable {
  public:
   static constexpr std::int32_t kEmpty = -1;
@@ -45,8 +52,7 @@ class CellHashTable {
   template <class Same>
   std::int32_t& find(CellKey key, const Same& same) {
     const std::size_t mask = slots_.size() - 1;
-    const CellKey mixed = (key >> 3) * 0x9E3779B97F4A7C15ULL;
-    std::size_t slot = ((mixed >> 29) << 3 | (key & 7)) & mask;
+    std::size_t slot = firstSlot(key, mask);
     while (slots_[slot] != kEmpty && !same(slots_[slot])) slot = (slot + 1) & mask;
     return slots_[slot];
   }

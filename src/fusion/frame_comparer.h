@@ -37,7 +37,8 @@ class FrameComparer {
                                                const Observation& observation,
                                                const Raster<PixelState>& states,
                                                const VisibilityOptions& options) = 0;
-  /// `graph` has live positions.
+  /// `graph` has live positions. The visibility may stay on the device, where the ModelUpdater of
+  /// the same device finds it; it is empty then.
   virtual FrameComparison compare(const PointModel& model, const WarpGraph& graph,
                                   const Observation& observation, const Raster<PixelState>& states,
                                   const FusionOptions& options) = 0;

@@ -9,9 +9,8 @@
 #include "core/median.h"
 #include "core/parallel.h"
 #include "deform/energy/surface_target.h"
-#include "deform/graph/warp.h"
-#include "fusion/model_update.h"
 #include "fusion/visibility.h"
+#include "pipeline/accepted_warp.h"
 #include "pipeline/frame_ahead.h"
 #include "pipeline/graph_ahead.h"
 #include "pipeline/model_matches.h"
@@ -38,7 +37,8 @@ class CpuBackend : public ReconstructionBackend {
         matching_(parts.makeMatching(options, rig())),
         pose_search_(parts.makePoseSearch()),
         solver_(parts.makeSolver(options.deform)),
-        comparer_(parts.makeComparer(rig())) {
+        comparer_(parts.makeComparer(rig())),
+        updater_(parts.makeUpdater(rig())) {
     options.validate();
   }
 
@@ -46,10 +46,14 @@ class CpuBackend : public ReconstructionBackend {
   std::string device() const override { return device_; }
   const RectifiedRig& rig() const override { return frames_.depth().rig(); }
   bool empty() const override { return state_.model.empty(); }
-  const ModelState& state() const override { return state_; }
+  const ModelState& state() const override {
+    updater_->fetch(&state_.memory);
+    return state_;
+  }
   void restore(ModelState state) override {
     growth_.drop();
     state_ = std::move(state);
+    updater_->changed(kWholeModel);
   }
 
   void prepare(const Frame& next, const Frame* after) override {
@@ -90,20 +94,18 @@ class CpuBackend : public ReconstructionBackend {
   std::unique_ptr<PoseSearch> pose_search_;
   std::unique_ptr<DeformSolver> solver_;
 
-  ModelState state_;
+  mutable ModelState state_;  // its memory may lie on a device until state() is called
   std::vector<TrackSeed> seeds_;
   GraphAhead growth_;  // of the model and the graph as fuse() left them; ends before they do
 
-  // As it was before acceptWarp(); empty where nothing was warped.
-  struct Unwarped {
-    std::vector<Eigen::Vector3f> positions_mm, normals;
-    WarpGraph graph;
-    MaterialPoints tracked;
-  } before_;
+  AcceptedWarp warp_;
+  template <class Work>
+  void orRejectWarp(const Work& work);
 
   // Of the frame at hand.
   FrameView frame_;
   std::unique_ptr<FrameComparer> comparer_;  // may read frame_ until endFrame()
+  std::unique_ptr<ModelUpdater> updater_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
   std::optional<ModelComparison> comparison_;  // with the warped model
@@ -240,6 +242,7 @@ DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   growth_.grow(options_.graph, &state_.model, &state_.graph);
+  updater_->changed(kModelBindings);
   clock_.lap("graph");
   const std::vector<std::int32_t> visible = comparer_->seenPoints(
       state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility);
@@ -256,34 +259,38 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
 }
 
 void CpuBackend::acceptWarp(bool is_reference) {
-  before_ = {state_.model.positions_mm, state_.model.normals, state_.graph, state_.tracked};
-  state_.tracked.warp(state_.graph, state_.model);
-  warpModel(state_.graph, &state_.model);
-  rebase(&state_.graph);
+  warp_.apply(updater_.get(), &state_);
   if (is_reference) state_.graph.moved_mm.assign(state_.graph.size(), Eigen::Vector3d::Zero());
   clock_.lap("warp");
 }
 
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
   // Nearly every frame is confirmed: what fusion asks first is found beside the evidence.
-  FrameComparison found = comparer_->compare(state_.model, state_.graph, observe(world_from_left),
-                                             frame_.states, frame_.fusion);
+  FrameComparison found;
+  orRejectWarp([&] {
+    found = comparer_->compare(state_.model, state_.graph, observe(world_from_left), frame_.states,
+                               frame_.fusion);
+  });
   comparison_ = std::move(found.model);
   clock_.lap("check");
   return {found.predicted, found.view};
 }
 
+/// Where the device fails, the model on the host is that of the frame before.
+template <class Work>
+void CpuBackend::orRejectWarp(const Work& work) {
+  try {
+    work();
+  } catch (const BackendError&) {
+    rejectWarp();
+    throw;
+  }
+}
+
 void CpuBackend::rejectWarp() {
   growth_.drop();
   comparison_.reset();
-  if (!before_.positions_mm.empty()) {
-    state_.model.positions_mm = std::move(before_.positions_mm);
-    state_.model.normals = std::move(before_.normals);
-    state_.graph = std::move(before_.graph);
-    state_.tracked = std::move(before_.tracked);
-    before_ = {};
-  }
-  for (NodeTransform& transform : state_.graph.transforms) transform = NodeTransform();
+  warp_.undo(updater_.get(), &state_);
 }
 
 void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
@@ -291,22 +298,22 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const Observation observation = observe(world_from_left);
   const bool first = empty();
   if (first) seedTracks(world_from_left);
-  before_ = {};
   if (!comparison_)
     comparison_ =
         compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
   ModelUpdateSummary update;
+  const auto updateModel = [&] {
+    update = updater_->update(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
+                              &state_.memory, &state_.model);
+    if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
+  };
   // Neither needs the other.
-  parallelInvoke(
-      [&] {
-        update = updateModel(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
-                             &state_.memory, &state_.model);
-        if (worksAhead())
-          growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
-      },
-      [&] {
-        if (!first) alignTracks(world_from_left);
-      });
+  orRejectWarp([&] {
+    parallelInvoke(updateModel, [&] {
+      if (!first) alignTracks(world_from_left);
+    });
+  });
+  warp_.keep();
   comparison_.reset();
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};

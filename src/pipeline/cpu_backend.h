@@ -8,6 +8,7 @@
 #include "core/stereo_rig.h"
 #include "deform/solver/lm_solver.h"
 #include "fusion/frame_comparer.h"
+#include "fusion/model_updater.h"
 #include "pipeline/match_stage.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
@@ -28,6 +29,8 @@ struct BackendParts {
   };
   std::function<std::unique_ptr<FrameComparer>(const RectifiedRig&)> makeComparer =
       [](const RectifiedRig&) { return std::make_unique<CpuFrameComparer>(); };
+  std::function<std::unique_ptr<ModelUpdater>(const RectifiedRig&)> makeUpdater =
+      [](const RectifiedRig&) { return std::make_unique<CpuModelUpdater>(); };
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp. On two, the processor's own stereo and those
   /// stages only take turns (docs/benchmarks.md).

@@ -4,6 +4,7 @@
 
 #include "cuda/comparison/comparison.h"
 #include "cuda/device/device_info.h"
+#include "cuda/fusion/fusion.h"
 #include "cuda/locate/locate.h"
 #include "cuda/pose/pose.h"
 #include "cuda/stereo/stereo.h"
@@ -48,8 +49,12 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Mask& m
 
 class CudaMatchStage final : public MatchStage {
  public:
-  CudaMatchStage(const ReconstructionOptions& options, const RectifiedRig& rig)
-      : matcher_(options.matcher), view_(options.model_view), left_(rig.left) {
+  CudaMatchStage(const ReconstructionOptions& options, const RectifiedRig& rig,
+                 std::shared_ptr<cuda::SharedModel> model)
+      : matcher_(options.matcher),
+        view_(options.model_view),
+        left_(rig.left),
+        model_(std::move(model)) {
     reserve(static_cast<std::size_t>(left_.width_px) * static_cast<std::size_t>(left_.height_px) /
             4);
   }
@@ -68,6 +73,7 @@ class CudaMatchStage final : public MatchStage {
   MatcherOptions matcher_;
   ModelViewOptions view_;
   PinholeCamera left_;
+  std::shared_ptr<cuda::SharedModel> model_;
   std::size_t capacity_ = 0;
   std::unique_ptr<cuda::Locator> device_;
 };
@@ -77,7 +83,7 @@ ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometr
                                    const MeasuredFrame& frame, StageClock* clock) {
   // Twice the points at a time, so that a growing model rarely reallocates.
   if (model.size() > capacity_) reserve(2 * model.size());
-  device_->setModel(model);
+  device_->setModel(model, *model_);
   device_->setLive(live, frame.depth);
   device_->setSeenGray(seen_gray);
   device_->locate(viewed_from);
@@ -88,9 +94,10 @@ ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometr
 
 /// Other methods have no kernels.
 std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& options,
-                                               const RectifiedRig& rig) {
+                                               const RectifiedRig& rig,
+                                               std::shared_ptr<cuda::SharedModel> model) {
   if (options.matcher.method != MatcherOptions::kDenseSurf) return makeCpuMatchStage(options, rig);
-  return std::make_unique<CudaMatchStage>(options, rig);
+  return std::make_unique<CudaMatchStage>(options, rig, std::move(model));
 }
 
 /// Affine nodes have no kernels.
@@ -114,14 +121,21 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   BackendParts parts;
   parts.name = "cuda";
   parts.makeStereo = makeCudaStereoStage;
-  parts.makeMatching = makeCudaMatchStage;
+  // The model stays on the device between the stages.
+  const auto model = cuda::makeSharedModel();
+  parts.makeMatching = [model](const ReconstructionOptions& all, const RectifiedRig& rig) {
+    return makeCudaMatchStage(all, rig, model);
+  };
   parts.makePoseSearch = cuda::makePoseSearch;
   // The comparer copies the frame's rasters to the device while the pose is found; the solver takes
   // them from there.
   const auto rasters = std::make_shared<cuda::SharedRasters>();
   parts.makeSolver = [rasters](const DeformOptions& warp) { return makeCudaSolver(warp, rasters); };
-  parts.makeComparer = [rasters](const RectifiedRig& rig) {
-    return cuda::makeFrameComparer(rig.left, rasters);
+  parts.makeComparer = [rasters, model](const RectifiedRig& rig) {
+    return cuda::makeFrameComparer(rig.left, rasters, model);
+  };
+  parts.makeUpdater = [rasters, model](const RectifiedRig& rig) {
+    return cuda::makeModelUpdater(rig.left, rasters, model);
   };
   parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();

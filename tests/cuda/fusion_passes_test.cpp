@@ -1,9 +1,12 @@
-// tests/cuda/fusion_passes_test.cpp: kernels of the fusion formulas, run on the host in shuffled
-// orders, update the model as the CPU does.
+// tests/cuda/fusion_passes_test.cpp: the kernels of stage 7, run on the host in shuffled orders,
+// update the model as the CPU does.
 #include <gtest/gtest.h>
 
+#include "cuda/comparison/comparison_run.h"
+#include "cuda/fusion/fusion_run.h"
 #include "fusion_cases.h"
 #include "host_machine.h"
+#include "pixel_state_body.h"
 
 namespace softscope::test {
 namespace {
@@ -12,12 +15,62 @@ class FusionPasses : public testing::TestWithParam<ComparisonCase> {};
 
 TEST_P(FusionPasses, UpdateTheModelAsTheCpuDoesInAnyOrderOfThreads) {
   const FusionScene scene(GetParam());
-  scene.expectSame(FusionRun<HostMachine>(1U).update(scene.inputs()));
-  scene.expectSame(FusionRun<HostMachine>(77U).update(scene.inputs()));
+  CpuModelUpdater cpu;
+  const UpdatedModel first = scene.begin(&cpu), second = scene.goOn(&cpu);
+  scene.expectEveryFate(second);
+  for (const unsigned seed : {1U, 77U}) {
+    cuda::FusionRun<HostMachine> kernels(FusionScene::camera(), seed);
+    expectSameUpdate(scene.begin(&kernels), first);
+    expectSameUpdate(scene.goOn(&kernels), second);
+    expectSameUpdate(scene.goOn(&kernels), second);  // nothing is left of another frame
+  }
+}
+
+/// The kernels compare and update one model in one place; apart, each takes it from the host anew.
+TEST_P(FusionPasses, FindTheModelWhereOtherStagesLeftIt) {
+  const FusionScene scene(GetParam());
+  cuda::ComparisonRun<HostMachine> comparer_apart(FusionScene::camera(), 3U);
+  CpuModelUpdater cpu;
+  const UpdatedModel expected = scene.follow(&comparer_apart, &cpu);
+  const auto home = std::make_shared<cuda::ModelHome<HostMachine>>();
+  const auto rasters = std::make_shared<cuda::SharedRasters>();
+  cuda::ComparisonRun<HostMachine> comparer(FusionScene::camera(), 4U);
+  cuda::FusionRun<HostMachine> kernels(FusionScene::camera(), 5U);
+  comparer.share(home);
+  comparer.share(rasters);
+  kernels.share(home);
+  kernels.share(rasters);
+  expectSameUpdate(scene.follow(&comparer, &kernels), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cuda, FusionPasses, testing::ValuesIn(comparisonCases()),
                          [](const auto& each) { return each.param.name; });
+
+TEST(FusionCrowd, IsThinnedAsTheCpuDoes) {
+  const FusionScene scene(comparisonCases().front());
+  CpuModelUpdater cpu;
+  const UpdatedModel expected = thinCrowd(scene, &cpu);
+  EXPECT_LT(expected.summary.index_map.new_count,
+            static_cast<std::int32_t>(expected.summary.index_map.new_of_old.size()) - 2900);
+  cuda::FusionRun<HostMachine> kernels(FusionScene::camera(), 5U);
+  expectSameUpdate(thinCrowd(scene, &kernels), expected);
+}
+
+TEST(PixelStates, AreThoseOfTheCpuInAnyOrderOfThreads) {
+  for (const ComparisonCase& each : comparisonCases()) {
+    const ComparisonScene scene(each);
+    const Observation frame = scene.observation();
+    const PosedCamera camera = posedCamera(frame.left, frame.world_from_left);
+    std::vector<PixelState> states(scene.states().size());
+    const cuda::PixelKernel<PixelStateBody> kernel{
+        {frameRasters(frame), camera, frame.mask.empty() ? nullptr : frame.mask.values.data(),
+         static_cast<float>(scene.options().pixels.max_sigma_mm), states.data()},
+        camera.width_px,
+        camera.height_px};
+    cuda::HostExecutor(3).launch("states", kernel, kernel.grid());
+    EXPECT_TRUE(states == scene.states().values) << each.name;
+  }
+}
 
 }  // namespace
 }  // namespace softscope::test

@@ -26,6 +26,7 @@ class HostMachine {
     std::unique_ptr<HostMemory> memory_;
     std::size_t bytes_ = 0;
   };
+  using Pinned = Memory;
 
   explicit HostMachine(unsigned seed) : executor_(seed) {}
   Executor& executor() { return executor_; }

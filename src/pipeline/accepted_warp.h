@@ -1,0 +1,31 @@
+// src/pipeline/accepted_warp.h: warp of model, graph and tracked points that can be undone.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "fusion/model_updater.h"
+#include "pipeline/reconstruction_backend.h"
+
+namespace softscope {
+
+/// At most one warp at a time: apply(), then keep() or undo().
+class AcceptedWarp {
+ public:
+  /// Warps by the graph's transforms and re-bases the graph.
+  void apply(ModelUpdater* updater, ModelState* state);
+  void keep() { before_.reset(); }
+  /// All is as it was before apply(), without transforms. Without a warp, drops the transforms.
+  void undo(ModelUpdater* updater, ModelState* state);
+
+ private:
+  struct Before {
+    std::vector<Eigen::Vector3f> positions_mm, normals;
+    WarpGraph graph;
+    MaterialPoints tracked;
+  };
+  std::optional<Before> before_;
+};
+
+}  // namespace softscope
