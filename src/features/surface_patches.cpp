@@ -1,5 +1,6 @@
 #include "features/surface_patches.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
