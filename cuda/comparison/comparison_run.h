@@ -161,7 +161,7 @@ class ComparisonRun final : public FrameComparer {
   void takeModel(const PointModel& model, ModelParts parts) {
     ModelHome<Machine>& home = shared_home_ ? *shared_home_ : own_home_;
     if (!shared_home_) home.changed(kWholeModel);
-    home.setSights(nullptr);  // they are found anew
+    home.setSights(nullptr);  // of the frame before
     reserveModel(model.size());
     static_cast<ModelArrays&>(model_) = home.bring(model, parts, 0, machine_);
     model_.count = static_cast<int>(model.size());

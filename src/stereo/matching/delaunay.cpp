@@ -38,7 +38,7 @@ class Predicates {
            difference(q.y, p.y) * difference(r.x, p.x);
   }
 
-  /// Does d lie inside the circle through a, b, c (counter-clockwise)? On the circle the sites are
+  /// Whether d lies inside the circle through a, b, c (counter-clockwise). On the circle, sites are
   /// lifted to the paraboloid and lowered by infinitesimal amounts, each far below that of the
   /// rank before: the first of the four decides.
   bool inCircle(int a, int b, int c, int d) const {
@@ -211,7 +211,7 @@ class Triangulation {
     return edge;
   }
 
-  /// Does the circle through `base` and the end of `edge` contain the end of `behind`?
+  /// Whether the circle through `base` and the end of `edge` contains the end of `behind`.
   bool fails(int edge, int behind, int base) const {
     return predicates_.inCircle(rings_.destination(base), rings_.origin(base),
                                 rings_.destination(edge), rings_.destination(behind));
