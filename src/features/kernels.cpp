@@ -159,8 +159,9 @@ inline std::uint16_t distanceOf(const std::uint8_t* one, const std::uint8_t* oth
 #ifdef __AVX2__
 /// Four partial sums of absolute differences of one pair.
 inline Quads partialDistances(const Bytes32& low, const Bytes32& high, const std::uint8_t* other) {
-  return __builtin_ia32_psadbw256(low, load<Bytes32>(other)) +
-         __builtin_ia32_psadbw256(high, load<Bytes32>(other + 32));
+  // Both compilers have the instruction under this name, with vectors of different elements.
+  return reinterpret_cast<Quads>(__builtin_ia32_psadbw256(low, load<Bytes32>(other))) +
+         reinterpret_cast<Quads>(__builtin_ia32_psadbw256(high, load<Bytes32>(other + 32)));
 }
 #endif
 
