@@ -14,8 +14,9 @@ README, RESULTS = ROOT / "README.md", ROOT / "docs/results.md"
 BEGIN, END = "<!-- numbers of docs/results.md: begin -->", "<!-- end -->"
 
 POINTS, SURFACE = "material points mean [mm]", "surface mean [mm]"
-PAPER, PARTS, HIDDEN, REAL = ("The paper's simulation", "What each part is worth", "Out of sight",
-                              "Real clips")
+WRONG = "silently wrong [frames]"
+PAPER, PARTS, HIDDEN, STRESS, REAL = ("The paper's simulation", "What each part is worth",
+                                      "Out of sight", "Stress", "Real clips")
 # What was measured, the numbers, what to compare them with. {title/case/heading} is one cell.
 ROWS = [
     ("the paper's simulation: OpenHELP heart, liver, kidney, from rendered stereo",
@@ -29,9 +30,12 @@ ROWS = [
     ("rendered heart that breathes, beats and is pushed, 360 × 288",
      f"material points {{{PARTS}/default/{POINTS}}} mm, surface {{{PARTS}/default/{SURFACE}}} mm, "
      f"P95 {{{PARTS}/default/surface P95 [mm]}} mm",
-     f"points with the paper's preset {{{PARTS}/paper-preset/{POINTS}}} mm, with SIFT "
-     f"{{{PARTS}/sift/{POINTS}}} mm, with SGBM {{{PARTS}/sgbm/{POINTS}}} mm, without "
-     f"correspondences {{{PARTS}/no-correspondences/{POINTS}}} mm"),
+     f"points with SGBM's depth {{{PARTS}/sgbm/{POINTS}}} mm, points that don't move "
+     f"{{{PARTS}/default/had nothing been tracked [mm]}} mm"),
+    ("scope at 100 and 150 mm/s, shutter open half of the time",
+     f"material points {{{STRESS}/speed-100/{POINTS}}}, {{{STRESS}/speed-150/{POINTS}}} mm; "
+     f"silently wrong frames {{{STRESS}/speed-100/{WRONG}}}, {{{STRESS}/speed-150/{WRONG}}} of 24",
+     "0 wanted"),
     ("tissue out of sight for 2 s: scope withdrawn, covered, wiped",
      f"material points {{{HIDDEN}/withdraw/{POINTS}}}, {{{HIDDEN}/cover/{POINTS}}}, "
      f"{{{HIDDEN}/wipe/{POINTS}}} mm",
