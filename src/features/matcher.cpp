@@ -165,11 +165,11 @@ class CheckedMatcher : public FeatureMatcher {
 };
 
 /// All matchers, by the name in settings.
-struct NamedMatcher {
+struct NamedFeatureMatcher {
   const char* name;
   std::unique_ptr<FeatureMatcher> (*make)(const MatcherOptions&);
 };
-const NamedMatcher kMatchers[] = {
+const NamedFeatureMatcher kMatchers[] = {
     {MatcherOptions::kDenseSurf,
      [](const MatcherOptions& options) -> std::unique_ptr<FeatureMatcher> {
        return std::make_unique<DenseSurfMatcher>(options);
@@ -184,7 +184,7 @@ const NamedMatcher kMatchers[] = {
 
 std::vector<std::string> matcherMethods() {
   std::vector<std::string> names;
-  for (const NamedMatcher& matcher : kMatchers) names.emplace_back(matcher.name);
+  for (const NamedFeatureMatcher& matcher : kMatchers) names.emplace_back(matcher.name);
   return names;
 }
 
@@ -192,8 +192,11 @@ void MatcherOptions::validate() const { requireAllowed(*this); }
 
 std::unique_ptr<FeatureMatcher> makeFeatureMatcher(const MatcherOptions& options) {
   options.validate();
-  const auto named = [&](const NamedMatcher& matcher) { return options.method == matcher.name; };
-  const NamedMatcher& matcher = *std::find_if(std::begin(kMatchers), std::end(kMatchers), named);
+  const auto named = [&](const NamedFeatureMatcher& matcher) {
+    return options.method == matcher.name;
+  };
+  const NamedFeatureMatcher& matcher =
+      *std::find_if(std::begin(kMatchers), std::end(kMatchers), named);
   return std::make_unique<CheckedMatcher>(options, matcher.make(options));
 }
 
