@@ -83,7 +83,7 @@ std::vector<Finding> examineCuda(Json& json) {
   json["cuda"] = {{"built_with", info.runtime_version}, {"driver", info.driver_version}};
   Json& devices = json["cuda"]["devices"] = Json::array();
   const std::string use =
-      whyNoCuda().empty()
+      cudaUnavailableReason().empty()
           ? ": the first GPU computes stereo, matching, pose and the solver of the warp"
           : "";
   std::vector<Finding> findings{{"CUDA", !info.devices.empty(), built + driver + use,

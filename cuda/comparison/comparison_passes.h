@@ -31,8 +31,8 @@ class ComparisonPasses {
   }
 
   /// After findSight(): gain, anchors and innovation.
-  void askSeen(const ComparisonFrameLayout& frame, const ComparisonModelLayout& model,
-               const ComparisonGraphLayout& graph, const SeenQuestions& asked) {
+  void findVisiblePoints(const ComparisonFrameLayout& frame, const ComparisonModelLayout& model,
+                         const ComparisonGraphLayout& graph, const SeenQuestions& asked) {
     if (asked.innovation) {
       ResetKernel reset;
       reset.add(graph.sums, static_cast<std::size_t>(graph.nodes) * sizeof(InnovationSums) / 4, 0);

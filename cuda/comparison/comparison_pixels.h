@@ -70,7 +70,7 @@ struct EvidenceKernel {
   SOFTSCOPE_HD float compare(int u, int v, Shared* shared) const {
     const int pixel = v * frame.width + u;
     const unsigned long long held = frame.drawn[pixel];
-    if (frame.states[pixel] != PixelState::kSure || held == DrawnPoints::kNoPoint)
+    if (frame.states[pixel] != PixelState::kAccepted || held == DrawnPoints::kNoPoint)
       return quietNan();
     const std::int32_t i = DrawnPoints::pointOf(held);
     const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);

@@ -138,7 +138,7 @@ struct SeenKernel {
  private:
   SOFTSCOPE_HD void countGain(int i, int pixel) const {
     const Rgb8 seen = frame.colour[pixel], known = model.colours[i];
-    if (!tellsGain(seen, asked.colour) || !tellsGain(known, asked.colour)) return;
+    if (!isUsableForGain(seen, asked.colour) || !isUsableForGain(known, asked.colour)) return;
     count(0, seen.red, known.red);
     count(1, seen.green, known.green);
     count(2, seen.blue, known.blue);

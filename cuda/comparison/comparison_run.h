@@ -63,9 +63,9 @@ class ComparisonRun final : public FrameComparer {
     if (shared_) *shared_ = {};
   }
 
-  std::vector<std::int32_t> seenPoints(const PointModel& model, const Observation& observation,
-                                       const Raster<PixelState>& states,
-                                       const VisibilityOptions& options) override {
+  std::vector<std::int32_t> visiblePoints(const PointModel& model, const Observation& observation,
+                                          const Raster<PixelState>& states,
+                                          const VisibilityOptions& options) override {
     needFrame(observation, states);
     takeModel(model, kModelShape);
     const bool draws = false;
@@ -92,7 +92,7 @@ class ComparisonRun final : public FrameComparer {
     passes_.findSight(frame_, model_, camera, sightLimits(options.visibility), draws);
     passes_.comparePixels(frame_, model_, camera, compares_images);
     if (asked.innovation) sendGraph(graph);  // beside the kernels
-    passes_.askSeen(frame_, model_, graph_, asked);
+    passes_.findVisiblePoints(frame_, model_, graph_, asked);
     FrameComparison found;
     if (shared_home_) {
       shared_home_->setSights(model_.sights);

@@ -40,7 +40,7 @@ Device describe(int index) {
   return device;
 }
 
-std::string whyNone(const DeviceInfo& info, cudaError_t error) {
+std::string unavailableReason(const DeviceInfo& info, cudaError_t error) {
   if (info.driver_version.empty())
     return "no NVIDIA driver answers: install one that speaks CUDA " + info.runtime_version +
            " or newer, and see whether nvidia-smi lists a GPU";
@@ -61,7 +61,7 @@ DeviceInfo queryDevices() {
   int count = 0;
   const cudaError_t error = cudaGetDeviceCount(&count);
   for (int i = 0; error == cudaSuccess && i < count; ++i) info.devices.push_back(describe(i));
-  if (info.devices.empty()) info.why_none = whyNone(info, error);
+  if (info.devices.empty()) info.why_none = unavailableReason(info, error);
   return info;
 }
 

@@ -35,7 +35,7 @@ struct CellsKernel {
     const int i = at.x * kThreads + at.thread;
     if (i >= all.count()) return;
     const ModelArrays& model = all.model;
-    const CellKey key = staysInModel(model.normals[i], model.weights[i])
+    const CellKey key = isKeptInModel(model.normals[i], model.weights[i])
                             ? densityCell(model.positions_mm[i], camera, cell_mm)
                             : kNoCell;
     const std::int32_t slot = key == kNoCell ? -1 : cells.take(key);

@@ -110,13 +110,13 @@ struct SearchKernel {
     } else if constexpr (kPhase == 1) {
       compare(c0, r0, lane, square);
     } else if constexpr (kPhase == 2) {
-      for (int n = 0; n < kNodes; ++n) lookElsewhere(c0, r0, n, lane, square);
+      for (int n = 0; n < kNodes; ++n) findSecondBest(c0, r0, n, lane, square);
     } else if constexpr (kPhase == 3) {
       if (lane == 0) sortByRatio(square);
     } else if constexpr (kPhase % 2 == 0) {
       constexpr int kTry = (kPhase - kSearchPhases) / 2;
       if (square.done == 0 && kTry < square.count)
-        lookBack(c0, r0, square.order[kTry], lane, square);
+        crossCheck(c0, r0, square.order[kTry], lane, square);
     } else {
       constexpr int kTry = (kPhase - kSearchPhases) / 2;
       if (lane == 0) decide(c0, r0, kTry, slot, square);
@@ -205,7 +205,7 @@ struct SearchKernel {
   }
 
   /// Smallest distance of nodes outside of the reach around the best one.
-  SOFTSCOPE_HD void lookElsewhere(int c0, int r0, int n, int lane, Square& square) const {
+  SOFTSCOPE_HD void findSecondBest(int c0, int r0, int n, int lane, Square& square) const {
     if (square.best[n] == kNoKey) return;
     const NodeWindow window = windowOf(c0, r0, n, square);
     const int column = columnAt(window, square.best[n]), row = rowAt(window, square.best[n]);
@@ -240,7 +240,7 @@ struct SearchKernel {
   }
 
   /// Best node of the model around the predicted origin of the live node.
-  SOFTSCOPE_HD void lookBack(int c0, int r0, int n, int lane, Square& square) const {
+  SOFTSCOPE_HD void crossCheck(int c0, int r0, int n, int lane, Square& square) const {
     const NodeWindow there = windowOf(c0, r0, n, square);
     const int column = columnAt(there, square.best[n]), row = rowAt(there, square.best[n]);
     const Descriptor one = live.descriptors[live.at(column, row)];

@@ -169,8 +169,8 @@ struct ConsistentKernel {
                     v = shared.model_v[r][c] - shared.model_v[y][x];
         if (!areNeighbours(u, v, rules)) continue;
         ++others;
-        agreeing += moveAlike(u, v, shared.live_u[r][c] - shared.live_u[y][x],
-                              shared.live_v[r][c] - shared.live_v[y][x], rules)
+        agreeing += moveConsistently(u, v, shared.live_u[r][c] - shared.live_u[y][x],
+                                     shared.live_v[r][c] - shared.live_v[y][x], rules)
                         ? 1
                         : 0;
       }

@@ -319,7 +319,7 @@ struct RefineKernel {
     if (match.decided != 0) return;
     Outcome found{0, 0, 0, 0, 0};
     if (match.state != kLost) {
-      const WindowVerdict verdict = judgeWindow(
+      const WindowVerdict verdict = classifyWindow(
           sumsOf(match), match.search, static_cast<float>(SubpixelOptions::kFloorSigmaPx),
           static_cast<float>(SubpixelOptions::kMinSimilarity));
       found = {verdict.accepted ? 1 : 0, match.search.u + match.rest_u,

@@ -50,7 +50,7 @@ int widestAxis(const Item* items, long count) {
 /// Sorts items so that each run of `run` items, and each of run / 8 within
 /// it, down to leaves of 8, is spatially compact, by median splits.
 void sortIntoRuns(Item* items, long count, long run) {
-  constexpr long kWorthATask = 4096;
+  constexpr long kMinTaskTriangles = 4096;
   if (count <= kTreeWidth) return;
   if (count <= run) return sortIntoRuns(items, count, run / kTreeWidth);
   const long runs = (count + run - 1) / run, left = (runs + 1) / 2 * run;
@@ -61,7 +61,7 @@ void sortIntoRuns(Item* items, long count, long run) {
   });
   const auto first = [=] { sortIntoRuns(items, left, run); };
   const auto second = [=] { sortIntoRuns(items + left, count - left, run); };
-  if (count >= kWorthATask) return parallelInvoke(first, second);
+  if (count >= kMinTaskTriangles) return parallelInvoke(first, second);
   first();
   second();
 }

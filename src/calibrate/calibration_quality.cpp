@@ -234,8 +234,8 @@ BoardCoverage boardCoverage(const CalibrationSolution& solution) {
   return coverage;
 }
 
-std::vector<std::string> whatToFilm(const CalibrationSolution& solution,
-                                    const BoardCoverage& coverage) {
+std::vector<std::string> imagingAdvice(const CalibrationSolution& solution,
+                                       const BoardCoverage& coverage) {
   std::vector<std::string> advice;
   const auto count = solution.views.size();
   if (count < 12)

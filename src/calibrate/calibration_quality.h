@@ -55,7 +55,7 @@ struct BoardCoverage {
 BoardCoverage boardCoverage(const CalibrationSolution& solution);
 
 /// Most useful further views, one line each; empty if none is missing.
-std::vector<std::string> whatToFilm(const CalibrationSolution& solution,
-                                    const BoardCoverage& coverage);
+std::vector<std::string> imagingAdvice(const CalibrationSolution& solution,
+                                       const BoardCoverage& coverage);
 
 }  // namespace softscope

@@ -11,7 +11,7 @@ namespace softscope {
 void parallelRanges(int count, int grain, const std::function<void(int begin, int end)>& body);
 
 /// Grain of loops over a point model.
-inline constexpr int kPointsATask = 4096;
+inline constexpr int kPointsPerTask = 4096;
 
 /// Calls body(v) for every row v of [0, rows).
 template <class Body>

@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kPartsATask = 32;
+constexpr int kPartsPerTask = 32;
 
 /// The bits of a positive float have the order of its value: the upper bits select the bin.
 constexpr int kSizeShift = 19, kSizes = 1 << (31 - kSizeShift);
@@ -29,7 +29,7 @@ std::uint32_t binOf(float value) {
 float absoluteOfRank(const std::vector<std::vector<float>>& parts, std::size_t rank) {
   std::vector<std::size_t> counts(kSizes, 0);
   std::mutex adding;
-  parallelRanges(static_cast<int>(parts.size()), kPartsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(parts.size()), kPartsPerTask, [&](int begin, int end) {
     std::vector<std::size_t> own(kSizes, 0);
     for (int part = begin; part < end; ++part)
       for (const float value : parts[static_cast<std::size_t>(part)]) ++own[binOf(value)];

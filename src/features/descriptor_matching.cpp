@@ -39,8 +39,8 @@ class Window {
   int bestRow() const { return r0_ + nearest_.row; }
 
   /// Least distance of nodes more than `reach` columns or rows away from the best one.
-  int bestElsewhere(int reach) {
-    return featureKernels().leastElsewhere({values_.data(), stride_}, rows_, nearest_, reach);
+  int secondBest(int reach) {
+    return featureKernels().secondBestDistance({values_.data(), stride_}, rows_, nearest_, reach);
   }
 
   /// Where parabolas through the best node and its neighbours are lowest, in nodes; 0 at the rim.
@@ -91,7 +91,7 @@ class PairOfGrids {
     window->compare(model_.descriptor(column, row), live_, column + nodes.x(), row + nodes.y(),
                     reach_.search);
     if (!window->found()) return none;
-    const float ratio = distanceRatio(window->best(), window->bestElsewhere(reach_.elsewhere));
+    const float ratio = distanceRatio(window->best(), window->secondBest(reach_.elsewhere));
     if (!(ratio < max_ratio_)) return none;
     return {window->bestColumn(), window->bestRow(), nodes, ratio, window->parabolaShift()};
   }

@@ -223,7 +223,8 @@ NearestNode searchWindow(const std::uint8_t* one, const DescriptorWindow& window
   return nearest;
 }
 
-int leastElsewhere(const WindowDistances& distances, int rows, const NearestNode& node, int reach) {
+int secondBestDistance(const WindowDistances& distances, int rows, const NearestNode& node,
+                       int reach) {
   Words16 least = Words16{} + static_cast<std::uint16_t>(kNoDistance);
   for (int g = 0; g < distances.stride / kDistanceLanes; ++g) {
     Words16 near{};
@@ -260,9 +261,10 @@ NeighbourCounts countNeighbours(const MatchPlaces& places, int count, const Matc
     const Int8 near =
         areNeighbours<Float8>(u, v, rules) & (kCounting + static_cast<float>(i) < last);
     others -= near;
-    agreeing -= near & movedAlike<Float8>(squareRoot(u * u + v * v), u, v,
-                                          load<Float8>(places.live_u + i) - *own.live_u,
-                                          load<Float8>(places.live_v + i) - *own.live_v, rules);
+    agreeing -=
+        near & movedConsistently<Float8>(squareRoot(u * u + v * v), u, v,
+                                         load<Float8>(places.live_u + i) - *own.live_u,
+                                         load<Float8>(places.live_v + i) - *own.live_v, rules);
   }
   NeighbourCounts counts{0, 0};
   for (int k = 0; k < 8; ++k) {
@@ -284,7 +286,7 @@ const FeatureKernels SOFTSCOPE_NAME(featureKernels, SOFTSCOPE_SIMD_SET) = {
     describe,
     descriptorDistances,
     searchWindow,
-    leastElsewhere,
+    secondBestDistance,
     countNeighbours,
     &SOFTSCOPE_NAME(windowKernels, SOFTSCOPE_SIMD_SET)};
 

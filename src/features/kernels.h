@@ -102,8 +102,8 @@ struct FeatureKernels {
   NearestNode (*searchWindow)(const std::uint8_t* one, const DescriptorWindow& window,
                               const WindowDistances& distances);
   /// Least distance of nodes more than `reach` columns or rows away from `node`.
-  int (*leastElsewhere)(const WindowDistances& distances, int rows, const NearestNode& node,
-                        int reach);
+  int (*secondBestDistance)(const WindowDistances& distances, int rows, const NearestNode& node,
+                            int reach);
   /// Of match `own` among the `count` first of `places`; itself counts too where it is one of them.
   NeighbourCounts (*countNeighbours)(const MatchPlaces& places, int count, const MatchPlaces& own,
                                      const ConsistencyRules& rules);

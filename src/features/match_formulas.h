@@ -91,17 +91,17 @@ SOFTSCOPE_FORMULA auto areNeighbours(const V& apart_u, const V& apart_v,
 /// Whether they moved alike: `apart` and `live_apart` are their distances on the model and in the
 /// live image, `apart_px` the length of the former. V: float, or a vector of floats.
 template <class V>
-SOFTSCOPE_FORMULA auto movedAlike(const V& apart_px, const V& apart_u, const V& apart_v,
-                                  const V& live_apart_u, const V& live_apart_v,
-                                  const ConsistencyRules& r) {
+SOFTSCOPE_FORMULA auto movedConsistently(const V& apart_px, const V& apart_u, const V& apart_v,
+                                         const V& live_apart_u, const V& live_apart_v,
+                                         const ConsistencyRules& r) {
   const V agree_px = r.least_px + r.max_strain * apart_px;
   const V u = live_apart_u - apart_u, v = live_apart_v - apart_v;
   return u * u + v * v <= agree_px * agree_px;
 }
-SOFTSCOPE_HD inline bool moveAlike(float apart_u, float apart_v, float live_apart_u,
-                                   float live_apart_v, const ConsistencyRules& r) {
+SOFTSCOPE_HD inline bool moveConsistently(float apart_u, float apart_v, float live_apart_u,
+                                          float live_apart_v, const ConsistencyRules& r) {
   const float apart_px = std::sqrt(apart_u * apart_u + apart_v * apart_v);
-  return movedAlike(apart_px, apart_u, apart_v, live_apart_u, live_apart_v, r);
+  return movedConsistently(apart_px, apart_u, apart_v, live_apart_u, live_apart_v, r);
 }
 SOFTSCOPE_HD inline bool isConsistent(int agreeing, int others, const ConsistencyRules& r) {
   return agreeing >= 1 && agreeing >= r.min_share * others;

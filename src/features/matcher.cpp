@@ -57,7 +57,7 @@ std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
 
 /// Drops matches with a predicted error above both `max_sigma_px` and the median:
 /// in a blurred image all errors are larger, and the better half is still usable.
-std::vector<PixelMatch> keepSure(std::vector<PixelMatch> matches, double max_sigma_px) {
+std::vector<PixelMatch> limitSigma(std::vector<PixelMatch> matches, double max_sigma_px) {
   if (matches.empty()) return matches;
   std::vector<float> sigmas;
   for (const PixelMatch& match : matches) sigmas.push_back(match.sigma_px);
@@ -113,9 +113,10 @@ class DenseSurfMatcher : public FeatureMatcher {
   std::vector<PixelMatch> refined(const MatchLevel& level,
                                   const std::vector<PixelMatch>& rough) const {
     if (options_.subpixel.method != "gauss-newton") return rough;
-    return keepConsistent(keepSure(refineMatches(level.model, level.live, rough, options_.subpixel),
-                                   options_.subpixel.kMaxSigmaPx),
-                          options_.consistency);
+    return keepConsistent(
+        limitSigma(refineMatches(level.model, level.live, rough, options_.subpixel),
+                   options_.subpixel.kMaxSigmaPx),
+        options_.consistency);
   }
 
   MatcherOptions options_;

@@ -119,8 +119,8 @@ struct WindowVerdict {
   float similarity, sigma_px;
 };
 /// Standard error from what the window leaves unexplained.
-SOFTSCOPE_HD inline WindowVerdict judgeWindow(const WindowSums& sums, const WindowSearch& search,
-                                              float floor_px, float min_similarity) {
+SOFTSCOPE_HD inline WindowVerdict classifyWindow(const WindowSums& sums, const WindowSearch& search,
+                                                 float floor_px, float min_similarity) {
   const float variance = sums.square - sums.mean * sums.mean;
   if (!(variance > 0)) return {false, 0, 0};
   const float gain = sums.along_contrast / search.contrast_sq;

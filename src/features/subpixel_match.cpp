@@ -235,8 +235,8 @@ class Refiner {
       if (step == SearchStep::kConverged) break;
     }
     const WindowVerdict verdict =
-        judgeWindow(sample(*patch), search, static_cast<float>(options_.kFloorSigmaPx),
-                    static_cast<float>(options_.kMinSimilarity));
+        classifyWindow(sample(*patch), search, static_cast<float>(options_.kFloorSigmaPx),
+                       static_cast<float>(options_.kMinSimilarity));
     match->similarity = verdict.similarity;
     match->sigma_px = verdict.sigma_px;
     if (!verdict.accepted) return false;

@@ -34,13 +34,13 @@ AnchorAgreement::AnchorAgreement(const PointModel& model, const Observation& obs
   if (image.empty()) return;
   *this = AnchorAgreement(image.width_px, image.height_px);
   const int count = static_cast<int>(model.size());
-  const int tasks = (count + kPointsATask - 1) / kPointsATask;
+  const int tasks = (count + kPointsPerTask - 1) / kPointsPerTask;
   std::vector<std::vector<BlockCorrelation>> parts(static_cast<std::size_t>(tasks));
   parallelRanges(tasks, 1, [&](int begin, int end) {
     for (int task = begin; task < end; ++task) {
       std::vector<BlockCorrelation>& blocks = parts[static_cast<std::size_t>(task)];
       blocks.resize(agrees_.size());
-      for (int k = task * kPointsATask; k < std::min(count, (task + 1) * kPointsATask); ++k) {
+      for (int k = task * kPointsPerTask; k < std::min(count, (task + 1) * kPointsPerTask); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
         const PointSight& point = visibility.points[i];
         if (point.sight != Sight::kSeen) continue;

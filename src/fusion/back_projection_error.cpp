@@ -46,7 +46,7 @@ BackProjectionError backProjectionError(const DrawnPoints& drawn, const Observat
   parallelRows(states.height_px, [&](int v) {
     std::vector<float>& differences_mm = rows[static_cast<std::size_t>(v)];
     for (int u = 0; u < states.width_px; ++u) {
-      if (states.at(u, v) != PixelState::kSure) continue;
+      if (states.at(u, v) != PixelState::kAccepted) continue;
       const int index = drawn.pointAt(u, v);
       if (index < 0) continue;
       const Eigen::Vector3f left = camera.toLeft(drawn.model().positions_mm[index]);

@@ -52,7 +52,7 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
   const int count = static_cast<int>((model.size() + stride - 1) / stride);
   RatioHistogram red, green, blue;
   std::mutex adding;
-  parallelRanges(count, kPointsATask / 2, [&](int begin, int end) {
+  parallelRanges(count, kPointsPerTask / 2, [&](int begin, int end) {
     RatioHistogram own_red, own_green, own_blue;
     for (int k = begin; k < end; ++k) {
       const std::size_t i = static_cast<std::size_t>(k) * stride;
@@ -60,7 +60,7 @@ ColourGain estimateGain(const PointModel& model, const Observation& observation,
       if (point.sight != Sight::kSeen) continue;
       const Rgb8 seen = observation.colour.values[static_cast<std::size_t>(point.pixel)];
       const Rgb8 known = model.colours[i];
-      if (!tellsGain(seen, options) || !tellsGain(known, options)) continue;
+      if (!isUsableForGain(seen, options) || !isUsableForGain(known, options)) continue;
       own_red.add(seen.red, known.red);
       own_green.add(seen.green, known.green);
       own_blue.add(seen.blue, known.blue);

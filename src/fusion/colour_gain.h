@@ -39,7 +39,7 @@ constexpr int kGainBins = 512;
 /// Bin of one channel of a point; -1 for an unusable ratio.
 int gainBin(std::uint8_t seen, std::uint8_t known);
 /// Whether a colour is usable for the gain: not dark, not saturated, no highlight.
-SOFTSCOPE_HD inline bool tellsGain(Rgb8 colour, const ColourOptions& options) {
+SOFTSCOPE_HD inline bool isUsableForGain(Rgb8 colour, const ColourOptions& options) {
   constexpr int kDarkest = 16;  // quantisation limit
   const auto inside = [](int level) { return level >= kDarkest && level < 250; };
   return inside(colour.red) && inside(colour.green) && inside(colour.blue) &&

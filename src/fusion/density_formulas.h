@@ -14,7 +14,7 @@
 namespace softscope {
 
 /// Whether a point remains in the model: with weight and normal.
-SOFTSCOPE_HD inline bool staysInModel(const Eigen::Vector3f& normal, float weight) {
+SOFTSCOPE_HD inline bool isKeptInModel(const Eigen::Vector3f& normal, float weight) {
   const float length = normal.squaredNorm();
   return weight > 0 && length > 0.25f && length < 4;
 }

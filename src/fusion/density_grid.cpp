@@ -16,9 +16,9 @@ constexpr int kMostParts = 8;  // each visits all points
 /// Cells of all points; kNoCell for removed ones.
 std::vector<CellKey> cellsOf(const PointModel& model, const PosedCamera& camera, float cell_mm) {
   std::vector<CellKey> keys(model.size());
-  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
-      keys[i] = staysInModel(model.normals[i], model.weights[i])
+      keys[i] = isKeptInModel(model.normals[i], model.weights[i])
                     ? densityCell(model.positions_mm[i], camera, cell_mm)
                     : kNoCell;
   });

@@ -25,7 +25,7 @@ DrawnPoints::DrawnPoints(const PointModel& model, const PosedCamera& camera)
     auto* row = nearest_.data() + static_cast<std::size_t>(v) * camera.width_px;
     for (int u = 0; u < camera.width_px; ++u) row[u].store(kNoPoint, std::memory_order_relaxed);
   });
-  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) draw(i);
   });
   parallelRows(camera.height_px, [&](int v) {

@@ -5,10 +5,10 @@
 
 namespace softscope {
 
-std::vector<std::int32_t> CpuFrameComparer::seenPoints(const PointModel& model,
-                                                       const Observation& observation,
-                                                       const Raster<PixelState>& states,
-                                                       const VisibilityOptions& options) {
+std::vector<std::int32_t> CpuFrameComparer::visiblePoints(const PointModel& model,
+                                                          const Observation& observation,
+                                                          const Raster<PixelState>& states,
+                                                          const VisibilityOptions& options) {
   return findVisible(model, observation, states, options).seen();
 }
 

@@ -33,10 +33,10 @@ class FrameComparer {
 
   // The observation is that of beginFrame(), with its pose; `states` are its pixels'.
   /// Indices of the points that the camera sees, ascending: findVisible().
-  virtual std::vector<std::int32_t> seenPoints(const PointModel& model,
-                                               const Observation& observation,
-                                               const Raster<PixelState>& states,
-                                               const VisibilityOptions& options) = 0;
+  virtual std::vector<std::int32_t> visiblePoints(const PointModel& model,
+                                                  const Observation& observation,
+                                                  const Raster<PixelState>& states,
+                                                  const VisibilityOptions& options) = 0;
   /// `graph` has live positions. The visibility may stay on the device, where the ModelUpdater of
   /// the same device finds it; it is empty then.
   virtual FrameComparison compare(const PointModel& model, const WarpGraph& graph,
@@ -49,9 +49,9 @@ class FrameComparer {
 
 class CpuFrameComparer final : public FrameComparer {
  public:
-  std::vector<std::int32_t> seenPoints(const PointModel& model, const Observation& observation,
-                                       const Raster<PixelState>& states,
-                                       const VisibilityOptions& options) override;
+  std::vector<std::int32_t> visiblePoints(const PointModel& model, const Observation& observation,
+                                          const Raster<PixelState>& states,
+                                          const VisibilityOptions& options) override;
   FrameComparison compare(const PointModel& model, const WarpGraph& graph,
                           const Observation& observation, const Raster<PixelState>& states,
                           const FusionOptions& options) override;

@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kNodesATask = 48;
+constexpr int kNodesPerTask = 48;
 
 bool carries(const WarpGraph& graph, const PointBinding& binding) {
   return isCarried(binding, static_cast<std::int32_t>(graph.stencils.size()));
@@ -39,7 +39,7 @@ std::vector<Difference> differences(const PointModel& model, const WarpGraph& gr
                       depthWeight(sigma_mm, reference_mm, largest), std::abs(point.ahead_mm),
                       sigma_mm});
   };
-  const std::size_t grain = kPointsATask, tasks = (model.size() + grain - 1) / grain;
+  const std::size_t grain = kPointsPerTask, tasks = (model.size() + grain - 1) / grain;
   std::vector<std::vector<Difference>> parts(tasks);
   parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
     for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
@@ -62,7 +62,7 @@ template <class Quantity>
 std::vector<double> nodeMeans(const std::vector<Difference>& all, std::size_t nodes,
                               const Quantity& quantity) {
   std::vector<double> values(all.size()), weights(nodes), totals(nodes);
-  parallelRanges(static_cast<int>(all.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(all.size()), kPointsPerTask, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       values[i] = quantity(all[i]);
   });
@@ -72,7 +72,7 @@ std::vector<double> nodeMeans(const std::vector<Difference>& all, std::size_t no
       frame_weight += all[i].weight, frame_total += all[i].weight * values[i];
   };
   parallelInvoke(addFrame, [&] {
-    parallelRanges(static_cast<int>(nodes), kNodesATask, [&](int begin, int end) {
+    parallelRanges(static_cast<int>(nodes), kNodesPerTask, [&](int begin, int end) {
       for (std::size_t i = 0; i < all.size(); ++i) {
         const NodeStencil& stencil = *all[i].stencil;  // ascending
         if (stencil.back() < begin || stencil.front() >= end) continue;

@@ -40,7 +40,7 @@ SOFTSCOPE_HD inline int footprintPx(float depth_mm, float focal_px, float spacin
 /// Whether a depth is accurate enough for a point. `sigma_mm`: null for depths without sigma.
 SOFTSCOPE_HD inline bool mayMakePoint(PixelState state, const float* sigma_mm, int pixel,
                                       float max_sigma_mm) {
-  return state == PixelState::kSure && (sigma_mm == nullptr || sigma_mm[pixel] <= max_sigma_mm);
+  return state == PixelState::kAccepted && (sigma_mm == nullptr || sigma_mm[pixel] <= max_sigma_mm);
 }
 
 /// Whether the nearest model depth within reach of a pixel

@@ -21,7 +21,7 @@ class NearestSurface {
       : cell_px_(cell_px),
         columns_((width_px + cell_px - 1) / cell_px),
         bits_(static_cast<std::size_t>(columns_) * ((height_px + cell_px - 1) / cell_px)) {
-    parallelRanges(static_cast<int>(bits_.size()), kCellsATask, [&](int begin, int end) {
+    parallelRanges(static_cast<int>(bits_.size()), kCellsPerTask, [&](int begin, int end) {
       for (int i = begin; i < end; ++i)
         bits_[static_cast<std::size_t>(i)].store(kFar, std::memory_order_relaxed);
     });
@@ -50,7 +50,7 @@ class NearestSurface {
   }
 
  private:
-  static constexpr int kCellsATask = 1 << 15;
+  static constexpr int kCellsPerTask = 1 << 15;
   static constexpr std::uint32_t kFar = 0x7F800000;  // infinity
 
   std::atomic<std::uint32_t>& cell(int u, int v) {

@@ -79,7 +79,7 @@ PosedCamera posedCamera(const PinholeCamera& left, const Eigen::Isometry3d& worl
   return camera;
 }
 
-Raster<PixelState> judgePixels(const Observation& observation, const PixelOptions& options) {
+Raster<PixelState> classifyPixels(const Observation& observation, const PixelOptions& options) {
   options.validate();
   observation.validate();
   const PosedCamera camera = posedCamera(observation.left, observation.world_from_left);

@@ -36,11 +36,11 @@ enum class PixelState : std::uint8_t {
   kUnmeasured,  // no depth
   kMasked,      // not tissue
   kEdge,        // near a depth discontinuity
-  kUnsure,      // sigma too large, no normal, or too grazing
-  kSure,
+  kRejected,    // sigma too large, no normal, or too grazing
+  kAccepted,
 };
 
 /// Classifies every pixel. Size of the camera.
-Raster<PixelState> judgePixels(const Observation& observation, const PixelOptions& options);
+Raster<PixelState> classifyPixels(const Observation& observation, const PixelOptions& options);
 
 }  // namespace softscope

@@ -23,8 +23,8 @@ SOFTSCOPE_HD inline bool isBesideEdge(float depth_mm, const DepthSpan& around) {
 }
 
 /// Whether sigma of the depth and normal of pixel (u, v) are acceptable.
-SOFTSCOPE_HD inline bool isSureDepth(int u, int v, const FrameRasters& rasters,
-                                     const PosedCamera& camera, float max_sigma_mm) {
+SOFTSCOPE_HD inline bool isAcceptedDepth(int u, int v, const FrameRasters& rasters,
+                                         const PosedCamera& camera, float max_sigma_mm) {
   const int pixel = v * camera.width_px + u;
   if (rasters.sigma_mm != nullptr) {
     const float sigma_mm = rasters.sigma_mm[pixel];
@@ -44,7 +44,8 @@ SOFTSCOPE_HD inline PixelState pixelState(int u, int v, bool is_masked, const De
   if (!(depth_mm > 0 && depth_mm < static_cast<float>(PixelOptions::kMaxDepthMm)))
     return PixelState::kUnmeasured;
   if (isBesideEdge(depth_mm, around)) return PixelState::kEdge;
-  return isSureDepth(u, v, rasters, camera, max_sigma_mm) ? PixelState::kSure : PixelState::kUnsure;
+  return isAcceptedDepth(u, v, rasters, camera, max_sigma_mm) ? PixelState::kAccepted
+                                                              : PixelState::kRejected;
 }
 
 }  // namespace softscope

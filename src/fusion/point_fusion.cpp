@@ -118,7 +118,7 @@ PointFusionSummary fusePoints(const WarpGraph& graph, const Observation& observa
   const FusingFrame frame = fusingFrame(observation, summary.gain, options, colour_options);
   const Fuser fuser(graph, frame, comparison.innovation, comparison.anchored, model);
   std::atomic<int> fused{0}, contradicted{0};
-  parallelRanges(static_cast<int>(model->size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model->size()), kPointsPerTask, [&](int begin, int end) {
     int fused_here = 0, contradicted_here = 0;
     for (int k = begin; k < end; ++k) {
       const std::size_t i = static_cast<std::size_t>(k);

@@ -20,7 +20,7 @@ struct ModelComparison {
   AnchorAgreement anchored;
 };
 
-/// `graph` has live positions, `states` are judgePixels() of the observation.
+/// `graph` has live positions, `states` are classifyPixels() of the observation.
 /// Throws OptionError for invalid options and inconsistent arguments.
 ModelComparison compareModel(const PointModel& model, const WarpGraph& graph,
                              const Observation& observation, const Raster<PixelState>& states,

@@ -20,7 +20,7 @@ namespace {
 NearestSurface drawModel(const PointModel& model, const Visibility& visibility,
                          const PosedCamera& camera) {
   NearestSurface drawn(camera.width_px, camera.height_px, 1);
-  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const int pixel = visibility.points[i].pixel;
       if (pixel < 0 || !(model.weights[i] > 0)) continue;
@@ -49,15 +49,15 @@ class DepthsAround {
     std::vector<float> column(static_cast<std::size_t>(width_ + 2 * reach), kFar);
     const int last = std::min(depths_mm_.height_px - 1, v - top_ + reach);
     for (int y = std::max(0, v - top_ - reach); y <= last; ++y)
-      takeLess(depths_mm_.row(y), column.data() + reach);
+      takeMinimum(depths_mm_.row(y), column.data() + reach);
     least_mm->assign(static_cast<std::size_t>(width_), kFar);
-    for (int k = 0; k <= 2 * reach; ++k) takeLess(column.data() + k, least_mm->data());
+    for (int k = 0; k <= 2 * reach; ++k) takeMinimum(column.data() + k, least_mm->data());
   }
 
  private:
   static constexpr float kFar = std::numeric_limits<float>::infinity();
 
-  void takeLess(const float* from, float* to) const {
+  void takeMinimum(const float* from, float* to) const {
     for (int u = 0; u < width_; ++u) to[u] = from[u] < to[u] ? from[u] : to[u];
   }
 
@@ -152,7 +152,7 @@ std::vector<std::int32_t> choosePixels(const Raster<float>& unexplained_mm,
                                        const InsertionLimits& limits) {
   const std::vector<std::int32_t> candidates = candidatePixels(unexplained_mm, allowed);
   std::vector<CellKey> keys(candidates.size());
-  parallelRanges(static_cast<int>(candidates.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(candidates.size()), kPointsPerTask, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const std::int32_t i = candidates[k];
       const Eigen::Vector3f ray =

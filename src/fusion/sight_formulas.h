@@ -38,7 +38,7 @@ SOFTSCOPE_HD inline PointSight sightOf(const Eigen::Vector3f& point_left,
   if (!isFinite(point_left) || !camera.findPixel(point_left, &u, &v)) return result;
   const int pixel = v * camera.width_px + u;
   const PixelState state = rasters.states[pixel];
-  if (state == PixelState::kSure)
+  if (state == PixelState::kAccepted)
     result = compareWithPixel(point_left, normal_left, camera.ray(u, v) * rasters.depth_mm[pixel],
                               rasters.normals[pixel], limits);
   else

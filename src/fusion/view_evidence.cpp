@@ -37,7 +37,7 @@ class Comparison {
     BlockCorrelation block;
     for (int v = v0; v < std::min(v0 + block_px_, states_.height_px); ++v)
       for (int u = u0; u < std::min(u0 + block_px_, states_.width_px); ++u) {
-        if (states_.at(u, v) != PixelState::kSure) continue;
+        if (states_.at(u, v) != PixelState::kAccepted) continue;
         const int point = drawn_.pointAt(u, v);
         if (point < 0) continue;
         ++votes->compared_px;

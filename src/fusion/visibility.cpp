@@ -15,7 +15,7 @@ void hideBehindModel(const PointModel& model, const PosedCamera& camera,
                      const NearestSurface& nearest, const VisibilityOptions& options,
                      Visibility* visibility) {
   const float margin_mm = static_cast<float>(options.kOcclusionMm);
-  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       PointSight& point = visibility->points[i];
       if (point.sight != Sight::kSeen && point.sight != Sight::kTurned) continue;
@@ -63,7 +63,7 @@ Visibility findVisible(const PointModel& model, const Observation& observation,
   NearestSurface nearest(camera.width_px, camera.height_px, options.kOcclusionCellPx);
   Visibility visibility;
   visibility.points.resize(model.size());
-  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);
       const PointSight sight =

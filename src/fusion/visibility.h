@@ -21,7 +21,7 @@ struct Visibility {
 
 /// Projective association of the model (world frame, already warped) with the
 /// observation: docs/fusion.md (F1) to (F4), with the reasons against a distance
-/// field. Points that are not finite are outside. `states` are judgePixels() of the
+/// field. Points that are not finite are outside. `states` are classifyPixels() of the
 /// observation. Throws OptionError for invalid options and inconsistent rasters.
 Visibility findVisible(const PointModel& model, const Observation& observation,
                        const Raster<PixelState>& states, const VisibilityOptions& options);

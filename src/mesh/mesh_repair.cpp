@@ -104,7 +104,7 @@ class Repair {
   }
 
   void turnTriangles() {
-    const TurnedTriangles turned = turnAlike(mesh_);
+    const TurnedTriangles turned = orientConsistently(mesh_);
     if (turned.one_sided)
       throw InputError(name_ +
                        ": the surface has one side only, like a Moebius strip, but tissue has an "

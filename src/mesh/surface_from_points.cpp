@@ -133,35 +133,35 @@ struct Candidate {
   int votes;
 };
 
-std::vector<Candidate> wishesOf(const OrientedPoints& points, const PointGrid& grid,
-                                const NeighbourRule& rule) {
+std::vector<Candidate> candidateTriangles(const OrientedPoints& points, const PointGrid& grid,
+                                          const NeighbourRule& rule) {
   std::vector<std::vector<FanTriangle>> fans(points.positions_mm.size());
   parallelRanges(int(fans.size()), 500, [&](int begin, int end) {
     LocalFan fan(points, grid, rule);
     for (int i = begin; i < end; ++i) fans[std::size_t(i)] = fan.around(i);
   });
-  std::vector<Candidate> wishes;
-  wishes.reserve(6 * fans.size());
+  std::vector<Candidate> candidates;
+  candidates.reserve(6 * fans.size());
   for (std::size_t i = 0; i < fans.size(); ++i)
-    for (const FanTriangle& wish : fans[i]) {
-      Triangle t{std::int32_t(i), wish.first, wish.second};
+    for (const FanTriangle& fan_triangle : fans[i]) {
+      Triangle t{std::int32_t(i), fan_triangle.first, fan_triangle.second};
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      wishes.push_back({t, wish.radius_mm, 1});
+      candidates.push_back({t, fan_triangle.radius_mm, 1});
     }
-  return wishes;
+  return candidates;
 }
 
 /// Unique triangles; sorted by the number of supporting points, then by size.
-std::vector<Candidate> ranked(std::vector<Candidate> wishes) {
-  std::sort(wishes.begin(), wishes.end(), [](const Candidate& a, const Candidate& b) {
+std::vector<Candidate> ranked(std::vector<Candidate> candidates) {
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.triangle != b.triangle ? a.triangle < b.triangle : a.radius_mm < b.radius_mm;
   });
   std::vector<Candidate> once;
-  for (const Candidate& wish : wishes)
-    if (!once.empty() && once.back().triangle == wish.triangle)
+  for (const Candidate& candidate : candidates)
+    if (!once.empty() && once.back().triangle == candidate.triangle)
       ++once.back().votes;
     else
-      once.push_back(wish);
+      once.push_back(candidate);
   std::stable_sort(once.begin(), once.end(), [](const Candidate& a, const Candidate& b) {
     return a.votes != b.votes ? a.votes > b.votes : a.radius_mm < b.radius_mm;
   });
@@ -214,7 +214,7 @@ PointSurface surfaceFromPoints(const PointCloud& cloud, const SurfaceOptions& op
   surface.crowded_points = fit.places.size() - spread.places.size();
   const PointGrid grid(spread.points.positions_mm, rule.hole_radius_mm / 2);
   GrowingSurface growing(spread.points, rule.least_cosine);
-  for (const Candidate& candidate : ranked(wishesOf(spread.points, grid, rule)))
+  for (const Candidate& candidate : ranked(candidateTriangles(spread.points, grid, rule)))
     growing.add(candidate.triangle);
   growing.closeHoles(kHalfTurn * surface.gap_mm);  // circumference of a circle of this width
   const std::vector<Eigen::Vector3f>& places_mm = spread.points.positions_mm;

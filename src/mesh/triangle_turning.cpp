@@ -64,7 +64,7 @@ bool decidePiece(std::int32_t start, const std::vector<std::vector<Neighbour>>& 
 
 }  // namespace
 
-TurnedTriangles turnAlike(TriangleMesh& mesh) {
+TurnedTriangles orientConsistently(TriangleMesh& mesh) {
   const std::vector<std::vector<Neighbour>> neighbours = neighboursOf(mesh);
   std::vector<signed char> turned(mesh.triangles.size(), -1);
   std::vector<std::int32_t> piece;

@@ -15,6 +15,6 @@ struct TurnedTriangles {
 /// Orients neighbouring triangles consistently, and a changed component
 /// outward. Components that are already consistent are unchanged: an inner
 /// one may be a cavity. No edge may belong to more than two triangles.
-TurnedTriangles turnAlike(TriangleMesh& mesh);
+TurnedTriangles orientConsistently(TriangleMesh& mesh);
 
 }  // namespace softscope

@@ -40,10 +40,10 @@ std::vector<std::string> builtBackends() { return {"cpu"}; }
 namespace {
 
 /// Reason for the CPU under auto, by options and machine.
-std::string whyNotOnGpu(const FrameDepthOptions& depth) {
+std::string gpuUnavailableReason(const FrameDepthOptions& depth) {
   if (depth.source == "files") return "depth.source is files, and stereo is what the GPU computes";
   if (depth.stereo.method != "elas") return depth.stereo.method + " has no GPU version";
-  return whyNoCuda();
+  return cudaUnavailableReason();
 }
 
 /// `makeOnCpu()` or `makeOnGpu()`. `what` is computed by the GPU.
@@ -54,11 +54,11 @@ auto choose(const std::string& name, const FrameDepthOptions& depth, const std::
   requireBackendName(name);
   if (name == "cpu") return {makeOnCpu(), "cpu", ""};
   if (name == "cuda") {
-    if (const std::string why = whyNoCuda(); !why.empty())
+    if (const std::string why = cudaUnavailableReason(); !why.empty())
       throw BackendError("`backend=` cuda: " + why + ". `backend=` cpu or auto needs no GPU");
     return {makeOnGpu(), "cuda", ""};
   }
-  std::string why = whyNotOnGpu(depth);
+  std::string why = gpuUnavailableReason(depth);
   if (why.empty()) try {
       return {makeOnGpu(), "cuda", what + " on the GPU"};
     } catch (const Error& error) {
@@ -69,7 +69,7 @@ auto choose(const std::string& name, const FrameDepthOptions& depth, const std::
 
 }  // namespace
 
-std::string whyNoCuda() {
+std::string cudaUnavailableReason() {
   const cuda::DeviceInfo info = cudaDevices();
   if (info.devices.empty()) return info.why_none;
   const cuda::Device& first = info.devices.front();

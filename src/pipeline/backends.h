@@ -18,7 +18,7 @@ namespace softscope {
 cuda::DeviceInfo cudaDevices();
 
 /// Reason why no kernel of this build runs on this machine; empty: they run.
-std::string whyNoCuda();
+std::string cudaUnavailableReason();
 
 /// "cpu" and, in a build with CUDA, "cuda", with or without a GPU.
 std::vector<std::string> builtBackends();

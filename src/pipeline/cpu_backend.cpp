@@ -75,8 +75,9 @@ class CpuBackend : public ReconstructionBackend {
   const PinholeCamera& left() const { return rig().left; }
   bool worksAhead() const { return threadCount() >= ahead_from_threads_; }
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
-  DeformObservation whatPulls(const Eigen::Isometry3d& world_from_left,
-                              const SurfaceTarget& surface, const std::vector<int>& visible) const;
+  DeformObservation matchConstraints(const Eigen::Isometry3d& world_from_left,
+                                     const SurfaceTarget& surface,
+                                     const std::vector<int>& visible) const;
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
@@ -211,9 +212,9 @@ Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const 
           world_from_left};
 }
 
-DeformObservation CpuBackend::whatPulls(const Eigen::Isometry3d& world_from_left,
-                                        const SurfaceTarget& surface,
-                                        const std::vector<int>& visible) const {
+DeformObservation CpuBackend::matchConstraints(const Eigen::Isometry3d& world_from_left,
+                                               const SurfaceTarget& surface,
+                                               const std::vector<int>& visible) const {
   DeformObservation seen;
   seen.surface = &surface;
   seen.visible = &visible;
@@ -244,7 +245,7 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   growth_.grow(options_.graph, &state_.model, &state_.graph);
   updater_->changed(kModelBindings);
   clock_.lap("graph");
-  const std::vector<std::int32_t> visible = comparer_->seenPoints(
+  const std::vector<std::int32_t> visible = comparer_->visiblePoints(
       state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility);
   const DepthTarget surface(frame_.measured.depth, frame_.measured.normals, left(),
                             world_from_left.inverse(), frame_.association);
@@ -252,8 +253,8 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   WarpSummary summary;
   summary.in_sight = static_cast<int>(visible.size());
   summary.nodes = static_cast<int>(state_.graph.size());
-  summary.solver =
-      solver_->solve(state_.model, whatPulls(world_from_left, surface, visible), &state_.graph);
+  summary.solver = solver_->solve(state_.model, matchConstraints(world_from_left, surface, visible),
+                                  &state_.graph);
   clock_.lap("solve");
   return summary;
 }

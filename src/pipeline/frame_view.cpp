@@ -104,9 +104,9 @@ FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const Rectif
   view.summary = summarise(view.measured, view.not_tissue, rig);
   scaleOptions(options, &view);
   // The state of a pixel does not depend on the camera's pose.
-  view.states = judgePixels({view.measured.depth, view.measured.normals, view.measured.left,
-                             view.not_tissue, rig.left, Eigen::Isometry3d::Identity()},
-                            view.fusion.pixels);
+  view.states = classifyPixels({view.measured.depth, view.measured.normals, view.measured.left,
+                                view.not_tissue, rig.left, Eigen::Isometry3d::Identity()},
+                               view.fusion.pixels);
   return view;
 }
 

@@ -126,7 +126,7 @@ std::vector<SurfaceShare> surfaceShares(const TrackedNear& near, const PointMode
       shares->push_back({k, weight, weight * normal.dot(away), weight * normal});
     });
   };
-  const std::size_t grain = kPointsATask, tasks = (model.size() + grain - 1) / grain;
+  const std::size_t grain = kPointsPerTask, tasks = (model.size() + grain - 1) / grain;
   std::vector<std::vector<SurfaceShare>> parts(tasks);
   parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
     for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
@@ -164,8 +164,8 @@ void MaterialPoints::add(int id, const Eigen::Vector2d& pixel, const PinholeCame
 }
 
 void MaterialPoints::anchor(const PointModel& model) {
-  constexpr int kSearchesATask = 4;  // each visits the whole model
-  parallelRanges(static_cast<int>(points.size()), kSearchesATask, [&](int begin, int end) {
+  constexpr int kSearchesPerTask = 4;  // each visits the whole model
+  parallelRanges(static_cast<int>(points.size()), kSearchesPerTask, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       Point& point = points[static_cast<std::size_t>(k)];
       if (point.model_point < 0 && point.position_mm.allFinite())

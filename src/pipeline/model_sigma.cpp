@@ -147,7 +147,7 @@ std::vector<float> modelSigmas(const PointModel& model, const WarpGraph& graph,
   const float unit_mm2 = static_cast<float>(errors.reference_sigma_mm * errors.reference_sigma_mm);
   const auto stencils = static_cast<std::int32_t>(graph.stencils.size());
   std::vector<float> sigmas_mm(model.size(), kNaN);
-  parallelRanges(static_cast<int>(model.size()), kPointsATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(model.size()), kPointsPerTask, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       const PointBinding& binding = model.bindings[i];
       const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);

@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::size_t kViewpointsAFrame = 3;  // that a lost frame is compared with
+constexpr std::size_t kViewpointsPerFrame = 3;  // that a lost frame is compared with
 
 bool reject(FrameRecord& record, FrameStatus status, const std::string& reason) {
   record.status = status;
@@ -88,7 +88,7 @@ void Reconstructor::reconstruct(const Frame& frame, const Frame* next, const Fra
   const bool was_lost = lost_;
   const Eigen::Isometry3d before = world_from_left_;
   const bool followed = locate(record);
-  if (!followed && !findAgain(record)) return;
+  if (!followed && !relocalise(record)) return;
   if (!deform(record) || !confirm(record)) {
     backend_->rejectWarp();
     world_from_left_ = before;
@@ -128,7 +128,7 @@ bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& 
 
 // After a loss, the model is searched in the whole image, then
 // again from the pose found, for matches that the warp can use.
-bool Reconstructor::findAgain(FrameRecord& record) {
+bool Reconstructor::relocalise(FrameRecord& record) {
   lost_ = true;
   const RigidPose rough = backend_->relocalise(viewpointsToTry());
   ++searches_;
@@ -147,7 +147,7 @@ bool Reconstructor::findAgain(FrameRecord& record) {
 std::vector<Eigen::Isometry3d> Reconstructor::viewpointsToTry() const {
   std::vector<Eigen::Isometry3d> all{world_from_left_};
   all.insert(all.end(), key_views_.rbegin(), key_views_.rend());
-  const std::size_t count = std::min(kViewpointsAFrame, all.size());
+  const std::size_t count = std::min(kViewpointsPerFrame, all.size());
   const std::size_t first = static_cast<std::size_t>(searches_) * count % all.size();
   std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first), all.end());
   all.resize(count);

@@ -57,7 +57,7 @@ class Reconstructor {
   bool measure(const Frame& frame, FrameRecord& record);
   bool locate(FrameRecord& record);
   bool locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record);
-  bool findAgain(FrameRecord& record);
+  bool relocalise(FrameRecord& record);
   bool deform(FrameRecord& record);
   bool confirm(FrameRecord& record);
   void fuse(FrameStatus status, FrameRecord& record);

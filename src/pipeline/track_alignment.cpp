@@ -137,12 +137,12 @@ void MaterialPoints::look(const GrayImage& image, const Mask& ignore, const Poin
 void MaterialPoints::align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
                            const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
                            const std::function<bool(const Eigen::Vector3d&)>& inSight) {
-  constexpr int kLooksATask = 2;
+  constexpr int kLooksPerTask = 2;
   if (points.empty()) return;
   const LookPicture picture(image, ignore);
   const FirstLookSearch search{picture, left, world_from_left};
   std::vector<SeenLook> seen(points.size());
-  parallelRanges(static_cast<int>(points.size()), kLooksATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(points.size()), kLooksPerTask, [&](int begin, int end) {
     for (std::size_t k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
       if (!points[k].position_mm.allFinite()) continue;
       const Eigen::Vector3d centre = world_from_left.inverse() * points[k].position_mm;
@@ -158,7 +158,7 @@ void MaterialPoints::align(const GrayImage& image, const Mask& ignore, const Pin
     variance_mm2 = seen[k].in_sight ? variance_mm2 + drift_mm2 : kNotMeasured<double>;
     if (seen[k].found) found.push_back(moveTowards(seen[k], &points[k]));
   }
-  parallelRanges(static_cast<int>(points.size()), kLooksATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(points.size()), kLooksPerTask, [&](int begin, int end) {
     for (std::size_t k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
       if (!seen[k].found && points[k].position_mm.allFinite())
         points[k].position_mm +=

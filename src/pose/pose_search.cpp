@@ -15,7 +15,7 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kPairsATask = 256;
+constexpr int kPairsPerTask = 256;
 
 struct Residual {
   Eigen::Vector3d value;
@@ -89,7 +89,7 @@ class Pairs {
   std::vector<Residual> residualsAt(const Eigen::Isometry3d& left_from_world) const {
     const PoseRows rows = rowsOf(left_from_world);
     std::vector<Residual> residuals(question_.pairs.size());
-    parallelRanges(static_cast<int>(residuals.size()), kPairsATask, [&](int begin, int end) {
+    parallelRanges(static_cast<int>(residuals.size()), kPairsPerTask, [&](int begin, int end) {
       for (int k = begin; k < end; ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
         residuals[i] = residualAt(question_.pairs[i], rows);

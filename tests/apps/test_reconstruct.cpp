@@ -90,7 +90,8 @@ TEST_F(Reconstruct, TellsWhatIsWrongWithItsArguments) {
     EXPECT_EQ(outcome.exit_code, code) << text;
     EXPECT_THAT(outcome.err, HasSubstr(text));
   };
-  if (!whyNoCuda().empty()) expect({"--out", at("r"), "--backend", "cuda"}, 4, "--backend cuda");
+  if (!cudaUnavailableReason().empty())
+    expect({"--out", at("r"), "--backend", "cuda"}, 4, "--backend cuda");
   expect({"--out", at("r"), "--backend", "gpu"}, 2, "must be auto, cpu or cuda");
   expect({"--out", at("r"), "--scope", "still"}, 2, "pose.scope");
   expect({"--out", at("r"), "--frames", "1:7:0"}, 2, "--frames");

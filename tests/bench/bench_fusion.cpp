@@ -60,7 +60,7 @@ void measure(int width_px, int height_px, int points) {
   PointModel work;
   InsertionMemory memory;
   const double judge =
-      fastestMs(nothing, [&] { states = judgePixels(observation, options.pixels); });
+      fastestMs(nothing, [&] { states = classifyPixels(observation, options.pixels); });
   const double see = fastestMs(
       nothing, [&] { visibility = findVisible(model, observation, states, options.visibility); });
   const double fuse = fastestMs(

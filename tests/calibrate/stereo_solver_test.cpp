@@ -164,7 +164,7 @@ TEST(StereoSolver, QualityNamesWhatIsMissing) {
   EXPECT_GT(coverage.left_share, 0.6);
   const std::vector<BoardSighting> few(sightings.begin(), sightings.begin() + 6);
   const CalibrationSolution poor = solve(r, few);
-  const auto advice = whatToFilm(poor, boardCoverage(poor));
+  const auto advice = imagingAdvice(poor, boardCoverage(poor));
   EXPECT_TRUE(std::any_of(advice.begin(), advice.end(), [](const std::string& line) {
     return line.find("more views") != std::string::npos;
   }));

@@ -50,7 +50,7 @@ class ComparisonScene {
       shot_.mask = Mask(shot_.left.width_px, shot_.left.height_px, 0);
       for (int v = 30; v < 70; ++v) std::fill_n(shot_.mask.row(v) + 40, 60, std::uint8_t{255});
     }
-    states_ = judgePixels(observation(), options_.pixels);
+    states_ = classifyPixels(observation(), options_.pixels);
   }
 
   static PinholeCamera camera() { return smallCamera(241, 178, 280); }
@@ -69,7 +69,7 @@ class ComparisonScene {
     const Observation seen = observation();
     if (ahead) comparer->beginFrame(seen, states_);
     Found found;
-    found.seen = comparer->seenPoints(model_, seen, states_, options_.visibility);
+    found.seen = comparer->visiblePoints(model_, seen, states_, options_.visibility);
     found.comparison = comparer->compare(model_, graph_, seen, states_, options_);
     found.error = comparer->error(model_, seen, states_);
     comparer->endFrame();

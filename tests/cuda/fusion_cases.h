@@ -92,7 +92,7 @@ class FusionScene {
         updater->changed(kModelShape);
       }
       comparer->beginFrame(observation_, scene_.states());
-      comparer->seenPoints(made.model, observation_, scene_.states(), options_.visibility);
+      comparer->visiblePoints(made.model, observation_, scene_.states(), options_.visibility);
       const FrameComparison found =
           comparer->compare(made.model, scene_.graph(), observation_, scene_.states(), options_);
       made.summary = updater->update(observation_, scene_.states(), scene_.graph(), options_,

@@ -161,10 +161,10 @@ class FailingComparer : public FrameComparer {
     comparer_->beginFrame(frame, states);
   }
   void endFrame() override { comparer_->endFrame(); }
-  std::vector<std::int32_t> seenPoints(const PointModel& model, const Observation& observation,
-                                       const Raster<PixelState>& states,
-                                       const VisibilityOptions& options) override {
-    return comparer_->seenPoints(model, observation, states, options);
+  std::vector<std::int32_t> visiblePoints(const PointModel& model, const Observation& observation,
+                                          const Raster<PixelState>& states,
+                                          const VisibilityOptions& options) override {
+    return comparer_->visiblePoints(model, observation, states, options);
   }
   FrameComparison compare(const PointModel& model, const WarpGraph& graph,
                           const Observation& observation, const Raster<PixelState>& states,

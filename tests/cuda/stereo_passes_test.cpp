@@ -55,7 +55,7 @@ TEST_P(StereoPasses, FindTheCpusSupportAndPrior) {
   const Raster<std::int16_t> prior = priorOf(points);
   EXPECT_EQ(differing(test::rasterOf(full().prior[0]), prior), 0);
 
-  const auto from_right = seenFromRight(points);
+  const auto from_right = supportFromRight(points);
   EXPECT_EQ(differing(test::rasterOf(full().prior[1]), priorOf(from_right)), 0);
   EXPECT_EQ(differing(test::rasterOf(full().whole[0]),
                       matchDense(left, right, Reference::kLeft, points, options)),

@@ -74,7 +74,7 @@ TEST(ShapeMemory, StaysWithEdgesThatStay) {
   before[2].frames = 7;
   before[2].from_second_mm = {1, 2, 3};
   std::vector<GraphEdge> after = {{0, 1, 0.5}, {1, 2, 1.0}, {1, 3, 1.0}, {2, 3, 1.0}};
-  keepMemory(before, &after);
+  copyShapeMemory(before, &after);
   EXPECT_EQ(after[0].frames, 5);
   EXPECT_EQ(after[0].weight, 0.5);
   EXPECT_EQ(after[1].frames, 0);

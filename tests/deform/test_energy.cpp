@@ -181,7 +181,7 @@ TEST(NodeSight, StiffensAndHoldsWhatHides) {
     collectCandidates(model, graph, visible, 0, &candidates);
     ConstraintSet constraints;
     constraints.stiffness.assign(graph.edges.size(), 1);
-    judgeSight(model, graph, candidates, 0.2, &constraints);
+    classifyNodes(model, graph, candidates, 0.2, &constraints);
     return constraints;
   };
   const std::vector<int> nothing;

@@ -94,7 +94,7 @@ TEST(FeatureKernels, SearchAWindowAsPlainLoopsDo) {
               ASSERT_EQ(
                   values[static_cast<std::size_t>(r * stride + c)],
                   c < columns ? plain[static_cast<std::size_t>(r * columns + c)] : kNoDistance);
-          ASSERT_EQ(set.leastElsewhere({values.data(), stride}, rows, found, reach), elsewhere);
+          ASSERT_EQ(set.secondBestDistance({values.data(), stride}, rows, found, reach), elsewhere);
         }
       }
 }
@@ -119,7 +119,7 @@ TEST(FeatureKernels, CountNeighboursAsPlainLoopsDo) {
     for (int i = 0; i < count; ++i) {
       if (!areNeighbours(apart(0, i), apart(1, i), rules)) continue;
       ++plain.others;
-      plain.agreeing += moveAlike(apart(0, i), apart(1, i), apart(2, i), apart(3, i), rules);
+      plain.agreeing += moveConsistently(apart(0, i), apart(1, i), apart(2, i), apart(3, i), rules);
     }
     for (int s = 0; s < list.count; ++s) {
       const NeighbourCounts found = list.sets[s]->countNeighbours(

@@ -41,7 +41,7 @@ PointModel modelOf(const Shot& shot) {
 double agreeing(const PointModel& model, const Shot& shot) {
   const Observation observation = shot.observation();
   const Visibility visibility =
-      findVisible(model, observation, judgePixels(observation, {}), VisibilityOptions());
+      findVisible(model, observation, classifyPixels(observation, {}), VisibilityOptions());
   const AnchorAgreement anchored(model, observation, visibility);
   int seen = 0, agree = 0;
   for (const PointSight& point : visibility.points) {

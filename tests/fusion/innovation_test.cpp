@@ -46,8 +46,8 @@ Shot noisyPlane(unsigned seed) {
 InnovationField fieldOf(const PointModel& model, const Shot& shot) {
   const FusionOptions options;
   const Observation observation = shot.observation();
-  const Visibility visibility =
-      findVisible(model, observation, judgePixels(observation, options.pixels), options.visibility);
+  const Visibility visibility = findVisible(
+      model, observation, classifyPixels(observation, options.pixels), options.visibility);
   return {model, twoNodes(), observation, visibility, options.points};
 }
 

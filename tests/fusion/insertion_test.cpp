@@ -166,7 +166,7 @@ TEST_P(BadObservation, ChangesNothing) {
   const ModelUpdateSummary summary = update(bad, {}, &memory, &model);
   EXPECT_TRUE(sameModel(before, model));
   EXPECT_EQ(summary.seen, 0);
-  const Raster<PixelState> states = judgePixels(bad.observation(), {});
+  const Raster<PixelState> states = classifyPixels(bad.observation(), {});
   EXPECT_EQ(backProjectionError(model, bad.observation(), states).compared_px, 0);
 }
 INSTANTIATE_TEST_SUITE_P(Spoilt, BadObservation,
@@ -216,7 +216,7 @@ TEST(BackProjection, IsThePapersMeanOfAbsolutes) {
   update(shot, {}, &memory, &model);
   for (std::size_t i = 0; i < model.size(); ++i)
     model.positions_mm[i].z() += i % 4 == 0 ? -0.3f : 0.1f;
-  const Raster<PixelState> states = judgePixels(shot.observation(), {});
+  const Raster<PixelState> states = classifyPixels(shot.observation(), {});
   const BackProjectionError error = backProjectionError(model, shot.observation(), states);
   EXPECT_NEAR(error.compared_px, model.size(), 0.02 * model.size());  // nearly all apart
   EXPECT_NEAR(error.mean_mm, (0.3 + 3 * 0.1) / 4, 2e-3);
@@ -232,7 +232,7 @@ TEST(BackProjection, DoesNotLookThroughTheModel) {
   const std::size_t front = model.size();
   for (std::size_t i = 0; i < front; ++i)
     model.add(model.positions_mm[i] + Eigen::Vector3f(0.1f, 0.1f, 5), {0, 0, -1}, {}, 1);
-  const Raster<PixelState> states = judgePixels(shot.observation(), {});
+  const Raster<PixelState> states = classifyPixels(shot.observation(), {});
   EXPECT_LT(backProjectionError(model, shot.observation(), states).mean_mm, 1e-3);
 }
 

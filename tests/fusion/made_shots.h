@@ -111,8 +111,8 @@ inline ModelUpdateSummary update(const Shot& shot, const WarpGraph& graph,
                                  const FusionOptions& options, InsertionMemory* memory,
                                  PointModel* model) {
   const Observation observation = shot.observation();
-  return updateModel(observation, judgePixels(observation, options.pixels), graph, options, memory,
-                     model);
+  return updateModel(observation, classifyPixels(observation, options.pixels), graph, options,
+                     memory, model);
 }
 
 /// On a graph without nodes.

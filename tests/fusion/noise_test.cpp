@@ -79,7 +79,7 @@ std::vector<double> errorsAfter(int frames, const Motion& motion, const FusionOp
       seen_in.assign(model.size(), 1);
       continue;
     }
-    const Raster<PixelState> states = judgePixels(shot.observation(), options.pixels);
+    const Raster<PixelState> states = classifyPixels(shot.observation(), options.pixels);
     const Visibility visibility =
         findVisible(model, shot.observation(), states, options.visibility);
     for (std::size_t i = 0; i < model.size(); ++i)

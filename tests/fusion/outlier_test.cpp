@@ -106,7 +106,7 @@ TEST(FreeSpace, RemovesTissueThatHasGone) {
   // Five frames if the depth of the wall had the reference sigma; its error is 0.11 mm: six.
   for (int k = 0; k < 7; ++k) update(after, {}, &memory, &model);
   EXPECT_EQ(onBall(), 0);
-  const Raster<PixelState> states = judgePixels(after.observation(), {});
+  const Raster<PixelState> states = classifyPixels(after.observation(), {});
   for (int k = 0; k < 3; ++k) update(after, {}, &memory, &model);
   EXPECT_LT(backProjectionError(model, after.observation(), states).mean_mm, 1e-3);
 }

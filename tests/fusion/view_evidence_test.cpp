@@ -44,7 +44,7 @@ ViewEvidence evidenceAt(const PointModel& model, test::Shot shot,
   shot.world_from_left = claimed;
   const Observation observation = shot.observation();
   const DrawnPoints drawn(model, posedCamera(shot.left, claimed));
-  return viewEvidence(drawn, observation, judgePixels(observation, {}), {});
+  return viewEvidence(drawn, observation, classifyPixels(observation, {}), {});
 }
 
 TEST(ViewEvidence, ConfirmsTheRightPose) {

@@ -19,7 +19,7 @@ PointModel onePoint(const Eigen::Vector3f& position_mm, const Eigen::Vector3f& n
 }
 
 Visibility see(const PointModel& model, const Shot& shot, const VisibilityOptions& options = {}) {
-  return findVisible(model, shot.observation(), judgePixels(shot.observation(), {}), options);
+  return findVisible(model, shot.observation(), classifyPixels(shot.observation(), {}), options);
 }
 
 Sight sightOf(const Eigen::Vector3f& position_mm, const Shot& shot,
@@ -100,7 +100,7 @@ TEST(Visibility, SaysNothingNextToDepthEdges) {
   Shot shot = takeShot(plane(55), smallCamera());
   for (int v = 0; v < 72; ++v)
     for (int u = 0; u < 48; ++u) shot.depth.depth_mm.at(u, v) = 45;
-  const Raster<PixelState> states = judgePixels(shot.observation(), {});
+  const Raster<PixelState> states = classifyPixels(shot.observation(), {});
   for (int v = 0; v < 72; ++v)
     for (int u = 0; u < 96; ++u)
       EXPECT_EQ(states.at(u, v) == PixelState::kEdge, u >= 46 && u < 50);  // radius 2
@@ -113,9 +113,9 @@ TEST(Visibility, SaysNothingWhereDepthIsUnsureOrGrazing) {
   shot.depth.sigma_mm.at(3, 3) = 0;
   shot.normals.at(4, 4) = Eigen::Vector3f::Constant(kNoDepth);
   shot.normals.at(5, 5) = Eigen::Vector3f(0.995f, 0, -0.1f);
-  const Raster<PixelState> states = judgePixels(shot.observation(), {});
+  const Raster<PixelState> states = classifyPixels(shot.observation(), {});
   for (int i = 0; i < 7; ++i)
-    EXPECT_EQ(states.at(i, i), i >= 1 && i <= 5 ? PixelState::kUnsure : PixelState::kSure);
+    EXPECT_EQ(states.at(i, i), i >= 1 && i <= 5 ? PixelState::kRejected : PixelState::kAccepted);
 }
 
 TEST(Visibility, SurvivesWhatIsNotANumberOrOutOfThisWorld) {
@@ -151,10 +151,10 @@ TEST(Visibility, RefusesRastersThatDoNotFit) {
   EXPECT_THROW(findVisible({}, shot.observation(), states, {}), OptionError);
   Shot bad = shot;
   bad.normals = NormalMap(10, 10, Eigen::Vector3f::Zero());
-  EXPECT_THROW(judgePixels(bad.observation(), {}), OptionError);
+  EXPECT_THROW(classifyPixels(bad.observation(), {}), OptionError);
   bad = shot;
   bad.world_from_left.translation().x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(judgePixels(bad.observation(), {}), OptionError);
+  EXPECT_THROW(classifyPixels(bad.observation(), {}), OptionError);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ class EveryBackend : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     if (GetParam() != "cuda") return;
-    if (const std::string why = whyNoCuda(); !why.empty()) GTEST_SKIP() << why;
+    if (const std::string why = cudaUnavailableReason(); !why.empty()) GTEST_SKIP() << why;
   }
 };
 
@@ -205,7 +205,7 @@ TEST(LostDevice, LeavesAModelWithWhichTheCpuGoesOn) {
 }
 
 TEST(MakeBackend, AutoSaysWhatItTookAndWhy) {
-  const bool has_gpu = whyNoCuda().empty();
+  const bool has_gpu = cudaUnavailableReason().empty();
   ReconstructionOptions options = smallOptions();
   const auto chosen = makeBackend("auto", shortClip().calibration, options);
   EXPECT_EQ(chosen.name, has_gpu ? "cuda" : "cpu");
@@ -225,7 +225,7 @@ TEST(MakeBackend, AutoSaysWhatItTookAndWhy) {
 TEST(MakeBackend, CudaIsNotReplacedInSilence) {
   const StereoCalibration& calibration = shortClip().calibration;
   EXPECT_THROW(makeBackend("gpu", calibration, smallOptions()), OptionError);
-  const std::string why = whyNoCuda();
+  const std::string why = cudaUnavailableReason();
   if (why.empty()) {
     ReconstructionOptions options = smallOptions();
     options.depth.stereo.method = "sgbm";

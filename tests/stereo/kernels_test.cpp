@@ -165,7 +165,7 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
                        out.data(),
                        out.data() + width};
     set.refinement->solvePlanes(row);
-    set.refinement->judgePlanes(row);
+    set.refinement->estimatePlaneErrors(row);
     EXPECT_TRUE(std::isnan(out[17]));
     return out;
   });

@@ -132,7 +132,7 @@ CalibrationReport calibrateFromFilm(const BoardFilm& film, const BoardOptions& b
   report.coverage = boardCoverage(report.solution);
   for (const double distance_mm : distances_mm)
     report.depths.push_back(depthOutlook(report.solution, distance_mm));
-  report.advice = whatToFilm(report.solution, report.coverage);
+  report.advice = imagingAdvice(report.solution, report.coverage);
   return report;
 }
 

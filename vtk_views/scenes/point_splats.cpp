@@ -92,7 +92,7 @@ class SplatMaker {
     judged_ = points_.errors_mm.size() == count;
     made.mesh.colours.resize(coloured_ ? count * each : 0);
     made.errors_mm.resize(judged_ ? count * each : 0);
-    parallelRanges(static_cast<int>(count), kPointsATask, [&](int begin, int end) {
+    parallelRanges(static_cast<int>(count), kPointsPerTask, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) makeOne(i, &made);
     });
     return made;

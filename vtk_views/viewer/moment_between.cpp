@@ -55,7 +55,7 @@ ViewMoment momentBetween(const ViewMoment& from, const ViewMoment& to, double sh
     motion_mm.push_back(float(share) * (to.nodes_mm[i] - from.nodes_mm[i]));
   if (motion_mm.empty()) return moment;
   for (auto* points : {&moment.model.vertices_mm, &moment.judged.vertices_mm})
-    parallelRanges(static_cast<int>(points->size()), kPointsATask, [&](int begin, int end) {
+    parallelRanges(static_cast<int>(points->size()), kPointsPerTask, [&](int begin, int end) {
       for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         (*points)[i] += motionAt((*points)[i], from.nodes_mm, motion_mm);
     });

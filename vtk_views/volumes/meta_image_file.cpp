@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::int64_t kMostVoxelsASide = std::int64_t{1} << 30;
+constexpr std::int64_t kMaxVoxelsPerSide = std::int64_t{1} << 30;
 
 /// Keys used by this reader.
 const std::vector<std::string> kReadKeys{
@@ -150,7 +150,7 @@ std::string metaImageVoxels(const HeaderText& header, VoxelBlock block) {
       header.has("ElementByteOrderMSB") ? "ElementByteOrderMSB" : "BinaryDataByteOrderMSB", false);
   const bool packed = header.flagOr("CompressedData", false);
   if (header.has("HeaderSize") && !local) {
-    const auto skip = header.wholes("HeaderSize", 1, -1, kMostVoxelsASide)[0];
+    const auto skip = header.wholes("HeaderSize", 1, -1, kMaxVoxelsPerSide)[0];
     const double length = block.voxels * block.components * double(bytesOf(block.type));
     std::error_code problem;
     const double size = double(std::filesystem::file_size(block.file, problem));
@@ -174,7 +174,7 @@ StoredVolume readMetaImage(const std::string& path, const VolumeOptions& options
   VoxelBlock block;
   volume.summary.format = "MetaImage";
   block.voxels = 1;
-  const auto sizes = header.wholes("DimSize", 3, 1, kMostVoxelsASide);
+  const auto sizes = header.wholes("DimSize", 3, 1, kMaxVoxelsPerSide);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     volume.summary.size_voxels[axis] = static_cast<int>(sizes[axis]);
     block.voxels *= double(sizes[axis]);

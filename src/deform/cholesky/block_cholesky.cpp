@@ -14,19 +14,19 @@ constexpr double kSharedOperations = 1e6;  // minimum operations of a parallel u
 }  // namespace
 
 bool BlockCholesky::factor(const std::vector<double>& values, const Damping& damping) {
-  factored_ = eliminateAll(root_deal_, {values.data(), damping});
+  factored_ = eliminateAll(root_split_, {values.data(), damping});
   return factored_;
 }
 
-bool BlockCholesky::eliminateAll(const Deal& dealt, const Input& input) {
-  const auto run = [&](const std::vector<int>& hand) {
-    return std::all_of(hand.begin(), hand.end(), [&](int s) {
-      return eliminateAll(deals_[s], input) && eliminateFront(s, input);
+bool BlockCholesky::eliminateAll(const WorkSplit& split, const Input& input) {
+  const auto run = [&](const std::vector<int>& part) {
+    return std::all_of(part.begin(), part.end(), [&](int s) {
+      return eliminateAll(splits_[s], input) && eliminateFront(s, input);
     });
   };
-  if (!dealt.parallel) return run(dealt.hands[0]) && run(dealt.hands[1]);
+  if (!split.parallel) return run(split.parts[0]) && run(split.parts[1]);
   bool done[2] = {false, false};
-  parallelInvoke([&] { done[0] = run(dealt.hands[0]); }, [&] { done[1] = run(dealt.hands[1]); });
+  parallelInvoke([&] { done[0] = run(split.parts[0]); }, [&] { done[1] = run(split.parts[1]); });
   return done[0] && done[1];
 }
 

@@ -56,8 +56,8 @@ class BlockCholesky {
     int updateRows() const { return rows - pivots; }
   };
   /// Subtrees below one supernode (or roots), distributed to two threads.
-  struct Deal {
-    std::array<std::vector<int>, 2> hands;
+  struct WorkSplit {
+    std::array<std::vector<int>, 2> parts;
     bool parallel = false;
   };
   /// Target of one block of the matrix.
@@ -72,15 +72,15 @@ class BlockCholesky {
 
   void layOutFactor();
   void mapEntries(const BlockPattern& pattern);
-  Deal deal(const std::vector<int>& subtrees) const;
-  PoolTops placeUpdates(const Deal& deal, PoolTops base, int depth);
+  WorkSplit splitWork(const std::vector<int>& subtrees) const;
+  PoolTops placeUpdates(const WorkSplit& split, PoolTops base, int depth);
   int blockInFront(int supernode, int position) const;
 
   struct Input {
     const double* values;
     Damping damping;
   };
-  bool eliminateAll(const Deal& deal, const Input& input);
+  bool eliminateAll(const WorkSplit& split, const Input& input);
   bool eliminateFront(int supernode, const Input& input);
   double* at(int supernode, int row, int column);
   void clearFront(int supernode);
@@ -95,8 +95,8 @@ class BlockCholesky {
   bool factored_ = false;
   EliminationTree tree_;
   std::vector<Front> fronts_;
-  std::vector<Deal> deals_;  // per supernode: its children
-  Deal root_deal_;
+  std::vector<WorkSplit> splits_;  // per supernode: its children
+  WorkSplit root_split_;
   std::vector<int> entry_start_;  // per supernode
   std::vector<Entry> entries_;
   std::vector<double> factor_;

@@ -28,10 +28,10 @@ void BlockCholesky::analyse(const BlockPattern& pattern, int block_size) {
   tree_ = makeEliminationTree(pattern, fillReducingOrder(pattern));
   layOutFactor();
   mapEntries(pattern);
-  deals_.clear();
-  for (const Supernode& node : tree_.supernodes) deals_.push_back(deal(node.children));
-  root_deal_ = deal(tree_.roots);
-  const PoolTops tops = placeUpdates(root_deal_, {0, 0}, 0);
+  splits_.clear();
+  for (const Supernode& node : tree_.supernodes) splits_.push_back(splitWork(node.children));
+  root_split_ = splitWork(tree_.roots);
+  const PoolTops tops = placeUpdates(root_split_, {0, 0}, 0);
   for (int pool = 0; pool < 2; ++pool) updates_[pool].resize(tops[pool]);
 }
 
@@ -85,38 +85,39 @@ void BlockCholesky::mapEntries(const BlockPattern& pattern) {
 }
 
 /// Heaviest subtree first, each to the thread with less work so far.
-BlockCholesky::Deal BlockCholesky::deal(const std::vector<int>& subtrees) const {
+BlockCholesky::WorkSplit BlockCholesky::splitWork(const std::vector<int>& subtrees) const {
   const auto cost = [&](int s) { return tree_.supernodes[s].operations; };
   std::vector<int> sorted = subtrees;
   std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return cost(a) > cost(b); });
-  Deal dealt;
+  WorkSplit split;
   double load[2] = {0, 0};
   for (const int s : sorted) {
-    const int hand = load[1] < load[0] ? 1 : 0;
-    dealt.hands[hand].push_back(s);
-    load[hand] += cost(s);
+    const int part = load[1] < load[0] ? 1 : 0;
+    split.parts[part].push_back(s);
+    load[part] += cost(s);
   }
   const double scalar = std::pow(block_size_, 3);
-  dealt.parallel = std::min(load[0], load[1]) * scalar > kTaskOperations;
-  return dealt;
+  split.parallel = std::min(load[0], load[1]) * scalar > kTaskOperations;
+  return split;
 }
 
 /// A front's update is kept until its parent has added it. Updates of even and odd depth lie in two
 /// pools, each used like a stack: when a front is eliminated its children lie in the other pool and
 /// its grandchildren are gone, so nothing has to move. What may run at the same time lies apart.
-BlockCholesky::PoolTops BlockCholesky::placeUpdates(const Deal& dealt, PoolTops base, int depth) {
+BlockCholesky::PoolTops BlockCholesky::placeUpdates(const WorkSplit& split, PoolTops base,
+                                                    int depth) {
   const int pool = depth % 2;
   PoolTops high = base;
-  for (const auto& hand : dealt.hands) {
-    for (const int s : hand) {
+  for (const auto& part : split.parts) {
+    for (const int s : part) {
       Front& front = fronts_[s];
-      const PoolTops below = placeUpdates(deals_[s], base, depth + 1);
+      const PoolTops below = placeUpdates(splits_[s], base, depth + 1);
       front.pool = pool;
       front.update = base[pool];
       base[pool] += static_cast<std::size_t>(front.update_leading) * front.updateRows();
       for (int p = 0; p < 2; ++p) high[p] = std::max({high[p], below[p], base[p]});
     }
-    if (dealt.parallel) base = high;
+    if (split.parallel) base = high;
   }
   return high;
 }

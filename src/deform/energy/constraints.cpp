@@ -27,12 +27,12 @@ struct UsablePoints {
     const int points = static_cast<int>(model.size());
     const int all = visible ? static_cast<int>(visible->size()) : points;
     const int count = (all + stride - 1) / stride;
-    parts.resize(static_cast<std::size_t>((count + kPointsATask - 1) / kPointsATask));
+    parts.resize(static_cast<std::size_t>((count + kPointsPerTask - 1) / kPointsPerTask));
     parallelRanges(static_cast<int>(parts.size()), 1, [&](int begin, int end) {
       for (int part = begin; part < end; ++part) {
         auto& own = parts[static_cast<std::size_t>(part)];
-        own.reserve(kPointsATask);
-        for (int k = part * kPointsATask; k < std::min(count, (part + 1) * kPointsATask); ++k) {
+        own.reserve(kPointsPerTask);
+        for (int k = part * kPointsPerTask; k < std::min(count, (part + 1) * kPointsPerTask); ++k) {
           const int point = visible ? (*visible)[k * stride] : k * stride;
           if (point >= 0 && point < points && usable(model, graph, point))
             own.emplace_back(point, model.bindings[point].stencil);

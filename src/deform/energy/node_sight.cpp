@@ -7,14 +7,14 @@
 namespace softscope {
 namespace {
 
-constexpr int kNodesATask = 96;
+constexpr int kNodesPerTask = 96;
 
 /// Sums over bound points, per node. Every task visits
 /// all points and adds those of its own nodes, in order.
 std::vector<double> sumsOf(const std::vector<PointBinding>& bindings, const WarpGraph& graph,
                            double each) {
   std::vector<double> sums(graph.size(), 0);
-  parallelRanges(static_cast<int>(sums.size()), kNodesATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(sums.size()), kNodesPerTask, [&](int begin, int end) {
     for (const PointBinding& binding : bindings) {
       if (!binding.bound()) continue;
       const NodeStencil& nodes = graph.stencils[static_cast<std::size_t>(binding.stencil)];
@@ -41,8 +41,9 @@ std::vector<double> hiddenShares(const PointModel& model, const WarpGraph& graph
 
 }  // namespace
 
-void judgeSight(const PointModel& model, const WarpGraph& graph, const CandidatePoints& candidates,
-                double seen_stiffness, ConstraintSet* constraints) {
+void classifyNodes(const PointModel& model, const WarpGraph& graph,
+                   const CandidatePoints& candidates, double seen_stiffness,
+                   ConstraintSet* constraints) {
   constraints->hidden = hiddenShares(model, graph, candidates);
   const std::vector<double>& hidden = constraints->hidden;
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {

@@ -11,7 +11,8 @@ namespace softscope {
 /// docs/energy.md (7a), (7b). A point is visible if it is a candidate. Sets the
 /// invisible share of each node, and the stiffness of each edge: 1 for nodes with
 /// invisible points, down to `seen_stiffness` if all points of both nodes are visible.
-void judgeSight(const PointModel& model, const WarpGraph& graph, const CandidatePoints& candidates,
-                double seen_stiffness, ConstraintSet* constraints);
+void classifyNodes(const PointModel& model, const WarpGraph& graph,
+                   const CandidatePoints& candidates, double seen_stiffness,
+                   ConstraintSet* constraints);
 
 }  // namespace softscope

@@ -48,7 +48,7 @@ bool inside(const CellNumbering& region, const Eigen::Vector3f& position_mm) {
 std::vector<int> pointsInside(const Positions& positions_mm, const CellNumbering& region) {
   std::vector<char> is_inside(positions_mm.size());
   const int count = static_cast<int>(positions_mm.size());
-  parallelRanges(count, kPointsATask, [&](int begin, int end) {
+  parallelRanges(count, kPointsPerTask, [&](int begin, int end) {
     CellFinder finder(region);
     for (int i = begin; i < end; ++i) is_inside[i] = finder.find(positions_mm[i]) >= 0;
   });
@@ -146,7 +146,7 @@ class Growth {
     if (result_.structure_changed) {
       const std::vector<GraphEdge> before =
           std::exchange(graph_.edges, makeEdges(graph_, options_));
-      keepMemory(before, &graph_.edges);
+      copyShapeMemory(before, &graph_.edges);
     }
     return result_;
   }
@@ -195,7 +195,7 @@ class Growth {
   void bindPoints() {
     const std::vector<int> to_bind = pointsToBind();
     std::vector<Carriers> carriers(to_bind.size());
-    parallelRanges(static_cast<int>(to_bind.size()), kPointsATask / 8, [&](int begin, int end) {
+    parallelRanges(static_cast<int>(to_bind.size()), kPointsPerTask / 8, [&](int begin, int end) {
       CarrierFinder finder(reach_, graph_, options_.node_spacing_mm);
       for (int k = begin; k < end; ++k)
         carriers[k] = finder.find(cells_.cellOf(to_bind[k]), positions_mm_[points_[to_bind[k]]]);

@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kWalksATask = 8;
+constexpr int kWalksPerTask = 8;
 
 }  // namespace
 
@@ -21,11 +21,11 @@ NodeReach::NodeReach(const SurfaceCells& cells, const GraphOptions& options)
 /// Walks are independent; the list of a cell receives nodes in their order.
 void NodeReach::spreadAll(const std::vector<Start>& starts) {
   std::vector<std::vector<Reached>> walks(starts.size());
-  parallelRanges(static_cast<int>(starts.size()), kWalksATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(starts.size()), kWalksPerTask, [&](int begin, int end) {
     Visits visits(cells_.size());
     for (int i = begin; i < end; ++i) walks[i] = walk(starts[i].position_mm, &visits);
   });
-  parallelRanges(cells_.size(), cellsAThread(cells_.size()), [&](int begin, int end) {
+  parallelRanges(cells_.size(), cellsPerThread(cells_.size()), [&](int begin, int end) {
     for (std::size_t i = 0; i < starts.size(); ++i)
       for (const Reached& reached : walks[i])
         if (reached.cell >= begin && reached.cell < end)

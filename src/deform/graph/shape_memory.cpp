@@ -6,7 +6,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kRememberedFrames = 100;  // time constant after permanent changes of the tissue
+constexpr double kMemoryFrames = 100;  // time constant after permanent changes of the tissue
 
 std::pair<std::int32_t, std::int32_t> nodesOf(const GraphEdge& edge) {
   return {edge.first, edge.second};
@@ -14,11 +14,11 @@ std::pair<std::int32_t, std::int32_t> nodesOf(const GraphEdge& edge) {
 
 }  // namespace
 
-void rememberShape(WarpGraph* graph) {
+void updateShapeMemory(WarpGraph* graph) {
   for (GraphEdge& edge : graph->edges) {
     const Eigen::Vector3d offset =
         graph->positions_mm[edge.second] - graph->positions_mm[edge.first];
-    edge.frames = std::min(edge.frames + 1, kRememberedFrames);
+    edge.frames = std::min(edge.frames + 1, kMemoryFrames);
     edge.from_first_mm +=
         (graph->turned[edge.first].transpose() * offset - edge.from_first_mm) / edge.frames;
     edge.from_second_mm +=
@@ -26,7 +26,7 @@ void rememberShape(WarpGraph* graph) {
   }
 }
 
-void keepMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to) {
+void copyShapeMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to) {
   auto known = from.begin();
   for (GraphEdge& edge : *to) {
     while (known != from.end() && nodesOf(*known) < nodesOf(edge)) ++known;

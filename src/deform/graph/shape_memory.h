@@ -10,10 +10,10 @@ namespace softscope {
 
 /// Adds the live shape to the mean of each edge: docs/energy.md (6b). Call it after
 /// a warp was accepted: positions are live, `turned` is the rotation of the warp.
-void rememberShape(WarpGraph* graph);
+void updateShapeMemory(WarpGraph* graph);
 
 /// Copies the mean shape of edges with the same nodes. Both ascend by (first, second).
-void keepMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to);
+void copyShapeMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to);
 
 /// docs/energy.md (6a). Sets the expected offset of the nodes of each edge: `memory`
 /// (0 to 1) is the share of the mean offset, the rest is the present offset.

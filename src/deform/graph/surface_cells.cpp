@@ -21,7 +21,7 @@ std::uint64_t pack(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 }  // namespace
 
-int cellsAThread(int cells) { return std::max(kCellsATask, cells / threadCount() + 1); }
+int cellsPerThread(int cells) { return std::max(kCellsPerTask, cells / threadCount() + 1); }
 
 CellNumbering::CellNumbering(double cell_mm, int expected_cells) : inverse_cell_(1 / cell_mm) {
   std::size_t capacity = 64;
@@ -78,7 +78,7 @@ SurfaceCells::SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm,
     : cell_mm_(cell_mm), table_(cell_mm, static_cast<int>(points.size() / 16)) {
   const int count = static_cast<int>(points.size());
   std::vector<std::uint64_t> keys(points.size());
-  parallelRanges(count, kPointsATask, [&](int begin, int end) {
+  parallelRanges(count, kPointsPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
       if (!table_.keyOf(positions_mm[points[i]], &keys[i])) keys[i] = kNoCube;
   });
@@ -103,7 +103,7 @@ void SurfaceCells::findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
   representatives_.assign(cells, -1);
   std::vector<int> counts(cells, 0);
   std::vector<float> closest(cells, std::numeric_limits<float>::max());
-  parallelRanges(size(), cellsAThread(size()), [&](int begin, int end) {
+  parallelRanges(size(), cellsPerThread(size()), [&](int begin, int end) {
     const auto is_own = [&](int cell) { return cell >= begin && cell < end; };
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!is_own(cell_of_[i])) continue;
@@ -126,7 +126,7 @@ void SurfaceCells::findNeighbours() {
   constexpr int kMost = 26;
   std::vector<std::array<int, kMost>> found(static_cast<std::size_t>(size()));
   std::vector<int> counts(found.size(), 0);
-  parallelRanges(size(), kCellsATask, [&](int begin, int end) {
+  parallelRanges(size(), kCellsPerTask, [&](int begin, int end) {
     for (int cell = begin; cell < end; ++cell)
       for (int dz = -1; dz <= 1; ++dz)
         for (int dy = -1; dy <= 1; ++dy)

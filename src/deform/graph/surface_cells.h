@@ -8,11 +8,11 @@
 namespace softscope {
 
 /// A grain for loops over cells.
-inline constexpr int kCellsATask = 512;
+inline constexpr int kCellsPerTask = 512;
 
 /// Grain of loops over cells in which each task visits all
 /// data and handles its own part: at most one task per thread.
-int cellsAThread(int cells);
+int cellsPerThread(int cells);
 
 /// Numbers 0, 1, 2 … of cubes of a regular grid in order of first use.
 class CellNumbering {

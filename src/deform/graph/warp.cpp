@@ -65,7 +65,7 @@ void rebase(WarpGraph* graph) {
     graph->turned[j] = turned.normalized().toRotationMatrix();
     graph->transforms[j] = NodeTransform();
   }
-  rememberShape(graph);
+  updateShapeMemory(graph);
 }
 
 }  // namespace softscope

@@ -41,7 +41,7 @@ class CpuWarpSystem final : public WarpSystem {
       candidates_ = noCandidates(graph);
     makeConstraints(model, graph, candidates_, seen.matches, options_.correspondence_weight,
                     &constraints_);
-    judgeSight(model, graph, candidates_, options_.seen_stiffness, &constraints_);
+    classifyNodes(model, graph, candidates_, options_.seen_stiffness, &constraints_);
     expectShape(graph, options_.shape_memory, &constraints_.expected);
     lever_mm_ = meanEdgeLength(graph);
     return {constraints_.matches, constraints_.matches_dropped};

@@ -106,7 +106,7 @@ class DeviceWarpSystem final : public WarpSystem {
   }
 
   void takeNodes(const PointModel& model) {
-    judgeSight(model, graph_, candidates_, options_.seen_stiffness, &constraints_);
+    classifyNodes(model, graph_, candidates_, options_.seen_stiffness, &constraints_);
     std::vector<double> edge_weights;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e)
       edge_weights.push_back(constraints_.stiffness[e] * graph_.edges[e].weight);

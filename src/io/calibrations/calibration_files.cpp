@@ -24,7 +24,8 @@ bool contains(const std::string& text, std::string_view part) {
 std::string lowerName(const fs::path& file) { return lowerCase(file.filename().string()); }
 
 /// The single file whose lower-case name contains all `parts`.
-std::optional<fs::path> theOneWith(const Files& files, const std::vector<std::string_view>& parts) {
+std::optional<fs::path> onlyFileWith(const Files& files,
+                                     const std::vector<std::string_view>& parts) {
   std::optional<fs::path> found;
   for (const fs::path& file : files) {
     const std::string name = lowerName(file);
@@ -38,20 +39,20 @@ std::optional<fs::path> theOneWith(const Files& files, const std::vector<std::st
 }
 
 Found openCasFive(const Files& texts) {
-  const auto left = theOneWith(texts, {"left", "intrinsic"});
-  const auto left_lens = theOneWith(texts, {"left", "distortion"});
-  const auto right = theOneWith(texts, {"right", "intrinsic"});
-  const auto right_lens = theOneWith(texts, {"right", "distortion"});
-  const auto pose = theOneWith(texts, {"l2r"});
+  const auto left = onlyFileWith(texts, {"left", "intrinsic"});
+  const auto left_lens = onlyFileWith(texts, {"left", "distortion"});
+  const auto right = onlyFileWith(texts, {"right", "intrinsic"});
+  const auto right_lens = onlyFileWith(texts, {"right", "distortion"});
+  const auto pose = onlyFileWith(texts, {"l2r"});
   if (!left || !left_lens || !right || !right_lens || !pose) return std::nullopt;
   return CalibrationFiles{CalibrationSet::kOpenCasFive,
                           {*left, *left_lens, *right, *right_lens, *pose}};
 }
 
 Found hamlynThree(const Files& texts) {
-  const auto left = theOneWith(texts, {"left", "intrinsic"});
-  const auto right = theOneWith(texts, {"right", "intrinsic"});
-  const auto pose = theOneWith(texts, {"extrinsic"});
+  const auto left = onlyFileWith(texts, {"left", "intrinsic"});
+  const auto right = onlyFileWith(texts, {"right", "intrinsic"});
+  const auto pose = onlyFileWith(texts, {"extrinsic"});
   if (!left || !right || !pose) return std::nullopt;
   return CalibrationFiles{CalibrationSet::kHamlynThree, {*left, *right, *pose}};
 }
@@ -116,7 +117,7 @@ CalibrationFiles aroundFile(const fs::path& file) {
   return {CalibrationSet::kOneFile, {file}};
 }
 
-bool startsWithRat(const fs::path& file) {
+bool hasOpenCasHeader(const fs::path& file) {
   if (fs::file_size(file) < 3 || fs::file_size(file) > kCalibrationLimitBytes) return false;
   return trimmed(readBytes(file, kCalibrationLimitBytes)).substr(0, 3) == "RAT";
 }
@@ -124,7 +125,7 @@ bool startsWithRat(const fs::path& file) {
 Found openCasOne(const Files& texts) {
   Found found;
   for (const fs::path& file : texts) {
-    if (!startsWithRat(file)) continue;
+    if (!hasOpenCasHeader(file)) continue;
     if (found)
       throw InputError(say(shown(file), ": a second OpenCAS calibration beside ",
                            shown(found->files[0].filename()), ". Name the one to use."));
@@ -148,7 +149,7 @@ CalibrationFiles inFolder(const fs::path& folder) {
   if (auto found = openCasOne(texts)) return *found;
   if (auto found = openCasFive(texts)) return *found;
   if (auto found = hamlynThree(texts)) return *found;
-  if (const auto file = theOneWith(texts, {"calib"})) return {CalibrationSet::kOneFile, {*file}};
+  if (const auto file = onlyFileWith(texts, {"calib"})) return {CalibrationSet::kOneFile, {*file}};
   if (isFile(folder / "poses_bounds.npy"))
     return {CalibrationSet::kOneFile, {folder / "poses_bounds.npy"}};
   throw InputError(shown(folder) +

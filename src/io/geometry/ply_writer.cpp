@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-void requireOneAPoint(std::size_t count, const PointCloud& cloud, const char* what) {
+void requireOnePerPoint(std::size_t count, const PointCloud& cloud, const char* what) {
   if (count == 0 || count == cloud.points_mm.size()) return;
   throw Error(say("a point cloud has ", count, " ", what, ", but ", cloud.points_mm.size(),
                   " points; one a point, or none, is expected."));
@@ -49,10 +49,10 @@ void append(std::string& out, const Rgb8& colour) {
 }  // namespace
 
 std::string plyBytes(const PointCloud& cloud, const PlyComments& comments) {
-  requireOneAPoint(cloud.normals.size(), cloud, "normals");
-  requireOneAPoint(cloud.colours.size(), cloud, "colours");
-  requireOneAPoint(cloud.weights.size(), cloud, "weights");
-  requireOneAPoint(cloud.sigmas_mm.size(), cloud, "sigmas");
+  requireOnePerPoint(cloud.normals.size(), cloud, "normals");
+  requireOnePerPoint(cloud.colours.size(), cloud, "colours");
+  requireOnePerPoint(cloud.weights.size(), cloud, "weights");
+  requireOnePerPoint(cloud.sigmas_mm.size(), cloud, "sigmas");
   std::string out = headerOf(cloud, comments);
   out.reserve(out.size() + 35 * cloud.points_mm.size());
   for (std::size_t i = 0; i < cloud.points_mm.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 using Counts = Raster<std::int32_t>;
 
 constexpr int kReach = 2 * RefinementOptions::radius_px;  // two windows in sequence
-constexpr float kStepsAPx = 1024;                         // of disparity: 625 times 3355 px fit
+constexpr float kStepsPerPx = 1024;                       // of disparity: 625 times 3355 px fit
 constexpr float kStepsAPx2 = 65536;                       // of squared bends …
 constexpr float kLargestBendPx2 = 50;                     // … 625 of which fit
 constexpr int kBandRows = 48;
@@ -92,7 +92,7 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
     std::int32_t *is_measured = measured.row(v), *step = steps.row(v);
     for (int u = 0; u < width; ++u) {
       is_measured[u] = z[u] > 0 ? 1 : 0;
-      step[u] = rounded(z[u] > 0 ? kStepsAPx * std::min(scale / z[u], kLargest) : 0.0f);
+      step[u] = rounded(z[u] > 0 ? kStepsPerPx * std::min(scale / z[u], kLargest) : 0.0f);
     }
   });
   const Counts counts = windowSums(measured), means = windowSums(steps);
@@ -103,7 +103,7 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
     std::int32_t* square = squares.row(v);
     for (int u = 0; u < width; ++u) {
       const double bend_px =
-          (step[u] - static_cast<double>(sum[u]) / std::max(count[u], 1)) / kStepsAPx;
+          (step[u] - static_cast<double>(sum[u]) / std::max(count[u], 1)) / kStepsPerPx;
       square[u] = is_measured[u] *
                   rounded(kStepsAPx2 * std::min<double>(bend_px * bend_px, kLargestBendPx2));
     }

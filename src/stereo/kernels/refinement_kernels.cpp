@@ -183,7 +183,7 @@ void solvePlanes(const PlaneRow& row) {
 
 /// Standard errors of the results of solvePlanes();
 /// NaN, and the disparity too, if unreliable.
-void judgePlanes(const PlaneRow& row) {
+void estimatePlaneErrors(const PlaneRow& row) {
   for (int u = 0; u < row.width; u += kFloatLanes) {
     Floats m[kFirstEvidence], evidence[kMomentCount - kFirstEvidence];
     loadMoments(row.moments, u, m);
@@ -211,7 +211,7 @@ void sumRows(const float* const* in, const float* weights, int taps, int width, 
 
 extern const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET);
 const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET) = {
-    residualRow,     columnMoments, rowMoments,  markMixed,
-    selectedMoments, solvePlanes,   judgePlanes, sumRows};
+    residualRow,     columnMoments, rowMoments,          markMixed,
+    selectedMoments, solvePlanes,   estimatePlaneErrors, sumRows};
 
 }  // namespace softscope

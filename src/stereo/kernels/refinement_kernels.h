@@ -49,8 +49,8 @@ struct MomentRow {
   float* sums[kMomentCount];
 };
 
-/// A row of planes: solvePlanes() needs nine sums and gives disparities, judgePlanes() all of them
-/// and gives standard errors.
+/// A row of planes: solvePlanes() needs nine sums and gives disparities, estimatePlaneErrors() all
+/// of them and gives standard errors.
 struct PlaneRow {
   MomentRow moments;
   const float* before;  // disparity, NaN = unmatched
@@ -99,7 +99,7 @@ struct RefinementKernels {
   void (*selectedMoments)(const SelectedRows& rows, const int* columns, int count,
                           const MomentRow& out);
   void (*solvePlanes)(const PlaneRow& row);
-  void (*judgePlanes)(const PlaneRow& row);  // after solvePlanes()
+  void (*estimatePlaneErrors)(const PlaneRow& row);  // after solvePlanes()
   /// sum over taps of weight[t] * in[t][u]; out[u], u in [0, width).
   void (*sumRows)(const float* const* in, const float* weights, int taps, int width, float* out);
 };

@@ -18,7 +18,7 @@ __extension__ typedef __int128 Int128;
 /// Where coordinates differ by less than this, determinants stay below 12 * 2^56 and 12 * 2^120.
 constexpr std::int64_t kExtent64 = std::int64_t{1} << 14, kExtent128 = std::int64_t{1} << 30;
 
-constexpr int kSitesATask = 512;
+constexpr int kSitesPerTask = 512;
 
 /// The first axis of the algorithm is the image's y, so that points in raster order are sorted.
 struct Site {
@@ -118,7 +118,7 @@ class Triangulation {
 
   /// Large parts on all cores. Which edges a part takes does not matter to its triangles.
   Part triangulate(int begin, int end) {
-    if (end - begin <= kSitesATask) {
+    if (end - begin <= kSitesPerTask) {
       EdgeRings::Pool pool = rings_.poolOf(begin, end);
       const Hull hull = triangulate(begin, end, &pool);
       return {hull, pool};

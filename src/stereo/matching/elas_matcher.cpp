@@ -40,7 +40,7 @@ DisparityMap matchLevel(const GrayImage& left, const GrayImage& right, const Vie
       },
       [&] {
         from_right = matchDense(left_gradient, right_gradient, Reference::kRight,
-                                seenFromRight(points), options);
+                                supportFromRight(points), options);
       });
   clock.lap("dense");
 

@@ -20,7 +20,7 @@ HostPrior planePrior(const Raster<float>& confirmed, const StereoOptions& level,
     prior.support.at(p.u_px / step, p.v_px / step) = p.disparity_px;
   parallelInvoke(
       [&] { prior.left_px8 = interpolatePlanes(points, width_px, height_px); },
-      [&] { prior.right_px8 = interpolatePlanes(seenFromRight(points), width_px, height_px); });
+      [&] { prior.right_px8 = interpolatePlanes(supportFromRight(points), width_px, height_px); });
   return prior;
 }
 

@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kRowsATask = 64;
+constexpr int kRowsPerTask = 64;
 
 const SupportPoint& nearestTo(const std::vector<SupportPoint>& points, int u, int v) {
   const auto distance = [&](const SupportPoint& p) {
@@ -130,7 +130,7 @@ Raster<std::int16_t> interpolatePlanes(std::vector<SupportPoint> points, int wid
   for (const SupportPoint& p : points) positions.emplace_back(p.u_px, p.v_px);
   // In order: a pixel on a shared edge gets the later triangle, for any number of threads.
   const std::vector<std::array<int, 3>> triangles = delaunay(positions);
-  parallelRanges(height_px, kRowsATask, [&](int begin, int end) {
+  parallelRanges(height_px, kRowsPerTask, [&](int begin, int end) {
     for (const auto& [i, j, k] : triangles)
       fillTriangle(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(j)],
                    points[static_cast<std::size_t>(k)], {begin, end}, prior);

@@ -205,7 +205,7 @@ std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& option
   return points;
 }
 
-std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points) {
+std::vector<SupportPoint> supportFromRight(std::vector<SupportPoint> points) {
   for (SupportPoint& p : points) p.u_px -= static_cast<int>(p.disparity_px + 0.5f);
   return points;
 }

@@ -27,7 +27,7 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
 std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options);
 
 /// The same points in the right image.
-std::vector<SupportPoint> seenFromRight(std::vector<SupportPoint> points);
+std::vector<SupportPoint> supportFromRight(std::vector<SupportPoint> points);
 
 /// The same options with the range of these disparities, and a margin on
 /// either side; outliers do not count. Unchanged for few disparities.

@@ -113,7 +113,7 @@ struct DisparityNetwork::Impl {
   Raster<float> run(cv::dnn::Net& net, const Fit& fit, const ColourImage& left,
                     const ColourImage& right) const;
   std::string outputShapeText(const cv::Mat& output, const Fit& fit) const;
-  void tryOut(int width_px, int height_px, int disparity_max_px) const;
+  void runTrialPair(int width_px, int height_px, int disparity_max_px) const;
   std::string lackingOperators() const;
   [[noreturn]] void failImport(const cv::Exception& problem, const Fit& fit) const;
 
@@ -260,7 +260,7 @@ Raster<float> DisparityNetwork::Impl::run(cv::dnn::Net& net, const Fit& fit,
 }
 
 /// In the child. Throws InputError.
-void DisparityNetwork::Impl::tryOut(int width_px, int height_px, int disparity_max_px) const {
+void DisparityNetwork::Impl::runTrialPair(int width_px, int height_px, int disparity_max_px) const {
   const Fit fit = fitOf(width_px, height_px);
   Raster<float> disparity_px;
   try {
@@ -336,7 +336,7 @@ void DisparityNetwork::prepare(int width_px, int height_px, int disparity_max_px
       [&] {
         cv::setNumThreads(1);
         cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-        impl_->tryOut(width_px, height_px, disparity_max_px);
+        impl_->runTrialPair(width_px, height_px, disparity_max_px);
         return std::string();
       },
       kTrialAllowance);

@@ -8,7 +8,7 @@ namespace softscope {
 namespace {
 
 /// Whether row differences are small enough to keep the image, or unknown.
-bool canStay(const RowAlignment& found) {
+bool needsNoShift(const RowAlignment& found) {
   return !found.known() ||
          found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||
          found.mean_row_difference_px < RowAlignment::kRemoveAbovePx;
@@ -37,10 +37,10 @@ AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px, const V
   RowMeter meter(toGray(rectified.left), disparity_max_px, ignored.left);
   const GrayImage right = toGray(rectified.right);
   AlignedPair aligned{rectified, ignored, meter.measure(right, ignored.right)};
-  if (canStay(aligned.before)) return aligned;
+  if (needsNoShift(aligned.before)) return aligned;
   RowAlignment whole = aligned.before;
   const RowAlignment rest = meter.measure(moveRows(right, whole), moveMask(ignored.right, whole));
-  if (!canStay(rest))
+  if (!needsNoShift(rest))
     for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
   aligned.pair.right = removeRowError(rectified.right, whole);
   aligned.ignored.right = moveMask(ignored.right, whole);

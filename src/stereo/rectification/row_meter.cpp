@@ -13,7 +13,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kPointsOfATask = 64;
+constexpr int kRowPointsPerTask = 64;
 constexpr int kGridPx = 12;
 constexpr int kReach = 4;                // of the window, every second pixel
 constexpr int kRowReach = 2;             // rows tried around a support point's
@@ -106,7 +106,7 @@ std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_of
   const auto points = findSupportPoints(left_, right, options_, row_offset);
   const int top = kReach + kRowReach, bottom = left_.height_px() - top;
   std::vector<std::optional<RowMatch>> found(points.size());
-  parallelRanges(static_cast<int>(points.size()), kPointsOfATask, [&](int begin, int end) {
+  parallelRanges(static_cast<int>(points.size()), kRowPointsPerTask, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       if (points[i].v_px + row_offset >= top && points[i].v_px + row_offset < bottom)
         found[i] = matchRow(left_.view(), right.view(), points[i], row_offset);

@@ -92,10 +92,10 @@ class Patches {
 void smoothByPatches(const SmoothingOptions& options, const RefinementOptions& refinement,
                      DisparityMap& map) {
   if (options.reach_blocks == 0) return;
-  constexpr int kRowsATask = 16, kRegister = 16;
+  constexpr int kRowsPerTask = 16, kRegister = 16;
   const Patches patches(options, refinement, map);
   const int width = map.disparity_px.width_px;
-  parallelRanges(map.disparity_px.height_px, kRowsATask, [&](int begin, int end) {
+  parallelRanges(map.disparity_px.height_px, kRowsPerTask, [&](int begin, int end) {
     std::vector<float> disparity_px(static_cast<std::size_t>(width + kRegister)),
         sigma_px(disparity_px.size());
     for (int v = begin; v < end; ++v) {

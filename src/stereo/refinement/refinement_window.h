@@ -63,7 +63,7 @@ inline ResidualLimits residualLimits(const RefinementOptions& options) {
           static_cast<float>(1 - options.slow_evidence) / prior_weight};
 }
 
-/// Limits of judgePlanes(), squared as in PlaneRow.
+/// Limits of estimatePlaneErrors(), squared as in PlaneRow.
 struct PlaneLimits {
   float farthest_step_px, prior_weight, noise_floor_sq, independent_pixels, model_variance_px2,
       max_variance_px2, max_difference;

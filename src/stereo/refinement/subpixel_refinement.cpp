@@ -115,7 +115,7 @@ class Band {
     refinementKernels().solvePlanes(row);
     if (holdsMixed())
       for (const int u : near_) next_.row(v)[u] = disparity_.row(v)[u];
-    if (sigma_ != nullptr) refinementKernels().judgePlanes(row);
+    if (sigma_ != nullptr) refinementKernels().estimatePlaneErrors(row);
   }
 
   /// The rows of one plane in the window around row v.
