@@ -32,9 +32,8 @@ struct BackendParts {
   std::function<std::unique_ptr<ModelUpdater>(const RectifiedRig&)> makeUpdater =
       [](const RectifiedRig&) { return std::make_unique<CpuModelUpdater>(); };
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
-  /// the graph grows beside the stages up to the warp. On two, the processor's own stereo and those
-  /// stages only take turns (docs/benchmarks.md).
-  int ahead_from_threads = 3;
+  /// the graph grows beside the stages up to the warp.
+  int ahead_from_threads = 2;
 };
 
 /// Same input, same bytes, whatever the number of threads.

@@ -137,7 +137,6 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.makeUpdater = [rasters, model](const RectifiedRig& rig) {
     return cuda::makeModelUpdater(rig.left, rasters, model);
   };
-  parts.ahead_from_threads = 2;
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;
   return makeCpuBackend(calibration, options, parts);
