@@ -31,6 +31,26 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6d& twist) {
   return by * pose;
 }
 
+/// Normal equations of weighted residuals.
+struct PoseEquations {
+  Matrix6d normal = Matrix6d::Zero();  // its lower triangle
+  Vector6d right = Vector6d::Zero();
+
+  void add(const Residual& residual, double weight) {
+    const Eigen::Matrix<double, 3, 6>& slope = residual.slope;
+    const Eigen::Vector3d& value = residual.value;
+    double weighted[3][6];
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 6; ++i) weighted[k][i] = weight * slope(k, i);
+    for (int j = 0; j < 6; ++j)
+      for (int i = j; i < 6; ++i)
+        normal(i, j) += weighted[0][i] * slope(0, j) + weighted[1][i] * slope(1, j) +
+                        weighted[2][i] * slope(2, j);
+    for (int i = 0; i < 6; ++i)
+      right[i] += weighted[0][i] * value[0] + weighted[1][i] * value[1] + weighted[2][i] * value[2];
+  }
+};
+
 /// The pairs, evaluated at any pose.
 class Pairs {
  public:
@@ -124,17 +144,14 @@ class Pairs {
     const std::vector<Residual> residuals = residualsAt(left_from_world);
     if (residuals.size() < 3) return Vector6d::Zero();
     std::vector<double> squares;
+    squares.reserve(residuals.size());
     for (const Residual& residual : residuals) squares.push_back(residual.value.squaredNorm());
     const double scale_sq =
-        std::max(1.0, std::pow(RefinePoseOptions::kRobustScale, 2) * medianOf(squares));
-    Matrix6d normal = Matrix6d::Zero();
-    Vector6d right = Vector6d::Zero();
-    for (const Residual& residual : residuals) {
-      const double weight = pairWeight(residual.value.squaredNorm(), scale_sq);
-      normal += weight * residual.slope.transpose() * residual.slope;
-      right -= weight * residual.slope.transpose() * residual.value;
-    }
-    const Vector6d twist = normal.ldlt().solve(right);
+        std::max(1.0, std::pow(RefinePoseOptions::kRobustScale, 2) * medianOf(std::move(squares)));
+    PoseEquations equations;
+    for (const Residual& residual : residuals)
+      equations.add(residual, pairWeight(residual.value.squaredNorm(), scale_sq));
+    const Vector6d twist = equations.normal.ldlt().solve(-equations.right);
     return twist.allFinite() ? twist : Vector6d(Vector6d::Zero());
   }
 
