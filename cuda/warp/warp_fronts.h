@@ -9,6 +9,11 @@ namespace softscope::cuda {
 
 constexpr int kMostColumns = kMostPivots * kUnknowns;
 
+/// Place of an entry of the factor in the rows of the pivots.
+SOFTSCOPE_HD inline std::ptrdiff_t triangleAt(const FrontShape& front, int row, int column) {
+  return static_cast<std::ptrdiff_t>(front.first * kUnknowns + column) * kMostColumns + row;
+}
+
 /// One thread per row and node of the pivots of a front: entries of the matrix,
 /// damped, and updates of the children. The right-hand side is the last row.
 struct AssembleFrontsKernel {
@@ -70,83 +75,88 @@ struct AssembleFrontsKernel {
   }
 };
 
-/// One block per front of a level: its pivot columns, six at a time, left-looking.
+/// Pivot columns of the fronts of a level, six at a time, left-looking. Every block of a front has
+/// all rows of its pivots, and some of its border: none waits for another. A thread has one row.
 struct FactorFrontsKernel {
-  static constexpr int kThreads = 512, kPhases = 3;
+  static constexpr int kThreads = 128, kPhases = 2, kBorderRows = kThreads - kMostColumns;
   struct Shared {
-    double others[kMostColumns][kUnknowns];  // rows of the corner, left of it
+    double triangle[kMostColumns][kMostColumns];  // rows of the pivots, by columns
     double corner[kUnknowns][kUnknowns];
   };
   struct Local {
-    double own[kMostColumns];  // the thread's first row
+    double own[kMostColumns];
   };
   WarpStructureLayout graph;
   int first_front;
 
+  /// Blocks of a front; the right-hand side is the last row of its border.
+  static int blocks(const FrontShape& front) {
+    return blocksFor((front.blocks - front.pivots) * kUnknowns + 1, kBorderRows);
+  }
   SOFTSCOPE_HD int repeats(const Place& at) const {
-    return graph.fronts[first_front + at.x].pivots;
+    const FrontShape front = graph.fronts[first_front + at.x];
+    const int border = (front.blocks - front.pivots) * kUnknowns + 1;
+    return at.y * kBorderRows < border ? front.pivots : 0;
   }
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
     const FrontShape front = graph.fronts[first_front + at.x];
-    const int column = at.repeat * kUnknowns, rows = front.blocks * kUnknowns + 1;
-    double* base = graph.factor + front.factor;
+    const int column = at.repeat * kUnknowns, pivots = front.pivots * kUnknowns;
+    const int r = rowOf(front, at);
+    double* base = graph.factor + front.factor + (r < 0 ? 0 : r);
     const std::ptrdiff_t leading = front.factor_leading;
     if constexpr (kPhase == 0) {
-      for (int i = at.thread; i < column * kUnknowns; i += kThreads)
-        shared.others[i / kUnknowns][i % kUnknowns] =
-            base[column + i % kUnknowns + i / kUnknowns * leading];
-    } else if constexpr (kPhase == 1) {
-      for (int r = at.thread; r < rows; r += kThreads) {
-        if (r < column) continue;
-        double row[kUnknowns];
-        for (int j = 0; j < kUnknowns; ++j) row[j] = base[r + (column + j) * leading];
-        if (r == at.thread)
-          subtractColumns(
-              column, shared, [&](int k) { return local.own[k]; }, row);
-        else
-          subtractColumns(
-              column, shared, [&](int k) { return base[r + k * leading]; }, row);
-        if (r < column + kUnknowns)
-          for (int j = 0; j < kUnknowns; ++j) shared.corner[r - column][j] = row[j];
-        if (r == at.thread)
-          for (int j = 0; j < kUnknowns; ++j) local.own[column + j] = row[j];
-        else
-          for (int j = 0; j < kUnknowns; ++j) base[r + (column + j) * leading] = row[j];
+      if (at.repeat == 0) {
+        const int known = r < 0 ? 0 : r < pivots ? (r / kUnknowns + 1) * kUnknowns : pivots;
+        SOFTSCOPE_UNROLL(6)
+        for (int k = 0; k < known; ++k) local.own[k] = base[k * leading];
       }
+      if (r < column) return;
+      double row[kUnknowns];
+      for (int j = 0; j < kUnknowns; ++j) row[j] = local.own[column + j];
+      for (int first = 0; first < column; first += kUnknowns) SOFTSCOPE_UNROLL(6)
+      for (int k = first; k < first + kUnknowns; ++k) {
+        const double value = local.own[k];
+        for (int j = 0; j < kUnknowns; ++j) row[j] -= value * shared.triangle[k][column + j];
+      }
+      if (r < column + kUnknowns)
+        for (int j = 0; j < kUnknowns; ++j) shared.corner[r - column][j] = row[j];
+      for (int j = 0; j < kUnknowns; ++j) local.own[column + j] = row[j];
     } else {
-      if (at.thread >= rows) return;
+      const bool is_first = at.y == 0;
+      if (r < column && !(is_first && at.thread == 0)) return;
       double corner[kUnknowns][kUnknowns], inverse[kUnknowns];
       factorCorner(shared, corner, inverse);
-      if (at.thread == 0)  // 0 for a pivot that is not above 0
+      if (is_first && at.thread == 0)  // 0 for a pivot that is not above 0
         for (int j = 0; j < kUnknowns; ++j)
           graph.inverse_pivots[front.first * kUnknowns + column + j] = inverse[j];
-      for (int r = at.thread; r < rows; r += kThreads) {
-        if (r < column) continue;
-        double row[kUnknowns];
-        for (int j = 0; j < kUnknowns; ++j)
-          row[j] = r == at.thread ? local.own[column + j] : base[r + (column + j) * leading];
-        for (int j = 0; j < kUnknowns; ++j) {
-          for (int k = 0; k < j; ++k) row[j] -= row[k] * corner[j][k];
-          row[j] *= inverse[j];
+      if (r < column) return;
+      double row[kUnknowns];
+      for (int j = 0; j < kUnknowns; ++j) row[j] = local.own[column + j];
+      for (int j = 0; j < kUnknowns; ++j) {
+        for (int k = 0; k < j; ++k) row[j] -= row[k] * corner[j][k];
+        row[j] *= inverse[j];
+      }
+      for (int j = 0; j < kUnknowns; ++j) {
+        local.own[column + j] = row[j];
+        if (r >= pivots) {
+          base[(column + j) * leading] = row[j];
+          continue;
         }
-        for (int j = 0; j < kUnknowns; ++j) base[r + (column + j) * leading] = row[j];
-        if (r == at.thread)
-          for (int j = 0; j < kUnknowns; ++j) local.own[column + j] = row[j];
+        shared.triangle[column + j][r] = row[j];
+        if (is_first)  // elsewhere than what it is made from, which other blocks may still read
+          graph.triangles[triangleAt(front, r, column + j)] = row[j];
       }
     }
   }
 
  private:
-  /// `own(k)`: the row's entry in column k.
-  template <class Own>
-  SOFTSCOPE_HD static void subtractColumns(int column, const Shared& shared, const Own& own,
-                                           double (&row)[kUnknowns]) {
-    for (int first = 0; first < column; first += kUnknowns)
-      for (int k = first; k < first + kUnknowns; ++k) {
-        const double value = own(k);
-        for (int j = 0; j < kUnknowns; ++j) row[j] -= value * shared.others[k][j];
-      }
+  /// -1: none.
+  SOFTSCOPE_HD static int rowOf(const FrontShape& front, const Place& at) {
+    const int pivots = front.pivots * kUnknowns;
+    if (at.thread < kMostColumns) return at.thread < pivots ? at.thread : -1;
+    const int r = pivots + at.y * kBorderRows + at.thread - kMostColumns;
+    return r < front.blocks * kUnknowns + 1 ? r : -1;
   }
 
   SOFTSCOPE_HD static void factorCorner(const Shared& shared,
@@ -265,7 +275,7 @@ struct UpdateFrontsKernel {
 
 /// One block per front of a level, from the roots down: x = L^-T (y - L^T x of the border).
 struct SolveFrontsKernel {
-  static constexpr int kThreads = 256, kPhases = 3, kParts = 8, kStagedBorder = 1024;
+  static constexpr int kThreads = 1024, kPhases = 3, kParts = 14, kStagedBorder = 1024;
   struct Shared {
     double corner[kMostColumns * (kMostColumns + 1) / 2];  // rows of the lower triangle
     double inverse[kMostColumns];
@@ -305,7 +315,7 @@ struct SolveFrontsKernel {
     }
     const int column = pivots - at.repeat * kUnknowns;
     if constexpr (kPhase == 0) {
-      solveCorner(column, shared, local.x);
+      if (at.thread < column || at.thread == kThreads - 1) solveCorner(column, shared, local.x);
     } else if constexpr (kPhase == 1) {
       if (at.thread == kThreads - 1)
         for (int j = 0; j < kUnknowns; ++j) shared.x[column + j] = local.x[j];
@@ -335,7 +345,7 @@ struct SolveFrontsKernel {
     constexpr int kLanes = 32;
     for (int column = thread / kLanes; column < pivots; column += kThreads / kLanes)
       for (int row = column + thread % kLanes; row < pivots; row += kLanes)
-        shared.corner[cornerAt(row, column)] = entry(front, row, column);
+        shared.corner[cornerAt(row, column)] = graph.triangles[triangleAt(front, row, column)];
     for (int i = thread; i < pivots; i += kThreads)
       shared.inverse[i] = graph.inverse_pivots[front.first * kUnknowns + i];
     for (int i = thread; i < border && i < kStagedBorder; i += kThreads)

@@ -2,6 +2,8 @@
 // executor.
 #pragma once
 
+#include <algorithm>
+
 #include "cuda/warp/warp_fronts.h"
 #include "cuda/warp/warp_nodes.h"
 #include "cuda/warp/warp_stencils.h"
@@ -51,7 +53,8 @@ class WarpPasses {
       executor_.launch(
           "assemble fronts", AssembleFrontsKernel{graph, first, damping.relative, damping.floor},
           Grid{blocksFor(fronts.level_rows[level], AssembleFrontsKernel::kThreads), count, 1});
-      executor_.launch("factor fronts", FactorFrontsKernel{graph, first}, Grid{count, 1, 1});
+      executor_.launch("factor fronts", FactorFrontsKernel{graph, first},
+                       Grid{count, factorBlocks(fronts, level), 1});
       executor_.launch("update fronts", UpdateFrontsKernel{graph, first},
                        Grid{fronts.level_tiles[level], count, 1});
     }
@@ -78,6 +81,13 @@ class WarpPasses {
   }
 
  private:
+  /// The most of a front of the level.
+  static int factorBlocks(const FrontTables& fronts, int level) {
+    int most = 0;
+    for (int i = fronts.level_start[level]; i < fronts.level_start[level + 1]; ++i)
+      most = std::max(most, FactorFrontsKernel::blocks(fronts.fronts[static_cast<std::size_t>(i)]));
+    return most;
+  }
   template <class Kernel>
   void launch(const char* name, const Kernel& kernel) {
     executor_.launch(name, kernel, kernel.blocks());

@@ -14,8 +14,8 @@
 
 namespace softscope::cuda {
 
-/// A Machine has an executor(), a Memory(bytes, what) with data()
-/// and bytes(), and toDevice(), fromDevice(), wait() as in Stream.
+/// A Machine has an executor(), a Memory(bytes, what) with data() and bytes(), the
+/// same as Pinned memory of the host, and toDevice(), fromDevice(), wait() as in Stream.
 template <class Machine>
 class WarpRun final : public WarpDevice {
  public:
@@ -126,11 +126,10 @@ class WarpRun final : public WarpDevice {
     return sums;
   }
   std::vector<int> targetCounts() override {
-    std::vector<StencilSums> sums(static_cast<std::size_t>(graph_.stencils));
-    machine_.fromDevice(sums.data(), graph_.stencil_sums, sums.size() * sizeof(StencilSums));
-    machine_.wait();
-    std::vector<int> counts;
-    for (const StencilSums& one : sums) counts.push_back(one.targets);
+    const auto stencils = static_cast<std::size_t>(graph_.stencils);
+    const StencilSums* sums = fetch(graph_.stencil_sums, stencils);
+    std::vector<int> counts(stencils);
+    for (std::size_t s = 0; s < stencils; ++s) counts[s] = sums[s].targets;
     return counts;
   }
   WarpSums tryStep(double damping) override {
@@ -140,10 +139,8 @@ class WarpRun final : public WarpDevice {
   }
   void acceptStep() override { accepted_ = 1 - accepted_; }
   std::vector<NodeTransform> transforms() override {
-    std::vector<NodeTransform> found(static_cast<std::size_t>(graph_.nodes));
-    machine_.fromDevice(found.data(), accepted(), found.size() * sizeof(NodeTransform));
-    machine_.wait();
-    return found;
+    const NodeTransform* found = fetch(accepted(), static_cast<std::size_t>(graph_.nodes));
+    return {found, found + graph_.nodes};
   }
 
  private:
@@ -165,14 +162,22 @@ class WarpRun final : public WarpDevice {
   void send(T* to, const std::vector<T>& from) {
     send(to, from.data(), from.size());
   }
-  WarpSums fetchSums() {
-    WarpSums sums;
-    machine_.fromDevice(&sums, graph_.sums, sizeof sums);
+  WarpSums fetchSums() { return *fetch(graph_.sums, 1); }
+  /// Valid until the next call. Pinned memory is copied to without a detour.
+  template <class T>
+  const T* fetch(const T* from, std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (arrived_.bytes() < bytes) {
+      arrived_ = typename Machine::Pinned();
+      arrived_ = typename Machine::Pinned(bytes + bytes / 2, "pinned memory for the warp");
+    }
+    if (bytes > 0) machine_.fromDevice(arrived_.data(), from, bytes);
     machine_.wait();
-    return sums;
+    return static_cast<const T*>(arrived_.data());
   }
 
   Memory structure_memory_, surface_memory_, point_memory_, match_memory_;
+  typename Machine::Pinned arrived_;
   Machine machine_;
   WarpPasses<typename Machine::Executor> passes_;
   FrontTables fronts_;
