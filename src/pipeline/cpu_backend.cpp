@@ -23,6 +23,7 @@ namespace softscope {
 namespace {
 
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
+constexpr std::size_t kMatchesPerTask = 512;
 
 class CpuBackend : public ReconstructionBackend {
  public:
@@ -220,15 +221,15 @@ DeformObservation CpuBackend::matchConstraints(const Eigen::Isometry3d& world_fr
   seen.visible = &visible;
   if (options_.deform.correspondence_weight == 0) return seen;
   const double reference_mm = frame_.association.reference_sigma_mm;
-  for (std::size_t i = 0; i < matches_.size(); ++i) {
+  const auto addMatch = [&](std::size_t i, std::vector<KeyPointMatch>* found) {
     const LiftedMatch& match = matches_[i];
     // Outliers whose windows agree are moving tissue; the others are wrong matches.
-    if (pose_.found && pose_.inlier[i] == 0 && !(match.similarity > 0)) continue;
+    if (pose_.found && pose_.inlier[i] == 0 && !(match.similarity > 0)) return;
     KeyPointMatch pull;
     pull.model_point = match.model_point;
     pull.source_mm = match.source_world_mm;
     pull.target_mm = (world_from_left * match.target_left_mm.cast<double>()).cast<float>();
-    if ((pull.target_mm - pull.source_mm).norm() > frame_.association.max_distance_mm) continue;
+    if ((pull.target_mm - pull.source_mm).norm() > frame_.association.max_distance_mm) return;
     if (std::isfinite(match.along_mm) && reference_mm > 0) {
       const Eigen::Vector3f ray =
           (world_from_left.linear() * match.target_left_mm.cast<double>().normalized())
@@ -236,8 +237,22 @@ DeformObservation CpuBackend::matchConstraints(const Eigen::Isometry3d& world_fr
       pull.sqrt_information =
           matchSqrtInformation(ray, match.along_mm, match.across_mm, reference_mm);
     }
-    seen.matches.push_back(pull);
-  }
+    found->push_back(pull);
+  };
+  const std::size_t tasks = (matches_.size() + kMatchesPerTask - 1) / kMatchesPerTask;
+  std::vector<std::vector<KeyPointMatch>> parts(tasks);
+  parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
+    for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
+         ++task) {
+      parts[task].reserve(kMatchesPerTask);
+      for (std::size_t i = task * kMatchesPerTask;
+           i < std::min(matches_.size(), (task + 1) * kMatchesPerTask); ++i)
+        addMatch(i, &parts[task]);
+    }
+  });
+  seen.matches.reserve(matches_.size());
+  for (const std::vector<KeyPointMatch>& part : parts)
+    seen.matches.insert(seen.matches.end(), part.begin(), part.end());
   return seen;
 }
 

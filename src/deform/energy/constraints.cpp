@@ -11,6 +11,8 @@
 namespace softscope {
 namespace {
 
+constexpr int kMatchesPerTask = 512;
+
 bool usable(const PointModel& model, const WarpGraph& graph, int point) {
   const PointBinding& binding = model.bindings[point];
   return binding.bound() && binding.stencil < static_cast<int>(graph.stencils.size()) &&
@@ -157,12 +159,24 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
                      const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
                      double match_weight, ConstraintSet* set) {
   set->stencils.assign(graph.stencils.size(), StencilRows());
-  set->matches = set->matches_dropped = 0;
-  for (const KeyPointMatch& match : matches)
-    if (usable(model, graph, match))
-      ++set->stencils[model.bindings[match.model_point].stencil].matches;
+  const int count = static_cast<int>(matches.size());
+  std::vector<std::int32_t> stencils(matches.size());  // of the matches; none: dropped
+  parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i)
+      stencils[i] = usable(model, graph, matches[i])
+                        ? model.bindings[matches[i].model_point].stencil
+                        : PointBinding::kUnbound;
+  });
+  set->matches = 0;
+  for (const std::int32_t stencil : stencils) {
+    if (stencil == PointBinding::kUnbound) continue;
+    ++set->stencils[stencil].matches;
+    ++set->matches;
+  }
+  set->matches_dropped = count - set->matches;
   int next = 0;
   std::vector<int> next_match;
+  next_match.reserve(set->stencils.size());
   for (std::size_t s = 0; s < set->stencils.size(); ++s) {
     set->stencils[s].first = next;
     next_match.push_back(next);
@@ -170,18 +184,21 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
             candidates.stencil_start[s];
   }
   set->rows.resize(static_cast<std::size_t>(next));
-  for (const KeyPointMatch& match : matches) {
-    if (!usable(model, graph, match)) {
-      ++set->matches_dropped;
-      continue;
+  std::vector<int> first_row(matches.size());
+  for (int i = 0; i < count; ++i)
+    if (stencils[i] != PointBinding::kUnbound)
+      first_row[i] = std::exchange(next_match[stencils[i]], next_match[stencils[i]] + 3);
+  parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      if (stencils[i] == PointBinding::kUnbound) continue;
+      const KeyPointMatch& match = matches[i];
+      const PointBinding& binding = model.bindings[match.model_point];
+      for (int c = 0; c < 3; ++c)
+        set->rows[first_row[i] + c] =
+            makeRow(binding, match.source_mm, match.sqrt_information.row(c).transpose(),
+                    match.target_mm, static_cast<float>(match_weight));
     }
-    const PointBinding& binding = model.bindings[match.model_point];
-    for (int c = 0; c < 3; ++c)
-      set->rows[next_match[binding.stencil]++] =
-          makeRow(binding, match.source_mm, match.sqrt_information.row(c).transpose(),
-                  match.target_mm, static_cast<float>(match_weight));
-    ++set->matches;
-  }
+  });
   set->stiffness.assign(graph.edges.size(), 1);
   expectShape(graph, 0, &set->expected);
   listActive(set);

@@ -2,6 +2,8 @@
 // of hidden tissue.
 #pragma once
 
+#include <vector>
+
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "deform/energy/constraints.h"
@@ -13,6 +15,14 @@ namespace softscope {
 /// invisible points, down to `seen_stiffness` if all points of both nodes are visible.
 void classifyNodes(const PointModel& model, const WarpGraph& graph,
                    const CandidatePoints& candidates, double seen_stiffness,
+                   ConstraintSet* constraints);
+
+/// Per node, the number of points that it carries, by their weights; a point counts as `each`.
+std::vector<double> carriedPoints(const std::vector<PointBinding>& bindings, const WarpGraph& graph,
+                                  double each);
+/// classifyNodes(), from the carried points of the model and of its candidates.
+void classifyNodes(const WarpGraph& graph, const std::vector<double>& all,
+                   const std::vector<double>& seen, double seen_stiffness,
                    ConstraintSet* constraints);
 
 }  // namespace softscope

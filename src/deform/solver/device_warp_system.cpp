@@ -30,13 +30,15 @@ class DeviceWarpSystem final : public WarpSystem {
     const Stopwatch watch(&times_.prepare_ms);
     analyse(graph);
     graph_ = graph;
+    std::vector<double> all, in_sight;  // points that a node carries
     // Independent.
-    parallelInvoke([&] { device_->setSurface(surfaceOf(seen)); },
+    parallelInvoke([&] { takeMatches(model, seen); },
                    [&] {
-                     parallelInvoke([&] { takePoints(model, seen); },
-                                    [&] { takeMatches(model, seen); });
+                     parallelInvoke([&] { all = carriedPoints(model.bindings, graph_, 1); },
+                                    [&] { in_sight = takePoints(model, seen); });
                    });
-    takeNodes(model);
+    device_->setSurface(surfaceOf(seen));
+    takeNodes(all, in_sight);
     return {constraints_.matches, constraints_.matches_dropped};
   }
 
@@ -79,7 +81,8 @@ class DeviceWarpSystem final : public WarpSystem {
     return depth->formula();
   }
 
-  void takePoints(const PointModel& model, const DeformObservation& seen) {
+  /// Returns how many a node carries.
+  std::vector<double> takePoints(const PointModel& model, const DeformObservation& seen) {
     if (seen.surface != nullptr && options_.data_weight > 0)
       collectCandidates(model, graph_, seen.visible, options_.association.max_points, &candidates_);
     else
@@ -91,7 +94,11 @@ class DeviceWarpSystem final : public WarpSystem {
     points.bindings = candidates_.bindings.data();
     points.start = candidates_.stencil_start.data();
     points.points_each = candidates_.points_each;
-    device_->setPoints(points);
+    std::vector<double> carried;
+    parallelInvoke(
+        [&] { device_->setPoints(points); },
+        [&] { carried = carriedPoints(candidates_.bindings, graph_, candidates_.points_each); });
+    return carried;
   }
 
   /// The constraints contain no rows of points: the device creates them.
@@ -105,8 +112,8 @@ class DeviceWarpSystem final : public WarpSystem {
     expectShape(graph_, options_.shape_memory, &constraints_.expected);
   }
 
-  void takeNodes(const PointModel& model) {
-    classifyNodes(model, graph_, candidates_, options_.seen_stiffness, &constraints_);
+  void takeNodes(const std::vector<double>& all, const std::vector<double>& in_sight) {
+    classifyNodes(graph_, all, in_sight, options_.seen_stiffness, &constraints_);
     std::vector<double> edge_weights;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e)
       edge_weights.push_back(constraints_.stiffness[e] * graph_.edges[e].weight);
