@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "fusion/model_updater.h"
@@ -15,7 +14,7 @@ class AcceptedWarp {
  public:
   /// Warps by the graph's transforms and re-bases the graph.
   void apply(ModelUpdater* updater, ModelState* state);
-  void keep() { before_.reset(); }
+  void keep() { is_applied_ = false; }
   /// All is as it was before apply(), without transforms. Without a warp, drops the transforms.
   void undo(ModelUpdater* updater, ModelState* state);
 
@@ -25,7 +24,8 @@ class AcceptedWarp {
     WarpGraph graph;
     MaterialPoints tracked;
   };
-  std::optional<Before> before_;
+  Before before_;  // of a warp that is applied; otherwise memory to reuse
+  bool is_applied_ = false;
 };
 
 }  // namespace softscope

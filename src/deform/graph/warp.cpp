@@ -31,13 +31,20 @@ void warpRange(const std::vector<PackedNode>& nodes, const std::vector<NodeStenc
                              warped_normals->data());
 }
 
-void warpModel(const WarpGraph& graph, PointModel* model) {
+void warpModel(const WarpGraph& graph, const std::vector<Eigen::Vector3f>& from_mm,
+               const std::vector<Eigen::Vector3f>& from_normals, PointModel* model) {
   const std::vector<PackedNode> nodes = packNodes(graph);
-  parallelRanges(static_cast<int>(model->size()), 4096, [&](int begin, int end) {
-    warpRange(nodes, graph.stencils, model->bindings.data() + begin,
-              model->positions_mm.data() + begin, model->normals.data() + begin, end - begin,
-              model->positions_mm.data() + begin, model->normals.data() + begin);
+  model->positions_mm.resize(from_mm.size());
+  model->normals.resize(from_normals.size());
+  parallelRanges(static_cast<int>(from_mm.size()), kPointsPerTask, [&](int begin, int end) {
+    warpRange(nodes, graph.stencils, model->bindings.data() + begin, from_mm.data() + begin,
+              from_normals.data() + begin, end - begin, model->positions_mm.data() + begin,
+              model->normals.data() + begin);
   });
+}
+
+void warpModel(const WarpGraph& graph, PointModel* model) {
+  warpModel(graph, model->positions_mm, model->normals, model);
 }
 
 Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,

@@ -21,6 +21,9 @@ void warpRange(const std::vector<PackedNode>& nodes, const std::vector<NodeStenc
 
 /// Warps all points and normals of the model in place, in parallel.
 void warpModel(const WarpGraph& graph, PointModel* model);
+/// Gives the model the warped points and normals of those; its bindings are theirs.
+void warpModel(const WarpGraph& graph, const std::vector<Eigen::Vector3f>& from_mm,
+               const std::vector<Eigen::Vector3f>& from_normals, PointModel* model);
 
 /// Warps one point, mm, by its skinning weights: docs/energy.md
 /// (2). The slow, exact version of warpRange(), for tracked points.
