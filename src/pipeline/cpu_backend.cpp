@@ -15,6 +15,7 @@
 #include "pipeline/graph_ahead.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/relocaliser.h"
+#include "pipeline/track_pictures.h"
 #include "pipeline/track_sight.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
@@ -85,6 +86,7 @@ class CpuBackend : public ReconstructionBackend {
                            bool maybe_static);
   void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, bool maybe_static,
               PoseSummary* summary);
+  bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
 
@@ -113,15 +115,18 @@ class CpuBackend : public ReconstructionBackend {
   std::optional<ModelComparison> comparison_;  // with the warped model
   FusionSummary fused_;
   StageClock clock_;
+  TrackPictures looks_{&frame_, &frames_.depth().rig()};  // ends before the frame
 };
 
 DepthSummary CpuBackend::measure(const Frame& frame) {
   comparer_->endFrame();
+  looks_.end();
   clock_ = StageClock();
   matches_.clear();
   comparison_.reset();
   pose_ = RigidPose();
   frame_ = frames_.measure(frame, &clock_);
+  if (tracks() && worksAhead()) looks_.prepare();
   return frame_.summary;
 }
 
@@ -339,8 +344,8 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
         state_.tracked.renumber(update.index_map, state_.model);
         if (first) {
           state_.tracked.anchor(state_.model);
-          state_.tracked.look(frame_.live.gray, frame_.live.ignore, state_.model, left(),
-                              world_from_left);
+          if (tracks())
+            state_.tracked.look(looks_.pictures().looks, state_.model, left(), world_from_left);
         }
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale);
@@ -359,9 +364,10 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
 }
 
 FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
-  const TrackSight sight(frame_, rig());
-  FrameOutcome outcome{std::exchange(fused_, {}), sight.positions(state_.tracked, world_from_left),
-                       clock_.laps()};
+  FrameOutcome outcome{std::exchange(fused_, {}), {}, clock_.laps()};
+  if (tracks())
+    outcome.tracked = TrackSight(frame_, rig())
+                          .positions(state_.tracked, world_from_left, looks_.pictures().relief_px);
   clock_ = StageClock();
   return outcome;
 }
@@ -373,8 +379,9 @@ void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
 }
 
 void CpuBackend::alignTracks(const Eigen::Isometry3d& world_from_left) {
+  if (!tracks()) return;
   const TrackSight sight(frame_, rig());
-  state_.tracked.align(frame_.live.gray, frame_.live.ignore, left(), world_from_left,
+  state_.tracked.align(looks_.pictures().looks, left(), world_from_left,
                        options_.graph.node_spacing_mm,
                        [&](const Eigen::Vector3d& point) { return sight.shows(point); });
 }

@@ -189,12 +189,19 @@ void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model) {
 }
 
 void MaterialPoints::renumber(const IndexMap& map, const PointModel& model) {
+  std::vector<Point*> removed;
   for (Point& point : points) {
     if (point.model_point < 0) continue;
     point.model_point = map.new_of_old[static_cast<std::size_t>(point.model_point)];
-    if (point.model_point == IndexMap::kRemoved)
-      point.model_point = nearestPoint(model, point.position_mm.cast<float>());
+    if (point.model_point == IndexMap::kRemoved) removed.push_back(&point);
   }
+  constexpr int kSearchesPerTask = 1;  // each visits the whole model
+  parallelRanges(static_cast<int>(removed.size()), kSearchesPerTask, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      Point& point = *removed[static_cast<std::size_t>(k)];
+      point.model_point = nearestPoint(model, point.position_mm.cast<float>());
+    }
+  });
 }
 
 void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm,

@@ -61,12 +61,12 @@ class MaterialPoints {
   void renumber(const IndexMap& map, const PointModel& model);
   /// Takes their first looks from the image, once they are on
   /// the tissue; their surface is that of the model around them.
-  void look(const GrayImage& image, const Mask& ignore, const PointModel& model,
-            const PinholeCamera& left, const Eigen::Isometry3d& world_from_left);
+  void look(const LookPicture& picture, const PointModel& model, const PinholeCamera& left,
+            const Eigen::Isometry3d& world_from_left);
   /// Moves them along the surface to where the image shows their first looks, or with their
   /// neighbours, and predicts their error: docs/fusion.md (F29). `node_spacing_mm`: of the graph
   /// that warped them. `inSight`: whether the image shows a point of the left camera frame.
-  void align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
+  void align(const LookPicture& picture, const PinholeCamera& left,
              const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
              const std::function<bool(const Eigen::Vector3d&)>& inSight);
   /// Projects them onto the surface of the model points around them, along the

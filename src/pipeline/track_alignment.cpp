@@ -113,11 +113,9 @@ Eigen::Vector3d moveOfNeighbours(const std::vector<FoundMove>& found,
 
 }  // namespace
 
-void MaterialPoints::look(const GrayImage& image, const Mask& ignore, const PointModel& model,
+void MaterialPoints::look(const LookPicture& picture, const PointModel& model,
                           const PinholeCamera& left, const Eigen::Isometry3d& world_from_left) {
-  if (points.empty()) return;
   const Eigen::Isometry3d left_from_world = world_from_left.inverse();
-  const LookPicture picture(image, ignore);
   for (Point& point : points) {
     if (point.model_point < 0) continue;
     const Eigen::Vector3d centre = left_from_world * point.position_mm;
@@ -134,12 +132,11 @@ void MaterialPoints::look(const GrayImage& image, const Mask& ignore, const Poin
   }
 }
 
-void MaterialPoints::align(const GrayImage& image, const Mask& ignore, const PinholeCamera& left,
+void MaterialPoints::align(const LookPicture& picture, const PinholeCamera& left,
                            const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
                            const std::function<bool(const Eigen::Vector3d&)>& inSight) {
   constexpr int kLooksPerTask = 2;
   if (points.empty()) return;
-  const LookPicture picture(image, ignore);
   const FirstLookSearch search{picture, left, world_from_left};
   std::vector<SeenLook> seen(points.size());
   parallelRanges(static_cast<int>(points.size()), kLooksPerTask, [&](int begin, int end) {

@@ -54,13 +54,16 @@ bool TrackSight::shows(const Eigen::Vector3d& point_left, const NearestDepth& su
   return behind_mm <= limit_mm + slack_mm && -behind_mm <= kFloatingLimits * limit_mm + slack_mm;
 }
 
-std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked,
-                                                   const Eigen::Isometry3d& world_from_left) const {
-  std::vector<TrackedPosition> positions;
-  if (tracked.points.empty()) return positions;
+Raster<float> TrackSight::reliefPx() const {
   const DepthMap& depth = frame_.measured.depth;  // stages weight it by its noise only
-  const Raster<float> relief_px =
-      depth.sigma_mm.empty() ? Raster<float>() : reliefErrorPx(depth.depth_mm, rig_);
+  return depth.sigma_mm.empty() ? Raster<float>() : reliefErrorPx(depth.depth_mm, rig_);
+}
+
+std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked,
+                                                   const Eigen::Isometry3d& world_from_left,
+                                                   const Raster<float>& relief_px) const {
+  std::vector<TrackedPosition> positions;
+  const DepthMap& depth = frame_.measured.depth;
   for (const MaterialPoints::Point& point : tracked.points) {
     const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
     const NearestDepth surface = surfaceAt(centre, gapPx(depth.depth_mm.width_px));

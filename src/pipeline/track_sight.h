@@ -20,9 +20,12 @@ class TrackSight {
   bool shows(const Eigen::Vector3d& point_left) const {
     return shows(point_left, surfaceAt(point_left, 0));
   }
+  /// Of the frame, for positions(); empty without sigmas.
+  Raster<float> reliefPx() const;
   /// Visible: shown by the image with measured depth or, in a gap, next to it.
   std::vector<TrackedPosition> positions(const MaterialPoints& tracked,
-                                         const Eigen::Isometry3d& world_from_left) const;
+                                         const Eigen::Isometry3d& world_from_left,
+                                         const Raster<float>& relief_px) const;
 
  private:
   /// Measured depth at the pixel of the point or within `gap_px`.

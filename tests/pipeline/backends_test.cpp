@@ -159,6 +159,26 @@ TEST(WorkingAhead, GivesTheSameModelInWhateverOrderFramesCome) {
   EXPECT_TRUE(modelOf(mistaken) == modelOfTheCpu());
 }
 
+TEST(WorkingAhead, LeavesTrackedPointsWhereTheyAreWithout) {
+  const auto tracksOf = [](int ahead_from_threads) {
+    BackendParts parts;
+    parts.ahead_from_threads = ahead_from_threads;
+    Reconstructor reconstructor = reconstructorOf(parts);
+    reconstructor.track(shortClip().seeds);
+    std::vector<double> values;
+    for (const FrameRecord& record : run(reconstructor, 0, 4))
+      for (const TrackedPosition& point : record.tracked) {
+        values.insert(values.end(), point.position_mm.begin(), point.position_mm.end());
+        values.push_back(point.visible);
+        if (point.visible) values.push_back(point.sigma_mm);
+      }
+    return values;
+  };
+  const std::vector<double> ahead = tracksOf(1), in_turn = tracksOf(1000);
+  EXPECT_GT(ahead.size(), 4 * shortClip().seeds.size());
+  EXPECT_EQ(ahead, in_turn);
+}
+
 TEST(WorkingAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
   BackendParts parts;
   parts.ahead_from_threads = 1;

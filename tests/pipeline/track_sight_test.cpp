@@ -36,7 +36,8 @@ struct WallWithHole {
     tracked.points.emplace_back();
     tracked.points.back().position_mm = point_left;
     tracked.points.back().variance_mm2 = kAlongMm2;
-    return TrackSight(frame, rig).positions(tracked, Eigen::Isometry3d::Identity()).front();
+    const TrackSight sight(frame, rig);
+    return sight.positions(tracked, Eigen::Isometry3d::Identity(), sight.reliefPx()).front();
   }
 
   RectifiedRig rig;
