@@ -4,6 +4,9 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include "core/background_work.h"
 
 namespace softscope {
 
@@ -16,6 +19,11 @@ void parallelRanges(int count, int grain, const std::function<void(int, int)>& b
 
 void parallelInvoke(const std::function<void()>& first, const std::function<void()>& second) {
   tbb::parallel_invoke(first, second);
+}
+
+void runInBackground(const std::function<void()>& work) {
+  tbb::task_arena arena(tbb::task_arena::automatic, 1, tbb::task_arena::priority::low);
+  arena.execute(work);
 }
 
 struct ThreadLimit::Control {

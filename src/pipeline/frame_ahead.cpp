@@ -1,5 +1,7 @@
 #include "pipeline/frame_ahead.h"
 
+#include "core/background_work.h"
+
 namespace softscope {
 
 FrameAhead::Aligned FrameAhead::align(const Frame& frame) const {
@@ -33,11 +35,17 @@ void FrameAhead::prepare(const Frame& next, const Frame* after) {
   prepared_ = &next;
   result_ = std::async(std::launch::async, [this, &next, begun = takeViews(next)]() mutable {
     StageClock unused;
-    return measureNow(std::move(begun), next, &unused);
+    FrameView view;
+    runInBackground([&] { view = measureNow(std::move(begun), next, &unused); });
+    return view;
   });
   if (after == nullptr) return;
   aligned_ = after;
-  views_ = std::async(std::launch::async, [this, after] { return align(*after); });
+  views_ = std::async(std::launch::async, [this, after] {
+    Aligned aligned;
+    runInBackground([&] { aligned = align(*after); });
+    return aligned;
+  });
 }
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
