@@ -16,8 +16,16 @@ void sobelRow(const std::uint8_t* above, const std::uint8_t* middle, const std::
 /// |a - b| of both gradients, added; kWordLanes pixels.
 inline Words gradientDifference(const std::uint16_t* a, const std::uint16_t* b) {
   const auto x = load<Bytes>(a), y = load<Bytes>(b);
-  const auto apart = reinterpret_cast<Words>(greatest(x, y) - least(x, y));
-  return (apart & std::uint16_t{0xFF}) + (apart >> 8);
+  const Bytes apart = greatest(x, y) - least(x, y);
+#ifdef __AVX2__
+  // Products with 1, added in pairs, by one instruction.
+  using SignedBytes = char __attribute__((vector_size(32)));
+  return reinterpret_cast<Words>(__builtin_ia32_pmaddubsw256(reinterpret_cast<SignedBytes>(apart),
+                                                             SignedBytes{} + static_cast<char>(1)));
+#else
+  const Words pairs = reinterpret_cast<Words>(apart);
+  return (pairs & std::uint16_t{0xFF}) + (pairs >> 8);
+#endif
 }
 
 // --- support points: 9 x 9 window, every second pixel: 2 x 5 x 5 differences -------------------
