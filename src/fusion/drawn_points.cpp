@@ -39,6 +39,7 @@ std::int32_t DrawnPoints::findShown(int u, int v) const {
   if (held == kNoPoint) return -1;
   const std::int32_t index = pointOf(held);
   const Eigen::Vector3f left = camera_.toLeft(model_.positions_mm[index]);
+  if (!surface_.mayHide(u, v, left.z(), kHideMm)) return index;
   const float cosine = cosineToRay(left, camera_.left_from_world * model_.normals[index]);
   const bool hidden = surface_.hides(u, v, left.z(), cosine, camera_.fx_px, kHideMm);
   return hidden ? -1 : index;

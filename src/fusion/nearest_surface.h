@@ -44,6 +44,10 @@ class NearestSurface {
     return depth_mm;
   }
 
+  /// False for most points: then hides() is false for any cosine.
+  bool mayHide(int u, int v, float depth_mm, float margin_mm) const {
+    return depth_mm > depthAt(u, v) + margin_mm;
+  }
   /// Whether the point is clearly behind: liesBehind(). `cosine`: cosineToRay() of the point.
   bool hides(int u, int v, float depth_mm, float cosine, float focal_px, float margin_mm) const {
     return liesBehind(depthAt(u, v), cell_px_, depth_mm, cosine, focal_px, margin_mm);

@@ -20,9 +20,10 @@ void hideBehindModel(const PointModel& model, const PosedCamera& camera,
       PointSight& point = visibility->points[i];
       if (point.sight != Sight::kSeen && point.sight != Sight::kTurned) continue;
       const Eigen::Vector3f left = camera.toLeft(model.positions_mm[i]);
+      const int u = point.pixel % camera.width_px, v = point.pixel / camera.width_px;
+      if (!nearest.mayHide(u, v, left.z(), margin_mm)) continue;
       const float cosine = cosineToRay(left, camera.left_from_world * model.normals[i]);
-      if (nearest.hides(point.pixel % camera.width_px, point.pixel / camera.width_px, left.z(),
-                        cosine, camera.fx_px, margin_mm))
+      if (nearest.hides(u, v, left.z(), cosine, camera.fx_px, margin_mm))
         point.sight = Sight::kHidden;
     }
   });
