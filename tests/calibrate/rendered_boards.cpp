@@ -47,7 +47,7 @@ cv::Mat charucoPicture(const BoardOptions& board, double pixels_per_mm) {
 double squareWave(double x, double width) {
   const double line = std::round(x);
   const double after = std::clamp(2 * (x - line) / width, -1.0, 1.0);
-  return std::fmod(line, 2) == 0 ? after : -after;
+  return static_cast<long>(line) % 2 == 0 ? after : -after;
 }
 
 /// Brightness at a place of the board's plane, whose origin is the first inner corner.
@@ -93,6 +93,37 @@ std::vector<cv::Point2d> raysOf(const RawCamera& camera) {
   return rays;
 }
 
+/// Standard normal draws by the polar method of Marsaglia. std::normal_distribution computes a
+/// logarithm of the generator's range, in long double, for each uniform number.
+class NormalNoise {
+ public:
+  explicit NormalNoise(unsigned seed) : random_(seed) {}
+
+  float next() {
+    if (has_second_) {
+      has_second_ = false;
+      return second_;
+    }
+    float x, y, square;
+    do {
+      x = uniform(), y = uniform();
+      square = x * x + y * y;
+    } while (square > 1 || square == 0);
+    const float scale = std::sqrt(-2 * std::log(square) / square);
+    second_ = x * scale;
+    has_second_ = true;
+    return y * scale;
+  }
+
+ private:
+  /// From -1 to 1, of 24 bits.
+  float uniform() { return float(random_() >> 8) * 0x1p-23f - 1; }
+
+  std::mt19937 random_;
+  float second_ = 0;
+  bool has_second_ = false;
+};
+
 GrayImage renderWith(const BoardRendering& rendering, const std::vector<cv::Point2d>& rays,
                      const RawCamera& camera, const Eigen::Isometry3d& camera_from_board,
                      int noise_seed) {
@@ -118,12 +149,13 @@ GrayImage renderWith(const BoardRendering& rendering, const std::vector<cv::Poin
       light.at<float>(v, u) = float(sum / (kRays * kRays));
     }
   if (rendering.blur_px > 0) cv::GaussianBlur(light, light, {0, 0}, rendering.blur_px);
-  std::mt19937 random(static_cast<unsigned>(noise_seed));
-  std::normal_distribution<float> noise(0, float(rendering.noise_levels));
+  NormalNoise noise(static_cast<unsigned>(noise_seed));
+  const auto noise_levels = float(rendering.noise_levels);
   GrayImage image(width, height);
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)
-      image.at(u, v) = cv::saturate_cast<std::uint8_t>(light.at<float>(v, u) + noise(random));
+      image.at(u, v) =
+          cv::saturate_cast<std::uint8_t>(light.at<float>(v, u) + noise_levels * noise.next());
   return image;
 }
 
