@@ -10,13 +10,31 @@ function(softscope_join target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD "${SOFTSCOPE_JOIN}")
 endfunction()
 
-# softscope_precompile(<target> <header>…): parses these headers once for all files of the target.
-# Without the options ccache would pass such files by.
+# softscope_precompile(<target>): takes the headers of the standard library, of Eigen and of JSON from
+# the target softscope_headers, which parses them once for the whole build; test programs take them and
+# GoogleTest's from softscope_test_headers. Without the options ccache would pass such files by.
 function(softscope_precompile target)
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  set(donor softscope_headers)
+  get_target_property(kind ${target} TYPE)
+  if(kind STREQUAL "EXECUTABLE")
+    set(donor softscope_test_headers)
+  endif()
+  softscope_cache_precompiled(${target})
+  target_precompile_headers(${target} REUSE_FROM ${donor})
+endfunction()
+
+function(softscope_cache_precompiled target)
   target_compile_options(${target} PRIVATE
     "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>"
     "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+endfunction()
+
+# softscope_precompiled_headers(<target> <header>…): a target that parses these headers.
+function(softscope_precompiled_headers target)
+  add_library(${target} OBJECT ${SOFTSCOPE_ROOT}/cmake/precompiled_headers.cpp)
+  target_link_libraries(${target} PRIVATE softscope_flags Eigen3::Eigen nlohmann_json::nlohmann_json)
+  softscope_cache_precompiled(${target})
+  target_precompile_headers(${target} PRIVATE ${ARGN})
 endfunction()
 
 # softscope_library(<folder> SOURCES … [LINKS …] [PRIVATE_LINKS …])
@@ -29,6 +47,7 @@ function(softscope_library name)
   target_include_directories(softscope_${name} PUBLIC ${SOFTSCOPE_ROOT}/src ${SOFTSCOPE_ROOT})
   target_link_libraries(softscope_${name} PUBLIC ${ARG_LINKS}
     PRIVATE ${ARG_PRIVATE_LINKS} softscope_flags)
+  softscope_precompile(softscope_${name})
 endfunction()
 
 # softscope_rooms(<folder>): a folder inside this library is a room. Files of one room alone are
@@ -60,6 +79,7 @@ endfunction()
 function(softscope_cover name)
   if(SOFTSCOPE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     target_compile_options(softscope_${name} PRIVATE -fsanitize=fuzzer-no-link)
+    set_target_properties(softscope_${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
   endif()
 endfunction()
 
@@ -72,6 +92,7 @@ function(softscope_test name)
   add_executable(test_${name} ${ARG_SOURCES})
   softscope_join(test_${name})
   softscope_compile_quickly(test_${name})
+  softscope_precompile(test_${name})
   target_link_libraries(test_${name} PRIVATE ${ARG_LINKS} GTest::gtest_main softscope_flags)
   target_include_directories(test_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
   if(SOFTSCOPE_SANITIZE)

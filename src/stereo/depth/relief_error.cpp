@@ -15,11 +15,11 @@ namespace {
 // Integer sums: the same in any order of addition.
 using Counts = Raster<std::int32_t>;
 
-constexpr int kReach = 2 * RefinementOptions::radius_px;  // two windows in sequence
-constexpr float kStepsPerPx = 1024;                       // of disparity: 625 times 3355 px fit
-constexpr float kStepsAPx2 = 65536;                       // of squared bends …
-constexpr float kLargestBendPx2 = 50;                     // … 625 of which fit
-constexpr int kBandRows = 48;
+constexpr int kSmoothedReach = 2 * RefinementOptions::radius_px;  // two windows in sequence
+constexpr float kStepsPerPx = 1024;    // of disparity: 625 times 3355 px fit
+constexpr float kStepsAPx2 = 65536;    // of squared bends …
+constexpr float kLargestBendPx2 = 50;  // … 625 of which fit
+constexpr int kReliefBandRows = 48;
 
 /// The nearest whole number of one that is not negative, as std::lround(), which is a call.
 template <class Real>
@@ -28,7 +28,7 @@ std::int32_t rounded(Real x) {
   return whole + (x - static_cast<Real>(whole) >= Real(0.5) ? 1 : 0);
 }
 
-/// Over the `kReach` pixels to either side, per row.
+/// Over the `kSmoothedReach` pixels to either side, per row.
 Counts sumsAlongRows(const Counts& in) {
   Counts out(in.width_px, in.height_px);
   const int width = in.width_px;
@@ -36,23 +36,26 @@ Counts sumsAlongRows(const Counts& in) {
     const std::int32_t* from = in.row(v);
     std::int32_t* to = out.row(v);
     std::int32_t sum = 0;
-    for (int u = 0; u < std::min(kReach, width); ++u) sum += from[u];
+    for (int u = 0; u < std::min(kSmoothedReach, width); ++u) sum += from[u];
     int u = 0;
-    for (; u < width && u <= kReach; ++u) to[u] = sum += u + kReach < width ? from[u + kReach] : 0;
-    for (; u < width - kReach; ++u) to[u] = sum += from[u + kReach] - from[u - kReach - 1];
-    for (; u < width; ++u) to[u] = sum -= from[u - kReach - 1];
+    for (; u < width && u <= kSmoothedReach; ++u)
+      to[u] = sum += u + kSmoothedReach < width ? from[u + kSmoothedReach] : 0;
+    for (; u < width - kSmoothedReach; ++u)
+      to[u] = sum += from[u + kSmoothedReach] - from[u - kSmoothedReach - 1];
+    for (; u < width; ++u) to[u] = sum -= from[u - kSmoothedReach - 1];
   });
   return out;
 }
 
-/// Over the `kReach` pixels above and below.
+/// Over the `kSmoothedReach` pixels above and below.
 Counts sumsAlongColumns(const Counts& in) {
   Counts out(in.width_px, in.height_px);
   const int width = in.width_px;
-  parallelRanges(in.height_px, kBandRows, [&](int begin, int end) {
+  parallelRanges(in.height_px, kReliefBandRows, [&](int begin, int end) {
     std::vector<std::int32_t> sums(static_cast<std::size_t>(width), 0);
     std::int32_t* sum = sums.data();
-    for (int v = std::max(begin - kReach, 0); v < std::min(begin + kReach, in.height_px); ++v) {
+    for (int v = std::max(begin - kSmoothedReach, 0);
+         v < std::min(begin + kSmoothedReach, in.height_px); ++v) {
       const std::int32_t* row = in.row(v);
       for (int u = 0; u < width; ++u) sum[u] += row[u];
     }
@@ -61,7 +64,8 @@ Counts sumsAlongColumns(const Counts& in) {
       return v >= 0 && v < in.height_px ? in.row(v) : zeros.data();
     };
     for (int v = begin; v < end; ++v) {
-      const std::int32_t *comes = rowOrZeros(v + kReach), *goes = rowOrZeros(v - kReach);
+      const std::int32_t *comes = rowOrZeros(v + kSmoothedReach),
+                         *goes = rowOrZeros(v - kSmoothedReach);
       std::int32_t* to = out.row(v);
       for (int u = 0; u < width; ++u) {
         to[u] = sum[u] + comes[u];

@@ -1,0 +1,1 @@
+// What a target of precompiled headers compiles: nothing.
