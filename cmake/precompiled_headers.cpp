@@ -1,1 +1,1 @@
-// What a target of precompiled headers compiles: nothing.
+// cmake/precompiled_headers.cpp: what a target of precompiled headers compiles, nothing.
