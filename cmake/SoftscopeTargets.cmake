@@ -130,7 +130,10 @@ endfunction()
 # the time to compile. Not for tests that compute, as the linker takes inline functions of the first
 # object that has them: tests of deform ran 12 times as long, `depth` within test_apps 3 times.
 function(softscope_compile_unoptimised target)
-  target_compile_options(${target} PRIVATE $<$<BOOL:${SOFTSCOPE_SANITIZE}>:-O0>)
+  if(SOFTSCOPE_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # other options
+  endif()
 endfunction()
 
 # softscope_test_shards(<folder> [count]): programs in several parts take longest and start first.
