@@ -12,17 +12,21 @@ endfunction()
 
 # softscope_precompile(<target>): takes the headers of the standard library, of Eigen and of JSON from
 # the target softscope_headers, which parses them once for the whole build; test programs take them and
-# GoogleTest's from softscope_test_headers. Without the options ccache would pass such files by.
+# GoogleTest's from softscope_test_headers. A folder that builds alone has neither.
 function(softscope_precompile target)
   set(donor softscope_headers)
   get_target_property(kind ${target} TYPE)
   if(kind STREQUAL "EXECUTABLE")
     set(donor softscope_test_headers)
   endif()
+  if(NOT TARGET ${donor})
+    return()
+  endif()
   softscope_cache_precompiled(${target})
   target_precompile_headers(${target} REUSE_FROM ${donor})
 endfunction()
 
+# softscope_cache_precompiled(<target>): without these options ccache passes such files by.
 function(softscope_cache_precompiled target)
   target_compile_options(${target} PRIVATE
     "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>"
