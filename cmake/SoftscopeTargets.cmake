@@ -68,6 +68,29 @@ function(softscope_rooms name)
   set_target_properties(softscope_${name} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
+# softscope_kernels(<folder> SOURCES … [OPTIONS …] [BASELINE …] [AVX2 …]): inner loops of this library,
+# compiled once for every instruction set (core/kernel_list.h), with the options of all sets and those
+# of one. No square root sets errno, or it would not be an instruction.
+function(softscope_kernels name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;OPTIONS;BASELINE;AVX2" ${ARGN})
+  set(sets BASELINE)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND sets AVX2)
+    target_compile_definitions(softscope_${name} PRIVATE SOFTSCOPE_HAS_AVX2)
+  endif()
+  foreach(set IN LISTS sets)
+    string(TOLOWER ${set} lower)
+    set(target softscope_${name}_kernels_${lower})
+    add_library(${target} OBJECT ${ARG_SOURCES})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_include_directories(${target} PRIVATE ${SOFTSCOPE_ROOT}/src ${SOFTSCOPE_ROOT})
+    target_compile_definitions(${target} PRIVATE SOFTSCOPE_SIMD_SET=${lower})
+    target_compile_options(${target} PRIVATE -fno-math-errno -Wno-psabi ${ARG_OPTIONS} ${ARG_${set}})
+    target_link_libraries(${target} PRIVATE softscope::core softscope_flags)
+    target_sources(softscope_${name} PRIVATE $<TARGET_OBJECTS:${target}>)
+  endforeach()
+endfunction()
+
 # softscope_inline(<folder>): for loops of many small Eigen operations. UBSan's checks make Eigen's
 # one-line functions too large for clang to inline by itself; inlined all the same, the simulator runs
 # 5 times as fast. Not for every folder: what includes JSON compiles 2 to 5 times as long.

@@ -8,11 +8,6 @@
 #include <immintrin.h>
 #endif
 
-#define SOFTSCOPE_NAME_(set) treeKernels_##set
-#define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
-#define SOFTSCOPE_TEXT_(set) #set
-#define SOFTSCOPE_TEXT(set) SOFTSCOPE_TEXT_(set)
-
 namespace softscope {
 namespace {
 
@@ -278,7 +273,8 @@ void search(const TreeView& tree, const float* points_mm, const std::uint32_t* o
 
 }  // namespace
 
-extern const TreeKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET);
-const TreeKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET) = {SOFTSCOPE_TEXT(SOFTSCOPE_SIMD_SET), search};
+extern const TreeKernels SOFTSCOPE_NAME(treeKernels, SOFTSCOPE_SIMD_SET);
+const TreeKernels SOFTSCOPE_NAME(treeKernels, SOFTSCOPE_SIMD_SET) = {
+    SOFTSCOPE_TEXT(SOFTSCOPE_SIMD_SET), search};
 
 }  // namespace softscope

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "core/kernel_list.h"
 #include "eval/distance/tree_layout.h"
 
 namespace softscope {
@@ -21,13 +22,8 @@ struct TreeKernels {
                  int begin, int end, TreeHit* hits);
 };
 
-struct TreeKernelList {
-  const TreeKernels* sets[2];
-  int count;
-};
-
 /// Those supported by this processor, the fastest last.
-TreeKernelList allTreeKernels();
+KernelList<TreeKernels> allTreeKernels();
 
 /// The fastest supported by this processor.
 const TreeKernels& treeKernels();

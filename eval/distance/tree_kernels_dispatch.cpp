@@ -3,22 +3,10 @@
 
 namespace softscope {
 
-extern const TreeKernels treeKernels_baseline;
-#ifdef SOFTSCOPE_HAS_AVX2
-extern const TreeKernels treeKernels_avx2;
-#endif
+extern const TreeKernels treeKernels_baseline, treeKernels_avx2;
 
-TreeKernelList allTreeKernels() {
-  TreeKernelList list{{&treeKernels_baseline}, 1};
-#ifdef SOFTSCOPE_HAS_AVX2
-  if (__builtin_cpu_supports("avx2")) list.sets[list.count++] = &treeKernels_avx2;
-#endif
-  return list;
-}
+KernelList<TreeKernels> allTreeKernels() { return SOFTSCOPE_KERNELS(treeKernels); }
 
-const TreeKernels& treeKernels() {
-  const TreeKernelList list = allTreeKernels();
-  return *list.sets[list.count - 1];
-}
+const TreeKernels& treeKernels() { return allTreeKernels().fastest(); }
 
 }  // namespace softscope

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "core/kernel_list.h"
 #include "features/window_kernels.h"
 
 namespace softscope {
@@ -114,10 +115,6 @@ struct FeatureKernels {
 const FeatureKernels& featureKernels();
 
 /// Every set that this processor runs, slowest first.
-struct FeatureKernelList {
-  const FeatureKernels* sets[4];
-  int count;
-};
-FeatureKernelList allFeatureKernels();
+KernelList<FeatureKernels> allFeatureKernels();
 
 }  // namespace softscope

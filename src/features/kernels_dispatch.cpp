@@ -3,22 +3,10 @@
 
 namespace softscope {
 
-extern const FeatureKernels featureKernels_baseline;
-#ifdef SOFTSCOPE_HAS_AVX2
-extern const FeatureKernels featureKernels_avx2;
-#endif
+extern const FeatureKernels featureKernels_baseline, featureKernels_avx2;
 
-FeatureKernelList allFeatureKernels() {
-  FeatureKernelList list{{&featureKernels_baseline}, 1};
-#ifdef SOFTSCOPE_HAS_AVX2
-  if (__builtin_cpu_supports("avx2")) list.sets[list.count++] = &featureKernels_avx2;
-#endif
-  return list;
-}
+KernelList<FeatureKernels> allFeatureKernels() { return SOFTSCOPE_KERNELS(featureKernels); }
 
-const FeatureKernels& featureKernels() {
-  const FeatureKernelList list = allFeatureKernels();
-  return *list.sets[list.count - 1];
-}
+const FeatureKernels& featureKernels() { return allFeatureKernels().fastest(); }
 
 }  // namespace softscope

@@ -4,11 +4,6 @@
 
 #include <cstdint>
 
-#define SOFTSCOPE_NAME_(name, set) name##_##set
-#define SOFTSCOPE_NAME(name, set) SOFTSCOPE_NAME_(name, set)
-#define SOFTSCOPE_TEXT_(set) #set
-#define SOFTSCOPE_TEXT(set) SOFTSCOPE_TEXT_(set)
-
 namespace softscope {
 namespace {
 

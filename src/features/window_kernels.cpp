@@ -2,6 +2,7 @@
 // compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
 #include "features/window_kernels.h"
 
+#include "core/kernel_list.h"
 #include "features/lanes.h"
 #include "features/subpixel_formulas.h"
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/kernel_list.h"
 #include "pipeline/first_look.h"
 #include "pipeline/shading_plane.h"
 
@@ -77,12 +78,9 @@ struct LookKernels {
                   const float (*place)[kMapUnknowns], double* sums);
 };
 
-struct LookKernelList {
-  const LookKernels* sets[2];
-  int count;
-};
-LookKernelList allLookKernels();
-/// The fastest set of this processor.
+/// Sets that this processor supports, slowest first.
+KernelList<LookKernels> allLookKernels();
+/// The fastest of them.
 const LookKernels& lookKernels();
 
 }  // namespace softscope

@@ -3,22 +3,10 @@
 
 namespace softscope {
 
-extern const LookKernels lookKernels_baseline;
-#ifdef SOFTSCOPE_HAS_AVX2
-extern const LookKernels lookKernels_avx2;
-#endif
+extern const LookKernels lookKernels_baseline, lookKernels_avx2;
 
-LookKernelList allLookKernels() {
-  LookKernelList list{{&lookKernels_baseline}, 1};
-#ifdef SOFTSCOPE_HAS_AVX2
-  if (__builtin_cpu_supports("avx2")) list.sets[list.count++] = &lookKernels_avx2;
-#endif
-  return list;
-}
+KernelList<LookKernels> allLookKernels() { return SOFTSCOPE_KERNELS(lookKernels); }
 
-const LookKernels& lookKernels() {
-  const LookKernelList list = allLookKernels();
-  return *list.sets[list.count - 1];
-}
+const LookKernels& lookKernels() { return allLookKernels().fastest(); }
 
 }  // namespace softscope

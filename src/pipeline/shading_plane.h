@@ -19,7 +19,7 @@ struct ShadingPlane {
 class ShadingFit {
  public:
   ShadingFit() = default;
-  explicit ShadingFit(const WindowMomentsXy& m) {
+  SOFTSCOPE_FORMULA explicit ShadingFit(const WindowMomentsXy& m) {
     const double c00 = m.xx * m.yy - m.xy * m.xy, c01 = m.xy * m.y - m.x * m.yy,
                  c02 = m.x * m.xy - m.xx * m.y;
     const double scale = 1 / (m.count * c00 + m.x * c01 + m.y * c02);
@@ -31,7 +31,7 @@ class ShadingFit {
     inverse_[5] = scale * (m.count * m.xx - m.x * m.x);
   }
   /// From the weighted sums of the values, of x times the values, and of y times the values.
-  ShadingPlane plane(double values, double x_values, double y_values) const {
+  SOFTSCOPE_FORMULA ShadingPlane plane(double values, double x_values, double y_values) const {
     return {inverse_[0] * values + inverse_[1] * x_values + inverse_[2] * y_values,
             inverse_[1] * values + inverse_[3] * x_values + inverse_[4] * y_values,
             inverse_[2] * values + inverse_[4] * x_values + inverse_[5] * y_values};

@@ -27,11 +27,9 @@ inline Eigen::Vector2d windowOffset(int i) {
 }
 
 /// Whether a bilinear sample is inside the image.
-inline bool sampleable(const GrayImage& image, double u, double v) {
-  return u >= 0 && v >= 0 && u < image.width_px - 1 && v < image.height_px - 1;
-}
 inline bool sampleable(const GrayImage& image, const Eigen::Vector2d& pixel) {
-  return sampleable(image, pixel.x(), pixel.y());
+  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < image.width_px - 1 &&
+         pixel.y() < image.height_px - 1;
 }
 
 /// Bilinear sample at a position inside the image.

@@ -107,7 +107,7 @@ void benchOurs(const TriangleMesh& mesh, const Points& points) {
   const TriangleTree tree(mesh);
   const double build_one_ms = onThreads(1, 9, [&] { TriangleTree built(mesh); });
   const double build_two_ms = onThreads(2, 9, [&] { TriangleTree built(mesh); });
-  const TreeKernelList sets = allTreeKernels();
+  const auto sets = allTreeKernels();
   for (int i = 0; i < sets.count; ++i) {
     const auto query = [&] { tree.closestPoints(points, *sets.sets[i]); };
     print({std::string("softscope, signed, ") + sets.sets[i]->name, build_one_ms,

@@ -149,7 +149,7 @@ TEST(DeformKernels, AllSetsAgreeOnExactNumbers) {
   std::vector<double> a(kLeading * kInner), c(kLeading * 6);
   for (std::size_t i = 0; i < a.size(); ++i) a[i] = static_cast<double>(i * 7 % 11) - 5;
   for (std::size_t i = 0; i < c.size(); ++i) c[i] = static_cast<double>(i * 5 % 13) - 6;
-  const DeformKernelList list = allDeformKernels();
+  const auto list = allDeformKernels();
   for (int set = 0; set < list.count; ++set) {
     std::vector<double> found = c;
     list.sets[set]->updateColumns(found.data(), kLeading, a.data(), a.data() + 2, kLeading, kRows,

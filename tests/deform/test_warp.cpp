@@ -94,7 +94,7 @@ TEST(Warp, IsTheSameOnAnyNumberOfThreadsAndUpToRoundingOnAnySet) {
   EXPECT_EQ(warped[0].positions_mm, warped[1].positions_mm);
   EXPECT_EQ(warped[0].normals, warped[1].normals);
 
-  const DeformKernelList list = allDeformKernels();
+  const auto list = allDeformKernels();
   const auto nodes = packNodes(graph);
   for (int set = 0; set < list.count; ++set) {
     PointModel other = model;

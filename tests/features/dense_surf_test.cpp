@@ -101,7 +101,7 @@ TEST(DenseSurf, RefusesAMaskOfAnotherShape) {
 }
 
 TEST(FeatureKernels, EveryInstructionSetGivesTheSameBytes) {
-  const FeatureKernelList list = allFeatureKernels();
+  const auto list = allFeatureKernels();
   const GrayImage image = test::makeWarpedPair(2.0).model.gray;
   std::vector<float> cells(4096), plane(4096);
   for (std::size_t k = 0; k < cells.size(); ++k) {

@@ -54,7 +54,7 @@ struct Grid {
 };
 
 TEST(FeatureKernels, SearchAWindowAsPlainLoopsDo) {
-  const FeatureKernelList list = allFeatureKernels();
+  const auto list = allFeatureKernels();
   for (const int kinds : {2, 6, 200})
     for (int columns = 1; columns <= 35; ++columns)
       for (const int rows : {1, 4, 9}) {
@@ -110,7 +110,7 @@ TEST(FeatureKernels, CountNeighboursAsPlainLoopsDo) {
       places[axis + 2].push_back(places[axis].back() +
                                  0.125f * static_cast<float>(numbers.below(40)));
     }
-  const FeatureKernelList list = allFeatureKernels();
+  const auto list = allFeatureKernels();
   for (int count = 0; count <= kMatches; ++count) {
     NeighbourCounts plain{0, 0};
     const auto apart = [&](std::size_t axis, int i) {
@@ -191,7 +191,7 @@ TEST(FeatureKernels, MakeTemplatesAsPlainLoopsDo) {
     windows.corner[k] = image.data() + (1 + k) * kStride + 1 + 2 * k;
     windows.weight[k] = weights[k].data();
   }
-  const FeatureKernelList list = allFeatureKernels();
+  const auto list = allFeatureKernels();
   for (int s = 0; s < list.count; ++s) {
     std::array<Window, kTemplateLanes> steepest_u, steepest_v, contrast;
     TemplateResults results{};

@@ -73,7 +73,7 @@ bool sameBytes(const Value& a, const Value& b) {
 }
 
 TEST(LookKernels, GiveTheSameBytesOnEveryInstructionSet) {
-  const LookKernelList list = allLookKernels();
+  const auto list = allLookKernels();
   const KernelResults first = resultsOf(*list.sets[0], kDistorted);
   ASSERT_TRUE(first.sampled);
   for (int k = 1; k < list.count; ++k) {

@@ -8,11 +8,6 @@
 #include "deform/kernels/plane_term.h"
 #include "deform/kernels/warp_formulas.h"
 
-#define SOFTSCOPE_NAME_(set) deformKernels_##set
-#define SOFTSCOPE_NAME(set) SOFTSCOPE_NAME_(set)
-#define SOFTSCOPE_TEXT_(set) #set
-#define SOFTSCOPE_TEXT(set) SOFTSCOPE_TEXT_(set)
-
 namespace softscope {
 namespace {
 
@@ -301,8 +296,8 @@ void warpPoints(const PackedNode* nodes, const std::int32_t* stencils, const voi
 
 }  // namespace
 
-extern const DeformKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET);
-const DeformKernels SOFTSCOPE_NAME(SOFTSCOPE_SIMD_SET) = {
+extern const DeformKernels SOFTSCOPE_NAME(deformKernels, SOFTSCOPE_SIMD_SET);
+const DeformKernels SOFTSCOPE_NAME(deformKernels, SOFTSCOPE_SIMD_SET) = {
     SOFTSCOPE_TEXT(SOFTSCOPE_SIMD_SET),
     residuals,
     assemble<6>,

@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include "core/kernel_list.h"
+
 namespace softscope {
 
 /// n . (warped point - target), times a base weight: docs/energy.md (8). mm. 56 bytes.
@@ -79,10 +81,6 @@ struct DeformKernels {
 const DeformKernels& deformKernels();
 
 /// Sets supported by this processor, slowest first.
-struct DeformKernelList {
-  const DeformKernels* sets[2];
-  int count;
-};
-DeformKernelList allDeformKernels();
+KernelList<DeformKernels> allDeformKernels();
 
 }  // namespace softscope

@@ -3,23 +3,10 @@
 
 namespace softscope {
 
-extern const DeformKernels deformKernels_baseline;
-#ifdef SOFTSCOPE_HAS_AVX2
-extern const DeformKernels deformKernels_avx2;
-#endif
+extern const DeformKernels deformKernels_baseline, deformKernels_avx2;
 
-DeformKernelList allDeformKernels() {
-  DeformKernelList list{{&deformKernels_baseline}, 1};
-#ifdef SOFTSCOPE_HAS_AVX2
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    list.sets[list.count++] = &deformKernels_avx2;
-#endif
-  return list;
-}
+KernelList<DeformKernels> allDeformKernels() { return SOFTSCOPE_KERNELS(deformKernels); }
 
-const DeformKernels& deformKernels() {
-  static const DeformKernelList list = allDeformKernels();
-  return *list.sets[list.count - 1];
-}
+const DeformKernels& deformKernels() { return allDeformKernels().fastest(); }
 
 }  // namespace softscope
