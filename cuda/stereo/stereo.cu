@@ -116,8 +116,6 @@ class Stereo::Device {
     const View<float> rasters[] = {layout_.disparity, layout_.sigma, layout_.depth,
                                    layout_.depth_sigma};
     for (int i = 0; i < kRasters; ++i) fetch(rasters[i], arrived + i * pixels_);
-    auto* normals = reinterpret_cast<NormalPixel*>(arrived + kRasters * pixels_);
-    fetch(layout_.normals, normals);
     wait();
     Raster<float>* places[] = {&found.disparity.disparity_px, &found.disparity.sigma_px,
                                &found.depth.depth_mm, &found.depth.sigma_mm};
@@ -129,10 +127,15 @@ class Stereo::Device {
         std::transform(arrived + i * pixels_, arrived + (i + 1) * pixels_, places[i]->values.data(),
                        [](float value) { return value == value ? value : kNan; });
       });
-    found.normals = NormalMap(width, height, Eigen::Vector3f::Zero());
+    // Beside the copies.
+    void* normals = arrived + kRasters * pixels_;
+    fetch(layout_.normals, static_cast<NormalPixel*>(normals));
+    wait();
     static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
-    std::memcpy(static_cast<void*>(found.normals.values.data()), normals,
-                pixels_ * sizeof(NormalPixel));
+    const auto* first = static_cast<const Eigen::Vector3f*>(normals);
+    found.normals.width_px = width;
+    found.normals.height_px = height;
+    found.normals.values.assign(first, first + pixels_);  // without zeros before
     for (std::future<void>& copy : copies) copy.get();
     found.levels = levels_run_;
     return found;

@@ -113,7 +113,7 @@ class StereoPasses {
   }
 
   static View<float> refined(const StereoLevel& level) {
-    return level.disparity[level.options.refinement.iterations % 2];
+    return level.disparity[RefinementOptions::steps % 2];
   }
 
  private:
@@ -247,12 +247,8 @@ class StereoPasses {
                                options.radius_px,
                                selectionOf(options)};
     executor_.launch("mixed windows", mark, mark.blocks());
-    for (int i = 0; i < options.iterations; ++i) {
-      if (i + 1 < options.iterations)
-        step<false>(level, i, window);
-      else
-        step<true>(level, i, window);
-    }
+    for (int i = 0; i + 1 < options.steps; ++i) step<false>(level, i, window);
+    step<true>(level, options.steps - 1, window);
     executor_.mark("refine");
   }
   static Selection selectionOf(const RefinementOptions& options) {
@@ -287,6 +283,7 @@ class StereoPasses {
   void step(const StereoLevel& level, int i, const RefinementWindow& window) {
     const RefinementOptions& options = level.options.refinement;
     const View<const float> before = readOnly(level.disparity[i % 2]);
+    const RefinementStep rules = refinementStep(i);
     const PlaneLimits limits = planeLimits(options);
     const LightFitKernel light{readOnly(level.slow_part[0]),
                                readOnly(level.slow_part[1]),
@@ -298,12 +295,12 @@ class StereoPasses {
     perPixel("residuals",
              ResidualBody<kLast>{readOnly(level.fast_part[0]), readOnly(level.fast_part[1]),
                                  readOnly(level.slow_part[0]), readOnly(level.slow_part[1]), before,
-                                 &level.counters->light, level.residuals, residualLimits(options)},
+                                 &level.counters->light, level.residuals,
+                                 residualLimits(options, rules)},
              level);
     // Windows with mixed surfaces, slow to solve, are processed in the second step.
     const bool hold = i == 0 && !kLast;
-    const StepSolver solver{limits, kLast ? 1.0f : static_cast<float>(options.relaxation), before,
-                            level.disparity[(i + 1) % 2], level.sigma};
+    const StepSolver solver{limits, rules, before, level.disparity[(i + 1) % 2], level.sigma};
     WindowStepKernel<kLast> windows{level.residuals,
                                     readOnly(level.mixed),
                                     solver,

@@ -159,15 +159,15 @@ struct ResidualBody {
 /// Next disparity from the sums of a window.
 struct StepSolver {
   PlaneLimits limits;
-  float relaxation;  // 1 in the last step
+  RefinementStep rules;
   View<const float> before;
   View<float> next, sigma;
 
   template <bool kLast>
   SOFTSCOPE_HD void solve(int u, int v, const float (&moments)[9],
                           const float (&evidence)[4]) const {
-    float disparity =
-        planeDisparity(moments, before.at(u, v), limits.farthest_step_px, relaxation, quietNan());
+    float disparity = planeDisparity(moments, before.at(u, v), rules.of_disparity,
+                                     limits.farthest_step_px, rules.relaxation, quietNan());
     if constexpr (kLast) {
       bool holds;
       const float variance =

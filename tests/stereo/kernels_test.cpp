@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "stereo/images/gradient_image.h"
-#include "stereo/kernels/kernel_sets.h"
 #include "stereo/kernels/smoothing_formulas.h"
+#include "stereo/kernels/stereo_kernels.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -39,17 +39,17 @@ class EveryInstructionSet : public testing::Test {
   /// Runs `compute(set)` on every set and expects one result.
   template <class Compute>
   void expectEqual(const Compute& compute) {
-    const auto reference = compute(list_.sets[0]);
+    const auto reference = compute(*list_.sets[0]);
     for (int i = 1; i < list_.count; ++i)
-      EXPECT_TRUE(sameBytes(reference, compute(list_.sets[i]))) << list_.sets[i].name;
+      EXPECT_TRUE(sameBytes(reference, compute(*list_.sets[i]))) << list_.sets[i]->name;
   }
-  KernelSetList list_ = allKernelSets();
+  KernelList<StereoKernels> list_ = allStereoKernels();
 };
 
 TEST_F(EveryInstructionSet, ChoosesTheFastestThatRuns) {
-  EXPECT_EQ(&matchingKernels(), list_.sets[list_.count - 1].matching);
-  EXPECT_EQ(&refinementKernels(), list_.sets[list_.count - 1].refinement);
-  EXPECT_STREQ(list_.sets[0].name, "baseline");
+  EXPECT_EQ(&matchingKernels(), list_.sets[list_.count - 1]->matching);
+  EXPECT_EQ(&refinementKernels(), list_.sets[list_.count - 1]->refinement);
+  EXPECT_STREQ(list_.sets[0]->name, "baseline");
 }
 
 TEST_F(EveryInstructionSet, MatchesTilesAlike) {
@@ -58,7 +58,7 @@ TEST_F(EveryInstructionSet, MatchesTilesAlike) {
   std::vector<std::int16_t> prior(kTileWidth * kTileHeight, 8 * 27);
   const Bytes16 candidates = {3, 20, 25, 26, 27, 28, 29, 33, 60};
   const std::vector<std::uint8_t> everywhere = {1, 0, 0, 0, 1, 0, 0, 1, 1};
-  expectEqual([&](const KernelSet& set) {
+  expectEqual([&](const StereoKernels& set) {
     Bytes16 disparity(prior.size()), cost(prior.size());
     const DenseTile tile{64,           96, -1, 320, candidates.data(), everywhere.data(), 9,
                          prior.data(), 24, 22, 50,  disparity.data(),  cost.data()};
@@ -72,7 +72,7 @@ TEST_F(EveryInstructionSet, MatchesTilesAlike) {
 TEST_F(EveryInstructionSet, FindsSupportAlike) {
   const auto scene = test::makeScene(test::endoscope(), test::plane(50, 0.3, 0.1), 2.0);
   const GradientImage left(scene.left, 0.5, 64), right(scene.right, 0.5, 64);
-  expectEqual([&](const KernelSet& set) {
+  expectEqual([&](const StereoKernels& set) {
     Bytes16 volume(320 * 64), sums(320 + kSupportScratch), a(320), b(320), c(320), d(320);
     set.matching->supportRow(
         left.view(), right.view(), 100, 320, 0, 64,
@@ -102,7 +102,7 @@ TEST_F(EveryInstructionSet, SumsMomentsAlike) {
   const Floats in = randomFloats(static_cast<std::size_t>(stride) * 26, -30, 30, 5);
   const Floats window = randomFloats(13, 0, 1, 6);
   const auto rows = rowsOf(in, stride, 26);
-  expectEqual([&](const KernelSet& set) {
+  expectEqual([&](const StereoKernels& set) {
     Floats columns(static_cast<std::size_t>(stride) * kColumnMomentCount), out(stride * 14ul);
     std::vector<float*> column_rows;
     for (int k = 0; k < kColumnMomentCount; ++k)
@@ -131,7 +131,7 @@ TEST_F(EveryInstructionSet, SelectsWindowsAlike) {
   selected.tolerance = tolerance.data();
   selected.relative = true;
   selected.radius = 6;
-  expectEqual([&](const KernelSet& set) {
+  expectEqual([&](const StereoKernels& set) {
     Floats out(static_cast<std::size_t>(stride) * kMomentCount);
     std::vector<unsigned char> mixed(stride, 7);
     set.refinement->markMixed(selected, columns.data(), 5, mixed.data());
@@ -149,26 +149,28 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
   const Floats sums = randomFloats(static_cast<std::size_t>(width) * kMomentCount, 0.1f, 9, 8);
   Floats before = randomFloats(width, 10, 12, 9);
   before[17] = std::numeric_limits<float>::quiet_NaN();
-  expectEqual([&](const KernelSet& set) {
-    Floats copy = sums, out(2 * width);
-    const PlaneRow row{momentsIn(copy, width),
-                       before.data(),
-                       width,
-                       50,
-                       0.1f,
-                       0.2f,
-                       70,
-                       0.01f,
-                       100,
-                       1e9f,
-                       1.5f,
-                       out.data(),
-                       out.data() + width};
-    set.refinement->solvePlanes(row);
-    set.refinement->estimatePlaneErrors(row);
-    EXPECT_TRUE(std::isnan(out[17]));
-    return out;
-  });
+  for (const float of_disparity : {1.0f, 0.0f})
+    expectEqual([&](const StereoKernels& set) {
+      Floats copy = sums, out(2 * width);
+      const PlaneRow row{momentsIn(copy, width),
+                         before.data(),
+                         width,
+                         of_disparity,
+                         50,
+                         0.1f,
+                         0.2f,
+                         70,
+                         0.01f,
+                         100,
+                         1e9f,
+                         1.5f,
+                         out.data(),
+                         out.data() + width};
+      set.refinement->solvePlanes(row);
+      set.refinement->estimatePlaneErrors(row);
+      EXPECT_TRUE(std::isnan(out[17]));
+      return out;
+    });
 }
 
 TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
@@ -178,25 +180,26 @@ TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
                slow_right = randomFloats(width + 8, 90, 110, 8);
   Floats disparity = randomFloats(width, -3, 40, 3);
   disparity[50] = std::numeric_limits<float>::quiet_NaN();
-  expectEqual([&](const KernelSet& set) {
-    Floats out(static_cast<std::size_t>(width) * 6);
-    set.refinement->residualRow({left.data(),
-                                 right.data() + 3,
-                                 slow_left.data(),
-                                 slow_right.data() + 3,
-                                 {0.5f, -1.5f, 0.01f, 304},
-                                 disparity.data(),
-                                 width,
-                                 {0.2f, 4.0f, 4.0f, 0.1f},
-                                 out.data(),
-                                 out.data() + width,
-                                 out.data() + 2 * width,
-                                 out.data() + 3 * width,
-                                 out.data() + 4 * width,
-                                 out.data() + 5 * width});
-    for (int k = 0; k < 6; ++k) EXPECT_EQ(out[k * width + 50], 0);  // no weight where unmatched
-    return out;
-  });
+  for (const float of_disparity : {1.0f, 0.0f})
+    expectEqual([&](const StereoKernels& set) {
+      Floats out(static_cast<std::size_t>(width) * 6);
+      set.refinement->residualRow({left.data(),
+                                   right.data() + 3,
+                                   slow_left.data(),
+                                   slow_right.data() + 3,
+                                   {0.5f, -1.5f, 0.01f, 304},
+                                   disparity.data(),
+                                   width,
+                                   {0.2f, 4.0f, 4.0f, 0.1f, of_disparity},
+                                   out.data(),
+                                   out.data() + width,
+                                   out.data() + 2 * width,
+                                   out.data() + 3 * width,
+                                   out.data() + 4 * width,
+                                   out.data() + 5 * width});
+      for (int k = 0; k < 6; ++k) EXPECT_EQ(out[k * width + 50], 0);  // no weight where unmatched
+      return out;
+    });
 }
 
 TEST_F(EveryInstructionSet, SmoothsACellAsTheFormulasSay) {
@@ -241,8 +244,9 @@ TEST_F(EveryInstructionSet, SmoothsACellAsTheFormulasSay) {
   for (int i = 0; i < list_.count; ++i) {
     Floats out = disparity;
     out.insert(out.end(), sigma.begin(), sigma.end());
-    list_.sets[i].smoothing->smoothCell(cell, kRow, kBegin, kEnd, out.data(), out.data() + kPixels);
-    EXPECT_TRUE(sameBytes(out, expected)) << list_.sets[i].name;
+    list_.sets[i]->smoothing->smoothCell(cell, kRow, kBegin, kEnd, out.data(),
+                                         out.data() + kPixels);
+    EXPECT_TRUE(sameBytes(out, expected)) << list_.sets[i]->name;
   }
 }
 
@@ -251,7 +255,7 @@ TEST_F(EveryInstructionSet, SolvesNormalsAlike) {
   Floats depth = randomFloats(static_cast<std::size_t>(stride) * 7, 48, 52, 21);
   depth[3 * stride + 40] = std::numeric_limits<float>::quiet_NaN();
   const Floats sums = randomFloats(static_cast<std::size_t>(stride) * kMomentCount, 0.1f, 49, 22);
-  expectEqual([&](const KernelSet& set) {
+  expectEqual([&](const StereoKernels& set) {
     Floats out(stride * 26ul, std::numeric_limits<float>::quiet_NaN()), copy = sums;
     for (int y = 0; y < 7; ++y)
       set.normal->invertRow({depth.data() + y * stride, width, out.data() + y * stride + 16,

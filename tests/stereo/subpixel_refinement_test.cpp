@@ -68,14 +68,62 @@ TEST(SubpixelRefinement, FollowsSlantAndCurvature) {
   }
 }
 
+/// Ridges along x, one every `length_mm`, about a plane at `distance_mm`.
+test::Surface ridges(double distance_mm, double height_mm, double length_mm) {
+  return [=](const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+    double s = distance_mm / direction.z();
+    for (int i = 0; i < 50; ++i) {
+      const double y = origin.y() + s * direction.y();
+      const double z = distance_mm + height_mm * std::sin(2 * M_PI * y / length_mm);
+      s = (z - origin.z()) / direction.z();
+    }
+    return s;
+  };
+}
+
+/// Share of the relief that is measured: slope of the regression of measured on true disparity.
+double shareOfRelief(const DisparityMap& map, const Raster<float>& truth) {
+  double count = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double t = truth.values[i], d = map.disparity_px.values[i];
+    if (std::isnan(d)) continue;
+    count += 1;
+    x += t;
+    y += d;
+    xx += t * t;
+    xy += t * d;
+  }
+  return (xy - x * y / count) / (xx - x * x / count);
+}
+
+TEST(SubpixelRefinement, ReturnsReliefThatWindowsLevelOut) {
+  // Ridges 20 px apart, with sensor noise of one grey level: planes alone keep 0.56 of them.
+  const auto scene = test::makeScene(test::endoscope(), ridges(55, 0.5, 3.93), 1.0);
+  const auto map = refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), {});
+  EXPECT_GT(shareOfRelief(map, scene.disparity_px), 0.75);
+  EXPECT_LT(shareOfRelief(map, scene.disparity_px), 1);
+}
+
+TEST(SubpixelRefinement, KnowsTheNoiseOfReturnedRelief) {
+  // With x = the squared frequency, a window's response is exp(-x), and noise passes its square.
+  double of_planes = 0, of_all_steps = 0;
+  constexpr double kSpacing = 1e-3;
+  for (double x = kSpacing / 2; x < 20; x += kSpacing) {
+    const double left = 1 - std::exp(-x);
+    of_planes += kSpacing * std::exp(-2 * x);
+    of_all_steps += kSpacing * std::pow(1 - left * left, 2);
+  }
+  EXPECT_NEAR(of_all_steps / of_planes, RefinementOptions::kReliefNoise, 1e-4);
+}
+
 TEST(SubpixelRefinement, PredictsItsError) {
   for (const double noise_gray : {1.0, 3.0, 6.0}) {
     const auto scene = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), noise_gray);
     const auto e =
         errorsOf(refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), {}),
                  scene.disparity_px);
-    // For a Gaussian, half of all errors lie within 0.67 standard errors. A factor of two either
-    // way is what the prediction promises.
+    // For a Gaussian, half of of_all_steps errors lie within 0.67 standard errors. A factor of two
+    // either way is what the prediction promises.
     EXPECT_GT(e.median_of_sigmas, 0.33) << noise_gray;
     EXPECT_LT(e.median_of_sigmas, 1.35) << noise_gray;
   }

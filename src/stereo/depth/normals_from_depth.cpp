@@ -7,8 +7,8 @@
 #include "core/not_measured.h"
 #include "core/parallel.h"
 #include "stereo/depth/depth_from_disparity.h"
-#include "stereo/kernels/kernel_sets.h"
 #include "stereo/kernels/refinement_formulas.h"
+#include "stereo/kernels/stereo_kernels.h"
 #include "stereo/refinement/plane.h"
 
 namespace softscope {

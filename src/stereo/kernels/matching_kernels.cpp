@@ -1,6 +1,7 @@
 // src/stereo/kernels/matching_kernels.cpp: SOFTSCOPE_SIMD_SET names the instruction set.
 #include "stereo/kernels/matching_kernels.h"
 
+#include "core/kernel_list.h"
 #include "stereo/kernels/matching_formulas.h"
 #include "stereo/kernels/simd.h"
 

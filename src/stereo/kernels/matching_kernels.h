@@ -1,7 +1,7 @@
 // src/stereo/kernels/matching_kernels.h: the inner loops of matching: gradients, support costs,
 // tiles.
 //
-// Compiled once for each instruction set (kernel_sets.h). Raw pointers only: a header-only
+// Compiled once for each instruction set (stereo_kernels.h). Raw pointers only: a header-only
 // container compiled with AVX2 could be picked by the linker for the whole program. Floating point
 // is never contracted, so that every set gives the same bytes.
 #pragma once

@@ -48,10 +48,11 @@ SOFTSCOPE_FORMULA PixelResidual<V> pixelResidual(V left, const ValueAndSlope<V>&
   const V value = right.value + slow.value, g = right.slope + slow.slope, r = value - left;
   const V w = inside / (1.0f + r * r * limits.inverse_noise_sq);
   // The error counts the information of the low-pass part in part only, and not the prior.
+  const V linear = limits.of_disparity * d;  // the planes fit it
   const V told = g * g - right.slope * right.slope;
   const V judged = w * (1.0f + (told > 0.0f ? told : V{}) * limits.steadying);
   return {w * (g * g + prior_weight),
-          w * (g * (g * d + r) + prior_weight * d),
+          w * (g * (g * linear + r) + prior_weight * linear),
           judged * r * r,
           judged,
           inside * r * r,
@@ -115,15 +116,16 @@ SOFTSCOPE_FORMULA void windowMomentsOf(const Column& column, const float* window
   sums[8] = even[4];
 }
 
-/// Disparity by Cramer's rule from the nine moments; `nan` for a degenerate window.
+/// Disparity by Cramer's rule from the nine moments, of the disparity or its difference: see
+/// ResidualLimits. `nan` for a degenerate window.
 template <class V>
-SOFTSCOPE_FORMULA V planeDisparity(const V (&m)[9], V before, float farthest_step_px,
-                                   float relaxation, V nan) {
+SOFTSCOPE_FORMULA V planeDisparity(const V (&m)[9], V before, float of_disparity,
+                                   float farthest_step_px, float relaxation, V nan) {
   const V a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
   const V c00 = d * f - e * e, c01 = c * e - b * f, c02 = b * e - c * d;
   const V determinant = a * c00 + b * c01 + c * c02;
   const V found = (c00 * m[6] + c01 * m[7] + c02 * m[8]) / determinant;
-  const V step = found - before, apart = step < 0.0f ? -step : step;
+  const V step = found - of_disparity * before, apart = step < 0.0f ? -step : step;
   // Comparisons with NaN are false, so an unmatched pixel stays unmatched.
   const auto holds = (determinant > 1e-3f * a * d * f) & (apart < farthest_step_px);
   return holds ? before + relaxation * step : nan;

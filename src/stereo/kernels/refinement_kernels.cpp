@@ -1,6 +1,7 @@
 // src/stereo/kernels/refinement_kernels.cpp: SOFTSCOPE_SIMD_SET names the instruction set.
 #include "stereo/kernels/refinement_kernels.h"
 
+#include "core/kernel_list.h"
 #include "stereo/kernels/refinement_formulas.h"
 #include "stereo/kernels/simd.h"
 
@@ -176,8 +177,8 @@ void solvePlanes(const PlaneRow& row) {
   for (int u = 0; u < row.width; u += kFloatLanes) {
     Floats m[kFirstEvidence];
     loadMoments(row.moments, u, m);
-    store(row.disparity + u, planeDisparity(m, loadFloats(row.before + u), row.farthest_step_px,
-                                            row.relaxation, broadcast(kNaN)));
+    store(row.disparity + u, planeDisparity(m, loadFloats(row.before + u), row.of_disparity,
+                                            row.farthest_step_px, row.relaxation, broadcast(kNaN)));
   }
 }
 

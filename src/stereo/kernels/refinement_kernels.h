@@ -1,6 +1,6 @@
 // src/stereo/kernels/refinement_kernels.h: the inner loops of sub-pixel refinement:
 // residuals, moments, planes. Compiled once for each instruction set
-// (kernel_sets.h). Raw pointers only: a header-only container compiled with AVX2
+// (stereo_kernels.h). Raw pointers only: a header-only container compiled with AVX2
 // could be picked by the linker for the whole program. Floating point is never
 // contracted, so that every set gives the same bytes. Rows are processed up to eight
 // values at a time: all must be readable and writable up to the next multiple of
@@ -17,6 +17,7 @@ struct ResidualLimits {
   float prior_weight;      // (noise / prior sigma)²
   float light_gray_sq;     // see agreedSlowPart()
   float steadying;         // of the low-pass part, which is no evidence, in prior weights
+  float of_disparity;      // 1: planes fit the disparity, 0: the remaining difference
 };
 
 /// Inputs and outputs of one row of brightness residuals, see subpixel_refinement.cpp.
@@ -30,7 +31,7 @@ struct ResidualRow {
   int width;
   ResidualLimits limits;
   float* information;  // w (g² + prior_weight)
-  float* target;       // w (g (g d + R - L) + prior_weight d)
+  float* target;       // w (g (g d + R - L) + prior_weight d), d = 0 for a difference
   // Terms of the error estimate, all null but in the last step.
   float* residual_sq;    // w' (R - L)²
   float* weight;         // w' = w (1 + steadying * information of the low-pass part)
@@ -55,6 +56,7 @@ struct PlaneRow {
   MomentRow moments;
   const float* before;  // disparity, NaN = unmatched
   int width;
+  float of_disparity;      // see ResidualLimits
   float farthest_step_px;  // NaN if the plane is farther away
   float prior_weight;      // see ResidualRow
   float noise_floor_sq;

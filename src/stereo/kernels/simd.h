@@ -1,15 +1,11 @@
 // src/stereo/kernels/simd.h: SIMD values of any register width.
 //
-// For the files that are compiled once for each instruction set (kernel_sets.h): everything here is
-// local to the file that includes it.
+// For the files that are compiled once for each instruction set (stereo_kernels.h): everything here
+// is local to the file that includes it.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
-
-// Name of a function of one set.
-#define SOFTSCOPE_NAME_(name, set) name##_##set
-#define SOFTSCOPE_NAME(name, set) SOFTSCOPE_NAME_(name, set)
 
 namespace softscope {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "stereo/kernels/kernel_sets.h"
 #include "stereo/kernels/matching_formulas.h"
+#include "stereo/kernels/stereo_kernels.h"
 #include "stereo/matching/plane_prior.h"
 #include "stereo/matching/row_prior.h"
 

@@ -6,8 +6,8 @@
 
 #include "core/parallel.h"
 #include "core/raster.h"
-#include "stereo/kernels/kernel_sets.h"
 #include "stereo/kernels/matching_formulas.h"
+#include "stereo/kernels/stereo_kernels.h"
 
 namespace softscope {
 namespace {

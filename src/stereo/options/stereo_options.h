@@ -52,7 +52,9 @@ struct ElasOptions {
 
 /// Sub-pixel refinement: a plane fitted to the brightness in a window about each pixel.
 struct RefinementOptions {
-  static constexpr int iterations = 3;
+  // Steps: first the plane of the disparity, then that of the remaining difference, which returns
+  // relief that the planes have levelled out.
+  static constexpr int plane_steps = 3, relief_steps = 2, steps = plane_steps + relief_steps;
   static constexpr int radius_px = 6;  // window is (2 r + 1)²
   // Brightness is split at this scale. The high-pass part always counts; the low-pass
   // part, which light and exposure change, where both cameras agree (docs/stereo.md, 4).
@@ -67,7 +69,7 @@ struct RefinementOptions {
   static constexpr double model_sigma_px = 0.05;   // error independent of texture
   // weight of the matched disparity where texture is weak
   static constexpr double prior_sigma_px = 1.0;
-  static constexpr double relaxation = 1.5;  // share of each step applied, except the last
+  static constexpr double relaxation[plane_steps] = {2, 1.5, 1};  // share of a step applied
   // (R - L)² as a share of R² + L²; unrelated images have 1
   static constexpr double max_difference = 0.5;
   // pixels whose predicted standard error is larger are dropped
@@ -75,7 +77,12 @@ struct RefinementOptions {
 
   /// Standard deviation of the Gaussian window, and the area of correlated errors.
   double windowSigmaPx() const { return 0.55 * radius_px; }
-  double independentPx2() const { return 4 * M_PI * windowSigmaPx() * windowSigmaPx(); }
+  double independentPx2() const {
+    return 4 * M_PI * windowSigmaPx() * windowSigmaPx() / kReliefNoise;
+  }
+  /// Variance of noise after all steps over that of the planes alone: the integral of
+  /// (1 - (1 - P)²)² over that of P², P the Gaussian response of a window.
+  static constexpr double kReliefNoise = 11.0 / 6;
 
   static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row
 };

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "stereo/kernels/kernel_sets.h"
 #include "stereo/kernels/smoothing_formulas.h"
+#include "stereo/kernels/stereo_kernels.h"
 
 namespace softscope {
 namespace {

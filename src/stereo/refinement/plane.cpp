@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "stereo/kernels/kernel_sets.h"
+#include "stereo/kernels/stereo_kernels.h"
 #include "stereo/refinement/refinement_window.h"
 
 namespace softscope {

@@ -51,16 +51,28 @@ inline RefinementWindow refinementWindow(const RefinementOptions& options) {
   return window;
 }
 
+/// One step of the refinement.
+struct RefinementStep {
+  float relaxation;    // share of the step that is applied; above 1 converges faster
+  float of_disparity;  // 1: its planes fit the disparity, 0: the remaining difference
+  bool last;
+};
+inline RefinementStep refinementStep(int i) {
+  using Options = RefinementOptions;
+  return {i < Options::plane_steps ? static_cast<float>(Options::relaxation[i]) : 1.0f,
+          i < Options::plane_steps ? 1.0f : 0.0f, i + 1 == Options::steps};
+}
+
 /// Weight of the matched disparity against the brightness.
 inline float disparityPriorWeight(const RefinementOptions& options) {
   return static_cast<float>(std::pow(options.noise_gray / options.prior_sigma_px, 2));
 }
-inline ResidualLimits residualLimits(const RefinementOptions& options) {
+inline ResidualLimits residualLimits(const RefinementOptions& options, const RefinementStep& step) {
   const float noise = static_cast<float>(options.noise_gray),
               light = static_cast<float>(options.light_gray);
   const float prior_weight = disparityPriorWeight(options);
   return {1 / (noise * noise), prior_weight, light * light,
-          static_cast<float>(1 - options.slow_evidence) / prior_weight};
+          static_cast<float>(1 - options.slow_evidence) / prior_weight, step.of_disparity};
 }
 
 /// Limits of estimatePlaneErrors(), squared as in PlaneRow.

@@ -7,7 +7,7 @@
 
 #include "core/not_measured.h"
 #include "core/parallel.h"
-#include "stereo/kernels/kernel_sets.h"
+#include "stereo/kernels/stereo_kernels.h"
 #include "stereo/refinement/depth_steps.h"
 #include "stereo/refinement/plane.h"
 #include "stereo/refinement/refinement_window.h"
@@ -27,14 +27,12 @@ struct RefinementContext {
         left(splitBrightness(left_image, refinement.highpass_sigma_px)),
         right(splitBrightness(right_image, refinement.highpass_sigma_px)),
         window(refinementWindow(refinement)),
-        residual_limits(residualLimits(refinement)),
         limits(planeLimits(refinement)) {}
 
   RefinementOptions options;
   int width, height;
   BrightnessParts left, right;
   RefinementWindow window;
-  ResidualLimits residual_limits;
   PlaneLimits limits;
 };
 
@@ -47,6 +45,7 @@ class Band {
     const LightDifference& light;
     const Plane& disparity;
     Plane& next;
+    RefinementStep rules;
     Plane* sigma;                 // null but in the last step, which is complete and gives errors
     Raster<std::uint8_t>& mixed;  // windows that may contain two surfaces; after the first step: do
     bool first;                   // mixed windows, slow to solve, wait for the next step
@@ -59,6 +58,8 @@ class Band {
         light_(step.light),
         disparity_(step.disparity),
         next_(step.next),
+        rules_(step.rules),
+        residual_limits_(residualLimits(context.options, step.rules)),
         sigma_(step.sigma),
         mixed_(step.mixed),
         first_(step.first),
@@ -88,7 +89,7 @@ class Band {
     refinementKernels().residualRow(
         {context_.left.fast.row(v), context_.right.fast.row(v), context_.left.slow.row(v),
          context_.right.slow.row(v), lightOfRow(light_, v, width_, context_.height),
-         disparity_.row(v), width_, context_.residual_limits, pixel(kInformation), pixel(kTarget),
+         disparity_.row(v), width_, residual_limits_, pixel(kInformation), pixel(kTarget),
          pixel(kResidualSq), pixel(kWeight), pixel(kDifferenceSq), pixel(kEnergy)});
   }
 
@@ -102,6 +103,7 @@ class Band {
     const PlaneRow row{moments,
                        disparity_.row(v),
                        width_,
+                       rules_.of_disparity,
                        limits.farthest_step_px,
                        limits.prior_weight,
                        limits.noise_floor_sq,
@@ -109,7 +111,7 @@ class Band {
                        limits.model_variance_px2,
                        limits.max_variance_px2,
                        limits.max_difference,
-                       sigma_ != nullptr ? 1.0f : static_cast<float>(context_.options.relaxation),
+                       rules_.relaxation,
                        next_.row(v),
                        sigma_ != nullptr ? sigma_->row(v) : nullptr};
     refinementKernels().solvePlanes(row);
@@ -188,6 +190,8 @@ class Band {
   LightDifference light_;
   const Plane& disparity_;
   Plane& next_;
+  RefinementStep rules_;
+  ResidualLimits residual_limits_;
   Plane* sigma_;
   Raster<std::uint8_t>& mixed_;
   bool first_;
@@ -237,12 +241,12 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   const int width = left.width_px, height = left.height_px;
   Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
   LightDifference light;
-  for (int i = 0; i < options.iterations; ++i) {
-    const bool last = i + 1 == options.iterations;
+  for (int i = 0; i < options.steps; ++i) {
+    const RefinementStep rules = refinementStep(i);
     for (int round = 0; round < LightFit::rounds(i); ++round)
       light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
     parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(context, {light, disparity, next, last ? &sigma : nullptr, mixed, i == 0})
+      Band(context, {light, disparity, next, rules, rules.last ? &sigma : nullptr, mixed, i == 0})
           .solve(begin, end);
     });
     std::swap(disparity, next);

@@ -1,6 +1,8 @@
-// src/stereo/kernels/kernel_sets.h: instruction sets that this processor supports.
+// src/stereo/kernels/stereo_kernels.h: the inner loops of stereo, compiled once for each
+// instruction set.
 #pragma once
 
+#include "core/kernel_list.h"
 #include "stereo/kernels/matching_kernels.h"
 #include "stereo/kernels/normal_kernels.h"
 #include "stereo/kernels/refinement_kernels.h"
@@ -8,7 +10,7 @@
 
 namespace softscope {
 
-struct KernelSet {
+struct StereoKernels {
   const char* name;  // "baseline", "avx2"
   const MatchingKernels* matching;
   const RefinementKernels* refinement;
@@ -16,12 +18,8 @@ struct KernelSet {
   const SmoothingKernels* smoothing;
 };
 
-/// Every set that this processor runs, slowest first.
-struct KernelSetList {
-  KernelSet sets[2];
-  int count;
-};
-KernelSetList allKernelSets();
+/// Sets that this processor supports, slowest first.
+KernelList<StereoKernels> allStereoKernels();
 
 /// Of the fastest set.
 const MatchingKernels& matchingKernels();
