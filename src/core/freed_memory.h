@@ -1,0 +1,10 @@
+// src/core/freed_memory.h: freed memory, kept by the program instead of returned to the system.
+#pragma once
+
+namespace softscope {
+
+/// Large arrays of a frame then take the memory of those before, instead of new pages that the
+/// system clears first. Without effect where the C library is not glibc. For a program's start.
+void keepFreedMemory();
+
+}  // namespace softscope
