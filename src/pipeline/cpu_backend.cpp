@@ -13,6 +13,7 @@
 #include "pipeline/accepted_warp.h"
 #include "pipeline/frame_ahead.h"
 #include "pipeline/graph_ahead.h"
+#include "pipeline/key_point_matches.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/relocaliser.h"
 #include "pipeline/track_pictures.h"
@@ -24,7 +25,6 @@ namespace softscope {
 namespace {
 
 constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
-constexpr std::size_t kMatchesPerTask = 512;
 
 class CpuBackend : public ReconstructionBackend {
  public:
@@ -40,7 +40,8 @@ class CpuBackend : public ReconstructionBackend {
         pose_search_(parts.makePoseSearch()),
         solver_(parts.makeSolver(options.deform)),
         comparer_(parts.makeComparer(rig())),
-        updater_(parts.makeUpdater(rig())) {
+        updater_(parts.makeUpdater(rig())),
+        surface_(parts.makeSurface()) {
     options.validate();
   }
 
@@ -110,6 +111,7 @@ class CpuBackend : public ReconstructionBackend {
   FrameView frame_;
   std::unique_ptr<FrameComparer> comparer_;  // may read frame_ until endFrame()
   std::unique_ptr<ModelUpdater> updater_;
+  std::unique_ptr<SurfaceSearch> surface_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
   std::optional<ModelComparison> comparison_;  // with the warped model
@@ -224,40 +226,8 @@ DeformObservation CpuBackend::matchConstraints(const Eigen::Isometry3d& world_fr
   DeformObservation seen;
   seen.surface = &surface;
   seen.visible = &visible;
-  if (options_.deform.correspondence_weight == 0) return seen;
-  const double reference_mm = frame_.association.reference_sigma_mm;
-  const auto addMatch = [&](std::size_t i, std::vector<KeyPointMatch>* found) {
-    const LiftedMatch& match = matches_[i];
-    // Outliers whose windows agree are moving tissue; the others are wrong matches.
-    if (pose_.found && pose_.inlier[i] == 0 && !(match.similarity > 0)) return;
-    KeyPointMatch pull;
-    pull.model_point = match.model_point;
-    pull.source_mm = match.source_world_mm;
-    pull.target_mm = (world_from_left * match.target_left_mm.cast<double>()).cast<float>();
-    if ((pull.target_mm - pull.source_mm).norm() > frame_.association.max_distance_mm) return;
-    if (std::isfinite(match.along_mm) && reference_mm > 0) {
-      const Eigen::Vector3f ray =
-          (world_from_left.linear() * match.target_left_mm.cast<double>().normalized())
-              .cast<float>();
-      pull.sqrt_information =
-          matchSqrtInformation(ray, match.along_mm, match.across_mm, reference_mm);
-    }
-    found->push_back(pull);
-  };
-  const std::size_t tasks = (matches_.size() + kMatchesPerTask - 1) / kMatchesPerTask;
-  std::vector<std::vector<KeyPointMatch>> parts(tasks);
-  parallelRanges(static_cast<int>(tasks), 1, [&](int begin, int end) {
-    for (std::size_t task = static_cast<std::size_t>(begin); task < static_cast<std::size_t>(end);
-         ++task) {
-      parts[task].reserve(kMatchesPerTask);
-      for (std::size_t i = task * kMatchesPerTask;
-           i < std::min(matches_.size(), (task + 1) * kMatchesPerTask); ++i)
-        addMatch(i, &parts[task]);
-    }
-  });
-  seen.matches.reserve(matches_.size());
-  for (const std::vector<KeyPointMatch>& part : parts)
-    seen.matches.insert(seen.matches.end(), part.begin(), part.end());
+  if (options_.deform.correspondence_weight > 0)
+    seen.matches = keyPointMatches(matches_, pose_, frame_.association, world_from_left);
   return seen;
 }
 
@@ -273,8 +243,9 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   WarpSummary summary;
   summary.in_sight = static_cast<int>(visible.size());
   summary.nodes = static_cast<int>(state_.graph.size());
-  summary.solver = solver_->solve(state_.model, matchConstraints(world_from_left, surface, visible),
-                                  &state_.graph);
+  const DeformObservation seen = matchConstraints(world_from_left, surface, visible);
+  growth_.waitForSolver();
+  summary.solver = solver_->solve(state_.model, seen, &state_.graph);
   clock_.lap("solve");
   return summary;
 }
@@ -341,17 +312,18 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   clock_.lap("fuse");
   parallelInvoke(
       [&] {
-        state_.tracked.renumber(update.index_map, state_.model);
+        state_.tracked.renumber(update.index_map, state_.model, surface_.get());
         if (first) {
           state_.tracked.anchor(state_.model);
           if (tracks())
             state_.tracked.look(looks_.pictures().looks, state_.model, left(), world_from_left);
         }
         state_.tracked.settle(state_.model, world_from_left.translation(),
-                              frame_.summary.limit_scale);
+                              frame_.summary.limit_scale, surface_.get());
+        // Not beside the search: both may work on the model of a device.
+        fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
       },
       [&] {
-        fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
         state_.errors.observe(frame_.measured.depth, rig(), world_from_left, state_.graph,
                               frame_.fusion);
       });

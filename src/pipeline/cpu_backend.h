@@ -9,6 +9,7 @@
 #include "deform/solver/lm_solver.h"
 #include "fusion/frame_comparer.h"
 #include "fusion/model_updater.h"
+#include "fusion/surface_search.h"
 #include "pipeline/match_stage.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
@@ -31,6 +32,9 @@ struct BackendParts {
       [](const RectifiedRig&) { return std::make_unique<CpuFrameComparer>(); };
   std::function<std::unique_ptr<ModelUpdater>(const RectifiedRig&)> makeUpdater =
       [](const RectifiedRig&) { return std::make_unique<CpuModelUpdater>(); };
+  std::function<std::unique_ptr<SurfaceSearch>()> makeSurface = [] {
+    return std::make_unique<CpuSurfaceSearch>();
+  };
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp.
   int ahead_from_threads = 2;

@@ -8,6 +8,7 @@
 #include "cuda/locate/locate.h"
 #include "cuda/pose/pose.h"
 #include "cuda/stereo/stereo.h"
+#include "cuda/surface/surface.h"
 #include "cuda/warp/warp.h"
 #include "deform/solver/device_warp_system.h"
 #include "pipeline/cpu_backend.h"
@@ -137,6 +138,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.makeUpdater = [rasters, model](const RectifiedRig& rig) {
     return cuda::makeModelUpdater(rig.left, rasters, model);
   };
+  parts.makeSurface = [model] { return cuda::makeSurfaceSearch(model); };
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;
   return makeCpuBackend(calibration, options, parts);

@@ -9,27 +9,42 @@ namespace softscope {
 void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
                          const WarpGraph& graph, DeformSolver* solver) {
   drop();
-  result_ = std::async(std::launch::async, [this, options, &model, &graph, solver] {
-    grown_.bindings = model.bindings;
-    grown_.graph = graph;
-    growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
-    solver->prepare(grown_.graph);
-  });
+  std::promise<void> grown;
+  growth_ = grown.get_future();
+  thread_ = std::async(std::launch::async,
+                       [this, options, &model, &graph, solver, grown = std::move(grown)]() mutable {
+                         try {
+                           grown_.bindings = model.bindings;
+                           grown_.graph = graph;
+                           growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
+                           analysed_ = grown_.graph;
+                         } catch (...) {
+                           grown.set_exception(std::current_exception());
+                           return;
+                         }
+                         grown.set_value();
+                         solver->prepare(analysed_);
+                       });
 }
 
 void GraphAhead::grow(const GraphOptions& options, PointModel* model, WarpGraph* graph) {
-  if (!result_.valid()) {
+  if (!growth_.valid()) {
     growGraph(options, model, graph);
     return;
   }
-  result_.get();
+  growth_.get();
   std::swap(model->bindings, grown_.bindings);
   std::swap(*graph, grown_.graph);
 }
 
+void GraphAhead::waitForSolver() {
+  if (thread_.valid()) thread_.get();
+}
+
 void GraphAhead::drop() {
-  if (result_.valid()) result_.wait();
-  result_ = {};
+  if (thread_.valid()) thread_.wait();
+  thread_ = {};
+  growth_ = {};
 }
 
 }  // namespace softscope

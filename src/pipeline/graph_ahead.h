@@ -15,11 +15,14 @@ namespace softscope {
 class GraphAhead {
  public:
   /// Starts growth on copies, and prepares the solver for the result. Model and graph
-  /// must live and be unchanged, and the solver unused, until grow() or drop().
+  /// must live and be unchanged until grow() or drop(), and the solver unused until
+  /// waitForSolver() or drop().
   void prepare(const GraphOptions& options, const PointModel& model, const WarpGraph& graph,
                DeformSolver* solver);
   /// Takes the growth started for this model and graph, or grows them now.
   void grow(const GraphOptions& options, PointModel* model, WarpGraph* graph);
+  /// Waits until the solver is prepared, which goes on after grow().
+  void waitForSolver();
   /// Waits for the growth in progress and discards it.
   void drop();
 
@@ -28,8 +31,9 @@ class GraphAhead {
     std::vector<PointBinding> bindings;
     WarpGraph graph;
   };
-  Grown grown_;               // of result_; otherwise memory to reuse
-  std::future<void> result_;  // its thread ends before grown_ is destroyed
+  Grown grown_;                        // of growth_; otherwise memory to reuse
+  WarpGraph analysed_;                 // by the solver
+  std::future<void> growth_, thread_;  // the thread ends before its memory is destroyed
 };
 
 }  // namespace softscope

@@ -13,6 +13,7 @@
 #include "core/raster.h"
 #include "core/warp_graph.h"
 #include "fusion/density_grid.h"
+#include "fusion/surface_search.h"
 #include "pipeline/first_look.h"
 
 namespace softscope {
@@ -57,8 +58,8 @@ class MaterialPoints {
   void anchor(const PointModel& model);
   /// Moves them by the warp of the graph, before it is re-based.
   void warp(const WarpGraph& graph, const PointModel& model);
-  /// Updates the numbers of model points.
-  void renumber(const IndexMap& map, const PointModel& model);
+  /// Updates the numbers of model points. `search`: null for that of the CPU.
+  void renumber(const IndexMap& map, const PointModel& model, SurfaceSearch* search = nullptr);
   /// Takes their first looks from the image, once they are on
   /// the tissue; their surface is that of the model around them.
   void look(const LookPicture& picture, const PointModel& model, const PinholeCamera& left,
@@ -72,7 +73,9 @@ class MaterialPoints {
   /// Projects them onto the surface of the model points around them, along the
   /// rays of the scope at `scope_mm`, like fusion moves the points of the model:
   /// docs/fusion.md (F8). `limit_scale`: DepthSummary::limit_scale of the frame.
-  void settle(const PointModel& model, const Eigen::Vector3d& scope_mm, double limit_scale);
+  /// `search`: null for that of the CPU.
+  void settle(const PointModel& model, const Eigen::Vector3d& scope_mm, double limit_scale,
+              SurfaceSearch* search = nullptr);
 
   std::vector<Point> points;
   /// Drift variance of a warp, per direction, from the last first looks; NaN before.

@@ -1,8 +1,10 @@
 #include "pipeline/track_sight.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/parallel.h"
 #include "fusion/fusion_options.h"
 #include "stereo/depth/relief_error.h"
 
@@ -62,9 +64,9 @@ Raster<float> TrackSight::reliefPx() const {
 std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked,
                                                    const Eigen::Isometry3d& world_from_left,
                                                    const Raster<float>& relief_px) const {
-  std::vector<TrackedPosition> positions;
+  constexpr int kTracksPerTask = 8;
   const DepthMap& depth = frame_.measured.depth;
-  for (const MaterialPoints::Point& point : tracked.points) {
+  const auto positionOf = [&](const MaterialPoints::Point& point) {
     const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
     const NearestDepth surface = surfaceAt(centre, gapPx(depth.depth_mm.width_px));
     TrackedPosition position{point.id, point.position_mm,
@@ -73,8 +75,13 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
       position.sigma_mm =
           std::sqrt(2 * point.variance_mm2 +
                     depthVarianceMm2(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_));
-    positions.push_back(position);
-  }
+    return position;
+  };
+  std::vector<TrackedPosition> positions(tracked.points.size());
+  parallelRanges(static_cast<int>(positions.size()), kTracksPerTask, [&](int begin, int end) {
+    std::transform(tracked.points.begin() + begin, tracked.points.begin() + end,
+                   positions.begin() + begin, positionOf);
+  });
   return positions;
 }
 
