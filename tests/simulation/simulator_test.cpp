@@ -97,6 +97,25 @@ TEST(Simulator, TracksStayOnTheirTissueAndStartAtTheirPixels) {
   EXPECT_GT((later.tracks_world_mm[0] - first.tracks_world_mm[0]).norm(), 0.1);  // it did move
 }
 
+/// Share of the tracked points, after a quarter of the period of the scope's path.
+double outOfViewAtTheTurn(const SimulationOptions& options) {
+  const double quarter_s = options.camera.period_s / 4;
+  Simulator simulator = smallSimulator(options);
+  const std::vector<bool> visible =
+      simulator.frame(int(quarter_s * options.frames_per_second)).tracks_visible;
+  return double(std::count(visible.begin(), visible.end(), false)) / double(visible.size());
+}
+
+TEST(Simulator, OnlyPointsNearTheBorderOfTheFirstImageLeaveTheView) {
+  SimulationOptions options = smallOptions();
+  options.organ.lobe_mm = options.organ.fold_mm = 0;  // no rim within the view
+  options.camera.amplitude_mm = 12;
+  options.track_spacing_px = 6;
+  EXPECT_EQ(outOfViewAtTheTurn(options), 0);
+  options.track_border = 0.02;
+  EXPECT_GT(outOfViewAtTheTurn(options), 0.03);
+}
+
 TEST(Simulator, DepthAgreesWithTheMeshSeenFromTheTrajectory) {
   SimulationOptions options = smallOptions();
   options.camera.path = "orbit";

@@ -44,6 +44,7 @@ struct SimulationOptions {
   double frames_per_second = 25;
   double texel_mm = 0;        // 0: three quarters of a pixel at the distance of the camera
   int track_spacing_px = 20;  // between neighbouring tracked points of the first image
+  double track_border = 0.2;  // share of its width and height without tracked points
   OrganOptions organ;
   TextureOptions texture;
   DeformationOptions deformation;

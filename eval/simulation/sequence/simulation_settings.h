@@ -34,6 +34,8 @@ void describe(Visitor& v, SimulationOptions& o) {
   v("frames_per_second", o.frames_per_second, aboveUpTo(0, 1000), "of the sequence");
   v("seed", o.seed, atLeast(0), "of all random numbers");
   v("track_spacing_px", o.track_spacing_px, between(2, 10000), "between tracked points");
+  v("track_border", o.track_border, between(0, 0.45),
+    "share of the first image, at each side, without tracked points");
   v("texture.texel_mm", o.texel_mm, between(0, 10), "0.005 or more; 0: three quarters of a pixel");
   v("smoke", o.smoke, between(0, 3), "0: clear air, 1: half of the contrast");
   describe(v, o.organ);

@@ -136,7 +136,7 @@ Simulator::Simulator(TriangleMesh rest_mesh, const SimulationOptions& options)
   const Mask hidden = instrumentMask(hits, instrumentAt(0), lens_);
   for (std::size_t i = 0; i < hits.size(); ++i)
     if (hidden.values[i] != 0) hits.values[i] = {};  // hidden: no track starts there
-  track_points_ = chooseTrackPoints(hits, options.track_spacing_px);
+  track_points_ = chooseTrackPoints(hits, options.track_spacing_px, options.track_border);
 }
 
 std::vector<Eigen::Vector3f> Simulator::worldVertices(double time_s) {

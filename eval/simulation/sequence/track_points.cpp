@@ -3,9 +3,11 @@
 
 namespace softscope {
 
-std::vector<TrackPoint> chooseTrackPoints(const Raster<RayHit>& first_hits, int spacing_px) {
+std::vector<TrackPoint> chooseTrackPoints(const Raster<RayHit>& first_hits, int spacing_px,
+                                          double border) {
   std::vector<TrackPoint> points;
-  const int left = first_hits.width_px / 5, top = first_hits.height_px / 5;
+  const int left = static_cast<int>(border * first_hits.width_px);
+  const int top = static_cast<int>(border * first_hits.height_px);
   for (int v = top; v < first_hits.height_px - top; v += spacing_px)
     for (int u = left; u < first_hits.width_px - left; u += spacing_px)
       if (const RayHit& hit = first_hits.at(u, v); hit.met())

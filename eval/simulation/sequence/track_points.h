@@ -17,8 +17,9 @@ struct TrackPoint {
   double u = 0, v = 0;  // a + u (b - a) + v (c - a)
 };
 
-/// Grid of pixels, without a fifth of the image at its border, on tissue only.
-std::vector<TrackPoint> chooseTrackPoints(const Raster<RayHit>& first_hits, int spacing_px);
+/// Grid of pixels on tissue, without a border of the share `border` of the width and height.
+std::vector<TrackPoint> chooseTrackPoints(const Raster<RayHit>& first_hits, int spacing_px,
+                                          double border);
 
 Eigen::Vector3d positionOf(const TrackPoint& point, const std::vector<Eigen::Vector3f>& vertices_mm,
                            const std::vector<Triangle>& triangles);
