@@ -18,7 +18,9 @@ using testing::StartsWith;
 class Benchmark : public InFolder {
  protected:
   void simulate(const std::string& out, const std::vector<std::string>& more) const {
-    std::vector<std::string> words{"simulate", "--out", at(out), "--size", "240x180", "--quiet"};
+    std::vector<std::string> words{
+        "simulate", "--out", at(out), "--size", "240x180", "--set", "organ.cells_per_side=30",
+        "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run(words);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -124,6 +124,18 @@ class NormalNoise {
   bool has_second_ = false;
 };
 
+/// A row of a 3 x 3 matrix. Plain numbers: under sanitizers the product of Eigen, which clang does
+/// not inline there, was three quarters of the time of these tests.
+struct MatrixRow {
+  double x, y, z;
+
+  MatrixRow(const Eigen::Matrix3d& matrix, int row)
+      : x(matrix(row, 0)), y(matrix(row, 1)), z(matrix(row, 2)) {}
+
+  /// Times (x, y, 1).
+  double times(const cv::Point2d& ray) const { return x * ray.x + y * ray.y + z; }
+};
+
 GrayImage renderWith(const BoardRendering& rendering, const std::vector<cv::Point2d>& rays,
                      const RawCamera& camera, const Eigen::Isometry3d& camera_from_board,
                      int noise_seed) {
@@ -134,6 +146,7 @@ GrayImage renderWith(const BoardRendering& rendering, const std::vector<cv::Poin
   h << camera_from_board.linear().col(0), camera_from_board.linear().col(1),
       camera_from_board.translation();
   const Eigen::Matrix3d board_from_ray = h.inverse();
+  const MatrixRow x_row(board_from_ray, 0), y_row(board_from_ray, 1), z_row(board_from_ray, 2);
   cv::Mat light(height, width, CV_32F);
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
@@ -142,9 +155,9 @@ GrayImage renderWith(const BoardRendering& rendering, const std::vector<cv::Poin
         for (int i = 0; i < kRays; ++i) {
           const cv::Point2d& ray = rays[std::size_t(v * kRays + j) * std::size_t(width * kRays) +
                                         std::size_t(u * kRays + i)];
-          const Eigen::Vector3d p = board_from_ray * Eigen::Vector3d(ray.x, ray.y, 1);
-          // p.z() is 1 / depth
-          sum += face.at(p.x() / p.z(), p.y() / p.z(), 1 / (p.z() * camera.pinhole.fx_px * kRays));
+          const double z = z_row.times(ray);  // 1 / depth
+          sum += face.at(x_row.times(ray) / z, y_row.times(ray) / z,
+                         1 / (z * camera.pinhole.fx_px * kRays));
         }
       light.at<float>(v, u) = float(sum / (kRays * kRays));
     }

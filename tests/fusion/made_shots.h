@@ -40,11 +40,19 @@ inline Eigen::Isometry3d shifted(double x, double y, double z) {
   return pose;
 }
 
+/// The pose's rotation of a direction. Written out: the product of Eigen, which clang does not
+/// inline under sanitizers, was half of the time of these tests.
+inline Eigen::Vector3d rotated(const Eigen::Isometry3d& pose, const Eigen::Vector3d& direction) {
+  const double x = direction.x(), y = direction.y(), z = direction.z();
+  const auto row = [&](int i) { return pose(i, 0) * x + pose(i, 1) * y + pose(i, 2) * z; };
+  return {row(0), row(1), row(2)};
+}
+
 /// Depth, mm, at which (u, v) sees the surface (world frame); NaN where it misses.
 inline double trueDepth(const Surface& surface, const PinholeCamera& left,
                         const Eigen::Isometry3d& world_from_left, double u, double v) {
   const Eigen::Vector3d ray = liftPixel(left, u, v, 1.0);
-  const double t = surface(world_from_left.translation(), world_from_left.linear() * ray);
+  const double t = surface(world_from_left.translation(), rotated(world_from_left, ray));
   return t > 0 ? t : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -27,7 +27,9 @@ class Layouts : public InFolder {
   void simulate(const std::string& out, const std::string& layout,
                 const std::vector<std::string>& more) const {
     SimulateOptions options;
-    set({"scope.width_px=240", "scope.height_px=180", "instrument.radius_mm=2"}, &options);
+    set({"scope.width_px=240", "scope.height_px=180", "instrument.radius_mm=2",
+         "organ.cells_per_side=30"},
+        &options);
     set(more, &options);
     if (layout.empty())
       simulateSequence(options, {}, at(out), /*overwrite=*/false);

@@ -68,14 +68,15 @@ void meet(Rays& rays, const RayTriangle& t) {
   const Four u = (px * s.x() + py * s.y() + pz * s.z()) * scale;
   const Four v = (rays.dx * q.x() + rays.dy * q.y() + rays.dz * q.z()) * scale;
   const Four distance = e2.dot(q) * scale;
-  const auto hit = (determinant != 0.0F) && (u >= -kEdgeOverlap) && (v >= -kEdgeOverlap) &&
-                   (u + v <= 1 + kEdgeOverlap) && (distance > 0.0F) && (distance < rays.distance);
-  if (!hit.any()) return;
-  for (int i = 0; i < 4; ++i)
-    if (hit[i]) {
-      rays.distance[i] = distance[i];
-      rays.hits[i] = {t.index, u[i], v[i], distance[i]};
+  // Ray by ray: under sanitizers clang calls each step of one expression of Eigen over all four.
+  for (int i = 0; i < 4; ++i) {
+    const float ui = u[i], vi = v[i], distance_i = distance[i];
+    const bool inside = ui >= -kEdgeOverlap && vi >= -kEdgeOverlap && ui + vi <= 1 + kEdgeOverlap;
+    if (inside && determinant[i] != 0 && distance_i > 0 && distance_i < rays.distance[i]) {
+      rays.distance[i] = distance_i;
+      rays.hits[i] = {t.index, ui, vi, distance_i};
     }
+  }
 }
 
 std::vector<RayTriangle> collect(const std::vector<Eigen::Vector3f>& vertices_mm,

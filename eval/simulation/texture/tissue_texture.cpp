@@ -30,7 +30,8 @@ constexpr float kLobule_mm = 1.0F;
 constexpr float kFatLobule_mm = 2.6F;
 
 Eigen::Vector3f mix(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float share) {
-  return a + std::clamp(share, 0.0F, 1.0F) * (b - a);
+  const float t = std::clamp(share, 0.0F, 1.0F);
+  return {a.x() + t * (b.x() - a.x()), a.y() + t * (b.y() - a.y()), a.z() + t * (b.z() - a.z())};
 }
 
 VesselOptions noVessels() {
