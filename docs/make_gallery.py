@@ -107,18 +107,19 @@ def figures(work):
     on_ct = ["figure", "--ct", ct, "--reference", organ, "--test", model]
     return [
         ("CT, reference and model, with the error map", "four", on_ct + ["--width-mm", 183]),
-        ("The same in one column, signed", "four_signed", on_ct + ["--errors", "signed"]),
-        ("Slices at several places", "slices",
+        ("The same in one column, with signed errors", "four_signed",
+         on_ct + ["--errors", "signed"]),
+        ("Slices at several positions", "slices",
          ["slice", ct, "--reference", organ, "--surface", model, "--plane", "axial", "--positions",
           "970:1030:20", "--width-mm", 183]),
-        ("An oblique slice, neurological", "oblique",
+        ("An oblique slice in neurological convention", "oblique",
          ["slice", ct, "--surface", organ, "--plane", "oblique", "--normal", "0.3,0.5,0.8",
           "--plane", "coronal", "--neurological"]),
-        ("A run beside its truth", "run",
+        ("A run with its ground truth", "run",
          ["figure", first, "--reference", clip, "--width-mm", 183]),
-        ("The same, points that the scope sees now", "run_observed",
+        ("The same, visible points only", "run_observed",
          ["figure", first, "--reference", clip, "--observed", "--errors", "signed"]),
-        ("A model at frames", "frames",
+        ("A model at several frames", "frames",
          ["figure", first, "--kind", "frames", "--width-mm", 183]),
         ("Errors over time", "series",
          ["figure", first, "--kind", "series", "--reference", clip, "--observed", "--width-mm",
@@ -126,13 +127,13 @@ def figures(work):
         ("Two runs: with and without matches", "two_runs",
          ["figure", first, "--kind", "compare", "--other", second, "--name", "with matches",
           "--name", "without", "--reference", clip, "--width-mm", 183]),
-        ("Matches of the model in a new image", "matches",
+        ("Matches between the model and a new image", "matches",
          ["figure", first, "--kind", "matches", "--reference", clip, "--frame", 16]),
         ("The viewer: errors, the scope and its path", "view",
          ["view", first, "--reference", clip, "--colour", "errors"]),
-        ("The viewer: nodes of the warp and how they moved", "view_nodes",
+        ("The viewer: nodes of the warp and their motion", "view_nodes",
          ["view", first, "--nodes", "--arrows"]),
-        ("The viewer: a model before its CT", "view_ct",
+        ("The viewer: a model in front of its CT", "view_ct",
          ["view", first, "--ct", ct, "--ct-from-run", work / "ct_from_run.txt"]),
     ]
 
@@ -142,21 +143,23 @@ def surface_section(softscope, work):
     words = [["export", work / "run", "--frame", 20, "--out", work / "surface.ply"],
              ["compare", "--reference", work / "clip/groundtruth/mesh/000020.ply", "--test",
               work / "surface.ply", "--align", "icp", "--out", work / "comparison"]]
-    return section(softscope, work, "A model as a surface, compared: its error map", words,
+    return section(softscope, work, "A model as a surface: error map of the comparison", words,
                    [("surface", "comparison/error_map.png")])
 
 
 def comparison_section(softscope, work):
     words = [["compare", "--reference", work / "organ.obj", "--test", work / "model.obj",
               "--errors", "signed", "--out", work / "pair"]]
-    return section(softscope, work, "A surface compared, with its sides, and how its errors spread",
+    return section(softscope, work,
+                   "Comparison of two surfaces: signed errors and their distribution",
                    words, [("pair", "pair/error_map.png"),
                            ("pair_histogram", "pair/error_histogram.png")])
 
 
 def evaluation_section(softscope, work):
     words = [["evaluate", work / "run", "--reference", work / "clip", "--out", work / "error"]]
-    return section(softscope, work, "A run evaluated: over time, spread, worst frames", words,
+    return section(softscope, work,
+                   "Evaluation of a run: errors over time, distribution, worst frames", words,
                    [("error_series", "error/error_series.png"),
                     ("error_histogram", "error/error_histogram.png"),
                     ("worst_frames", "error/worst_frames.png")])
@@ -167,7 +170,7 @@ def truthless_section(softscope, work):
     shutil.copytree(work / "clip", work / "real", dirs_exist_ok=True,
                     ignore=shutil.ignore_patterns("groundtruth"))
     words = [["evaluate", work / "run", "--reference", work / "real", "--out", work / "quality"]]
-    return section(softscope, work, "A run evaluated without ground truth", words,
+    return section(softscope, work, "Evaluation of a run without ground truth", words,
                    [("quality", "quality/quality_series.png")])
 
 
@@ -182,7 +185,7 @@ def depth_section(softscope, work):
 def depth_error_section(softscope, work):
     words = [["evaluate", work / "depth/depth.pfm", "--reference",
               work / "clip/groundtruth/depth/000000.png", "--out", work / "depth_error"]]
-    return section(softscope, work, "A depth map evaluated, pixel by pixel", words,
+    return section(softscope, work, "Evaluation of a depth map per pixel", words,
                    [("depth_error", "depth_error/error_map.png")])
 
 
@@ -206,7 +209,7 @@ def main():
     softscope = sys.argv[1]
     work = Path(sys.argv[2] if len(sys.argv) > 2 else "out/gallery").resolve()
     prepare(softscope, work)
-    page = ["# Gallery", "Every kind of figure, from made-up data, by `docs/make_gallery.py` "
+    page = ["# Gallery", "Every kind of figure, from synthetic data, by `docs/make_gallery.py` "
             "([how to draw them](figures.md)). The CT is a phantom of ellipsoids; the clip is "
             "softscope's own simulation. Research use only.", ""]
     for title, name, words in figures(work):
@@ -220,8 +223,8 @@ def main():
     for made in (surface_section, comparison_section, evaluation_section, truthless_section,
                  depth_section, depth_error_section):
         page += made(softscope, work)
-    page += ["## A report", "`softscope report error --out report.html` makes a page with a map "
-             "that turns ([reports](report.md)).", "![A report](images/report.png)", ""]
+    page += ["## A report", "`softscope report error --out report.html` writes a page with a "
+             "rotatable error map ([reports](report.md)).", "![A report](images/report.png)", ""]
     (DOCS / "gallery.md").write_text("\n".join(page))
 
 
