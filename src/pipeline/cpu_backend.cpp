@@ -316,7 +316,8 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
         if (first) {
           state_.tracked.anchor(state_.model);
           if (tracks())
-            state_.tracked.look(looks_.pictures().looks, state_.model, left(), world_from_left);
+            state_.tracked.look(looks_.pictures().looks, state_.model, left(), world_from_left,
+                                frame_.measured.depth);
         }
         state_.tracked.settle(state_.model, world_from_left.translation(),
                               frame_.summary.limit_scale, surface_.get());

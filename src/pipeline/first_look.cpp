@@ -7,11 +7,21 @@
 namespace softscope {
 namespace {
 
+/// Position in the full image converted to that of a level with pixels `scale` as wide.
+Eigen::Vector2d inLevel(const Eigen::Vector2d& pixel, double scale) {
+  return (pixel.array() - (scale - 1) / 2) / scale;
+}
+Eigen::Vector2d inWhole(const Eigen::Vector2d& pixel, double scale) {
+  return pixel.array() * scale + (scale - 1) / 2;
+}
+
+/// `scale`: pixels of the full image per pixel of this one.
 FirstLook::Window takeWindow(const GrayImage& image, const Mask& ignore,
-                             const Eigen::Vector2d& pixel) {
+                             const Eigen::Vector2d& pixel, int scale,
+                             const ConnectedSurface* surface) {
   FirstLook::Window window;
   if (image.width_px < 2 || image.height_px < 2 || !pixel.allFinite()) return window;
-  int counted = 0;
+  int tissue = 0, counted = 0;
   const Eigen::Vector2d last(image.width_px - 1.001, image.height_px - 1.001);
   for (int i = 0; i < FirstLook::kPixels; ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
@@ -19,19 +29,15 @@ FirstLook::Window takeWindow(const GrayImage& image, const Mask& ignore,
     const Eigen::Vector2d nearest = place.cwiseMax(0).cwiseMin(last);
     window.gray[at] =
         static_cast<std::uint8_t>(std::lround(sampleAt(image, nearest.x(), nearest.y())));
-    window.ignore[at] = !sampleable(image, place) || ignoredAt(ignore, nearest.x(), nearest.y());
+    const bool ignored = !sampleable(image, place) || ignoredAt(ignore, nearest.x(), nearest.y());
+    const bool elsewhere = surface != nullptr && !surface->holds(inWhole(place, scale), scale);
+    window.ignore[at] = ignored || elsewhere;
+    tissue += !ignored;
     counted += window.ignore[at] == 0;
   }
-  window.taken = counted >= FirstLook::kLeastShare * FirstLook::kPixels;
+  window.taken = tissue >= FirstLook::kLeastShare * FirstLook::kPixels &&
+                 counted >= FirstLook::kLeastSurface * FirstLook::kPixels;
   return window;
-}
-
-/// Position in the full image converted to that of a level with pixels `scale` as wide.
-Eigen::Vector2d inLevel(const Eigen::Vector2d& pixel, double scale) {
-  return (pixel.array() - (scale - 1) / 2) / scale;
-}
-Eigen::Vector2d inWhole(const Eigen::Vector2d& pixel, double scale) {
-  return pixel.array() * scale + (scale - 1) / 2;
 }
 
 /// Finds a reference window near `pixel`, as findLook() does.
@@ -47,6 +53,13 @@ struct FirstLookFinder {
     return found;
   }
 
+  /// Whether the window of half size, too uncertain to count, confirms that of a
+  /// quarter: that one covers much tissue, which rarely moves as one.
+  static bool agrees(const LookSearch& search, const Eigen::Vector2d& coarser) {
+    constexpr double kFarthestPx = 0.5;
+    return search.converged && (search.pixel - coarser).norm() <= kFarthestPx;
+  }
+
   /// From a level down to the full image, each starting from the
   /// previous result; the last one found counts. The full image
   /// is searched from `pixel` only if it is requested alone.
@@ -59,6 +72,8 @@ struct FirstLookFinder {
       LookSearch search{inLevel(result.pixel, scale), map};
       const bool found = findWindow(look.windows[level], picture.gray[level], picture.ignore[level],
                                     image_from_look, &search);
+      if (!found && level == 1 && !agrees(search, inLevel(result.pixel, scale)))
+        result.found = false;
       if (found || !result.found) {
         result.correlation = search.correlation;
         result.sigma_px = search.sigma_px * scale;
@@ -83,11 +98,12 @@ LookPicture::LookPicture(const GrayImage& image, const Mask& hidden) {
   }
 }
 
-FirstLook FirstLook::take(const LookPicture& picture, const Eigen::Vector2d& pixel) {
+FirstLook FirstLook::take(const LookPicture& picture, const Eigen::Vector2d& pixel,
+                          const ConnectedSurface* surface) {
   FirstLook look;
   for (std::size_t level = 0; level < LookPicture::kLevels; ++level)
-    look.windows[level] =
-        takeWindow(picture.gray[level], picture.ignore[level], inLevel(pixel, 1 << level));
+    look.windows[level] = takeWindow(picture.gray[level], picture.ignore[level],
+                                     inLevel(pixel, 1 << level), 1 << level, surface);
   return look;
 }
 

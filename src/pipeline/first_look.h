@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/image.h"
+#include "pipeline/connected_surface.h"
 
 namespace softscope {
 
@@ -25,7 +26,8 @@ struct FirstLook {
   static constexpr int kHalfPx = 10;
   static constexpr int kSidePx = 2 * kHalfPx + 1;
   static constexpr int kPixels = kSidePx * kSidePx;
-  static constexpr double kLeastShare = 0.6;
+  static constexpr double kLeastShare = 0.6;     // of tissue in a window
+  static constexpr double kLeastSurface = 0.35;  // of pixels on its surface
 
   /// Pixels are numbered row by row.
   struct Window {
@@ -37,9 +39,14 @@ struct FirstLook {
   std::array<Window, LookPicture::kLevels> windows;
   std::array<std::uint8_t, 12> unused{};  // padding
 
-  /// Windows around `pixel`; bilinear, pixels outside of the image are ignored.
-  /// A window is not taken if less than `kLeastShare` of it is tissue.
-  static FirstLook take(const LookPicture& picture, const Eigen::Vector2d& pixel);
+  /// Pixels around a point that its windows cover.
+  static constexpr int kReachPx = (kHalfPx + 2) << (LookPicture::kLevels - 1);
+
+  /// Windows around `pixel`; bilinear, pixels outside of the image are ignored, and those
+  /// off the point's `surface` where it is known. A window is not taken if less than
+  /// `kLeastShare` of it is tissue, or less than `kLeastSurface` is on the surface.
+  static FirstLook take(const LookPicture& picture, const Eigen::Vector2d& pixel,
+                        const ConnectedSurface* surface = nullptr);
 };
 
 /// Position of a first look in an image.

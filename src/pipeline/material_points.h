@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/depth_map.h"
 #include "core/image.h"
 #include "core/point_model.h"
 #include "core/raster.h"
@@ -61,9 +62,10 @@ class MaterialPoints {
   /// Updates the numbers of model points. `search`: null for that of the CPU.
   void renumber(const IndexMap& map, const PointModel& model, SurfaceSearch* search = nullptr);
   /// Takes their first looks from the image, once they are on
-  /// the tissue; their surface is that of the model around them.
+  /// the tissue; their surface is that of the model around them, and
+  /// what lies off it in the depth of the image is not part of their looks.
   void look(const LookPicture& picture, const PointModel& model, const PinholeCamera& left,
-            const Eigen::Isometry3d& world_from_left);
+            const Eigen::Isometry3d& world_from_left, const DepthMap& depth);
   /// Moves them along the surface to where the image shows their first looks, or with their
   /// neighbours, and predicts their error: docs/fusion.md (F29). `node_spacing_mm`: of the graph
   /// that warped them. `inSight`: whether the image shows a point of the left camera frame.

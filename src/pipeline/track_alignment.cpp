@@ -114,7 +114,8 @@ Eigen::Vector3d moveOfNeighbours(const std::vector<FoundMove>& found,
 }  // namespace
 
 void MaterialPoints::look(const LookPicture& picture, const PointModel& model,
-                          const PinholeCamera& left, const Eigen::Isometry3d& world_from_left) {
+                          const PinholeCamera& left, const Eigen::Isometry3d& world_from_left,
+                          const DepthMap& depth) {
   const Eigen::Isometry3d left_from_world = world_from_left.inverse();
   for (Point& point : points) {
     if (point.model_point < 0) continue;
@@ -128,7 +129,8 @@ void MaterialPoints::look(const LookPicture& picture, const PointModel& model,
       const double depth_mm = normal.dot(centre) / normal.dot(step);
       point.pixels_mm.col(k) = world_from_left.linear() * (step * depth_mm - centre);
     }
-    point.look = FirstLook::take(picture, pixel);
+    const ConnectedSurface surface(depth, pixel, left.fx_px, FirstLook::kReachPx);
+    point.look = FirstLook::take(picture, pixel, surface.found() ? &surface : nullptr);
   }
 }
 

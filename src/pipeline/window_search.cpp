@@ -68,6 +68,8 @@ class FirstLookMatcher {
     ignored_.fill(1);
     std::copy(look.gray.begin(), look.gray.end(), gray_.begin());
     std::copy(look.ignore.begin(), look.ignore.end(), ignored_.begin());
+    least_count_ = FirstLook::kLeastShare *
+                   static_cast<double>(std::count(ignored_.begin(), ignored_.end(), 0));
   }
 
   bool find(const LookSearch& expected, LookSearch* search) {
@@ -82,6 +84,7 @@ class FirstLookMatcher {
         break;
       if (!enough) return false;
     }
+    search->converged = true;
     if (search->correlation < kLeastCorrelation) return false;
     search->sigma_px = sigmaAt(*search);
     return search->sigma_px <= kLargestSigmaPx;
@@ -93,7 +96,7 @@ class FirstLookMatcher {
     constexpr double kRoomPx = kLargestShiftPx + 1;
     if (!contains(search.pixel)) return false;
     kernels_.countPixels(ignored_.data(), ignore_, placesOf(search), kRoomPx, &look_);
-    return look_.count >= FirstLook::kLeastShare * FirstLook::kPixels;
+    return look_.count >= least_count_;
   }
   /// False for NaN.
   bool contains(const Eigen::Vector2d& pixel) const {
@@ -173,6 +176,7 @@ class FirstLookMatcher {
   const LookKernels& kernels_ = lookKernels();
   LookImage image_, ignore_;
   std::array<std::uint8_t, kLookValues> gray_{}, ignored_;
+  double least_count_ = 0;
   LookTemplate look_;
   LookSamples seen_;
 };

@@ -11,7 +11,8 @@ namespace softscope {
 /// State of the search.
 struct LookSearch {
   Eigen::Vector2d pixel;
-  Eigen::Matrix2d map;  // pixels of the image per pixel of the window
+  Eigen::Matrix2d map;     // pixels of the image per pixel of the window
+  bool converged = false;  // at the pixel, found or not
   double correlation = 0;
   double sigma_px = 0;  // predicted standard error along the worst direction
 };

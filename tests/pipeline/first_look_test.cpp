@@ -165,6 +165,49 @@ TEST(FirstLook, IsFoundFromATenthOfTheImageAway) {
   EXPECT_FALSE(find(look, photograph(blobs({30, 0}, 5), 20, 0, 1), Mask(), kBlob, same).found);
 }
 
+/// A bright surface with faint blobs before a dark one, whose contour is `edge_px` right of kBlob;
+/// the blobs have moved by `shift`.
+GrayImage beforeDark(const Eigen::Vector2d& shift, double edge_px) {
+  GrayImage image = photograph(blobs(shift, 2.5), 8, 0.5, 1);
+  for (int v = 0; v < image.height_px; ++v)
+    for (int u = static_cast<int>(kBlob.x() + edge_px); u < image.width_px; ++u)
+      image.at(u, v) = 20;
+  return image;
+}
+
+// A contour moves over the tissue with the scope: here by 3 px, where the tissue moves by 0.5.
+TEST(FirstLook, FollowsTheTissueAndNotItsContour) {
+  const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d shift(0.5, 0);
+  const LookPicture first(beforeDark({0, 0}, 7), Mask()), now(beforeDark(shift, 10), Mask());
+  DepthMap depth{Raster<float>(160, 160, 60.0F), {}};
+  for (int v = 0; v < 160; ++v)
+    for (int u = static_cast<int>(kBlob.x()) + 7; u < 160; ++u) depth.depth_mm.at(u, v) = 80;
+  const ConnectedSurface surface(depth, kBlob, 300, FirstLook::kReachPx);
+  const FoundLook followed = findLook(FirstLook::take(first, kBlob, &surface), now, kBlob, same);
+  ASSERT_TRUE(followed.found);
+  EXPECT_LT((followed.pixel - kBlob - shift).norm(), 0.2);
+  const FoundLook misled = findLook(FirstLook::take(first, kBlob), now, kBlob, same);
+  EXPECT_GT((misled.pixel - kBlob - shift).norm(), 1);
+}
+
+// Much tissue rarely moves as one: a quarter-size window counts only if the half-size one, though
+// too noisy to be found, is at the same place.
+TEST(FirstLook, IsNotFoundWhereTheHalfContradictsTheQuarter) {
+  const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
+  const GrayImage image = photograph(blobs({0, 0}, 5), 20, 0, 1);
+  const auto findWithFiner = [&](const GrayImage& finer) {
+    FirstLook look = takeLook(image, kBlob);
+    const FirstLook other = takeLook(finer, kBlob);
+    for (std::size_t level : {0, 1}) look.windows[level] = other.windows[level];
+    return find(look, image, Mask(), kBlob, same);
+  };
+  const FoundLook noisy = findWithFiner(photograph(blobs({0, 0}, 5), 20, 40, 1));
+  ASSERT_TRUE(noisy.found);
+  EXPECT_LT((noisy.pixel - kBlob).norm(), 0.3);
+  EXPECT_FALSE(findWithFiner(photograph(blobs({30, 17}, 5), 20, 0, 1)).found);
+}
+
 /// Root mean square of its errors over what it predicted, under noise of both images.
 double errorOverSigma(double contrast_gray, double noise_gray) {
   constexpr unsigned kTrials = 40;

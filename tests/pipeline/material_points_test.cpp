@@ -134,7 +134,7 @@ TEST(MaterialPoints, GoToWhereTheImageShowsTheirFirstLook) {
   MaterialPoints tracked;
   tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), still);
   tracked.anchor(flatModel());
-  tracked.look({texture(), Mask()}, flatModel(), kLeft, still);
+  tracked.look({texture(), Mask()}, flatModel(), kLeft, still, {});
   // A pixel at 50 mm is half a millimetre wide.
   EXPECT_LT((tracked.points[0].pixels_mm.col(0) - Eigen::Vector3d(0.5, 0, 0)).norm(), 1e-9);
   EXPECT_LT((tracked.points[0].pixels_mm.col(1) - Eigen::Vector3d(0, 0.5, 0)).norm(), 1e-9);
@@ -155,7 +155,7 @@ MaterialPoints lookedAt(int columns, int rows, const Eigen::Vector2d& step_px) {
     tracked.add(k, {30 + step_px.x() * (k % columns), 25 + step_px.y() * (k / columns)}, kLeft,
                 Raster<float>(100, 80, 50.0f), still);
   tracked.anchor(flatModel());
-  tracked.look({texture(), Mask()}, flatModel(), kLeft, still);
+  tracked.look({texture(), Mask()}, flatModel(), kLeft, still, {});
   return tracked;
 }
 
