@@ -21,7 +21,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kBenchmarkDetails =
     "NAME: stir2026, stir, surgt, scared, servct or stereomis. DATA: a clip in its original "
     "layout, or a\n"
     "folder of clips. Each clip is run in its own process; a complete clip is not repeated, a "
@@ -37,7 +37,7 @@ class BenchmarkCommand : public Command {
   std::string summary() const override {
     return "official scores and submission file of a data set";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kBenchmarkDetails; }
   std::string example() const override {
     return "softscope benchmark stir2026 STIR2026/val --out stir_val";
   }

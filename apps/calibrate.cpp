@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const kDetails =
+const char* const kCalibrateDetails =
     "LEFT and RIGHT: folders of images or videos of the same times; or LEFT alone with both\n"
     "views in one image. Record a flat board that fills a third to a half of the image: 15 to 30\n"
     "static views, tilted by 20 to 40 degrees to all sides, near and far, in all parts of the "
@@ -47,7 +47,7 @@ class CalibrateCommand : public Command {
   std::string summary() const override {
     return "stereo calibration from images of a checkerboard or ChArUco board, with its quality";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kCalibrateDetails; }
   std::string example() const override {
     return "softscope calibrate left.mp4 right.mp4 --board 9x6 --square 3 --out calibration.yaml";
   }

@@ -15,7 +15,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kCompareDetails =
     "Distances in both directions, point to triangle: accuracy (test to reference), completeness\n"
     "(reference to test), by vertex and by area; signed distances; three definitions of HD95;\n"
     "precision, recall, F-score and surface Dice at each tau. The test is a mesh or a point "
@@ -47,7 +47,7 @@ class CompareCommand : public Command {
   std::string summary() const override {
     return "distances between a model and a reference surface, in both directions";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kCompareDetails; }
   std::string example() const override {
     return "softscope compare --reference liver_ct.stl --test run/model.ply --align icp --out cmp";
   }

@@ -15,7 +15,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kDepthDetails =
     "Writes into DIR, for a sequence with the frame number before each name:\n"
     "  disparity.pfm, disparity.png   px; png with 16 bits, 256 steps per px, 0 = none\n"
     "  depth.pfm, depth.png           mm along the optical axis; png 16 bits, 0.01 mm per step\n"
@@ -41,7 +41,7 @@ class DepthCommand : public Command {
   std::string summary() const override {
     return "disparity, depth, confidence and point cloud of a stereo pair or sequence";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kDepthDetails; }
   std::string example() const override {
     return "softscope depth left.png right.png --calibration calibration.yaml --out depth_out";
   }

@@ -18,7 +18,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kEvaluateDetails =
     "RUN is a folder written by `reconstruct`. Against a sequence with groundtruth/, every model\n"
     "with a true mesh of its frame is compared in the camera frame of that time: accuracy, split\n"
     "into observed and predicted points, signed distance, completeness, three definitions of "
@@ -46,7 +46,7 @@ class EvaluateCommand : public Command {
   std::string summary() const override {
     return "errors of a run against ground truth or a mesh, over time";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kEvaluateDetails; }
   std::string example() const override {
     return "softscope evaluate run --reference phantom --out evaluation --fail-if 'p95_mm>2'";
   }

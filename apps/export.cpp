@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kExportDetails =
     "MODEL is a folder written by `reconstruct` (its last model, or that of --frame), a PLY of\n"
     "points, or a mesh (PLY, STL, OBJ, VTP, VTK). Points are triangulated and become its "
     "vertices;\n"
@@ -35,7 +35,7 @@ class ExportCommand : public Command {
   std::string summary() const override {
     return "models as surfaces or points for other programs: PLY, VTP, OBJ, STL, glTF, DICOM";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kExportDetails; }
   std::string example() const override {
     return "softscope export run --out model.glb\n"
            "  softscope export run --out models.pvd --every 2\n"

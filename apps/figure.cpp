@@ -17,7 +17,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kFigureDetails =
     "Four panels: axial, coronal and sagittal slices with the contours of all surfaces, and the\n"
     "surfaces in 3-D, coloured by the distance of the test to the reference if both are given.\n"
     "Points (a model of reconstruct) are dots near each plane, those of --scan in red. Without\n"
@@ -38,7 +38,7 @@ class FigureCommand : public Command {
   std::string summary() const override {
     return "axial, coronal, sagittal and 3-D views of CT, reference and model";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kFigureDetails; }
   std::string example() const override {
     return "softscope figure --ct dicom --reference liver.ply --test run/model.ply --out four.png";
   }

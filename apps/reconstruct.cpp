@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kReconstructDetails =
     "Writes model.ply (the last model: mm, world = left camera at the first frame),\n"
     "models/NNNNNN.ply and .vtp with models.pvd for ParaView, trajectory.txt (TUM lines,\n"
     "world_from_left), frames.csv (status of each frame), tracks.csv (with --track), run.json.\n"
@@ -30,7 +30,7 @@ class ReconstructCommand : public Command {
   std::string summary() const override {
     return "deforming, coloured model and camera poses from a stereo clip";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kReconstructDetails; }
   std::string example() const override {
     return "softscope reconstruct clip --out run\n"
            "  softscope reconstruct left.mp4 right.mp4 --calibration calibration.yaml --out run";

@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kReportDetails =
     "CASE is a folder written by `evaluate --out` or `compare --out`; several form a cohort.\n"
     "The page opens from disk in any browser without network access: compared data, alignment,\n"
     "result with its uncertainty, a rotatable map of the errors, limits, methods, provenance, and\n"
@@ -23,7 +23,7 @@ class ReportCommand : public Command {
   std::string summary() const override {
     return "report of evaluations and comparisons as one page";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kReportDetails; }
   std::string example() const override {
     return "softscope report evaluation --out report.html --fail-if 'p95_mm>2'";
   }

@@ -14,7 +14,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kSimulateDetails =
     "Writes a sequence folder: left/, right/, calibration.yaml, timestamps.txt, track_points.csv,\n"
     "groundtruth/ with mesh/ and depth/ of every 5th frame, trajectory.txt and tracks.csv (world "
     "=\n"
@@ -32,7 +32,7 @@ class SimulateCommand : public Command {
   std::string summary() const override {
     return "stereo sequence with exact ground truth from an organ";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kSimulateDetails; }
   std::string example() const override {
     return "softscope simulate --out phantom --frames 40 --size 640x480 --seed 3";
   }

@@ -11,7 +11,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kSliceDetails =
     "Each --plane gives a panel: axial, coronal, sagittal, or oblique by its --normal. With\n"
     "--positions one plane gives a panel at each position along its axis (LPS, mm; oblique: along\n"
     "its normal from --at), so a stack of slices is one figure. Surfaces are contours, points\n"
@@ -24,7 +24,7 @@ class SliceCommand : public Command {
   std::string summary() const override {
     return "axial, coronal, sagittal and oblique slices of a CT with contours of models";
   }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kSliceDetails; }
   std::string example() const override {
     return "softscope slice ct.nii.gz --surface liver.ply --plane axial --out liver.png";
   }

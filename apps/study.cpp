@@ -16,7 +16,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kStudyDetails =
     "FILE lists cases: an existing or simulated sequence, settings of `reconstruct`, a reference;\n"
     "variants and sweeps multiply them (docs/studies.md, data/studies). Each case is a process; a\n"
     "failed case is reported and does not stop the others; a complete case is not repeated unless\n"
@@ -29,7 +29,7 @@ class StudyCommand : public Command {
  public:
   std::string name() const override { return "study"; }
   std::string summary() const override { return "table of errors of many simulated or real cases"; }
-  std::string details() const override { return kDetails; }
+  std::string details() const override { return kStudyDetails; }
   std::string example() const override {
     return "softscope study data/studies/stress.toml --out stress --jobs 4";
   }

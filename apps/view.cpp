@@ -18,7 +18,7 @@
 namespace softscope {
 namespace {
 
-const char* const kDetails =
+const char* const kViewDetails =
     "Shows the models saved by `reconstruct` (--save-every) over time, with the scope, its path,\n"
     "the nodes of the warp and their motion. New models of a running reconstruction appear as "
     "they\n"
@@ -44,7 +44,7 @@ class ViewCommand : public Command {
   std::string summary() const override {
     return "interactive view of a run, also during reconstruction; screenshots and movies";
   }
-  std::string details() const override { return kDetails + keysText(); }
+  std::string details() const override { return kViewDetails + keysText(); }
   std::string example() const override {
     return "softscope view run\n"
            "  softscope view run --reference clip --colour errors --screenshot last.png\n"

@@ -3,21 +3,28 @@
 get_filename_component(SOFTSCOPE_ROOT ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 include(${CMAKE_CURRENT_LIST_DIR}/SoftscopeFlags.cmake)
 
-# softscope_join(<target>): compiles up to eight files at once, so that what they include is parsed
-# once for all of them. Local names must then differ within a folder; a clash is a compile error:
-# give the later one a better name, or SKIP_UNITY_BUILD_INCLUSION where each file has its own.
+# softscope_join(<target>): compiles up to 64 files at once (sanitized, which takes more memory: 16), so
+# that what they include is parsed, and templates are instantiated, once for all of them. Local names
+# must then differ within a target; a clash is a compile error: give the later one a better name, or
+# SKIP_UNITY_BUILD_INCLUSION where headers clash.
 function(softscope_join target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD "${SOFTSCOPE_JOIN}")
+  set(files 64)
+  if(SOFTSCOPE_SANITIZE)
+    set(files 16)
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD "${SOFTSCOPE_JOIN}"
+    UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
 
 # softscope_precompile(<target>): takes the headers of the standard library, of Eigen and of JSON from
-# the target softscope_headers, which parses them once for the whole build; test programs take them and
-# GoogleTest's from softscope_test_headers. A folder that builds alone has neither.
+# the target softscope_headers, which parses them once for all libraries that a shared library may
+# hold; what tests alone run takes them and GoogleTest's from softscope_test_headers. A folder that
+# builds alone has neither.
 function(softscope_precompile target)
-  set(donor softscope_headers)
-  get_target_property(kind ${target} TYPE)
-  if(kind STREQUAL "EXECUTABLE")
-    set(donor softscope_test_headers)
+  set(donor softscope_test_headers)
+  get_target_property(position_independent ${target} POSITION_INDEPENDENT_CODE)
+  if(position_independent)
+    set(donor softscope_headers)
   endif()
   if(NOT TARGET ${donor})
     return()
@@ -52,20 +59,6 @@ function(softscope_library name)
   target_link_libraries(softscope_${name} PUBLIC ${ARG_LINKS}
     PRIVATE ${ARG_PRIVATE_LINKS} softscope_flags)
   softscope_precompile(softscope_${name})
-endfunction()
-
-# softscope_rooms(<folder>): a folder inside this library is a room. Files of one room alone are
-# compiled at once, eight at most, so that local names must differ within a room only.
-function(softscope_rooms name)
-  get_target_property(sources softscope_${name} SOURCES)
-  foreach(source IN LISTS sources)
-    get_filename_component(room "${source}" DIRECTORY)
-    string(MAKE_C_IDENTIFIER "files_${room}" counter)
-    math(EXPR ${counter} "${${counter}} + 1")
-    math(EXPR group "(${${counter}} - 1) / 8")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${room}${group}")
-  endforeach()
-  set_target_properties(softscope_${name} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
 # softscope_kernels(<folder> SOURCES … [OPTIONS …] [BASELINE …] [AVX2 …]): inner loops of this library,
@@ -201,7 +194,12 @@ function(softscope_fuzz name)
     add_test(NAME fuzz.${name} COMMAND fuzz_${name} -runs=${ARG_RUNS} -seed=1 -timeout=20
       -rss_limit_mb=4096 -seed_inputs=@${CMAKE_CURRENT_BINARY_DIR}/${name}_seeds.txt)
   else()
-    target_sources(fuzz_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests/support/replay_corpus.cpp)
+    if(NOT TARGET softscope_replay_corpus)
+      add_library(softscope_replay_corpus OBJECT ${SOFTSCOPE_ROOT}/tests/support/replay_corpus.cpp)
+      target_link_libraries(softscope_replay_corpus PRIVATE softscope_flags)
+    endif()
+    target_link_libraries(fuzz_${name} PRIVATE softscope_replay_corpus)
+    softscope_precompile(fuzz_${name})
     add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${corpus})
   endif()
   set_tests_properties(fuzz.${name} PROPERTIES TIMEOUT 600 LABELS fuzz)

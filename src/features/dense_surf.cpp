@@ -12,7 +12,7 @@
 namespace softscope {
 namespace {
 
-constexpr int kCells = kSurfCells, kSums = kSurfSums;
+constexpr int kSums = kSurfSums;
 
 struct Integrals {
   Raster<std::int32_t> gray, invalid;
@@ -106,12 +106,12 @@ Raster<To> boxSums(const Raster<From>& in, int reach, int channels) {
 void describeRow(const Cells& cells, const SurfRules& rules, int r, DenseDescriptors* out) {
   const int step = kSums * rules.reach;
   for (int c = 0; c < out->columns(); ++c) {
-    const float* rows[kCells];
+    const float* rows[kSurfCells];
     int valid = 0;
     float absolute = 0;
-    for (int i = 0; i < kCells; ++i) {
+    for (int i = 0; i < kSurfCells; ++i) {
       rows[i] = cells.sums.row(r + i * rules.reach) + kSums * c;
-      for (int j = 0; j < kCells; ++j) {
+      for (int j = 0; j < kSurfCells; ++j) {
         valid += cells.valid.at(c + j * rules.reach, r + i * rules.reach);
         absolute += rows[i][j * step + 1] + rows[i][j * step + 3];
       }

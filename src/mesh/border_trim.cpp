@@ -14,26 +14,26 @@ constexpr std::int32_t kNoSide = -1;
 /// Neighbour at each side, from corner k to the next.
 using Neighbours = std::vector<std::array<std::int32_t, 3>>;
 
-struct Side {
+struct TriangleSide {
   std::int32_t low, high;  // points
   std::int32_t triangle, k;
 };
 
 Neighbours neighboursOf(const std::vector<Triangle>& triangles) {
-  std::vector<Side> sides;
+  std::vector<TriangleSide> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = triangles[i][k], b = triangles[i][(k + 1) % 3];
       sides.push_back({std::min(a, b), std::max(a, b), std::int32_t(i), std::int32_t(k)});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
     if (a.low != b.low) return a.low < b.low;
     return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
   });
   Neighbours beyond(triangles.size(), {kNoSide, kNoSide, kNoSide});
   for (std::size_t i = 1; i < sides.size(); ++i) {
-    const Side &one = sides[i - 1], &other = sides[i];
+    const TriangleSide &one = sides[i - 1], &other = sides[i];
     if (one.low != other.low || one.high != other.high) continue;
     beyond[std::size_t(one.triangle)][std::size_t(one.k)] = other.triangle;
     beyond[std::size_t(other.triangle)][std::size_t(other.k)] = one.triangle;

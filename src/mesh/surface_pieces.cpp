@@ -10,7 +10,7 @@ namespace softscope {
 namespace {
 
 /// Side of a triangle; `corner` is at `low`, `next` at `high`.
-struct Side {
+struct CornerSide {
   std::int32_t low, high;  // points
   std::int32_t corner, next;
 };
@@ -21,21 +21,21 @@ std::int32_t cornerOf(std::size_t triangle, std::size_t k) {
 
 /// Joins corners of the same point if their triangles share a side.
 UnionFind joinedCorners(const std::vector<Triangle>& triangles) {
-  std::vector<Side> sides;
+  std::vector<CornerSide> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = triangles[i][k], b = triangles[i][(k + 1) % 3];
       const std::int32_t at_a = cornerOf(i, k), at_b = cornerOf(i, k + 1);
-      sides.push_back(a < b ? Side{a, b, at_a, at_b} : Side{b, a, at_b, at_a});
+      sides.push_back(a < b ? CornerSide{a, b, at_a, at_b} : CornerSide{b, a, at_b, at_a});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const CornerSide& a, const CornerSide& b) {
     if (a.low != b.low) return a.low < b.low;
     return a.high != b.high ? a.high < b.high : a.corner < b.corner;
   });
   UnionFind corners(3 * triangles.size());
   for (std::size_t i = 1; i < sides.size(); ++i) {
-    const Side &one = sides[i - 1], &other = sides[i];
+    const CornerSide &one = sides[i - 1], &other = sides[i];
     if (one.low != other.low || one.high != other.high) continue;
     corners.join(one.corner, other.corner);
     corners.join(one.next, other.next);

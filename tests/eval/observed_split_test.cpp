@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-TriangleMesh shifted(TriangleMesh mesh, const Eigen::Vector3f& by_mm) {
+TriangleMesh shiftedSurface(TriangleMesh mesh, const Eigen::Vector3f& by_mm) {
   for (Eigen::Vector3f& v : mesh.vertices_mm) v += by_mm;
   return mesh;
 }
@@ -22,7 +22,7 @@ ObservedSplit split(const TriangleMesh& reference, const TriangleMesh& test,
 // extends 3 mm farther to the right, beyond the patch; the complete patch is observed.
 TEST(ObservedSplit, WhatLiesBeyondAnOpenReferenceIsNeitherObservedNorPredicted) {
   const TriangleMesh patch = makeRectangle(10, 10, 10, 10);
-  const TriangleMesh test = shifted(makeRectangle(13, 10, 13, 10), {0, 0, 0.5f});
+  const TriangleMesh test = shiftedSurface(makeRectangle(13, 10, 13, 10), {0, 0, 0.5f});
   const ObservedSplit s = split(patch, test, patch, 2);
   EXPECT_EQ(s.observed_mm.count, 11u * 11) << "columns 0 … 10, those over the rim too";
   EXPECT_NEAR(s.observed_mm.max, 0.5, 1e-6) << "a distance from the rim is no error";
@@ -38,7 +38,7 @@ TEST(ObservedSplit, WhatLiesBeyondAnOpenReferenceIsNeitherObservedNorPredicted) 
 TEST(ObservedSplit, AnOpenScanEndsAtItsRim) {
   const TriangleMesh patch = makeRectangle(10, 10, 10, 10);
   const TriangleMesh seen = makeRectangle(5, 10, 5, 10);
-  const ObservedSplit s = split(patch, shifted(patch, {0, 0, 0.5f}), seen, 2);
+  const ObservedSplit s = split(patch, shiftedSurface(patch, {0, 0, 0.5f}), seen, 2);
   EXPECT_NEAR(s.reference_share, 6.0 / 11, 1e-12) << "not also what is within 2 mm of the rim";
   EXPECT_NEAR(s.test_share, 6.0 / 11, 1e-12);
   EXPECT_EQ(s.predicted_mm.count, 5u * 11);
@@ -50,7 +50,7 @@ TEST(ObservedSplit, ScannedPointsReachAsFarAsTheyAreTold) {
   const TriangleMesh patch = makeRectangle(10, 10, 10, 10);
   TriangleMesh seen = makeRectangle(5, 10, 5, 10);
   seen.triangles.clear();
-  const ObservedSplit s = split(patch, shifted(patch, {0, 0, 0.5f}), seen, 2);
+  const ObservedSplit s = split(patch, shiftedSurface(patch, {0, 0, 0.5f}), seen, 2);
   EXPECT_NEAR(s.reference_share, 8.0 / 11, 1e-12) << "columns 0 … 7";
 }
 

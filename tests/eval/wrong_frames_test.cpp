@@ -6,7 +6,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kNone = Statistics::kNone;
+constexpr double kNoPose = Statistics::kNone;
 
 TrackError offBy(int frame, int id, const Eigen::Vector3d& offset_mm, bool visible = true,
                  bool unseen = false) {
@@ -22,14 +22,14 @@ TEST(WrongFrames, EachLimitAloneMakesAFrameWrong) {
 }
 
 TEST(WrongFrames, WhatIsNotKnownIsNotWrong) {
-  EXPECT_FALSE(isWrong({1, 0.9, kNone, kNone, kNone, kNone}));
+  EXPECT_FALSE(isWrong({1, 0.9, kNoPose, kNoPose, kNoPose, kNoPose}));
 }
 
 TEST(WrongFrames, AWrongFrameIsSilentUnlessItsConfidenceTellsSo) {
   EXPECT_FALSE(isSilentlyWrong({1, 0.9, 0, 0, 0, 0}));
   EXPECT_FALSE(isSilentlyWrong({1, 0.5, 2, 0, 0, 0}));
   EXPECT_TRUE(isSilentlyWrong({1, 0.51, 2, 0, 0, 0}));
-  EXPECT_TRUE(isSilentlyWrong({1, kNone, 2, 0, 0, 0}))
+  EXPECT_TRUE(isSilentlyWrong({1, kNoPose, 2, 0, 0, 0}))
       << "a run that says nothing warns of nothing";
 }
 

@@ -55,7 +55,7 @@ std::vector<std::pair<int, int>> lipsOf(const TissueBody& body) {
   return lips;
 }
 
-SimulationOptions smallOptions() {
+SimulationOptions smallIncision() {
   SimulationOptions options;
   options.scope.width_px = 160;
   options.scope.height_px = 120;
@@ -66,7 +66,7 @@ SimulationOptions smallOptions() {
 }
 
 SimulationOptions stillOptions() {
-  SimulationOptions options = smallOptions();
+  SimulationOptions options = smallIncision();
   options.deformation.breathing.amplitude_mm = options.deformation.heartbeat.amplitude_mm =
       options.deformation.push.amplitude_mm = 0;
   options.camera.path = "still";
@@ -199,7 +199,7 @@ double differenceAlongCut(const SimulatedFrame& with, const SimulatedFrame& with
 }
 
 TEST(Incision, IsNotToBeSeenUntilItOpens) {
-  SimulationOptions options = smallOptions();  // that breathes, beats and is pushed
+  SimulationOptions options = smallIncision();  // that breathes, beats and is pushed
   options.texture.wetness = 0;  // bumps and highlights tell where texels lie, which differs
   options.light.relief = 0;
   Simulator whole(makeOrganMesh(options.organ, 1), options);
@@ -272,7 +272,7 @@ TEST(Incision, FlowFollowsTheLips) {
 }
 
 TEST(Incision, GivesTheSameBytesOnAnyNumberOfThreads) {
-  SimulationOptions options = smallOptions();
+  SimulationOptions options = smallIncision();
   options.cut = cutOf(15, 5, 4, 20);
   options.deformation.push_kind = "arap";
   const auto frameOn = [&](int threads) {

@@ -190,19 +190,21 @@ TEST(BlackBorder, IsFoundWithItsCutAndNothingElse) {
 }
 
 TEST(BlackBorder, IsFoundOnAnySideFromSixPixelsOn) {
-  constexpr int kWidth = 96, kHeight = 64;
+  constexpr int kImageWidth = 96, kImageHeight = 64;
   const auto blackened = [&](int u0, int v0, int u1, int v1) {
-    ColourImage image = test::colourOf(GrayImage(kWidth, kHeight, 90));
+    ColourImage image = test::colourOf(GrayImage(kImageWidth, kImageHeight, 90));
     for (int v = v0; v < v1; ++v)
       for (int u = u0; u < u1; ++u) image.at(u, v) = {};
     return image;
   };
   for (const int deep : {5, 6, 7}) {
     const bool found = deep >= 6;  // half a square and its centre
-    EXPECT_EQ(findBlackBorder(blackened(0, 0, kWidth, deep)).empty(), !found);
-    EXPECT_EQ(findBlackBorder(blackened(0, kHeight - deep, kWidth, kHeight)).empty(), !found);
-    EXPECT_EQ(findBlackBorder(blackened(0, 0, deep, kHeight)).empty(), !found);
-    EXPECT_EQ(findBlackBorder(blackened(kWidth - deep, 0, kWidth, kHeight)).empty(), !found);
+    EXPECT_EQ(findBlackBorder(blackened(0, 0, kImageWidth, deep)).empty(), !found);
+    EXPECT_EQ(findBlackBorder(blackened(0, kImageHeight - deep, kImageWidth, kImageHeight)).empty(),
+              !found);
+    EXPECT_EQ(findBlackBorder(blackened(0, 0, deep, kImageHeight)).empty(), !found);
+    EXPECT_EQ(findBlackBorder(blackened(kImageWidth - deep, 0, kImageWidth, kImageHeight)).empty(),
+              !found);
   }
   for (const int wide : {10, 11}) {  // a square at the edge; in a corner half of it is enough
     const bool found = wide >= 11;
@@ -210,7 +212,9 @@ TEST(BlackBorder, IsFoundOnAnySideFromSixPixelsOn) {
     EXPECT_EQ(findBlackBorder(blackened(0, 30, 8, 30 + wide)).empty(), !found);
   }
   EXPECT_FALSE(findBlackBorder(blackened(0, 0, 6, 6)).empty());
-  EXPECT_FALSE(findBlackBorder(blackened(kWidth - 6, kHeight - 6, kWidth, kHeight)).empty());
+  EXPECT_FALSE(
+      findBlackBorder(blackened(kImageWidth - 6, kImageHeight - 6, kImageWidth, kImageHeight))
+          .empty());
   EXPECT_TRUE(findBlackBorder(blackened(40, 30, 60, 50)).empty());  // a hole in the tissue
 }
 

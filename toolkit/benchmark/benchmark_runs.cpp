@@ -15,6 +15,7 @@
 #include "eval/statistics/cohort.h"
 #include "io/files/folder.h"
 #include "io/text/message.h"
+#include "toolkit/record/statistics_json.h"
 #include "toolkit/run/run_reader.h"
 #include "toolkit/run/table_reader.h"
 
@@ -188,10 +189,6 @@ std::vector<double> readLatencies(const fs::path& run) {
   std::vector<double> all;
   for (std::size_t row = 0; row < table.rows(); ++row) all.push_back(table.at(row, 1));
   return all;
-}
-
-FactSheet::Json orNull(double value) {
-  return std::isfinite(value) ? FactSheet::Json(value) : FactSheet::Json(nullptr);
 }
 
 void addClips(const std::vector<std::string>& judged, const std::vector<ExcludedClip>& excluded,

@@ -105,8 +105,6 @@ void addClips(const std::vector<std::string>& judged, const std::vector<Excluded
 void addLatency(const std::vector<double>& latency_ms, const std::string& of_what,
                 FactSheet* facts);
 
-/// NaN becomes null.
-FactSheet::Json orNull(double value);
 /// "key": mean over the clusters (clips, groups) named by `over`, with the 95 % interval of
 /// a bootstrap over clusters, as one line of text; no line for fewer than three clusters.
 void addClusterMean(const std::string& label, const std::string& key, const std::string& unit,

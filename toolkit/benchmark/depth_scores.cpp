@@ -7,6 +7,7 @@
 
 #include "eval/images/dense_answer.h"
 #include "eval/images/pixel_masks.h"
+#include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {

@@ -13,6 +13,7 @@
 #include "io/text/text_lines.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/record/json_text.h"
+#include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "toolkit/record/statistics_json.h"
+
 namespace softscope {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "eval/statistics/cohort.h"
 #include "toolkit/benchmark/benchmark_runs.h"
+#include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {

@@ -6,6 +6,7 @@
 #include "io/calibrations/calibration_reader.h"
 #include "io/calibrations/calibration_writer.h"
 #include "io/text/message.h"
+#include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {
@@ -15,9 +16,7 @@ using Json = FactSheet::Json;
 constexpr Rgb8 kBehind{40, 40, 44}, kEmpty{96, 32, 32}, kDot{120, 220, 120}, kLine{70, 70, 76};
 constexpr int kGapPx = 8;
 
-Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-std::string percent(double share) { return fixed(100 * share, 0) + " %"; }
+std::string wholePercent(double share) { return fixed(100 * share, 0) + " %"; }
 
 /// Number of digits according to the half width of the interval.
 std::string withInterval(const ParameterInterval& one) {
@@ -83,8 +82,8 @@ void addRowOutlook(const RowOutlook& outlook, FactSheet* facts) {
              say("within ", fixed(outlook.median_95_px, 3), " px over half of the image, ",
                  fixed(outlook.worst_95_px, 3), " px at worst, in column ", fixed(at.x(), 0),
                  ", row ", fixed(at.y(), 0), " (95 %)"),
-             "row_error.expected_worst_95_px", numberOrNull(outlook.worst_95_px));
-  facts->addQuietly("row_error.expected_median_95_px", numberOrNull(outlook.median_95_px));
+             "row_error.expected_worst_95_px", orNull(outlook.worst_95_px));
+  facts->addQuietly("row_error.expected_median_95_px", orNull(outlook.median_95_px));
   facts->addQuietly("row_error.expected_worst_at_px", {at.x(), at.y()});
 }
 
@@ -182,15 +181,15 @@ FactSheet calibrationFacts(const CalibrationReport& report, const BoardFilm& fil
             fixed(report.rows.rms_px, 3) + " px RMS of single corners, " +
                 fixed(report.rows.worst_region_px, 3) + " px in the worst ninth",
             "row_error.rms_px", report.rows.rms_px);
-  facts.addQuietly("row_error.worst_region_px", numberOrNull(report.rows.worst_region_px));
+  facts.addQuietly("row_error.worst_region_px", orNull(report.rows.worst_region_px));
   Json regions = Json::array();
-  for (const double mean : report.rows.region_mean_px) regions.push_back(numberOrNull(mean));
+  for (const double mean : report.rows.region_mean_px) regions.push_back(orNull(mean));
   facts.addQuietly("row_error.region_mean_px", regions);
   addRowOutlook(report.row_outlook, &facts);
   addDepths(report, &facts);
   facts.add("coverage",
-            percent(report.coverage.left_share) + " of the left image, " +
-                percent(report.coverage.right_share) + " of the right one",
+            wholePercent(report.coverage.left_share) + " of the left image, " +
+                wholePercent(report.coverage.right_share) + " of the right one",
             "coverage.left", report.coverage.left_share);
   facts.addQuietly("coverage.right", report.coverage.right_share);
   addViews(report, &facts);

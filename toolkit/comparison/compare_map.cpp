@@ -9,15 +9,15 @@
 namespace softscope {
 namespace {
 
-constexpr std::size_t kMostOfTest = 60000, kMostOfReference = 8000;
+constexpr std::size_t kMostTestPoints = 60000, kMostReferencePoints = 8000;
 
 /// Every n-th point of a point cloud; a decimated surface of a mesh.
 CoarseMesh decimated(const TriangleMesh& test) {
   const std::size_t count = test.vertices_mm.size();
-  if (!test.empty() || count <= kMostOfTest) return coarsen(test, kMostOfTest);
+  if (!test.empty() || count <= kMostTestPoints) return coarsen(test, kMostTestPoints);
   CoarseMesh points;
-  for (std::size_t k = 0; k < kMostOfTest; ++k)
-    points.vertices.push_back(static_cast<std::int32_t>(k * count / kMostOfTest));
+  for (std::size_t k = 0; k < kMostTestPoints; ++k)
+    points.vertices.push_back(static_cast<std::int32_t>(k * count / kMostTestPoints));
   return points;
 }
 
@@ -34,7 +34,7 @@ ErrorMap comparisonMap(const ComparisonResult& result, const TriangleMesh& refer
     map.absolute_mm.push_back(static_cast<float>(closest.distance_mm));
     map.signed_mm.push_back(static_cast<float>(closest.signed_distance_mm));
   }
-  map.reference = coarsen(reference, kMostOfReference).at(reference.vertices_mm);
+  map.reference = coarsen(reference, kMostReferencePoints).at(reference.vertices_mm);
   const Eigen::Vector3d eye = comparisonEye(reference, result.comparison.closest);
   map.look = -eye.normalized().cast<float>();
   // Up is the patient's head; for a view along that axis, the camera's up direction.

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDotsPerInch = 300;
+constexpr double kPrintDotsPerInch = 300;
 
 VertexErrors vertexErrors(const TriangleMesh& test, const SurfaceComparison& comparison) {
   VertexErrors errors;
@@ -56,8 +56,9 @@ void CompareOutputs::putFigure(const std::string& name, const VectorDrawing& fig
   put(name + ".svg", svgBytes(figure));
   put(name + ".pdf", pdfBytes(figure));
   const fs::path png = folder_ / (name + ".png");
-  new_files_.make(
-      png, [&] { writePng(png, rasterise(figure, kDotsPerInch), kDotsPerInch, overwrite_); });
+  new_files_.make(png, [&] {
+    writePng(png, rasterise(figure, kPrintDotsPerInch), kPrintDotsPerInch, overwrite_);
+  });
 }
 
 std::string CompareOutputs::write(const ComparisonResult& result, const TriangleMesh& reference,
@@ -73,7 +74,7 @@ std::string CompareOutputs::write(const ComparisonResult& result, const Triangle
   std::string not_drawn;
   try {
     FigureStyle style;
-    style.dots_per_inch = kDotsPerInch;
+    style.dots_per_inch = kPrintDotsPerInch;
     putFigure("error_map", drawComparison(result, reference, test, picture, style));
   } catch (const BackendError& error) {
     not_drawn = std::string("no error_map: ") + error.what();

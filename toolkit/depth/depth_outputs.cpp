@@ -19,7 +19,7 @@ namespace softscope {
 namespace {
 
 constexpr double kConfidentPx = 0.5;
-constexpr double kDepthStepMm = 0.01;
+constexpr double kMapStepMm = 0.01;
 
 std::string noteOf(const DepthResult& measured) {
   const FrameStatistics statistics = statisticsOf(measured);
@@ -97,7 +97,7 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
       if (options_.kinds.floats)
         make(prefix, "depth.pfm", [&](const auto& path) { writePfm(path, depth_mm, force); });
       make(prefix, "depth.png",
-           [&](const auto& path) { writeDepthPng(path, depth_mm, kDepthStepMm, force); });
+           [&](const auto& path) { writeDepthPng(path, depth_mm, kMapStepMm, force); });
     }
     if (options_.kinds.confidence && matched)
       make(prefix, "confidence.png",
@@ -108,7 +108,7 @@ void DepthOutputs::write(const std::string& prefix, const DepthResult& measured,
     const DepthMap dense = denseDepth(measured.depth, measured.mask);
     make(prefix, "dense.pfm", [&](const auto& path) { writePfm(path, dense.depth_mm, force); });
     make(prefix, "dense.png",
-         [&](const auto& path) { writeDepthPng(path, dense.depth_mm, kDepthStepMm, force); });
+         [&](const auto& path) { writeDepthPng(path, dense.depth_mm, kMapStepMm, force); });
     make(prefix, "dense_sigma.pfm",
          [&](const auto& path) { writePfm(path, dense.sigma_mm, force); });
   };

@@ -20,27 +20,27 @@ namespace fs = std::filesystem;
 
 constexpr double kDotsPerInch = 300;
 
-const char* const kFiles[] = {"evaluation.json",
-                              "frames.csv",
-                              "tracks.csv",
-                              "error_series.svg",
-                              "error_series.pdf",
-                              "error_series.png",
-                              "error_histogram.svg",
-                              "error_histogram.pdf",
-                              "error_histogram.png",
-                              "worst_frames.svg",
-                              "worst_frames.pdf",
-                              "worst_frames.png",
-                              "maps.csv",
-                              "error_map.svg",
-                              "error_map.pdf",
-                              "error_map.png",
-                              "errors.pvd",
-                              "drawn_view.png",
-                              "quality_series.svg",
-                              "quality_series.pdf",
-                              "quality_series.png"};
+const char* const kEvaluationFiles[] = {"evaluation.json",
+                                        "frames.csv",
+                                        "tracks.csv",
+                                        "error_series.svg",
+                                        "error_series.pdf",
+                                        "error_series.png",
+                                        "error_histogram.svg",
+                                        "error_histogram.pdf",
+                                        "error_histogram.png",
+                                        "worst_frames.svg",
+                                        "worst_frames.pdf",
+                                        "worst_frames.png",
+                                        "maps.csv",
+                                        "error_map.svg",
+                                        "error_map.pdf",
+                                        "error_map.png",
+                                        "errors.pvd",
+                                        "drawn_view.png",
+                                        "quality_series.svg",
+                                        "quality_series.pdf",
+                                        "quality_series.png"};
 
 /// Separated by a white gap.
 ColourImage sideBySide(const DrawnPair& pair) {
@@ -76,7 +76,7 @@ EvaluateOutputs::EvaluateOutputs(fs::path folder, bool overwrite)
     throw OptionError("`out=` " + shown(folder_) +
                       ": is a file, but must be a new or existing folder");
   for (const fs::path& written : {folder_, folder_ / "errors"}) removeAbandoned(written);
-  for (const char* name : kFiles) requireWritable(folder_ / name, overwrite_);
+  for (const char* name : kEvaluationFiles) requireWritable(folder_ / name, overwrite_);
 }
 
 void EvaluateOutputs::put(const std::string& name, const std::string& bytes) const {

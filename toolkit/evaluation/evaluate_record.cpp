@@ -165,7 +165,7 @@ Json alignmentJson(const SurfaceAlignment& alignment) {
           {"after", statisticsJson(alignment.after.distance_mm, "_mm")}};
 }
 
-Json comparisonJson(const EvaluationResult& result) {
+Json surfacesJson(const EvaluationResult& result) {
   Json json{{"reference_kind", result.against_mesh ? "mesh" : "sequence"},
             {"frame", result.against_mesh ? "the mesh's" : "the current left camera's"},
             {"alignment", toString(result.alignment)}};
@@ -318,7 +318,7 @@ FactSheet::Json evaluationJson(const EvaluationResult& result) {
   json["softscope"] = versionText();
   json["command"] = "evaluate";
   json["inputs"] = {{"run", result.run}, {"reference", result.reference}};
-  json["comparison"] = comparisonJson(result);
+  json["comparison"] = surfacesJson(result);
   json["outcomes"] = result.outcomes.json();
   json["surface"] = surfaceJson(result);
   if (!result.against_mesh) {

@@ -170,7 +170,7 @@ DrawnFigure FigureMaker::draw() const {
   return finish(std::move(drawing), inputs, std::move(record));
 }
 
-std::string listed(const std::vector<int>& frames) {
+std::string listedFrames(const std::vector<int>& frames) {
   std::string text;
   for (const int frame : frames) text += (text.empty() ? "" : ",") + std::to_string(frame);
   return text;
@@ -183,9 +183,9 @@ void validateKind(const FigureRequest& r) {
   const std::size_t frames = r.frames.size();
   require(r.frame < 0 || frames == 0, "`frame=`", r.frame, "excludes `frames=`; give one");
   require((r.kind != "compare" && r.kind != "matches") || frames < 2, "`frames=`",
-          "`" + listed(r.frames) + "`", "of `kind=` " + r.kind + " must be one frame");
+          "`" + listedFrames(r.frames) + "`", "of `kind=` " + r.kind + " must be one frame");
   if (r.kind == "four") {
-    require(r.frames.empty(), "`frames=`", listed(r.frames),
+    require(r.frames.empty(), "`frames=`", listedFrames(r.frames),
             "needs `kind=` frames, series or compare");
     require(r.other.empty(), "`other=`", r.other, "needs `kind=` compare");
     require(r.names.empty(), "`names=`", r.names.empty() ? "" : r.names[0],

@@ -11,7 +11,7 @@ std::string times(const Values& values, int decimals) {
          fixed(values[2], decimals);
 }
 
-FactSheet::Json matrixJson(const Eigen::Matrix4d& matrix) {
+FactSheet::Json voxelMatrixJson(const Eigen::Matrix4d& matrix) {
   FactSheet::Json rows = FactSheet::Json::array();
   for (int row = 0; row < 4; ++row)
     rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
@@ -33,7 +33,7 @@ void addGeometry(const VolumeSummary& volume, FactSheet& facts) {
   facts.add("axes run to", volume.axes + " (L left, P back, S head, R right, A front, I feet)",
             "axes", volume.axes);
   facts.add("header's space", "file_space", volume.file_space);
-  facts.addQuietly("lps_from_voxel", matrixJson(volume.lps_from_voxel));
+  facts.addQuietly("lps_from_voxel", voxelMatrixJson(volume.lps_from_voxel));
 }
 
 }  // namespace

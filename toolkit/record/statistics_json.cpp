@@ -18,6 +18,10 @@ FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit) {
 
 FactSheet::Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+FactSheet::Json orNull(double value) {
+  return std::isfinite(value) ? FactSheet::Json(value) : FactSheet::Json(nullptr);
+}
+
 std::string csvCell(double value) {
   char text[32] = "";
   if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.9g", value);

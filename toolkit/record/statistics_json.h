@@ -18,6 +18,9 @@ FactSheet::Json vectorJson(const Eigen::Vector3d& v);
 /// Four rows of four numbers.
 FactSheet::Json matrixJson(const Eigen::Isometry3d& pose);
 
+/// null if it is not finite.
+FactSheet::Json orNull(double value);
+
 /// Nine digits of a value of a CSV file; empty if it is not finite.
 std::string csvCell(double value);
 

@@ -128,7 +128,7 @@ void shrink(ErrorMap& map, std::size_t most) {
 }
 
 /// Value at "a.b.c"; null if absent.
-const Json* valueAt(const Json& record, const std::string& path) {
+const Json* memberAt(const Json& record, const std::string& path) {
   const Json* at = &record;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('.', begin), path.size());
@@ -144,12 +144,12 @@ const Json* valueAt(const Json& record, const std::string& path) {
 }  // namespace
 
 double numberAt(const Json& record, const std::string& path) {
-  const Json* found = valueAt(record, path);
+  const Json* found = memberAt(record, path);
   return found != nullptr && found->is_number() ? found->get<double>() : Statistics::kNone;
 }
 
 std::string textAt(const Json& record, const std::string& path) {
-  const Json* found = valueAt(record, path);
+  const Json* found = memberAt(record, path);
   return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 

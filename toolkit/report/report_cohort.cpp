@@ -105,16 +105,16 @@ std::vector<double> differencesOf(const Cases& cases, const Cases& versus,
   return differences;
 }
 
-Json intervalJson(const Interval& i) { return {{"low", i.low}, {"high", i.high}}; }
+Json limitsJson(const Interval& i) { return {{"low", i.low}, {"high", i.high}}; }
 
 Json agreementJson(const BlandAltman& b) {
   return {{"n", b.count},
           {"bias_mm", b.bias},
           {"sd_mm", b.sd},
-          {"limits_mm", intervalJson(b.limits)},
-          {"bias_ci_mm", intervalJson(b.bias_ci)},
-          {"low_limit_ci_mm", intervalJson(b.low_limit_ci)},
-          {"high_limit_ci_mm", intervalJson(b.high_limit_ci)}};
+          {"limits_mm", limitsJson(b.limits)},
+          {"bias_ci_mm", limitsJson(b.bias_ci)},
+          {"low_limit_ci_mm", limitsJson(b.low_limit_ci)},
+          {"high_limit_ci_mm", limitsJson(b.high_limit_ci)}};
 }
 
 /// For cases that all lack distances.
@@ -289,12 +289,12 @@ Json cohortJson(const Cases& cases, const Cases& versus, const ReportChoices& ch
                         {"median", s.median},
                         {"quartile_1", s.quartile_1},
                         {"quartile_3", s.quartile_3},
-                        {"mean_ci", intervalJson(s.mean_ci)}};
+                        {"mean_ci", limitsJson(s.mean_ci)}};
     if (versus.empty()) continue;
     const std::vector<double> differences = differencesOf(cases, versus, metric);
     const CohortSummary d = summariseCohort(differences, choices.seed);
     json[metric.key]["versus"] = {{"mean_difference", d.mean},
-                                  {"mean_difference_ci", intervalJson(d.mean_ci)},
+                                  {"mean_difference_ci", limitsJson(d.mean_ci)},
                                   {"signed_rank_p", signedRankTest(differences).p_value}};
   }
   json["agreement"] =

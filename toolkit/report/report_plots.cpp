@@ -20,7 +20,7 @@ std::vector<double> numbersAt(const FactSheet::Json& list) {
   return numbers;
 }
 
-double valueAt(const std::vector<std::pair<double, double>>& series, double x) {
+double interpolatedAt(const std::vector<std::pair<double, double>>& series, double x) {
   for (const auto& [at, value] : series)
     if (at == x) return value;
   return Statistics::kNone;
@@ -50,8 +50,8 @@ std::optional<CaptionedFigure> seriesFigure(const ReportCase& c) {
   for (const auto& [x, mean] : frames.series(metric_paths::kMean)) {
     data.times.push_back(x);
     data.mean.push_back(mean);
-    data.median.push_back(valueAt(medians, x));
-    data.p95.push_back(valueAt(p95s, x));
+    data.median.push_back(interpolatedAt(medians, x));
+    data.p95.push_back(interpolatedAt(p95s, x));
   }
   if (statistics(data.mean).count < 2) return std::nullopt;
   return CaptionedFigure{withOutcomeStrip(outcomeStrip(frames), drawErrorSeries(data)),

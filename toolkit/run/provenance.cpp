@@ -19,7 +19,7 @@ using Json = FactSheet::Json;
 
 constexpr double kSameLength = 0.01;  // rectification changes a focal length by less
 
-Json readRecord(const fs::path& file) {
+Json readRunRecord(const fs::path& file) {
   const Json record = Json::parse(readBytes(file, kTextLimitBytes), nullptr, false);
   if (!record.is_object())
     throw InputError(shown(file) + ": is no JSON object; is it damaged? Reconstruct again");
@@ -27,7 +27,7 @@ Json readRecord(const fs::path& file) {
 }
 
 /// NaN if absent or of another type, as in records of other versions.
-double numberAt(const Json& record, const char* path) {
+double recordedNumber(const Json& record, const char* path) {
   const Json::json_pointer place(path);
   if (!record.contains(place) || !record.at(place).is_number()) return std::nan("");
   return record.at(place).get<double>();
@@ -38,8 +38,8 @@ bool differs(double recorded, double expected) {
 }
 
 void requireSameSize(const Json& record, const PinholeCamera& left, const fs::path& file) {
-  const double width = numberAt(record, "/rectified_rig/width_px");
-  const double height = numberAt(record, "/rectified_rig/height_px");
+  const double width = recordedNumber(record, "/rectified_rig/width_px");
+  const double height = recordedNumber(record, "/rectified_rig/height_px");
   if (std::isnan(width) || std::isnan(height)) return;
   if (width == left.width_px && height == left.height_px) return;
   throw InputError(say(shown(file), ": the run's images have ", width, " x ", height,
@@ -68,11 +68,11 @@ std::vector<std::string> checkOrigin(const JudgedRun& run, const SequenceTruth& 
   const fs::path file = run.folder / "run.json";
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return {};
-  const Json record = readRecord(file);
+  const Json record = readRunRecord(file);
   requireSameSize(record, truth.rig.left, file);
   std::vector<std::string> warnings;
-  const double focal_px = numberAt(record, "/rectified_rig/focal_px");
-  const double baseline_mm = numberAt(record, "/rectified_rig/baseline_mm");
+  const double focal_px = recordedNumber(record, "/rectified_rig/focal_px");
+  const double baseline_mm = recordedNumber(record, "/rectified_rig/baseline_mm");
   if (differs(focal_px, truth.rig.left.fx_px) || differs(baseline_mm, truth.rig.baseline_mm))
     warnings.push_back(say("the run was made with a focal length of ", focal_px,
                            " px and a baseline of ", baseline_mm, " mm, but the sequence has ",

@@ -35,9 +35,9 @@ constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
 constexpr const char* kImages = "images.csv";
 constexpr const char* kKitti = "trajectory_kitti.txt";
 
-const char* const kFiles[] = {"model.ply", "frames.csv", "trajectory.txt", kKitti,
-                              kImages,     "tracks.csv", "models.pvd",     kRecordFile,
-                              kCheckpoint, kCrateFile};
+const char* const kRunFiles[] = {"model.ply", "frames.csv", "trajectory.txt", kKitti,
+                                 kImages,     "tracks.csv", "models.pvd",     kRecordFile,
+                                 kCheckpoint, kCrateFile};
 
 /// Of a model, or of its nodes.
 bool isSavedModel(const fs::path& file) {
@@ -47,7 +47,7 @@ bool isSavedModel(const fs::path& file) {
 }
 
 bool holdsRun(const fs::path& folder) {
-  for (const char* name : kFiles)
+  for (const char* name : kRunFiles)
     if (fs::exists(folder / name)) return true;
   return fs::exists(folder / kModels);
 }
@@ -203,7 +203,7 @@ void RunFolder::begin() {
     throw InputError("`out=` " + shown(options_.folder) + ": can't be made: " + failure.message() +
                      ". Choose a folder that you may write to");
   hold();
-  for (const char* name : kFiles) fs::remove(file(name));
+  for (const char* name : kRunFiles) fs::remove(file(name));
   for (const char* saved : {kModels, kNodes}) {
     if (!fs::is_directory(file(saved))) continue;
     std::vector<fs::path> earlier;

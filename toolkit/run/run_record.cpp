@@ -10,6 +10,7 @@
 #include "io/files/file_hash.h"
 #include "toolkit/record/machine.h"
 #include "toolkit/record/setting_json.h"
+#include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
 
 namespace softscope {
@@ -37,8 +38,6 @@ Json rigJson(const RectifiedRig& rig, bool one_camera) {
 
 constexpr double kDoubtful = 0.5;   // confidence of a frame
 constexpr double kWarnShare = 0.1;  // smallest share of frames for a warning
-
-Json numberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
 
@@ -128,16 +127,16 @@ Json RunRecord::json() const {
   all["outcomes"] = outcomes_.json();
   all["points"] = points_;
   all["nodes"] = nodes_;
-  all["mean_inliers"] = numberOrNull(meanOf(matches_));
-  all["mean_backprojection_mm"] = numberOrNull(meanOf(backprojection_mm_));
-  all["mean_prediction_mm"] = numberOrNull(meanOf(prediction_mm_));
-  all["mean_frame_ms"] = numberOrNull(meanOf(frame_ms_));
+  all["mean_inliers"] = orNull(meanOf(matches_));
+  all["mean_backprojection_mm"] = orNull(meanOf(backprojection_mm_));
+  all["mean_prediction_mm"] = orNull(meanOf(prediction_mm_));
+  all["mean_frame_ms"] = orNull(meanOf(frame_ms_));
   std::vector<double> ms(4, Statistics::kNone);  // the metrics exist before the first frame
   if (!frame_ms_.empty()) ms = percentiles(frame_ms_, {50, 95, 99, 100});
-  all["frame_ms"] = {{"p50", numberOrNull(ms[0])},
-                     {"p95", numberOrNull(ms[1])},
-                     {"p99", numberOrNull(ms[2])},
-                     {"slowest", numberOrNull(ms[3])}};
+  all["frame_ms"] = {{"p50", orNull(ms[0])},
+                     {"p95", orNull(ms[1])},
+                     {"p99", orNull(ms[2])},
+                     {"slowest", orNull(ms[3])}};
   Json& stages = all["mean_stage_ms"] = Json::object();
   for (const auto& [stage, sum_ms] : elapsed_ms_) stages[stage] = sum_ms / std::max(1, frames_);
   all["frames_scope_static"] = scope_static_;

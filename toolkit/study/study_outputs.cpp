@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = FactSheet::Json;
 
-constexpr double kDotsPerInch = 200;
+constexpr double kPageDotsPerInch = 200;
 
 const char* const kStyle =
     "<style>body{font:15px/1.45 system-ui,sans-serif;max-width:62em;margin:2em auto;padding:0 1em;"
@@ -144,8 +144,8 @@ void writeStudy(const Study& study, const std::vector<Json>& records, const std:
   for (const auto& [name, drawing] : figures) {
     put("plots/" + name + ".svg", svgBytes(drawing));
     put("plots/" + name + ".pdf", pdfBytes(drawing));
-    writePng(folder.root / ("plots/" + name + ".png"), rasterise(drawing, kDotsPerInch),
-             kDotsPerInch, true);
+    writePng(folder.root / ("plots/" + name + ".png"), rasterise(drawing, kPageDotsPerInch),
+             kPageDotsPerInch, true);
   }
   put("table.csv", table.csv());
   put("table.md", table.markdown());

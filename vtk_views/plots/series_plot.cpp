@@ -14,7 +14,7 @@ namespace softscope {
 namespace {
 
 constexpr Rgb8 kBand{214, 228, 240}, kBandEdge{140, 170, 200}, kBars{150, 190, 220},
-    kGrey{110, 110, 110};
+    kSeriesGrey{110, 110, 110};
 
 double largestFinite(const std::vector<double>& values) {
   double largest = 0;
@@ -167,7 +167,7 @@ VectorDrawing drawErrorHistogram(const ErrorHistogramData& data, const PlotStyle
     text.text = note;
     text.size_pt = style.font_pt;
     text.anchor = TextAnchor::kEnd;
-    text.colour = kGrey;
+    text.colour = kSeriesGrey;
     drawing.parts.emplace_back(text);
   }
   return drawing;

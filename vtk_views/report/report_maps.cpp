@@ -20,14 +20,14 @@ constexpr std::uint16_t kNoError = 65535;
 constexpr double kLargestSteps = 65000;
 constexpr int kPalette = 256;
 
-std::string number(double value) {
+std::string jsonNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.7g", std::isfinite(value) ? value : 0.0);
   return text;
 }
 
 std::string vectorJson(const Eigen::Vector3f& v) {
-  return "[" + number(v.x()) + "," + number(v.y()) + "," + number(v.z()) + "]";
+  return "[" + jsonNumber(v.x()) + "," + jsonNumber(v.y()) + "," + jsonNumber(v.z()) + "]";
 }
 
 template <class Unsigned>
@@ -128,12 +128,13 @@ std::string mapJson(const ReportMap& map) {
   const double depth_mm = std::max(double(scale.box.diagonal().norm()), 1e-3);
   std::string json =
       "{\"name\":" + jsonQuoted(map.name) + ",\"low_mm\":" + vectorJson(scale.box.min()) +
-      ",\"size_mm\":" + vectorJson(scale.box.sizes()) + ",\"step_mm\":" + number(scale.step_mm) +
-      ",\"look\":" + vectorJson(first.look) + ",\"up\":" + vectorJson(first.up) +
+      ",\"size_mm\":" + vectorJson(scale.box.sizes()) +
+      ",\"step_mm\":" + jsonNumber(scale.step_mm) + ",\"look\":" + vectorJson(first.look) +
+      ",\"up\":" + vectorJson(first.up) +
       ",\"centre_mm\":" + vectorJson(viewAxes(first) * seen.center()) + ",\"half_mm\":[" +
-      number(half.x()) + "," + number(half.y()) + "],\"depth_mm\":" + number(depth_mm) +
-      ",\"point_mm\":" + number(2 * spacing_mm) + ",\"push_mm\":" + number(0.02 * depth_mm) +
-      ",\"space\":" +
+      jsonNumber(half.x()) + "," + jsonNumber(half.y()) + "],\"depth_mm\":" + jsonNumber(depth_mm) +
+      ",\"point_mm\":" + jsonNumber(2 * spacing_mm) +
+      ",\"push_mm\":" + jsonNumber(0.02 * depth_mm) + ",\"space\":" +
       jsonQuoted(first.surface.space.empty() ? "the reference's frame" : first.surface.space) +
       ",\"has_observed\":" + (observed ? "true" : "false") + ",\"moments\":[";
   for (const ErrorMap& moment : map.moments)
@@ -163,8 +164,8 @@ double largestErrorMm(const std::vector<ReportMap>& maps) {
 }  // namespace
 
 std::string reportMapsJson(const std::vector<ReportMap>& maps, double limit_mm) {
-  std::string json = "{\"limit_mm\":" + number(limit_mm) +
-                     ",\"largest_mm\":" + number(std::max(largestErrorMm(maps), limit_mm)) +
+  std::string json = "{\"limit_mm\":" + jsonNumber(limit_mm) +
+                     ",\"largest_mm\":" + jsonNumber(std::max(largestErrorMm(maps), limit_mm)) +
                      ",\"palettes\":{\"unsigned\":" + paletteJson(false) +
                      ",\"signed\":" + paletteJson(true) + "},\"maps\":[";
   for (const ReportMap& map : maps) json += (&map == &maps.front() ? "" : ",\n") + mapJson(map);

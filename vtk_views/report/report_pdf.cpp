@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kTextPt = 9, kTablePt = 7.6, kRowPt = 11.5, kCellGapPt = 9;
 constexpr double kTogetherPt = 250;  // smaller tables are not split
-constexpr Rgb8 kInk{20, 20, 20}, kGrey{95, 95, 95}, kPale{222, 222, 222}, kBlue{0, 81, 127},
-    kBad{161, 18, 18}, kSoft{244, 245, 247};
+constexpr Rgb8 kPageInk{20, 20, 20}, kPageGrey{95, 95, 95}, kPagePale{222, 222, 222},
+    kBlue{0, 81, 127}, kBad{161, 18, 18}, kSoft{244, 245, 247};
 
 DrawnText textAt(PointPt at, const std::string& words, double size_pt) {
   DrawnText text;
@@ -34,7 +34,8 @@ class TableSetter {
   void set() {
     const double all_pt = (kRowPt + 1) * static_cast<double>(table_.rows.size() + 2) + 8;
     if (all_pt < kTogetherPt) sheet_.ensure(all_pt);
-    if (!table_.caption.empty()) sheet_.text(table_.caption, {kTextPt, /*bold=*/true, 0, 1, kInk});
+    if (!table_.caption.empty())
+      sheet_.text(table_.caption, {kTextPt, /*bold=*/true, 0, 1, kPageInk});
     if (!table_.headings.empty()) setRow(table_.headings, /*heading=*/true);
     for (const auto& row : table_.rows) setRow(row, false);
     sheet_.skip(8);
@@ -114,7 +115,7 @@ class TableSetter {
     sheet_.page().parts.emplace_back(
         DrawnLine{{{PaperSheet::kSidePt, sheet_.y()}, {x_pt - kCellGapPt, sheet_.y()}},
                   heading ? 0.8 : 0.35,
-                  heading ? kInk : kPale});
+                  heading ? kPageInk : kPagePale});
     sheet_.skip(1);
   }
 
@@ -152,14 +153,14 @@ struct PartSetter {
   PaperSheet& sheet;
 
   void operator()(const ReportParagraph& p) const {
-    sheet.text(p.text, {p.important ? 11 : kTextPt, p.important, 0, 6, kInk});
+    sheet.text(p.text, {p.important ? 11 : kTextPt, p.important, 0, 6, kPageInk});
   }
   void operator()(const ReportList& list) const {
     for (const std::string& item : list.items) {
       sheet.ensure(14);
       sheet.page().parts.emplace_back(
           textAt({PaperSheet::kSidePt, sheet.y() + kTextPt}, "\xE2\x80\xA2", kTextPt));
-      sheet.text(item, {kTextPt, false, 11, 3, kInk});
+      sheet.text(item, {kTextPt, false, 11, 3, kPageInk});
     }
     sheet.skip(4);
   }
@@ -203,18 +204,18 @@ struct PartSetter {
     sheet.page().parts.emplace_back(
         DrawnPicture{from, {from.x_pt + width_pt, from.y_pt + height_pt}, pixels});
     sheet.skip(height_pt + 4);
-    sheet.text(picture.caption, {8, false, 0, 8, kGrey});
+    sheet.text(picture.caption, {8, false, 0, 8, kPageGrey});
   }
   void operator()(const ReportMapPlace& place) const {
     if (!page.map_figure) {
       sheet.text("No picture of the map: nothing on the machine that made this could draw one.",
-                 {8, false, 0, 8, kGrey});
+                 {8, false, 0, 8, kPageGrey});
       return;
     }
     sheet.ensure(page.map_figure->height_pt + 24);
     sheet.put(*page.map_figure, {PaperSheet::kSidePt, sheet.y()});
     sheet.skip(page.map_figure->height_pt + 2);
-    sheet.text(place.paper_caption, {8, false, 0, 8, kGrey});
+    sheet.text(place.paper_caption, {8, false, 0, 8, kPageGrey});
   }
   void operator()(const ReportReview&) const {}  // controls do not apply to PDF
 
@@ -225,7 +226,7 @@ struct PartSetter {
     parts.emplace_back(
         DrawnLine{{at, {end.x_pt, at.y_pt}}, 2, tile.mark == ReportMark::kBad ? kBad : kBlue});
     DrawnText label = textAt({at.x_pt + 6, at.y_pt + 12}, validUtf8(tile.label), 7.5);
-    label.colour = kGrey;
+    label.colour = kPageGrey;
     DrawnText value = textAt({at.x_pt + 6, at.y_pt + 27}, validUtf8(tile.value), 13);
     value.bold = true;
     if (tile.mark == ReportMark::kBad) value.colour = kBad;
@@ -234,7 +235,7 @@ struct PartSetter {
     double y_pt = at.y_pt + 36;
     for (const std::string& line : brokenLines(tile.note, width_pt - 10, 6, false)) {
       DrawnText note = textAt({at.x_pt + 6, y_pt}, line, 6);
-      note.colour = kGrey;
+      note.colour = kPageGrey;
       parts.emplace_back(note);
       y_pt += 7;
     }
@@ -246,7 +247,7 @@ struct PartSetter {
     double height_pt = 2;
     for (const std::string& line : brokenLines(caption, drawing.width_pt - 6, 7.5, false)) {
       DrawnText text = textAt({PaperSheet::kSidePt + x_pt, y_pt}, line, 7.5);
-      text.colour = kGrey;
+      text.colour = kPageGrey;
       sheet.page().parts.emplace_back(text);
       y_pt += 10;
       height_pt += 10;
@@ -277,13 +278,13 @@ bool isForPaper(const ReportSection& section) {
 
 std::string reportPdf(const ReportPage& page) {
   PaperSheet sheet;
-  sheet.text(page.title, {17, /*bold=*/true, 0, 0, kInk});
-  sheet.text(page.subtitle, {10, false, 0, 6, kGrey});
+  sheet.text(page.title, {17, /*bold=*/true, 0, 0, kPageInk});
+  sheet.text(page.subtitle, {10, false, 0, 6, kPageGrey});
   for (const ReportSection& section : page.sections) {
     if (!isForPaper(section)) continue;
     sheet.ensure(heightWithTitle(page, section));
     sheet.skip(6);
-    sheet.text(section.title, {12, /*bold=*/true, 0, 1, kInk});
+    sheet.text(section.title, {12, /*bold=*/true, 0, 1, kPageInk});
     sheet.rule(kBlue, 1.2);
     for (const ReportPart& part : section.parts) std::visit(PartSetter{page, sheet}, part);
   }

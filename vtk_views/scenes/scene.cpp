@@ -46,9 +46,9 @@ Eigen::AlignedBox3d boxOf(const Volume& volume) {
 }
 
 Rgb8 surfaceColour(std::size_t index) {
-  constexpr std::array<Rgb8, 5> kColours{
+  constexpr std::array<Rgb8, 5> kSurfaceColours{
       {{240, 165, 0}, {60, 170, 235}, {0, 170, 125}, {215, 125, 175}, {235, 105, 20}}};
-  return kColours[index % kColours.size()];
+  return kSurfaceColours[index % kSurfaceColours.size()];
 }
 
 Rgb8 onWhite(Rgb8 c) {

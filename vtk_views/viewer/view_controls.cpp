@@ -8,7 +8,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kSlowest = 1.0 / 16, kFastest = 16, kSmallestDot = 0.25, kLargestDot = 8;
+constexpr double kSlowest = 1.0 / 16, kFastest = 16, kSmallestDotPx = 0.25, kLargestDotPx = 8;
 constexpr double kOnlyMoment_s = 1;
 
 void nextColour(const ViewWorld& world, ViewState& state) {
@@ -36,7 +36,7 @@ struct Pressed {
     return ViewTask::kRedraw;
   }
   ViewTask dots(double factor) const {
-    state.dot_scale = std::clamp(state.dot_scale * factor, kSmallestDot, kLargestDot);
+    state.dot_scale = std::clamp(state.dot_scale * factor, kSmallestDotPx, kLargestDotPx);
     return ViewTask::kRedraw;
   }
   ViewTask colour(ViewColour wanted) const {

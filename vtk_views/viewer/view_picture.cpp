@@ -13,9 +13,9 @@
 namespace softscope {
 namespace {
 
-constexpr int kFiner = 2;
+constexpr int kPictureFiner = 2;
 constexpr double kUsualWidth = 960, kUsualHeight = 720;
-constexpr int kLeastWidth = 320, kLeastHeight = 240, kMost = 4096;
+constexpr int kLeastWidth = 320, kLeastHeight = 240, kMostShown = 4096;
 
 /// Font size proportional to the image. In eighths, so that the foot has whole pixels.
 double footScale(int width_px, int height_px) {
@@ -26,9 +26,9 @@ double footScale(int width_px, int height_px) {
 }  // namespace
 
 void requireViewSize(int width_px, int height_px) {
-  require(width_px >= kLeastWidth && width_px <= kMost, "`size=`", width_px,
+  require(width_px >= kLeastWidth && width_px <= kMostShown, "`size=`", width_px,
           "must be 320 to 4096 pixels wide");
-  require(height_px >= kLeastHeight && height_px <= kMost, "`size=`", height_px,
+  require(height_px >= kLeastHeight && height_px <= kMostShown, "`size=`", height_px,
           "must be 240 to 4096 pixels high");
 }
 
@@ -39,7 +39,7 @@ ViewPicture::ViewPicture(ViewSource& source, int width_px, int height_px, bool c
       height_px_(height_px - static_cast<int>(std::lround(kViewFootPx * foot_scale_))),
       scene_(source.world()) {
   requireViewSize(width_px, height_px);
-  window_ = makeOffscreenWindow(kFiner * width_px_, kFiner * height_px_);
+  window_ = makeOffscreenWindow(kPictureFiner * width_px_, kPictureFiner * height_px_);
   window_->AddRenderer(scene_.renderer());
 }
 
@@ -50,9 +50,9 @@ ColourImage ViewPicture::draw(const Playback& playback, const ViewState& state, 
   scene_.show(*moment, state);
   scene_.look(state.look == Look::kScope ? *moment : *first_, state, aspect);
   if (state.look != Look::kScope) scene_.turn(turn_deg);
-  scene_.sizeFor(kFiner);
+  scene_.sizeFor(kPictureFiner);
   window_->Render();
-  const ColourImage view = readPixels(window_, width_px_, height_px_, kFiner);
+  const ColourImage view = readPixels(window_, width_px_, height_px_, kPictureFiner);
   if (foot_scale_ == 0) return view;
   const ViewFoot foot =
       footOf(source_, *moment, playback, state, scene_.widthShownMm(aspect), /*of_window=*/false);

@@ -18,11 +18,11 @@
 namespace softscope {
 namespace {
 
-constexpr double kScopeDepth = 0.22;  // as a share of the distance to the tissue
-constexpr double kEyeAway = 4;        // in image widths
-constexpr double kRoomAround = 1.08;  // margin of the field of view
-constexpr double kStrays = 0.002;     // share of points that may be cut at each side
-constexpr double kStraysFrom = 0.1;   // distance of outliers, in units of the width of the others
+constexpr double kScopeDepth = 0.22;    // as a share of the distance to the tissue
+constexpr double kSceneEyeAway = 4;     // in image widths
+constexpr double kSceneRoom = 1.08;     // margin of the field of view
+constexpr double kSceneStrays = 0.002;  // share of points that may be cut at each side
+constexpr double kStraysFrom = 0.1;     // distance of outliers, in units of the width of the others
 constexpr double kArrowTimes = 4, kLeastMotion_mm = 0.05;
 constexpr double kNodeDotsPx = 5;
 constexpr double kSliceBehind = 0.7;   // slices behind the centre, in widths of the model
@@ -42,7 +42,7 @@ SceneSurface surfaceOf(TriangleMesh mesh, Rgb8 colour) {
 std::pair<double, double> endsOfMost(std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double least = *low, most = *high;
-  const auto strays = static_cast<std::ptrdiff_t>(kStrays * double(values.size() - 1));
+  const auto strays = static_cast<std::ptrdiff_t>(kSceneStrays * double(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + strays, values.end());
   const double first = values[std::size_t(strays)];
   std::nth_element(values.begin(), values.end() - 1 - strays, values.end());
@@ -93,7 +93,7 @@ SceneSurface ViewScene::shownPoints(const ViewMoment& moment, const ViewState& s
 }
 
 void ViewScene::showPoints(const ViewMoment& moment, const ViewState& state) {
-  Eigen::Vector3d eye_mm = centre_mm_ - kEyeAway * width_mm_ * Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d eye_mm = centre_mm_ - kSceneEyeAway * width_mm_ * Eigen::Vector3d::UnitZ();
   if (moment.world_from_left) eye_mm = moment.world_from_left->translation();
   const SceneSurface surface =
       splatsOf(shownPoints(moment, state), state.dot_scale, eye_mm.cast<float>());
@@ -276,11 +276,11 @@ void ViewScene::look(const ViewMoment& moment, const ViewState& state, double as
   const Eigen::AlignedBox2d box = visibleBox(moment, plane, state.turning);
   double height_mm = aspect > 1 ? width_mm_ : width_mm_ / aspect;
   if (!box.isEmpty() && box.sizes().maxCoeff() > 0) {
-    height_mm = kRoomAround * std::max(box.sizes().y(), box.sizes().x() / aspect);
+    height_mm = kSceneRoom * std::max(box.sizes().y(), box.sizes().x() / aspect);
     const Eigen::Vector2d middle = box.center();
     plane.centre_mm += middle.x() * plane.right + middle.y() * plane.up;
   }
-  aimParallel(renderer_, plane, height_mm, kEyeAway * std::max(width_mm_, height_mm));
+  aimParallel(renderer_, plane, height_mm, kSceneEyeAway * std::max(width_mm_, height_mm));
 }
 
 void ViewScene::turn(double angle_deg) {

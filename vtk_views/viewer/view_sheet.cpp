@@ -12,7 +12,7 @@ namespace softscope {
 namespace {
 
 constexpr double kPixelsPerInch = 72;  // one point is one pixel
-constexpr double kMargin = 14, kFont = 13, kSmall = 11;
+constexpr double kSheetMargin = 14, kFont = 13, kSmall = 11;
 constexpr double kTrack = 15;  // height of the slider in the foot
 constexpr Rgb8 kSheetDark{20, 20, 20}, kSheetPale{200, 200, 200}, kSheetGrey{110, 110, 110},
     kSheetBlue{0, 110, 170};
@@ -27,14 +27,16 @@ DrawnText textAt(PointPt at, std::string words, double size_pt, Rgb8 colour) {
   return text;
 }
 
-double placeX(double place, double width) { return kMargin + place * (width - 2 * kMargin); }
+double placeX(double place, double width) {
+  return kSheetMargin + place * (width - 2 * kSheetMargin);
+}
 
 void drawSlider(const ViewFoot& foot, VectorDrawing& sheet) {
   const double width = sheet.width_pt;
   const double at = placeX(foot.places[std::size_t(foot.index)], width);
   sheet.parts.emplace_back(
-      DrawnLine{{{kMargin, kTrack}, {width - kMargin, kTrack}}, 3, kSheetPale});
-  sheet.parts.emplace_back(DrawnLine{{{kMargin, kTrack}, {at, kTrack}}, 3, kSheetBlue});
+      DrawnLine{{{kSheetMargin, kTrack}, {width - kSheetMargin, kTrack}}, 3, kSheetPale});
+  sheet.parts.emplace_back(DrawnLine{{{kSheetMargin, kTrack}, {at, kTrack}}, 3, kSheetBlue});
   if (foot.places.size() <= 200)
     for (const double place : foot.places) {
       const double x = placeX(place, width);
@@ -45,24 +47,24 @@ void drawSlider(const ViewFoot& foot, VectorDrawing& sheet) {
 
 void drawWords(const ViewFoot& foot, VectorDrawing& sheet) {
   const double first = kSliderPx + 18;
-  DrawnText title = textAt({kMargin, first}, foot.title, kFont, kSheetDark);
+  DrawnText title = textAt({kSheetMargin, first}, foot.title, kFont, kSheetDark);
   title.bold = true;
-  const double title_end = kMargin + textWidthPt(title);
+  const double title_end = kSheetMargin + textWidthPt(title);
   sheet.parts.emplace_back(std::move(title));
   DrawnText going = textAt({title_end + 10, first}, foot.going, kFont,
                            foot.going == "live" ? kLiveRed : kSheetDark);
   going.bold = true;
   if (!foot.going.empty()) sheet.parts.emplace_back(std::move(going));
-  sheet.parts.emplace_back(textAt({kMargin, first + 17}, foot.status, kSmall, kSheetDark));
+  sheet.parts.emplace_back(textAt({kSheetMargin, first + 17}, foot.status, kSmall, kSheetDark));
   sheet.parts.emplace_back(
-      textAt({kMargin, first + 33},
+      textAt({kSheetMargin, first + 33},
              foot.view + (foot.of_window ? "   h: keys" : "") + "   research use only", kSmall,
              kSheetGrey));
 }
 
 void drawBars(const ViewFoot& foot, VectorDrawing& sheet) {
   const double bar_width = std::min(300.0, 0.36 * sheet.width_pt);
-  const double bar_left = sheet.width_pt - kMargin - bar_width;
+  const double bar_left = sheet.width_pt - kSheetMargin - bar_width;
   if (std::isfinite(foot.width_mm)) {
     // A panel of the width of the view gives the correct scale; its left end has free space.
     const double length = scaleBarLengthMm(foot.width_mm) / foot.width_mm * sheet.width_pt;
@@ -78,7 +80,7 @@ void drawBars(const ViewFoot& foot, VectorDrawing& sheet) {
     return;
   }
   DrawnText text =
-      textAt({sheet.width_pt - kMargin, kSliderPx + 18.0}, foot.colour, kSmall, kSheetDark);
+      textAt({sheet.width_pt - kSheetMargin, kSliderPx + 18.0}, foot.colour, kSmall, kSheetDark);
   text.anchor = TextAnchor::kEnd;
   sheet.parts.emplace_back(std::move(text));
 }
@@ -178,7 +180,7 @@ ColourImage drawViewFoot(const ViewFoot& foot, int width_px, double scale) {
 }
 
 double sliderPlace(int x_px, int width_px) {
-  return std::clamp((x_px - kMargin) / (width_px - 2 * kMargin), 0.0, 1.0);
+  return std::clamp((x_px - kSheetMargin) / (width_px - 2 * kSheetMargin), 0.0, 1.0);
 }
 
 int nearestMoment(const std::vector<double>& places, double place) {
@@ -190,20 +192,20 @@ int nearestMoment(const std::vector<double>& places, double place) {
 }
 
 ColourImage drawViewHelp() {
-  constexpr double kRow = 19, kKeys = 130, kWidth = 500;
+  constexpr double kRowPt = 19, kKeys = 130, kWidthPt = 500;
   VectorDrawing sheet;
-  sheet.width_pt = kWidth;
-  sheet.height_pt = kRow * double(viewKeys().size()) + 24;
+  sheet.width_pt = kWidthPt;
+  sheet.height_pt = kRowPt * double(viewKeys().size()) + 24;
   const double w = sheet.width_pt - 0.5, h = sheet.height_pt - 0.5;
   sheet.parts.emplace_back(
       DrawnLine{{{0.5, 0.5}, {w, 0.5}, {w, h}, {0.5, h}, {0.5, 0.5}}, 1, kSheetGrey});
   double y = 12 + kFont;
   for (const auto& [keys, meaning] : viewKeys()) {
-    DrawnText name = textAt({kMargin, y}, keys, 12, kSheetDark);
+    DrawnText name = textAt({kSheetMargin, y}, keys, 12, kSheetDark);
     name.bold = true;
     sheet.parts.emplace_back(std::move(name));
-    sheet.parts.emplace_back(textAt({kMargin + kKeys, y}, meaning, 12, kSheetDark));
-    y += kRow;
+    sheet.parts.emplace_back(textAt({kSheetMargin + kKeys, y}, meaning, 12, kSheetDark));
+    y += kRowPt;
   }
   return rasterise(sheet, kPixelsPerInch);
 }

@@ -17,7 +17,7 @@ constexpr std::uint32_t kEventSeed = 91;
 constexpr float kPatchesPerPicture = 3.0F;
 const Eigen::Vector3f kTissueOnLens(0.16F, 0.03F, 0.02F), kGauze(0.55F, 0.5F, 0.46F);
 
-double smoothStep(double t) {
+double easeInOut(double t) {
   const double x = std::clamp(t, 0.0, 1.0);
   return x * x * (3 - 2 * x);
 }
@@ -44,14 +44,14 @@ void ScopeEventOptions::validate() const { requireAllowed(*this); }
 double ScopeEventOptions::shareAt(double time_s) const {
   if (!there()) return 0;
   const double ramp_s = std::min(kRamp_s, length_s / 4);
-  return std::min(smoothStep((time_s - start_s) / ramp_s),
-                  smoothStep((start_s + length_s - time_s) / ramp_s));
+  return std::min(easeInOut((time_s - start_s) / ramp_s),
+                  easeInOut((start_s + length_s - time_s) / ramp_s));
 }
 
 Eigen::Isometry3d ScopeEventOptions::motionAt(double time_s, double distance_mm) const {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   if (kind != "withdraw") return motion;
-  const double back = smoothStep((time_s - start_s) / length_s);  // path to the new position
+  const double back = easeInOut((time_s - start_s) / length_s);  // path to the new position
   motion.translate(
       Eigen::Vector3d(back * return_mm, 0, -kWithdrawn * distance_mm * shareAt(time_s)));
   motion.rotate(Eigen::AngleAxisd(back * return_deg * M_PI / 180, Eigen::Vector3d::UnitZ()));

@@ -14,13 +14,13 @@ namespace softscope {
 namespace {
 
 // One seed per part: a change of one part does not affect the others.
-enum Part : std::uint64_t { kTexture = 1, kMotion = 2, kPath = 3, kNoise = 4 };
+enum SeedPart : std::uint64_t { kTexture = 1, kMotion = 2, kPath = 3, kNoise = 4 };
 
 constexpr int kShutterMoments = 7;      // for motion blur
 constexpr double kSmokeShare = 0.5;     // smoke is half-way to the tissue
 constexpr double kSeenWithin_mm = 0.3;  // of the depth at the nearest pixel: slopes between pixels
 
-std::uint64_t seedOf(const SimulationOptions& options, Part part) {
+std::uint64_t seedOf(const SimulationOptions& options, SeedPart part) {
   return mixBits(static_cast<std::uint64_t>(options.seed) * 16 + part);
 }
 

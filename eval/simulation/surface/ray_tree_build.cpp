@@ -9,12 +9,12 @@ namespace {
 
 constexpr int kTrianglesPerLeaf = 4;
 
-struct Part {
+struct TreePart {
   Eigen::Array3f middle_mm, low_mm, high_mm;
   std::int32_t triangle;
 };
 
-Part partOf(const RayTriangle& t, std::int32_t index) {
+TreePart partOf(const RayTriangle& t, std::int32_t index) {
   const Eigen::Array3f a = t.a_mm.array(), b = a + t.ab_mm.array(), c = a + t.ac_mm.array();
   const Eigen::Array3f low = a.min(b).min(c), high = a.max(b).max(c);
   return {0.5F * (low + high), low, high, index};
@@ -22,11 +22,11 @@ Part partOf(const RayTriangle& t, std::int32_t index) {
 
 class Builder {
  public:
-  explicit Builder(std::vector<Part> parts) : parts_(std::move(parts)) {
+  explicit Builder(std::vector<TreePart> parts) : parts_(std::move(parts)) {
     nodes_.reserve(parts_.size());
     build(0, static_cast<int>(parts_.size()));
   }
-  std::vector<Part> parts_;
+  std::vector<TreePart> parts_;
   std::vector<RayTreeNode> nodes_;
 
  private:
@@ -61,7 +61,7 @@ class Builder {
   int split(int begin, int end, int axis) {
     const int middle = begin + (end - begin) / 2;
     std::nth_element(parts_.begin() + begin, parts_.begin() + middle, parts_.begin() + end,
-                     [axis](const Part& a, const Part& b) {
+                     [axis](const TreePart& a, const TreePart& b) {
                        if (a.middle_mm[axis] != b.middle_mm[axis])
                          return a.middle_mm[axis] < b.middle_mm[axis];
                        return a.triangle < b.triangle;
@@ -73,14 +73,14 @@ class Builder {
 }  // namespace
 
 std::vector<RayTreeNode> buildRayTree(std::vector<RayTriangle>& triangles) {
-  std::vector<Part> parts;
+  std::vector<TreePart> parts;
   parts.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     parts.push_back(partOf(triangles[i], static_cast<std::int32_t>(i)));
   Builder builder(std::move(parts));
   std::vector<RayTriangle> ordered;
   ordered.reserve(triangles.size());
-  for (const Part& part : builder.parts_) ordered.push_back(triangles[part.triangle]);
+  for (const TreePart& part : builder.parts_) ordered.push_back(triangles[part.triangle]);
   triangles = std::move(ordered);
   return std::move(builder.nodes_);
 }

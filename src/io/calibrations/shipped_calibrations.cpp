@@ -17,7 +17,7 @@ std::string joined(const std::vector<double>& values) {
   return text;
 }
 
-std::vector<double> rowMajor(const Eigen::Matrix3d& m) {
+std::vector<double> rowsInOrder(const Eigen::Matrix3d& m) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
 }
 
@@ -66,7 +66,7 @@ std::string projectionJson(const StereoCalibration& calibration) {
 std::string calibrationIni(const StereoCalibration& calibration) {
   std::string text =
       iniSection("StereoLeft", calibration.left) + iniSection("StereoRight", calibration.right);
-  const std::vector<double> rotation = rowMajor(calibration.right_from_left.linear());
+  const std::vector<double> rotation = rowsInOrder(calibration.right_from_left.linear());
   for (std::size_t i = 0; i < rotation.size(); ++i)
     text += say("R_", i, "=", exactText(rotation[i]), "\n");
   for (int i = 0; i < 3; ++i)
@@ -79,7 +79,7 @@ std::string cameraInfoYaml(const StereoCalibration& calibration, bool right) {
   const double shift_m = right ? calibration.right_from_left.translation().x() / 1000 : 0;
   return say("height: ", camera.pinhole.height_px, "\nwidth: ", camera.pinhole.width_px,
              "\ndistortion_model: plumb_bob\nD: [0.0, 0.0, 0.0, 0.0, 0.0]\nK: [",
-             joined(rowMajor(camera.pinhole.matrix())),
+             joined(rowsInOrder(camera.pinhole.matrix())),
              "]\nR: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]\nP: [",
              joined(projectionOf(camera, shift_m)), "]\n");
 }

@@ -12,13 +12,13 @@
 namespace softscope {
 namespace {
 
-const Document& memberOf(const Document& map, const char* key, const std::string& name) {
+const Document& surgtMember(const Document& map, const char* key, const std::string& name) {
   if (const Document* found = map.find(key)) return *found;
   throw InputError(say(name, ": ", key, " is missing, but SurgT's info.yaml has it."));
 }
 
 int sideOf(const Document& size, const char* key, const std::string& name) {
-  const std::vector<double> values = numbersOf(memberOf(size, key, name), say(name, ": ", key));
+  const std::vector<double> values = numbersOf(surgtMember(size, key, name), say(name, ": ", key));
   if (values.size() != 1 || !(values[0] >= 1 && values[0] <= 16384) ||
       values[0] != std::floor(values[0]))
     throw InputError(say(name, ": ", key, " must be a whole number of 1 to 16384 pixels."));
@@ -33,7 +33,7 @@ std::string plainName(const std::string& text, const std::string& name) {
                        ", but the name of a file in the same folder is expected."));
 }
 
-bool flagOf(const Document& item, const std::string& label) {
+bool surgtFlag(const Document& item, const std::string& label) {
   const std::string text = lowerCase(item.text);
   if (text == "true" || text == "1") return true;
   if (text == "false" || text == "0") return false;
@@ -62,8 +62,8 @@ SurgtFrame frameOf(const Document& item, const std::string& label) {
   if (item.kind != Document::Kind::kList || item.items.size() != 3)
     throw InputError(label + ": is no [visible_in_both, difficult, boxes]. Is it SurgT's file?");
   SurgtFrame frame;
-  frame.visible_in_both = flagOf(item.items[0], label);
-  frame.difficult = flagOf(item.items[1], label);
+  frame.visible_in_both = surgtFlag(item.items[0], label);
+  frame.difficult = surgtFlag(item.items[1], label);
   const Document& boxes = item.items[2];
   if (isNothing(boxes)) {
     if (frame.visible_in_both) throw InputError(label + ": is visible, but has no boxes.");
@@ -89,15 +89,15 @@ std::string boxText(const std::array<double, 4>& box) {
 SurgtInfo parseSurgtInfo(std::string_view text, const std::string& name) {
   const Document document = parseYaml(text, name);
   SurgtInfo info;
-  const std::string stack = lowerCase(memberOf(document, "video_stack", name).text);
+  const std::string stack = lowerCase(surgtMember(document, "video_stack", name).text);
   if (stack != "vertical" && stack != "horizontal")
     throw InputError(say(name, ": video_stack is ", excerpt(stack),
                          ", but vertical or horizontal is expected."));
   info.side_by_side = stack == "horizontal";
-  const Document& size = memberOf(document, "resolution", name);
+  const Document& size = surgtMember(document, "resolution", name);
   info.width_px = sideOf(size, "width", name);
   info.height_px = sideOf(size, "height", name);
-  info.video = plainName(memberOf(document, "name_video", name).text, name);
+  info.video = plainName(surgtMember(document, "name_video", name).text, name);
   if (const Document* truth = document.find("name_ground_truth")) {
     if (truth->kind == Document::Kind::kText && !isNothing(*truth))
       info.truth.push_back(plainName(truth->text, name));

@@ -20,13 +20,13 @@ struct Header {
   std::size_t data_begin = 0;
 };
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool isPfmBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 /// Next word of the header; `at` is then at the blank after it.
 std::string_view takeWord(std::string_view bytes, std::size_t& at) {
-  while (at < bytes.size() && isBlank(bytes[at])) ++at;
+  while (at < bytes.size() && isPfmBlank(bytes[at])) ++at;
   const std::size_t begin = at;
-  while (at < bytes.size() && at - begin < 32 && !isBlank(bytes[at])) ++at;
+  while (at < bytes.size() && at - begin < 32 && !isPfmBlank(bytes[at])) ++at;
   return bytes.substr(begin, at - begin);
 }
 

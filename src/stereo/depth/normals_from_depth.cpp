@@ -14,9 +14,8 @@
 namespace softscope {
 namespace {
 
-constexpr int kReach = kNormalReach;
-constexpr int kHeight = 2 * kReach + 1;
-constexpr int kBandRows = 60;  // solved by one thread at a time
+constexpr int kHeight = 2 * kNormalReach + 1;
+constexpr int kNormalBandRows = 60;  // solved by one thread at a time
 constexpr float kBox[kHeight] = {1, 1, 1, 1, 1, 1, 1};
 
 /// Pixels of a window that count, for selectedMoments().
@@ -50,9 +49,9 @@ class NormalBand {
         mixed_(static_cast<std::size_t>(width_ + Plane::kMargin)) {}
 
   void solve(int begin, int end) {
-    for (int v = begin - kReach; v < end + kReach; ++v) {
+    for (int v = begin - kNormalReach; v < end + kNormalReach; ++v) {
       invert(v);
-      if (v - kReach >= begin) solveRow(v - kReach);
+      if (v - kNormalReach >= begin) solveRow(v - kNormalReach);
     }
   }
 
@@ -71,7 +70,7 @@ class NormalBand {
   static RowsOfWindow rowsAround(const Plane& plane, int v) {
     RowsOfWindow rows;
     for (int y = 0; y < kHeight; ++y)
-      rows[static_cast<std::size_t>(y)] = plane.row(slot(v - kReach + y));
+      rows[static_cast<std::size_t>(y)] = plane.row(slot(v - kNormalReach + y));
     return rows;
   }
 
@@ -82,8 +81,8 @@ class NormalBand {
     float* columns[kColumnMomentCount];
     for (int k = 0; k < kColumnMomentCount; ++k) columns[k] = columns_.row(k);
     const RefinementKernels& kernels = refinementKernels();
-    kernels.columnMoments(measured.data(), weighted.data(), kBox, kReach, width_, columns);
-    kernels.rowMoments(columns, kBox, kReach, width_, moments);
+    kernels.columnMoments(measured.data(), weighted.data(), kBox, kNormalReach, width_, columns);
+    kernels.rowMoments(columns, kBox, kNormalReach, width_, moments);
     selectWindows(v, moments, measured, weighted);
     normalKernels().solveNormals({moments,
                                   inverse_.row(slot(v)),
@@ -102,7 +101,7 @@ class NormalBand {
   void selectWindows(int v, const MomentRow& moments, const RowsOfWindow& measured,
                      const RowsOfWindow& weighted) {
     const RowsOfWindow inverse = rowsAround(inverse_, v);
-    normalKernels().findMixed(inverse.data(), kReach, width_, kNormalDepthStep, range_.row(0),
+    normalKernels().findMixed(inverse.data(), kNormalReach, width_, kNormalDepthStep, range_.row(0),
                               range_.row(1), mixed_.data());
     columns_mixed_.clear();
     for (int u = 0; u < width_; ++u)
@@ -115,7 +114,7 @@ class NormalBand {
                                          selection_.window.data(),
                                          selection_.tolerance.data(),
                                          true,
-                                         kReach},
+                                         kNormalReach},
                                         columns_mixed_.data(),
                                         static_cast<int>(columns_mixed_.size()), moments);
   }
@@ -134,7 +133,7 @@ class NormalBand {
 
 NormalMap normalsFromDepth(const Raster<float>& depth_mm, const PinholeCamera& camera) {
   NormalMap normals(depth_mm.width_px, depth_mm.height_px, Eigen::Vector3f::Zero());
-  parallelRanges(depth_mm.height_px, kBandRows, [&](int begin, int end) {
+  parallelRanges(depth_mm.height_px, kNormalBandRows, [&](int begin, int end) {
     NormalBand(depth_mm, camera, normals).solve(begin, end);
   });
   return normals;

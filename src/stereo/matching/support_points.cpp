@@ -12,8 +12,8 @@
 namespace softscope {
 namespace {
 
-constexpr float kNone = kNoSupport;
-constexpr int kReach = kSupportMargin;
+constexpr float kNoCandidate = kNoSupport;
+constexpr int kMarginPx = kSupportMargin;
 
 /// Mean |gradient| of the support window around (u, v).
 double texture(const GradientView& image, int u, int v) {
@@ -34,7 +34,7 @@ struct BlockedPixels {
   Mask left, right;
 };
 
-/// The support candidates of one row, kNone after a failed test.
+/// The support candidates of one row, kNoCandidate after a failed test.
 class RowMatcher {
  public:
   RowMatcher(const GradientImage& left, const GradientImage& right, const BlockedPixels& blocked,
@@ -61,17 +61,19 @@ class RowMatcher {
 
  private:
   float candidate(int u, int v) const {
-    if (u < kReach || u >= width_ - kReach || row_.cost_left[u] == 0xFFFF) return kNone;
+    if (u < kMarginPx || u >= width_ - kMarginPx || row_.cost_left[u] == 0xFFFF)
+      return kNoCandidate;
     const int disparity = row_.disparity_left[u], best = disparity - minimum_;
-    if (texture(left_, u, v) < elas_.support_texture) return kNone;
-    if (isBlocked(blocked_.left, u, v)) return kNone;
-    if (isBlocked(blocked_.right, u - disparity, v + row_offset_)) return kNone;
+    if (texture(left_, u, v) < elas_.support_texture) return kNoCandidate;
+    if (isBlocked(blocked_.left, u, v)) return kNoCandidate;
+    if (isBlocked(blocked_.right, u - disparity, v + row_offset_)) return kNoCandidate;
     const int returned = row_.disparity_right[u - disparity];
-    if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNone;
-    if (best == 0 || best == count_ - 1) return kNone;  // the true one may be outside of the range
+    if (std::abs(returned - disparity) > elas_.support_left_right_px) return kNoCandidate;
+    if (best == 0 || best == count_ - 1)
+      return kNoCandidate;  // the true one may be outside of the range
     const int count = supportCountAt(u, width_, minimum_, count_);
     if (row_.cost_left[u] > elas_.support_uniqueness * secondBestCost(row_, u, best, count))
-      return kNone;
+      return kNoCandidate;
     if (best + 1 == count) return static_cast<float>(disparity);
     return static_cast<float>(disparity) +
            parabolaOffset(cost(best - 1, u), cost(best, u), cost(best + 1, u));
@@ -95,16 +97,17 @@ bool hasNeighbours(const Raster<float>& grid, int c, int r, const ElasOptions& o
   int neighbours = -1;  // without the point itself
   for (int y = std::max(0, r - reach); y <= std::min(grid.height_px - 1, r + reach); ++y)
     for (int x = std::max(0, c - reach); x <= std::min(grid.width_px - 1, c + reach); ++x)
-      neighbours += grid.at(x, y) != kNone && std::abs(grid.at(x, y) - grid.at(c, r)) <=
-                                                  static_cast<float>(options.support_agreement_px);
+      neighbours +=
+          grid.at(x, y) != kNoCandidate && std::abs(grid.at(x, y) - grid.at(c, r)) <=
+                                               static_cast<float>(options.support_agreement_px);
   return neighbours >= options.support_min_neighbours;
 }
 
 Raster<float> removeLonely(const Raster<float>& grid, const ElasOptions& options) {
-  Raster<float> kept(grid.width_px, grid.height_px, kNone);
+  Raster<float> kept(grid.width_px, grid.height_px, kNoCandidate);
   parallelRows(grid.height_px, [&](int r) {
     for (int c = 0; c < grid.width_px; ++c)
-      if (grid.at(c, r) != kNone && hasNeighbours(grid, c, r, options))
+      if (grid.at(c, r) != kNoCandidate && hasNeighbours(grid, c, r, options))
         kept.at(c, r) = grid.at(c, r);
   });
   return kept;
@@ -117,7 +120,7 @@ bool isRedundant(const Raster<float>& grid, int c, int r, int dx, int dy, int re
     for (int k = 1; k <= reach; ++k) {
       const int x = c + sign * k * dx, y = r + sign * k * dy;
       if (!grid.contains(x, y)) break;
-      if (grid.at(x, y) == kNone) continue;
+      if (grid.at(x, y) == kNoCandidate) continue;
       agreeing += std::abs(grid.at(x, y) - grid.at(c, r)) <= 0.5f;
       break;
     }
@@ -127,7 +130,8 @@ bool isRedundant(const Raster<float>& grid, int c, int r, int dx, int dy, int re
 void removeRedundant(Raster<float>& grid, int dx, int dy, int reach) {
   for (int r = 0; r < grid.height_px; ++r)
     for (int c = 0; c < grid.width_px; ++c)
-      if (grid.at(c, r) != kNone && isRedundant(grid, c, r, dx, dy, reach)) grid.at(c, r) = kNone;
+      if (grid.at(c, r) != kNoCandidate && isRedundant(grid, c, r, dx, dy, reach))
+        grid.at(c, r) = kNoCandidate;
 }
 
 void matchRows(const GradientImage& left, const GradientImage& right, const BlockedPixels& blocked,
@@ -145,7 +149,7 @@ void matchRows(const GradientImage& left, const GradientImage& right, const Bloc
 std::vector<float> foundIn(const Raster<float>& grid) {
   std::vector<float> found;
   std::copy_if(grid.values.begin(), grid.values.end(), std::back_inserter(found),
-               [](float d) { return d != kNone; });
+               [](float d) { return d != kNoCandidate; });
   return found;
 }
 
@@ -177,14 +181,14 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
                                             const StereoOptions& options, int row_offset_px) {
   const int step = options.elas.support_step_px;
   Raster<float> grid((left.width_px() + step - 1) / step, (left.height_px() + step - 1) / step,
-                     kNone);
+                     kNoCandidate);
   std::vector<int> first_rows, other_rows;
   for (int r = 0; r < grid.height_px; ++r)
-    if (r * step >= kReach && r * step < left.height_px() - kReach)
+    if (r * step >= kMarginPx && r * step < left.height_px() - kMarginPx)
       (r % kRangeRows == 1 ? first_rows : other_rows).push_back(r);
   BlockedPixels blocked;
-  parallelInvoke([&] { blocked.left = left.blocked(kReach); },
-                 [&] { blocked.right = right.blocked(kReach); });
+  parallelInvoke([&] { blocked.left = left.blocked(kMarginPx); },
+                 [&] { blocked.right = right.blocked(kMarginPx); });
   matchRows(left, right, blocked, options, row_offset_px, first_rows, grid);
   matchRows(left, right, blocked, narrowedTo(foundIn(grid), options), row_offset_px, other_rows,
             grid);
@@ -201,7 +205,7 @@ std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& option
   std::vector<SupportPoint> points;
   for (int r = 0; r < grid.height_px; ++r)
     for (int c = 0; c < grid.width_px; ++c)
-      if (grid.at(c, r) != kNone) points.push_back({c * step, r * step, grid.at(c, r)});
+      if (grid.at(c, r) != kNoCandidate) points.push_back({c * step, r * step, grid.at(c, r)});
   return points;
 }
 

@@ -21,7 +21,7 @@ constexpr std::uint64_t kIrVersionWritten = 7, kOpsetWritten = 13;
 
 enum WireType { kVarint = 0, kFixed64 = 1, kBytes = 2, kFixed32 = 5 };
 
-struct Field {
+struct OnnxField {
   int number = 0, type = 0;
   std::uint64_t value = 0;  // of a varint
   std::string_view bytes;   // of kBytes
@@ -33,11 +33,11 @@ class Message {
  public:
   Message(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
 
-  std::optional<Field> next() {
+  std::optional<OnnxField> next() {
     if (rest_.empty()) return std::nullopt;
     const std::string_view before = rest_;
     const std::uint64_t key = varint();
-    Field field;
+    OnnxField field;
     field.number = static_cast<int>(std::min<std::uint64_t>(key >> 3, 1 << 30));
     field.type = static_cast<int>(key & 7);
     if (field.number == 0) fail();
@@ -87,33 +87,33 @@ void forEachField(std::string_view bytes, const std::string& file, const Visit& 
 
 /// A nested message, as stated by its key.
 template <class Visit>
-void forEachFieldOf(const Field& field, const std::string& file, const Visit& visit) {
+void forEachFieldOf(const OnnxField& field, const std::string& file, const Visit& visit) {
   if (field.type == kBytes) forEachField(field.bytes, file, visit);
 }
 
-std::string nameOf(const Field& field) { return std::string(field.bytes); }
+std::string nameOf(const OnnxField& field) { return std::string(field.bytes); }
 
-std::int64_t lengthOf(const Field& dimension, const std::string& file) {
+std::int64_t lengthOf(const OnnxField& dimension, const std::string& file) {
   std::int64_t length = OnnxTensor::kFree;
-  forEachFieldOf(dimension, file, [&](const Field& field) {
+  forEachFieldOf(dimension, file, [&](const OnnxField& field) {
     const auto value = static_cast<std::int64_t>(field.value);
     if (field.number == kLength && field.type == kVarint && value > 0) length = value;
   });
   return length;
 }
 
-OnnxTensor tensorOf(const Field& value, const std::string& file) {
+OnnxTensor tensorOf(const OnnxField& value, const std::string& file) {
   OnnxTensor tensor;
-  forEachFieldOf(value, file, [&](const Field& field) {
+  forEachFieldOf(value, file, [&](const OnnxField& field) {
     if (field.number == kValueName) tensor.name = nameOf(field);
     if (field.number != kValueType) return;
-    forEachFieldOf(field, file, [&](const Field& type) {
+    forEachFieldOf(field, file, [&](const OnnxField& type) {
       if (type.number != kTensorType) return;
-      forEachFieldOf(type, file, [&](const Field& part) {
+      forEachFieldOf(type, file, [&](const OnnxField& part) {
         if (part.number == kElementType)
           tensor.element_type = static_cast<int>(std::min<std::uint64_t>(part.value, 1000));
         if (part.number != kShape) return;
-        forEachFieldOf(part, file, [&](const Field& dimension) {
+        forEachFieldOf(part, file, [&](const OnnxField& dimension) {
           if (dimension.number == kDimension) tensor.shape.push_back(lengthOf(dimension, file));
         });
       });
@@ -122,9 +122,9 @@ OnnxTensor tensorOf(const Field& value, const std::string& file) {
   return tensor;
 }
 
-void addOperator(const Field& node, const std::string& file, std::vector<OnnxOperator>* all) {
+void addOperator(const OnnxField& node, const std::string& file, std::vector<OnnxOperator>* all) {
   OnnxOperator found;
-  forEachFieldOf(node, file, [&](const Field& field) {
+  forEachFieldOf(node, file, [&](const OnnxField& field) {
     if (field.number == kNodeInput) ++found.inputs;
     if (field.number == kOpType) found.name = nameOf(field);
     if (field.number == kDomain) found.domain = nameOf(field);
@@ -136,15 +136,15 @@ void addOperator(const Field& node, const std::string& file, std::vector<OnnxOpe
   if (std::none_of(all->begin(), all->end(), is_same)) all->push_back(found);
 }
 
-OnnxModel graphOf(const Field& graph, const std::string& file) {
+OnnxModel graphOf(const OnnxField& graph, const std::string& file) {
   OnnxModel model;
   std::vector<std::string> stored;
-  forEachFieldOf(graph, file, [&](const Field& field) {
+  forEachFieldOf(graph, file, [&](const OnnxField& field) {
     if (field.number == kNode) addOperator(field, file, &model.operators);
     if (field.number == kInput) model.inputs.push_back(tensorOf(field, file));
     if (field.number == kOutput) model.outputs.push_back(tensorOf(field, file));
     if (field.number != kInitialiser) return;
-    forEachFieldOf(field, file, [&](const Field& part) {
+    forEachFieldOf(field, file, [&](const OnnxField& part) {
       if (part.number == kTensorName) stored.push_back(nameOf(part));
       if (part.number == kDataLocation && part.value == kExternal)
         model.has_external_weights = true;
@@ -215,7 +215,7 @@ std::string OnnxTensor::text() const {
 OnnxModel parseOnnx(std::string_view bytes, const std::string& name) {
   OnnxModel model;
   bool has_version = false;
-  forEachField(bytes, name, [&](const Field& field) {
+  forEachField(bytes, name, [&](const OnnxField& field) {
     if (field.number == kIrVersion && field.type == kVarint) has_version = field.value > 0;
     if (field.number == kGraph && field.type == kBytes) model = graphOf(field, name);
   });
@@ -230,13 +230,13 @@ std::string withInputShape(std::string_view bytes, const std::string& name,
                            const std::vector<std::int64_t>& shape) {
   const OnnxModel model = parseOnnx(bytes, name);
   std::string whole;
-  forEachField(bytes, name, [&](const Field& field) {
+  forEachField(bytes, name, [&](const OnnxField& field) {
     if (field.number != kGraph || field.type != kBytes) {
       whole.append(field.whole);
       return;
     }
     std::string graph;
-    forEachField(field.bytes, name, [&](const Field& part) {
+    forEachField(field.bytes, name, [&](const OnnxField& part) {
       const std::string input = part.number == kInput ? tensorOf(part, name).name : "";
       if (part.number == kInput && isAmong(model.inputs, input))
         addBytes(kInput, valueInfo(input, shape), &graph);

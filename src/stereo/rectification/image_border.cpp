@@ -11,9 +11,10 @@
 namespace softscope {
 namespace {
 
-constexpr int kBlack = 4;     // largest channel: black that went through a codec
-constexpr int kDark = 16;     // largest channel beside it: the codec's ringing
-constexpr int kReachPx = 5;   // squares of 11 x 11: noise of one level leaves none of them even
+constexpr int kBlack = 4;  // largest channel: black that went through a codec
+constexpr int kDark = 16;  // largest channel beside it: the codec's ringing
+constexpr int kBorderReachPx =
+    5;                        // squares of 11 x 11: noise of one level leaves none of them even
 constexpr int kEven = 1;      // levels between neighbours
 constexpr int kBesidePx = 8;  // a codec's block
 
@@ -40,15 +41,15 @@ Raster<std::uint8_t> signal(const ColourImage& image) {
 /// long. at(i, k): pixel i of the side, k pixels inwards. Beyond the image all is black.
 template <class At>
 bool isBlackAt(int count, int depth, const At& at) {
-  int black = kReachPx;  // lines of pixels without signal, one after the other
+  int black = kBorderReachPx;  // lines of pixels without signal, one after the other
   for (int i = 0; i < count; ++i) {
     bool holds_signal = false;
-    for (int k = 0; k <= std::min(kReachPx, depth - 1) && !holds_signal; ++k)
+    for (int k = 0; k <= std::min(kBorderReachPx, depth - 1) && !holds_signal; ++k)
       holds_signal = at(i, k);
     black = holds_signal ? 0 : black + 1;
-    if (black > 2 * kReachPx) return true;
+    if (black > 2 * kBorderReachPx) return true;
   }
-  return black + kReachPx > 2 * kReachPx;
+  return black + kBorderReachPx > 2 * kBorderReachPx;
 }
 
 /// Every border does: an image of tissue alone is told without a look at its inside.
@@ -102,11 +103,11 @@ std::size_t countOf(const Mask& mask) {
 Mask findBlackBorder(const ColourImage& image) {
   if (!beginsAtAnEdge(image)) return {};
   // 1 where the whole square is black; pixels beyond the image count as black.
-  Raster<std::uint8_t> core = dilated(signal(image), kReachPx);
+  Raster<std::uint8_t> core = dilated(signal(image), kBorderReachPx);
   for (std::uint8_t& value : core.values) value = value == 0;
   core = connectedToEdge(core);
   if (countOf(core) == 0 || countOf(core) > core.size() * 3 / 4) return {};
-  const Raster<std::uint8_t> beside = dilated(core, kReachPx + kBesidePx);
+  const Raster<std::uint8_t> beside = dilated(core, kBorderReachPx + kBesidePx);
   Raster<std::uint8_t> dark = above(image, kDark);
   for (std::size_t i = 0; i < dark.size(); ++i)
     dark.values[i] = core.values[i] != 0 || (dark.values[i] == 0 && beside.values[i] != 0);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRowPointsPerTask = 64;
 constexpr int kGridPx = 12;
-constexpr int kReach = 4;                // of the window, every second pixel
+constexpr int kMeterReach = 4;           // of the window, every second pixel
 constexpr int kRowReach = 2;             // rows tried around a support point's
 constexpr int kCoarseOffset = 2;         // rows between the coarse trials
 constexpr int kFarthestOffset = 10;      // of the trials
@@ -26,8 +26,8 @@ constexpr double kLeastCurvature = 0.3;  // of the cost over rows; below, rows a
 double windowCost(const GradientView& left, const GradientView& right, int u, int v, int u_right,
                   int v_right) {
   int sum = 0;
-  for (int dy = -kReach; dy <= kReach; dy += 2)
-    for (int dx = -kReach; dx <= kReach; dx += 2) {
+  for (int dy = -kMeterReach; dy <= kMeterReach; dy += 2)
+    for (int dx = -kMeterReach; dx <= kMeterReach; dx += 2) {
       const int a = *left.at(u + dx, v + dy), b = *right.at(u_right + dx, v_right + dy);
       sum += std::abs(a % 256 - b % 256) + std::abs(a / 256 - b / 256);
     }
@@ -104,7 +104,7 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right_image, const Mask& 
 
 std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_offset) {
   const auto points = findSupportPoints(left_, right, options_, row_offset);
-  const int top = kReach + kRowReach, bottom = left_.height_px() - top;
+  const int top = kMeterReach + kRowReach, bottom = left_.height_px() - top;
   std::vector<std::optional<RowMatch>> found(points.size());
   parallelRanges(static_cast<int>(points.size()), kRowPointsPerTask, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
