@@ -146,6 +146,14 @@ function(softscope_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>)
 endfunction()
 
+# softscope_inline_little(<target>): for tests of texts and files, whose bodies grow by inlined strings.
+# test_io compiles in 24 s in place of 32 and runs as fast. Not measured for tests that compute.
+function(softscope_inline_little target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT SOFTSCOPE_SANITIZE)
+    target_compile_options(${target} PRIVATE "SHELL:-mllvm -inline-threshold=0")
+  endif()
+endfunction()
+
 # softscope_compile_unoptimised(<target>): for tests of texts and files, under sanitizers: a third of
 # the time to compile. Not for tests that compute, as the linker takes inline functions of the first
 # object that has them: tests of deform ran 12 times as long, `depth` within test_apps 3 times.
