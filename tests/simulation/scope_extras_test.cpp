@@ -112,6 +112,18 @@ TEST(Shutter, BlursWhatMovesAndLeavesWhatIsStill) {
   EXPECT_LT(meanDifference(sharp.pictures.left, frameOf(still, 3).pictures.left), 0.01);
 }
 
+// The scope passes its start again after a period, in the same direction.
+TEST(Shutter, IsOpenBeforeAndAfterTheTimeOfTheFirstFrameToo) {
+  SimulationOptions options = small();
+  options.deformation.breathing.amplitude_mm = options.deformation.heartbeat.amplitude_mm =
+      options.deformation.push.amplitude_mm = 0;
+  options.camera.amplitude_mm = 20;
+  options.camera.period_s = 1;
+  options.sensor.shutter = 1;
+  const ColourImage first = frameOf(options, 0).pictures.left;
+  EXPECT_LT(meanDifference(first, frameOf(options, 25).pictures.left), 0.01);
+}
+
 TEST(Smoke, TakesContrastAndAddsGrey) {
   SimulationOptions options = small();
   const ColourImage clear = frameOf(options, 0).pictures.left;

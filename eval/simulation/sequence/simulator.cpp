@@ -228,6 +228,7 @@ Raster<Eigen::Vector2f> Simulator::flowTo(double time_s, const Raster<RayHit>& h
 }
 
 /// With an open shutter, the mean of exposures around the frame's time; truth is of the middle one.
+/// Before the first frame, the scope moves and the tissue does not.
 SimulatedFrame Simulator::frame(int index, bool flow) {
   require(index >= 0, "frame", index, "must be 0 or above");
   const double frame_s = 1 / options_.frames_per_second,
@@ -239,8 +240,8 @@ SimulatedFrame Simulator::frame(int index, bool flow) {
   Raster<RayHit> hits;
   for (int moment = 0; moment < moments; ++moment) {  // in order of time: pushes add up
     const double off_s = options_.sensor.shutter * frame_s * (moment - middle) / moments;
-    const double moment_s = moment == middle ? time_s : std::max(0.0, time_s + off_s);
-    const std::vector<Eigen::Vector3f> vertices = worldVertices(moment_s);
+    const double moment_s = moment == middle ? time_s : time_s + off_s;
+    const std::vector<Eigen::Vector3f> vertices = worldVertices(std::max(0.0, moment_s));
     const ScopeScene scene = sceneAt(vertices, moment_s);
     const LightPair part = lightOf(scene, moment_s);
     addShare(part.left, 1.0F / float(moments), light.left);
