@@ -2,7 +2,6 @@
 #include "apps/program.h"
 
 #include <fcntl.h>
-#include <malloc.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -48,14 +47,6 @@ std::string messageOf(const std::filesystem::filesystem_error& error) {
              ". Check the path and the rights of its folders.");
 }
 
-/// Every frame needs the same buffers; the C library would return each to the system
-/// and fault its pages in again, a tenth of the time of a frame (docs/benchmarks.md).
-void keepFreedMemory() {
-  constexpr int kLargestBuffer = 256 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargestBuffer);
-  mallopt(M_TRIM_THRESHOLD, kLargestBuffer);
-}
-
 /// With a closed stdin, stdout or stderr, the next opened file would get its
 /// number and receive its output. A pipe without a reader becomes a write error.
 void secureStreams() {
@@ -70,7 +61,6 @@ int runProgram(const std::vector<std::string>& words) {
   secureStreams();
   quietLibraries();
   setUpLog({});
-  keepFreedMemory();
   try {
     return runLine(words);
   } catch (const OptionError& error) {
