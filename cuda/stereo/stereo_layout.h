@@ -62,6 +62,7 @@ struct StereoLevel {
   View<std::uint8_t> dark_rows, marks, near_marks, mixed;
   ResidualPlanes residuals;
   View<float> disparity[2];  // steps write from one to the other
+  View<float> planes;        // disparity before relief was returned
   View<float> sigma;
   int *islands_labels, *islands_sizes, *mixed_list;
   LevelCounters* counters;
@@ -132,6 +133,7 @@ struct StereoLevel {
     marks = arena.image<std::uint8_t>(width, height);
     near_marks = arena.image<std::uint8_t>(width, height);
     mixed = arena.image<std::uint8_t>(width, height);
+    planes = arena.image<float>(width, height);
     sigma = arena.image<float>(width, height);
     for (float*& plane : residuals.planes) plane = arena.array<float>(pixels);
     islands_labels = arena.array<int>(pixels);

@@ -113,7 +113,7 @@ class StereoPasses {
   }
 
   static View<float> refined(const StereoLevel& level) {
-    return level.disparity[RefinementOptions::steps % 2];
+    return disparityOf(level, RefinementOptions::steps);
   }
 
  private:
@@ -249,6 +249,7 @@ class StereoPasses {
     executor_.launch("mixed windows", mark, mark.blocks());
     for (int i = 0; i + 1 < options.steps; ++i) step<false>(level, i, window);
     step<true>(level, options.steps - 1, window);
+    shrinkRelief(level, window);
     executor_.mark("refine");
   }
   static Selection selectionOf(const RefinementOptions& options) {
@@ -279,10 +280,14 @@ class StereoPasses {
              level, 2);
     executor_.mark("brightness");
   }
+  /// Before step i, or after the last.
+  static View<float> disparityOf(const StereoLevel& level, int i) {
+    return i == RefinementOptions::plane_steps ? level.planes : level.disparity[i % 2];
+  }
   template <bool kLast>
   void step(const StereoLevel& level, int i, const RefinementWindow& window) {
     const RefinementOptions& options = level.options.refinement;
-    const View<const float> before = readOnly(level.disparity[i % 2]);
+    const View<const float> before = readOnly(disparityOf(level, i));
     const RefinementStep rules = refinementStep(i);
     const PlaneLimits limits = planeLimits(options);
     const LightFitKernel light{readOnly(level.slow_part[0]),
@@ -300,7 +305,7 @@ class StereoPasses {
              level);
     // Windows with mixed surfaces, slow to solve, are processed in the second step.
     const bool hold = i == 0 && !kLast;
-    const StepSolver solver{limits, rules, before, level.disparity[(i + 1) % 2], level.sigma};
+    const StepSolver solver{limits, rules, before, disparityOf(level, i + 1), level.sigma};
     WindowStepKernel<kLast> windows{level.residuals,
                                     readOnly(level.mixed),
                                     solver,
@@ -313,6 +318,25 @@ class StereoPasses {
         level.residuals, level.mixed_list, &level.counters->mixed_count,
         solver,          level.selection,  options.radius_px};
     executor_.launch("mixed windows' step", mixed, mixed.blocks());
+  }
+
+  void shrinkRelief(const StereoLevel& level, const RefinementWindow& window) {
+    const auto plane = [&](int i) {
+      return View<float>{level.residuals.planes[i], level.width, level.height, level.width};
+    };
+    WindowWeights weights{
+        {}, level.options.refinement.radius_px, RefinementWindow::kReliefSpacingPx};
+    std::copy(window.weights.begin(), window.weights.end(), weights.values);
+    const float model_variance_px2 = planeLimits(level.options.refinement).model_variance_px2;
+    perPixel(
+        "relief columns",
+        ReliefColumnsBody{readOnly(level.planes), readOnly(refined(level)), readOnly(level.sigma),
+                          plane(0), plane(1), weights, model_variance_px2},
+        level);
+    perPixel("shrink relief",
+             ShrinkReliefBody{readOnly(level.planes), readOnly(plane(0)), readOnly(plane(1)),
+                              refined(level), level.sigma, weights, model_variance_px2},
+             level);
   }
 
   void smooth(const StereoLevel& level) {

@@ -302,4 +302,58 @@ struct WindowStepKernel {
   }
 };
 
+// --- returned relief
+// ---------------------------------------------------------------------------------
+
+/// Weights of a window along rows or columns, as kernel argument.
+struct WindowWeights {
+  float values[kWidestWindow];
+  int reach, spacing;
+};
+
+/// Sums of reliefAndNoise() along the columns of windows.
+struct ReliefColumnsBody {
+  View<const float> planes, disparity, sigma;
+  View<float> relief_sq, noise_sq;
+  WindowWeights window;
+  float model_variance_px2;
+
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    float relief_sum = 0, noise_sum = 0;
+    for (int y = -window.reach; y <= window.reach; ++y) {
+      const int row = v + window.spacing * y;
+      if (!planes.contains(u, row)) continue;
+      float relief, noise;
+      reliefAndNoise(planes.at(u, row), disparity.at(u, row), sigma.at(u, row), model_variance_px2,
+                     &relief, &noise);
+      relief_sum += window.values[y + window.reach] * relief;
+      noise_sum += window.values[y + window.reach] * noise;
+    }
+    relief_sq.at(u, v) = relief_sum;
+    noise_sq.at(u, v) = noise_sum;
+  }
+};
+
+/// Keeps the share of the relief that reliefGain() gives, from those sums.
+struct ShrinkReliefBody {
+  View<const float> planes, relief_sq, noise_sq;
+  View<float> disparity, sigma;
+  WindowWeights window;
+  float model_variance_px2;
+
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    float relief_sum = 0, noise_sum = 0;
+    for (int x = -window.reach; x <= window.reach; ++x) {
+      const int column = u + window.spacing * x;
+      if (!planes.contains(column, v)) continue;
+      relief_sum += window.values[x + window.reach] * relief_sq.at(column, v);
+      noise_sum += window.values[x + window.reach] * noise_sq.at(column, v);
+    }
+    const float gain = reliefGain(relief_sum, noise_sum);
+    const float of_planes = planes.at(u, v), of_sigma = sigma.at(u, v);
+    disparity.at(u, v) = of_planes + gain * (disparity.at(u, v) - of_planes);
+    sigma.at(u, v) = std::sqrt(varianceWithRelief(of_sigma * of_sigma, gain, model_variance_px2));
+  }
+};
+
 }  // namespace softscope::cuda

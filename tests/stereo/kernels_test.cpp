@@ -173,6 +173,28 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
     });
 }
 
+TEST_F(EveryInstructionSet, ShrinksReliefAlike) {
+  constexpr int kWidth = 208;
+  const Floats planes = randomFloats(kWidth, 10, 12, 31);
+  Floats disparity = randomFloats(kWidth, 10, 12, 32);
+  disparity[17] = std::numeric_limits<float>::quiet_NaN();
+  const Floats sigma = randomFloats(kWidth, 0.1f, 2, 33);
+  expectEqual([&](const StereoKernels& set) {
+    Floats shrunk = disparity, shrunk_sigma = sigma, relief_sq(kWidth), noise_sq(kWidth);
+    const ReliefRow row{planes.data(), shrunk.data(),    shrunk_sigma.data(),
+                        kWidth,        relief_sq.data(), noise_sq.data(),
+                        0.01f};
+    set.refinement->measureRelief(row);
+    EXPECT_EQ(relief_sq[17], 0);
+    EXPECT_EQ(noise_sq[17], 0);
+    set.refinement->shrinkRelief(row);
+    EXPECT_TRUE(std::isnan(shrunk[17]));
+    for (const Floats& more : {relief_sq, noise_sq, shrunk_sigma})
+      shrunk.insert(shrunk.end(), more.begin(), more.end());
+    return shrunk;
+  });
+}
+
 TEST_F(EveryInstructionSet, SamplesTheRightRowAlike) {
   const int width = 304;
   const Floats left = randomFloats(width, -40, 40, 1), right = randomFloats(width + 8, -40, 40, 2);

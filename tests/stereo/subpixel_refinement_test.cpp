@@ -9,6 +9,7 @@
 #include <random>
 
 #include "stereo/kernels/light_formulas.h"
+#include "stereo/kernels/refinement_formulas.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -106,14 +107,27 @@ TEST(SubpixelRefinement, ReturnsReliefThatWindowsLevelOut) {
 
 TEST(SubpixelRefinement, KnowsTheNoiseOfReturnedRelief) {
   // With x = the squared frequency, a window's response is exp(-x), and noise passes its square.
-  double of_planes = 0, of_all_steps = 0;
+  double of_planes = 0, of_relief = 0, shared = 0;
   constexpr double kSpacing = 1e-3;
   for (double x = kSpacing / 2; x < 20; x += kSpacing) {
-    const double left = 1 - std::exp(-x);
-    of_planes += kSpacing * std::exp(-2 * x);
-    of_all_steps += kSpacing * std::pow(1 - left * left, 2);
+    const double kept = std::exp(-x), relief = kept - kept * kept;
+    of_planes += kSpacing * kept * kept;
+    of_relief += kSpacing * relief * relief;
+    shared += kSpacing * kept * relief;
   }
-  EXPECT_NEAR(of_all_steps / of_planes, RefinementOptions::kReliefNoise, 1e-4);
+  EXPECT_NEAR(of_relief / of_planes, RefinementOptions::kReliefNoise, 1e-4);
+  EXPECT_NEAR(shared / of_planes, RefinementOptions::kReliefCovariance, 1e-4);
+}
+
+TEST(SubpixelRefinement, KeepsReliefAsFarAsItExceedsNoise) {
+  const float noise_px2 = 0.01f, relief_noise_px2 = 0.01f / 6;
+  EXPECT_EQ(reliefGain(0.0f, 0.0f), 0);
+  EXPECT_EQ(reliefGain(relief_noise_px2, noise_px2), 0);
+  EXPECT_NEAR(reliefGain(2 * relief_noise_px2, noise_px2), 0.5, 1e-6);
+  EXPECT_NEAR(reliefGain(100.0f, noise_px2), 1, 1e-4);
+  // Of the whole relief 11/6 of the planes' noise, of none their own; the model's error stays.
+  EXPECT_FLOAT_EQ(varianceWithRelief(0.03f, 0.0f, 0.02f), 0.03f);
+  EXPECT_FLOAT_EQ(varianceWithRelief(0.03f, 1.0f, 0.02f), 0.02f + 0.01f * 11 / 6);
 }
 
 TEST(SubpixelRefinement, PredictsItsError) {
@@ -181,7 +195,7 @@ TEST(SubpixelRefinement, ReadsTheLightOfWeakTissue) {
   EXPECT_LT(e.median_px, 0.1);  // 0.111 by the fast part of the brightness alone
 }
 
-TEST(SubpixelRefinement, ForgivesCamerasThatDifferInGainAndOffset) {
+TEST(SubpixelRefinement, CorrectsGainAndOffsetBetweenTheCameras) {
   const auto scene = weakTissue(1.1, -6);
   const auto e = errorsOf(refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), {}),
                           scene.disparity_px);
@@ -240,7 +254,7 @@ TEST(LightFit, FindsOffsetSlopesAndGain) {
   EXPECT_NEAR(found.gain, truth.gain, 0.1);
 }
 
-TEST(LightFit, SaysNothingOfNothing) {
+TEST(LightFit, IsZeroWithoutPixels) {
   const LightDifference light = solveLight(LightSums());
   EXPECT_EQ(light.at_centre, 0);
   EXPECT_EQ(light.gain, 0);

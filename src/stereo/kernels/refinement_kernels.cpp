@@ -200,6 +200,26 @@ void estimatePlaneErrors(const PlaneRow& row) {
   }
 }
 
+void measureRelief(const ReliefRow& row) {
+  for (int u = 0; u < row.width; u += kFloatLanes) {
+    Floats relief_sq, noise_sq;
+    reliefAndNoise(loadFloats(row.planes + u), loadFloats(row.disparity + u),
+                   loadFloats(row.sigma + u), row.model_variance_px2, &relief_sq, &noise_sq);
+    store(row.relief_sq + u, relief_sq);
+    store(row.noise_sq + u, noise_sq);
+  }
+}
+
+void shrinkRelief(const ReliefRow& row) {
+  for (int u = 0; u < row.width; u += kFloatLanes) {
+    const Floats planes = loadFloats(row.planes + u), sigma = loadFloats(row.sigma + u);
+    const Floats gain = reliefGain(loadFloats(row.relief_sq + u), loadFloats(row.noise_sq + u));
+    store(row.disparity + u, planes + gain * (loadFloats(row.disparity + u) - planes));
+    store(row.sigma + u,
+          squareRoot(varianceWithRelief(sigma * sigma, gain, row.model_variance_px2)));
+  }
+}
+
 void sumRows(const float* const* in, const float* weights, int taps, int width, float* out) {
   for (int u = 0; u < width; u += kFloatLanes) {
     Floats sum{};
@@ -212,7 +232,7 @@ void sumRows(const float* const* in, const float* weights, int taps, int width, 
 
 extern const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET);
 const RefinementKernels SOFTSCOPE_NAME(refinementKernels, SOFTSCOPE_SIMD_SET) = {
-    residualRow,     columnMoments, rowMoments,          markMixed,
-    selectedMoments, solvePlanes,   estimatePlaneErrors, sumRows};
+    residualRow, columnMoments,       rowMoments,    markMixed,    selectedMoments,
+    solvePlanes, estimatePlaneErrors, measureRelief, shrinkRelief, sumRows};
 
 }  // namespace softscope

@@ -85,6 +85,19 @@ struct SelectedRows {
   int radius;
 };
 
+/// A row of disparities with relief that its steps returned to those of the planes. shrinkRelief()
+/// keeps the share of it that reliefGain() gives.
+struct ReliefRow {
+  const float* planes;  // disparity of the planes, NaN = unmatched
+  float* disparity;     // with relief, NaN = unmatched
+  float* sigma;         // of the planes
+  int width;
+  // Of a pixel, or sums over its window; 0 for an unmatched pixel.
+  float* relief_sq;  // (disparity - planes)²
+  float* noise_sq;   // sigma² without the error that is independent of texture
+  float model_variance_px2;
+};
+
 struct RefinementKernels {
   void (*residualRow)(const ResidualRow& row);
   /// out_k[u] = sum over y in [-r, r] of w[y] y^k in[y + r][u]: k = 0, 1, 2 of `information`, then
@@ -102,6 +115,8 @@ struct RefinementKernels {
                           const MomentRow& out);
   void (*solvePlanes)(const PlaneRow& row);
   void (*estimatePlaneErrors)(const PlaneRow& row);  // after solvePlanes()
+  void (*measureRelief)(const ReliefRow& row);       // relief_sq and noise_sq of each pixel
+  void (*shrinkRelief)(const ReliefRow& row);        // from their sums
   /// sum over taps of weight[t] * in[t][u]; out[u], u in [0, width).
   void (*sumRows)(const float* const* in, const float* weights, int taps, int width, float* out);
 };

@@ -53,7 +53,8 @@ inline SmoothingRules smoothingRules(const SmoothingOptions& options,
   rules.size = options.blockPx(width_px);
   rules.reach = options.reach_blocks;
   rules.scale = 1 / static_cast<float>(rules.reach * rules.size);
-  rules.independent_px2 = static_cast<float>(refinement.independentPx2());
+  rules.independent_px2 =
+      static_cast<float>(refinement.independentPx2() / RefinementOptions::kNoiseWithRelief);
   rules.floor_px2 = static_cast<float>(refinement.model_sigma_px * refinement.model_sigma_px +
                                        options.relief_px * options.relief_px);
   rules.columns = (width_px + rules.size - 1) / rules.size;

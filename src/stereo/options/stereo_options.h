@@ -77,12 +77,14 @@ struct RefinementOptions {
 
   /// Standard deviation of the Gaussian window, and the area of correlated errors.
   double windowSigmaPx() const { return 0.55 * radius_px; }
-  double independentPx2() const {
-    return 4 * M_PI * windowSigmaPx() * windowSigmaPx() / kReliefNoise;
-  }
-  /// Variance of noise after all steps over that of the planes alone: the integral of
-  /// (1 - (1 - P)²)² over that of P², P the Gaussian response of a window.
-  static constexpr double kReliefNoise = 11.0 / 6;
+  double independentPx2() const { return 4 * M_PI * windowSigmaPx() * windowSigmaPx(); }
+  /// Noise of returned relief over the variance of the planes' noise: its variance, and its
+  /// covariance with theirs. Integrals of (P - P²)² and P (P - P²) over that of P², P the Gaussian
+  /// response of a window.
+  static constexpr double kReliefNoise = 1.0 / 6, kReliefCovariance = 1.0 / 3;
+  /// The same where all relief is returned: errors vary by so much more and are alike over so much
+  /// less area.
+  static constexpr double kNoiseWithRelief = 1 + 2 * kReliefCovariance + kReliefNoise;
 
   static constexpr int kLargestRadiusPx = 7;  // 16 lanes hold a window's row
 };

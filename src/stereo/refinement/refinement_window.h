@@ -19,6 +19,9 @@ struct RefinementWindow {
   static constexpr float kSlope = 0.4f;   // … and this much more per pixel between them
   static constexpr float kClearStepPx = 2.0f;  // a step larger than noise of the matching
 
+  // Of the pixels by which relief is judged: a window twice as wide.
+  static constexpr int kReliefSpacingPx = 2;
+
   std::vector<float> weights;               // 2 radius + 1: a Gaussian
   std::vector<float> selection, tolerance;  // (2 radius + 1) x kSelectLanes: see SelectedRows
 };

@@ -231,6 +231,45 @@ LightDifference fitLight(const RefinementContext& context, const Plane& disparit
   return solveLight(sums);
 }
 
+/// Keeps the relief that the last steps returned to `planes` as far as it exceeds noise.
+void shrinkRelief(const RefinementContext& context, Plane& planes, Plane& disparity, Plane& sigma) {
+  const int width = context.width, taps = 2 * context.options.radius_px + 1;
+  const float* window = context.window.weights.data();
+  const RefinementKernels& kernels = refinementKernels();
+  Plane relief_sq(width, context.height), noise_sq = relief_sq;
+  const auto rowAt = [&](int v, float* of_relief, float* of_noise) {
+    return ReliefRow{planes.row(v),
+                     disparity.row(v),
+                     sigma.row(v),
+                     width,
+                     of_relief,
+                     of_noise,
+                     context.limits.model_variance_px2};
+  };
+  parallelRows(context.height,
+               [&](int v) { kernels.measureRelief(rowAt(v, relief_sq.row(v), noise_sq.row(v))); });
+  const auto fromCentre = [&](int tap) {
+    return RefinementWindow::kReliefSpacingPx * (tap - context.options.radius_px);
+  };
+  parallelRanges(context.height, kBandRows, [&](int begin, int end) {
+    Plane columns(width + Plane::kMargin, 1, 0, 0), sums(width, 2, 0, 0);
+    std::vector<const float*> rows(static_cast<std::size_t>(taps)), shifted(rows);
+    for (int x = 0; x < taps; ++x)
+      shifted[static_cast<std::size_t>(x)] = columns.row(0) + fromCentre(x);
+    const auto sumWindows = [&](const Plane& values, int v, float* out) {
+      for (int y = 0; y < taps; ++y)
+        rows[static_cast<std::size_t>(y)] = values.row(v + fromCentre(y));
+      kernels.sumRows(rows.data(), window, taps, width, columns.row(0));
+      kernels.sumRows(shifted.data(), window, taps, width, out);
+    };
+    for (int v = begin; v < end; ++v) {
+      sumWindows(relief_sq, v, sums.row(0));
+      sumWindows(noise_sq, v, sums.row(1));
+      kernels.shrinkRelief(rowAt(v, sums.row(0), sums.row(1)));
+    }
+  });
+}
+
 }  // namespace
 
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
@@ -239,7 +278,7 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   Raster<std::uint8_t> mixed = nearDepthSteps(
       initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
   const int width = left.width_px, height = left.height_px;
-  Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
+  Plane disparity = planeOf(initial_px), next = disparity, planes = disparity, sigma(width, height);
   LightDifference light;
   for (int i = 0; i < options.steps; ++i) {
     const RefinementStep rules = refinementStep(i);
@@ -250,7 +289,9 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
           .solve(begin, end);
     });
     std::swap(disparity, next);
+    if (i + 1 == options.plane_steps) planes = disparity;
   }
+  shrinkRelief(context, planes, disparity, sigma);
   return {rasterOf(disparity, width, height), rasterOf(sigma, width, height)};
 }
 
