@@ -11,7 +11,9 @@
 namespace softscope {
 namespace {
 
-constexpr double kMaxSettleMm = 0.5;  // of near tissue; a larger distance is another surface
+constexpr double kMaxSettleMm = 0.5;    // of near tissue; a larger distance is another surface
+constexpr double kSettleShare = 0.3;    // of the distance to the surface, covered in a frame
+constexpr double kGrazingCosine = 0.2;  // between normal and ray: below, the ray meets it far away
 
 /// Depth at the pixel by a plane fitted to the inverse depth of the
 /// measured pixels within `radius_px`. NaN with fewer than `least` of them.
@@ -121,10 +123,9 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
     const Eigen::Vector3d normal = pieces[k].normal.normalized();
     const Eigen::Vector3d ray = (position_mm - scope_mm).normalized();
     const double cosine = normal.dot(ray);
-    const double along_ray_mm = height / cosine;
-    // At a grazing angle, the ray meets the surface far away.
-    position_mm += std::abs(along_ray_mm) < limit_mm ? Eigen::Vector3d(along_ray_mm * ray)
-                                                     : Eigen::Vector3d(height * normal);
+    position_mm +=
+        kSettleShare * (std::abs(cosine) > kGrazingCosine ? Eigen::Vector3d(height / cosine * ray)
+                                                          : Eigen::Vector3d(height * normal));
   }
 }
 

@@ -72,7 +72,7 @@ class MaterialPoints {
   void align(const LookPicture& picture, const PinholeCamera& left,
              const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
              const std::function<bool(const Eigen::Vector3d&)>& inSight);
-  /// Projects them onto the surface of the model points around them, along the
+  /// Moves them towards the surface of the model points around them, along the
   /// rays of the scope at `scope_mm`, like fusion moves the points of the model:
   /// docs/fusion.md (F8). `limit_scale`: DepthSummary::limit_scale of the frame.
   /// `search`: null for that of the CPU.

@@ -71,13 +71,31 @@ TEST(MaterialPoints, FollowTheWarp) {
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(1.5, 2.5, 47)).norm(), 1e-5);
 }
 
+/// As in `frames` frames without motion.
+void settleFor(int frames, MaterialPoints* tracked, const PointModel& model,
+               const Eigen::Vector3d& scope_mm, double limit_scale) {
+  for (int k = 0; k < frames; ++k) tracked->settle(model, scope_mm, limit_scale);
+}
+
+// A surface of two layers would otherwise throw the point from one to the other.
+TEST(MaterialPoints, ReachASurfaceThatJumpedInSeveralFrames) {
+  MaterialPoints tracked;
+  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
+  tracked.anchor(flatModel());
+  settleFor(1, &tracked, flatModel(0.4f), Eigen::Vector3d::Zero(), 1);
+  EXPECT_GT(tracked.points[0].position_mm.z(), 50.1);
+  EXPECT_LT(tracked.points[0].position_mm.z(), 50.2);
+  settleFor(7, &tracked, flatModel(0.4f), Eigen::Vector3d::Zero(), 1);
+  EXPECT_NEAR(tracked.points[0].position_mm.z(), 50.4, 0.04);
+}
+
 // Fusion moved the surface by 0.2 mm; 3 mm are another surface.
 TEST(MaterialPoints, LieOnTheModelsSurface) {
   for (const auto& [shift_mm, expected_mm] : {std::pair(0.2f, 50.2), std::pair(3.0f, 50.0)}) {
     MaterialPoints tracked;
     tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
     tracked.anchor(flatModel());
-    tracked.settle(flatModel(shift_mm), Eigen::Vector3d::Zero(), 1);
+    settleFor(40, &tracked, flatModel(shift_mm), Eigen::Vector3d::Zero(), 1);
     EXPECT_NEAR(tracked.points[0].position_mm.z(), expected_mm, 1e-5);
     EXPECT_NEAR(tracked.points[0].position_mm.x(), 0, 1e-5) << "slid along the surface";
   }
@@ -88,9 +106,9 @@ TEST(MaterialPoints, FollowASurfaceFartherAwayByMore) {
   MaterialPoints tracked;
   tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
   tracked.anchor(flatModel());
-  tracked.settle(flatModel(0.6f), Eigen::Vector3d::Zero(), 1);
+  settleFor(40, &tracked, flatModel(0.6f), Eigen::Vector3d::Zero(), 1);
   EXPECT_NEAR(tracked.points[0].position_mm.z(), 50, 1e-5);
-  tracked.settle(flatModel(0.6f), Eigen::Vector3d::Zero(), 3);
+  settleFor(40, &tracked, flatModel(0.6f), Eigen::Vector3d::Zero(), 3);
   EXPECT_NEAR(tracked.points[0].position_mm.z(), 50.6, 1e-5);
 }
 
@@ -101,7 +119,7 @@ TEST(MaterialPoints, StayOnTheirRay) {
   tracked.add(0, {60, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
   tracked.anchor(flatModel());
   const Eigen::Vector3d before_mm = tracked.points[0].position_mm;
-  tracked.settle(flatModel(0.2f), Eigen::Vector3d::Zero(), 1);
+  settleFor(40, &tracked, flatModel(0.2f), Eigen::Vector3d::Zero(), 1);
   EXPECT_LT((tracked.points[0].position_mm - 1.004 * before_mm).norm(), 1e-5);
 }
 
@@ -110,7 +128,7 @@ TEST(MaterialPoints, DoNotSlideAlongAGrazingRay) {
   MaterialPoints tracked;
   tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
   tracked.anchor(flatModel());
-  tracked.settle(flatModel(0.2f), Eigen::Vector3d(-50, 0, 45), 1);
+  settleFor(40, &tracked, flatModel(0.2f), Eigen::Vector3d(-50, 0, 45), 1);
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(0, 0, 50.2)).norm(), 1e-5);
 }
 
