@@ -5,14 +5,13 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/farthest.h"
 #include "core/not_measured.h"
 #include "core/parallel.h"
 #include "eval/distance/morton_order.h"
 
 namespace softscope {
 namespace {
-
-constexpr float kFarthestCoordinate_mm = 1e6f;
 
 const TriangleMesh& checked(const TriangleMesh& mesh) {
   if (mesh.empty())
@@ -25,7 +24,7 @@ const TriangleMesh& checked(const TriangleMesh& mesh) {
                          std::to_string(vertex) + ", but there are " + std::to_string(count) +
                          " vertices, counted from 0; mend the mesh");
   for (std::int32_t i = 0; i < count; ++i)
-    if (!(mesh.vertices_mm[i].cwiseAbs().maxCoeff() <= kFarthestCoordinate_mm) ||
+    if (!(mesh.vertices_mm[i].cwiseAbs().maxCoeff() <= kFarthestMm) ||
         !mesh.vertices_mm[i].allFinite())
       throw InputError("vertex " + std::to_string(i) +
                        " of the surface is not finite or lies beyond 1 km; mend the mesh or its "

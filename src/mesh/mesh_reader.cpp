@@ -13,7 +13,7 @@
 namespace softscope {
 namespace {
 
-constexpr float kFarthestMm = 1e7f;  // limit for micrometres read as mm
+constexpr float kFarthestUnscaledMm = 1e7f;  // limit for micrometres read as mm
 
 namespace fs = std::filesystem;
 
@@ -93,7 +93,8 @@ void requireIndices(const TriangleMesh& mesh, const std::string& name) {
 
 void requireFinite(const TriangleMesh& mesh, const std::string& name) {
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
-    if (mesh.vertices_mm[i].allFinite() && mesh.vertices_mm[i].cwiseAbs().maxCoeff() > kFarthestMm)
+    if (mesh.vertices_mm[i].allFinite() &&
+        mesh.vertices_mm[i].cwiseAbs().maxCoeff() > kFarthestUnscaledMm)
       throw InputError(
           name + ": vertex " + std::to_string(i) +
           " lies more than 10 km from the origin; in another unit than mm, or damaged?");

@@ -9,8 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kSteepest = 4;  // depth over width
-constexpr double kSigmas = 2;    // of depth, that are no step
+constexpr double kSigmas = 2;  // of depth, that are no step
 
 /// Flood fill from the middle of a square of pixels.
 class Flood {

@@ -30,6 +30,9 @@ void visitMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
         visit(u - pixel.x(), v - pixel.y(), depth_mm.at(u, v));
 }
 
+/// Steepest surface that is followed: depth over width.
+constexpr double kSteepest = 4;
+
 struct NearestDepth {
   double depth_mm = std::numeric_limits<double>::quiet_NaN();
   Eigen::Vector2d away_px = Eigen::Vector2d::Zero();  // offset of the pixel that has it

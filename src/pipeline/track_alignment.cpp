@@ -6,11 +6,10 @@
 #include "core/not_measured.h"
 #include "core/parallel.h"
 #include "pipeline/material_points.h"
+#include "pipeline/nearest_depth.h"
 
 namespace softscope {
 namespace {
-
-constexpr double kLargestSlope = 4;  // of a surface along which a point is moved, depth over width
 
 /// Measurement of one tracked point in an image.
 struct SeenLook {
@@ -52,7 +51,7 @@ struct FirstLookSearch {
     const Eigen::Vector3d place = ray * (normal.dot(centre) / normal.dot(ray));
     const double pixel_mm = centre.z() / left.fx_px;
     const double off_mm = (found.pixel - pixel).norm() * pixel_mm;
-    if (!((place - centre).norm() <= kLargestSlope * off_mm)) return;
+    if (!((place - centre).norm() <= kSteepest * off_mm)) return;
     seen->found = true;
     seen->position_mm = world_from_left * place;
     seen->variance_mm2 = found.sigma_px * found.sigma_px * pixel_mm * pixel_mm;

@@ -106,8 +106,6 @@ std::string parentName(const fs::path& folder) {
   return name.empty() ? "all" : name;
 }
 
-constexpr double kServCtStepMm = 1.0 / 256;
-
 bool isServCtExperiment(const fs::path& folder) {
   return isFolder(folder / "Left_rectified") && isFolder(folder / "Right_rectified");
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/farthest.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
@@ -26,8 +27,6 @@ Cells cellsOf(std::string_view line) {
   }
   return cells;
 }
-
-constexpr double kFarthestLandmarkMm = 1e6;
 
 /// Column indices of name, x, y and z; -1: missing.
 using Columns = std::array<std::ptrdiff_t, 4>;
@@ -87,7 +86,7 @@ void PlacesReader::addRow(const Cells& cells, int line) {
   Eigen::Vector3d place_mm;
   for (int axis = 0; axis < 3; ++axis) {
     const auto value = numberOf(cell(static_cast<std::size_t>(axis) + 1));
-    if (!value || !(std::abs(*value) <= kFarthestLandmarkMm))
+    if (!value || !(std::abs(*value) <= kFarthestMm))
       fail(say("line ", line, ": ", excerpt(cell(static_cast<std::size_t>(axis) + 1)),
                " is no coordinate in mm within 1 km"));
     place_mm[axis] = *value;

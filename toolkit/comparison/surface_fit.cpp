@@ -77,7 +77,7 @@ SurfaceFit fitSurface(const TriangleMesh& reference, const std::vector<Eigen::Ve
 
 FactSheet::Json surfaceFitJson(const SurfaceFit& fit) {
   FactSheet::Json json{{"method", fit.method},
-                       {"reference_from_test", matrixJson(fit.reference_from_test)}};
+                       {"reference_from_test", matrixJson(fit.reference_from_test.matrix())}};
   if (fit.before_mm) json["before"] = statisticsJson(*fit.before_mm, "_mm");
   if (fit.landmarks) {
     json["fre"] = statisticsJson(fit.landmarks->fre_mm, "_mm");

@@ -108,7 +108,7 @@ Json cameraJson(const CameraResult& camera) {
           {"ate_alignment",
            {{"method", "rigid, least squares over all positions, no scale"},
             {"unique", camera.errors.alignment_unique},
-            {"truth_from_run", matrixJson(camera.errors.truth_from_estimate)}}}};
+            {"truth_from_run", matrixJson(camera.errors.truth_from_estimate.matrix())}}}};
 }
 
 Json tracksJson(const TrackErrors& tracks) {
@@ -156,7 +156,7 @@ Json wrongJson(const EvaluationResult& result) {
 }
 
 Json alignmentJson(const SurfaceAlignment& alignment) {
-  return {{"mesh_from_run", matrixJson(alignment.surface_from_points)},
+  return {{"mesh_from_run", matrixJson(alignment.surface_from_points.matrix())},
           {"stop", stopText(alignment.stop)},
           {"iterations", alignment.iterations},
           {"pairs", alignment.pair_count},

@@ -11,6 +11,7 @@
 #include "io/files/folder.h"
 #include "io/text/message.h"
 #include "toolkit/evaluation/run_moment.h"
+#include "toolkit/record/record_values.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/model_surface.h"
@@ -228,15 +229,12 @@ FrameFiles allModels(const JudgedRun& run) {
   return models;
 }
 
-/// Path of the left images from run.json; empty if absent.
+/// Hash of the left images from run.json; empty if absent.
 std::string clipOf(const std::string& run) {
   const std::filesystem::path file = std::filesystem::path(run) / "run.json";
   if (!isFile(file)) return {};
-  const Json record = Json::parse(readBytes(file, kTextLimitBytes), nullptr, false);
-  const Json::json_pointer hash("/inputs/left/sha256");
-  return record.is_object() && record.contains(hash) && record[hash].is_string()
-             ? record[hash].get<std::string>()
-             : std::string();
+  return textAt(Json::parse(readBytes(file, kTextLimitBytes), nullptr, false),
+                "inputs.left.sha256");
 }
 
 enum class Clips { kUnknown, kOne, kTwo };

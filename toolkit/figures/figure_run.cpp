@@ -34,7 +34,7 @@ Json addRunMoment(const RunMomentOptions& options, SceneInputs& inputs, FigureFo
   model.mesh.colours.clear();  // the legend's colour
   model.in_focus = true;
   Json record{{"run", options.run}, {"sequence", options.sequence}, {"frame", moment.frame}};
-  record["left_from_true_world"] = matrixJson(moment.left_from_true_world);
+  record["left_from_true_world"] = matrixJson(moment.left_from_true_world.matrix());
   record["observed_share"] = moment.errors.observed_share;
   if (!coloured) return record;
   const SurfaceErrorMap map =

@@ -1,5 +1,6 @@
 // toolkit/inspection/describe_volume.cpp: facts about a CT or MR volume.
 #include "toolkit/inspection/describe_file.h"
+#include "toolkit/record/statistics_json.h"
 #include "vtk_views/volumes/volume_summary.h"
 
 namespace softscope {
@@ -9,13 +10,6 @@ template <class Values>
 std::string times(const Values& values, int decimals) {
   return fixed(values[0], decimals) + " x " + fixed(values[1], decimals) + " x " +
          fixed(values[2], decimals);
-}
-
-FactSheet::Json voxelMatrixJson(const Eigen::Matrix4d& matrix) {
-  FactSheet::Json rows = FactSheet::Json::array();
-  for (int row = 0; row < 4; ++row)
-    rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2), matrix(row, 3)});
-  return rows;
 }
 
 void addGeometry(const VolumeSummary& volume, FactSheet& facts) {
@@ -33,7 +27,7 @@ void addGeometry(const VolumeSummary& volume, FactSheet& facts) {
   facts.add("axes run to", volume.axes + " (L left, P back, S head, R right, A front, I feet)",
             "axes", volume.axes);
   facts.add("header's space", "file_space", volume.file_space);
-  facts.addQuietly("lps_from_voxel", voxelMatrixJson(volume.lps_from_voxel));
+  facts.addQuietly("lps_from_voxel", matrixJson(volume.lps_from_voxel));
 }
 
 }  // namespace

@@ -28,11 +28,11 @@ std::string csvCell(double value) {
   return text;
 }
 
-FactSheet::Json matrixJson(const Eigen::Isometry3d& pose) {
+FactSheet::Json matrixJson(const Eigen::Matrix4d& matrix) {
   FactSheet::Json rows = FactSheet::Json::array();
   for (int i = 0; i < 4; ++i) {
     FactSheet::Json row = FactSheet::Json::array();
-    for (int j = 0; j < 4; ++j) row.push_back(pose.matrix()(i, j));
+    for (int j = 0; j < 4; ++j) row.push_back(matrix(i, j));
     rows.push_back(row);
   }
   return rows;

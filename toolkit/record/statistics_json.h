@@ -16,7 +16,7 @@ FactSheet::Json statisticsJson(const Statistics& s, const std::string& unit);
 FactSheet::Json vectorJson(const Eigen::Vector3d& v);
 
 /// Four rows of four numbers.
-FactSheet::Json matrixJson(const Eigen::Isometry3d& pose);
+FactSheet::Json matrixJson(const Eigen::Matrix4d& matrix);
 
 /// null if it is not finite.
 FactSheet::Json orNull(double value);

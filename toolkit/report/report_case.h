@@ -8,14 +8,10 @@
 
 #include "eval/statistics/statistics.h"
 #include "toolkit/record/fact_sheet.h"
+#include "toolkit/record/record_values.h"
 #include "vtk_views/files/error_map.h"
 
 namespace softscope {
-
-/// Number at a dotted path; NaN if absent or another type.
-double numberAt(const FactSheet::Json& record, const std::string& path);
-/// Text at a path; empty if absent or another type.
-std::string textAt(const FactSheet::Json& record, const std::string& path);
 
 struct ReportCase {
   /// evaluate against truth, a mesh, images only (no truth); compare

@@ -6,14 +6,13 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/farthest.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "mesh/ply_header.h"
 
 namespace softscope {
 namespace {
-
-constexpr float kFarthestVertexMm = 1e6f;
 
 const PlyElement& verticesOf(const PlyHeader& header, const std::string& name) {
   if (header.encoding != PlyEncoding::kLittleEndian)
@@ -58,7 +57,7 @@ std::optional<std::size_t> findTriple(const PlyElement& vertices, const Names& n
 }
 
 void requirePlausible(const Eigen::Vector3f& point_mm, std::size_t index, const std::string& name) {
-  if (point_mm.cwiseAbs().maxCoeff() <= kFarthestVertexMm && point_mm.allFinite()) return;
+  if (point_mm.cwiseAbs().maxCoeff() <= kFarthestMm && point_mm.allFinite()) return;
   throw InputError(say(name, ": point ", index, " is ", point_mm.x(), " ", point_mm.y(), " ",
                        point_mm.z(),
                        ", but a model has finite coordinates within 1 km, in mm; is the file "

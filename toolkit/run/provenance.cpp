@@ -10,6 +10,7 @@
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
 #include "toolkit/record/fact_sheet.h"
+#include "toolkit/record/record_values.h"
 
 namespace softscope {
 namespace {
@@ -26,20 +27,13 @@ Json readRunRecord(const fs::path& file) {
   return record;
 }
 
-/// NaN if absent or of another type, as in records of other versions.
-double recordedNumber(const Json& record, const char* path) {
-  const Json::json_pointer place(path);
-  if (!record.contains(place) || !record.at(place).is_number()) return std::nan("");
-  return record.at(place).get<double>();
-}
-
 bool differs(double recorded, double expected) {
   return std::isfinite(recorded) && std::abs(recorded - expected) > kSameLength * expected;
 }
 
 void requireSameSize(const Json& record, const PinholeCamera& left, const fs::path& file) {
-  const double width = recordedNumber(record, "/rectified_rig/width_px");
-  const double height = recordedNumber(record, "/rectified_rig/height_px");
+  const double width = numberAt(record, "rectified_rig.width_px");
+  const double height = numberAt(record, "rectified_rig.height_px");
   if (std::isnan(width) || std::isnan(height)) return;
   if (width == left.width_px && height == left.height_px) return;
   throw InputError(say(shown(file), ": the run's images have ", width, " x ", height,
@@ -49,15 +43,15 @@ void requireSameSize(const Json& record, const PinholeCamera& left, const fs::pa
 
 /// Empty if the images are the recorded ones, or either is unknown.
 std::string pictureWarning(const Json& record, const SequenceTruth& truth) {
-  const Json::json_pointer place("/inputs/left/sha256");
-  if (!record.contains(place) || !record.at(place).is_string()) return {};
+  const std::string recorded = textAt(record, "inputs.left.sha256");
+  if (recorded.empty()) return {};
   SequencePaths paths;
   try {
     paths = findSequence(truth.folder);
   } catch (const InputError&) {  // ground truth without images is sufficient
     return {};
   }
-  if (paths.left.empty() || sha256Of(paths.left) == record.at(place).get<std::string>()) return {};
+  if (paths.left.empty() || sha256Of(paths.left) == recorded) return {};
   return "the run was made from other images than those in " + shown(paths.left) +
          "; a run of another sequence?";
 }
@@ -71,8 +65,8 @@ std::vector<std::string> checkOrigin(const JudgedRun& run, const SequenceTruth& 
   const Json record = readRunRecord(file);
   requireSameSize(record, truth.rig.left, file);
   std::vector<std::string> warnings;
-  const double focal_px = recordedNumber(record, "/rectified_rig/focal_px");
-  const double baseline_mm = recordedNumber(record, "/rectified_rig/baseline_mm");
+  const double focal_px = numberAt(record, "rectified_rig.focal_px");
+  const double baseline_mm = numberAt(record, "rectified_rig.baseline_mm");
   if (differs(focal_px, truth.rig.left.fx_px) || differs(baseline_mm, truth.rig.baseline_mm))
     warnings.push_back(say("the run was made with a focal length of ", focal_px,
                            " px and a baseline of ", baseline_mm, " mm, but the sequence has ",

@@ -6,14 +6,13 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/farthest.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
 
 namespace softscope {
 namespace {
-
-constexpr double kFarthestPlaceMm = 1e6;
 
 /// Commas inside quotes do not separate cells.
 std::vector<std::string_view> commaCells(std::string_view line) {
@@ -101,7 +100,7 @@ int NumberTable::indexAt(std::size_t row, std::size_t column) const {
 Eigen::Vector3d NumberTable::placeAt(std::size_t row, std::size_t column) const {
   const Eigen::Vector3d place_mm(at(row, column), at(row, column + 1), at(row, column + 2));
   for (const double value : place_mm)
-    if (std::abs(value) > kFarthestPlaceMm)
+    if (std::abs(value) > kFarthestMm)
       throw InputError(say(name_, ": line ", lines_[row], " holds ", value,
                            " mm, but a coordinate within 1 km is expected; is the file damaged?"));
   return place_mm;

@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kServCtWrittenStepMm = 1.0 / 256;
 constexpr double kC3vdStepMm = 100.0 / 65535;
 constexpr long long kFirstStampS = 1700000000;  // time stamp in the names of D4D
 constexpr double kTattooMm = 1;                 // radius of the infrared marks of STIR
@@ -56,7 +55,7 @@ class ServCtLayout : public DatasetLayout {
     folder_.make("Reference_CT/Disparity/" + name + ".png",
                  [&](const fs::path& file) { writeDisparityPng(file, disparity_px, false); });
     folder_.make("Reference_CT/DepthL/" + name + ".png", [&](const fs::path& file) {
-      writeDepthPng(file, frame.depth_mm, kServCtWrittenStepMm, false);
+      writeDepthPng(file, frame.depth_mm, kServCtStepMm, false);
     });
   }
   void finish(const Simulator& /*simulator*/) override { folder_.keep(); }

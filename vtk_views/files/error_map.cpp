@@ -16,6 +16,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include "core/error.h"
+#include "core/farthest.h"
 #include "core/guarded_read.h"
 #include "core/not_measured.h"
 #include "vtk_views/files/packed_bytes.h"
@@ -23,8 +24,6 @@
 
 namespace softscope {
 namespace {
-
-constexpr float kFarthestMm = 1e6f;
 
 void addScalars(const char* name, const std::vector<float>& values, std::size_t reference_count,
                 vtkPolyData* data) {

@@ -11,6 +11,7 @@ namespace softscope {
 
 /// Step of a 16-bit disparity file.
 inline constexpr double kDisparityStepPx = 1.0 / 256;
+inline constexpr double kServCtStepMm = 1.0 / 256;  // of the depth images of SERV-CT
 
 /// Depth in mm from a 16-bit PNG or TIFF (step `unit_mm`, 0 = none), a PFM or
 /// a 32-bit float TIFF (both mm), or a NumPy array of floats (.npy, metres).

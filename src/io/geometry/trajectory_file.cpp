@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/farthest.h"
 #include "io/files/atomic_file.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
@@ -14,7 +15,6 @@ namespace softscope {
 namespace {
 
 constexpr double kQuaternionTolerance = 0.01;
-constexpr double kFarthestMm = 1e6;
 using Numbers = std::array<double, 8>;
 
 Numbers numbersOf(std::string_view line, const std::string& where) {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kBlack = 4;  // largest channel: black that went through a codec
 constexpr int kDark = 16;  // largest channel beside it: the codec's ringing
-constexpr int kBorderReachPx =
-    5;                        // squares of 11 x 11: noise of one level leaves none of them even
+// Squares of 11 x 11: noise of one level leaves none of them even.
+constexpr int kBorderReachPx = 5;
 constexpr int kEven = 1;      // levels between neighbours
 constexpr int kBesidePx = 8;  // a codec's block
 
