@@ -44,7 +44,7 @@ TEST(DepthTarget, KeepsToItsThresholds) {
   EXPECT_EQ(view.ask({0, 0, 50}, {0, 0, 1}).reliability, 0);  // the far side of something thin
 }
 
-TEST(DepthTarget, SaysNothingOutsideThePictureBehindTheScopeOrAboutNaN) {
+TEST(DepthTarget, IsAbsentOutsideTheImageBehindTheScopeAndForNaN) {
   PlaneView view;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(view.ask({11, 0, 50}).reliability, 0);

@@ -159,7 +159,7 @@ TEST(Colour, ThePaperTakesTheLatest) {
   for (const std::uint8_t anchor : model.anchors) ASSERT_EQ(anchor, toGray(Rgb8{10, 20, 30}));
 }
 
-TEST(Gain, IsOneWhereNobodySpeaks) {
+TEST(Gain, IsOneForAnEmptyModel) {
   const Shot shot = takeShot(plane(55), smallCamera());
   const ColourGain gain = estimateGain({}, shot.observation(), {}, {});
   EXPECT_EQ(gain.red, 1);

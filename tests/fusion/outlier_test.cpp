@@ -111,7 +111,7 @@ TEST(FreeSpace, RemovesTissueThatHasGone) {
   EXPECT_LT(backProjectionError(model, after.observation(), states).mean_mm, 1e-3);
 }
 
-TEST(FreeSpace, ForgivesSingleWrongFrames) {
+TEST(FreeSpace, KeepsPointsThroughSingleWrongFrames) {
   PointModel model;
   InsertionMemory memory;
   const Shot right = takeShot(plane(55), smallCamera()), wrong = takeShot(plane(60), smallCamera());
@@ -120,7 +120,7 @@ TEST(FreeSpace, ForgivesSingleWrongFrames) {
 }
 
 // Tissue that came nearer by more than the warp could follow: its old place must not stay behind.
-TEST(Burying, RemovesWhatTheSurfaceLeftBehind) {
+TEST(HiddenPoints, AreRemovedJustBehindAMeasuredSurface) {
   PointModel model;
   InsertionMemory memory;
   for (int k = 0; k < 12; ++k) update(takeShot(plane(55), smallCamera()), {}, &memory, &model);
@@ -130,7 +130,7 @@ TEST(Burying, RemovesWhatTheSurfaceLeftBehind) {
 }
 
 // A second organ far behind the first one is hidden, not gone.
-TEST(Burying, KeepsWhatIsFarBehind) {
+TEST(HiddenPoints, StayFarBehindAMeasuredSurface) {
   PointModel model;
   InsertionMemory memory;
   for (int k = 0; k < 12; ++k) update(takeShot(plane(60), smallCamera()), {}, &memory, &model);

@@ -96,7 +96,7 @@ TEST(Visibility, ASteepSurfaceDoesNotHideItself) {
   for (const PointSight& point : see(model, shot).points) EXPECT_EQ(point.sight, Sight::kSeen);
 }
 
-TEST(Visibility, SaysNothingNextToDepthEdges) {
+TEST(Visibility, IsUnknownNextToDepthEdges) {
   Shot shot = takeShot(plane(55), smallCamera());
   for (int v = 0; v < 72; ++v)
     for (int u = 0; u < 48; ++u) shot.depth.depth_mm.at(u, v) = 45;
@@ -106,7 +106,7 @@ TEST(Visibility, SaysNothingNextToDepthEdges) {
       EXPECT_EQ(states.at(u, v) == PixelState::kEdge, u >= 46 && u < 50);  // radius 2
 }
 
-TEST(Visibility, SaysNothingWhereDepthIsUnsureOrGrazing) {
+TEST(Visibility, IsUnknownWhereDepthIsUncertainOrGrazing) {
   Shot shot = takeShot(plane(55), smallCamera());
   shot.depth.sigma_mm.at(1, 1) = 1.1f;
   shot.depth.sigma_mm.at(2, 2) = kNoDepth;

@@ -69,7 +69,7 @@ TEST(FirstLook, IsFoundThoughItTurnsAndStretchesUnexpectedly) {
   EXPECT_LT((found.pixel - at).norm(), 0.05);
 }
 
-TEST(FirstLook, BearsOtherLight) {
+TEST(FirstLook, IsFoundUnderOtherLight) {
   const Eigen::Vector2d at(60.8, 49.5);
   const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
   const FoundLook found = find(firstLook(), imageOf(at, same, 0.6, 30), Mask(), kMiddle, same);

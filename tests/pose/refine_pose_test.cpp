@@ -252,7 +252,7 @@ TEST(RefinePose, KnowsNoErrorWherePairsLieTooCloseTogether) {
   EXPECT_TRUE(std::isnan(found.sigma_mm));
 }
 
-TEST(RefinePose, BadPairsHaveNoSay) {
+TEST(RefinePose, InvalidPairsHaveNoEffect) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
   std::vector<PosePair> pairs = seenFrom(truth, nothing);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -107,7 +107,7 @@ TEST(ElasMatcher, LosesNoColumnToTheRangeOfDisparities) {
   EXPECT_GT(measured, 35);
 }
 
-TEST(ElasMatcher, BearsAnExposureDifference) {
+TEST(ElasMatcher, MatchesUnderAnExposureDifference) {
   auto scene = test::makeScene(test::endoscope(), test::plane(55, 0.3, 0.1), 1.0);
   for (auto& gray : scene.right.values) gray = static_cast<std::uint8_t>(0.85 * gray + 12);
   const Score score =

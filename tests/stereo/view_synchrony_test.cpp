@@ -47,7 +47,7 @@ TEST(ViewSynchrony, LeavesAClipInStepAsItIs) {
   EXPECT_GT(found.agreeing, 1000);
 }
 
-TEST(ViewSynchrony, SaysNothingWhereNothingMovesOrIsSeen) {
+TEST(ViewSynchrony, IsUnknownWithoutMotionOrTexture) {
   EXPECT_EQ(measure(0, 1).right_offset, 0);
   SynchronyMeter meter(64);
   const GrayImage flat(160, 120, 100);
