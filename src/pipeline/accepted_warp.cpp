@@ -7,14 +7,14 @@
 
 namespace softscope {
 
-void AcceptedWarp::apply(ModelUpdater* updater, ModelState* state) {
+void AcceptedWarp::apply(ModelUpdater* updater, double node_spacing_mm, ModelState* state) {
   is_applied_ = true;
   before_.graph = state->graph;
   // Independent.
   parallelInvoke(
       [&] {
         before_.tracked = state->tracked;
-        state->tracked.warp(state->graph, state->model);
+        state->tracked.warp(state->graph, state->model, node_spacing_mm);
       },
       [&] {
         std::swap(before_.positions_mm, state->model.positions_mm);

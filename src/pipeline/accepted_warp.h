@@ -13,7 +13,7 @@ namespace softscope {
 class AcceptedWarp {
  public:
   /// Warps by the graph's transforms and re-bases the graph.
-  void apply(ModelUpdater* updater, ModelState* state);
+  void apply(ModelUpdater* updater, double node_spacing_mm, ModelState* state);
   void keep() { is_applied_ = false; }
   /// All is as it was before apply(), without transforms. Without a warp, drops the transforms.
   void undo(ModelUpdater* updater, ModelState* state);

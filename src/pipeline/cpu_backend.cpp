@@ -251,7 +251,7 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
 }
 
 void CpuBackend::acceptWarp(bool is_reference) {
-  warp_.apply(updater_.get(), &state_);
+  warp_.apply(updater_.get(), options_.graph.node_spacing_mm, &state_);
   if (is_reference) state_.graph.moved_mm.assign(state_.graph.size(), Eigen::Vector3d::Zero());
   clock_.lap("warp");
 }
@@ -312,7 +312,8 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   clock_.lap("fuse");
   parallelInvoke(
       [&] {
-        state_.tracked.renumber(update.index_map, state_.model, surface_.get());
+        state_.tracked.renumber(update.index_map, state_.model, options_.graph.node_spacing_mm,
+                                surface_.get());
         if (first) {
           state_.tracked.anchor(state_.model);
           if (tracks())

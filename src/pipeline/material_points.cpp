@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMaxSettleMm = 0.5;    // of near tissue; a larger distance is another surface
 constexpr double kSettleShare = 0.3;    // of the distance to the surface, covered in a frame
+constexpr double kReachSpacings = 2;    // of nodes around the points that they carry
 constexpr double kGrazingCosine = 0.2;  // between normal and ray: below, the ray meets it far away
 
 /// Depth at the pixel by a plane fitted to the inverse depth of the
@@ -46,6 +47,25 @@ double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
   return std::clamp(around_mm, nearest.depth_mm - limit_mm, nearest.depth_mm + limit_mm);
 }
 
+/// The point warped. More than `reach_mm` from the middle of the nodes that carry it, it moves as
+/// their middle: their rotations would throw it about.
+Eigen::Vector3d warpedWithin(double reach_mm, const WarpGraph& graph, const PointBinding& binding,
+                             const Eigen::Vector3d& point_mm) {
+  if (!binding.bound()) return point_mm;
+  const NodeStencil& stencil = graph.stencils[binding.stencil];
+  Eigen::Vector3d middle_mm = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (int k = 0; k < kNodesPerPoint; ++k) {
+    if (!(binding.weights[k] > 0)) continue;
+    middle_mm += static_cast<double>(binding.weights[k]) * graph.positions_mm[stencil[k]];
+    total += binding.weights[k];
+  }
+  middle_mm /= total;
+  return (point_mm - middle_mm).norm() > reach_mm
+             ? point_mm + warpPoint(graph, binding, middle_mm) - middle_mm
+             : warpPoint(graph, binding, point_mm);
+}
+
 void bindToNearest(const std::vector<MaterialPoints::Point*>& points, const PointModel& model,
                    SurfaceSearch* search) {
   if (points.empty()) return;
@@ -76,29 +96,36 @@ void MaterialPoints::anchor(const PointModel& model) {
   bindToNearest(unbound, model, &search);
 }
 
-void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model) {
+void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model, double node_spacing_mm) {
   for (Point& point : points) {
     if (point.model_point < 0) continue;
     const PointBinding& binding = model.bindings[static_cast<std::size_t>(point.model_point)];
+    const auto warped = [&](const Eigen::Vector3d& at_mm) {
+      return warpedWithin(kReachSpacings * node_spacing_mm, graph, binding, at_mm);
+    };
     const Eigen::Vector3d before = point.position_mm;
-    point.position_mm = warpPoint(graph, binding, before);
+    point.position_mm = warped(before);
     for (int k = 0; k < 2; ++k)
       point.pixels_mm.col(k) =
-          (warpPoint(graph, binding, before + FirstLook::kHalfPx * point.pixels_mm.col(k)) -
-           point.position_mm) /
+          (warped(before + FirstLook::kHalfPx * point.pixels_mm.col(k)) - point.position_mm) /
           FirstLook::kHalfPx;
   }
 }
 
-void MaterialPoints::renumber(const IndexMap& map, const PointModel& model, SurfaceSearch* search) {
-  std::vector<Point*> removed;
+void MaterialPoints::renumber(const IndexMap& map, const PointModel& model, double node_spacing_mm,
+                              SurfaceSearch* search) {
+  std::vector<Point*> unbound;
   for (Point& point : points) {
     if (point.model_point < 0) continue;
     point.model_point = map.new_of_old[static_cast<std::size_t>(point.model_point)];
-    if (point.model_point == IndexMap::kRemoved) removed.push_back(&point);
+    if (point.model_point == IndexMap::kRemoved ||
+        (model.positions_mm[static_cast<std::size_t>(point.model_point)].cast<double>() -
+         point.position_mm)
+                .norm() > node_spacing_mm)
+      unbound.push_back(&point);
   }
   CpuSurfaceSearch on_cpu;
-  bindToNearest(removed, model, search != nullptr ? search : &on_cpu);
+  bindToNearest(unbound, model, search != nullptr ? search : &on_cpu);
 }
 
 void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm,
@@ -123,9 +150,9 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
     const Eigen::Vector3d normal = pieces[k].normal.normalized();
     const Eigen::Vector3d ray = (position_mm - scope_mm).normalized();
     const double cosine = normal.dot(ray);
-    position_mm +=
-        kSettleShare * (std::abs(cosine) > kGrazingCosine ? Eigen::Vector3d(height / cosine * ray)
-                                                          : Eigen::Vector3d(height * normal));
+    const bool grazes =
+        std::abs(cosine) < kGrazingCosine || !(std::abs(height / cosine) < limit_mm);
+    position_mm += kSettleShare * height * (grazes ? normal : Eigen::Vector3d(ray / cosine));
   }
 }
 

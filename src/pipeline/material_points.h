@@ -57,10 +57,12 @@ class MaterialPoints {
            const Raster<float>& depth_mm, const Eigen::Isometry3d& world_from_left);
   /// Binds unbound points to the nearest model point.
   void anchor(const PointModel& model);
-  /// Moves them by the warp of the graph, before it is re-based.
-  void warp(const WarpGraph& graph, const PointModel& model);
-  /// Updates the numbers of model points. `search`: null for that of the CPU.
-  void renumber(const IndexMap& map, const PointModel& model, SurfaceSearch* search = nullptr);
+  /// Moves them by the warp of the graph, before it is re-based. `node_spacing_mm`: of its nodes.
+  void warp(const WarpGraph& graph, const PointModel& model, double node_spacing_mm);
+  /// Updates the numbers of model points; a point whose model point was removed, or is more than a
+  /// spacing away, is bound to the nearest one. `search`: null for that of the CPU.
+  void renumber(const IndexMap& map, const PointModel& model, double node_spacing_mm,
+                SurfaceSearch* search = nullptr);
   /// Takes their first looks from the image, once they are on
   /// the tissue; their surface is that of the model around them, and
   /// what lies off it in the depth of the image is not part of their looks.

@@ -67,8 +67,41 @@ TEST(MaterialPoints, FollowTheWarp) {
   tracked.add(0, {51, 41}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
   tracked.anchor(model);
   for (NodeTransform& transform : graph.transforms) transform.translation_mm = {1, 2, -3};
-  tracked.warp(graph, model);
+  tracked.warp(graph, model, GraphOptions().node_spacing_mm);
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(1.5, 2.5, 47)).norm(), 1e-5);
+}
+
+// A point where the model has not been measured yet is carried by nodes 50 mm away, which turn.
+TEST(MaterialPoints, AreNotThrownByNodesFarAway) {
+  PointModel model = flatModel();
+  WarpGraph graph;
+  growGraph(GraphOptions(), &model, &graph);
+  MaterialPoints tracked;
+  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 100.0f), Eigen::Isometry3d::Identity());
+  tracked.anchor(model);
+  const double spacing_mm = GraphOptions().node_spacing_mm;
+  const Eigen::Vector3d before_mm = tracked.points[0].position_mm;
+  for (NodeTransform& transform : graph.transforms) {
+    transform.linear = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    transform.translation_mm = {0, 0, 1};
+  }
+  tracked.warp(graph, model, spacing_mm);
+  EXPECT_LT((tracked.points[0].position_mm - before_mm - Eigen::Vector3d::UnitZ()).norm(), 0.1);
+}
+
+// Where the model grew over the point later, its nodes carry the point.
+TEST(MaterialPoints, AreBoundToNearerTissueOnceItIsMeasured) {
+  const PointModel model = flatModel(-20.0f);
+  MaterialPoints tracked;
+  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
+  tracked.anchor(model);
+  PointModel grown = model;
+  grown.positions_mm.emplace_back(0.0f, 0.0f, 50.1f);
+  IndexMap map;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(model.size()); ++i)
+    map.new_of_old.push_back(i);
+  tracked.renumber(map, grown, GraphOptions().node_spacing_mm);
+  EXPECT_EQ(tracked.points[0].model_point, static_cast<std::int32_t>(model.size()));
 }
 
 /// As in `frames` frames without motion.
