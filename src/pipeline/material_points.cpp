@@ -47,23 +47,17 @@ double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
   return std::clamp(around_mm, nearest.depth_mm - limit_mm, nearest.depth_mm + limit_mm);
 }
 
-/// The point warped. More than `reach_mm` from the middle of the nodes that carry it, it moves as
-/// their middle: their rotations would throw it about.
-Eigen::Vector3d warpedWithin(double reach_mm, const WarpGraph& graph, const PointBinding& binding,
-                             const Eigen::Vector3d& point_mm) {
-  if (!binding.bound()) return point_mm;
+/// Weighted mean of the nodes of a bound point.
+Eigen::Vector3d middleOfNodes(const WarpGraph& graph, const PointBinding& binding) {
   const NodeStencil& stencil = graph.stencils[binding.stencil];
-  Eigen::Vector3d middle_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum_mm = Eigen::Vector3d::Zero();
   double total = 0;
   for (int k = 0; k < kNodesPerPoint; ++k) {
     if (!(binding.weights[k] > 0)) continue;
-    middle_mm += static_cast<double>(binding.weights[k]) * graph.positions_mm[stencil[k]];
+    sum_mm += static_cast<double>(binding.weights[k]) * graph.positions_mm[stencil[k]];
     total += binding.weights[k];
   }
-  middle_mm /= total;
-  return (point_mm - middle_mm).norm() > reach_mm
-             ? point_mm + warpPoint(graph, binding, middle_mm) - middle_mm
-             : warpPoint(graph, binding, point_mm);
+  return sum_mm / total;
 }
 
 void bindToNearest(const std::vector<MaterialPoints::Point*>& points, const PointModel& model,
@@ -100,14 +94,18 @@ void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model, doubl
   for (Point& point : points) {
     if (point.model_point < 0) continue;
     const PointBinding& binding = model.bindings[static_cast<std::size_t>(point.model_point)];
-    const auto warped = [&](const Eigen::Vector3d& at_mm) {
-      return warpedWithin(kReachSpacings * node_spacing_mm, graph, binding, at_mm);
-    };
-    const Eigen::Vector3d before = point.position_mm;
-    point.position_mm = warped(before);
+    if (!binding.bound()) continue;
+    const Eigen::Vector3d before = point.position_mm, middle_mm = middleOfNodes(graph, binding);
+    if ((before - middle_mm).norm() > kReachSpacings * node_spacing_mm) {
+      // The rotations of nodes so far away would throw it about.
+      point.position_mm += warpPoint(graph, binding, middle_mm) - middle_mm;
+      continue;
+    }
+    point.position_mm = warpPoint(graph, binding, before);
     for (int k = 0; k < 2; ++k)
       point.pixels_mm.col(k) =
-          (warped(before + FirstLook::kHalfPx * point.pixels_mm.col(k)) - point.position_mm) /
+          (warpPoint(graph, binding, before + FirstLook::kHalfPx * point.pixels_mm.col(k)) -
+           point.position_mm) /
           FirstLook::kHalfPx;
   }
 }
