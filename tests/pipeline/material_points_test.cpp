@@ -23,6 +23,15 @@ PointModel flatModel(float shift_mm = 0) {
 
 const PinholeCamera kLeft{100, 80, 100, 100, 50, 40};
 
+/// A point on a depth without relief, bound to the model.
+MaterialPoints boundTo(const PointModel& model, float depth_mm = 50,
+                       const Eigen::Vector2d& pixel = {50, 40}) {
+  MaterialPoints tracked;
+  tracked.add(0, pixel, kLeft, Raster<float>(100, 80, depth_mm), Eigen::Isometry3d::Identity());
+  tracked.anchor(model);
+  return tracked;
+}
+
 TEST(MaterialPoints, BeginWhereTheirRayMeetsTheDepth) {
   MaterialPoints tracked;
   tracked.add(3, {55.5, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
@@ -63,9 +72,7 @@ TEST(MaterialPoints, FollowTheWarp) {
   PointModel model = flatModel();
   WarpGraph graph;
   growGraph(GraphOptions(), &model, &graph);
-  MaterialPoints tracked;
-  tracked.add(0, {51, 41}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
-  tracked.anchor(model);
+  MaterialPoints tracked = boundTo(model, 50.0f, {51, 41});
   for (NodeTransform& transform : graph.transforms) transform.translation_mm = {1, 2, -3};
   tracked.warp(graph, model, GraphOptions().node_spacing_mm);
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(1.5, 2.5, 47)).norm(), 1e-5);
@@ -76,9 +83,7 @@ TEST(MaterialPoints, AreNotThrownByNodesFarAway) {
   PointModel model = flatModel();
   WarpGraph graph;
   growGraph(GraphOptions(), &model, &graph);
-  MaterialPoints tracked;
-  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 100.0f), Eigen::Isometry3d::Identity());
-  tracked.anchor(model);
+  MaterialPoints tracked = boundTo(model, 100.0f);
   const double spacing_mm = GraphOptions().node_spacing_mm;
   const Eigen::Vector3d before_mm = tracked.points[0].position_mm;
   for (NodeTransform& transform : graph.transforms) {
@@ -92,9 +97,7 @@ TEST(MaterialPoints, AreNotThrownByNodesFarAway) {
 // Where the model grew over the point later, its nodes carry the point.
 TEST(MaterialPoints, AreBoundToNearerTissueOnceItIsMeasured) {
   const PointModel model = flatModel(-20.0f);
-  MaterialPoints tracked;
-  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
-  tracked.anchor(model);
+  MaterialPoints tracked = boundTo(model);
   PointModel grown = model;
   grown.positions_mm.emplace_back(0.0f, 0.0f, 50.1f);
   IndexMap map;
@@ -112,9 +115,7 @@ void settleFor(int frames, MaterialPoints* tracked, const PointModel& model,
 
 // A surface of two layers would otherwise throw the point from one to the other.
 TEST(MaterialPoints, ReachASurfaceThatJumpedInSeveralFrames) {
-  MaterialPoints tracked;
-  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
-  tracked.anchor(flatModel());
+  MaterialPoints tracked = boundTo(flatModel());
   settleFor(1, &tracked, flatModel(0.4f), Eigen::Vector3d::Zero(), 1);
   EXPECT_GT(tracked.points[0].position_mm.z(), 50.1);
   EXPECT_LT(tracked.points[0].position_mm.z(), 50.2);
@@ -125,9 +126,7 @@ TEST(MaterialPoints, ReachASurfaceThatJumpedInSeveralFrames) {
 // Fusion moved the surface by 0.2 mm; 3 mm are another surface.
 TEST(MaterialPoints, LieOnTheModelsSurface) {
   for (const auto& [shift_mm, expected_mm] : {std::pair(0.2f, 50.2), std::pair(3.0f, 50.0)}) {
-    MaterialPoints tracked;
-    tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
-    tracked.anchor(flatModel());
+    MaterialPoints tracked = boundTo(flatModel());
     settleFor(40, &tracked, flatModel(shift_mm), Eigen::Vector3d::Zero(), 1);
     EXPECT_NEAR(tracked.points[0].position_mm.z(), expected_mm, 1e-5);
     EXPECT_NEAR(tracked.points[0].position_mm.x(), 0, 1e-5) << "slid along the surface";
@@ -136,9 +135,7 @@ TEST(MaterialPoints, LieOnTheModelsSurface) {
 
 // Where a pixel of disparity is worth three times as much, so are the errors of depth.
 TEST(MaterialPoints, FollowASurfaceFartherAwayByMore) {
-  MaterialPoints tracked;
-  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
-  tracked.anchor(flatModel());
+  MaterialPoints tracked = boundTo(flatModel());
   settleFor(40, &tracked, flatModel(0.6f), Eigen::Vector3d::Zero(), 1);
   EXPECT_NEAR(tracked.points[0].position_mm.z(), 50, 1e-5);
   settleFor(40, &tracked, flatModel(0.6f), Eigen::Vector3d::Zero(), 3);
@@ -148,9 +145,7 @@ TEST(MaterialPoints, FollowASurfaceFartherAwayByMore) {
 // Fusion moves the points of the model along their rays; along the normal
 // the point would be 0.02 mm from its tissue, and more in each frame.
 TEST(MaterialPoints, StayOnTheirRay) {
-  MaterialPoints tracked;
-  tracked.add(0, {60, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
-  tracked.anchor(flatModel());
+  MaterialPoints tracked = boundTo(flatModel(), 50.0f, {60, 40});
   const Eigen::Vector3d before_mm = tracked.points[0].position_mm;
   settleFor(40, &tracked, flatModel(0.2f), Eigen::Vector3d::Zero(), 1);
   EXPECT_LT((tracked.points[0].position_mm - 1.004 * before_mm).norm(), 1e-5);
@@ -158,9 +153,7 @@ TEST(MaterialPoints, StayOnTheirRay) {
 
 // A ray along the surface meets it far away: there the normal is all there is.
 TEST(MaterialPoints, DoNotSlideAlongAGrazingRay) {
-  MaterialPoints tracked;
-  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), Eigen::Isometry3d::Identity());
-  tracked.anchor(flatModel());
+  MaterialPoints tracked = boundTo(flatModel());
   settleFor(40, &tracked, flatModel(0.2f), Eigen::Vector3d(-50, 0, 45), 1);
   EXPECT_LT((tracked.points[0].position_mm - Eigen::Vector3d(0, 0, 50.2)).norm(), 1e-5);
 }
@@ -182,9 +175,7 @@ GrayImage texture() {
 // The warp has carried the point two pixels off; the texture stayed.
 TEST(MaterialPoints, GoToWhereTheImageShowsTheirFirstLook) {
   const auto still = Eigen::Isometry3d::Identity();
-  MaterialPoints tracked;
-  tracked.add(0, {50, 40}, kLeft, Raster<float>(100, 80, 50.0f), still);
-  tracked.anchor(flatModel());
+  MaterialPoints tracked = boundTo(flatModel());
   tracked.look({texture(), Mask()}, flatModel(), kLeft, still, {});
   // A pixel at 50 mm is half a millimetre wide.
   EXPECT_LT((tracked.points[0].pixels_mm.col(0) - Eigen::Vector3d(0.5, 0, 0)).norm(), 1e-9);

@@ -232,7 +232,8 @@ LightDifference fitLight(const RefinementContext& context, const Plane& disparit
 }
 
 /// Keeps the relief that the last steps returned to `planes` as far as it exceeds noise.
-void shrinkRelief(const RefinementContext& context, Plane& planes, Plane& disparity, Plane& sigma) {
+void shrinkRelief(const RefinementContext& context, const Plane& planes, Plane& disparity,
+                  Plane& sigma) {
   const int width = context.width, taps = 2 * context.options.radius_px + 1;
   const float* window = context.window.weights.data();
   const RefinementKernels& kernels = refinementKernels();
@@ -278,19 +279,23 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   Raster<std::uint8_t> mixed = nearDepthSteps(
       initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
   const int width = left.width_px, height = left.height_px;
-  Plane disparity = planeOf(initial_px), next = disparity, planes = disparity, sigma(width, height);
+  Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
   LightDifference light;
-  for (int i = 0; i < options.steps; ++i) {
-    const RefinementStep rules = refinementStep(i);
-    for (int round = 0; round < LightFit::rounds(i); ++round)
-      light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
-    parallelRanges(height, kBandRows, [&](int begin, int end) {
-      Band(context, {light, disparity, next, rules, rules.last ? &sigma : nullptr, mixed, i == 0})
-          .solve(begin, end);
-    });
-    std::swap(disparity, next);
-    if (i + 1 == options.plane_steps) planes = disparity;
-  }
+  const auto runSteps = [&](int begin_step, int end_step) {
+    for (int i = begin_step; i < end_step; ++i) {
+      const RefinementStep rules = refinementStep(i);
+      for (int round = 0; round < LightFit::rounds(i); ++round)
+        light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
+      parallelRanges(height, kBandRows, [&](int begin, int end) {
+        Band(context, {light, disparity, next, rules, rules.last ? &sigma : nullptr, mixed, i == 0})
+            .solve(begin, end);
+      });
+      std::swap(disparity, next);
+    }
+  };
+  runSteps(0, options.plane_steps);
+  const Plane planes = disparity;
+  runSteps(options.plane_steps, options.steps);
   shrinkRelief(context, planes, disparity, sigma);
   return {rasterOf(disparity, width, height), rasterOf(sigma, width, height)};
 }
