@@ -69,12 +69,14 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
   const auto positionOf = [&](const MaterialPoints::Point& point) {
     const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
     const NearestDepth surface = surfaceAt(centre, gapPx(depth.depth_mm.width_px));
-    TrackedPosition position{point.id, point.position_mm,
-                             surface.found() && shows(centre, surface)};
-    if (position.visible)
-      position.sigma_mm =
-          std::sqrt(2 * point.variance_mm2 +
-                    depthVarianceMm2(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_));
+    TrackedPosition position{point.id, point.position_mm, false};
+    if (!surface.found() || !shows(centre, surface)) return position;
+    const double sigma_mm =
+        std::sqrt(2 * point.variance_mm2 +
+                  depthVarianceMm2(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_));
+    // As for a depth: worse ones update nothing.
+    position.visible = !(sigma_mm > frame_.fusion.pixels.max_sigma_mm);
+    if (position.visible) position.sigma_mm = sigma_mm;
     return position;
   };
   std::vector<TrackedPosition> positions(tracked.points.size());

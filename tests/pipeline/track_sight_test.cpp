@@ -75,6 +75,16 @@ TEST(TrackSight, InAGapIsSureOfTheSurfaceBesideItAlone) {
   EXPECT_FALSE(wall.see(wall.at(88, 75, kDepthMm + 1 + 1.1 * slack_mm)).visible);
 }
 
+TEST(TrackSight, DoesNotSeeWhatIsMeasuredWorseThanAUsedDepth) {
+  WallWithHole wall;
+  const Eigen::Vector3d point = wall.at(40, 100, kDepthMm);
+  wall.frame.fusion.pixels.max_sigma_mm = 0.33;  // sqrt(2 x 0.02 + 0.3²) = 0.36
+  EXPECT_FALSE(wall.see(point).visible);
+  EXPECT_TRUE(std::isnan(wall.see(point).sigma_mm));
+  wall.frame.fusion.pixels.max_sigma_mm = 0.37;
+  EXPECT_TRUE(wall.see(point).visible);
+}
+
 TEST(TrackSight, DoesNotCallVisibleWhatNothingWasMeasuredBeside) {
   const WallWithHole wall;
   const Eigen::Vector3d middle = wall.at(100, 75, kDepthMm);
