@@ -31,6 +31,12 @@ void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
     *limit_mm *= view->summary.limit_scale;
   const double typical_mm = view->summary.median_sigma_mm;
   if (!std::isfinite(typical_mm)) return;
+  // At least half of the measured pixels may become points.
+  const double excess = typical_mm / view->fusion.insertion.max_sigma_mm;
+  if (excess > 1) {
+    view->fusion.insertion.max_sigma_mm *= excess;
+    view->fusion.pixels.max_sigma_mm *= excess;
+  }
   double& reference_mm = view->fusion.points.reference_sigma_mm;
   if (reference_mm > 0) reference_mm = std::max(reference_mm, typical_mm);
 }

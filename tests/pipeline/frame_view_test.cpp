@@ -49,6 +49,22 @@ TEST(FrameView, LimitsFollowThePixelOfDisparity) {
   EXPECT_NEAR(viewOf(100, 0.05f).summary.limit_scale, 100.0 * 100 / (500 * 5) / 2.5, 1e-6);
 }
 
+/// 0.3 mm in a quarter of the columns, 2 mm elsewhere.
+MeasuredFrame mostlyUnsure() {
+  MeasuredFrame measured = measuredAt(50, 2.0f);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; u += 4) measured.depth.sigma_mm.at(u, v) = 0.3f;
+  return measured;
+}
+
+TEST(FrameView, WhereMostDepthsAreUnsureTheTypicalOneMakesPoints) {
+  const FusionOptions options;
+  const FrameView view = viewOf(mostlyUnsure());
+  EXPECT_NEAR(view.fusion.insertion.max_sigma_mm, 2, 1e-6);
+  EXPECT_NEAR(view.fusion.pixels.max_sigma_mm / view.fusion.insertion.max_sigma_mm,
+              options.pixels.max_sigma_mm / options.insertion.max_sigma_mm, 1e-9);
+}
+
 TEST(FrameView, CoverageIsOfTheTissueNotOfBlackBorders) {
   MeasuredFrame measured = measuredAt(50, 0.05f);
   measured.border = Mask(kWidth, kHeight);
