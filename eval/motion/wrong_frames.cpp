@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "core/tolerance.h"
+
 namespace softscope {
 namespace {
 
-constexpr double kWrongMm = 1, kWrongDeg = 1;
+constexpr double kWrongMm = kTolerableErrorMm, kWrongDeg = 1;
 constexpr double kToldConfidence = 0.5;
 constexpr double kRigidMm = 1e-3;  // positions in files are rounded
 

@@ -67,7 +67,7 @@ class Comparison {
 
 }  // namespace
 
-double ViewEvidence::confidence() const {
+double ViewEvidence::agreement() const {
   constexpr double kChance = 1.0 / BlockCorrelation::kPlaces;
   if (!std::isfinite(depth_share) || !std::isfinite(image_share)) return 0;
   return std::min(depth_share, std::max(0.0, (image_share - kChance) / (1 - kChance)));

@@ -21,7 +21,7 @@ struct ViewEvidence {
   int blocks = 0;                                                 // with texture
 
   /// 0: agreement as by chance, 1: everywhere. 0 without comparable pixels.
-  double confidence() const;
+  double agreement() const;
 };
 
 /// Whether the depth of the model agrees with the measured one. `sigma_mm` 0 if unknown.

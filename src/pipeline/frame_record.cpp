@@ -1,5 +1,7 @@
 #include "pipeline/frame_record.h"
 
+#include <cmath>
+
 namespace softscope {
 
 const char* toString(FrameStatus status) {
@@ -33,6 +35,12 @@ std::optional<FrameStatus> frameStatusNamed(std::string_view name) {
         FrameStatus::kUnconfirmed, FrameStatus::kUnreadable, FrameStatus::kUnpaired})
     if (name == toString(status)) return status;
   return std::nullopt;
+}
+
+double FrameRecord::confidence() const {
+  if (status == FrameStatus::kStarted) return depth.precise_share;
+  if (!std::isfinite(evidence.view.depth_share)) return kUnknown;
+  return std::fmin(evidence.view.agreement(), depth.precise_share);  // the former if unknown
 }
 
 double FrameRecord::elapsed_ms() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/tolerance.h"
 #include "core/value_of_rank.h"
 
 namespace softscope {
@@ -15,6 +16,9 @@ namespace {
 /// Depth per pixel of disparity, z² / (f b), up to which limits in mm hold as they are: there the
 /// largest sigma of a new point, 0.5 mm, is twice the 0.1 px that stereo errs by.
 constexpr double kNearMmPerPx = 2.5;
+
+/// Of a predicted error that is tolerable with a probability of 95 %.
+constexpr double kPreciseSigmaMm = kTolerableErrorMm / 1.96;
 
 /// Limits in mm are those of near tissue and grow with what a pixel of disparity is worth. Fusion
 /// compares a depth with the typical one of its frame: where all depths are worse, because the
@@ -54,23 +58,28 @@ DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
   DepthSummary summary;
   const Raster<float>&all_mm = measured.depth.depth_mm, &all_sigmas_mm = measured.depth.sigma_mm;
   Rows sigmas_mm(static_cast<std::size_t>(not_tissue.height_px)), depths_mm(sigmas_mm.size());
-  std::atomic<int> tissue_px{0};
+  std::atomic<int> tissue_px{0}, precise_px{0};
   parallelRows(not_tissue.height_px, [&](int v) {
     const std::size_t row = static_cast<std::size_t>(v);
     depths_mm[row].reserve(static_cast<std::size_t>(not_tissue.width_px));
     sigmas_mm[row].reserve(depths_mm[row].capacity());
-    int tissue = 0;
+    int tissue = 0, precise = 0;
     for (int u = 0; u < not_tissue.width_px; ++u) {
       if (not_tissue.at(u, v) != 0) continue;
       ++tissue;
       if (!std::isfinite(all_mm.at(u, v))) continue;
       depths_mm[row].push_back(all_mm.at(u, v));
-      if (!all_sigmas_mm.empty()) sigmas_mm[row].push_back(all_sigmas_mm.at(u, v));
+      if (all_sigmas_mm.empty()) continue;
+      sigmas_mm[row].push_back(all_sigmas_mm.at(u, v));
+      precise += all_sigmas_mm.at(u, v) <= kPreciseSigmaMm;
     }
     tissue_px += tissue;
+    precise_px += precise;
   });
   summary.tissue_px = tissue_px;
   summary.measured_px = static_cast<int>(countOf(depths_mm));
+  if (!all_sigmas_mm.empty() && summary.measured_px > 0)
+    summary.precise_share = static_cast<double>(precise_px) / summary.measured_px;
   double depth_mm = 0;
   parallelInvoke([&] { summary.median_sigma_mm = absoluteMedian(sigmas_mm); },
                  [&] { depth_mm = absoluteMedian(depths_mm); });

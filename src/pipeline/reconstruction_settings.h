@@ -33,7 +33,7 @@ void describe(Visitor& v, GateOptions& o) {
     "largest mean distance of the warped model from the depth");
   v("gate.min_explained", o.min_explained, between(0, 1),
     "least share of the points in sight with a target");
-  v("gate.min_confidence", o.min_confidence, between(0, 1), "least confidence of pose and warp");
+  v("gate.min_confidence", o.min_confidence, between(0, 1), "least agreement of model and frame");
 }
 
 template <class Visitor>

@@ -175,7 +175,7 @@ bool Reconstructor::deform(FrameRecord& record) {
 bool Reconstructor::confirm(FrameRecord& record) {
   record.evidence = backend_->confirm(world_from_left_);
   const ViewEvidence& view = record.evidence.view;
-  if (view.confidence() >= gate_.min_confidence) return true;
+  if (view.agreement() >= gate_.min_confidence) return true;
   return reject(record, FrameStatus::kUnconfirmed,
                 text("from the pose that was found, the model's depth agrees with the frame on ",
                      100 * view.depth_share, " % of the pixels and its image in ",

@@ -83,7 +83,7 @@ class ComparisonScene {
     expectSameError(found.comparison.predicted, expected.comparison.predicted);
     const ViewEvidence &view = found.comparison.view, &other = expected.comparison.view;
     EXPECT_EQ(view.blocks, other.blocks);
-    EXPECT_EQ(view.confidence(), other.confidence());
+    EXPECT_EQ(view.agreement(), other.agreement());
     const ModelComparison &model = found.comparison.model, &known = expected.comparison.model;
     EXPECT_EQ(model.gain.red, known.gain.red);
     EXPECT_EQ(model.gain.green, known.gain.green);

@@ -54,17 +54,17 @@ TEST(ViewEvidence, ConfirmsTheRightPose) {
   EXPECT_GT(evidence.blocks, 50);
   EXPECT_GT(evidence.depth_share, 0.99);
   EXPECT_GT(evidence.image_share, 0.95);
-  EXPECT_GT(evidence.confidence(), 0.9);
+  EXPECT_GT(evidence.agreement(), 0.9);
 }
 
 // On a plane depth hardly changes with a shift or a rotation: the image decides.
 TEST(ViewEvidence, RefusesAPoseThatIsThreeMillimetresOff) {
   const PointModel model = modelOf(texturedShot(test::shifted(0, 0, 0)));
   const test::Shot shot = texturedShot(test::shifted(2, -1, 1.5));
-  EXPECT_LT(evidenceAt(model, shot, test::shifted(5, -1, 1.5)).confidence(), 0.1);
+  EXPECT_LT(evidenceAt(model, shot, test::shifted(5, -1, 1.5)).agreement(), 0.1);
   Eigen::Isometry3d turned = test::shifted(2, -1, 1.5);
   turned.rotate(Eigen::AngleAxisd(0.19, Eigen::Vector3d::UnitZ()));  // 11 degrees
-  EXPECT_LT(evidenceAt(model, shot, turned).confidence(), 0.2);      // its centre stays where it is
+  EXPECT_LT(evidenceAt(model, shot, turned).agreement(), 0.2);      // its centre stays where it is
 }
 
 TEST(ViewEvidence, RefusesAWrongDistance) {
@@ -72,7 +72,7 @@ TEST(ViewEvidence, RefusesAWrongDistance) {
   const test::Shot shot = texturedShot(test::shifted(0, 0, 0));
   const ViewEvidence evidence = evidenceAt(model, shot, test::shifted(0, 0, 3));
   EXPECT_LT(evidence.depth_share, 0.05);
-  EXPECT_LT(evidence.confidence(), 0.05);
+  EXPECT_LT(evidence.agreement(), 0.05);
 }
 
 TEST(ViewEvidence, IsNoEvidenceWithoutTexture) {
@@ -80,7 +80,7 @@ TEST(ViewEvidence, IsNoEvidenceWithoutTexture) {
   const ViewEvidence evidence = evidenceAt(modelOf(flat), flat, flat.world_from_left);
   EXPECT_EQ(evidence.blocks, 0);
   EXPECT_TRUE(std::isnan(evidence.image_share));
-  EXPECT_EQ(evidence.confidence(), 0);
+  EXPECT_EQ(evidence.agreement(), 0);
   EXPECT_GT(evidence.depth_share, 0.99);
 }
 
@@ -93,7 +93,7 @@ TEST(ViewEvidence, NoiseAgreesByChanceOnly) {
     const auto byte = static_cast<std::uint8_t>(100 + random() % 50);
     colour = {byte, byte, byte};
   }
-  EXPECT_LT(evidenceAt(model, noise, noise.world_from_left).confidence(), 0.1);
+  EXPECT_LT(evidenceAt(model, noise, noise.world_from_left).agreement(), 0.1);
 }
 
 TEST(ViewEvidence, IsTheSameOnOneThread) {

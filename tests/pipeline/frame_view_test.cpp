@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "pipeline/frame_record.h"
+
 namespace softscope {
 namespace {
 
@@ -63,6 +65,35 @@ TEST(FrameView, WhereMostDepthsAreUnsureTheTypicalOneMakesPoints) {
   EXPECT_NEAR(view.fusion.insertion.max_sigma_mm, 2, 1e-6);
   EXPECT_NEAR(view.fusion.pixels.max_sigma_mm / view.fusion.insertion.max_sigma_mm,
               options.pixels.max_sigma_mm / options.insertion.max_sigma_mm, 1e-9);
+}
+
+TEST(FrameView, DepthIsPreciseIfItsErrorIsTolerableWith95PercentProbability) {
+  EXPECT_EQ(viewOf(mostlyUnsure()).summary.precise_share, 0.25);
+  EXPECT_EQ(viewOf(50, 0.51f).summary.precise_share, 1);  // 1 mm / 1.96
+  EXPECT_EQ(viewOf(50, 0.52f).summary.precise_share, 0);
+  MeasuredFrame without_sigma = measuredAt(50, 1);
+  without_sigma.depth.sigma_mm = {};
+  EXPECT_TRUE(std::isnan(viewOf(std::move(without_sigma)).summary.precise_share));
+}
+
+TEST(FrameRecord, ConfidenceIsTheSmallerOfAgreementAndPreciseShare) {
+  FrameRecord record;
+  record.status = FrameStatus::kFused;
+  record.evidence.view.depth_share = record.evidence.view.image_share = 1;
+  EXPECT_EQ(record.confidence(), 1) << "depth without sigma";
+  record.depth.precise_share = 0.3;
+  EXPECT_EQ(record.confidence(), 0.3);
+  record.evidence.view.depth_share = 0.2;
+  EXPECT_EQ(record.confidence(), 0.2);
+}
+
+TEST(FrameRecord, TheFirstFrameHasTheConfidenceOfItsDepth) {
+  FrameRecord record;
+  record.depth.precise_share = 0.3;
+  record.status = FrameStatus::kStarted;
+  EXPECT_EQ(record.confidence(), 0.3);
+  record.status = FrameStatus::kLost;
+  EXPECT_TRUE(std::isnan(record.confidence())) << "nothing was compared";
 }
 
 TEST(FrameView, CoverageIsOfTheTissueNotOfBlackBorders) {

@@ -133,7 +133,7 @@ TEST(Reconstructor, UndoesWhatTheFrameDoesNotConfirm) {
   const std::string before = bytesOf(reconstructor.model().model);
   const FrameRecord record = reconstructor.process(clip.frames[1]);
   ASSERT_EQ(record.status, FrameStatus::kUnconfirmed) << record.reason;
-  EXPECT_GT(record.evidence.view.confidence(), 0.5);  // it was right
+  EXPECT_GT(record.evidence.view.agreement(), 0.5);  // it was right
   EXPECT_NE(record.reason.find("% of the blocks"), std::string::npos) << record.reason;
   EXPECT_TRUE(record.world_from_left.isApprox(Eigen::Isometry3d::Identity()));
   PointModel after = reconstructor.model().model;

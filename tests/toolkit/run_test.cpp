@@ -117,6 +117,16 @@ TEST_F(RunOfAClip, SaysWhatWasNotFused) {
   expectError<OptionError>([&] { reconstructSequence(misspelt); }, {"lost"});
 }
 
+TEST_F(RunOfAClip, SaysWhereDepthIsTooInaccurateForConfidence) {
+  makeClip(3, {"camera.distance_mm=85"});
+  Told told;
+  const Json record = written(reconstructSequence(options(), told.listener()).record);
+  EXPECT_EQ(record["frames_doubtful"], 3);
+  EXPECT_THAT(told.warnings,
+              Contains(HasSubstr("in 3 of 3 frames, less than half of the depth is accurate")));
+  EXPECT_THAT(told.warnings, Not(Contains(HasSubstr("does not fit the image"))));
+}
+
 TEST_F(RunOfAClip, EveryStepthFrameKeepsItsNumberAndItsName) {
   const std::string clip = makeClip(7);
   for (const char* side : {"/left", "/right"})

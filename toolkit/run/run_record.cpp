@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "core/tolerance.h"
 #include "eval/statistics/statistics.h"
 #include "io/calibrations/one_camera.h"
 #include "io/files/file_hash.h"
@@ -81,9 +82,11 @@ void RunRecord::add(const FrameRecord& record) {
   if (!record.fused()) return;
   points_ = record.points;
   if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
+  doubtful_ += record.confidence() < kDoubtful;
+  imprecise_ += record.depth.precise_share < kDoubtful;
   if (record.status == FrameStatus::kStarted) return;
   matches_.push_back(record.pose.inliers);
-  doubtful_ += record.evidence.view.confidence() < kDoubtful;
+  disagreeing_ += record.evidence.view.agreement() < kDoubtful;
   if (std::isfinite(record.fusion.corrected.mean_mm))
     backprojection_mm_.push_back(record.fusion.corrected.mean_mm);
   if (std::isfinite(record.evidence.predicted.mean_mm))
@@ -97,8 +100,14 @@ std::vector<std::string> RunRecord::conclusions() const {
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
                   ") and did not update the model; the reasons are in frames.csv, column reason");
-  if (doubtful_ > kWarnShare * frames_)
-    all.push_back(std::to_string(doubtful_) + " of " + std::to_string(frames_) +
+  if (imprecise_ > kWarnShare * frames_)
+    all.push_back(
+        "in " + std::to_string(imprecise_) + " of " + std::to_string(frames_) +
+        " frames, less than half of the depth is accurate to " + fixed(kTolerableErrorMm, 0) +
+        " mm (95 %), so their confidence is below " + fixed(kDoubtful, 1) +
+        "; possible causes: distant tissue, a short baseline, small images, weak texture");
+  if (disagreeing_ > kWarnShare * frames_)
+    all.push_back(std::to_string(disagreeing_) + " of " + std::to_string(frames_) +
                   " frames were fused with a confidence below " + fixed(kDoubtful, 1) +
                   ": the model does not fit the image in many places; possible causes: blur, weak "
                   "texture, changing light");
