@@ -59,7 +59,8 @@ class CpuBackend : public ReconstructionBackend {
     updater_->changed(kWholeModel);
   }
 
-  void prepare(const Frame& next, const Frame* after) override {
+  void prepare(const std::shared_ptr<const Frame>& next,
+               const std::shared_ptr<const Frame>& after) override {
     if (worksAhead()) frames_.prepare(next, after);
   }
   DepthSummary measure(const Frame& frame) override;

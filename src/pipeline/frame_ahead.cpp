@@ -23,34 +23,36 @@ FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
 
 /// What was begun for this frame; of another one it is of no use.
 std::future<FrameAhead::Aligned> FrameAhead::takeViews(const Frame& frame) {
-  if (views_.valid() && aligned_ != &frame) {
+  if (views_.valid() && aligned_.get() != &frame) {
     views_.wait();
     views_ = {};
   }
   return std::move(views_);
 }
 
-void FrameAhead::prepare(const Frame& next, const Frame* after) {
+void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after) {
   if (result_.valid()) result_.wait();
-  prepared_ = &next;
-  result_ = std::async(std::launch::async, [this, &next, begun = takeViews(next)]() mutable {
-    StageClock unused;
-    FrameView view;
-    runInBackground([&] { view = measureNow(std::move(begun), next, &unused); });
-    return view;
-  });
+  std::future<Aligned> begun = takeViews(*next);
+  prepared_ = std::move(next);
+  result_ =
+      std::async(std::launch::async, [this, frame = prepared_, begun = std::move(begun)]() mutable {
+        StageClock unused;
+        FrameView view;
+        runInBackground([&] { view = measureNow(std::move(begun), *frame, &unused); });
+        return view;
+      });
   if (after == nullptr) return;
-  aligned_ = after;
-  views_ = std::async(std::launch::async, [this, after] {
+  aligned_ = std::move(after);
+  views_ = std::async(std::launch::async, [this, frame = aligned_] {
     Aligned aligned;
-    runInBackground([&] { aligned = align(*after); });
+    runInBackground([&] { aligned = align(*frame); });
     return aligned;
   });
 }
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
   if (!result_.valid()) return measureNow(takeViews(frame), frame, clock);
-  if (prepared_ != &frame) {  // what was prepared is of no use
+  if (prepared_.get() != &frame) {  // what was prepared is of no use
     result_.wait();
     result_ = {};
     return measureNow(takeViews(frame), frame, clock);

@@ -20,9 +20,8 @@ class FrameAhead {
 
   const FrameDepth& depth() const { return *depth_; }
 
-  /// Begins, with `after` (the frame after it) too, where that isn't null. Both must live and stay
-  /// as they are until measure() has been called for them, or twice.
-  void prepare(const Frame& next, const Frame* after);
+  /// Begins, with `after` (the frame after it) too, where that isn't null.
+  void prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after);
   /// What was begun, if that is this frame; whatever went wrong with it is thrown here. Laps
   /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
   FrameView measure(const Frame& frame, StageClock* clock);
@@ -39,8 +38,8 @@ class FrameAhead {
 
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
-  const Frame *prepared_ = nullptr, *aligned_ = nullptr;
-  std::future<Aligned> views_;     // of aligned_; both end before depth_ does
+  std::shared_ptr<const Frame> prepared_, aligned_;
+  std::future<Aligned> views_;     // of aligned_; both end before the frames and depth_ do
   std::future<FrameView> result_;  // of prepared_
 };
 

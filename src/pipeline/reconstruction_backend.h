@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -112,9 +113,9 @@ class ReconstructionBackend {
   virtual const RectifiedRig& rig() const = 0;
 
   /// May begin what needs no model of the frame that comes next, and of the one `after` it, where
-  /// that isn't null. Results don't depend on it. Both must live and stay as they are until
-  /// measure() has been called for them, or twice.
-  virtual void prepare(const Frame& /*next*/, const Frame* /*after*/) {}
+  /// that isn't null. Results don't depend on it.
+  virtual void prepare(const std::shared_ptr<const Frame>& /*next*/,
+                       const std::shared_ptr<const Frame>& /*after*/) {}
   /// Stage 1: rectifies, masks and measures. Throws InputError where the frame doesn't fit.
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 to 4: draws the model from that pose, finds its pixels in the live image, and the

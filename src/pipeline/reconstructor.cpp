@@ -39,7 +39,8 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
   options.validate();
 }
 
-FrameRecord Reconstructor::process(const Frame& frame, const Frame* next, const Frame* after) {
+FrameRecord Reconstructor::process(const Frame& frame, const std::shared_ptr<const Frame>& next,
+                                   const std::shared_ptr<const Frame>& after) {
   FrameRecord record;
   record.frame = frame.index;
   record.time_s = frame.time_s;
@@ -79,10 +80,10 @@ void Reconstructor::finish(FrameRecord& record) {
 
 // Song et al. 2018, section III, in its order: depth,
 // visible model, matches, rigid pose, warp field, fusion.
-void Reconstructor::reconstruct(const Frame& frame, const Frame* next, const Frame* after,
-                                FrameRecord& record) {
+void Reconstructor::reconstruct(const Frame& frame, const std::shared_ptr<const Frame>& next,
+                                const std::shared_ptr<const Frame>& after, FrameRecord& record) {
   const bool measured = measure(frame, record);
-  if (next != nullptr) backend_->prepare(*next, after);
+  if (next != nullptr) backend_->prepare(next, after);
   if (!measured) return;
   if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
   const bool was_lost = lost_;

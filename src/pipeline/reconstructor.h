@@ -33,10 +33,9 @@ class Reconstructor {
 
   /// One frame, from images to the updated model. A rejected frame leaves the model
   /// unchanged; the record has the reason. `next` and `after`: the two following frames, if
-  /// known already, so that their depth can start in parallel; each must live until it is
-  /// processed itself, or the frame that replaces it. The model does not depend on them.
-  FrameRecord process(const Frame& frame, const Frame* next = nullptr,
-                      const Frame* after = nullptr);
+  /// known already, so that their depth can start in parallel. The model does not depend on them.
+  FrameRecord process(const Frame& frame, const std::shared_ptr<const Frame>& next = nullptr,
+                      const std::shared_ptr<const Frame>& after = nullptr);
 
   /// A frame that is unreadable or has no partner.
   FrameRecord skip(int index, const std::string& reason, double time_s = kUnknown,
@@ -53,7 +52,8 @@ class Reconstructor {
   void restore(ReconstructionState state);
 
  private:
-  void reconstruct(const Frame& frame, const Frame* next, const Frame* after, FrameRecord& record);
+  void reconstruct(const Frame& frame, const std::shared_ptr<const Frame>& next,
+                   const std::shared_ptr<const Frame>& after, FrameRecord& record);
   bool measure(const Frame& frame, FrameRecord& record);
   bool locate(FrameRecord& record);
   bool locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record);

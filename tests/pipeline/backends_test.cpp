@@ -27,11 +27,18 @@ Reconstructor reconstructorOf(const BackendParts& parts) {
   return {makeCpuBackend(shortClip().calibration, options, parts), options};
 }
 
+/// Of a frame that lives as long as the program.
+std::shared_ptr<const Frame> sharing(const Frame& frame) {
+  return {std::shared_ptr<const Frame>(), &frame};
+}
+
 /// Frames begin … end - 1, each with the two after it.
 std::vector<FrameRecord> run(Reconstructor& reconstructor, std::size_t begin, std::size_t end) {
   const std::vector<Frame>& frames = shortClip().frames;
   std::vector<FrameRecord> records;
-  const auto frameAt = [&](std::size_t i) { return i < frames.size() ? &frames[i] : nullptr; };
+  const auto frameAt = [&](std::size_t i) {
+    return i < frames.size() ? sharing(frames[i]) : nullptr;
+  };
   for (std::size_t i = begin; i < end; ++i)
     records.push_back(reconstructor.process(frames[i], frameAt(i + 1), frameAt(i + 2)));
   return records;
@@ -155,8 +162,22 @@ TEST(WorkingAhead, GivesTheSameModelInWhateverOrderFramesCome) {
   const std::vector<Frame>& frames = shortClip().frames;
   Reconstructor mistaken = reconstructorOf(parts);
   for (std::size_t i = 0; i < 4; ++i)
-    mistaken.process(frames[i], &frames[5 - i], &frames[(i + 2) % 5]);
+    mistaken.process(frames[i], sharing(frames[5 - i]), sharing(frames[(i + 2) % 5]));
   EXPECT_TRUE(modelOf(mistaken) == modelOfTheCpu());
+}
+
+// A caller may stop after any frame, and continue with other images.
+TEST(WorkingAhead, KeepsTheFramesThatItReads) {
+  BackendParts parts;
+  parts.ahead_from_threads = 1;
+  Reconstructor reconstructor = reconstructorOf(parts);
+  const std::vector<Frame>& frames = shortClip().frames;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto image = std::make_shared<const Frame>(frames[i]);  // freed after this frame
+    reconstructor.process(*image, std::make_shared<const Frame>(frames[5 - i]),
+                          std::make_shared<const Frame>(frames[(i + 2) % 5]));
+  }
+  EXPECT_TRUE(modelOf(reconstructor) == modelOfTheCpu());
 }
 
 TEST(WorkingAhead, LeavesTrackedPointsWhereTheyAreWithout) {
@@ -186,8 +207,8 @@ TEST(WorkingAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
   const std::vector<Frame>& frames = shortClip().frames;
   Frame one_eyed = frames[1];
   one_eyed.pair.right = {};
-  EXPECT_TRUE(reconstructor.process(frames[0], &one_eyed, &frames[2]).fused());
-  const FrameRecord bad = reconstructor.process(one_eyed, &frames[2]);
+  EXPECT_TRUE(reconstructor.process(frames[0], sharing(one_eyed), sharing(frames[2])).fused());
+  const FrameRecord bad = reconstructor.process(one_eyed, sharing(frames[2]));
   EXPECT_EQ(bad.status, FrameStatus::kUnreadable);
   EXPECT_THAT(bad.reason, testing::HasSubstr("no right view"));
   EXPECT_TRUE(reconstructor.process(frames[2]).fused());

@@ -2,56 +2,47 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <optional>
+#include <memory>
+#include <utility>
 
 #include "io/sequences/sequence_reader.h"
 
 namespace softscope {
 
-/// References to the three frames stay valid until advance() has passed them.
+/// The two frames after the current one are shared with work that starts ahead of their turn.
 class FrameWindow {
  public:
   explicit FrameWindow(SequenceReader& reader) : reader_(reader) {}
-  FrameWindow(const FrameWindow&) = delete;
-  FrameWindow& operator=(const FrameWindow&) = delete;
 
-  /// Reads until the two frames after the next one are available;
-  /// null after the last frame. Throws as the reader does.
+  /// Reads until the two frames after the next one are available. Returns the next frame, valid
+  /// until the following call; null after the last frame. Throws as the reader does.
   const FrameResult* advance() {
-    if (!begun_) {
-      read(1);
-      read(2);
-    }
+    for (int missing = begun_ ? 1 : kFrames; missing > 0; --missing)
+      results_ = {results_[1], results_[2], read()};
     begun_ = true;
-    current_ = (current_ + 1) % kSlots;
-    read(2);
-    return slot(0) ? &*slot(0) : nullptr;
+    return results_[0].get();
   }
   /// Next frame; null if absent or unreadable.
-  const Frame* following() const { return frameAt(1); }
+  std::shared_ptr<const Frame> following() const { return frameOf(results_[1]); }
   /// Frame after following(); null if either is absent or unreadable.
-  const Frame* afterFollowing() const { return following() ? frameAt(2) : nullptr; }
+  std::shared_ptr<const Frame> afterFollowing() const {
+    return following() ? frameOf(results_[2]) : nullptr;
+  }
 
  private:
-  static constexpr std::size_t kSlots = 3;
+  using Shared = std::shared_ptr<const FrameResult>;
+  static constexpr int kFrames = 3;
 
-  /// `ahead` of the current frame.
-  const std::optional<FrameResult>& slot(std::size_t ahead) const {
-    return slots_[(current_ + ahead) % kSlots];
+  static std::shared_ptr<const Frame> frameOf(const Shared& result) {
+    return result && result->ok() ? std::shared_ptr<const Frame>(result, &result->frame) : nullptr;
   }
-  const Frame* frameAt(std::size_t ahead) const {
-    return slot(0) && slot(ahead) && slot(ahead)->ok() ? &slot(ahead)->frame : nullptr;
-  }
-  /// The slot stays empty after the last frame.
-  void read(std::size_t ahead) {
-    const bool goes_on = ahead == 1 || slot(ahead - 1).has_value();
-    slots_[(current_ + ahead) % kSlots] = goes_on ? reader_.next() : std::nullopt;
+  Shared read() {
+    auto result = reader_.next();
+    return result ? std::make_shared<const FrameResult>(std::move(*result)) : nullptr;
   }
 
   SequenceReader& reader_;
-  std::array<std::optional<FrameResult>, kSlots> slots_;
-  std::size_t current_ = 0;  // slot
+  std::array<Shared, kFrames> results_;  // of the current frame, and the two after it
   bool begun_ = false;
 };
 
