@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "io/files/file_hash.h"
-#include "io/files/folder.h"
 #include "io/geometry/track_points_file.h"
 #include "io/sequences/frame_window.h"
 #include "io/sequences/sequence_reader.h"
@@ -17,7 +16,7 @@
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_reader.h"
 #include "toolkit/run/run_record.h"
-#include "toolkit/run/run_tables.h"
+#include "toolkit/run/sequence_frame.h"
 #include "toolkit/run/stereo_sync.h"
 
 namespace softscope {
@@ -26,14 +25,6 @@ namespace {
 using Json = FactSheet::Json;
 
 constexpr const char* kOutcomes = "outcomes";  // part of the record for metrics without path
-
-/// True if images of the run were deleted.
-bool wasDeleted(const SequencePaths& sequence) {
-  for (const std::filesystem::path& view :
-       {sequence.left, sequence.right, sequence.stereo, sequence.depth})
-    if (!view.empty() && !isThere(view)) return true;
-  return false;
-}
 
 /// Hash of all inputs and settings that determine the result; a resumed run must have the same.
 std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& settings,
@@ -141,7 +132,7 @@ ReconstructedRun SequenceRun::run() {
   if (earlier) skipDone(*earlier);
 
   SequenceReader reader(options_.sequence, sequence);
-  FrameWindow frames(reader);  // declared before the back end, which reads ahead in it
+  FrameWindow frames(reader);
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
   Reconstructor reconstructor(backendOf(reader.calibration()), method);
   reconstructor.track(tracked);
@@ -168,15 +159,11 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
   while (wanted && !at_end) {
     const FrameResult* result = frames.advance();
     if (result == nullptr) break;
-    input_gone_ = !result->ok() && wasDeleted(options_.sequence);
+    input_gone_ = wasDeleted(*result, options_.sequence);
     if (input_gone_) break;
     FrameRecord frame;
     try {
-      frame = result->ok() ? reconstructor.process(result->frame, frames.following(),
-                                                   frames.afterFollowing())
-                           : reconstructor.skip(result->index, result->error, result->time_s,
-                                                result->unpaired ? FrameStatus::kUnpaired
-                                                                 : FrameStatus::kUnreadable);
+      frame = processFrame(*result, frames, reconstructor);
     } catch (const BackendError& error) {
       failure_ = error.what();
       break;
@@ -184,10 +171,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     if (!frame.reason.empty())
       rejections_.add(toString(frame.status), frame.frame,
                       say(toString(frame.status), ": ", frame.reason));
-    folder.add(frame, result->names);
-    record.add(asTabled(frame));
-    if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
-      folder.saveModel(frame.frame, frame.time_s, reconstructor.model());
+    recordFrame(frame, result->names, reconstructor, folder, record);
     next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
     if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {

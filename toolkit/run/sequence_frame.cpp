@@ -1,0 +1,32 @@
+#include "toolkit/run/sequence_frame.h"
+
+#include "io/files/folder.h"
+#include "toolkit/run/run_tables.h"
+
+namespace softscope {
+
+bool wasDeleted(const FrameResult& frame, const SequencePaths& sequence) {
+  if (frame.ok()) return false;
+  for (const std::filesystem::path& view :
+       {sequence.left, sequence.right, sequence.stereo, sequence.depth})
+    if (!view.empty() && !isThere(view)) return true;
+  return false;
+}
+
+FrameRecord processFrame(const FrameResult& current, const FrameWindow& frames,
+                         Reconstructor& reconstructor) {
+  if (current.ok())
+    return reconstructor.process(current.frame, frames.following(), frames.afterFollowing());
+  return reconstructor.skip(current.index, current.error, current.time_s,
+                            current.unpaired ? FrameStatus::kUnpaired : FrameStatus::kUnreadable);
+}
+
+void recordFrame(const FrameRecord& frame, const FrameNames& names,
+                 const Reconstructor& reconstructor, RunFolder& folder, RunRecord& record) {
+  folder.add(frame, names);
+  record.add(asTabled(frame));
+  if (folder.savesModel(frame.frame) && !reconstructor.backend().empty())
+    folder.saveModel(frame.frame, frame.time_s, reconstructor.model());
+}
+
+}  // namespace softscope
