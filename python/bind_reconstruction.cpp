@@ -13,6 +13,22 @@ api::FrameReport process(api::Reconstructor& self, const Bytes& left, const Byte
   return self.process(frame);
 }
 
+/// Reports of the frames of a sequence; both arguments must outlive it.
+struct FrameReports {
+  api::Reconstructor* reconstructor;
+  api::Sequence* sequence;
+
+  api::FrameReport next() const {
+    std::optional<api::FrameReport> report;
+    {
+      const py::gil_scoped_release released;
+      report = reconstructor->process(*sequence);
+    }
+    if (!report) throw py::stop_iteration();
+    return std::move(*report);
+  }
+};
+
 std::vector<api::SettingDescription> settingsOf(const std::string& command) {
   if (command == "reconstruct") return api::reconstructionSettings();
   if (command == "depth") return api::depthSettings();
@@ -93,6 +109,12 @@ void bindReconstructor(py::module_& module) {
         return "<softscope.FrameReport " + std::to_string(self.frame) + ": " + self.status + ">";
       });
 
+  py::class_<FrameReports>(module, "FrameReports",
+                           "Reports of the frames of a sequence, in their order. A frame is "
+                           "processed when its report is asked for.")
+      .def("__iter__", [](py::object self) { return self; })
+      .def("__next__", &FrameReports::next);
+
   py::class_<api::Reconstructor>(module, "Reconstructor",
                                  "Stereo frames to a live, deforming model.")
       .def(py::init([](const api::Calibration& calibration, const py::dict& settings,
@@ -106,10 +128,23 @@ void bindReconstructor(py::module_& module) {
            "the keys.")
       .def("record_to", &api::Reconstructor::recordTo, "folder"_a, "save_every"_a = 10,
            "overwrite"_a = false, "Before the first frame: writes a run folder meanwhile.")
+      .def(
+          "process",
+          [](api::Reconstructor& self, api::Sequence& sequence) {
+            return FrameReports{&self, &sequence};
+          },
+          "sequence"_a, py::keep_alive<0, 1>(), py::keep_alive<0, 2>(),
+          "for report in process(sequence): the frames from the sequence's next one on, in the "
+          "time of `softscope reconstruct`: the depth of two frames is measured ahead. An "
+          "unreadable frame has a report with the reason. The loop may be left after any frame "
+          "and continued with process(). InputError: images of another size than the "
+          "calibration's, or deleted; OptionError: a frame of this index or a later one was "
+          "processed before.")
       .def("process", &process, "left"_a, "right"_a, "mask"_a = py::none(),
            "time_s"_a = std::numeric_limits<double>::quiet_NaN(),
-           "left, right: height x width x 3 (RGB) or height x width, uint8; mask: height x width, "
-           "uint8, not 0: ignored pixel. Arrays that are contiguous are not copied by Python.")
+           "One pair without a Sequence. left, right: height x width x 3 (RGB) or height x width, "
+           "uint8; mask: height x width, uint8, not 0: ignored pixel. Arrays that are contiguous "
+           "are not copied by Python.")
       .def("model", &api::Reconstructor::model, Released(), "A copy of the model as it is now.")
       .def("finish", &api::Reconstructor::finish, Released(),
            "Completes the folder of record_to() and returns it as a Run.");

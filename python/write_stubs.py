@@ -102,7 +102,8 @@ def class_lines(cls):
             for line in function_lines(value.__func__.__doc__, None, "    "):
                 yield "    @staticmethod\n" + line
         elif name == "__iter__":
-            yield "    def __iter__(self) -> Iterator[Frame]: ..."
+            item = typed(cls.__next__.__doc__.split("->")[1].split()[0])
+            yield f"    def __iter__(self) -> Iterator[{item}]: ..."
         elif "->" in (value.__doc__ or "") and re.search(r"\((self|arg0): softscope", value.__doc__):
             yield from function_lines(value.__doc__, KEYWORDS.get(cls.__name__), "    ")
 

@@ -2,18 +2,20 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "softscope/calibration.h"
 #include "softscope/frame.h"
 #include "softscope/options.h"
 #include "softscope/run.h"
+#include "softscope/sequence.h"
 
 namespace softscope::api {
 
 /// Result of one frame.
 struct FrameReport {
-  int frame = 0;
+  int frame = 0;       // index in the sequence; of images without one: last frame + 1
   std::string status;  // "started", "fused", ...: docs/formats.md, frames.csv
   std::string reason;  // reason if it was not fused; else empty
   bool fused = false;
@@ -38,8 +40,15 @@ class Reconstructor {
   /// OptionError if the folder contains a run and `overwrite` is false.
   void recordTo(const std::string& folder, int save_every = 10, bool overwrite = false);
 
-  /// A rejected frame leaves the model unchanged; the report contains the
-  /// reason. Throws InputError for an image that does not fit the calibration.
+  /// Next frame of `sequence`, from its first on in the time of `softscope reconstruct`: the depth
+  /// of the two following frames is measured meanwhile. None after the last frame. A rejected or
+  /// unreadable frame leaves the model unchanged; the report contains the reason. Other images
+  /// may follow after any frame. Throws InputError for images that do not fit the calibration or
+  /// were deleted; OptionError if the folder of the run is in the sequence, if the run has frames
+  /// of other files, or a frame of this index or a later one.
+  std::optional<FrameReport> process(Sequence& sequence);
+  /// The same for images without a Sequence. Throws InputError for
+  /// an image that does not fit the calibration.
   FrameReport process(const FrameView& frame);
 
   /// Copy of the model, in the illumination of the last fused image.

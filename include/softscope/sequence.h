@@ -10,7 +10,7 @@
 
 namespace softscope::api {
 
-/// Frames are read ahead by a thread. For one consumer thread.
+/// Frames are read once, ahead by a thread. For one consumer thread.
 class Sequence {
  public:
   /// Folder with left/ and right/ images or videos and a calibration. Throws InputError.
@@ -27,8 +27,9 @@ class Sequence {
   std::optional<Frame> next();
 
  private:
+  friend class Reconstructor;
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Impl> impl_;
 };
 
 }  // namespace softscope::api

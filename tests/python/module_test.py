@@ -1,8 +1,11 @@
 """The Python module: what it computes, what it shares with NumPy, what it refuses."""
+import csv
 import filecmp
 import os
+import shutil
 import subprocess
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 
@@ -38,6 +41,95 @@ class Clip(unittest.TestCase):
         reports = [reconstructor.process(np.array(frame.left), np.array(frame.right),
                                          time_s=frame.time_s) for frame in cls.frames]
         return reconstructor.finish(), reports
+
+
+class ProcessesASequence(Clip):
+    """The loop with look-ahead: the bytes of the command, and of single pairs."""
+
+    def reconstructor(self, name):
+        made = softscope.Reconstructor(self.calibration)
+        made.record_to(str(self.root / name), save_every=1)
+        return made
+
+    def test_a_damaged_frame_is_reported_and_the_folder_has_the_commands_bytes(self):
+        clip = self.root / "damaged"
+        shutil.copytree(self.clip, clip)
+        (clip / "left" / "000002.png").write_bytes(b"broken")
+        reconstructor = self.reconstructor("damaged_run")
+        reports = list(reconstructor.process(softscope.Sequence(str(clip))))
+        made = Path(reconstructor.finish().folder)
+        out = self.root / "damaged_command"
+        subprocess.run([PROGRAM, "reconstruct", clip, "--out", out, "--save-every", "1",
+                        "--quiet"], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual([report.status for report in reports],
+                         ["started", "fused", "unreadable", "fused", "fused", "fused"])
+        self.assertIn("000002.png", reports[2].reason)
+        files = [{path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+                 for folder in (made, out)]
+        self.assertEqual(files[0], files[1])
+        for name in files[0] - {Path("run.json"), Path("frames.csv")}:
+            self.assertTrue(filecmp.cmp(made / name, out / name, False), name)
+        tables = [list(csv.DictReader((folder / "frames.csv").open())) for folder in (made, out)]
+        for row in tables[0] + tables[1]:
+            for column in [column for column in row if column.endswith("_ms")]:
+                del row[column]
+        self.assertEqual(tables[0], tables[1])
+
+    def test_the_loop_may_be_left_and_continued(self):
+        reconstructor = self.reconstructor("left")
+        sequence = softscope.Sequence(self.clip)
+        for report in reconstructor.process(sequence):
+            if report.frame == 1:
+                break
+        self.assertEqual(next(sequence).index, 2)
+        image = self.frames[2]
+        report = reconstructor.process(image.left, image.right, time_s=image.time_s)
+        self.assertEqual(report.frame, 2)
+        rest = reconstructor.process(sequence)
+        self.assertEqual([report.frame for report in rest], [3, 4, 5])
+        self.assertEqual(list(rest), [], "each frame is read once")
+        run = reconstructor.finish()
+        self.assertEqual(run.frames, list(range(6)))
+        self.assertTrue(filecmp.cmp(f"{run.folder}/model.ply", f"{self.made.folder}/model.ply",
+                                    False))
+
+    def test_a_run_may_end_early(self):
+        reconstructor = self.reconstructor("early")
+        reports = reconstructor.process(softscope.Sequence(self.clip))
+        self.assertIs(iter(reports), reports)
+        self.assertTrue(next(reports).fused)
+        del reports  # the sequence, too
+        self.assertEqual(reconstructor.finish().frames, [0])
+
+    def test_reports_keep_their_reconstructor_and_sequence(self):
+        reports = softscope.Reconstructor(self.calibration).process(softscope.Sequence(self.clip))
+        self.assertEqual([report.frame for report in reports], list(range(6)))
+
+    def test_other_threads_run_meanwhile(self):
+        counted = []
+        done = threading.Event()
+
+        def count():
+            while not done.wait(0.001):
+                counted.append(1)
+        thread = threading.Thread(target=count)
+        thread.start()
+        list(softscope.Reconstructor(self.calibration).process(softscope.Sequence(self.clip)))
+        done.set()
+        thread.join()
+        self.assertGreater(len(counted), 20)  # of some hundred
+
+    def test_other_sequences_are_refused(self):
+        small = str(self.root / "small")
+        softscope.simulate(small, frames=2, width_px=64, height_px=48)
+        reconstructor = softscope.Reconstructor(self.calibration)
+        with self.assertRaisesRegex(softscope.InputError, "64 x 48 px, but .* 240 x 180"):
+            next(reconstructor.process(softscope.Sequence(small)))
+        next(reconstructor.process(softscope.Sequence(self.clip)))
+        with self.assertRaisesRegex(softscope.OptionError, "frame 0 comes after frame 0"):
+            next(reconstructor.process(softscope.Sequence(self.clip)))
+        with self.assertRaises(TypeError):
+            reconstructor.process(self.clip)
 
 
 class Reconstructs(Clip):

@@ -57,6 +57,12 @@ const StereoCalibration& sized(const StereoCalibration& calibration) {
                    ": the size of the images is unknown; give width_px and height_px");
 }
 
+void requireFit(const StereoCalibration& sequence, const StereoCalibration& calibration) {
+  const PinholeCamera &left = sequence.left.pinhole, &right = sequence.right.pinhole;
+  requireSize(left.width_px, left.height_px, calibration.left.pinhole, "sequence, left");
+  requireSize(right.width_px, right.height_px, calibration.right.pinhole, "sequence, right");
+}
+
 softscope::Frame frameOf(const FrameView& view, const StereoCalibration& calibration, int index) {
   softscope::Frame frame;
   frame.index = index;

@@ -21,6 +21,9 @@ Image imageOf(const Mask& mask);
 /// the calibration: the stages would skip such a frame like a damaged file.
 softscope::Frame frameOf(const FrameView& view, const StereoCalibration& calibration, int index);
 
+/// Throws InputError if images of `sequence` do not fit `calibration`.
+void requireFit(const StereoCalibration& sequence, const StereoCalibration& calibration);
+
 /// Returns its argument. Throws InputError if the image size is unknown.
 const StereoCalibration& sized(const StereoCalibration& calibration);
 

@@ -3,15 +3,18 @@
 
 #include <optional>
 
+#include "io/text/message.h"
 #include "pipeline/backends.h"
 #include "pipeline/reconstructor.h"
 #include "toolkit/face/calibration_data.h"
 #include "toolkit/face/image_copies.h"
 #include "toolkit/face/model_copy.h"
 #include "toolkit/face/run_options_of.h"
+#include "toolkit/face/sequence_data.h"
+#include "toolkit/run/out_folder.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_record.h"
-#include "toolkit/run/run_tables.h"
+#include "toolkit/run/sequence_frame.h"
 
 namespace softscope::api {
 namespace {
@@ -41,18 +44,39 @@ struct Reconstructor::Impl {
   StereoCalibration calibration;
   RunOptions options;
   softscope::Reconstructor loop;
-  int frames = 0;
+  int next_frame = 0;
   std::string out;
   std::optional<RunFolder> folder;
   std::optional<RunRecord> record;
+  std::weak_ptr<const Sequence::Impl> sequence;  // of the last frame that had one
+  FactSheet::Json inputs;                        // its files with their hashes
 
-  void write(const FrameRecord& frame) {
-    folder->add(frame);
-    record->add(asTabled(frame));
-    if (folder->savesModel(frame.frame) && !loop.backend().empty())
-      folder->saveModel(frame.frame, frame.time_s, loop.model());
-  }
+  void begin(const std::shared_ptr<const Sequence::Impl>& given);
+  FrameReport add(const FrameRecord& frame, const FrameNames& names = {});
 };
+
+/// Checks a sequence before its first frame, and adds its files to the record of the run.
+void Reconstructor::Impl::begin(const std::shared_ptr<const Sequence::Impl>& given) {
+  if (sequence.lock() == given) return;
+  requireFit(given->reader.calibration(), calibration);
+  if (folder) {
+    requireOutside(out, given->paths);
+    const FactSheet::Json found = inputsJson(given->paths, options.method.depth.stereo.model);
+    if (!inputs.is_null() && found != inputs)
+      throw OptionError(
+          "sequence: has other files than the frames before; a run has one sequence. "
+          "Begin another run with a new Reconstructor");
+    inputs = found;
+    record->set("inputs", inputs);
+  }
+  sequence = given;
+}
+
+FrameReport Reconstructor::Impl::add(const FrameRecord& frame, const FrameNames& names) {
+  next_frame = frame.frame + 1;
+  if (folder) recordFrame(frame, names, loop, *folder, *record);
+  return reportOf(frame);
+}
 
 Reconstructor::Reconstructor(const Calibration& calibration, const Options& options,
                              const std::string& backend)
@@ -62,7 +86,7 @@ Reconstructor::Reconstructor(Reconstructor&&) noexcept = default;
 Reconstructor& Reconstructor::operator=(Reconstructor&&) noexcept = default;
 
 void Reconstructor::recordTo(const std::string& folder, int save_every, bool overwrite) {
-  require(impl_->frames == 0, "recordTo()", "called late", "it comes before the first frame");
+  require(impl_->next_frame == 0, "recordTo()", "called late", "it comes before the first frame");
   RunFolderOptions options;
   options.folder = folder;
   options.save_every = save_every;
@@ -74,11 +98,25 @@ void Reconstructor::recordTo(const std::string& folder, int save_every, bool ove
                         settingsOf(impl_->options).list());
 }
 
+std::optional<FrameReport> Reconstructor::process(Sequence& sequence) {
+  Sequence::Impl& source = *sequence.impl_;
+  impl_->begin(sequence.impl_);
+  const FrameResult* current = source.frames.advance();
+  if (current == nullptr) return std::nullopt;
+  if (current->index < impl_->next_frame)
+    throw OptionError(say("sequence: its frame ", current->index, " comes after frame ",
+                          impl_->next_frame - 1,
+                          " of this run; a run takes each frame once, in their order. Begin "
+                          "another run with a new Reconstructor"));
+  if (wasDeleted(*current, source.paths))
+    throw InputError(current->error +
+                     "; the sequence was removed, or its disk. finish() completes "
+                     "the run with the frames before");
+  return impl_->add(processFrame(*current, source.frames, impl_->loop), current->names);
+}
+
 FrameReport Reconstructor::process(const FrameView& view) {
-  const FrameRecord record = impl_->loop.process(frameOf(view, impl_->calibration, impl_->frames));
-  ++impl_->frames;
-  if (impl_->folder) impl_->write(record);
-  return reportOf(record);
+  return impl_->add(impl_->loop.process(frameOf(view, impl_->calibration, impl_->next_frame)));
 }
 
 Model Reconstructor::model() const {
@@ -93,7 +131,7 @@ Run Reconstructor::finish() {
   if (impl_->loop.backend().empty())
     throw InputError(impl_->out + ": no frame could be used; see the reason in the reports");
   impl_->folder->saveLastModel(impl_->loop.model());
-  impl_->folder->flush({"", impl_->frames, impl_->loop.state()});
+  impl_->folder->flush({"", impl_->next_frame, impl_->loop.state()});
   impl_->folder->writeRecord(impl_->record->json(), /*complete=*/true);
   impl_->folder.reset();
   return Run(impl_->out);

@@ -1,16 +1,15 @@
 // toolkit/face/sequence.cpp: implementation of include/softscope/sequence.h.
 #include "softscope/sequence.h"
 
-#include "io/sequences/sequence_reader.h"
 #include "pipeline/run_options.h"
 #include "toolkit/face/calibration_data.h"
 #include "toolkit/face/image_copies.h"
+#include "toolkit/face/sequence_data.h"
 #include "toolkit/run/stereo_sync.h"
 
 namespace softscope::api {
 namespace {
 
-/// Opened as by `softscope reconstruct`.
 SequenceReader openSequence(const SequencePaths& paths) {
   RunOptions options;
   estimateRightOffset(paths, options.sequence, options.method.depth.stereo.disparity_max_px);
@@ -28,16 +27,15 @@ SequencePaths pathsOf(const std::string& left, const std::string& right,
 
 }  // namespace
 
-struct Sequence::Impl {
-  SequenceReader reader;
-};
+Sequence::Impl::Impl(SequencePaths opened)
+    : paths(std::move(opened)), reader(openSequence(paths)), frames(reader) {}
 
 Sequence::Sequence(const std::string& folder)
-    : impl_(std::make_unique<Impl>(Impl{openSequence(findSequence(folder))})) {}
+    : impl_(std::make_shared<Impl>(findSequence(folder))) {}
 
 Sequence::Sequence(const std::string& left, const std::string& right,
                    const std::string& calibration)
-    : impl_(std::make_unique<Impl>(Impl{openSequence(pathsOf(left, right, calibration))})) {}
+    : impl_(std::make_shared<Impl>(pathsOf(left, right, calibration))) {}
 
 Sequence::~Sequence() = default;
 Sequence::Sequence(Sequence&&) noexcept = default;
@@ -48,8 +46,8 @@ Calibration Sequence::calibration() const { return calibrationOf(impl_->reader.c
 int Sequence::frameCount() const { return impl_->reader.frameCount(); }
 
 std::optional<Frame> Sequence::next() {
-  const auto result = impl_->reader.next();
-  if (!result) return std::nullopt;
+  const FrameResult* result = impl_->frames.advance();
+  if (result == nullptr) return std::nullopt;
   Frame frame;
   frame.index = result->index;
   frame.error = result->error;

@@ -14,7 +14,8 @@ int main(int, char** words) {
   Sequence sequence(folder + "/clip");
   Reconstructor reconstructor(sequence.calibration());
   reconstructor.recordTo(folder + "/run", /*save_every=*/1);
-  while (const auto frame = sequence.next()) reconstructor.process(frame->view());
+  while (const auto report = reconstructor.process(sequence))
+    std::cout << report->frame << " " << report->status << "\n";
   const Evaluation evaluation = evaluate(reconstructor.finish(), folder + "/clip");
   std::cout << "P95 " << evaluation.surface.observed.p95_mm << " mm\n";
   try {

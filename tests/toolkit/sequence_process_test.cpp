@@ -1,0 +1,181 @@
+// tests/toolkit/sequence_process_test.cpp: api::Reconstructor::process() of a Sequence.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "softscope/reconstructor.h"
+#include "support/in_folder.h"
+#include "tests/io/temporary_folder.h"
+#include "tests/toolkit/made_sequences.h"
+
+namespace softscope::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// frames.csv without its columns of times, whose headings end in _ms.
+std::string withoutTimes(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::vector<bool> is_time;  // per column
+  std::string kept;
+  for (std::string line; std::getline(lines, line); kept += "\n") {
+    const bool is_heading = kept.empty();
+    std::istringstream cells(line);
+    std::string cell;
+    for (std::size_t column = 0; std::getline(cells, cell, ','); ++column) {
+      if (is_heading) is_time.push_back(cell.size() > 3 && cell.substr(cell.size() - 3) == "_ms");
+      if (column >= is_time.size() || !is_time[column]) kept += cell + ",";
+    }
+  }
+  return kept;
+}
+
+/// Files of a run by their names; without run.json, and without times.
+std::map<std::string, std::string> filesOf(const fs::path& run) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(run))
+    if (entry.is_regular_file() && entry.path().filename() != "run.json")
+      files[fs::relative(entry.path(), run)] = textOf(entry.path());
+  files["frames.csv"] = withoutTimes(files["frames.csv"]);
+  return files;
+}
+
+api::Options smallDisparities() {
+  api::Options options;
+  options.set("stereo.disparity_max_px", "63");
+  return options;
+}
+
+class ProcessOfASequence : public InFolder {
+ protected:
+  void makeClip(int frames) const { simulateClip(at("clip"), frames); }
+  void damage(const std::string& image) const { write("clip/" + image, "broken"); }
+  api::Reconstructor reconstructorOf(const api::Sequence& sequence) const {
+    return api::Reconstructor(sequence.calibration(), smallDisparities(), "cpu");
+  }
+  /// Without look-ahead, one frame after the other.
+  api::Model modelOfFrames(int count) const {
+    api::Sequence sequence(at("clip"));
+    api::Reconstructor reconstructor = reconstructorOf(sequence);
+    for (int i = 0; i < count; ++i) reconstructor.process(sequence.next()->view());
+    return reconstructor.model();
+  }
+};
+
+TEST_F(ProcessOfASequence, WritesTheBytesOfTheCommand) {
+  makeClip(7);
+  damage("right/000003.png");
+  ReconstructOptions command = reconstruction(at("clip"), at("command"));
+  command.save_every = 2;
+  command.backend = "cpu";
+  reconstructSequence(command);
+
+  api::Sequence sequence(at("clip"));
+  api::Reconstructor reconstructor = reconstructorOf(sequence);
+  reconstructor.recordTo(at("run"), /*save_every=*/2);
+  std::vector<std::string> statuses;
+  while (const auto report = reconstructor.process(sequence)) {
+    EXPECT_EQ(report->frame, static_cast<int>(statuses.size()));
+    statuses.push_back(report->status);
+    if (report->frame == 3) {
+      EXPECT_THAT(report->reason, HasSubstr("right/000003.png"));
+    }
+  }
+  EXPECT_THAT(statuses,
+              ElementsAre("started", "fused", "fused", "unreadable", "fused", "fused", "fused"));
+  EXPECT_FALSE(reconstructor.process(sequence)) << "each frame is read once";
+  EXPECT_EQ(reconstructor.finish().frames().size(), 7U);
+
+  const auto files = filesOf(at("run")), expected = filesOf(at("command"));
+  EXPECT_EQ(files.size(), expected.size());
+  for (const auto& [name, bytes] : expected) {
+    ASSERT_EQ(files.count(name), 1U) << name;
+    EXPECT_TRUE(files.at(name) == bytes) << name;
+  }
+}
+
+TEST_F(ProcessOfASequence, MayStopAtAnyFrameAndGoOn) {
+  makeClip(6);
+  api::Sequence sequence(at("clip"));
+  api::Reconstructor reconstructor = reconstructorOf(sequence);
+  reconstructor.recordTo(at("run"), /*save_every=*/0);
+  reconstructor.process(sequence);
+  reconstructor.process(sequence);
+  const auto image = sequence.next();
+  EXPECT_EQ(image->index, 2);
+  EXPECT_EQ(reconstructor.process(image->view()).frame, 2);
+  EXPECT_EQ(reconstructor.process(sequence)->frame, 3);
+  EXPECT_EQ(reconstructor.finish().frames().size(), 4U);
+  EXPECT_EQ(reconstructor.process(sequence)->frame, 4) << "without a folder";
+  EXPECT_EQ(reconstructor.model().points_mm, modelOfFrames(5).points_mm);
+}
+
+// The images of the two following frames are still read when their sequence ends.
+TEST_F(ProcessOfASequence, MayOutliveTheSequence) {
+  makeClip(4);
+  auto sequence = std::make_unique<api::Sequence>(at("clip"));
+  api::Reconstructor reconstructor = reconstructorOf(*sequence);
+  EXPECT_TRUE(reconstructor.process(*sequence)->fused);
+  sequence.reset();
+  api::Sequence again(at("clip"));
+  again.next();
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(reconstructor.process(again)->frame, i);
+  EXPECT_EQ(reconstructor.model().points_mm, modelOfFrames(4).points_mm);
+}
+
+TEST_F(ProcessOfASequence, KeepsTheIndexOfItsFirstFrame) {
+  makeClip(4);
+  api::Sequence sequence(at("clip"));
+  api::Reconstructor reconstructor = reconstructorOf(sequence);
+  reconstructor.recordTo(at("run"));
+  sequence.next();
+  sequence.next();
+  while (reconstructor.process(sequence)) {
+  }
+  EXPECT_THAT(reconstructor.finish().frames(), ElementsAre(2, 3));
+}
+
+TEST_F(ProcessOfASequence, RefusesOtherImagesAndRepeatedFrames) {
+  makeClip(3);
+  simulateClip(at("larger"), 2, {"scope.width_px=176"});
+  simulateClip(at("other"), 3, {"seed=2"});
+  api::Sequence sequence(at("clip")), larger(at("larger")), again(at("clip")), other(at("other"));
+  api::Reconstructor reconstructor = reconstructorOf(sequence);
+  reconstructor.recordTo(at("run"));
+  expectError<InputError>([&] { reconstructor.process(larger); },
+                          {"sequence, left: is 176 x 120 px", "160 x 120"});
+  EXPECT_EQ(reconstructor.process(sequence)->status, "started") << "the model is as it was";
+  expectError<OptionError>([&] { reconstructor.process(again); },
+                           {"frame 0 comes after frame 0", "new Reconstructor"});
+  expectError<OptionError>([&] { reconstructor.process(other); }, {"other files"});
+  EXPECT_EQ(reconstructor.process(sequence)->frame, 1);
+
+  api::Reconstructor inside = reconstructorOf(again);
+  inside.recordTo(at("clip/left/run"));
+  expectError<OptionError>([&] { inside.process(again); }, {"folder of the sequence"});
+  EXPECT_FALSE(fs::exists(at("clip/left/run")));
+}
+
+// A queue holds four frames, the window three; the ones after them are missing.
+TEST_F(ProcessOfASequence, EndsWhereItsImagesAreDeleted) {
+  simulateClip(at("clip"), 10);
+  api::Sequence sequence(at("clip"));
+  api::Reconstructor reconstructor = reconstructorOf(sequence);
+  reconstructor.recordTo(at("run"));
+  reconstructor.process(sequence);
+  fs::remove_all(at("clip"));
+  expectError<InputError>(
+      [&] {
+        while (reconstructor.process(sequence)) {
+        }
+      },
+      {"was removed", "finish()"});
+  EXPECT_GE(reconstructor.finish().frames().size(), 1U);
+}
+
+}  // namespace
+}  // namespace softscope::test

@@ -1,0 +1,20 @@
+// toolkit/face/sequence_data.h: content of a Sequence of the public interface.
+#pragma once
+
+#include "io/sequences/frame_window.h"
+#include "io/sequences/sequence_paths.h"
+#include "io/sequences/sequence_reader.h"
+#include "softscope/sequence.h"
+
+namespace softscope::api {
+
+struct Sequence::Impl {
+  /// Opens as `softscope reconstruct` does. Throws InputError.
+  explicit Impl(SequencePaths opened);
+
+  SequencePaths paths;
+  SequenceReader reader;
+  FrameWindow frames;
+};
+
+}  // namespace softscope::api
