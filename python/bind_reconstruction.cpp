@@ -102,6 +102,7 @@ void bindReconstructor(py::module_& module) {
           [](const api::FrameReport& self) { return poseArray(self.world_from_left); },
           "4 x 4, float64, mm.")
       .def_readonly("coverage", &api::FrameReport::coverage)
+      .def_readonly("confidence", &api::FrameReport::confidence)
       .def_readonly("matches", &api::FrameReport::matches)
       .def_readonly("points", &api::FrameReport::points)
       .def_readonly("elapsed_ms", &api::FrameReport::elapsed_ms)

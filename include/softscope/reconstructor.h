@@ -1,6 +1,7 @@
 // include/softscope/reconstructor.h: deforming model from stereo frames.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ struct FrameReport {
   bool fused = false;
   Pose world_from_left{};  // last known pose if this frame has none
   double coverage = 0;     // share of the tissue with depth
+  /// 0 to 1, NaN if the frame was not compared with the model: docs/fusion.md, F27.
+  double confidence = std::numeric_limits<double>::quiet_NaN();
   int matches = 0, points = 0;
   double elapsed_ms = 0;
 };

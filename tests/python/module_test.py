@@ -136,6 +136,8 @@ class Reconstructs(Clip):
     def test_every_frame_is_fused(self):
         self.assertEqual([report.status for report in self.reports], ["started"] + 5 * ["fused"])
         self.assertEqual([report.frame for report in self.reports], list(range(6)))
+        for report in self.reports:
+            self.assertTrue(0.5 < report.confidence <= 1, report.confidence)
         self.assertGreater(self.reports[-1].points, 1000)
 
     def test_the_result_has_the_commands_bytes(self):

@@ -27,6 +27,7 @@ FrameReport reportOf(const FrameRecord& record) {
   report.fused = record.fused();
   report.world_from_left = poseOf(record.world_from_left);
   report.coverage = record.depth.coverage();
+  report.confidence = record.confidence();
   report.matches = record.matches.matches;
   report.points = record.points;
   report.elapsed_ms = record.elapsed_ms();
