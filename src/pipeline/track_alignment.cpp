@@ -11,6 +11,8 @@
 namespace softscope {
 namespace {
 
+constexpr int kLooksPerTask = 2;
+
 /// Measurement of one tracked point in an image.
 struct SeenLook {
   bool in_sight = false, found = false;
@@ -116,8 +118,8 @@ void MaterialPoints::look(const LookPicture& picture, const PointModel& model,
                           const PinholeCamera& left, const Eigen::Isometry3d& world_from_left,
                           const DepthMap& depth) {
   const Eigen::Isometry3d left_from_world = world_from_left.inverse();
-  for (Point& point : points) {
-    if (point.model_point < 0) continue;
+  const auto lookAt = [&](Point& point) {
+    if (point.model_point < 0) return;
     const Eigen::Vector3d centre = left_from_world * point.position_mm;
     const Eigen::Vector2d pixel = projectPoint(left, centre);
     const Eigen::Vector3d normal =
@@ -130,13 +132,15 @@ void MaterialPoints::look(const LookPicture& picture, const PointModel& model,
     }
     const ConnectedSurface surface(depth, pixel, left.fx_px, FirstLook::kReachPx);
     point.look = FirstLook::take(picture, pixel, surface.found() ? &surface : nullptr);
-  }
+  };
+  parallelRanges(static_cast<int>(points.size()), kLooksPerTask, [&](int begin, int end) {
+    std::for_each(points.begin() + begin, points.begin() + end, lookAt);
+  });
 }
 
 void MaterialPoints::align(const LookPicture& picture, const PinholeCamera& left,
                            const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
                            const std::function<bool(const Eigen::Vector3d&)>& inSight) {
-  constexpr int kLooksPerTask = 2;
   if (points.empty()) return;
   const FirstLookSearch search{picture, left, world_from_left};
   std::vector<SeenLook> seen(points.size());
