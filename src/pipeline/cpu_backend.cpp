@@ -316,7 +316,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
         state_.tracked.renumber(update.index_map, state_.model, options_.graph.node_spacing_mm,
                                 surface_.get());
         if (first) {
-          state_.tracked.anchor(state_.model);
+          state_.tracked.anchor(state_.model, surface_.get());
           if (tracks())
             state_.tracked.look(looks_.pictures().looks, state_.model, left(), world_from_left,
                                 frame_.measured.depth);

@@ -82,12 +82,11 @@ void MaterialPoints::add(int id, const Eigen::Vector2d& pixel, const PinholeCame
   points.push_back(point);
 }
 
-void MaterialPoints::anchor(const PointModel& model) {
+void MaterialPoints::anchor(const PointModel& model, SurfaceSearch* search) {
   std::vector<Point*> unbound;
   for (Point& point : points)
     if (point.model_point < 0 && point.position_mm.allFinite()) unbound.push_back(&point);
-  CpuSurfaceSearch search;
-  bindToNearest(unbound, model, &search);
+  bindToNearest(unbound, model, search);
 }
 
 void MaterialPoints::warp(const WarpGraph& graph, const PointModel& model, double node_spacing_mm) {
@@ -122,8 +121,7 @@ void MaterialPoints::renumber(const IndexMap& map, const PointModel& model, doub
                 .norm() > node_spacing_mm)
       unbound.push_back(&point);
   }
-  CpuSurfaceSearch on_cpu;
-  bindToNearest(unbound, model, search != nullptr ? search : &on_cpu);
+  bindToNearest(unbound, model, search);
 }
 
 void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scope_mm,
@@ -137,9 +135,7 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
     positions_mm.push_back(point.position_mm);
   }
   if (bound.empty()) return;
-  CpuSurfaceSearch on_cpu;
-  const std::vector<SurfacePiece> pieces =
-      (search != nullptr ? *search : on_cpu).piecesAround(model, positions_mm);
+  const std::vector<SurfacePiece> pieces = search->piecesAround(model, positions_mm);
   for (std::size_t k = 0; k < bound.size(); ++k) {
     Eigen::Vector3d& position_mm = bound[k]->position_mm;
     if (pieces[k].weight <= 0 || pieces[k].normal.norm() <= 0) continue;

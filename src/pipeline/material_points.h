@@ -56,13 +56,13 @@ class MaterialPoints {
   void add(int id, const Eigen::Vector2d& pixel, const PinholeCamera& left,
            const Raster<float>& depth_mm, const Eigen::Isometry3d& world_from_left);
   /// Binds unbound points to the nearest model point.
-  void anchor(const PointModel& model);
+  void anchor(const PointModel& model, SurfaceSearch* search);
   /// Moves them by the warp of the graph, before it is re-based. `node_spacing_mm`: of its nodes.
   void warp(const WarpGraph& graph, const PointModel& model, double node_spacing_mm);
   /// Updates the numbers of model points; a point whose model point was removed, or is more than a
-  /// spacing away, is bound to the nearest one. `search`: null for that of the CPU.
+  /// spacing away, is bound to the nearest one.
   void renumber(const IndexMap& map, const PointModel& model, double node_spacing_mm,
-                SurfaceSearch* search = nullptr);
+                SurfaceSearch* search);
   /// Takes their first looks from the image, once they are on
   /// the tissue; their surface is that of the model around them, and
   /// what lies off it in the depth of the image is not part of their looks.
@@ -77,9 +77,8 @@ class MaterialPoints {
   /// Moves them towards the surface of the model points around them, along the
   /// rays of the scope at `scope_mm`, like fusion moves the points of the model:
   /// docs/fusion.md (F8). `limit_scale`: DepthSummary::limit_scale of the frame.
-  /// `search`: null for that of the CPU.
   void settle(const PointModel& model, const Eigen::Vector3d& scope_mm, double limit_scale,
-              SurfaceSearch* search = nullptr);
+              SurfaceSearch* search);
 
   std::vector<Point> points;
   /// Drift variance of a warp, per direction, from the last first looks; NaN before.

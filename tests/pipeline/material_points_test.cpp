@@ -21,6 +21,8 @@ PointModel flatModel(float shift_mm = 0) {
   return model;
 }
 
+CpuSurfaceSearch on_cpu;
+
 const PinholeCamera kLeft{100, 80, 100, 100, 50, 40};
 
 /// A point on a depth without relief, bound to the model.
@@ -28,7 +30,7 @@ MaterialPoints boundTo(const PointModel& model, float depth_mm = 50,
                        const Eigen::Vector2d& pixel = {50, 40}) {
   MaterialPoints tracked;
   tracked.add(0, pixel, kLeft, Raster<float>(100, 80, depth_mm), Eigen::Isometry3d::Identity());
-  tracked.anchor(model);
+  tracked.anchor(model, &on_cpu);
   return tracked;
 }
 
@@ -49,8 +51,8 @@ TEST(MaterialPoints, TakeDepthFromNearbyOrStayUnknown) {
   EXPECT_NEAR(tracked.points[0].position_mm.z(), 40, 1e-6);
   EXPECT_FALSE(tracked.points[1].position_mm.allFinite());
   PointModel model = flatModel();
-  tracked.anchor(model);  // and nothing that follows minds
-  tracked.settle(model, Eigen::Vector3d::Zero(), 1);
+  tracked.anchor(model, &on_cpu);  // and nothing that follows minds
+  tracked.settle(model, Eigen::Vector3d::Zero(), 1, &on_cpu);
   EXPECT_EQ(tracked.points[1].model_point, -1);
 }
 
@@ -103,14 +105,14 @@ TEST(MaterialPoints, AreBoundToNearerTissueOnceItIsMeasured) {
   IndexMap map;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(model.size()); ++i)
     map.new_of_old.push_back(i);
-  tracked.renumber(map, grown, GraphOptions().node_spacing_mm);
+  tracked.renumber(map, grown, GraphOptions().node_spacing_mm, &on_cpu);
   EXPECT_EQ(tracked.points[0].model_point, static_cast<std::int32_t>(model.size()));
 }
 
 /// As in `frames` frames without motion.
 void settleFor(int frames, MaterialPoints* tracked, const PointModel& model,
                const Eigen::Vector3d& scope_mm, double limit_scale) {
-  for (int k = 0; k < frames; ++k) tracked->settle(model, scope_mm, limit_scale);
+  for (int k = 0; k < frames; ++k) tracked->settle(model, scope_mm, limit_scale, &on_cpu);
 }
 
 // A surface of two layers would otherwise throw the point from one to the other.
@@ -196,7 +198,7 @@ MaterialPoints lookedAt(int columns, int rows, const Eigen::Vector2d& step_px) {
   for (int k = 0; k < columns * rows; ++k)
     tracked.add(k, {30 + step_px.x() * (k % columns), 25 + step_px.y() * (k / columns)}, kLeft,
                 Raster<float>(100, 80, 50.0f), still);
-  tracked.anchor(flatModel());
+  tracked.anchor(flatModel(), &on_cpu);
   tracked.look({texture(), Mask()}, flatModel(), kLeft, still, {});
   return tracked;
 }
