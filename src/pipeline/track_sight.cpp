@@ -22,17 +22,21 @@ Eigen::Vector2d pixelOf(const PinholeCamera& left, const Eigen::Vector3d& point_
   return pixel.allFinite() && pixel.cwiseAbs().maxCoeff() < kFarthestPx ? pixel : nowhere;
 }
 
-/// Variance of the depth at a pixel that uses the surface of a neighbour.
-double depthVarianceMm2(const DepthMap& depth, const Raster<float>& relief_px,
-                        const Eigen::Vector2d& pixel, const NearestDepth& surface,
-                        const RectifiedRig& rig) {
-  if (depth.sigma_mm.empty()) return std::numeric_limits<double>::quiet_NaN();
+/// Variances of the depth at a pixel that uses the surface of a neighbour.
+struct DepthVariance {
+  double noise_mm2 = 0, relief_mm2 = 0;
+};
+
+DepthVariance depthVariance(const DepthMap& depth, const Raster<float>& relief_px,
+                            const Eigen::Vector2d& pixel, const NearestDepth& surface,
+                            const RectifiedRig& rig) {
+  constexpr double kUnknownMm2 = std::numeric_limits<double>::quiet_NaN();
+  if (depth.sigma_mm.empty()) return {kUnknownMm2, kUnknownMm2};
   const Eigen::Vector2d at = (pixel + surface.away_px).array().round();
   const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
-  const double sigma =
-      sigmaWithRelief(rig, depth.sigma_mm.at(u, v), depth.depth_mm.at(u, v), relief_px.at(u, v));
-  const double slack_mm = surface.slackMm(rig.left.fx_px);
-  return sigma * sigma + slack_mm * slack_mm;
+  const double sigma_mm = depth.sigma_mm.at(u, v), slack_mm = surface.slackMm(rig.left.fx_px);
+  const double relief_mm = sigmaWithRelief(rig, 0, depth.depth_mm.at(u, v), relief_px.at(u, v));
+  return {sigma_mm * sigma_mm + slack_mm * slack_mm, relief_mm * relief_mm};
 }
 
 }  // namespace
@@ -71,12 +75,12 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
     const NearestDepth surface = surfaceAt(centre, gapPx(depth.depth_mm.width_px));
     TrackedPosition position{point.id, point.position_mm, false};
     if (!surface.found() || !shows(centre, surface)) return position;
-    const double sigma_mm =
-        std::sqrt(2 * point.variance_mm2 +
-                  depthVarianceMm2(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_));
+    const DepthVariance of_depth =
+        depthVariance(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_);
+    const double noise_mm2 = 2 * point.variance_mm2 + of_depth.noise_mm2;
     // As for a depth: worse ones update nothing.
-    position.visible = !(sigma_mm > frame_.fusion.pixels.max_sigma_mm);
-    if (position.visible) position.sigma_mm = sigma_mm;
+    position.visible = !(std::sqrt(noise_mm2) > frame_.fusion.pixels.max_sigma_mm);
+    if (position.visible) position.sigma_mm = std::sqrt(noise_mm2 + of_depth.relief_mm2);
     return position;
   };
   std::vector<TrackedPosition> positions(tracked.points.size());

@@ -23,7 +23,7 @@ class TrackSight {
   /// Of the frame, for positions(); empty without sigmas.
   Raster<float> reliefPx() const;
   /// Visible: shown by the image with measured depth or, in a gap, next to it,
-  /// with a predicted error of at most the largest sigma of a used depth.
+  /// with a predicted error, without relief, of at most the largest sigma of a used depth.
   std::vector<TrackedPosition> positions(const MaterialPoints& tracked,
                                          const Eigen::Isometry3d& world_from_left,
                                          const Raster<float>& relief_px) const;

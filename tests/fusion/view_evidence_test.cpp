@@ -64,7 +64,7 @@ TEST(ViewEvidence, RefusesAPoseThatIsThreeMillimetresOff) {
   EXPECT_LT(evidenceAt(model, shot, test::shifted(5, -1, 1.5)).agreement(), 0.1);
   Eigen::Isometry3d turned = test::shifted(2, -1, 1.5);
   turned.rotate(Eigen::AngleAxisd(0.19, Eigen::Vector3d::UnitZ()));  // 11 degrees
-  EXPECT_LT(evidenceAt(model, shot, turned).agreement(), 0.2);      // its centre stays where it is
+  EXPECT_LT(evidenceAt(model, shot, turned).agreement(), 0.2);       // its centre stays where it is
 }
 
 TEST(ViewEvidence, RefusesAWrongDistance) {
