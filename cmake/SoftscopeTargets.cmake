@@ -140,18 +140,12 @@ endif()
     ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake)
 endfunction()
 
-# softscope_compile_quickly(<target>): for code that tests alone run. What it tests keeps -O3; -O1
-# takes a quarter off the time that tests take to compile.
+# softscope_compile_quickly(<target>): for code without inner loops, that of tests among it: -O1, and
+# clang inlines what makes a call no larger, as texts and JSON otherwise grow to several times their
+# size. Not for libraries that compute.
 function(softscope_compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>)
-endfunction()
-
-# softscope_inline_little(<target>): for tests of texts and files, whose bodies grow by inlined strings.
-# test_io compiles in 24 s in place of 32 and runs as fast. Not measured for tests that compute.
-function(softscope_inline_little target)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT SOFTSCOPE_SANITIZE)
-    target_compile_options(${target} PRIVATE "SHELL:-mllvm -inline-threshold=0")
-  endif()
+  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>
+    "$<$<AND:$<CONFIG:Release>,$<COMPILE_LANG_AND_ID:CXX,Clang>>:SHELL:-mllvm -inline-threshold=25>")
 endfunction()
 
 # softscope_compile_unoptimised(<target>): for tests of texts and files, under sanitizers: a third of

@@ -43,9 +43,10 @@ cv::Mat charucoPicture(const BoardOptions& board, double pixels_per_mm) {
 }
 
 /// 1 and -1 alternating between integers, averaged over `width`: a ray represents its
-/// part of the pixel, and without it edges would be on a grid of thirds of a pixel.
+/// part of the pixel, and without it edges would be on a grid of thirds of a pixel. `x` is 0 or
+/// more.
 double squareWave(double x, double width) {
-  const double line = std::round(x);
+  const double line = double(long(x + 0.5));  // the nearest, without a call
   const double after = std::clamp(2 * (x - line) / width, -1.0, 1.0);
   return static_cast<long>(line) % 2 == 0 ? after : -after;
 }
@@ -61,7 +62,7 @@ class BoardFace {
   double at(double x_mm, double y_mm, double extent_mm) const {
     const double x = x_mm / board_.square_mm + 1, y = y_mm / board_.square_mm + 1;  // in squares
     const int columns = board_.cornerColumns() + 1, rows = board_.cornerRows() + 1;
-    if (x < -0.6 || y < -0.6 || x > columns + 0.6 || y > rows + 0.6) return kAround;
+    if (x < -kRim || y < -kRim || x > columns + kRim || y > rows + kRim) return kAround;
     if (x < 0 || y < 0 || x >= columns || y >= rows) return kLight;
     if (!picture_.empty()) {
       const int u = std::min(picture_.cols - 1, int(x * board_.square_mm * kPixelsPerMm));
@@ -73,8 +74,17 @@ class BoardFace {
            (kLight - kDark) / 2 * squareWave(x, extent) * squareWave(y, extent);
   }
 
+  /// Nothing of the board is within half a square.
+  bool isFarFrom(double x_mm, double y_mm) const {
+    const double x = x_mm / board_.square_mm + 1, y = y_mm / board_.square_mm + 1;
+    const double far = kRim + 0.5;
+    return x < -far || y < -far || x > board_.cornerColumns() + 1 + far ||
+           y > board_.cornerRows() + 1 + far;
+  }
+
  private:
   static constexpr double kPixelsPerMm = 40;
+  static constexpr double kRim = 0.6;  // width of the white rim, in squares
   BoardOptions board_;
   cv::Mat picture_;
 };
@@ -148,13 +158,23 @@ GrayImage renderWith(const BoardRendering& rendering, const std::vector<cv::Poin
   const Eigen::Matrix3d board_from_ray = h.inverse();
   const MatrixRow x_row(board_from_ray, 0), y_row(board_from_ray, 1), z_row(board_from_ray, 2);
   cv::Mat light(height, width, CV_32F);
+  const auto ray_at = [&](int u, int v, int i, int j) -> const cv::Point2d& {
+    return rays[std::size_t(v * kRays + j) * std::size_t(width * kRays) +
+                std::size_t(u * kRays + i)];
+  };
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
+      // A pixel is a small part of a square: where its middle is far from the board, all of it is.
+      const cv::Point2d& middle = ray_at(u, v, kRays / 2, kRays / 2);
+      const double middle_z = z_row.times(middle);
+      if (face.isFarFrom(x_row.times(middle) / middle_z, y_row.times(middle) / middle_z)) {
+        light.at<float>(v, u) = float(kAround);
+        continue;
+      }
       double sum = 0;
       for (int j = 0; j < kRays; ++j)
         for (int i = 0; i < kRays; ++i) {
-          const cv::Point2d& ray = rays[std::size_t(v * kRays + j) * std::size_t(width * kRays) +
-                                        std::size_t(u * kRays + i)];
+          const cv::Point2d& ray = ray_at(u, v, i, j);
           const double z = z_row.times(ray);  // 1 / depth
           sum += face.at(x_row.times(ray) / z, y_row.times(ray) / z,
                          1 / (z * camera.pinhole.fx_px * kRays));
