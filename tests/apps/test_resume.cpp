@@ -61,6 +61,7 @@ class Resume : public InFolder {
     const std::string clip = at("clip"), out = at("run");
     const pid_t child = fork();
     if (child == 0) {
+      signal(SIGHUP, SIG_DFL);  // which `nohup ./test.sh` has ignored, and the program leaves it so
       execl(executable().c_str(), "softscope", "reconstruct", clip.c_str(), "--out", out.c_str(),
             "--quiet", "--save-every", "1", "--set", "stereo.disparity_max_px=63",
             "--checkpoint-every", checkpoint_every.c_str(), nullptr);
