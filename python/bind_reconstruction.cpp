@@ -91,7 +91,7 @@ void bindRuns(py::module_& module) {
            "The model that was saved at this frame.");
 }
 
-void bindReconstructor(py::module_& module) {
+void bindFrameReports(py::module_& module) {
   py::class_<api::FrameReport>(module, "FrameReport", "What became of one frame.")
       .def_readonly("frame", &api::FrameReport::frame)
       .def_readonly("status", &api::FrameReport::status)
@@ -102,7 +102,8 @@ void bindReconstructor(py::module_& module) {
           [](const api::FrameReport& self) { return poseArray(self.world_from_left); },
           "4 x 4, float64, mm.")
       .def_readonly("coverage", &api::FrameReport::coverage)
-      .def_readonly("confidence", &api::FrameReport::confidence)
+      .def_readonly("confidence", &api::FrameReport::confidence,
+                    "0 to 1; nan if neither the first fused frame nor compared with the model.")
       .def_readonly("matches", &api::FrameReport::matches)
       .def_readonly("points", &api::FrameReport::points)
       .def_readonly("elapsed_ms", &api::FrameReport::elapsed_ms)
@@ -115,7 +116,9 @@ void bindReconstructor(py::module_& module) {
                            "processed when its report is asked for.")
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &FrameReports::next);
+}
 
+void bindReconstructor(py::module_& module) {
   py::class_<api::Reconstructor>(module, "Reconstructor",
                                  "Stereo frames to a live, deforming model.")
       .def(py::init([](const api::Calibration& calibration, const py::dict& settings,

@@ -27,6 +27,7 @@ PYBIND11_MODULE(softscope, module) {
   bindSequences(module);
   bindDepth(module);
   bindRuns(module);
+  bindFrameReports(module);
   bindReconstructor(module);
   bindJudges(module);
   bindPages(module);

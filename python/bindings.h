@@ -8,6 +8,7 @@ namespace softscope::python {
 void bindSequences(pybind11::module_& module);
 void bindDepth(pybind11::module_& module);
 void bindRuns(pybind11::module_& module);
+void bindFrameReports(pybind11::module_& module);
 void bindReconstructor(pybind11::module_& module);
 void bindJudges(pybind11::module_& module);
 void bindPages(pybind11::module_& module);

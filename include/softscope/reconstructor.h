@@ -22,7 +22,8 @@ struct FrameReport {
   bool fused = false;
   Pose world_from_left{};  // last known pose if this frame has none
   double coverage = 0;     // share of the tissue with depth
-  /// 0 to 1, NaN if the frame was not compared with the model: docs/fusion.md, F27.
+  /// 0 to 1: docs/fusion.md, F27. NaN if neither the first
+  /// fused frame nor compared with the model.
   double confidence = std::numeric_limits<double>::quiet_NaN();
   int matches = 0, points = 0;
   double elapsed_ms = 0;

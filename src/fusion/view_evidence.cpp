@@ -10,10 +10,10 @@
 namespace softscope {
 namespace {
 
-class Comparison {
+class ViewComparison {
  public:
-  Comparison(const DrawnPoints& drawn, const Observation& observation,
-             const Raster<PixelState>& states, const PixelOptions& options)
+  ViewComparison(const DrawnPoints& drawn, const Observation& observation,
+                 const Raster<PixelState>& states, const PixelOptions& options)
       : drawn_(drawn),
         model_(drawn.model()),
         observation_(observation),
@@ -87,7 +87,7 @@ ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observati
   options.validate();
   observation.validate();
   requireStates(states, observation);
-  const Comparison comparison(drawn, observation, states, options);
+  const ViewComparison comparison(drawn, observation, states, options);
   std::vector<EvidenceVotes> rows(static_cast<std::size_t>(comparison.rows()));
   parallelRanges(comparison.rows(), 1, [&](int begin, int end) {
     for (int row = begin; row < end; ++row)

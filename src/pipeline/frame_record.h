@@ -47,8 +47,8 @@ struct FrameRecord {
     return status == FrameStatus::kStarted || status == FrameStatus::kFused ||
            status == FrameStatus::kRecovered;
   }
-  /// Of pose, warp and depth, 0 to 1: docs/fusion.md (F27). NaN
-  /// without depth that has a sigma or a model to compare with.
+  /// Of pose, warp and depth, 0 to 1: docs/fusion.md (F27). NaN if neither the
+  /// first fused frame, of depth with sigmas, nor compared with the model.
   double confidence() const;
   double elapsed_ms() const;
 };

@@ -9,9 +9,9 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
-#include <map>
 #include <thread>
 
+#include "support/run_results.h"
 #include "tests/apps/run_softscope.h"
 #include "tests/io/temporary_folder.h"
 
@@ -140,17 +140,6 @@ TEST_F(Resume, ARunKilledBeforeItsFirstCheckpointStartsAnew) {
   EXPECT_EQ(countFiles(at("run/models")), 6)
       << "nothing of the killed run, a PLY and VTP per frame";
   EXPECT_EQ(resume({}).exit_code, 2) << "a complete run is none to resume";
-}
-
-/// Relative paths and bytes of the models and tables of a run.
-std::map<std::string, std::string> resultsIn(const fs::path& run_folder) {
-  std::map<std::string, std::string> results;
-  for (const auto& entry : fs::recursive_directory_iterator(run_folder)) {
-    const std::string name = fs::relative(entry.path(), run_folder);
-    if (entry.is_regular_file() && name != "frames.csv" && entry.path().extension() != ".json")
-      results[name] = textOf(entry.path());
-  }
-  return results;
 }
 
 TEST_F(Resume, AKilledRunGoesBackToItsCheckpointAndForgetsWhatCameAfterIt) {

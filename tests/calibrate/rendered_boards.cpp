@@ -46,9 +46,9 @@ cv::Mat charucoPicture(const BoardOptions& board, double pixels_per_mm) {
 /// part of the pixel, and without it edges would be on a grid of thirds of a pixel. `x` is 0 or
 /// more.
 double squareWave(double x, double width) {
-  const double line = double(long(x + 0.5));  // the nearest, without a call
-  const double after = std::clamp(2 * (x - line) / width, -1.0, 1.0);
-  return static_cast<long>(line) % 2 == 0 ? after : -after;
+  const long line = static_cast<long>(x + 0.5);  // the nearest, without a call
+  const double after = std::clamp(2 * (x - static_cast<double>(line)) / width, -1.0, 1.0);
+  return line % 2 == 0 ? after : -after;
 }
 
 /// Brightness at a place of the board's plane, whose origin is the first inner corner.
@@ -60,9 +60,9 @@ class BoardFace {
 
   /// Of a checkerboard, the mean over a square of `extent_mm`.
   double at(double x_mm, double y_mm, double extent_mm) const {
-    const double x = x_mm / board_.square_mm + 1, y = y_mm / board_.square_mm + 1;  // in squares
+    if (isBeyond(kRim, x_mm, y_mm)) return kAround;
+    const double x = inSquares(x_mm), y = inSquares(y_mm);
     const int columns = board_.cornerColumns() + 1, rows = board_.cornerRows() + 1;
-    if (x < -kRim || y < -kRim || x > columns + kRim || y > rows + kRim) return kAround;
     if (x < 0 || y < 0 || x >= columns || y >= rows) return kLight;
     if (!picture_.empty()) {
       const int u = std::min(picture_.cols - 1, int(x * board_.square_mm * kPixelsPerMm));
@@ -75,14 +75,20 @@ class BoardFace {
   }
 
   /// Nothing of the board is within half a square.
-  bool isFarFrom(double x_mm, double y_mm) const {
-    const double x = x_mm / board_.square_mm + 1, y = y_mm / board_.square_mm + 1;
-    const double far = kRim + 0.5;
-    return x < -far || y < -far || x > board_.cornerColumns() + 1 + far ||
-           y > board_.cornerRows() + 1 + far;
-  }
+  bool isFarFrom(double x_mm, double y_mm) const { return isBeyond(kRim + 0.5, x_mm, y_mm); }
 
  private:
+  /// From the outer corner.
+  double inSquares(double from_inner_corner_mm) const {
+    return from_inner_corner_mm / board_.square_mm + 1;
+  }
+  /// Farther than so many squares from all squares of the board, right, left, above or below.
+  bool isBeyond(double squares, double x_mm, double y_mm) const {
+    const double x = inSquares(x_mm), y = inSquares(y_mm);
+    return x < -squares || y < -squares || x > board_.cornerColumns() + 1 + squares ||
+           y > board_.cornerRows() + 1 + squares;
+  }
+
   static constexpr double kPixelsPerMm = 40;
   static constexpr double kRim = 0.6;  // width of the white rim, in squares
   BoardOptions board_;

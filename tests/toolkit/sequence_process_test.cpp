@@ -2,11 +2,10 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <map>
-#include <sstream>
 
 #include "softscope/reconstructor.h"
 #include "support/in_folder.h"
+#include "support/run_results.h"
 #include "tests/io/temporary_folder.h"
 #include "tests/toolkit/made_sequences.h"
 
@@ -16,33 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// frames.csv without its columns of times, whose headings end in _ms.
-std::string withoutTimes(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::vector<bool> is_time;  // per column
-  std::string kept;
-  for (std::string line; std::getline(lines, line); kept += "\n") {
-    const bool is_heading = kept.empty();
-    std::istringstream cells(line);
-    std::string cell;
-    for (std::size_t column = 0; std::getline(cells, cell, ','); ++column) {
-      if (is_heading) is_time.push_back(cell.size() > 3 && cell.substr(cell.size() - 3) == "_ms");
-      if (column >= is_time.size() || !is_time[column]) kept += cell + ",";
-    }
-  }
-  return kept;
-}
-
-/// Files of a run by their names; without run.json, and without times.
-std::map<std::string, std::string> filesOf(const fs::path& run) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(run))
-    if (entry.is_regular_file() && entry.path().filename() != "run.json")
-      files[fs::relative(entry.path(), run)] = textOf(entry.path());
-  files["frames.csv"] = withoutTimes(files["frames.csv"]);
-  return files;
-}
 
 api::Options smallDisparities() {
   api::Options options;
@@ -90,7 +62,7 @@ TEST_F(ProcessOfASequence, WritesTheBytesOfTheCommand) {
   EXPECT_FALSE(reconstructor.process(sequence)) << "each frame is read once";
   EXPECT_EQ(reconstructor.finish().frames().size(), 7U);
 
-  const auto files = filesOf(at("run")), expected = filesOf(at("command"));
+  const auto files = resultsIn(at("run")), expected = resultsIn(at("command"));
   EXPECT_EQ(files.size(), expected.size());
   for (const auto& [name, bytes] : expected) {
     ASSERT_EQ(files.count(name), 1U) << name;

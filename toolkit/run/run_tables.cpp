@@ -20,7 +20,7 @@ constexpr const char* kColumns =
     "residual_mm,in_sight,seen,fused,inserted,contradicted";
 
 /// Cells of one row, separated by commas.
-class Line {
+class CsvLine {
  public:
   void add(int value) { addText(std::to_string(value)); }
   void add(double value, int decimals) {
@@ -88,7 +88,7 @@ double timeOf(const FrameRecord& record, const std::string& stage) {
   return 0;
 }
 
-void addSolver(const FrameRecord& record, Line& line) {
+void addSolver(const FrameRecord& record, CsvLine& line) {
   const DeformSummary& solver = record.warp.solver;
   const bool ran =
       record.status == FrameStatus::kFused || record.status == FrameStatus::kRecovered ||
@@ -120,7 +120,7 @@ std::string tracksCsvHeading() { return "frame,id,x_mm,y_mm,z_mm,visible,sigma_m
 std::string imagesCsvHeading() { return "frame,number,left,right"; }
 
 std::string imagesCsvLine(int frame, const FrameNames& names) {
-  Line line;
+  CsvLine line;
   line.add(frame);
   line.addText(std::to_string(names.number));
   line.addText(quoted(names.left));
@@ -129,7 +129,7 @@ std::string imagesCsvLine(int frame, const FrameNames& names) {
 }
 
 std::string framesCsvLine(const FrameRecord& record) {
-  Line line;
+  CsvLine line;
   line.add(record.frame);
   line.add(record.time_s, 6);
   line.addText(toString(record.status));

@@ -1,0 +1,13 @@
+// tests/support/run_results.h: what two runs of the same input have in common.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace softscope::test {
+
+/// Bytes of the files of a run by their names; without run.json, and without times.
+std::map<std::string, std::string> resultsIn(const std::filesystem::path& run);
+
+}  // namespace softscope::test
