@@ -103,6 +103,11 @@ inline api::Options optionsOf(const std::map<std::string, std::string>& texts) {
   return options;
 }
 
+/// Options of a reconstruction, and of its sequence.
+inline api::Options reconstructionOptionsOf(const py::dict& settings, const py::kwargs& keywords) {
+  return optionsOf(settingTexts(settings, keywords, api::reconstructionSettings()));
+}
+
 /// Acquires the lock of Python between two parts of long work, for `progress` and for Ctrl-C.
 /// Copies of the callback hold no reference (that needs the lock): `progress` must outlive them.
 inline std::function<bool(int, int)> progressOf(const std::optional<py::function>& progress) {

@@ -123,8 +123,8 @@ void bindReconstructor(py::module_& module) {
                                  "Stereo frames to a live, deforming model.")
       .def(py::init([](const api::Calibration& calibration, const py::dict& settings,
                        const std::string& backend, const py::kwargs& keywords) {
-             const auto texts = settingTexts(settings, keywords, api::reconstructionSettings());
-             return std::make_unique<api::Reconstructor>(calibration, optionsOf(texts), backend);
+             return std::make_unique<api::Reconstructor>(
+                 calibration, reconstructionOptionsOf(settings, keywords), backend);
            }),
            "calibration"_a, "settings"_a = py::dict(), "backend"_a = "auto",
            "backend: auto, cpu or cuda. What differs from the defaults: by keyword, "

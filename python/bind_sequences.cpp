@@ -55,10 +55,26 @@ void bindSequences(py::module_& module) {
           "height x width, uint8, not 0: ignored pixel; None where there is none.");
 
   py::class_<api::Sequence>(module, "Sequence", "A stereo sequence on disk, frame by frame.")
-      .def(py::init<const std::string&>(), "folder"_a, Released())
-      .def(py::init<const std::string&, const std::string&, const std::string&>(), "left"_a,
-           "right"_a, "calibration"_a, Released())
+      .def(py::init(
+               [](const std::string& folder, const py::dict& settings, const py::kwargs& keywords) {
+                 const api::Options options = reconstructionOptionsOf(settings, keywords);
+                 const py::gil_scoped_release released;
+                 return std::make_unique<api::Sequence>(folder, options);
+               }),
+           "folder"_a, "settings"_a = py::dict(),
+           "Settings as for Reconstructor: those of the sequence and stereo.disparity_max_px are "
+           "used.")
+      .def(py::init([](const std::string& left, const std::string& right,
+                       const std::string& calibration, const py::dict& settings,
+                       const py::kwargs& keywords) {
+             const api::Options options = reconstructionOptionsOf(settings, keywords);
+             const py::gil_scoped_release released;
+             return std::make_unique<api::Sequence>(left, right, calibration, options);
+           }),
+           "left"_a, "right"_a, "calibration"_a, "settings"_a = py::dict(),
+           "Two image folders or videos with their calibration.")
       .def_property_readonly("calibration", &api::Sequence::calibration)
+      .def_property_readonly("warnings", &api::Sequence::warnings)
       .def("__len__", &api::Sequence::frameCount)
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", [](api::Sequence& self) {

@@ -24,7 +24,8 @@ TYPES = [
 ]
 SETTING_TYPES = {"true/false": "bool", "whole number": "int", "number": "float"}
 # Functions that take settings as keywords, and whose settings those are.
-KEYWORDS = {"Reconstructor": "reconstruct", "DepthEstimator": "depth", "simulate": "simulate"}
+KEYWORDS = {"Sequence": "reconstruct", "Reconstructor": "reconstruct",
+            "DepthEstimator": "depth", "simulate": "simulate"}
 
 
 def typed(signature):

@@ -40,7 +40,8 @@ class Reconstructor {
   Reconstructor& operator=(Reconstructor&&) noexcept;
 
   /// Before the first frame: writes a run folder during processing, with
-  /// the model of every `save_every`-th frame (0: last only). Throws
+  /// the model of every `save_every`-th frame (0: last only); all files are
+  /// updated every 100 frames. Throws
   /// OptionError if the folder contains a run and `overwrite` is false.
   void recordTo(const std::string& folder, int save_every = 10, bool overwrite = false);
 
@@ -49,7 +50,8 @@ class Reconstructor {
   /// unreadable frame leaves the model unchanged; the report contains the reason. Other images
   /// may follow after any frame. Throws InputError for images that do not fit the calibration or
   /// were deleted; OptionError if the folder of the run is in the sequence, if the run has frames
-  /// of other files, or a frame of this index or a later one.
+  /// of other files, or a frame of this index or a later one, or if the options of the
+  /// reconstructor have a value for the sequence that those of `sequence` do not have.
   std::optional<FrameReport> process(Sequence& sequence);
   /// The same for images without a Sequence. Throws InputError for
   /// an image that does not fit the calibration.

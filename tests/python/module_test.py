@@ -75,6 +75,13 @@ class ProcessesASequence(Clip):
                 del row[column]
         self.assertEqual(tables[0], tables[1])
 
+    def test_the_sequence_has_settings_and_warnings(self):
+        later = softscope.Sequence(self.clip, sequence_right_offset=1)
+        self.assertTrue((next(later).right == self.frames[1].right).all())
+        self.assertEqual(later.warnings, [])  # stated, not estimated
+        with self.assertRaisesRegex(softscope.OptionError, "sequence.right_offset"):
+            softscope.Sequence(self.clip, sequence_right_offset="none")
+
     def test_the_loop_may_be_left_and_continued(self):
         reconstructor = self.reconstructor("left")
         sequence = softscope.Sequence(self.clip)

@@ -38,4 +38,10 @@ std::map<std::string, std::string> resultsIn(const fs::path& run) {
   return files;
 }
 
+nlohmann::json recordWithoutTimes(const fs::path& run) {
+  nlohmann::json record = nlohmann::json::parse(textOf(run / "run.json"));
+  for (const char* times : {"frame_ms", "mean_frame_ms", "mean_stage_ms"}) record.erase(times);
+  return record;
+}
+
 }  // namespace softscope::test

@@ -1,8 +1,10 @@
 // tests/toolkit/sequence_process_test.cpp: api::Reconstructor::process() of a Sequence.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "io/files/folder.h"
 #include "softscope/reconstructor.h"
 #include "support/in_folder.h"
 #include "support/run_results.h"
@@ -68,6 +70,41 @@ TEST_F(ProcessOfASequence, WritesTheBytesOfTheCommand) {
     ASSERT_EQ(files.count(name), 1U) << name;
     EXPECT_TRUE(files.at(name) == bytes) << name;
   }
+  EXPECT_EQ(recordWithoutTimes(at("run")), recordWithoutTimes(at("command")));
+}
+
+TEST_F(ProcessOfASequence, UsesTheSettingsOfTheSequence) {
+  makeClip(4);
+  api::Options later = smallDisparities();
+  later.set("sequence.right_offset", "1");
+  api::Sequence sequence(at("clip"), later), plain(at("clip"));
+  plain.next();
+  EXPECT_EQ(sequence.next()->right.values, plain.next()->right.values);
+
+  api::Reconstructor reconstructor(sequence.calibration(), later, "cpu");
+  expectError<OptionError>([&] { reconstructor.process(plain); },
+                           {"`sequence.right_offset=` 1", "but not to the Sequence"});
+  reconstructor.recordTo(at("run"), /*save_every=*/0);
+  while (reconstructor.process(sequence)) {
+  }
+  reconstructor.finish();
+  EXPECT_EQ(recordWithoutTimes(at("run"))["configuration"]["sequence.right_offset"], "1");
+}
+
+TEST_F(ProcessOfASequence, UpdatesItsFilesEveryHundredFrames) {
+  makeClip(2);
+  fs::remove(at("clip/timestamps.txt"));
+  for (const std::string view : {"left", "right"})
+    for (int i = 2; i < 101; ++i) damage(view + "/" + numberedName(i, ".png"));
+  api::Sequence sequence(at("clip"));
+  api::Reconstructor reconstructor = reconstructorOf(sequence);
+  reconstructor.recordTo(at("run"), /*save_every=*/0);
+  for (int i = 0; i < 99; ++i) reconstructor.process(sequence);
+  EXPECT_FALSE(fs::exists(at("run/frames.csv")));
+  reconstructor.process(sequence);
+  const std::string table = textOf(at("run/frames.csv"));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 101);
+  EXPECT_TRUE(fs::exists(at("run/model.ply")));
 }
 
 TEST_F(ProcessOfASequence, MayStopAtAnyFrameAndGoOn) {

@@ -71,9 +71,8 @@ class SequenceMeasurement {
 /// As in reconstruct, for more than one pair with stereo depth.
 void SequenceMeasurement::estimateOffset() {
   DepthOptions& settings = options_.settings;
-  if (settings.measurement.source != "stereo" && !options_.sequence.depth.empty()) return;
-  const std::string warning = estimateRightOffset(options_.sequence, settings.sequence,
-                                                  settings.measurement.stereo.disparity_max_px);
+  const std::string warning =
+      estimateRightOffset(options_.sequence, settings.measurement, settings.sequence);
   if (!warning.empty()) listener_.warn(warning);
 }
 

@@ -11,6 +11,7 @@
 #include "toolkit/face/model_copy.h"
 #include "toolkit/face/run_options_of.h"
 #include "toolkit/face/sequence_data.h"
+#include "toolkit/record/record_paths.h"
 #include "toolkit/run/out_folder.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_record.h"
@@ -18,6 +19,20 @@
 
 namespace softscope::api {
 namespace {
+
+constexpr const char* kNotResumable = "";  // digest that no command has
+
+/// `given`: of the sequence. Those of a reconstruction may have none or the same.
+void requireSameSequenceOptions(const Options& chosen, const Options& given) {
+  for (const auto& [key, value] : chosen.values()) {
+    if (key.rfind("sequence.", 0) != 0) continue;
+    const auto found = given.values().find(key);
+    if (found == given.values().end() || found->second != value)
+      throw OptionError("`" + key + "=` " + value + ": was given to the Reconstructor, but " +
+                        (found == given.values().end() ? "not" : found->second) +
+                        " to the Sequence, which reads the images; give it the same settings");
+  }
+}
 
 FrameReport reportOf(const FrameRecord& record) {
   FrameReport report;
@@ -37,12 +52,14 @@ FrameReport reportOf(const FrameRecord& record) {
 }  // namespace
 
 struct Reconstructor::Impl {
-  Impl(const Calibration& given, const Options& chosen, const std::string& backend)
+  Impl(const Calibration& given, const Options& given_options, const std::string& backend)
       : calibration(sized(given.data().calibration)),
+        chosen(given_options),
         options(runOptionsOf(chosen)),
         loop(makeBackend(backend, calibration, options.method).part, options.method) {}
 
   StereoCalibration calibration;
+  Options chosen;
   RunOptions options;
   softscope::Reconstructor loop;
   int next_frame = 0;
@@ -54,12 +71,14 @@ struct Reconstructor::Impl {
 
   void begin(const std::shared_ptr<const Sequence::Impl>& given);
   FrameReport add(const FrameRecord& frame, const FrameNames& names = {});
+  void flush() { folder->flush({kNotResumable, next_frame, loop.state()}); }
 };
 
 /// Checks a sequence before its first frame, and adds its files to the record of the run.
 void Reconstructor::Impl::begin(const std::shared_ptr<const Sequence::Impl>& given) {
   if (sequence.lock() == given) return;
   requireFit(given->reader.calibration(), calibration);
+  requireSameSequenceOptions(chosen, given->chosen);
   if (folder) {
     requireOutside(out, given->paths);
     const FactSheet::Json found = inputsJson(given->paths, options.method.depth.stereo.model);
@@ -69,13 +88,18 @@ void Reconstructor::Impl::begin(const std::shared_ptr<const Sequence::Impl>& giv
           "Begin another run with a new Reconstructor");
     inputs = found;
     record->set("inputs", inputs);
+    options.sequence = given->options;
+    record->setConfiguration(settingsOf(options).list());
   }
   sequence = given;
 }
 
 FrameReport Reconstructor::Impl::add(const FrameRecord& frame, const FrameNames& names) {
   next_frame = frame.frame + 1;
-  if (folder) recordFrame(frame, names, loop, *folder, *record);
+  if (folder) {
+    recordFrame(frame, names, loop, *folder, *record);
+    if (folder->needsFlush() && !loop.backend().empty()) flush();
+  }
   return reportOf(frame);
 }
 
@@ -132,8 +156,9 @@ Run Reconstructor::finish() {
   if (impl_->loop.backend().empty())
     throw InputError(impl_->out + ": no frame could be used; see the reason in the reports");
   impl_->folder->saveLastModel(impl_->loop.model());
-  impl_->folder->flush({"", impl_->next_frame, impl_->loop.state()});
-  impl_->folder->writeRecord(impl_->record->json(), /*complete=*/true);
+  impl_->flush();
+  impl_->record->set("interrupted", false);
+  impl_->folder->writeRecord(RecordPaths().applyTo(impl_->record->json()), /*complete=*/true);
   impl_->folder.reset();
   return Run(impl_->out);
 }

@@ -4,16 +4,18 @@
 #include "pipeline/run_options.h"
 #include "toolkit/face/calibration_data.h"
 #include "toolkit/face/image_copies.h"
+#include "toolkit/face/run_options_of.h"
 #include "toolkit/face/sequence_data.h"
 #include "toolkit/run/stereo_sync.h"
 
 namespace softscope::api {
 namespace {
 
-SequenceReader openSequence(const SequencePaths& paths) {
-  RunOptions options;
-  estimateRightOffset(paths, options.sequence, options.method.depth.stereo.disparity_max_px);
-  return SequenceReader(paths, options.sequence);
+/// As the command: with the estimated offset between the views.
+SequenceOptions optionsOf(const SequencePaths& paths, const Options& chosen, std::string* warning) {
+  RunOptions options = runOptionsOf(chosen);
+  *warning = estimateRightOffset(paths, options.method.depth, options.sequence);
+  return options.sequence;
 }
 
 SequencePaths pathsOf(const std::string& left, const std::string& right,
@@ -27,15 +29,19 @@ SequencePaths pathsOf(const std::string& left, const std::string& right,
 
 }  // namespace
 
-Sequence::Impl::Impl(SequencePaths opened)
-    : paths(std::move(opened)), reader(openSequence(paths)), frames(reader) {}
+Sequence::Impl::Impl(SequencePaths opened, const Options& given)
+    : paths(std::move(opened)),
+      chosen(given),
+      options(optionsOf(paths, chosen, &offset_warning)),
+      reader(paths, options),
+      frames(reader) {}
 
-Sequence::Sequence(const std::string& folder)
-    : impl_(std::make_shared<Impl>(findSequence(folder))) {}
+Sequence::Sequence(const std::string& folder, const Options& options)
+    : impl_(std::make_shared<Impl>(findSequence(folder), options)) {}
 
 Sequence::Sequence(const std::string& left, const std::string& right,
-                   const std::string& calibration)
-    : impl_(std::make_shared<Impl>(pathsOf(left, right, calibration))) {}
+                   const std::string& calibration, const Options& options)
+    : impl_(std::make_shared<Impl>(pathsOf(left, right, calibration), options)) {}
 
 Sequence::~Sequence() = default;
 Sequence::Sequence(Sequence&&) noexcept = default;
@@ -44,6 +50,12 @@ Sequence& Sequence::operator=(Sequence&&) noexcept = default;
 Calibration Sequence::calibration() const { return calibrationOf(impl_->reader.calibration()); }
 
 int Sequence::frameCount() const { return impl_->reader.frameCount(); }
+
+std::vector<std::string> Sequence::warnings() const {
+  std::vector<std::string> all = impl_->reader.calibration().warnings;
+  if (!impl_->offset_warning.empty()) all.insert(all.begin(), impl_->offset_warning);
+  return all;
+}
 
 std::optional<Frame> Sequence::next() {
   const FrameResult* result = impl_->frames.advance();

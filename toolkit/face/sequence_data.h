@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/sequences/frame_window.h"
+#include "io/sequences/sequence_options.h"
 #include "io/sequences/sequence_paths.h"
 #include "io/sequences/sequence_reader.h"
 #include "softscope/sequence.h"
@@ -10,9 +11,12 @@ namespace softscope::api {
 
 struct Sequence::Impl {
   /// Opens as `softscope reconstruct` does. Throws InputError.
-  explicit Impl(SequencePaths opened);
+  Impl(SequencePaths opened, const Options& given);
 
   SequencePaths paths;
+  Options chosen;
+  std::string offset_warning;  // empty: none
+  SequenceOptions options;     // as used: with the estimated offset
   SequenceReader reader;
   FrameWindow frames;
 };

@@ -134,7 +134,9 @@ void addView(const fs::path& view, const std::string& key, FactSheet& facts) {
 void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool check_all,
                    FactSheet& facts) {
   SequenceOptions options;
-  const std::string shifted = estimateRightOffset(paths, options, StereoOptions().disparity_max_px);
+  FrameDepthOptions measured;
+  measured.source = "stereo";  // the views are checked, whatever depth there is
+  const std::string shifted = estimateRightOffset(paths, measured, options);
   SequenceReader reader(paths, options);
   auto first = reader.next();
   while (first && first->unpaired) first = reader.next();

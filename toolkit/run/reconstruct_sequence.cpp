@@ -13,7 +13,6 @@
 #include "pipeline/reconstructor.h"
 #include "toolkit/run/out_folder.h"
 #include "toolkit/run/repeated_warnings.h"
-#include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_reader.h"
 #include "toolkit/run/run_record.h"
 #include "toolkit/run/sequence_frame.h"
@@ -115,15 +114,13 @@ ReconstructedRun SequenceRun::run() {
   const std::vector<TrackSeed> tracked = seedsOf(options_.tracks);
   requireOutside(options_.out, options_.sequence);
   SequenceOptions& sequence = options_.settings.sequence;
-  RunFolder folder(
-      {options_.out, options_.save_every, sequence.frames, !tracked.empty(), options_.overwrite},
-      options_.resume);
+  RunFolder folder({options_.out, options_.save_every, sequence.frames, !tracked.empty(),
+                    options_.overwrite, options_.checkpoint_every},
+                   options_.resume);
   const ReconstructionOptions& method = options_.settings.method;
-  if (method.depth.source == "stereo" || options_.sequence.depth.empty())
-    if (const std::string warning =
-            estimateRightOffset(options_.sequence, sequence, method.depth.stereo.disparity_max_px);
-        !warning.empty())
-      listener_.warn(warning);
+  if (const std::string warning = estimateRightOffset(options_.sequence, method.depth, sequence);
+      !warning.empty())
+    listener_.warn(warning);
   const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model);
   const SettingsBinder binder = settingsOf(options_.settings);
   const std::string digest = digestOf(inputs, binder.list(), options_.tracks, sequence.frames);
@@ -153,7 +150,7 @@ ReconstructedRun SequenceRun::run() {
 void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
                                  RunFolder& folder, RunRecord& record, const std::string& digest,
                                  int next_frame) {
-  int since_flush = 0, processed = 0;
+  int processed = 0;
   bool at_end = all_done_;
   bool wanted = reportProgress(listener_.progress, 0, frame_count);
   while (wanted && !at_end) {
@@ -174,10 +171,8 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     recordFrame(frame, result->names, reconstructor, folder, record);
     next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
-    if (++since_flush >= options_.checkpoint_every && !reconstructor.backend().empty()) {
+    if (folder.needsFlush() && !reconstructor.backend().empty())
       folder.flush({digest, next_frame, reconstructor.state()});
-      since_flush = 0;
-    }
     wanted = reportProgress(listener_.progress, processed, frame_count);
   }
   rejections_.conclude("reasons: frames.csv");
@@ -215,7 +210,6 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
 
 void ReconstructOptions::validate() const {
   settings.validate();
-  require(checkpoint_every >= 1, "`checkpoint_every=`", checkpoint_every, "must be 1 or more");
   requireBackendName(backend);
 }
 

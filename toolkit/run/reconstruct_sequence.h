@@ -11,6 +11,7 @@
 #include "toolkit/progress.h"
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/record/record_paths.h"
+#include "toolkit/run/run_folder.h"
 
 namespace softscope {
 
@@ -18,11 +19,11 @@ struct ReconstructOptions {
   SequencePaths sequence;
   std::string name;  // name of the sequence in messages
   RunOptions settings;
-  std::string backend = "auto";       // or cpu, cuda
-  std::filesystem::path tracks;       // CSV id,u_px,v_px in the first left image; empty: none
-  std::filesystem::path out;          // folder of the run
-  int save_every = 10;                // frames between saved models; 0: only the last model
-  int checkpoint_every = 100;         // frames between updates of all files
+  std::string backend = "auto";  // or cpu, cuda
+  std::filesystem::path tracks;  // CSV id,u_px,v_px in the first left image; empty: none
+  std::filesystem::path out;     // folder of the run
+  int save_every = 10;           // frames between saved models; 0: only the last model
+  int checkpoint_every = kCheckpointFrames;
   bool resume = false;                // continue an interrupted run
   bool overwrite = false;             // replace an earlier run
   std::vector<Threshold> thresholds;  // on run.json; metrics without a path are those of `outcomes`

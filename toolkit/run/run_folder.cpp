@@ -144,6 +144,8 @@ PointCloud cloudOf(const ModelState& state) {
 
 RunFolder::RunFolder(RunFolderOptions options, bool resume) : options_(std::move(options)) {
   require(options_.save_every >= 0, "`save_every=`", options_.save_every, "can't be negative");
+  require(options_.checkpoint_every >= 1, "`checkpoint_every=`", options_.checkpoint_every,
+          "must be 1 or more");
   requireUsable(options_, resume);
 }
 
@@ -215,6 +217,7 @@ void RunFolder::begin() {
 
 void RunFolder::add(const FrameRecord& record, const FrameNames& names) {
   last_frame_ = record.frame;
+  ++unflushed_frames_;
   if (!names.left.empty()) images_csv_ += imagesCsvLine(record.frame, names);
   frames_csv_ += framesCsvLine(record);
   tracks_csv_ += tracksCsvLines(record);
@@ -257,6 +260,7 @@ void RunFolder::writeTables(const ModelState& state) {
 void RunFolder::flush(const CheckpointView& checkpoint) {
   writeTables(checkpoint.state.model);
   writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
+  unflushed_frames_ = 0;
 }
 
 void RunFolder::saveLastModel(const ModelState& state) {

@@ -21,12 +21,16 @@ namespace softscope {
 /// Locked by the writing process, removed at the end of the run.
 inline constexpr const char* kRunLock = "writing.lock";
 
+/// Frames between updates of all files of a run.
+inline constexpr int kCheckpointFrames = 100;
+
 struct RunFolderOptions {
   std::filesystem::path folder;
   int save_every = 10;  // frames between models/NNNNNN.ply; 0: none
   FrameRange frames;    // reconstructed frames
   bool tracks = false;
   bool overwrite = false;
+  int checkpoint_every = kCheckpointFrames;  // frames between flushes
 };
 
 /// Tables and models of one run. Files are written atomically; flush()
@@ -61,6 +65,8 @@ class RunFolder {
   /// nodes/NNNNNN.csv. For the frame added last.
   void saveModel(int frame, double time_s, const ModelState& state);
   void flush(const CheckpointView& checkpoint);
+  /// True after each `checkpoint_every` frames without flush().
+  bool needsFlush() const { return unflushed_frames_ >= options_.checkpoint_every; }
   /// Saves the model of the last frame unless saved before.
   void saveLastModel(const ModelState& state);
   /// Writes the metadata for repositories, then
@@ -80,6 +86,7 @@ class RunFolder {
   RunFolderOptions options_;
   bool begun_ = false;
   int last_frame_ = -1;  // frame added last
+  int unflushed_frames_ = 0;
   std::string frames_csv_, tracks_csv_, images_csv_;
   Trajectory trajectory_;
   PinholeCamera left_;

@@ -66,9 +66,13 @@ RunRecord::RunRecord(const Json& inputs, const StereoCalibration& calibration,
   json_["machine"] = machineJson(backend);
   json_["inputs"] = inputs;
   json_["rectified_rig"] = rigJson(backend.rig(), hasOneCamera(calibration));
+  setConfiguration(settings);
+  for (const std::string& warning : calibration.warnings) addWarning(warning);
+}
+
+void RunRecord::setConfiguration(const std::vector<SettingInfo>& settings) {
   for (const SettingInfo& setting : settings)
     json_["configuration"][setting.key] = valueOf(setting);
-  for (const std::string& warning : calibration.warnings) addWarning(warning);
 }
 
 void RunRecord::add(const FrameRecord& record) {

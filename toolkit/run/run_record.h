@@ -24,6 +24,8 @@ class RunRecord {
   RunRecord(const FactSheet::Json& inputs, const StereoCalibration& calibration,
             const ReconstructionBackend& backend, const std::vector<SettingInfo>& settings);
 
+  /// Replaces the values recorded for these keys.
+  void setConfiguration(const std::vector<SettingInfo>& settings);
   void add(const FrameRecord& record);
   void addWarning(const std::string& text) { warnings_.push_back(text); }
   void set(const std::string& key, const FactSheet::Json& value) { json_[key] = value; }

@@ -55,10 +55,11 @@ ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options
 
 }  // namespace
 
-std::string estimateRightOffset(const SequencePaths& paths, SequenceOptions& options,
-                                int disparity_max_px) {
+std::string estimateRightOffset(const SequencePaths& paths, const FrameDepthOptions& depth,
+                                SequenceOptions& options) {
+  if (depth.source != "stereo" && !paths.depth.empty()) return "";
   if (options.right_offset != "auto" || paths.right.empty() || isPicture(paths.left)) return "";
-  const ViewSynchrony found = measure(paths, options, disparity_max_px);
+  const ViewSynchrony found = measure(paths, options, depth.stereo.disparity_max_px);
   options.right_offset = std::to_string(found.right_offset);
   if (found.right_offset == 0) return "";
   std::array<char, 16> offset{};
