@@ -77,10 +77,11 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
     if (!surface.found() || !shows(centre, surface)) return position;
     const DepthVariance of_depth =
         depthVariance(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_);
-    const double noise_mm2 = 2 * point.variance_mm2 + of_depth.noise_mm2;
+    const double sigma_mm =
+        std::sqrt(2 * point.variance_mm2 + of_depth.noise_mm2 + of_depth.relief_mm2);
     // As for a depth: worse ones update nothing.
-    position.visible = !(std::sqrt(noise_mm2) > frame_.fusion.pixels.max_sigma_mm);
-    if (position.visible) position.sigma_mm = std::sqrt(noise_mm2 + of_depth.relief_mm2);
+    position.visible = !(sigma_mm > frame_.fusion.pixels.max_sigma_mm);
+    if (position.visible) position.sigma_mm = sigma_mm;
     return position;
   };
   std::vector<TrackedPosition> positions(tracked.points.size());

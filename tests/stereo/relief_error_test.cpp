@@ -34,12 +34,42 @@ Raster<float> depthOf(const std::function<double(int u, int v)>& disparity_px) {
   return depth_mm;
 }
 
+/// Disparities count in 1024ths of a pixel; window means round to a few of them.
+constexpr double kRoundedPx = 0.002;
+
+void expectNone(const Raster<float>& error_px) {
+  for (int v = 0; v < kReliefHeight; ++v)
+    for (int u = 0; u < kReliefWidth; ++u)
+      EXPECT_LT(error_px.at(u, v), kRoundedPx) << u << " " << v;
+}
+
 TEST(ReliefError, APlaneHasNone) {
   const auto plane = depthOf([](int u, int v) { return 50 + 0.25 * u - 0.125 * v; });
-  const Raster<float> error_px = reliefErrorPx(plane, reliefRig());
-  for (int v = 2 * kReachPx; v < kReliefHeight - 2 * kReachPx; ++v)
-    for (int u = 2 * kReachPx; u < kReliefWidth - 2 * kReachPx; ++u)
-      EXPECT_LT(error_px.at(u, v), 0.002) << u << " " << v;  // disparity counts in 1024ths
+  expectNone(reliefErrorPx(plane, reliefRig()));
+}
+
+TEST(ReliefError, ADepthStepIsNone) {
+  const auto bar_px = [](int u, int v) {
+    const double behind = 40 + 0.125 * u;
+    return u > 30 && u < 50 && v > 20 ? behind + 6 : behind;
+  };
+  expectNone(reliefErrorPx(depthOf(bar_px), reliefRig()));
+  Raster<float> with_gap = depthOf(bar_px);  // stereo removes pixels next to steps
+  for (int v = 21; v < kReliefHeight; ++v)
+    for (const int u : {29, 30, 31, 49, 50}) with_gap.at(u, v) = 0;
+  const Raster<float> error_px = reliefErrorPx(with_gap, reliefRig());
+  for (const float error : error_px.values) EXPECT_FALSE(error >= 3 * kRoundedPx);
+}
+
+/// Windows at the step show less bend, so those of its neighbours count, too.
+TEST(ReliefError, OfCurvedTissueIsKnownUpToAStep) {
+  constexpr double kBend = 0.004;
+  const auto edge = depthOf([](int u, int) { return u < 45 ? 50 + kBend * u * u : 20; });
+  const Raster<float> error_px = reliefErrorPx(edge, reliefRig());
+  const double inside_px = error_px.at(20, 35);
+  EXPECT_GT(error_px.at(44, 35), 0.3 * inside_px);
+  EXPECT_LT(error_px.at(44, 35), 1.1 * inside_px);
+  EXPECT_LT(error_px.at(46, 35), kRoundedPx);
 }
 
 /// A window of n pixels sees u² as (n² - 1) / 12 more than it is in the middle.
