@@ -12,6 +12,15 @@ api::Depth measure(api::DepthEstimator& self, const Bytes& left, const Bytes& ri
   return self.measure(frame);
 }
 
+/// Opens without Python's lock. `paths`: arguments of Sequence.
+template <class... Paths>
+std::unique_ptr<api::Sequence> open(const py::dict& settings, const py::kwargs& keywords,
+                                    const Paths&... paths) {
+  const api::Options options = reconstructionOptionsOf(settings, keywords);
+  const py::gil_scoped_release released;
+  return std::make_unique<api::Sequence>(paths..., options);
+}
+
 /// Raster over the memory of `self`, height x width, or x 3.
 template <std::vector<float> api::Depth::*Values>
 py::array_t<float> rasterOf(const py::object& self) {
@@ -25,7 +34,7 @@ py::array_t<float> rasterOf(const py::object& self) {
 
 }  // namespace
 
-void bindSequences(py::module_& module) {
+void bindFrames(py::module_& module) {
   py::class_<api::Calibration>(module, "Calibration", "Two cameras on one scope; lengths in mm.")
       .def_static("read", &api::Calibration::read, "file"_a, "width_px"_a = 0, "height_px"_a = 0,
                   "From a calibration file; the size of the images where the file lacks it.")
@@ -53,23 +62,19 @@ void bindSequences(py::module_& module) {
           "mask",
           [](const py::object& self) { return arrayOf(self.cast<api::Frame&>().mask, self); },
           "height x width, uint8, not 0: ignored pixel; None where there is none.");
+}
 
+void bindSequences(py::module_& module) {
   py::class_<api::Sequence>(module, "Sequence", "A stereo sequence on disk, frame by frame.")
-      .def(py::init(
-               [](const std::string& folder, const py::dict& settings, const py::kwargs& keywords) {
-                 const api::Options options = reconstructionOptionsOf(settings, keywords);
-                 const py::gil_scoped_release released;
-                 return std::make_unique<api::Sequence>(folder, options);
-               }),
+      .def(py::init([](const std::string& folder, const py::dict& settings,
+                       const py::kwargs& keywords) { return open(settings, keywords, folder); }),
            "folder"_a, "settings"_a = py::dict(),
            "Settings as for Reconstructor: those of the sequence and stereo.disparity_max_px are "
            "used.")
       .def(py::init([](const std::string& left, const std::string& right,
                        const std::string& calibration, const py::dict& settings,
                        const py::kwargs& keywords) {
-             const api::Options options = reconstructionOptionsOf(settings, keywords);
-             const py::gil_scoped_release released;
-             return std::make_unique<api::Sequence>(left, right, calibration, options);
+             return open(settings, keywords, left, right, calibration);
            }),
            "left"_a, "right"_a, "calibration"_a, "settings"_a = py::dict(),
            "Two image folders or videos with their calibration.")

@@ -24,6 +24,7 @@ PYBIND11_MODULE(softscope, module) {
   using namespace softscope::python;
   module.doc() = "Live, deforming tissue models from stereo endoscope images. Lengths are mm.";
   bindErrors(module);
+  bindFrames(module);
   bindSequences(module);
   bindDepth(module);
   bindRuns(module);

@@ -5,6 +5,7 @@
 
 namespace softscope::python {
 
+void bindFrames(pybind11::module_& module);
 void bindSequences(pybind11::module_& module);
 void bindDepth(pybind11::module_& module);
 void bindRuns(pybind11::module_& module);
