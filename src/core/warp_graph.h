@@ -44,27 +44,38 @@ using NodeStencil = std::array<std::int32_t, kNodesPerPoint>;
 /// Embedded deformation graph. Its warp maps the last frame to the live one: after each
 /// frame nodes are re-based, so that positions are live and transforms the identity.
 struct WarpGraph {
-  std::vector<Eigen::Vector3d> positions_mm;  // of the nodes, in the world frame, before the warp
-  std::vector<NodeTransform> transforms;      // one per node
-  std::vector<Eigen::Vector3d> moved_mm;      // displacement since the reference shape, world
-  std::vector<Eigen::Matrix3d> turned;        // rotation since creation, world from node
-  std::vector<GraphEdge> edges;               // ascending by (first, second)
-  std::vector<NodeStencil> stencils;          // indexed by PointBinding::stencil
+  std::vector<Eigen::Vector3d> positions_mm;   // of the nodes, in the world frame, before the warp
+  std::vector<NodeTransform> transforms;       // one per node
+  std::vector<NodeTransform> since_reference;  // motion since the reference shape, world
+  std::vector<Eigen::Matrix3d> turned;         // rotation since creation, world from node
+  std::vector<GraphEdge> edges;                // ascending by (first, second)
+  std::vector<NodeStencil> stencils;           // indexed by PointBinding::stencil
 
   std::size_t size() const { return positions_mm.size(); }
   bool empty() const { return positions_mm.empty(); }
 };
 
-/// Displacement of the tissue at a bound point in the world
-/// since the reference shape; zero for an unbound point.
-inline Eigen::Vector3d movedMm(const WarpGraph& graph, const PointBinding& binding) {
-  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-  if (!binding.bound() || graph.moved_mm.size() != graph.size()) return moved;
+/// Where tissue that is now at `point_mm` was before the node made `motion` and arrived at
+/// `node_mm`: the inverse of warpByNode(). `motion.linear` is a rotation. mm.
+inline Eigen::Vector3d beforeMotion(const NodeTransform& motion, const Eigen::Vector3d& node_mm,
+                                    const Eigen::Vector3d& point_mm) {
+  return motion.linear.transpose() * (point_mm - node_mm) + node_mm - motion.translation_mm;
+}
+
+/// Position of a bound point in the reference shape: docs/energy.md (30).
+/// An unbound point is where it was. World, mm.
+inline Eigen::Vector3d referencePosition(const WarpGraph& graph, const PointBinding& binding,
+                                         const Eigen::Vector3d& point_mm) {
+  if (!binding.bound() || graph.since_reference.size() != graph.size()) return point_mm;
   const NodeStencil& stencil = graph.stencils[static_cast<std::size_t>(binding.stencil)];
-  for (int k = 0; k < kNodesPerPoint; ++k)
-    moved += static_cast<double>(binding.weights[k]) *
-             graph.moved_mm[static_cast<std::size_t>(stencil[k])];
-  return moved;
+  Eigen::Vector3d moved_mm = Eigen::Vector3d::Zero();
+  for (int k = 0; k < kNodesPerPoint; ++k) {
+    const std::size_t node = static_cast<std::size_t>(stencil[k]);
+    moved_mm +=
+        static_cast<double>(binding.weights[k]) *
+        (point_mm - beforeMotion(graph.since_reference[node], graph.positions_mm[node], point_mm));
+  }
+  return point_mm - moved_mm;
 }
 
 /// Number of different nodes of a stencil.

@@ -9,9 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 8\n";
-constexpr std::string_view kEarlierMagic = "softscope checkpoint 7\n";  // without LastingErrors
-static_assert(kMagic.size() == kEarlierMagic.size());
+constexpr std::string_view kMagic = "softscope checkpoint 9\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -107,7 +105,7 @@ template <class Archive, class Graph>
 void visitGraph(Archive& archive, Graph& graph) {
   archive.array(graph.positions_mm);
   archive.array(graph.transforms);
-  archive.array(graph.moved_mm);
+  archive.array(graph.since_reference);
   archive.array(graph.turned);
   archive.array(graph.edges);
   archive.array(graph.stencils);
@@ -175,6 +173,7 @@ void visit(Archive& archive, Whole& checkpoint) {
   archive.value(checkpoint.state.lost);
   archive.value(checkpoint.state.unfused_frames);
   archive.value(checkpoint.state.searches);
+  visitErrors(archive, checkpoint.state.model.errors);
 }
 
 }  // namespace
@@ -182,7 +181,6 @@ void visit(Archive& archive, Whole& checkpoint) {
 std::string checkpointBytes(const CheckpointView& checkpoint) {
   Writer writer;
   visit(writer, checkpoint);
-  visitErrors(writer, checkpoint.state.model.errors);
   const std::uint64_t checksum = checksumOf(writer.bytes);
   std::string bytes(kMagic);
   bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
@@ -192,8 +190,7 @@ std::string checkpointBytes(const CheckpointView& checkpoint) {
 Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name) {
   std::uint64_t checksum = 0;
   const std::size_t head = kMagic.size() + sizeof checksum;
-  const std::string_view magic = bytes.substr(0, kMagic.size());
-  if (bytes.size() < head || (magic != kMagic && magic != kEarlierMagic))
+  if (bytes.size() < head || bytes.substr(0, kMagic.size()) != kMagic)
     throw InputError(name + ": is no checkpoint of this version. Start again without `resume=`");
   std::memcpy(&checksum, bytes.data() + kMagic.size(), sizeof checksum);
   if (checksumOf(bytes.substr(head)) != checksum)
@@ -201,7 +198,6 @@ Checkpoint parseCheckpoint(std::string_view bytes, const std::string& name) {
   Reader reader(bytes.substr(head), name);
   Checkpoint checkpoint;
   visit(reader, checkpoint);
-  if (magic == kMagic) visitErrors(reader, checkpoint.state.model.errors);
   return checkpoint;
 }
 

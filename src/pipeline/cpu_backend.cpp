@@ -196,7 +196,7 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
     const PointBinding& binding =
         state_.model.bindings[static_cast<std::size_t>(match.model_point)];
     const Eigen::Vector3d model_mm = match.source_world_mm.cast<double>();
-    pairs.push_back({model_mm, model_mm - movedMm(state_.graph, binding),
+    pairs.push_back({model_mm, referencePosition(state_.graph, binding, model_mm),
                      projectPoint(rig.left, live), match.across_mm * px_per_mm,
                      rig.disparityPx(live.z()), sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
   }
@@ -253,7 +253,7 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
 
 void CpuBackend::acceptWarp(bool is_reference) {
   warp_.apply(updater_.get(), options_.graph.node_spacing_mm, &state_);
-  if (is_reference) state_.graph.moved_mm.assign(state_.graph.size(), Eigen::Vector3d::Zero());
+  if (is_reference) state_.graph.since_reference.assign(state_.graph.size(), NodeTransform());
   clock_.lap("warp");
 }
 

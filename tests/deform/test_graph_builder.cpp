@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "deform/graph/warp.h"
 #include "scenes.h"
 
 namespace softscope {
@@ -114,6 +115,34 @@ TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
     used[binding.stencil] = 1;
   }
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);  // no stencil outlives its points
+}
+
+TEST(GraphBuilder, NewNodesHaveMovedLikeTheTissueBesideThem) {
+  PointModel whole = scenes::makeHill(40, 20, 0.4);
+  PointModel model;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    if (whole.positions_mm[i].x() < 0)
+      model.add(whole.positions_mm[i], whole.normals[i], whole.colours[i], 1);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const std::size_t old_nodes = graph.size();
+  const Eigen::Isometry3d motion = scenes::rigidMotion();
+  for (std::size_t j = 0; j < old_nodes; ++j) {
+    graph.transforms[j].linear = motion.linear();
+    graph.transforms[j].translation_mm = motion * graph.positions_mm[j] - graph.positions_mm[j];
+  }
+  warpModel(graph, &model);
+  rebase(&graph);
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    if (whole.positions_mm[i].x() >= 0)
+      model.add((motion * whole.positions_mm[i].cast<double>()).cast<float>(), whole.normals[i],
+                whole.colours[i], 1);
+  growGraph(GraphOptions(), &model, &graph);
+  ASSERT_GT(graph.size(), old_nodes);
+  for (std::size_t j = old_nodes; j < graph.size(); ++j) {
+    const Eigen::Vector3d& at = graph.positions_mm[j];
+    const Eigen::Vector3d found = beforeMotion(graph.since_reference[j], at, at);
+    EXPECT_LT((found - motion.inverse() * at).norm(), 1e-9);
+  }
 }
 
 TEST(GraphBuilder, DoesNothingWhereEveryPointIsBound) {

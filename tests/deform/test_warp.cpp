@@ -135,5 +135,56 @@ TEST(Rebase, MovesNodesAndForgetsTransforms) {
   EXPECT_TRUE(graph.transforms[3].translation_mm.isZero(0));
 }
 
+// Turns count like shifts: half a spacing from its nodes, a point moves by both alike.
+TEST(ReferencePosition, IsWhereThePointWasBeforeAllMotionsOfItsNodes) {
+  PointModel model = scenes::makeHill(20, 20, 0.5);
+  const PointModel before = model;
+  WarpGraph graph = scenes::bindGraph(&model);
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.linear() = rotationOf({0.1, -0.2, 0.3}).toRotationMatrix();
+  for (const Eigen::Isometry3d& motion : {scenes::rigidMotion(), turn}) {
+    moveNodes(motion, &graph);
+    warpModel(graph, &model);
+    rebase(&graph);
+  }
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const Eigen::Vector3d now = model.positions_mm[i].cast<double>();
+    const Eigen::Vector3d then = before.positions_mm[i].cast<double>();
+    EXPECT_LT((referencePosition(graph, model.bindings[i], now) - then).norm(), 5e-5);  // floats
+  }
+}
+
+// Turns of nodes at random leave no drift, to the second order in the angle.
+TEST(ReferencePosition, IsWhereThePointWasBeforeManySmallUnevenMotions) {
+  PointModel model = scenes::makeHill(20, 20, 0.5);
+  const PointModel before = model;
+  WarpGraph graph = scenes::bindGraph(&model);
+  for (int k = 0; k < 20; ++k) {
+    waveNodes(&graph);
+    for (NodeTransform& transform : graph.transforms) {
+      const Eigen::AngleAxisd whole(transform.linear);
+      transform.linear = Eigen::AngleAxisd(0.01 * whole.angle(), whole.axis()).matrix();
+      transform.translation_mm *= 0.001;
+    }
+    warpModel(graph, &model);
+    rebase(&graph);
+  }
+  double moved_mm = 0, error_mm = 0;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const Eigen::Vector3d now = model.positions_mm[i].cast<double>();
+    const Eigen::Vector3d then = before.positions_mm[i].cast<double>();
+    moved_mm = std::max(moved_mm, (now - then).norm());
+    error_mm = std::max(error_mm, (referencePosition(graph, model.bindings[i], now) - then).norm());
+  }
+  EXPECT_GT(moved_mm, 0.05);
+  EXPECT_LT(error_mm, 0.02 * moved_mm);
+}
+
+TEST(ReferencePosition, OfAnUnboundPointIsThePoint) {
+  PointModel model = scenes::makeHill(20, 20, 0.5);
+  const WarpGraph graph = scenes::bindGraph(&model);
+  EXPECT_EQ(referencePosition(graph, PointBinding(), {1, 2, 3}), Eigen::Vector3d(1, 2, 3));
+}
+
 }  // namespace
 }  // namespace softscope

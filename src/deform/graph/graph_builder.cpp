@@ -152,28 +152,30 @@ class Growth {
   }
 
  private:
-  /// New tissue has the displacement of the nearest known tissue: neither was visible before.
-  Eigen::Vector3d movedNear(const Eigen::Vector3d& position_mm) const {
-    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  /// New tissue moved like the nearest known tissue: neither was visible before.
+  NodeTransform motionNear(const Eigen::Vector3d& position_mm) const {
+    NodeTransform motion;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < graph_.size(); ++j) {
       const double distance = (graph_.positions_mm[j] - position_mm).squaredNorm();
       if (!(distance < nearest)) continue;
       nearest = distance;
-      moved = graph_.moved_mm[j];
+      motion = graph_.since_reference[j];
+      motion.translation_mm =
+          position_mm - beforeMotion(motion, graph_.positions_mm[j], position_mm);
     }
-    return moved;
+    return motion;
   }
 
   /// In the order of the points: row by row of the image.
   void addNodes() {
-    graph_.moved_mm.resize(graph_.size(), Eigen::Vector3d::Zero());
+    graph_.since_reference.resize(graph_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const int cell = cells_.cellOf(static_cast<int>(i));
       if (cell < 0 || bindings_[points_[i]].bound() || reach_.covered(cell)) continue;
       const int node = static_cast<int>(graph_.size());
       const Eigen::Vector3f position_mm = positions_mm_[cells_.representative(cell)];
-      graph_.moved_mm.push_back(movedNear(position_mm.cast<double>()));
+      graph_.since_reference.push_back(motionNear(position_mm.cast<double>()));
       graph_.positions_mm.push_back(position_mm.cast<double>());
       graph_.transforms.emplace_back();
       for (const int reached : reach_.spread(node, position_mm)) near_new_node_[reached] = 1;

@@ -7,6 +7,14 @@
 #include "deform/kernels/node_terms.h"
 
 namespace softscope {
+namespace {
+
+/// The rotation nearest to the product, without the rounding of many products.
+Eigen::Matrix3d turnedBy(const Eigen::Matrix3d& turn, const Eigen::Matrix3d& before) {
+  return Eigen::Quaterniond(turn * before).normalized().toRotationMatrix();
+}
+
+}  // namespace
 
 static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "the kernels expect xyz triples");
 static_assert(sizeof(NodeStencil) == 4 * sizeof(std::int32_t), "the kernels expect four ids");
@@ -63,13 +71,15 @@ Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,
 }
 
 void rebase(WarpGraph* graph) {
-  graph->moved_mm.resize(graph->size(), Eigen::Vector3d::Zero());
+  graph->since_reference.resize(graph->size());
   graph->turned.resize(graph->size(), Eigen::Matrix3d::Identity());
   for (std::size_t j = 0; j < graph->size(); ++j) {
-    graph->positions_mm[j] += graph->transforms[j].translation_mm;
-    graph->moved_mm[j] += graph->transforms[j].translation_mm;
-    const Eigen::Quaterniond turned(graph->transforms[j].linear * graph->turned[j]);
-    graph->turned[j] = turned.normalized().toRotationMatrix();
+    const NodeTransform& warp = graph->transforms[j];
+    NodeTransform& motion = graph->since_reference[j];
+    graph->positions_mm[j] += warp.translation_mm;
+    motion.translation_mm += warp.translation_mm;
+    motion.linear = turnedBy(warp.linear, motion.linear);
+    graph->turned[j] = turnedBy(warp.linear, graph->turned[j]);
     graph->transforms[j] = NodeTransform();
   }
   updateShapeMemory(graph);
