@@ -171,6 +171,7 @@ void visit(Archive& archive, Whole& checkpoint) {
   archive.pose(checkpoint.state.reference_pose);
   archive.array(checkpoint.state.key_views);
   archive.value(checkpoint.state.lost);
+  archive.value(checkpoint.state.scope_moves);
   archive.value(checkpoint.state.unfused_frames);
   archive.value(checkpoint.state.searches);
   visitErrors(archive, checkpoint.state.model.errors);

@@ -65,7 +65,7 @@ class CpuBackend : public ReconstructionBackend {
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
-                       const Eigen::Isometry3d& reference, bool maybe_static) override;
+                       const Eigen::Isometry3d& reference, ScopeBefore before) override;
   RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) override;
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
   void acceptWarp(bool is_reference) override;
@@ -85,8 +85,8 @@ class CpuBackend : public ReconstructionBackend {
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
-                           bool maybe_static);
-  void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, bool maybe_static,
+                           ScopeBefore before);
+  void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, ScopeBefore before,
               PoseSummary* summary);
   bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
@@ -143,12 +143,12 @@ GrayImage CpuBackend::seenFrom(const Eigen::Isometry3d& world_from_left) const {
 
 LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
                                  const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
-                                 bool maybe_static) {
+                                 ScopeBefore before) {
   LocateSummary summary;
   summary.matches = match(viewed_from);
   // Beside the pose: its copies would delay those of the matches.
   comparer_->beginFrame(observe(Eigen::Isometry3d::Identity()), frame_.states);
-  summary.pose = estimatePose(last, reference, maybe_static);
+  summary.pose = estimatePose(last, reference, before);
   return summary;
 }
 
@@ -167,18 +167,18 @@ MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
 }
 
 PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
-                                     const Eigen::Isometry3d& reference, bool maybe_static) {
+                                     const Eigen::Isometry3d& reference, ScopeBefore before) {
   pose_ = estimateRigidPose(posePairs(matches_), frame_.pose);
   PoseSummary summary;
   summary.found = pose_.found;
   summary.failure = pose_.failure;
-  if (pose_.found) refine(last, reference, maybe_static, &summary);
+  if (pose_.found) refine(last, reference, before, &summary);
   clock_.lap("pose");
   return summary;
 }
 
 void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
-                        bool maybe_static, PoseSummary* summary) {
+                        ScopeBefore before, PoseSummary* summary) {
   summary->world_from_left = pose_.target_from_source;
   summary->inliers = pose_.inliers;
   summary->rms_mm = pose_.rms_mm;
@@ -200,10 +200,8 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
                      projectPoint(rig.left, live), match.across_mm * px_per_mm,
                      rig.disparityPx(live.z()), sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
   }
-  RefinePoseOptions refine = options_.refine_pose;
-  if (!maybe_static && refine.scope == "auto") refine.scope = "moving";
-  const RefinedPose best =
-      refinePose(pairs, rig, pose_.target_from_source, last, reference, refine, pose_search_.get());
+  const RefinedPose best = refinePose(pairs, rig, pose_.target_from_source, last, reference, before,
+                                      options_.refine_pose, pose_search_.get());
   summary->world_from_left = best.world_from_left;
   summary->scope_static = best.scope_static;
   summary->keeps_shape = best.keeps_shape;

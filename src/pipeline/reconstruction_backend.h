@@ -20,6 +20,7 @@
 #include "pipeline/material_points.h"
 #include "pipeline/model_sigma.h"
 #include "pose/ransac_pose.h"
+#include "pose/refine_pose.h"
 #include "stereo/matching/stereo_matcher.h"
 
 namespace softscope {
@@ -120,10 +121,9 @@ class ReconstructionBackend {
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 to 4: draws the model from that pose, finds its pixels in the live image, and the
   /// pose from them. `last` is the pose of the last frame that was fused, `reference` the last one
-  /// that differed significantly from its predecessor; with `maybe_static` an insignificant motion
-  /// counts as none.
+  /// that differed significantly from its predecessor.
   virtual LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
-                               const Eigen::Isometry3d& reference, bool maybe_static) = 0;
+                               const Eigen::Isometry3d& reference, ScopeBefore before) = 0;
   /// A pose near enough for locate(), sought over the whole image from all these viewpoints.
   virtual RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().

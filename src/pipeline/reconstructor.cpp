@@ -96,7 +96,8 @@ void Reconstructor::reconstruct(const Frame& frame, const std::shared_ptr<const 
     lost_ = was_lost;
     return;
   }
-  if (!record.pose.scope_static) reference_pose_ = world_from_left_;
+  scope_moves_ = !record.pose.scope_static;
+  if (scope_moves_) reference_pose_ = world_from_left_;
   fuse(followed ? FrameStatus::kFused : FrameStatus::kRecovered, record);
 }
 
@@ -113,10 +114,8 @@ bool Reconstructor::locate(FrameRecord& record) {
 }
 
 bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record) {
-  // After a frame that was not fused, the scope may have moved.
-  const bool maybe_static = unfused_frames_ == 0;
   const LocateSummary found =
-      backend_->locate(viewpoint, world_from_left_, reference_pose_, maybe_static);
+      backend_->locate(viewpoint, world_from_left_, reference_pose_, scopeBefore());
   record.matches = found.matches;
   record.pose = found.pose;
   if (!matching_) {
@@ -125,6 +124,11 @@ bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& 
   }
   if (record.pose.found) world_from_left_ = record.pose.world_from_left;
   return record.pose.found;
+}
+
+ScopeBefore Reconstructor::scopeBefore() const {
+  if (unfused_frames_ > 0) return ScopeBefore::kUnknown;
+  return scope_moves_ ? ScopeBefore::kMoving : ScopeBefore::kStatic;
 }
 
 // After a loss, the model is searched in the whole image, then
@@ -201,7 +205,7 @@ void Reconstructor::rememberView() {
 
 ReconstructionStateView Reconstructor::state() const {
   return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_,
-          unfused_frames_,   searches_};
+          scope_moves_,      unfused_frames_,  searches_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
@@ -210,6 +214,7 @@ void Reconstructor::restore(ReconstructionState state) {
   reference_pose_ = state.reference_pose;
   key_views_ = std::move(state.key_views);
   lost_ = state.lost;
+  scope_moves_ = state.scope_moves;
   unfused_frames_ = state.unfused_frames;
   searches_ = state.searches;
 }

@@ -18,8 +18,9 @@ struct StateOf {
   Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Isometry3d> key_views;
   bool lost = false;
-  int unfused_frames = 0;  // since the last fused one
-  int searches = 0;        // searches over the whole image among them
+  bool scope_moves = false;  // in the last fused frame
+  int unfused_frames = 0;    // since the last fused one
+  int searches = 0;          // searches over the whole image among them
 };
 using ReconstructionState = StateOf<ModelState>;
 /// Refers to the model of a Reconstructor: valid until its next frame is processed.
@@ -58,6 +59,7 @@ class Reconstructor {
   bool locate(FrameRecord& record);
   bool locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record);
   bool relocalise(FrameRecord& record);
+  ScopeBefore scopeBefore() const;
   bool deform(FrameRecord& record);
   bool confirm(FrameRecord& record);
   void fuse(FrameStatus status, FrameRecord& record);
@@ -72,8 +74,9 @@ class Reconstructor {
   Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last reliable motion
   std::vector<Eigen::Isometry3d> key_views_;
   bool lost_ = false;
-  int unfused_frames_ = 0;  // since the last fused one
-  int searches_ = 0;        // searches over the whole image among them
+  bool scope_moves_ = false;  // in the last fused frame
+  int unfused_frames_ = 0;    // since the last fused one
+  int searches_ = 0;          // searches over the whole image among them
 };
 
 }  // namespace softscope

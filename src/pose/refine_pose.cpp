@@ -24,6 +24,7 @@ constexpr double kSeenSigmas =
 // Of the median residual after a motion of the scope, match
 // errors included; deformed tissue leaves a larger share.
 constexpr double kLeftShare = 1.0 / 3;
+constexpr double kLeftShareInMotion = 1.0 / 2;  // of a scope that moved before
 
 /// Upper quantile of the normal distribution (Abramowitz and Stegun 26.2.23, to 4.5e-4).
 double normalQuantile(double probability) {
@@ -86,8 +87,9 @@ bool isGain(const std::array<double, kRegions>& gains, const std::array<int, kRe
 
 /// Whether the best pose differs from the old one: most of the pairs distinguish them, it leaves
 /// a small part of the residuals, and explains them significantly better: docs/energy.md (29).
-bool differs(const PoseFindings& found, double significance) {
-  return found.shift > kSeenSigmas && found.length < kLeftShare * found.old_length &&
+bool differs(const PoseFindings& found, ScopeBefore before, double significance) {
+  const double left_share = before == ScopeBefore::kStatic ? kLeftShare : kLeftShareInMotion;
+  return found.shift > kSeenSigmas && found.length < left_share * found.old_length &&
          isGain(found.gains, found.counts, significance);
 }
 
@@ -126,19 +128,20 @@ PoseQuestion poseQuestion(const std::vector<PosePair>& pairs, const RectifiedRig
 
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
-                       const Eigen::Isometry3d& reference, const RefinePoseOptions& options,
-                       PoseSearch* search) {
+                       const Eigen::Isometry3d& reference, ScopeBefore before,
+                       const RefinePoseOptions& options, PoseSearch* search) {
   options.validate();
   CpuPoseSearch on_cpu;
   const PoseAnswer answer = (search != nullptr ? *search : on_cpu)
                                 .answer(poseQuestion(pairs, rig, fitted, last, reference, options));
   const PoseFindings &now = answer.now, &since = answer.since;
-  const bool moved_now = differs(now, options.significance),
-             moved_since = differs(since, options.significance);
+  const bool moved_now = differs(now, before, options.significance),
+             moved_since = differs(since, before, options.significance);
   const double share_since =
       pairs.empty() ? 0 : static_cast<double>(since.explained) / static_cast<double>(pairs.size());
   const bool rigid = share_since >= kRigidShare;
-  const bool moves = options.scope == "moving" || moved_now || (rigid && moved_since);
+  const bool moves = options.scope == "moving" || before == ScopeBefore::kUnknown || moved_now ||
+                     (rigid && moved_since);
   const Eigen::Isometry3d& measured = rigid ? since.best : now.best;
   const Matrix6d covariance = covarianceOf(rigid ? since : now);
   RefinedPose refined;

@@ -34,6 +34,9 @@ struct PosePair {
   double sigma_disparity_px = 0;
 };
 
+/// What is known of the scope's motion up to the last fused frame.
+enum class ScopeBefore { kStatic, kMoving, kUnknown };
+
 struct RefinedPose {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   bool scope_static = false;  // no significant motion since `last` and `reference`
@@ -54,13 +57,14 @@ struct RefinedPose {
 /// significant in one frame, since `reference` and the positions of the tissue then.
 /// While most of the tissue has its reference shape, the pose is measured in that
 /// shape, significant or not; with deformed tissue, a motion that is not significant
-/// is that of the tissue, and the pose is `last`. Pairs that are not finite or
-/// behind the camera have no weight; fewer than three are not refined. `search`
-/// finds the poses; by default, on the CPU. Throws OptionError for invalid options.
+/// is that of the tissue, and the pose is `last`. A scope that moved `before` probably
+/// still moves, and less evidence is needed; if that is unknown, it moves. Pairs that are not
+/// finite or behind the camera have no weight; fewer than three are not refined. `search` finds the
+/// poses; by default, on the CPU. Throws OptionError for invalid options.
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
-                       const Eigen::Isometry3d& reference, const RefinePoseOptions& options,
-                       PoseSearch* search = nullptr);
+                       const Eigen::Isometry3d& reference, ScopeBefore before,
+                       const RefinePoseOptions& options, PoseSearch* search = nullptr);
 
 /// Input of the search of refinePose().
 PoseQuestion poseQuestion(const std::vector<PosePair>& pairs, const RectifiedRig& rig,

@@ -35,6 +35,7 @@ Checkpoint someCheckpoint() {
   checkpoint.state.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
   checkpoint.state.key_views.resize(2, checkpoint.state.world_from_left);
   checkpoint.state.lost = true;
+  checkpoint.state.scope_moves = true;
   checkpoint.state.unfused_frames = 3;
   checkpoint.state.searches = 2;
   return checkpoint;
@@ -42,10 +43,11 @@ Checkpoint someCheckpoint() {
 
 std::string bytesOf(const Checkpoint& checkpoint) {
   const ReconstructionState& state = checkpoint.state;
-  return checkpointBytes({checkpoint.settings,
-                          checkpoint.next_frame,
-                          {state.model, state.world_from_left, state.reference_pose,
-                           state.key_views, state.lost, state.unfused_frames, state.searches}});
+  return checkpointBytes(
+      {checkpoint.settings,
+       checkpoint.next_frame,
+       {state.model, state.world_from_left, state.reference_pose, state.key_views, state.lost,
+        state.scope_moves, state.unfused_frames, state.searches}});
 }
 
 TEST(Checkpoint, ComesBackAsItWas) {
@@ -66,6 +68,7 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.errors.nodes_mm2[1], 0.75f);
   EXPECT_EQ(after.state.model.errors.reference_sigma_mm, 0.1);
   EXPECT_TRUE(after.state.lost);
+  EXPECT_TRUE(after.state.scope_moves);
   EXPECT_EQ(after.state.unfused_frames, 3);
   EXPECT_EQ(after.state.searches, 2);
   EXPECT_EQ(bytesOf(after), bytes);

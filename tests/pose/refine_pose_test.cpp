@@ -56,8 +56,9 @@ std::vector<PosePair> seenFrom(const Eigen::Isometry3d& world_from_left, const M
 
 /// With the previous pose as the reference.
 RefinedPose refined(const std::vector<PosePair>& pairs, const Eigen::Isometry3d& fitted,
-                    const Eigen::Isometry3d& last, const RefinePoseOptions& options = {}) {
-  return refinePose(pairs, someRig(), fitted, last, last, options);
+                    const Eigen::Isometry3d& last, const RefinePoseOptions& options = {},
+                    ScopeBefore before = ScopeBefore::kStatic) {
+  return refinePose(pairs, someRig(), fitted, last, last, before, options);
 }
 
 Eigen::Vector3d nothing(const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); }
@@ -178,8 +179,8 @@ TEST(RefinePose, TissuePulledAsAWholeIsNoSlowMotionOfTheScope) {
   for (PosePair& pair : pairs)
     pair.reference_world_mm += Eigen::Vector3d(6 + 0.8 * std::sin(0.3 * pair.model_world_mm.y()), 0,
                                                std::cos(0.3 * pair.model_world_mm.x()));
-  const RefinedPose found =
-      refinePose(pairs, someRig(), last, last, Eigen::Isometry3d::Identity(), {});
+  const RefinedPose found = refinePose(pairs, someRig(), last, last, Eigen::Isometry3d::Identity(),
+                                       ScopeBefore::kStatic, {});
   EXPECT_TRUE(found.scope_static);
   EXPECT_EQ(found.world_from_left.matrix(), last.matrix());
 }
@@ -193,6 +194,30 @@ TEST(RefinePose, TakesThePresentShapeOfTissueThatHasBent) {
   const RefinedPose found = refined(pairs, truth, Eigen::Isometry3d::Identity());
   EXPECT_FALSE(found.keeps_shape);
   expectNear(found.world_from_left, truth, 0.02, 4e-4);
+}
+
+/// Tissue that bends while the scope moves a little: about 40 % of the residuals are left.
+std::vector<PosePair> pairsOfAScopeThatSlowsDown() {
+  const auto bent = [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(0.09 * std::sin(0.6 * p.y()), 0.09 * std::sin(0.6 * p.x()), 0);
+  };
+  return seenFrom(poseOf(0.001, {0.2, 0.15, 0}), bent, 0.1);
+}
+
+// At rest before, it may be tissue that is pulled; a scope that moved has hardly stopped at once.
+TEST(RefinePose, NeedsLessEvidenceThatAMovingScopeStillMoves) {
+  const std::vector<PosePair> pairs = pairsOfAScopeThatSlowsDown();
+  const Eigen::Isometry3d last = Eigen::Isometry3d::Identity(), fitted = poseOf(0, {0.2, 0.1, 0});
+  EXPECT_TRUE(refined(pairs, fitted, last, {}, ScopeBefore::kStatic).scope_static);
+  EXPECT_FALSE(refined(pairs, fitted, last, {}, ScopeBefore::kMoving).scope_static);
+}
+
+TEST(RefinePose, AScopeThatStopsIsStaticAlsoAfterAMotion) {
+  const Eigen::Isometry3d pose = poseOf(0.2, {1, 2, 3});
+  const std::vector<PosePair> pairs = seenFrom(pose, nothing, 0.3);
+  const Eigen::Isometry3d fitted = pose * poseOf(0.001, {0, 0.1, 0});
+  EXPECT_TRUE(refined(pairs, fitted, pose, {}, ScopeBefore::kMoving).scope_static);
+  EXPECT_FALSE(refined(pairs, fitted, pose, {}, ScopeBefore::kUnknown).scope_static);
 }
 
 TEST(RefinePose, AStaticScopeIsNotTakenForMovingByNoise) {
