@@ -64,6 +64,25 @@ TEST(RowAlignment, FindsRowsEightPixelsOff) {
   }
 }
 
+/// Columns and rows around the centre.
+GrayImage middleOf(const GrayImage& image, int width_px, int height_px) {
+  GrayImage middle(width_px, height_px);
+  for (int v = 0; v < height_px; ++v)
+    for (int u = 0; u < width_px; ++u)
+      middle.at(u, v) =
+          image.at(u + (image.width_px - width_px) / 2, v + (image.height_px - height_px) / 2);
+  return middle;
+}
+
+// Every 12 px, such an image has too few pixels to match.
+TEST(RowAlignment, MatchesMorePixelsOfASmallImage) {
+  const auto scene = misaligned(3.5, 0);
+  const RowAlignment found =
+      measureRowAlignment(middleOf(scene.left, 128, 96), middleOf(scene.right, 128, 96), 60);
+  ASSERT_TRUE(found.known());
+  EXPECT_NEAR(found.at(64, 48), 3.5, 0.2);
+}
+
 TEST(RowAlignment, TellsARollByTheTiltOfTheRows) {
   const auto scene = misaligned(5, 0.0087);  // half a degree: 2.8 px at either side
   const AlignedPair aligned =

@@ -14,7 +14,9 @@ namespace softscope {
 namespace {
 
 constexpr int kRowPointsPerTask = 64;
-constexpr int kGridPx = 12;
+// Grid of the pixels that are matched: finer in small images, which would have too few matches.
+constexpr int kGridColumns = 53;
+constexpr int kFinestGridPx = 4, kCoarsestGridPx = 12;
 constexpr int kMeterReach = 4;           // of the window, every second pixel
 constexpr int kRowReach = 2;             // rows tried around a support point's
 constexpr int kCoarseOffset = 2;         // rows between the coarse trials
@@ -69,7 +71,8 @@ RowMeter::RowMeter(const GrayImage& left, int disparity_max_px, const Mask& igno
     : margin_px_(disparity_max_px),
       left_(fillMasked(left, ignored), ElasOptions{}.gradient_gain, disparity_max_px, ignored) {
   options_.disparity_max_px = disparity_max_px;
-  options_.elas.support_step_px = kGridPx;
+  options_.elas.support_step_px =
+      std::clamp(left_.width_px() / kGridColumns, kFinestGridPx, kCoarsestGridPx);
   options_.elas.support_redundant_cells = 0;
 }
 
