@@ -23,14 +23,24 @@ SOFTSCOPE_FORMULA ValueAndSlope<V> catmullRom(V p0, V p1, V p2, V p3, V t) {
   return {p1 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2.0f * c2 + t * (3.0f * c3))};
 }
 
-/// Low-pass brightness of the right camera, as far as both cameras agree: less where they
-/// differ by more than light_gray and the effect of a pixel of disparity, as at highlights.
+/// Share of the low-pass brightness that is not of a highlight: none of what is white. Highlights
+/// are mirror images of the light, behind or before the tissue, and their slopes are large.
+template <class V>
+SOFTSCOPE_FORMULA V diffuseShare(V slow_left, V slow_right) {
+  constexpr float kWhite = 255;
+  const V brightest = slow_left > slow_right ? slow_left : slow_right;
+  const V white = brightest * (1 / kWhite), share = 1.0f - white * white * white;
+  return share > 0.0f ? share : V{};
+}
+
+/// Low-pass brightness of the right camera, as far as it is of tissue and both cameras agree: less
+/// where they differ by more than light_gray and the effect of a pixel of disparity.
 template <class V>
 SOFTSCOPE_FORMULA ValueAndSlope<V> agreedSlowPart(const ValueAndSlope<V>& right, V left, V light,
                                                   float light_gray_sq) {
   const V apart = right.value - left - light;
   const V q = 1.0f + apart * apart / (light_gray_sq + right.slope * right.slope);
-  const V agreed = 1.0f / (q * q);
+  const V agreed = diffuseShare(left, right.value) / (q * q);
   return {agreed * apart, agreed * right.slope};
 }
 
