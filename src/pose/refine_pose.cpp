@@ -15,6 +15,10 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+// A scope that moved has stopped once its position is this close to the last one, in standard
+// errors; one at rest has moved, over tissue in its reference shape, once it is that far away.
+constexpr double kRestSigmas = 3, kMovedSigmas = 10;
+
 // Tissue has its reference shape while that explains this share of the matches.
 constexpr double kRigidShare = 2.0 / 3;
 
@@ -24,7 +28,6 @@ constexpr double kSeenSigmas =
 // Of the median residual after a motion of the scope, match
 // errors included; deformed tissue leaves a larger share.
 constexpr double kLeftShare = 1.0 / 3;
-constexpr double kLeftShareInMotion = 1.0 / 2;  // of a scope that moved before
 
 /// Upper quantile of the normal distribution (Abramowitz and Stegun 26.2.23, to 4.5e-4).
 double normalQuantile(double probability) {
@@ -87,9 +90,8 @@ bool isGain(const std::array<double, kRegions>& gains, const std::array<int, kRe
 
 /// Whether the best pose differs from the old one: most of the pairs distinguish them, it leaves
 /// a small part of the residuals, and explains them significantly better: docs/energy.md (29).
-bool differs(const PoseFindings& found, ScopeBefore before, double significance) {
-  const double left_share = before == ScopeBefore::kStatic ? kLeftShare : kLeftShareInMotion;
-  return found.shift > kSeenSigmas && found.length < left_share * found.old_length &&
+bool differs(const PoseFindings& found, double significance) {
+  return found.shift > kSeenSigmas && found.length < kLeftShare * found.old_length &&
          isGain(found.gains, found.counts, significance);
 }
 
@@ -135,19 +137,22 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   const PoseAnswer answer = (search != nullptr ? *search : on_cpu)
                                 .answer(poseQuestion(pairs, rig, fitted, last, reference, options));
   const PoseFindings &now = answer.now, &since = answer.since;
-  const bool moved_now = differs(now, before, options.significance),
-             moved_since = differs(since, before, options.significance);
+  const bool moved_now = differs(now, options.significance),
+             moved_since = differs(since, options.significance);
   const double share_since =
       pairs.empty() ? 0 : static_cast<double>(since.explained) / static_cast<double>(pairs.size());
   const bool rigid = share_since >= kRigidShare;
-  const bool moves = options.scope == "moving" || before == ScopeBefore::kUnknown || moved_now ||
-                     (rigid && moved_since);
   const Eigen::Isometry3d& measured = rigid ? since.best : now.best;
   const Matrix6d covariance = covarianceOf(rigid ? since : now);
   RefinedPose refined;
   refined.moved_mm = (measured.inverse().translation() - reference.translation()).norm();
   refined.sigma_mm = std::sqrt(covariance.diagonal().tail<3>().sum());
   refined.sigma_deg = 180 / M_PI * std::sqrt(covariance.diagonal().head<3>().sum());
+  const bool goes_on = before == ScopeBefore::kMoving
+                           ? refined.moved_mm > kRestSigmas * refined.sigma_mm
+                           : rigid && refined.moved_mm > kMovedSigmas * refined.sigma_mm;
+  const bool moves = options.scope == "moving" || before == ScopeBefore::kUnknown || moved_now ||
+                     (rigid && moved_since) || goes_on;
   refined.scope_static = options.scope == "static" || !moves;
   refined.keeps_shape = refined.scope_static || rigid;
   if (options.scope == "static")

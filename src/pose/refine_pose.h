@@ -57,10 +57,12 @@ struct RefinedPose {
 /// significant in one frame, since `reference` and the positions of the tissue then.
 /// While most of the tissue has its reference shape, the pose is measured in that
 /// shape, significant or not; with deformed tissue, a motion that is not significant
-/// is that of the tissue, and the pose is `last`. A scope that moved `before` probably
-/// still moves, and less evidence is needed; if that is unknown, it moves. Pairs that are not
-/// finite or behind the camera have no weight; fewer than three are not refined. `search` finds the
-/// poses; by default, on the CPU. Throws OptionError for invalid options.
+/// is that of the tissue, and the pose is `last`. A scope that moved `before` still moves
+/// while its step exceeds a few standard errors; one at rest also moves once it is many
+/// standard errors away in the reference shape; if its state is unknown, it moves. Pairs
+/// that are not finite or behind the camera have no weight; fewer than three are not
+/// refined. `search` finds the poses; by default, on the CPU. Throws OptionError for
+/// invalid options.
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
                        const Eigen::Isometry3d& reference, ScopeBefore before,
