@@ -148,11 +148,11 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   refined.moved_mm = (measured.inverse().translation() - reference.translation()).norm();
   refined.sigma_mm = std::sqrt(covariance.diagonal().tail<3>().sum());
   refined.sigma_deg = 180 / M_PI * std::sqrt(covariance.diagonal().head<3>().sum());
-  const bool goes_on = before == ScopeBefore::kMoving
-                           ? refined.moved_mm > kRestSigmas * refined.sigma_mm
-                           : rigid && refined.moved_mm > kMovedSigmas * refined.sigma_mm;
+  const bool is_far = before == ScopeBefore::kMoving
+                          ? refined.moved_mm > kRestSigmas * refined.sigma_mm
+                          : rigid && refined.moved_mm > kMovedSigmas * refined.sigma_mm;
   const bool moves = options.scope == "moving" || before == ScopeBefore::kUnknown || moved_now ||
-                     (rigid && moved_since) || goes_on;
+                     (rigid && moved_since) || is_far;
   refined.scope_static = options.scope == "static" || !moves;
   refined.keeps_shape = refined.scope_static || rigid;
   if (options.scope == "static")

@@ -56,6 +56,14 @@ inline WarpGraph bindGraph(PointModel* model, double spacing_mm = 4.0) {
   return graph;
 }
 
+/// The transforms of one rigid motion of all nodes.
+inline void moveNodes(const Eigen::Isometry3d& motion, WarpGraph* graph) {
+  for (std::size_t j = 0; j < graph->size(); ++j) {
+    graph->transforms[j].linear = motion.linear();
+    graph->transforms[j].translation_mm = motion * graph->positions_mm[j] - graph->positions_mm[j];
+  }
+}
+
 inline PinholeCamera makeCamera(int width_px, int height_px, double f_px) {
   return {width_px, height_px, f_px, f_px, (width_px - 1) / 2.0, (height_px - 1) / 2.0};
 }

@@ -87,18 +87,24 @@ TEST(GraphBuilder, EdgesTieTheTwoSidesOfAGap) {
   EXPECT_EQ(across, 3);  // three bridges hold position and rotation
 }
 
-TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
-  PointModel whole = scenes::makeHill(40, 20, 0.4);
-  PointModel model;
+/// Adds the points of one half of a model, right or left of x = 0, moved.
+void addHalf(const PointModel& whole, bool is_right, const Eigen::Isometry3d& motion,
+             PointModel* model) {
   for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole.positions_mm[i].x() < 0)
-      model.add(whole.positions_mm[i], whole.normals[i], whole.colours[i], 1);
+    if ((whole.positions_mm[i].x() >= 0) == is_right)
+      model->add((motion * whole.positions_mm[i].cast<double>()).cast<float>(), whole.normals[i],
+                 whole.colours[i], 1);
+}
+
+TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
+  const PointModel whole = scenes::makeHill(40, 20, 0.4);
+  PointModel model;
+  const Eigen::Isometry3d unmoved = Eigen::Isometry3d::Identity();
+  addHalf(whole, false, unmoved, &model);
   const std::size_t old_points = model.size();
   WarpGraph graph = scenes::bindGraph(&model);
   const WarpGraph before = graph;
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole.positions_mm[i].x() >= 0)
-      model.add(whole.positions_mm[i], whole.normals[i], whole.colours[i], 1);
+  addHalf(whole, true, unmoved, &model);
 
   const GraphGrowth growth = growGraph(GraphOptions(), &model, &graph);
 
@@ -118,24 +124,16 @@ TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
 }
 
 TEST(GraphBuilder, NewNodesHaveMovedLikeTheTissueBesideThem) {
-  PointModel whole = scenes::makeHill(40, 20, 0.4);
+  const PointModel whole = scenes::makeHill(40, 20, 0.4);
   PointModel model;
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole.positions_mm[i].x() < 0)
-      model.add(whole.positions_mm[i], whole.normals[i], whole.colours[i], 1);
+  addHalf(whole, false, Eigen::Isometry3d::Identity(), &model);
   WarpGraph graph = scenes::bindGraph(&model);
   const std::size_t old_nodes = graph.size();
   const Eigen::Isometry3d motion = scenes::rigidMotion();
-  for (std::size_t j = 0; j < old_nodes; ++j) {
-    graph.transforms[j].linear = motion.linear();
-    graph.transforms[j].translation_mm = motion * graph.positions_mm[j] - graph.positions_mm[j];
-  }
+  scenes::moveNodes(motion, &graph);
   warpModel(graph, &model);
   rebase(&graph);
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole.positions_mm[i].x() >= 0)
-      model.add((motion * whole.positions_mm[i].cast<double>()).cast<float>(), whole.normals[i],
-                whole.colours[i], 1);
+  addHalf(whole, true, motion, &model);
   growGraph(GraphOptions(), &model, &graph);
   ASSERT_GT(graph.size(), old_nodes);
   for (std::size_t j = old_nodes; j < graph.size(); ++j) {

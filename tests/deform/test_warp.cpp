@@ -9,13 +9,6 @@
 namespace softscope {
 namespace {
 
-void moveNodes(const Eigen::Isometry3d& motion, WarpGraph* graph) {
-  for (std::size_t j = 0; j < graph->size(); ++j) {
-    graph->transforms[j].linear = motion.linear();
-    graph->transforms[j].translation_mm = motion * graph->positions_mm[j] - graph->positions_mm[j];
-  }
-}
-
 void waveNodes(WarpGraph* graph) {
   for (std::size_t j = 0; j < graph->size(); ++j) {
     const double s = static_cast<double>(j);
@@ -30,7 +23,7 @@ TEST(Warp, ARigidMotionOfAllNodesMovesEveryPointAndNormalSo) {
   const PointModel before = model;
   WarpGraph graph = scenes::bindGraph(&model);
   const Eigen::Isometry3d motion = scenes::rigidMotion();
-  moveNodes(motion, &graph);
+  scenes::moveNodes(motion, &graph);
 
   warpModel(graph, &model);
 
@@ -143,7 +136,7 @@ TEST(ReferencePosition, IsWhereThePointWasBeforeAllMotionsOfItsNodes) {
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   turn.linear() = rotationOf({0.1, -0.2, 0.3}).toRotationMatrix();
   for (const Eigen::Isometry3d& motion : {scenes::rigidMotion(), turn}) {
-    moveNodes(motion, &graph);
+    scenes::moveNodes(motion, &graph);
     warpModel(graph, &model);
     rebase(&graph);
   }

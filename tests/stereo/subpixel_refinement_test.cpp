@@ -202,17 +202,21 @@ TEST(SubpixelRefinement, CorrectsGainAndOffsetBetweenTheCameras) {
   EXPECT_LT(e.median_px, 0.1);
 }
 
+/// A broad highlight around (centre_u_px, 120).
+void addHighlight(double centre_u_px, double light_gray, double sigma_px, GrayImage* image) {
+  for (int v = 0; v < image->height_px; ++v)
+    for (int u = 0; u < image->width_px; ++u) {
+      const double apart_px = std::hypot(u - centre_u_px, v - 120.0);
+      const double light = light_gray * std::exp(-apart_px * apart_px / (2 * sigma_px * sigma_px));
+      image->at(u, v) = static_cast<std::uint8_t>(std::min(255.0, image->at(u, v) + light));
+    }
+}
+
 TEST(SubpixelRefinement, TakesNoHighlightForTissue) {
   auto scene = test::makeScene(test::endoscope(), test::plane(55), 1.0);
   Raster<float> truth = scene.disparity_px;
-  // A broad highlight at the same position in both images: it is at infinity.
-  for (GrayImage* image : {&scene.left, &scene.right})
-    for (int v = 0; v < 240; ++v)
-      for (int u = 0; u < 320; ++u) {
-        const double apart = std::hypot(u - 170.0, v - 120.0);
-        const double light = 70 * std::exp(-apart * apart / (2 * 15.0 * 15.0));
-        image->at(u, v) = static_cast<std::uint8_t>(std::min(255.0, image->at(u, v) + light));
-      }
+  // At the same position in both images: it is at infinity.
+  for (GrayImage* image : {&scene.left, &scene.right}) addHighlight(170, 70, 15, image);
   for (int v = 0; v < 240; ++v)
     for (int u = 0; u < 320; ++u)
       if (std::abs(u - 170) > 40 || std::abs(v - 120) > 40)
@@ -226,22 +230,14 @@ TEST(SubpixelRefinement, TakesNoHighlightForTissue) {
 TEST(SubpixelRefinement, TrustsTheTextureAroundAWhiteHighlight) {
   auto scene = test::makeScene(test::endoscope(), test::plane(55), 1.0);
   Raster<float> truth = scene.disparity_px;
-  const auto apart = [](int u, int v, double shift_px) {
-    return std::hypot(u - 170.0 + shift_px, v - 120.0);
-  };
   const double mirrored_px = truth.at(170, 120) - 1;  // a little behind the tissue
-  for (const bool is_left : {true, false})
-    for (int v = 0; v < 240; ++v)
-      for (int u = 0; u < 320; ++u) {
-        std::uint8_t& gray = (is_left ? scene.left : scene.right).at(u, v);
-        const double r = apart(u, v, is_left ? 0 : mirrored_px);
-        gray = static_cast<std::uint8_t>(
-            std::min(255.0, gray + 250 * std::exp(-r * r / (2 * 14.0 * 14.0))));
-      }
+  addHighlight(170, 250, 14, &scene.left);
+  addHighlight(170 - mirrored_px, 250, 14, &scene.right);
   for (int v = 0; v < 240; ++v)
-    for (int u = 0; u < 320; ++u)
-      if (apart(u, v, 0) < 16 || apart(u, v, 0) > 28)
-        truth.at(u, v) = std::numeric_limits<float>::quiet_NaN();
+    for (int u = 0; u < 320; ++u) {
+      const double apart_px = std::hypot(u - 170.0, v - 120.0);
+      if (apart_px < 16 || apart_px > 28) truth.at(u, v) = std::numeric_limits<float>::quiet_NaN();
+    }
   const auto e =
       errorsOf(refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), {}), truth);
   EXPECT_LT(e.median_px, 0.4);  // 0.49 if all of the slow part counted

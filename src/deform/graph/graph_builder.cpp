@@ -154,16 +154,18 @@ class Growth {
  private:
   /// New tissue moved like the nearest known tissue: neither was visible before.
   NodeTransform motionNear(const Eigen::Vector3d& position_mm) const {
-    NodeTransform motion;
-    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t nearest = graph_.size();
+    double nearest_mm2 = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < graph_.size(); ++j) {
-      const double distance = (graph_.positions_mm[j] - position_mm).squaredNorm();
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      motion = graph_.since_reference[j];
-      motion.translation_mm =
-          position_mm - beforeMotion(motion, graph_.positions_mm[j], position_mm);
+      const double away_mm2 = (graph_.positions_mm[j] - position_mm).squaredNorm();
+      if (!(away_mm2 < nearest_mm2)) continue;
+      nearest_mm2 = away_mm2;
+      nearest = j;
     }
+    if (nearest == graph_.size()) return {};
+    NodeTransform motion = graph_.since_reference[nearest];
+    motion.translation_mm =
+        position_mm - beforeMotion(motion, graph_.positions_mm[nearest], position_mm);
     return motion;
   }
 
