@@ -41,32 +41,38 @@ std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm)
   return entered;
 }
 
+/// Ring by ring. Every cell is written as the next of the ring, and stays there if it is new:
+/// without a branch, as most neighbours were visited already.
 std::vector<NodeReach::Reached> NodeReach::walk(const Eigen::Vector3f& position_mm,
                                                 Visits* visits) const {
   std::vector<Reached> reached;
   const int start = cells_.cellNear(position_mm);
   if (start < 0) return reached;
-  std::vector<int>& visited = visits->last_walk;
+  int* const visited = visits->last_walk.data();
   const int walk = ++visits->walk;
   visited[start] = walk;
-  std::vector<int>&ring = visits->ring, &next = visits->next;
-  ring.assign(1, start);
-  const double reach_mm = reachMm(options_);
-  for (int steps = 0; !ring.empty(); ++steps, ring.swap(next)) {
-    next.clear();
-    for (const int cell : ring) {
+  int *ring = visits->ring.data(), *next = visits->next.data();
+  ring[0] = start;
+  int in_ring = 1;
+  const float reach_mm = static_cast<float>(reachMm(options_));
+  for (int steps = 0; in_ring > 0; ++steps, std::swap(ring, next)) {
+    int in_next = 0;
+    for (int i = 0; i < in_ring; ++i) {
+      const int cell = ring[i];
       const float straight_mm = (cells_.centre(cell) - position_mm).norm();
       if (straight_mm > reach_mm) continue;
       // On an even surface a walk takes about one step per cell of straight line.
       if (steps <= 2 + options_.kDetourRatio * straight_mm / cells_.cellMm())
         reached.push_back({cell, straight_mm});
-      for (int i = cells_.neighboursBegin(cell); i < cells_.neighboursEnd(cell); ++i) {
-        const int other = cells_.neighbour(i);
-        if (visited[other] == walk) continue;
+      const SurfaceCells::Neighbours& around = cells_.neighbours(cell);
+      for (int k = 0; k < around.count; ++k) {
+        const int other = around.cells[k];
+        next[in_next] = other;
+        in_next += visited[other] != walk;
         visited[other] = walk;
-        next.push_back(other);
       }
     }
+    in_ring = in_next;
   }
   return reached;
 }

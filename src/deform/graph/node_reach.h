@@ -51,7 +51,10 @@ class NodeReach {
   };
   /// Cells visited by the last walk, so that a walk needs no clearing.
   struct Visits {
-    explicit Visits(int cells) : last_walk(static_cast<std::size_t>(cells), 0) {}
+    explicit Visits(int cells)
+        : last_walk(static_cast<std::size_t>(cells), 0),
+          ring(last_walk.size() + 1),
+          next(last_walk.size() + 1) {}
     std::vector<int> last_walk, ring, next;
     int walk = 0;
   };

@@ -1,7 +1,6 @@
 #include "deform/graph/surface_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "core/parallel.h"
@@ -9,7 +8,6 @@
 namespace softscope {
 namespace {
 
-constexpr std::uint64_t kNoCube = ~std::uint64_t{0};  // cubes' keys take 63 bits
 constexpr int kBits = 21;
 constexpr std::int64_t kOrigin = std::int64_t{1} << (kBits - 1);
 constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
@@ -76,23 +74,36 @@ void CellNumbering::grow() {
 SurfaceCells::SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm,
                            const std::vector<int>& points, double cell_mm)
     : cell_mm_(cell_mm), table_(cell_mm, static_cast<int>(points.size() / 16)) {
-  const int count = static_cast<int>(points.size());
-  std::vector<std::uint64_t> keys(points.size());
-  parallelRanges(count, kPointsPerTask, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i)
-      if (!table_.keyOf(positions_mm[points[i]], &keys[i])) keys[i] = kNoCube;
-  });
-  cell_of_.assign(points.size(), -1);
-  std::uint64_t last_key = kNoCube;
-  int cell = -1;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (keys[i] == kNoCube) continue;
-    if (keys[i] != last_key) cell = table_.findOrAdd(keys[i]);  // neighbours share cubes
-    last_key = keys[i];
-    cell_of_[i] = cell;
-  }
+  numberCubes(positions_mm, points);
   findCentres(positions_mm, points);
   findNeighbours();
+}
+
+/// Parts of the points are numbered on their own; then their cubes, part after part.
+void SurfaceCells::numberCubes(const std::vector<Eigen::Vector3f>& positions_mm,
+                               const std::vector<int>& points) {
+  const int count = static_cast<int>(points.size());
+  const int parts = (count + kPointsPerTask - 1) / kPointsPerTask;
+  cell_of_.resize(points.size());
+  std::vector<CellNumbering> own(static_cast<std::size_t>(parts), CellNumbering(cell_mm_));
+  const auto forEachPoint = [&](const auto& body) {
+    parallelRanges(parts, 1, [&](int begin, int end) {
+      for (int part = begin; part < end; ++part)
+        for (int i = part * kPointsPerTask; i < std::min(count, (part + 1) * kPointsPerTask); ++i)
+          body(part, i);
+    });
+  };
+  forEachPoint([&](int part, int i) {
+    std::uint64_t key = 0;
+    cell_of_[i] = table_.keyOf(positions_mm[points[i]], &key) ? own[part].findOrAdd(key) : -1;
+  });
+  std::vector<std::vector<int>> numbers(own.size());
+  for (std::size_t part = 0; part < own.size(); ++part)
+    for (int cube = 0; cube < own[part].size(); ++cube)
+      numbers[part].push_back(table_.findOrAdd(own[part].key(cube)));
+  forEachPoint([&](int part, int i) {
+    if (cell_of_[i] >= 0) cell_of_[i] = numbers[part][cell_of_[i]];
+  });
 }
 
 /// Every task visits all points and handles those of its own cells, in the order of the points.
@@ -123,24 +134,18 @@ void SurfaceCells::findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
 }
 
 void SurfaceCells::findNeighbours() {
-  constexpr int kMost = 26;
-  std::vector<std::array<int, kMost>> found(static_cast<std::size_t>(size()));
-  std::vector<int> counts(found.size(), 0);
+  neighbours_.resize(static_cast<std::size_t>(size()));
   parallelRanges(size(), kCellsPerTask, [&](int begin, int end) {
-    for (int cell = begin; cell < end; ++cell)
+    for (int cell = begin; cell < end; ++cell) {
+      Neighbours& around = neighbours_[cell];
       for (int dz = -1; dz <= 1; ++dz)
         for (int dy = -1; dy <= 1; ++dy)
           for (int dx = -1; dx <= 1; ++dx) {
             const int other = table_.find(CellNumbering::shifted(table_.key(cell), dx, dy, dz));
-            if (other >= 0 && other != cell) found[cell][counts[cell]++] = other;
+            if (other >= 0 && other != cell) around.cells[around.count++] = other;
           }
+    }
   });
-  neighbour_start_.assign(1, 0);
-  neighbour_start_.reserve(found.size() + 1);
-  for (std::size_t cell = 0; cell < found.size(); ++cell) {
-    neighbours_.insert(neighbours_.end(), found[cell].begin(), found[cell].begin() + counts[cell]);
-    neighbour_start_.push_back(static_cast<int>(neighbours_.size()));
-  }
 }
 
 int SurfaceCells::cellNear(const Eigen::Vector3f& position_mm) const {

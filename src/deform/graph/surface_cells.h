@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -74,12 +75,15 @@ class SurfaceCells {
   const Eigen::Vector3f& centre(int cell) const { return centres_[cell]; }
   /// The model point closest to the cell's centre.
   int representative(int cell) const { return representatives_[cell]; }
-  /// Neighbours of a cell: [begin, end) of neighbour().
-  int neighboursBegin(int cell) const { return neighbour_start_[cell]; }
-  int neighboursEnd(int cell) const { return neighbour_start_[cell + 1]; }
-  int neighbour(int index) const { return neighbours_[index]; }
+  struct Neighbours {
+    int count = 0;
+    std::array<int, 26> cells;  // the first `count`
+  };
+  const Neighbours& neighbours(int cell) const { return neighbours_[cell]; }
 
  private:
+  void numberCubes(const std::vector<Eigen::Vector3f>& positions_mm,
+                   const std::vector<int>& points);
   void findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
                    const std::vector<int>& points);
   void findNeighbours();
@@ -89,8 +93,7 @@ class SurfaceCells {
   std::vector<int> cell_of_;
   std::vector<Eigen::Vector3f> centres_;
   std::vector<int> representatives_;
-  std::vector<int> neighbour_start_;
-  std::vector<int> neighbours_;
+  std::vector<Neighbours> neighbours_;
 };
 
 }  // namespace softscope
