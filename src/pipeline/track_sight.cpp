@@ -70,11 +70,14 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
                                                    const Raster<float>& relief_px) const {
   constexpr int kTracksPerTask = 8;
   const DepthMap& depth = frame_.measured.depth;
+  const bool drift_known = std::isfinite(tracked.drift_mm2);
   const auto positionOf = [&](const MaterialPoints::Point& point) {
     const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
     const NearestDepth surface = surfaceAt(centre, gapPx(depth.depth_mm.width_px));
     TrackedPosition position{point.id, point.position_mm, false};
     if (!surface.found() || !shows(centre, surface)) return position;
+    // Hidden before, and not found since: it may lie elsewhere.
+    if (drift_known && !std::isfinite(point.variance_mm2)) return position;
     const DepthVariance of_depth =
         depthVariance(depth, relief_px, pixelOf(rig_.left, centre), surface, rig_);
     const double sigma_mm =

@@ -31,11 +31,13 @@ struct WallWithHole {
   Eigen::Vector3d at(double u, double v, double depth_mm) const {
     return liftPixel(rig.left, u, v, depth_mm);
   }
-  TrackedPosition see(const Eigen::Vector3d& point_left) const {
+  TrackedPosition see(const Eigen::Vector3d& point_left, double along_mm2 = kAlongMm2,
+                      double drift_mm2 = 0.01) const {
     MaterialPoints tracked;
+    tracked.drift_mm2 = drift_mm2;
     tracked.points.emplace_back();
     tracked.points.back().position_mm = point_left;
-    tracked.points.back().variance_mm2 = kAlongMm2;
+    tracked.points.back().variance_mm2 = along_mm2;
     const TrackSight sight(frame, rig);
     return sight.positions(tracked, Eigen::Isometry3d::Identity(), sight.reliefPx()).front();
   }
@@ -83,6 +85,15 @@ TEST(TrackSight, DoesNotSeeWhatIsMeasuredWorseThanAUsedDepth) {
   EXPECT_TRUE(std::isnan(wall.see(point).sigma_mm));
   wall.frame.fusion.pixels.max_sigma_mm = 0.37;
   EXPECT_TRUE(wall.see(point).visible);
+}
+
+TEST(TrackSight, DoesNotCallVisibleWhatWasNotFoundSinceItWasHidden) {
+  const WallWithHole wall;
+  const Eigen::Vector3d point = wall.at(40, 100, kDepthMm);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(wall.see(point, unknown).visible);
+  // With few points the error of no warp is known: it says nothing.
+  EXPECT_TRUE(wall.see(point, unknown, unknown).visible);
 }
 
 TEST(TrackSight, DoesNotCallVisibleWhatNothingWasMeasuredBeside) {
