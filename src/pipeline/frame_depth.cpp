@@ -8,6 +8,7 @@
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/stage_clock.h"
 #include "stereo/rectification/image_border.h"
+#include "stereo/refinement/grey_foreground.h"
 #include "stereo/refinement/mask_leaks.h"
 
 namespace softscope {
@@ -98,6 +99,8 @@ MeasuredFrame FrameDepth::measure(FrameViews views) {
   StereoSurface found = stage_->measure(aligned, measured.mask);
   if (!views.instruments.empty())
     found.drop(leaksOf(views.instruments, found.disparity.disparity_px));
+  if (options_.detect_instruments)
+    found.drop(greyForeground(aligned.pair.left, found.depth.depth_mm, rig().left));
   measured.disparity = std::move(found.disparity);
   measured.depth = std::move(found.depth);
   measured.normals = std::move(found.normals);

@@ -7,7 +7,6 @@
 #include "core/mask_morphology.h"
 #include "core/parallel.h"
 #include "features/highlight_mask.h"
-#include "features/instrument_detector.h"
 
 namespace softscope {
 namespace {
@@ -39,7 +38,6 @@ Mask notTissue(const ColourImage& left, const MeasuredFrame& frame,
   if (!frame.mask.empty()) addTo(mask, frame.mask);
   for (std::size_t i = 0; i < frame.border.size(); ++i)
     mask.values[i] = frame.border.values[i] != 0 ? std::uint8_t{0} : mask.values[i];
-  if (options.detect_instruments) addTo(mask, detectInstruments(left));
   if (options.margin_px > 0) mask = dilated(mask, options.margin_px);
   addTo(mask, frame.border);  // without a margin: no matching window reached it
   return mask;

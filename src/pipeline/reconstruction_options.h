@@ -25,7 +25,6 @@ struct GateOptions {
 /// Parts of the image that are not tissue.
 struct TissueMaskOptions {
   int margin_px = 6;  // pixels this close to a masked one are left out: reach of the stereo window
-  bool detect_instruments = false;  // by colour, in addition to mask files
 };
 
 /// One struct per stage, in the order of the loop.

@@ -18,12 +18,13 @@ void describe(Visitor& v, FrameDepthOptions& o) {
   v("depth.align_rows", o.align_rows, "measure and remove vertical disparity above 0.2 px");
   v("depth.find_border", o.find_border, "mask black borders of the views before matching");
   describe(v, o.stereo);
+  v("tissue.detect_instruments", o.detect_instruments,
+    "drop surfaces without red that are apart from the tissue: instruments without a mask, smoke");
 }
 
 template <class Visitor>
 void describe(Visitor& v, TissueMaskOptions& o) {
   v("tissue.margin_px", o.margin_px, between(0, 100), "dilation of the ignored pixels");
-  v("tissue.detect_instruments", o.detect_instruments, "by colour, beside mask files");
 }
 
 template <class Visitor>

@@ -5,7 +5,6 @@
 #include <ctime>
 #include <limits>
 
-#include "features/instrument_detector.h"
 #include "features/lift_matches.h"
 #include "features/sequence_truth.h"
 #include "pose/ransac_pose.h"
@@ -137,22 +136,6 @@ void printMatchCounts(const char* name, int frames) {
   sparse.print();
 }
 
-void printInstruments() {
-  const auto folder = dataFolder("endonerf_pulling");
-  if (folder.empty()) return;
-  double both = 0, found = 0, marked = 0;
-  for (int frame = 1; frame < 63; ++frame) {
-    const Mask mask = readMask(folder / "mask" / (frameName(frame) + ".png"));
-    const Mask detected = detectInstruments(readLeft(folder, frame));
-    for (std::size_t i = 0; i < mask.size(); ++i) {
-      found += detected.values[i] != 0;
-      marked += mask.values[i] != 0;
-      both += detected.values[i] != 0 && mask.values[i] != 0;
-    }
-  }
-  std::printf("\ninstruments: precision %.3f, recall %.3f\n", both / found, both / marked);
-}
-
 void printStages(const char* name) {
   const auto folder = dataFolder(name);
   if (folder.empty()) return;
@@ -181,7 +164,6 @@ void printStages(const char* name) {
   line("dense SURF, one picture", timesOf([&] { denseSurf(live.gray, live.ignore, {}); }));
   line("matching, all", timesOf([&] { matcher->match(model, live); }));
   line("highlights", timesOf([&] { highlightMask(colour); }));
-  line("instruments", timesOf([&] { detectInstruments(colour); }));
   line("lifting", timesOf([&] { liftMatches(matches, view, live_depth, truth.camera); }));
   line("rigid pose", timesOf([&] { estimateRigidPose(pairs, {}); }));
 }
@@ -197,5 +179,4 @@ int main() {
   softscope::test::printMatchCounts("endonerf_pulling", 63);
   softscope::test::printMatchCounts("openhelp_heart", 40);
   softscope::test::printMatchCounts("openhelp_kidney_small", 40);
-  softscope::test::printInstruments();
 }

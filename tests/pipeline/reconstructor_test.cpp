@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -276,10 +277,34 @@ TEST(Reconstructor, TracksBesideAnInstrumentBeginOnTheTissue) {
     EXPECT_NEAR(point.position_mm.z(), truth_mm.at(152, point.id), 1.0) << "row " << point.id;
 }
 
+int pointsOfTheBar(const ShortClip& clip, const ReconstructionOptions& options) {
+  Reconstructor reconstructor = reconstructorOf(clip, options);
+  reconstructor.process(frameWithABar(clip));
+  float tissue_mm = std::numeric_limits<float>::infinity();  // the nearest
+  for (const float depth_mm : clip.truth.front().depth_mm.values)
+    if (depth_mm > 0) tissue_mm = std::min(tissue_mm, depth_mm);
+  const std::vector<Eigen::Vector3f>& points_mm = reconstructor.model().model.positions_mm;
+  EXPECT_GT(points_mm.size(), 1000U);
+  return static_cast<int>(std::count_if(points_mm.begin(), points_mm.end(), [&](const auto& point) {
+    return point.z() < tissue_mm - 2;
+  }));
+}
+
+TEST(Reconstructor, KeepsInstrumentsWithoutAMaskOutOfTheModel) {
+  ReconstructionOptions options = smallOptions();
+  const int left = pointsOfTheBar(shortClip(), options);
+  options.depth.detect_instruments = false;
+  const int all = pointsOfTheBar(shortClip(), options);
+  EXPECT_GT(all, 2000);
+  EXPECT_LT(left, all / 5);  // at its contours, where the matcher blends both depths
+}
+
 // The bar is taken away: what was on it floats before the tissue, where nothing is.
 TEST(Reconstructor, TracksThatFloatBeforeTheTissueAreNotVisible) {
   const ShortClip& clip = shortClip();
-  Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
+  ReconstructionOptions options = smallOptions();
+  options.depth.detect_instruments = false;
+  Reconstructor reconstructor = reconstructorOf(clip, options);
   reconstructor.track(seedsInColumn(120));
   const FrameRecord before = reconstructor.process(frameWithABar(clip));
   reconstructor.process(clip.frames[0]);
