@@ -9,6 +9,7 @@
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "cuda/device/arena.h"
+#include "cuda/device/fixed_sum.h"
 #include "cuda/model/model_layout.h"
 #include "fusion/block_correlation.h"
 #include "fusion/colour_gain.h"
@@ -17,17 +18,6 @@
 #include "fusion/sight_formulas.h"
 
 namespace softscope::cuda {
-
-/// Sums that any order of threads makes alike: whole multiples of 2^-26, up to 2^37.
-using FixedSum = unsigned long long;
-constexpr double kFixedUnit = 1.0 / (1 << 26);
-SOFTSCOPE_HD inline FixedSum toFixed(double value) {
-  return static_cast<FixedSum>(
-      static_cast<long long>(value / kFixedUnit + (value < 0 ? -0.5 : 0.5)));
-}
-SOFTSCOPE_HD inline double fromFixed(FixedSum sum) {
-  return static_cast<double>(static_cast<long long>(sum)) * kFixedUnit;
-}
 
 /// Weighted totals of seen points: of one node, or of the frame.
 struct InnovationSums {

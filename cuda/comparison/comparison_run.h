@@ -73,6 +73,7 @@ class ComparisonRun final : public FrameComparer {
     seen_.resize(model.size());
     machine_.fromDevice(seen_.data(), model_.seen, seen_.size());
     machine_.wait();
+    if (shared_home_) shared_home_->setSeen(model_.seen);
     std::vector<std::int32_t> indices;
     indices.reserve(model.size());
     for (std::size_t i = 0; i < seen_.size(); ++i)
@@ -161,7 +162,7 @@ class ComparisonRun final : public FrameComparer {
   void takeModel(const PointModel& model, ModelParts parts) {
     ModelHome<Machine>& home = shared_home_ ? *shared_home_ : own_home_;
     if (!shared_home_) home.changed(kWholeModel);
-    home.setSights(nullptr);  // of the frame before
+    home.forgetFrame();  // the one before
     reserveModel(model.size());
     static_cast<ModelArrays&>(model_) = home.bring(model, parts, 0, machine_);
     model_.count = static_cast<int>(model.size());

@@ -131,7 +131,7 @@ struct MergeCellsKernel {
     mergeInto(model.at(other), &merged);
     model.set(survivor, merged);
     PointBinding& binding = model.bindings[survivor];
-    if (binding.stencil == PointBinding::kUnbound) binding = model.bindings[other];
+    if (!binding.bound()) binding = model.bindings[other];
     points.heirs[other] = survivor;
   }
 };

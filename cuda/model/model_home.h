@@ -22,7 +22,7 @@ class ModelHome {
   /// The host's model is not that of the device any more, in these parts.
   void changed(ModelParts parts) {
     stale_ |= parts;
-    if ((parts & kModelShape) != 0) sights_ = nullptr;
+    if ((parts & kModelShape) != 0) forgetFrame();
   }
 
   /// Copies those of the `parts` that changed on the host. `machine`: the caller's, or what has its
@@ -55,12 +55,19 @@ class ModelHome {
   void swap(std::size_t count) {
     current_ = 1 - current_;
     count_ = count;
-    sights_ = nullptr;
+    forgetFrame();
   }
   /// How the points compare with the frame at hand, on the device; null where that is not known, or
   /// not any more.
   void setSights(const PointSight* sights) { sights_ = sights; }
   const PointSight* sights() const { return sights_; }
+  /// Non-zero for the points that the frame at hand shows; null as above.
+  void setSeen(const std::uint8_t* seen) { seen_ = seen; }
+  const std::uint8_t* seen() const { return seen_; }
+  void forgetFrame() {
+    sights_ = nullptr;
+    seen_ = nullptr;
+  }
   std::size_t count() const { return count_; }
   std::size_t capacity() const { return capacity_; }
 
@@ -109,6 +116,7 @@ class ModelHome {
   std::size_t count_ = 0, capacity_ = 0;
   ModelParts stale_ = kWholeModel;
   const PointSight* sights_ = nullptr;
+  const std::uint8_t* seen_ = nullptr;
 };
 
 }  // namespace softscope::cuda

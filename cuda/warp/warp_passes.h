@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
+#include "cuda/device/ordered_list.h"
+#include "cuda/device/reset_kernel.h"
 #include "cuda/warp/warp_fronts.h"
 #include "cuda/warp/warp_nodes.h"
+#include "cuda/warp/warp_points.h"
 #include "cuda/warp/warp_stencils.h"
 
 namespace softscope::cuda {
@@ -28,6 +31,29 @@ template <class Executor>
 class WarpPasses {
  public:
   explicit WarpPasses(Executor& executor) : executor_(executor) {}
+
+  /// The listed points of the model, by stencil, and the loads of the nodes.
+  void listPoints(const WarpStructureLayout& graph, const SeenModel& of,
+                  const PointListLayout& list, const WarpPointLayout& points) {
+    constexpr std::size_t kWords = sizeof(FixedSum) / sizeof(std::uint32_t);
+    const auto stencils = static_cast<std::size_t>(list.stencils);
+    ResetKernel reset;
+    reset.add(graph.point_start, stencils + 1, 0);
+    reset.add(list.filled, stencils, 0);
+    reset.add(list.shares, 2 * kNodesPerPoint * stencils * kWords, 0);
+    reset.add(list.loads, 2 * static_cast<std::size_t>(list.nodes) * kWords, 0);
+    reset.add(list.counts, sizeof(PointListCounts) / sizeof(std::uint32_t), 0);
+    launch("reset", reset);
+    launch("count points", CountPointsKernel{of, list, graph.point_start});
+    executor_.launch(
+        "list starts",
+        ListStartsKernel{graph.point_start, list.stencils, graph.point_start + list.stencils},
+        Grid{});
+    launch("list points", ListPointsKernel{of, list, graph.point_start});
+    launch("sort points", SortPointsKernel{of, list, graph.point_start, points});
+    launch("load nodes", LoadNodesKernel{graph.stencil_nodes, list});
+    executor_.mark("points");
+  }
 
   /// Targets, normal equations and energy at these transforms.
   void linearise(const WarpStructureLayout& graph, const WarpPointLayout& points,

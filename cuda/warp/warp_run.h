@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "cuda/device/shared_rasters.h"
+#include "cuda/model/model_home.h"
 #include "cuda/warp/warp_passes.h"
 #include "deform/solver/warp_device.h"
 
@@ -26,6 +28,8 @@ class WarpRun final : public WarpDevice {
   }
   /// Rasters already on the device are not copied again.
   void share(std::shared_ptr<const SharedRasters> shared) { shared_ = std::move(shared); }
+  /// The model on the device, of which the points in sight are taken.
+  void share(std::shared_ptr<ModelHome<Machine>> home) { home_ = std::move(home); }
   ~WarpRun() override = default;
 
   void setStructure(const WarpStructure& structure) override {
@@ -80,11 +84,7 @@ class WarpRun final : public WarpDevice {
 
   void setPoints(const WarpPoints& points) override {
     const auto count = static_cast<std::size_t>(points.count);
-    Arena counting;
-    WarpPointLayout planned(counting, count);
-    reserve(counting.bytes(), &point_memory_);
-    Arena arena(point_memory_.data());
-    points_ = WarpPointLayout(arena, count);
+    planPoints(count);
     send(points_.positions_mm, points.positions_mm, count);
     send(points_.normals, points.normals, count);
     send(points_.bindings, points.bindings, count);
@@ -92,6 +92,27 @@ class WarpRun final : public WarpDevice {
     inputs_.points = points.count;
     inputs_.points_each = points.points_each;
     machine_.wait();
+  }
+
+  std::optional<NodeLoads> setSeenPoints(const PointModel& model) override {
+    if (!home_ || home_->seen() == nullptr) return std::nullopt;
+    const SeenModel of{home_->bring(model, kModelShape | kModelBindings, 0, machine_),
+                       home_->seen(), static_cast<int>(model.size())};
+    planPoints(model.size());
+    const PointListLayout list = planList(model.size());
+    passes_.listPoints(graph_, of, list, points_);
+    PointListCounts counts;
+    std::vector<FixedSum> sums(2 * static_cast<std::size_t>(graph_.nodes));
+    machine_.fromDevice(&counts, list.counts, sizeof counts);
+    machine_.fromDevice(sums.data(), list.loads, sums.size() * sizeof(FixedSum));
+    machine_.wait();
+    if (counts.longest > SortPointsKernel::kMost) return std::nullopt;
+    inputs_.points = counts.listed;
+    inputs_.points_each = 1;
+    NodeLoads loads;
+    for (std::size_t j = 0; j < sums.size(); ++j)
+      (j < sums.size() / 2 ? loads.all : loads.seen).push_back(fromFixed(sums[j]));
+    return loads;
   }
 
   void setMatches(const WarpMatches& matches) override {
@@ -148,6 +169,22 @@ class WarpRun final : public WarpDevice {
 
   NodeTransform* accepted() const { return graph_.transforms[accepted_]; }
   NodeTransform* trial() const { return graph_.transforms[1 - accepted_]; }
+  void planPoints(std::size_t count) {
+    Arena counting;
+    WarpPointLayout planned(counting, count);
+    reserve(counting.bytes(), &point_memory_);
+    Arena arena(point_memory_.data());
+    points_ = WarpPointLayout(arena, count);
+  }
+  PointListLayout planList(std::size_t points) {
+    const auto stencils = static_cast<std::size_t>(graph_.stencils);
+    const auto nodes = static_cast<std::size_t>(graph_.nodes);
+    Arena counting;
+    PointListLayout planned(counting, stencils, nodes, points);
+    reserve(counting.bytes(), &list_memory_);
+    Arena arena(list_memory_.data());
+    return {arena, stencils, nodes, points};
+  }
   /// Reserves half more, so that a growing graph rarely reallocates.
   void reserve(std::size_t bytes, Memory* memory) {
     if (memory->bytes() >= bytes) return;
@@ -176,7 +213,7 @@ class WarpRun final : public WarpDevice {
     return static_cast<const T*>(arrived_.data());
   }
 
-  Memory structure_memory_, surface_memory_, point_memory_, match_memory_;
+  Memory structure_memory_, surface_memory_, point_memory_, list_memory_, match_memory_;
   typename Machine::Pinned arrived_;
   Machine machine_;
   WarpPasses<typename Machine::Executor> passes_;
@@ -185,6 +222,7 @@ class WarpRun final : public WarpDevice {
   WarpPointLayout points_;
   PlaneConstraint* matches_ = nullptr;
   std::shared_ptr<const SharedRasters> shared_;
+  std::shared_ptr<ModelHome<Machine>> home_;
   WarpInputs inputs_;
   int accepted_ = 0;
   double floor_ = 0;

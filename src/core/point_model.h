@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/hd.h"
 #include "core/image.h"
 
 namespace softscope {
@@ -20,7 +21,7 @@ struct PointBinding {
   std::int32_t stencil = kUnbound;              // index into WarpGraph::stencils
   std::array<float, kNodesPerPoint> weights{};  // sum 1; 0 for unused slots
 
-  bool bound() const { return stencil != kUnbound; }
+  SOFTSCOPE_HD bool bound() const { return stencil != kUnbound; }
 };
 
 /// N points, mm, in the world frame. Structure of arrays of size N; 64 bytes per point.

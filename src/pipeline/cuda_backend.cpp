@@ -103,11 +103,13 @@ std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& opti
 
 /// Affine nodes have no kernels.
 std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
-                                             std::shared_ptr<const cuda::SharedRasters> shared) {
+                                             std::shared_ptr<const cuda::SharedRasters> shared,
+                                             std::shared_ptr<cuda::SharedModel> model) {
   if (options.node_model != NodeModel::kRigid) return makeDeformSolver(options);
   return makeDeformSolver(
       options,
-      makeDeviceWarpSystem(options, cuda::makeWarpDevice(warpWeights(options), std::move(shared))));
+      makeDeviceWarpSystem(options, cuda::makeWarpDevice(warpWeights(options), std::move(shared),
+                                                         std::move(model))));
 }
 
 }  // namespace
@@ -131,7 +133,9 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   // The comparer copies the frame's rasters to the device while the pose is found; the solver takes
   // them from there.
   const auto rasters = std::make_shared<cuda::SharedRasters>();
-  parts.makeSolver = [rasters](const DeformOptions& warp) { return makeCudaSolver(warp, rasters); };
+  parts.makeSolver = [rasters, model](const DeformOptions& warp) {
+    return makeCudaSolver(warp, rasters, model);
+  };
   parts.makeComparer = [rasters, model](const RectifiedRig& rig) {
     return cuda::makeFrameComparer(rig.left, rasters, model);
   };

@@ -58,6 +58,13 @@ class WarpScene {
   }
 
   const DeformOptions& options() const { return options_; }
+  const PointModel& model() const { return model_; }
+  /// A byte per point of the model.
+  std::vector<std::uint8_t> visible() const {
+    std::vector<std::uint8_t> visible(model_.size(), 0);
+    for (const int point : visible_) visible[static_cast<std::size_t>(point)] = 1;
+    return visible;
+  }
   const DepthMap& depth() const { return view_.depth; }
   const NormalMap& normals() const { return view_.normals; }
   WarpWeights weights() const { return warpWeights(options_); }

@@ -55,6 +55,43 @@ TEST(WarpPassesEdge, RastersOnTheDeviceAreTakenFromThere) {
   EXPECT_EQ(test::furthestApart(scene.solve(solver.get()).graph, expected.graph), 0);
 }
 
+std::unique_ptr<DeformSolver> solverWithTheModel(
+    const test::WarpScene& scene, unsigned seed,
+    std::shared_ptr<cuda::ModelHome<test::HostMachine>> home) {
+  auto device = std::make_unique<cuda::WarpRun<test::HostMachine>>(scene.weights(), seed);
+  device->share(std::move(home));
+  return makeDeformSolver(scene.options(),
+                          makeDeviceWarpSystem(scene.options(), std::move(device)));
+}
+
+TEST_P(WarpPasses, TakePointsFromTheModelOnTheDevice) {
+  const test::WarpScene scene(GetParam());
+  const std::vector<std::uint8_t> seen = scene.visible();
+  const auto home = std::make_shared<cuda::ModelHome<test::HostMachine>>();
+  home->setSeen(seen.data());
+  const auto solver = solverWithTheModel(scene, 1, home);
+  const test::WarpScene::Found expected = scene.solve(solverOnTheHost(scene, 1).get());
+  const test::WarpScene::Found found = scene.solve(solver.get());
+  EXPECT_EQ(found.summary.points_after, expected.summary.points_after);
+  EXPECT_LT(test::furthestApart(found.graph, expected.graph), 1e-6);
+  const test::WarpScene::Found shuffled = scene.solve(solverWithTheModel(scene, 77, home).get());
+  EXPECT_EQ(test::furthestApart(found.graph, shuffled.graph), 0);
+}
+
+// The host's list stands in for one of the device that nobody has made, or that is too long.
+TEST(WarpPassesEdge, PointsAreTakenFromTheHostWhereTheDeviceHasNoList) {
+  const test::WarpScene scene(test::warpCases()[1]);
+  const test::WarpScene::Found expected = scene.solve(solverOnTheHost(scene, 1).get());
+  const auto home = std::make_shared<cuda::ModelHome<test::HostMachine>>();
+  const auto solver = solverWithTheModel(scene, 1, home);
+  EXPECT_EQ(test::furthestApart(scene.solve(solver.get()).graph, expected.graph), 0);
+  const std::vector<std::uint8_t> nothing(scene.model().size(), 0);
+  home->setSeen(nothing.data());
+  EXPECT_EQ(scene.solve(solver.get()).summary.points_before, 0);
+  home->changed(kModelShape);  // and so is what it was compared with
+  EXPECT_EQ(test::furthestApart(scene.solve(solver.get()).graph, expected.graph), 0);
+}
+
 TEST(WarpPassesEdge, AffineNodesAreRefused) {
   const test::WarpScene scene(test::warpCases().back());
   DeformOptions affine = scene.options();

@@ -30,15 +30,11 @@ class DeviceWarpSystem final : public WarpSystem {
     const Stopwatch watch(&times_.prepare_ms);
     analyse(graph);
     graph_ = graph;
-    std::vector<double> all, in_sight;  // points that a node carries
+    NodeLoads loads;
     // Independent.
-    parallelInvoke([&] { takeMatches(model, seen); },
-                   [&] {
-                     parallelInvoke([&] { all = carriedPoints(model.bindings, graph_, 1); },
-                                    [&] { in_sight = takePoints(model, seen); });
-                   });
+    parallelInvoke([&] { takeMatches(model, seen); }, [&] { loads = takePoints(model, seen); });
     device_->setSurface(surfaceOf(seen));
-    takeNodes(all, in_sight);
+    takeNodes(loads);
     return {constraints_.matches, constraints_.matches_dropped};
   }
 
@@ -75,15 +71,29 @@ class DeviceWarpSystem final : public WarpSystem {
 
  private:
   DepthLookUp surfaceOf(const DeformObservation& seen) const {
-    if (seen.surface == nullptr || !(options_.data_weight > 0)) return {};
+    if (!usesSurface(seen)) return {};
     const auto* depth = dynamic_cast<const DepthTarget*>(seen.surface);
     if (depth == nullptr) throw Error("the device takes its targets from a DepthTarget alone");
     return depth->formula();
   }
 
+  NodeLoads takePoints(const PointModel& model, const DeformObservation& seen) {
+    const bool takes_all = options_.association.max_points == 0;
+    if (takes_all && usesSurface(seen) && seen.visible != nullptr)
+      if (std::optional<NodeLoads> loads = device_->setSeenPoints(model)) return *loads;
+    NodeLoads loads;
+    parallelInvoke([&] { loads.all = carriedPoints(model.bindings, graph_, 1); },
+                   [&] { loads.seen = sendPoints(model, seen); });
+    return loads;
+  }
+
+  bool usesSurface(const DeformObservation& seen) const {
+    return seen.surface != nullptr && options_.data_weight > 0;
+  }
+
   /// Returns how many a node carries.
-  std::vector<double> takePoints(const PointModel& model, const DeformObservation& seen) {
-    if (seen.surface != nullptr && options_.data_weight > 0)
+  std::vector<double> sendPoints(const PointModel& model, const DeformObservation& seen) {
+    if (usesSurface(seen))
       collectCandidates(model, graph_, seen.visible, options_.association.max_points, &candidates_);
     else
       candidates_ = noCandidates(graph_);
@@ -112,8 +122,8 @@ class DeviceWarpSystem final : public WarpSystem {
     expectShape(graph_, options_.shape_memory, &constraints_.expected);
   }
 
-  void takeNodes(const std::vector<double>& all, const std::vector<double>& in_sight) {
-    classifyNodes(graph_, all, in_sight, options_.seen_stiffness, &constraints_);
+  void takeNodes(const NodeLoads& loads) {
+    classifyNodes(graph_, loads.all, loads.seen, options_.seen_stiffness, &constraints_);
     std::vector<double> edge_weights;
     for (std::size_t e = 0; e < graph_.edges.size(); ++e)
       edge_weights.push_back(constraints_.stiffness[e] * graph_.edges[e].weight);

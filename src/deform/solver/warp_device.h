@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/point_model.h"
@@ -53,6 +54,11 @@ struct WarpNodes {
   double lever_mm = 1;
 };
 
+/// Sums of the weights of points per node.
+struct NodeLoads {
+  std::vector<double> all, seen;
+};
+
 /// Sums over a frame.
 struct WarpSums {
   double data = 0, correspondence = 0, data_abs_mm = 0, points = 0;  // robust; weighted by rows
@@ -72,6 +78,9 @@ class WarpDevice {
   // memory of the host may change after return. A surface without depth gives no targets.
   virtual void setSurface(const DepthLookUp& surface) = 0;
   virtual void setPoints(const WarpPoints& points) = 0;
+  /// In place of setPoints(): those of the model on the device that the frame shows. None without
+  /// such a model, or if it cannot list them.
+  virtual std::optional<NodeLoads> setSeenPoints(const PointModel& model) = 0;
   virtual void setMatches(const WarpMatches& matches) = 0;
   virtual void setNodes(const WarpNodes& nodes) = 0;
   /// New targets and normal equations at the accepted transforms; their energy and the largest
