@@ -118,18 +118,18 @@ class CpuBackend : public ReconstructionBackend {
   std::optional<ModelComparison> comparison_;  // with the warped model
   FusionSummary fused_;
   StageClock clock_;
-  TrackPictures looks_{&frame_, &frames_.depth().rig()};  // ends before the frame
+  TrackPictures pictures_{&frame_, &frames_.depth().rig()};  // ends before the frame
 };
 
 DepthSummary CpuBackend::measure(const Frame& frame) {
   comparer_->endFrame();
-  looks_.end();
+  pictures_.end();
   clock_ = StageClock();
   matches_.clear();
   comparison_.reset();
   pose_ = RigidPose();
   frame_ = frames_.measure(frame, &clock_);
-  if (tracks() && worksAhead()) looks_.prepare();
+  if (tracks() && worksAhead()) pictures_.prepare();
   return frame_.summary;
 }
 
@@ -316,7 +316,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
         if (first) {
           state_.tracked.anchor(state_.model, surface_.get());
           if (tracks())
-            state_.tracked.look(looks_.pictures().looks, state_.model, left(), world_from_left,
+            state_.tracked.look(pictures_.looks(), state_.model, left(), world_from_left,
                                 frame_.measured.depth);
         }
         state_.tracked.settle(state_.model, world_from_left.translation(),
@@ -339,8 +339,8 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
 FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
   FrameOutcome outcome{std::exchange(fused_, {}), {}, clock_.laps()};
   if (tracks())
-    outcome.tracked = TrackSight(frame_, rig())
-                          .positions(state_.tracked, world_from_left, looks_.pictures().relief_px);
+    outcome.tracked =
+        TrackSight(frame_, rig()).positions(state_.tracked, world_from_left, pictures_.reliefPx());
   clock_ = StageClock();
   return outcome;
 }
@@ -354,8 +354,7 @@ void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
 void CpuBackend::alignTracks(const Eigen::Isometry3d& world_from_left) {
   if (!tracks()) return;
   const TrackSight sight(frame_, rig());
-  state_.tracked.align(looks_.pictures().looks, left(), world_from_left,
-                       options_.graph.node_spacing_mm,
+  state_.tracked.align(pictures_.looks(), left(), world_from_left, options_.graph.node_spacing_mm,
                        [&](const Eigen::Vector3d& point) { return sight.shows(point); });
 }
 

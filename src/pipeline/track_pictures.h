@@ -3,7 +3,7 @@
 #pragma once
 
 #include <future>
-#include <memory>
+#include <optional>
 
 #include "pipeline/first_look.h"
 #include "pipeline/track_sight.h"
@@ -13,26 +13,26 @@ namespace softscope {
 /// One frame at a time. Same results with prepare() and without.
 class TrackPictures {
  public:
-  struct Pictures {
-    LookPicture looks;
-    Raster<float> relief_px;
-  };
-
   /// Both must live; the frame may change after end() only.
   TrackPictures(const FrameView* frame, const RectifiedRig* rig) : frame_(frame), rig_(rig) {}
 
-  /// Begins to make the pictures of the frame, which are otherwise made when they are needed.
+  /// Begins to make what is otherwise made when it is needed.
   void prepare();
-  const Pictures& pictures();
+  const LookPicture& looks();
+  const Raster<float>& reliefPx();
   void end();
 
  private:
-  Pictures make() const;
+  LookPicture makeLooks() const;
+  Raster<float> makeRelief() const;
 
   const FrameView* frame_;
   const RectifiedRig* rig_;
-  std::unique_ptr<Pictures> pictures_;
-  std::future<Pictures> making_;  // its thread ends before the members above are destroyed
+  std::optional<LookPicture> looks_;
+  std::optional<Raster<float>> relief_px_;
+  // Their threads end before the members above are destroyed.
+  std::future<LookPicture> making_looks_;
+  std::future<Raster<float>> making_relief_;
 };
 
 }  // namespace softscope

@@ -88,10 +88,14 @@ Extents extentsAlongColumns(const Counts& disparity) {
 }
 
 /// Both sides as far as the shorter one: a plane is then the mean of its window in its middle.
-void makeSymmetric(Extents* extents) {
-  for (std::size_t i = 0; i < extents->before.size(); ++i)
-    extents->before.values[i] = extents->after.values[i] =
-        std::min(extents->before.values[i], extents->after.values[i]);
+Extents symmetric(const Extents& extents) {
+  Extents both = extents;
+  parallelRows(both.before.height_px, [&](int v) {
+    std::uint8_t *before = both.before.row(v), *after = both.after.row(v);
+    for (int u = 0; u < both.before.width_px; ++u)
+      before[u] = after[u] = std::min(before[u], after[u]);
+  });
+  return both;
 }
 
 /// None at pixels without `disparity`, which may be in the gap of a step.
@@ -130,11 +134,15 @@ Counts sumsAlongColumns(const Counts& in, const Extents& extents) {
 /// Windows around each pixel that end at depth steps: Zhang, Lu and Lafruit, "Cross-based local
 /// stereo matching using orthogonal integral images", 2009.
 struct Windows {
-  explicit Windows(const Counts& disparity)
-      : rows(extentsAlongRows(disparity)), columns(extentsAlongColumns(disparity)) {}
-
   Extents rows, columns;
 };
+
+Windows windowsOf(const Counts& disparity) {
+  Windows windows;
+  parallelInvoke([&] { windows.rows = extentsAlongRows(disparity); },
+                 [&] { windows.columns = extentsAlongColumns(disparity); });
+  return windows;
+}
 
 Counts sumsOver(const Windows& windows, const Counts& in, const Counts& disparity) {
   return sumsAlongColumns(sumsAlongRows(in, windows.rows, disparity), windows.columns);
@@ -161,12 +169,15 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
       step[u] = rounded(z[u] > 0 ? kStepsPerPx * std::min(scale / z[u], kLargest) : 0.0f);
     }
   });
-  const Windows windows(steps);
-  Windows symmetric = windows;
-  makeSymmetric(&symmetric.rows);
-  makeSymmetric(&symmetric.columns);
-  const Counts means_of = sumsOver(symmetric, measured, steps),
-               means = sumsOver(symmetric, steps, steps);
+  const Windows windows = windowsOf(steps);
+  const Windows even{symmetric(windows.rows), symmetric(windows.columns)};
+  Counts means_of, means, counts;
+  // Independent.
+  parallelInvoke([&] { means = sumsOver(even, steps, steps); },
+                 [&] {
+                   parallelInvoke([&] { means_of = sumsOver(even, measured, steps); },
+                                  [&] { counts = sumsOver(windows, measured, steps); });
+                 });
   Counts squares(width, height, 0);
   parallelRows(height, [&](int v) {
     const std::uint32_t *is_measured = measured.row(v), *step = steps.row(v), *sum = means.row(v),
@@ -179,8 +190,7 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
                   rounded(kStepsAPx2 * std::min<double>(bend_px * bend_px, kLargestBendPx2));
     }
   });
-  const Counts counts = sumsOver(windows, measured, steps),
-               energies = sumsOver(windows, squares, steps);
+  const Counts energies = sumsOver(windows, squares, steps);
   Raster<float> error_px(width, height, std::numeric_limits<float>::quiet_NaN());
   parallelRows(height, [&](int v) {
     const std::uint32_t *is_measured = measured.row(v), *energy = energies.row(v),
