@@ -12,6 +12,8 @@ namespace {
 constexpr int kHighlightBrightness = 235;      // minimum, of the brightest channel
 constexpr double kHighlightSaturation = 0.25;  // maximum (max - min) / max of the channels
 constexpr int kHighlightHaloPx = 3;            // dilation: the halo is part of the highlight
+constexpr int kClippedBrightness = 250;        // minimum, of the darkest channel
+constexpr int kClippedRadiusPx = 6;            // of the window of the sub-pixel refinement
 
 }  // namespace
 
@@ -29,6 +31,17 @@ Mask highlightMask(const ColourImage& image) {
     }
   });
   return dilated(mask, kHighlightHaloPx);
+}
+
+Mask clippedMask(const ColourImage& image) {
+  Mask mask(image.width_px, image.height_px, 0);
+  parallelRows(image.height_px, [&](int v) {
+    const Rgb8* in = image.row(v);
+    std::uint8_t* mark = mask.row(v);
+    for (int u = 0; u < image.width_px; ++u)
+      mark[u] = std::min({in[u].red, in[u].green, in[u].blue}) >= kClippedBrightness;
+  });
+  return eroded(mask, kClippedRadiusPx);
 }
 
 }  // namespace softscope

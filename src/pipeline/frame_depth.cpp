@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "features/highlight_mask.h"
 #include "pipeline/reconstruction_settings.h"
 #include "stereo/depth/depth_from_disparity.h"
 #include "stereo/images/view_masks.h"
@@ -99,6 +100,7 @@ MeasuredFrame FrameDepth::measure(FrameViews views) {
   StereoSurface found = stage_->measure(aligned, measured.mask);
   if (!views.instruments.empty())
     found.drop(leaksOf(views.instruments, found.disparity.disparity_px));
+  found.drop(clippedMask(aligned.pair.left));
   if (options_.detect_instruments)
     found.drop(greyForeground(aligned.pair.left, found.depth.depth_mm, rig().left));
   measured.disparity = std::move(found.disparity);

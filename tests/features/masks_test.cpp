@@ -30,5 +30,17 @@ TEST(HighlightMask, MarksWhiteWithItsHaloAndNothingElse) {
   EXPECT_TRUE(highlightMask({}).empty());
 }
 
+TEST(ClippedMask, IsTheInsideOfWhatIsClippedInAllChannels) {
+  ColourImage image(100, 80, kTissue);
+  paint(&image, 20, 20, 50, 45, {255, 252, 250});
+  paint(&image, 60, 20, 72, 32, {255, 255, 255});  // no window of 13 px fits in
+  paint(&image, 60, 50, 90, 75, {255, 255, 200});
+  const Mask mask = clippedMask(image);
+  EXPECT_EQ(marked(mask), (30 - 12) * (25 - 12));
+  EXPECT_EQ(mask.at(26, 26), 1);
+  EXPECT_EQ(mask.at(25, 26), 0);
+  EXPECT_TRUE(clippedMask({}).empty());
+}
+
 }  // namespace
 }  // namespace softscope
