@@ -9,7 +9,7 @@ namespace softscope {
 Mask highlightMask(const ColourImage& image);
 
 /// 1 inside of clipped highlights, which show nothing of the tissue: all channels of all
-/// pixels of their window of stereo are at their end. Same size.
+/// pixels of their window of stereo are at their end. Same size, or empty if none is.
 Mask clippedMask(const ColourImage& image);
 
 }  // namespace softscope

@@ -39,6 +39,7 @@ TEST(ClippedMask, IsTheInsideOfWhatIsClippedInAllChannels) {
   EXPECT_EQ(marked(mask), (30 - 12) * (25 - 12));
   EXPECT_EQ(mask.at(26, 26), 1);
   EXPECT_EQ(mask.at(25, 26), 0);
+  EXPECT_TRUE(clippedMask(ColourImage(100, 80, kTissue)).empty());
   EXPECT_TRUE(clippedMask({}).empty());
 }
 
