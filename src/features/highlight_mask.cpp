@@ -1,7 +1,6 @@
 #include "features/highlight_mask.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "core/mask_morphology.h"
 #include "core/parallel.h"
@@ -13,8 +12,6 @@ namespace {
 constexpr int kHighlightBrightness = 235;      // minimum, of the brightest channel
 constexpr double kHighlightSaturation = 0.25;  // maximum (max - min) / max of the channels
 constexpr int kHighlightHaloPx = 3;            // dilation: the halo is part of the highlight
-constexpr int kClippedBrightness = 250;        // minimum, of the darkest channel
-constexpr int kClippedRadiusPx = 6;            // of the window of the sub-pixel refinement
 
 }  // namespace
 
@@ -32,22 +29,6 @@ Mask highlightMask(const ColourImage& image) {
     }
   });
   return dilated(mask, kHighlightHaloPx);
-}
-
-Mask clippedMask(const ColourImage& image) {
-  Mask mask(image.width_px, image.height_px, 0);
-  std::atomic<bool> any{false};
-  parallelRows(image.height_px, [&](int v) {
-    const Rgb8* in = image.row(v);
-    std::uint8_t* mark = mask.row(v);
-    std::uint8_t in_row = 0;
-    for (int u = 0; u < image.width_px; ++u) {
-      mark[u] = std::min({in[u].red, in[u].green, in[u].blue}) >= kClippedBrightness;
-      in_row |= mark[u];
-    }
-    if (in_row != 0) any = true;
-  });
-  return any ? eroded(mask, kClippedRadiusPx) : Mask();
 }
 
 }  // namespace softscope

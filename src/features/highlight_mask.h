@@ -1,4 +1,4 @@
-// src/features/highlight_mask.h: specular highlights, and what of them is clipped.
+// src/features/highlight_mask.h: specular highlight mask.
 #pragma once
 
 #include "core/image.h"
@@ -7,9 +7,5 @@ namespace softscope {
 
 /// 1 at specular highlights: bright and unsaturated pixels, dilated. Same size.
 Mask highlightMask(const ColourImage& image);
-
-/// 1 inside of clipped highlights, which show nothing of the tissue: all channels of all
-/// pixels of their window of stereo are at their end. Same size, or empty if none is.
-Mask clippedMask(const ColourImage& image);
 
 }  // namespace softscope

@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "core/error.h"
-#include "features/highlight_mask.h"
 #include "pipeline/reconstruction_settings.h"
 #include "stereo/depth/depth_from_disparity.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/stage_clock.h"
 #include "stereo/rectification/image_border.h"
+#include "stereo/refinement/clipped_mask.h"
 #include "stereo/refinement/grey_foreground.h"
 #include "stereo/refinement/mask_leaks.h"
 

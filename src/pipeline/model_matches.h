@@ -11,8 +11,8 @@
 
 namespace softscope {
 
-/// What of a frame is no tissue: its mask, and instruments where they are to be detected in `left`,
-/// the rectified image.
+/// What of a frame is no tissue: its mask with a margin, and its border. Of the size of `left`, the
+/// rectified image.
 Mask notTissue(const ColourImage& left, const MeasuredFrame& frame,
                const TissueMaskOptions& options);
 

@@ -78,7 +78,7 @@ TEST_P(WarpPasses, TakePointsFromTheModelOnTheDevice) {
   EXPECT_EQ(test::furthestApart(found.graph, shuffled.graph), 0);
 }
 
-// The host's list stands in for one of the device that nobody has made, or that is too long.
+// Without a list on the device, the solver sends the host's list.
 TEST(WarpPassesEdge, PointsAreTakenFromTheHostWhereTheDeviceHasNoList) {
   const test::WarpScene scene(test::warpCases()[1]);
   const test::WarpScene::Found expected = scene.solve(solverOnTheHost(scene, 1).get());

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "support/paint.h"
 
 namespace softscope {
 namespace {
@@ -21,11 +22,13 @@ struct TwoSurfaces {
   Raster<float> depth_mm = Raster<float>(320, 240, kTissueMm);
 
   TwoSurfaces(const Rgb8& colour, float right_mm) {
+    test::paint(&left, 200, 0, 320, 240, colour);
+    setColumns(200, 320, [right_mm](int) { return right_mm; });
+  }
+  template <class Depth>
+  void setColumns(int begin, int end, const Depth& depthAt) {
     for (int v = 0; v < 240; ++v)
-      for (int u = 200; u < 320; ++u) {
-        left.at(u, v) = colour;
-        depth_mm.at(u, v) = right_mm;
-      }
+      for (int u = begin; u < end; ++u) depth_mm.at(u, v) = depthAt(u);
   }
   Mask foreground() const { return greyForeground(left, depth_mm, kCamera); }
   bool isDropped(int u, int v) const {
@@ -54,17 +57,16 @@ TEST(GreyForeground, IsNotWhatLiesBehindTheTissue) {
 // A step of 2 mm between blocks of 4 px at 100 mm is one of 60 degrees.
 TEST(GreyForeground, IsNotGreyTissueThatRisesFromColouredTissue) {
   TwoSurfaces view(kGrey, kSmokeMm);
-  for (int v = 0; v < 240; ++v)
-    for (int u = 200; u < 320; ++u)
-      view.depth_mm.at(u, v) = std::max(kSmokeMm, kTissueMm - 0.4F * static_cast<float>(u - 200));
+  view.setColumns(200, 320, [](int u) {
+    return std::max(kSmokeMm, kTissueMm - 0.4F * static_cast<float>(u - 200));
+  });
   EXPECT_TRUE(view.foreground().empty());
 }
 
 // Windows of the matcher carry the depth of tissue over its contour.
 TEST(GreyForeground, IsWhatLiesBeyondTheRimThatTheMatcherWidened) {
   TwoSurfaces view(kGrey, kSmokeMm);
-  for (int v = 0; v < 240; ++v)
-    for (int u = 200; u < 212; ++u) view.depth_mm.at(u, v) = kTissueMm;
+  view.setColumns(200, 212, [](int) { return kTissueMm; });
   EXPECT_FALSE(view.isDropped(205, 120));
   EXPECT_TRUE(view.isDropped(215, 120));
 }
@@ -72,8 +74,7 @@ TEST(GreyForeground, IsWhatLiesBeyondTheRimThatTheMatcherWidened) {
 // At a contour a block has the colour of tissue and the depth of smoke.
 TEST(GreyForeground, TakesMixedBlocksAtItsContourWithIt) {
   TwoSurfaces view(kGrey, kSmokeMm);
-  for (int v = 0; v < 240; ++v)
-    for (int u = 196; u < 200; ++u) view.depth_mm.at(u, v) = kSmokeMm;
+  view.setColumns(196, 200, [](int) { return kSmokeMm; });
   EXPECT_TRUE(view.isDropped(197, 120));
   EXPECT_FALSE(view.isDropped(195, 120));
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/mask_morphology.h"
 #include "core/median.h"
 #include "core/parallel.h"
 
@@ -63,10 +64,14 @@ class Blocks {
 
   /// Pixels of these blocks, and pixels beside them at their depth: blocks at a contour are mixed.
   Mask pixelsOf(const Mask& apart, const Raster<float>& depth_mm) const {
+    const Mask beside = dilated(apart, 1);
     Mask pixels(depth_mm.width_px, depth_mm.height_px, 0);
     parallelRows(pixels.height_px, [&](int v) {
-      for (int u = 0; u < pixels.width_px; ++u)
-        pixels.at(u, v) = liesOnAny(apart, u / block_px_, v / block_px_, depth_mm.at(u, v));
+      for (int u = 0; u < pixels.width_px; ++u) {
+        const int x = u / block_px_, y = v / block_px_;
+        if (beside.at(x, y) != 0)
+          pixels.at(u, v) = apart.at(x, y) != 0 || liesOnAny(apart, x, y, depth_mm.at(u, v));
+      }
     });
     return pixels;
   }
@@ -99,14 +104,13 @@ class Blocks {
   }
 
   bool liesOnAny(const Mask& apart, int x, int y, float pixel_mm) const {
-    if (apart.at(x, y) != 0) return true;
-    for (int v = y - 1; v <= y + 1; ++v)
-      for (int u = x - 1; u <= x + 1; ++u) {
-        if (!apart.contains(u, v) || apart.at(u, v) == 0) continue;
-        const float block_mm = blocks_.at(u, v).depth_mm;
-        if (std::abs(pixel_mm - block_mm) <= steepest_ * block_mm) return true;
-      }
-    return false;
+    bool lies = false;
+    forEachNeighbour(y * blocks_.width_px + x, [&](int beside) {
+      const float block_mm = blocks_.values[beside].depth_mm;
+      lies = lies ||
+             (apart.values[beside] != 0 && std::abs(pixel_mm - block_mm) <= steepest_ * block_mm);
+    });
+    return lies;
   }
 
   /// Median of the red blocks; 0 if they are few.
@@ -124,19 +128,12 @@ class Blocks {
 
   /// Measured blocks with more than this redness, in a square of such blocks.
   Mask interior(float redness) const {
-    Mask inside(blocks_.width_px, blocks_.height_px, 0);
-    const auto isRed = [&](int x, int y) {
-      return !blocks_.contains(x, y) ||
-             (isLit(blocks_.at(x, y)) && blocks_.at(x, y).redness >= redness);
-    };
-    for (int y = 0; y < blocks_.height_px; ++y)
-      for (int x = 0; x < blocks_.width_px; ++x) {
-        bool all = blocks_.at(x, y).measured > 0;
-        for (int dy = -kTissueMargin; all && dy <= kTissueMargin; ++dy)
-          for (int dx = -kTissueMargin; all && dx <= kTissueMargin; ++dx)
-            all = isRed(x + dx, y + dy);
-        inside.at(x, y) = all;
-      }
+    Mask red(blocks_.width_px, blocks_.height_px, 0);
+    for (std::size_t i = 0; i < red.size(); ++i)
+      red.values[i] = isLit(blocks_.values[i]) && blocks_.values[i].redness >= redness;
+    Mask inside = eroded(red, kTissueMargin);
+    for (std::size_t i = 0; i < inside.size(); ++i)
+      if (blocks_.values[i].measured == 0) inside.values[i] = 0;
     return inside;
   }
 
