@@ -101,6 +101,19 @@ void bindFrameReports(py::module_& module) {
           "world_from_left",
           [](const api::FrameReport& self) { return poseArray(self.world_from_left); },
           "4 x 4, float64, mm.")
+      .def_readonly("map", &api::FrameReport::map,
+                    "In whose world the pose is: 0 for the first model, another number for that of "
+                    "another place.")
+      .def_property_readonly(
+          "joined_map",
+          [](const api::FrameReport& self) {
+            return self.joined_map < 0 ? std::nullopt : std::optional<int>(self.joined_map);
+          },
+          "Map that is part of `map` from this frame on; None: none.")
+      .def_property_readonly(
+          "world_from_joined",
+          [](const api::FrameReport& self) { return poseArray(self.world_from_joined); },
+          "4 x 4, float64, mm: its motion into `map`.")
       .def_readonly("coverage", &api::FrameReport::coverage)
       .def_readonly("confidence", &api::FrameReport::confidence,
                     "0 to 1; nan if neither the first fused frame nor compared with the model.")

@@ -21,7 +21,13 @@ struct FrameReport {
   std::string reason;  // reason if it was not fused; else empty
   bool fused = false;
   Pose world_from_left{};  // last known pose if this frame has none
-  double coverage = 0;     // share of the tissue with depth
+  /// In whose world the pose is: 0 for the first model, another number for that of another place.
+  int map = 0;
+  /// Map that is part of `map` from this frame on, and its motion into it: docs/matching.md. -1:
+  /// none.
+  int joined_map = -1;
+  Pose world_from_joined{};
+  double coverage = 0;  // share of the tissue with depth
   /// 0 to 1: docs/fusion.md, F27. NaN if neither the first
   /// fused frame nor compared with the model.
   double confidence = std::numeric_limits<double>::quiet_NaN();

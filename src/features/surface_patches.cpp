@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "features/kernels.h"
 
 namespace softscope {
 namespace {
@@ -166,13 +167,19 @@ std::optional<SurfacePatch> patchAt(const DepthImage& image, int u, int v, float
   return SurfacePatch{frame->centre_mm, describe(gray)};
 }
 
-int distance(const SurfacePatch& a, const SurfacePatch& b) {
-  int sum = 0;
-  for (int k = 0; k < SurfacePatch::kSize; ++k)
-    sum += std::abs(int(a.descriptor[static_cast<std::size_t>(k)]) -
-                    int(b.descriptor[static_cast<std::size_t>(k)]));
-  return sum;
-}
+/// Halves of descriptors, each of the size that the kernels compare.
+struct DescriptorHalves {
+  explicit DescriptorHalves(const std::vector<SurfacePatch>& patches) {
+    for (std::size_t half = 0; half < 2; ++half) {
+      bytes[half].resize(patches.size() * kDescriptorSize);
+      for (std::size_t k = 0; k < patches.size(); ++k)
+        std::copy_n(patches[k].descriptor.data() + half * kDescriptorSize, kDescriptorSize,
+                    bytes[half].data() + k * kDescriptorSize);
+    }
+  }
+  std::array<std::vector<std::uint8_t>, 2> bytes;
+};
+static_assert(SurfacePatch::kSize == 2 * kDescriptorSize);
 
 /// Most similar patch (index in `among`), and whether it is distinct from all others.
 struct Nearest {
@@ -180,35 +187,44 @@ struct Nearest {
   bool distinct = false;
 };
 
-Nearest nearest(const SurfacePatch& patch, const std::vector<SurfacePatch>& among, double max_ratio,
-                double elsewhere_mm) {
-  std::vector<int> distances(among.size());
-  Nearest found;
-  for (std::size_t k = 0; k < among.size(); ++k) {
-    distances[k] = distance(patch, among[k]);
-    if (found.index < 0 || distances[k] < distances[static_cast<std::size_t>(found.index)])
-      found.index = static_cast<int>(k);
-  }
-  if (found.index < 0) return found;
-  const Eigen::Vector3f place_mm = among[static_cast<std::size_t>(found.index)].centre_mm;
-  int second = std::numeric_limits<int>::max();
-  for (std::size_t k = 0; k < among.size(); ++k)
-    if (distances[k] < second && (among[k].centre_mm - place_mm).norm() > elsewhere_mm)
-      second = distances[k];
-  found.distinct = distances[static_cast<std::size_t>(found.index)] < max_ratio * second;
-  return found;
-}
+/// Search of the patches most similar to one. Sums of absolute differences.
+class PatchSearch {
+ public:
+  explicit PatchSearch(const std::vector<SurfacePatch>& among) : among_(among), halves_(among) {}
 
-std::vector<Nearest> allNearest(const std::vector<SurfacePatch>& patches,
-                                const std::vector<SurfacePatch>& among, double max_ratio,
-                                double elsewhere_mm) {
-  std::vector<Nearest> found(patches.size());
-  parallelRows(static_cast<int>(patches.size()), [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    found[i] = nearest(patches[i], among, max_ratio, elsewhere_mm);
-  });
-  return found;
-}
+  /// The first of equally similar ones; -1 without any. Its distances remain in `distances`.
+  int indexFor(const SurfacePatch& patch, std::vector<std::uint16_t>* distances) const {
+    const FeatureKernels& kernels = featureKernels();
+    const int count = static_cast<int>(among_.size());
+    std::vector<std::uint16_t> second(among_.size());
+    distances->resize(among_.size());
+    kernels.descriptorDistances(patch.descriptor.data(), halves_.bytes[0].data(), count,
+                                distances->data());
+    kernels.descriptorDistances(patch.descriptor.data() + kDescriptorSize, halves_.bytes[1].data(),
+                                count, second.data());
+    for (std::size_t k = 0; k < second.size(); ++k)
+      (*distances)[k] = static_cast<std::uint16_t>((*distances)[k] + second[k]);
+    const auto least = std::min_element(distances->begin(), distances->end());
+    return least == distances->end() ? -1 : static_cast<int>(least - distances->begin());
+  }
+
+  Nearest nearest(const SurfacePatch& patch, double max_ratio, double elsewhere_mm) const {
+    std::vector<std::uint16_t> distances;
+    Nearest found{indexFor(patch, &distances), false};
+    if (found.index < 0) return found;
+    const Eigen::Vector3f place_mm = among_[static_cast<std::size_t>(found.index)].centre_mm;
+    int second = std::numeric_limits<int>::max();
+    for (std::size_t k = 0; k < among_.size(); ++k)
+      if (distances[k] < second && (among_[k].centre_mm - place_mm).norm() > elsewhere_mm)
+        second = distances[k];
+    found.distinct = distances[static_cast<std::size_t>(found.index)] < max_ratio * second;
+    return found;
+  }
+
+ private:
+  const std::vector<SurfacePatch>& among_;
+  DescriptorHalves halves_;
+};
 
 }  // namespace
 
@@ -230,16 +246,20 @@ std::vector<SurfacePatch> surfacePatches(const DepthImage& image, double radius_
 std::vector<std::pair<int, int>> matchPatches(const std::vector<SurfacePatch>& a,
                                               const std::vector<SurfacePatch>& b, double max_ratio,
                                               double elsewhere_mm) {
-  const std::vector<Nearest> there = allNearest(a, b, max_ratio, elsewhere_mm);
-  const std::vector<Nearest> back = allNearest(b, a, max_ratio, elsewhere_mm);
+  const PatchSearch in_a(a), in_b(b);
+  std::vector<int> matches(a.size(), -1);
+  parallelRows(static_cast<int>(a.size()), [&](int k) {
+    const SurfacePatch& patch = a[static_cast<std::size_t>(k)];
+    const Nearest there = in_b.nearest(patch, max_ratio, elsewhere_mm);
+    if (!there.distinct) return;
+    std::vector<std::uint16_t> distances;
+    const int home = in_a.indexFor(b[static_cast<std::size_t>(there.index)], &distances);
+    if ((a[static_cast<std::size_t>(home)].centre_mm - patch.centre_mm).norm() <= elsewhere_mm)
+      matches[static_cast<std::size_t>(k)] = there.index;
+  });
   std::vector<std::pair<int, int>> pairs;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Nearest& to = there[i];
-    if (!to.distinct) continue;
-    const int home = back[static_cast<std::size_t>(to.index)].index;
-    if ((a[static_cast<std::size_t>(home)].centre_mm - a[i].centre_mm).norm() <= elsewhere_mm)
-      pairs.emplace_back(static_cast<int>(i), to.index);
-  }
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (matches[i] >= 0) pairs.emplace_back(static_cast<int>(i), matches[i]);
   return pairs;
 }
 

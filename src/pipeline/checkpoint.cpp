@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 9\n";
+constexpr std::string_view kMagic = "softscope checkpoint 10\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -42,6 +42,11 @@ class Writer {
     raw(elements.data(), elements.size() * sizeof(Element));
   }
   void pose(const Eigen::Isometry3d& pose) { raw(pose.matrix().data(), 16 * sizeof(double)); }
+  template <class Element, class Visit>
+  void list(const std::vector<Element>& elements, const Visit& visit) {
+    value(static_cast<std::uint64_t>(elements.size()));
+    for (const Element& element : elements) visit(element);
+  }
   std::string bytes;
 
  private:
@@ -75,6 +80,14 @@ class Reader {
     raw(static_cast<void*>(elements.data()), count * sizeof(Element));
   }
   void pose(Eigen::Isometry3d& pose) { raw(pose.matrix().data(), 16 * sizeof(double)); }
+  template <class Element, class Visit>
+  void list(std::vector<Element>& elements, const Visit& visit) {
+    std::uint64_t count = 0;
+    value(count);
+    if (count > bytes_.size()) fail();
+    elements.clear();
+    for (std::uint64_t i = 0; i < count; ++i) visit(elements.emplace_back());
+  }
 
  private:
   [[noreturn]] void fail() const {
@@ -154,27 +167,44 @@ void visitErrors(Archive& archive, Errors& errors) {
   archive.value(errors.reference_sigma_mm);
 }
 
+template <class Archive, class State>
+void visitState(Archive& archive, State& state) {
+  visitModel(archive, state.model);
+  visitGraph(archive, state.graph);
+  visitMemory(archive, state.memory);
+  archive.array(state.tracked.points);
+  archive.value(state.tracked.drift_mm2);
+  visitErrors(archive, state.errors);
+  visitLast(archive, state.last);
+  archive.value(state.exposure.red);
+  archive.value(state.exposure.green);
+  archive.value(state.exposure.blue);
+}
+
+template <class Archive, class Scope>
+void visitScope(Archive& archive, Scope& scope) {
+  archive.value(scope.map);
+  archive.pose(scope.world_from_left);
+  archive.pose(scope.reference_pose);
+  archive.array(scope.key_views);
+  archive.value(scope.lost);
+  archive.value(scope.scope_moves);
+  archive.value(scope.fused_frames);
+  archive.value(scope.unfused_frames);
+  archive.value(scope.searches);
+}
+
 template <class Archive, class Whole>
 void visit(Archive& archive, Whole& checkpoint) {
   archive.text(checkpoint.settings);
   archive.value(checkpoint.next_frame);
-  visitModel(archive, checkpoint.state.model.model);
-  visitGraph(archive, checkpoint.state.model.graph);
-  visitMemory(archive, checkpoint.state.model.memory);
-  archive.array(checkpoint.state.model.tracked.points);
-  archive.value(checkpoint.state.model.tracked.drift_mm2);
-  visitLast(archive, checkpoint.state.model.last);
-  archive.value(checkpoint.state.model.exposure.red);
-  archive.value(checkpoint.state.model.exposure.green);
-  archive.value(checkpoint.state.model.exposure.blue);
-  archive.pose(checkpoint.state.world_from_left);
-  archive.pose(checkpoint.state.reference_pose);
-  archive.array(checkpoint.state.key_views);
-  archive.value(checkpoint.state.lost);
-  archive.value(checkpoint.state.scope_moves);
-  archive.value(checkpoint.state.unfused_frames);
-  archive.value(checkpoint.state.searches);
-  visitErrors(archive, checkpoint.state.model.errors);
+  visitState(archive, checkpoint.state.model);
+  visitScope(archive, checkpoint.state.scope);
+  archive.value(checkpoint.state.maps);
+  archive.list(checkpoint.state.others, [&archive](auto& other) {
+    visitState(archive, other.model);
+    visitScope(archive, other.scope);
+  });
 }
 
 }  // namespace

@@ -16,8 +16,10 @@
 #include "pipeline/key_point_matches.h"
 #include "pipeline/model_matches.h"
 #include "pipeline/relocaliser.h"
+#include "pipeline/tissue_colour.h"
 #include "pipeline/track_pictures.h"
 #include "pipeline/track_sight.h"
+#include "pipeline/united_models.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
 
@@ -57,6 +59,12 @@ class CpuBackend : public ReconstructionBackend {
     growth_.drop();
     state_ = std::move(state);
     updater_->changed(kWholeModel);
+    if (!empty()) seeds_.clear();
+  }
+  void add(const ModelState& other, const Eigen::Isometry3d& world_from_other) override {
+    growth_.drop();
+    uniteModels(other, world_from_other, &state_);
+    updater_->changed(kWholeModel);
   }
 
   void prepare(const std::shared_ptr<const Frame>& next,
@@ -66,7 +74,11 @@ class CpuBackend : public ReconstructionBackend {
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
                        const Eigen::Isometry3d& reference, ScopeBefore before) override;
-  RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) override;
+  RigidPose relocalise(const PointModel& model,
+                       const std::vector<Eigen::Isometry3d>& viewpoints) override;
+  bool showsTissue() const override {
+    return isAsRed(frame_.measured.left, frame_.measured.depth.depth_mm, state_.model);
+  }
   WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
   void acceptWarp(bool is_reference) override;
   EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) override;
@@ -100,8 +112,8 @@ class CpuBackend : public ReconstructionBackend {
   std::unique_ptr<PoseSearch> pose_search_;
   std::unique_ptr<DeformSolver> solver_;
 
-  mutable ModelState state_;  // its memory may lie on a device until state() is called
-  std::vector<TrackSeed> seeds_;
+  mutable ModelState state_;      // its memory may lie on a device until state() is called
+  std::vector<TrackSeed> seeds_;  // until the first model begins with them
   GraphAhead growth_;  // of the model and the graph as fuse() left them; ends before they do
 
   AcceptedWarp warp_;
@@ -152,9 +164,10 @@ LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
   return summary;
 }
 
-RigidPose CpuBackend::relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) {
-  RigidPose pose = softscope::relocalise(state_.model, viewpoints, frame_.live, frame_.measured,
-                                         left(), options_.model_view, frame_.pose);
+RigidPose CpuBackend::relocalise(const PointModel& model,
+                                 const std::vector<Eigen::Isometry3d>& viewpoints) {
+  RigidPose pose = softscope::relocalise(model, viewpoints, frame_.live, frame_.measured, left(),
+                                         options_.model_view, frame_.pose);
   clock_.lap("match");
   return pose;
 }
@@ -346,7 +359,7 @@ FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
 }
 
 void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
-  for (const TrackSeed& seed : seeds_)
+  for (const TrackSeed& seed : std::exchange(seeds_, {}))
     state_.tracked.add(seed.id, frames_.depth().rectifier().rectifiedPixel({seed.u_px, seed.v_px}),
                        left(), frame_.measured.depth.depth_mm, world_from_left);
 }

@@ -38,9 +38,13 @@ std::optional<FrameStatus> frameStatusNamed(std::string_view name) {
 }
 
 double FrameRecord::confidence() const {
-  if (status == FrameStatus::kStarted) return depth.precise_share;
+  constexpr double kUnknownPlace = 0.5;
+  const double most = map == 0 ? 1 : kUnknownPlace;
+  // The minimum of an unknown number and another is the other.
+  if (status == FrameStatus::kStarted)
+    return map == 0 ? depth.precise_share : std::fmin(depth.precise_share, most);
   if (!std::isfinite(evidence.view.depth_share)) return kUnknown;
-  return std::fmin(evidence.view.agreement(), depth.precise_share);  // the former if unknown
+  return std::fmin(std::fmin(evidence.view.agreement(), depth.precise_share), most);
 }
 
 double FrameRecord::elapsed_ms() const {

@@ -26,11 +26,20 @@ const char* toString(FrameStatus status);
 /// Empty for an unknown name.
 std::optional<FrameStatus> frameStatusNamed(std::string_view name);
 
+/// Two maps recognised as one: what was in the world of `from` is in that of `into` now.
+struct MapJoin {
+  int from = 0, into = 0;
+  Eigen::Isometry3d into_from = Eigen::Isometry3d::Identity();
+};
+
 struct FrameRecord {
   int frame = 0;
   double time_s = kUnknown;
   FrameStatus status = FrameStatus::kUnreadable;
   std::string reason;  // why it was not fused; empty if it was
+  /// In whose world the pose is: 0 for the first model, another number for one begun elsewhere.
+  int map = 0;
+  std::optional<MapJoin> join;  // of this frame
   /// The last known pose for a frame without a pose.
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   DepthSummary depth;
@@ -47,8 +56,9 @@ struct FrameRecord {
     return status == FrameStatus::kStarted || status == FrameStatus::kFused ||
            status == FrameStatus::kRecovered;
   }
-  /// Of pose, warp and depth, 0 to 1: docs/fusion.md (F27). NaN if neither the
-  /// first fused frame, of depth with sigmas, nor compared with the model.
+  /// Of pose, warp and depth, 0 to 1: docs/fusion.md (F27). NaN if neither the first fused frame,
+  /// of depth with sigmas, nor compared with the model. At most one half in another map than the
+  /// first: the pose relative to the first one is not known.
   double confidence() const;
   double elapsed_ms() const;
 };

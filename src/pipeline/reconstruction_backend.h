@@ -124,8 +124,12 @@ class ReconstructionBackend {
   /// that differed significantly from its predecessor.
   virtual LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
                                const Eigen::Isometry3d& reference, ScopeBefore before) = 0;
-  /// A pose near enough for locate(), sought over the whole image from all these viewpoints.
-  virtual RigidPose relocalise(const std::vector<Eigen::Isometry3d>& viewpoints) = 0;
+  /// A pose near enough for locate(), sought over the whole image from all these viewpoints of the
+  /// model, which may be another than the back end's.
+  virtual RigidPose relocalise(const PointModel& model,
+                               const std::vector<Eigen::Isometry3d>& viewpoints) = 0;
+  /// Whether the measured pixels of the frame are as red as the model: false for gauze.
+  virtual bool showsTissue() const = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
   virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
   /// Carries points, nodes and tracked points to the live shape. `is_reference`: that is the shape
@@ -147,6 +151,8 @@ class ReconstructionBackend {
   /// Valid until the next call that changes the model.
   virtual const ModelState& state() const = 0;
   virtual void restore(ModelState state) = 0;
+  /// Adds the points of another model where the back end's has none.
+  virtual void add(const ModelState& other, const Eigen::Isometry3d& world_from_other) = 0;
 };
 
 }  // namespace softscope

@@ -1,20 +1,37 @@
 #include "pipeline/reconstructor.h"
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "core/error.h"
 
 namespace softscope {
 namespace {
 
-constexpr std::size_t kViewpointsPerFrame = 3;  // that a lost frame is compared with
+// Of a frame that two maps show, with the one that was left; until then, each goes on alone.
+constexpr double kLeastAgreement = 0.85;
+constexpr double kMostSigmaDeg = 1;
 
 bool reject(FrameRecord& record, FrameStatus status, const std::string& reason) {
   record.status = status;
   record.reason = reason;
   return false;
+}
+
+/// Of a record, what the stages before the model give.
+FrameRecord measured(const FrameRecord& record) {
+  FrameRecord kept;
+  kept.frame = record.frame;
+  kept.time_s = record.time_s;
+  kept.depth = record.depth;
+  return kept;
+}
+
+bool isAnything(const FrameRecord& /*found*/) { return true; }
+
+bool isBeyondDoubt(const FrameRecord& found) {
+  return found.evidence.view.agreement() >= kLeastAgreement &&
+         found.pose.sigma_deg <= kMostSigmaDeg;
 }
 
 template <class... Parts>
@@ -23,10 +40,6 @@ std::string text(const Parts&... parts) {
   out.precision(3);
   (out << ... << parts);
   return out.str();
-}
-
-double degreesBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() * 180 / M_PI;
 }
 
 }  // namespace
@@ -65,14 +78,18 @@ FrameRecord Reconstructor::skip(int index, const std::string& reason, double tim
 
 /// Without fusion, the scope and the tracked points keep their last positions.
 void Reconstructor::finish(FrameRecord& record) {
-  record.world_from_left = world_from_left_;
-  FrameOutcome outcome = backend_->finish(world_from_left_);
+  record.world_from_left = scope_.world_from_left;
+  record.map = scope_.map;
+  FrameOutcome outcome = backend_->finish(scope_.world_from_left);
   record.fusion = outcome.fusion;
   record.points = outcome.fusion.points;
   record.tracked = std::move(outcome.tracked);
   record.times = std::move(outcome.times);
-  unfused_frames_ = record.fused() ? 0 : unfused_frames_ + 1;
-  if (record.fused()) searches_ = 0;
+  if (const MaterialPoints* elsewhere = others_.tracked(); elsewhere != nullptr)
+    for (const MaterialPoints::Point& point : elsewhere->points)
+      record.tracked.push_back({point.id, point.position_mm, false, kUnknown});
+  scope_.unfused_frames = record.fused() ? 0 : scope_.unfused_frames + 1;
+  if (record.fused()) scope_.searches = 0;
   if (record.fused()) return;
   for (TrackedPosition& point : record.tracked)
     point = {point.id, point.position_mm, false, kUnknown};
@@ -82,23 +99,35 @@ void Reconstructor::finish(FrameRecord& record) {
 // visible model, matches, rigid pose, warp field, fusion.
 void Reconstructor::reconstruct(const Frame& frame, const std::shared_ptr<const Frame>& next,
                                 const std::shared_ptr<const Frame>& after, FrameRecord& record) {
-  const bool measured = measure(frame, record);
+  const bool has_depth = measure(frame, record);
   if (next != nullptr) backend_->prepare(next, after);
-  if (!measured) return;
-  if (backend_->empty()) return fuse(FrameStatus::kStarted, record);
-  const bool was_lost = lost_;
-  const Eigen::Isometry3d before = world_from_left_;
+  if (!has_depth) return;
+  if (backend_->empty()) return begin(record);
+  if (update(record)) return join(record);
+  if (!scope_.lost) return;
+  if (enterOther(ScopeState::kViewpointsPerFrame, isAnything, record))
+    return others_.add(others_.take());
+  if (scope_.isSearched() && backend_->showsTissue()) begin(record);
+}
+
+bool Reconstructor::update(FrameRecord& record) {
+  const ScopeState before = scope_;
   const bool followed = locate(record);
-  if (!followed && !relocalise(record)) return;
-  if (!deform(record) || !confirm(record)) {
-    backend_->rejectWarp();
-    world_from_left_ = before;
-    lost_ = was_lost;
-    return;
+  if (!followed && !relocalise(record)) return false;
+  if (!explain(record)) {
+    scope_.world_from_left = before.world_from_left;
+    scope_.lost = before.lost;
+    return false;
   }
-  scope_moves_ = !record.pose.scope_static;
-  if (scope_moves_) reference_pose_ = world_from_left_;
   fuse(followed ? FrameStatus::kFused : FrameStatus::kRecovered, record);
+  return true;
+}
+
+/// The warp, and the evidence for it.
+bool Reconstructor::explain(FrameRecord& record) {
+  if (deform(record) && confirm(record)) return true;
+  backend_->rejectWarp();
+  return false;
 }
 
 bool Reconstructor::measure(const Frame& frame, FrameRecord& record) {
@@ -110,57 +139,46 @@ bool Reconstructor::measure(const Frame& frame, FrameRecord& record) {
 }
 
 bool Reconstructor::locate(FrameRecord& record) {
-  return !lost_ && locateFrom(world_from_left_, record);
+  return !scope_.lost && locateFrom(scope_.world_from_left, record);
 }
 
 bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record) {
   const LocateSummary found =
-      backend_->locate(viewpoint, world_from_left_, reference_pose_, scopeBefore());
+      backend_->locate(viewpoint, scope_.world_from_left, scope_.reference_pose, scopeBefore());
   record.matches = found.matches;
   record.pose = found.pose;
   if (!matching_) {
     record.pose.found = true;
-    record.pose.world_from_left = world_from_left_;
+    record.pose.world_from_left = scope_.world_from_left;
   }
-  if (record.pose.found) world_from_left_ = record.pose.world_from_left;
+  if (record.pose.found) scope_.world_from_left = record.pose.world_from_left;
   return record.pose.found;
 }
 
 ScopeBefore Reconstructor::scopeBefore() const {
-  if (unfused_frames_ > 0) return ScopeBefore::kUnknown;
-  return scope_moves_ ? ScopeBefore::kMoving : ScopeBefore::kStatic;
+  if (scope_.unfused_frames > 0) return ScopeBefore::kUnknown;
+  return scope_.scope_moves ? ScopeBefore::kMoving : ScopeBefore::kStatic;
 }
 
 // After a loss, the model is searched in the whole image, then
 // again from the pose found, for matches that the warp can use.
 bool Reconstructor::relocalise(FrameRecord& record) {
-  lost_ = true;
-  const RigidPose rough = backend_->relocalise(viewpointsToTry());
-  ++searches_;
+  scope_.lost = true;
+  const RigidPose rough = backend_->relocalise(
+      backend_->state().model, scope_.viewpointsToTry(ScopeState::kViewpointsPerFrame));
+  ++scope_.searches;
   if (!rough.found)
     return reject(record, FrameStatus::kLost,
                   text("no view of the model matches the image: ", rough.failure));
   if (!locateFrom(rough.target_from_source, record))
     return reject(record, FrameStatus::kLost,
                   text("found, but not confirmed: ", record.pose.failure));
-  lost_ = false;
+  scope_.lost = false;
   return true;
 }
 
-/// The last pose and the key views, latest first. Each frame
-/// that stays lost continues where the previous one stopped.
-std::vector<Eigen::Isometry3d> Reconstructor::viewpointsToTry() const {
-  std::vector<Eigen::Isometry3d> all{world_from_left_};
-  all.insert(all.end(), key_views_.rbegin(), key_views_.rend());
-  const std::size_t count = std::min(kViewpointsPerFrame, all.size());
-  const std::size_t first = static_cast<std::size_t>(searches_) * count % all.size();
-  std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first), all.end());
-  all.resize(count);
-  return all;
-}
-
 bool Reconstructor::deform(FrameRecord& record) {
-  record.warp = backend_->findWarp(world_from_left_);
+  record.warp = backend_->findWarp(scope_.world_from_left);
   const DeformSummary& solver = record.warp.solver;
   const double explained =
       record.warp.in_sight > 0 ? double(solver.points_after) / record.warp.in_sight : 0;
@@ -178,7 +196,7 @@ bool Reconstructor::deform(FrameRecord& record) {
 }
 
 bool Reconstructor::confirm(FrameRecord& record) {
-  record.evidence = backend_->confirm(world_from_left_);
+  record.evidence = backend_->confirm(scope_.world_from_left);
   const ViewEvidence& view = record.evidence.view;
   if (view.agreement() >= gate_.min_confidence) return true;
   return reject(record, FrameStatus::kUnconfirmed,
@@ -188,35 +206,89 @@ bool Reconstructor::confirm(FrameRecord& record) {
 }
 
 void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {
-  backend_->fuse(world_from_left_);
+  backend_->fuse(scope_.world_from_left);
   record.status = status;
-  rememberView();
+  scope_.scope_moves = status != FrameStatus::kStarted && !record.pose.scope_static;
+  if (scope_.scope_moves) scope_.reference_pose = scope_.world_from_left;
+  ++scope_.fused_frames;
+  scope_.remember(scope_.world_from_left);
 }
 
-void Reconstructor::rememberView() {
-  for (const Eigen::Isometry3d& view : key_views_)
-    if ((view.translation() - world_from_left_.translation()).norm() < gate_.kKeyViewStepMm &&
-        degreesBetween(view, world_from_left_) < gate_.kKeyViewStepDeg)
-      return;
-  key_views_.push_back(world_from_left_);
-  if (key_views_.size() > static_cast<std::size_t>(gate_.kMaxKeyViews))
-    key_views_.erase(key_views_.begin());
+/// A model begins with the frame: the first, or that of another place, whose world has the pose
+/// where the scope was lost.
+void Reconstructor::begin(FrameRecord& record) {
+  if (!backend_->empty()) {
+    others_.add({backend_->state(), scope_});
+    backend_->restore(ModelState());
+  }
+  const Eigen::Isometry3d here = scope_.world_from_left;
+  scope_ = ScopeState();
+  scope_.map = maps_++;
+  scope_.world_from_left = scope_.reference_pose = here;
+  record = measured(record);
+  fuse(FrameStatus::kStarted, record);
+}
+
+/// Goes on in another map if the frame is recognised there.
+bool Reconstructor::enterOther(std::size_t viewpoints, bool (*accepts)(const FrameRecord&),
+                               FrameRecord& record) {
+  if (others_.empty()) return false;
+  Submap& other = others_.next();
+  const RigidPose rough =
+      backend_->relocalise(other.model.model, other.scope.viewpointsToTry(viewpoints));
+  ++other.scope.searches;
+  if (!rough.found) return false;
+  exchange(&other);
+  const ScopeState before = scope_;
+  FrameRecord found = measured(record);
+  const bool recognised =
+      locateFrom(rough.target_from_source, found) && explain(found) && accepts(found);
+  if (!recognised) {
+    backend_->rejectWarp();
+    scope_ = before;
+    exchange(&other);
+    return false;
+  }
+  scope_.lost = false;
+  fuse(FrameStatus::kRecovered, found);
+  record = found;
+  return true;
+}
+
+/// Two maps that both show the frame become one, in the world of the older.
+void Reconstructor::join(FrameRecord& record) {
+  FrameRecord found = record;
+  if (!enterOther(1, isBeyondDoubt, found)) return;
+  Submap newer = others_.take();
+  if (newer.scope.map < scope_.map)
+    exchange(&newer);
+  else
+    record = found;
+  const Eigen::Isometry3d into_from =
+      scope_.world_from_left * newer.scope.world_from_left.inverse();
+  backend_->add(newer.model, into_from);
+  for (const Eigen::Isometry3d& view : newer.scope.key_views) scope_.remember(into_from * view);
+  scope_.fused_frames += newer.scope.fused_frames;
+  record.join = MapJoin{newer.scope.map, scope_.map, into_from};
+}
+
+/// Takes up another map; `other` is what was in use then.
+void Reconstructor::exchange(Submap* other) {
+  ModelState model = backend_->state();
+  backend_->restore(std::exchange(other->model, {}));
+  other->model = std::move(model);
+  std::swap(scope_, other->scope);
 }
 
 ReconstructionStateView Reconstructor::state() const {
-  return {backend_->state(), world_from_left_, reference_pose_, key_views_, lost_,
-          scope_moves_,      unfused_frames_,  searches_};
+  return {backend_->state(), scope_, others_.all(), maps_};
 }
 
 void Reconstructor::restore(ReconstructionState state) {
   backend_->restore(std::move(state.model));
-  world_from_left_ = state.world_from_left;
-  reference_pose_ = state.reference_pose;
-  key_views_ = std::move(state.key_views);
-  lost_ = state.lost;
-  scope_moves_ = state.scope_moves;
-  unfused_frames_ = state.unfused_frames;
-  searches_ = state.searches;
+  scope_ = std::move(state.scope);
+  others_.restore(std::move(state.others));
+  maps_ = state.maps;
 }
 
 }  // namespace softscope

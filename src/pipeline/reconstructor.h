@@ -7,24 +7,21 @@
 #include "pipeline/frame_record.h"
 #include "pipeline/reconstruction_backend.h"
 #include "pipeline/reconstruction_options.h"
+#include "pipeline/submaps.h"
 
 namespace softscope {
 
 /// State of a run that is needed to resume it.
-template <class Model>
+template <class Model, class Others>
 struct StateOf {
   Model model;
-  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d reference_pose = Eigen::Isometry3d::Identity();
-  std::vector<Eigen::Isometry3d> key_views;
-  bool lost = false;
-  bool scope_moves = false;  // in the last fused frame
-  int unfused_frames = 0;    // since the last fused one
-  int searches = 0;          // searches over the whole image among them
+  ScopeState scope;
+  Others others;  // the maps that are not in use
+  int maps = 0;   // begun so far
 };
-using ReconstructionState = StateOf<ModelState>;
-/// Refers to the model of a Reconstructor: valid until its next frame is processed.
-using ReconstructionStateView = StateOf<const ModelState&>;
+using ReconstructionState = StateOf<ModelState, std::vector<Submap>>;
+/// Refers to the models of a Reconstructor: valid until its next frame is processed.
+using ReconstructionStateView = StateOf<const ModelState&, const std::vector<Submap>&>;
 
 /// Owns the order of the stages; the back end owns their data.
 class Reconstructor {
@@ -56,27 +53,28 @@ class Reconstructor {
   void reconstruct(const Frame& frame, const std::shared_ptr<const Frame>& next,
                    const std::shared_ptr<const Frame>& after, FrameRecord& record);
   bool measure(const Frame& frame, FrameRecord& record);
+  bool update(FrameRecord& record);
   bool locate(FrameRecord& record);
   bool locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record);
   bool relocalise(FrameRecord& record);
   ScopeBefore scopeBefore() const;
+  bool explain(FrameRecord& record);
   bool deform(FrameRecord& record);
   bool confirm(FrameRecord& record);
   void fuse(FrameStatus status, FrameRecord& record);
   void finish(FrameRecord& record);
-  void rememberView();
-  std::vector<Eigen::Isometry3d> viewpointsToTry() const;
+
+  void begin(FrameRecord& record);
+  bool enterOther(std::size_t viewpoints, bool (*accepts)(const FrameRecord&), FrameRecord& record);
+  void join(FrameRecord& record);
+  void exchange(Submap* other);
 
   std::unique_ptr<ReconstructionBackend> backend_;
   GateOptions gate_;
-  bool matching_;  // false: the scope is treated as static
-  Eigen::Isometry3d world_from_left_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d reference_pose_ = Eigen::Isometry3d::Identity();  // of the last reliable motion
-  std::vector<Eigen::Isometry3d> key_views_;
-  bool lost_ = false;
-  bool scope_moves_ = false;  // in the last fused frame
-  int unfused_frames_ = 0;    // since the last fused one
-  int searches_ = 0;          // searches over the whole image among them
+  bool matching_;     // false: the scope is treated as static
+  ScopeState scope_;  // in the map in use
+  Submaps others_;
+  int maps_ = 0;  // begun so far
 };
 
 }  // namespace softscope

@@ -32,22 +32,26 @@ Checkpoint someCheckpoint() {
   model.errors.variance_mm2 = Raster<float>(2, 1, 0.25f);
   model.errors.nodes_mm2 = {0.5f, 0.75f};
   model.errors.reference_sigma_mm = 0.1;
-  checkpoint.state.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
-  checkpoint.state.key_views.resize(2, checkpoint.state.world_from_left);
-  checkpoint.state.lost = true;
-  checkpoint.state.scope_moves = true;
-  checkpoint.state.unfused_frames = 3;
-  checkpoint.state.searches = 2;
+  ScopeState& scope = checkpoint.state.scope;
+  scope.map = 2;
+  scope.world_from_left.translation() = Eigen::Vector3d(1, 2, 3);
+  scope.key_views.resize(2, scope.world_from_left);
+  scope.lost = true;
+  scope.scope_moves = true;
+  scope.fused_frames = 12;
+  scope.unfused_frames = 3;
+  scope.searches = 2;
+  checkpoint.state.others.push_back({model, scope});
+  checkpoint.state.others[0].scope.map = 1;
+  checkpoint.state.maps = 3;
   return checkpoint;
 }
 
 std::string bytesOf(const Checkpoint& checkpoint) {
   const ReconstructionState& state = checkpoint.state;
-  return checkpointBytes(
-      {checkpoint.settings,
-       checkpoint.next_frame,
-       {state.model, state.world_from_left, state.reference_pose, state.key_views, state.lost,
-        state.scope_moves, state.unfused_frames, state.searches}});
+  return checkpointBytes({checkpoint.settings,
+                          checkpoint.next_frame,
+                          {state.model, state.scope, state.others, state.maps}});
 }
 
 TEST(Checkpoint, ComesBackAsItWas) {
@@ -67,10 +71,16 @@ TEST(Checkpoint, ComesBackAsItWas) {
   EXPECT_EQ(after.state.model.errors.variance_mm2.at(1, 0), 0.25f);
   EXPECT_EQ(after.state.model.errors.nodes_mm2[1], 0.75f);
   EXPECT_EQ(after.state.model.errors.reference_sigma_mm, 0.1);
-  EXPECT_TRUE(after.state.lost);
-  EXPECT_TRUE(after.state.scope_moves);
-  EXPECT_EQ(after.state.unfused_frames, 3);
-  EXPECT_EQ(after.state.searches, 2);
+  EXPECT_EQ(after.state.scope.map, 2);
+  EXPECT_TRUE(after.state.scope.lost);
+  EXPECT_TRUE(after.state.scope.scope_moves);
+  EXPECT_EQ(after.state.scope.fused_frames, 12);
+  EXPECT_EQ(after.state.scope.unfused_frames, 3);
+  EXPECT_EQ(after.state.scope.searches, 2);
+  EXPECT_EQ(after.state.maps, 3);
+  ASSERT_EQ(after.state.others.size(), 1u);
+  EXPECT_EQ(after.state.others[0].scope.map, 1);
+  EXPECT_EQ(after.state.others[0].model.model.weights[0], 7.0f);
   EXPECT_EQ(bytesOf(after), bytes);
 }
 

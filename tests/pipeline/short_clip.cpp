@@ -1,5 +1,9 @@
 #include "short_clip.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
 #include "eval/simulation/tissue/organ_mesh.h"
 #include "pipeline/cpu_backend.h"
 
@@ -66,6 +70,31 @@ Frame flatFrame(const ShortClip& clip, int index, std::uint8_t level) {
   for (ColourImage* picture : {&frame.pair.left, &frame.pair.right})
     for (Rgb8& pixel : picture->values) pixel = {level, level, level};
   return frame;
+}
+
+Frame elsewhere(const Frame& frame) {
+  Frame turned = frame;
+  for (ColourImage* picture : {&turned.pair.left, &turned.pair.right}) {
+    const ColourImage upright = *picture;
+    for (int v = 0; v < upright.height_px; ++v)
+      std::copy_n(upright.row(upright.height_px - 1 - v), upright.width_px, picture->row(v));
+  }
+  return turned;
+}
+
+double trackErrorMm(const FrameRecord& record, const SimulatedFrame& truth) {
+  double sum = 0;
+  int count = 0;
+  for (const TrackedPosition& point : record.tracked) {
+    if (!point.position_mm.allFinite()) continue;
+    const Eigen::Vector3d found = record.world_from_left.inverse() * point.position_mm;
+    const Eigen::Vector3d right = truth.pose.world_from_left.inverse() *
+                                  truth.tracks_world_mm[static_cast<std::size_t>(point.id)];
+    sum += (found - right).norm();
+    ++count;
+  }
+  EXPECT_GT(count, static_cast<int>(0.8 * record.tracked.size()));
+  return sum / count;
 }
 
 std::string bytesOf(const PointModel& model) {

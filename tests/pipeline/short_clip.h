@@ -34,6 +34,12 @@ Reconstructor reconstructorOf(const ShortClip& clip, const ReconstructionOptions
 /// A frame without anything to match on: every pixel has this grey level.
 Frame flatFrame(const ShortClip& clip, int index, std::uint8_t level);
 
+/// Upside down: depth, but no tissue that is known.
+Frame elsewhere(const Frame& frame);
+
+/// Mean distance of tracked points from the truth, in the current camera frame.
+double trackErrorMm(const FrameRecord& record, const SimulatedFrame& truth);
+
 /// Bytes of positions, colours and weights, to compare runs.
 std::string bytesOf(const PointModel& model);
 

@@ -145,6 +145,7 @@ class Reconstructs(Clip):
         self.assertEqual([report.frame for report in self.reports], list(range(6)))
         for report in self.reports:
             self.assertTrue(0.5 < report.confidence <= 1, report.confidence)
+            self.assertEqual((report.map, report.joined_map), (0, None))
         self.assertGreater(self.reports[-1].points, 1000)
 
     def test_the_result_has_the_commands_bytes(self):

@@ -44,6 +44,22 @@ TEST(RunTables, WhatIsUnknownIsEmptyOrNan) {
   EXPECT_EQ(tracksCsvLines(record), "4,7,nan,nan,nan,0,nan\n");
 }
 
+TEST(RunTables, RowsOfAMapMoveIntoAnother) {
+  FrameRecord record;
+  record.reason = "1,2,\"1\"";
+  std::string rows, expected;
+  for (const int map : {0, 2, 1, 12}) {
+    record.map = map;
+    rows += framesCsvLine(record);
+    record.map = map == 2 ? 0 : map;
+    expected += framesCsvLine(record);
+  }
+  EXPECT_EQ(moveRows(rows, {2, 0, Eigen::Isometry3d::Identity()}), expected);
+  std::string line = framesCsvLine(record);
+  line.pop_back();
+  EXPECT_EQ(readFramesCsvLine(line, "run/frames.csv").map, 12);
+}
+
 TEST(RunTables, ANumberThatNoFrameHasIsRefusedWithItsFile) {
   FrameRecord record;
   record.times.emplace_back("check", 5.25);

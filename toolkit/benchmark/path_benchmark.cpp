@@ -40,7 +40,7 @@ void judgePath(const PathClip& clip, PathClipResult* result) {
     const auto pose = truth.find(run.frames[i]);
     if (pose == truth.end()) continue;
     ++result->frames;
-    if (!run.counts(run.frames[i])) {
+    if (!run.isPlaced(run.frames[i])) {
       ++result->lost;
       continue;
     }

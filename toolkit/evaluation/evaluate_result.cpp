@@ -38,7 +38,7 @@ CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
   std::vector<Eigen::Isometry3d> true_poses, poses;
   std::vector<int> places;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    if (!run.counts(run.frames[k])) continue;
+    if (!run.isPlaced(run.frames[k])) continue;
     places.push_back(static_cast<int>(k));
     result.frames.push_back(run.frames[k]);
     true_poses.push_back(start_from_world * trueWorldFromLeft(run.frames[k]));
@@ -60,12 +60,13 @@ std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth
   for (const TrackSample& sample : true_samples)
     if (!sample.visible) unseen.insert({sample.frame, sample.id});
   std::vector<TrackSample> tracks = readTracks(run.tracks);
-  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
-                              [&](const TrackSample& sample) { return !run.counts(sample.frame); }),
-               tracks.end());
+  tracks.erase(
+      std::remove_if(tracks.begin(), tracks.end(),
+                     [&](const TrackSample& sample) { return !run.isPlaced(sample.frame); }),
+      tracks.end());
   std::map<int, Eigen::Isometry3d> moves;
   for (const auto& [frame, move] : truthFromRun(run, truth))
-    if (run.counts(frame)) moves[frame] = move;
+    if (run.isPlaced(frame)) moves[frame] = move;
   TrackErrors errors = trackErrors(true_tracks, tracks, moves, unseen);
   if (!tracks.empty() && errors.without_truth == tracks.size())
     throw InputError(
@@ -126,6 +127,14 @@ std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTr
     warnings.push_back(say("the first model is ", models.front().errors.distance_mm.median,
                            " mm from the truth in the median; a run of another sequence, or in "
                            "another unit?"));
+  const auto elsewhere = std::count_if(run.frames.begin(), run.frames.end(), [&](int frame) {
+    return run.counts(frame) && !run.isPlaced(frame);
+  });
+  if (elsewhere > 0)
+    warnings.push_back(say(elsewhere,
+                           " fused frames show places in maps of their own (frames.csv "
+                           "of the run, column map): their poses and tracked points count as not "
+                           "reported"));
   if (run.frames.size() < truth.trajectory.size())
     warnings.push_back(say("the run has ", run.frames.size(), " of the sequence's ",
                            truth.trajectory.size(), " frames; only these are evaluated"));

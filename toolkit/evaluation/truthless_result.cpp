@@ -37,7 +37,7 @@ double angleDeg(const Eigen::Isometry3d& motion) {
 void addPath(const JudgedRun& run, TruthlessResult& result) {
   std::vector<double> squares;
   const auto counts = [&](std::size_t k) {
-    return k < run.frames.size() && run.counts(run.frames[k]);
+    return k < run.frames.size() && run.isPlaced(run.frames[k]);
   };
   std::vector<std::size_t> counted;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {

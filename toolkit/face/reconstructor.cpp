@@ -41,6 +41,11 @@ FrameReport reportOf(const FrameRecord& record) {
   report.reason = record.reason;
   report.fused = record.fused();
   report.world_from_left = poseOf(record.world_from_left);
+  report.map = record.map;
+  if (record.join) {
+    report.joined_map = record.join->from;
+    report.world_from_joined = poseOf(record.join->into_from);
+  }
   report.coverage = record.depth.coverage();
   report.confidence = record.confidence();
   report.matches = record.matches.matches;

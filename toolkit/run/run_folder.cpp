@@ -18,6 +18,8 @@
 #include "io/text/text_lines.h"
 #include "pipeline/model_sigma.h"
 #include "toolkit/record/json_text.h"
+#include "toolkit/run/model_file.h"
+#include "toolkit/run/models_on_disk.h"
 #include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_tables.h"
 #include "vtk_views/files/point_cloud_vtp.h"
@@ -44,6 +46,21 @@ bool isSavedModel(const fs::path& file) {
   const std::string stem = file.stem().string(), end = file.extension().string();
   return stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos &&
          (end == ".ply" || end == ".vtp" || end == ".csv");
+}
+
+/// The model of a map that is not in use.
+std::string otherMapName(int map) { return say("model_map", map, ".ply"); }
+
+bool isOtherMap(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.rfind("model_map", 0) == 0 && file.extension() == ".ply";
+}
+
+void removeOtherMaps(const fs::path& folder) {
+  std::vector<fs::path> earlier;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (isOtherMap(entry.path())) earlier.push_back(entry.path());
+  for (const fs::path& path : earlier) fs::remove(path);
 }
 
 bool holdsRun(const fs::path& folder) {
@@ -105,15 +122,31 @@ std::vector<std::string> momentComments(double time_s, const Eigen::Isometry3d& 
                                    left.fy_px, left.cx_px, left.cy_px})};
 }
 
-std::string nodesCsv(const WarpGraph& graph) {
+std::string nodesCsv(const std::vector<Eigen::Vector3d>& nodes_mm) {
   std::string text = "node,x_mm,y_mm,z_mm\n";
   char line[120];
-  for (std::size_t i = 0; i < graph.size(); ++i) {
-    const Eigen::Vector3d& p = graph.positions_mm[i];
+  for (std::size_t i = 0; i < nodes_mm.size(); ++i) {
+    const Eigen::Vector3d& p = nodes_mm[i];
     std::snprintf(line, sizeof line, "%zu,%.4f,%.4f,%.4f\n", i, p.x(), p.y(), p.z());
     text += line;
   }
   return text;
+}
+
+std::vector<Eigen::Vector3d> readNodes(const fs::path& file) {
+  std::vector<Eigen::Vector3d> nodes_mm;
+  const std::string text = readBytes(file);
+  for (const NumberRow& row : numberRows(text))
+    if (row.values.size() == 4) nodes_mm.emplace_back(row.values[1], row.values[2], row.values[3]);
+  return nodes_mm;
+}
+
+PointCloud movedCloud(const ModelFile& model, const Eigen::Isometry3f& motion) {
+  PointCloud cloud{model.model.positions_mm, model.model.normals, model.model.colours,
+                   model.model.weights, model.sigmas_mm};
+  for (Eigen::Vector3f& point_mm : cloud.points_mm) point_mm = motion * point_mm;
+  for (Eigen::Vector3f& normal : cloud.normals) normal = motion.linear() * normal;
+  return cloud;
 }
 
 int countLines(const std::string& text) {
@@ -185,6 +218,7 @@ void RunFolder::takeOver(int next_frame) {
                      " frames, trajectory.txt " + std::to_string(trajectory_.size()) +
                      "; they are inconsistent. Start again without `resume=`");
   trajectory_.resize(frames);
+  for (const FrameRecord& record : earlierFrames()) placed_.push_back({record.frame, record.map});
   std::size_t line = 0;
   for (const std::string_view text : linesOf(frames_csv_)) {
     if (line >= frames) break;
@@ -206,6 +240,7 @@ void RunFolder::begin() {
                      ". Choose a folder that you may write to");
   hold();
   for (const char* name : kRunFiles) fs::remove(file(name));
+  removeOtherMaps(options_.folder);
   for (const char* saved : {kModels, kNodes}) {
     if (!fs::is_directory(file(saved))) continue;
     std::vector<fs::path> earlier;
@@ -222,7 +257,54 @@ void RunFolder::add(const FrameRecord& record, const FrameNames& names) {
   frames_csv_ += framesCsvLine(record);
   tracks_csv_ += tracksCsvLines(record);
   const double time_s = std::isfinite(record.time_s) ? record.time_s : record.frame;
+  if (record.join) join(*record.join);
   trajectory_.push_back({time_s, record.world_from_left});
+  placed_.push_back({record.frame, record.map});
+}
+
+/// All that was written of one map moves into the world of another.
+void RunFolder::join(const MapJoin& join) {
+  frames_csv_ = moveRows(frames_csv_, join);
+  // As a resumed run reads them.
+  if (!trajectory_.empty())
+    trajectory_ = parseTrajectory(trajectoryText(trajectory_), "trajectory");
+  for (std::size_t k = 0; k < placed_.size(); ++k) {
+    if (placed_[k].map != join.from) continue;
+    placed_[k].map = join.into;
+    Eigen::Isometry3d& pose = trajectory_[k].world_from_left;
+    const auto saved = std::find_if(saved_.begin(), saved_.end(), [&](const SavedModel& model) {
+      return model.frame == placed_[k].frame;
+    });
+    if (saved != saved_.end()) moveModel(*saved, pose, join.into_from);
+    pose = join.into_from * pose;
+  }
+}
+
+/// A model that was moved already, by a run that was killed since, stays.
+void RunFolder::moveModel(const SavedModel& saved, const Eigen::Isometry3d& before,
+                          const Eigen::Isometry3d& motion) const {
+  const fs::path path = file(kModels) / numberedName(saved.frame, ".ply");
+  const Eigen::Isometry3d after = motion * before;
+  const Eigen::Isometry3d written =
+      readModelHead(saved.frame, path).world_from_left.value_or(before);
+  const auto distance = [&](const Eigen::Isometry3d& pose) {
+    return (pose.matrix() - written.matrix()).norm();
+  };
+  if (distance(after) < distance(before)) return;
+  std::vector<Eigen::Vector3d> nodes_mm =
+      readNodes(file(kNodes) / numberedName(saved.frame, ".csv"));
+  for (Eigen::Vector3d& node_mm : nodes_mm) node_mm = motion * node_mm;
+  writeModel(saved, after, movedCloud(readModel(path), motion.cast<float>()), nodes_mm);
+}
+
+void RunFolder::writeModel(const SavedModel& saved, const Eigen::Isometry3d& world_from_left,
+                           const PointCloud& cloud,
+                           const std::vector<Eigen::Vector3d>& nodes_mm) const {
+  writeFile(file(kNodes) / numberedName(saved.frame, ".csv"), nodesCsv(nodes_mm), true);
+  writeFile(file(kModels) / numberedName(saved.frame, ".vtp"), pointCloudVtp(cloud), true);
+  // Last: a reader of a growing run that finds the model finds the rest.
+  writePly(file(kModels) / numberedName(saved.frame, ".ply"), cloud,
+           {"world", "", momentComments(saved.time_s, world_from_left, left_)}, true);
 }
 
 void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
@@ -230,12 +312,8 @@ void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   fs::create_directories(file(kModels));
   fs::create_directories(file(kNodes));
   if (!std::isfinite(time_s)) time_s = frame;
-  const PointCloud cloud = cloudOf(state);
-  writeFile(file(kNodes) / numberedName(frame, ".csv"), nodesCsv(state.graph), true);
-  writeFile(file(kModels) / numberedName(frame, ".vtp"), pointCloudVtp(cloud), true);
-  // Last: a reader of a growing run that finds the model finds the rest.
-  writePly(file(kModels) / numberedName(frame, ".ply"), cloud,
-           {"world", "", momentComments(time_s, trajectory_.back().world_from_left, left_)}, true);
+  writeModel({frame, time_s}, trajectory_.back().world_from_left, cloudOf(state),
+             state.graph.positions_mm);
   if (saved_.empty() || saved_.back().frame != frame) saved_.push_back({frame, time_s});
 }
 
@@ -257,8 +335,15 @@ void RunFolder::writeTables(const ModelState& state) {
   writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
 }
 
+void RunFolder::writeOtherMaps(const std::vector<Submap>& others) {
+  removeOtherMaps(options_.folder);
+  for (const Submap& other : others)
+    writePly(file(otherMapName(other.scope.map)), cloudOf(other.model), {"world", ""}, true);
+}
+
 void RunFolder::flush(const CheckpointView& checkpoint) {
   writeTables(checkpoint.state.model);
+  writeOtherMaps(checkpoint.state.others);
   writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
   unflushed_frames_ = 0;
 }

@@ -78,9 +78,19 @@ class RunFolder {
     int frame = 0;
     double time_s = 0;
   };
+  struct PlacedFrame {
+    int frame = 0;
+    int map = 0;  // in whose world the pose is
+  };
   void begin();
   void hold();
   void writeTables(const ModelState& state);
+  void writeOtherMaps(const std::vector<Submap>& others);
+  void join(const MapJoin& join);
+  void writeModel(const SavedModel& saved, const Eigen::Isometry3d& world_from_left,
+                  const PointCloud& cloud, const std::vector<Eigen::Vector3d>& nodes_mm) const;
+  void moveModel(const SavedModel& saved, const Eigen::Isometry3d& before,
+                 const Eigen::Isometry3d& motion) const;
   std::filesystem::path file(const std::string& name) const { return options_.folder / name; }
 
   RunFolderOptions options_;
@@ -89,6 +99,7 @@ class RunFolder {
   int unflushed_frames_ = 0;
   std::string frames_csv_, tracks_csv_, images_csv_;
   Trajectory trajectory_;
+  std::vector<PlacedFrame> placed_;  // one per pose
   PinholeCamera left_;
   std::vector<SavedModel> saved_;
   std::optional<FileLock> lock_;

@@ -79,6 +79,11 @@ double JudgedRun::timeOf(int frame) const {
   return trajectory[static_cast<std::size_t>(found - frames.begin())].time_s;
 }
 
+bool JudgedRun::isPlaced(int frame) const {
+  const auto map = maps.find(frame);
+  return counts(frame) && (map == maps.end() || map->second == 0);
+}
+
 FrameFiles JudgedRun::countedModels() const {
   FrameFiles counted;
   for (const auto& [frame, file] : models)
@@ -116,6 +121,7 @@ JudgedRun openJudgedRun(const fs::path& folder) {
   run.frames = rows.frames;
   for (std::size_t k = 0; k < rows.statuses.size(); ++k)
     run.outcomes.set(rows.frames[k], outcomeOf(rows.statuses[k]));
+  for (std::size_t k = 0; k < rows.maps.size(); ++k) run.maps[rows.frames[k]] = rows.maps[k];
   for (std::size_t k = 0; k < rows.backprojection_mm.size(); ++k)
     if (std::isfinite(rows.backprojection_mm[k]) && measuresBackProjection(rows, k))
       run.backprojection_mm[rows.frames[k]] = rows.backprojection_mm[k];

@@ -29,6 +29,7 @@ struct JudgedRun {
                                             // whose value is zero by construction
   std::map<int, double> coverage;           // share of tissue with depth, of all frames
   std::map<int, double> confidence;         // of pose and warp, as reported by the run
+  std::map<int, int> maps;                  // in whose world the pose of a frame is
   FrameFiles models;                        // models/NNNNNN.ply
   int hold_out_every = 0;                   // frames 1, n + 1, … are held out; 0: none
   bool stopped = false;                     // before the end of the clip
@@ -39,8 +40,11 @@ struct JudgedRun {
   std::vector<std::string> warnings() const;
   /// NaN for a frame without a pose, and for clips without timestamps.
   double timeOf(int frame) const;
-  /// True if pose, model and tracks describe the frame: it was fused.
+  /// True if the model describes the frame: it was fused.
   bool counts(int frame) const { return outcomes.fused(frame); }
+  /// True if pose and tracks describe it as well: it was fused with the first model. The pose
+  /// relative to the first one is unknown in a frame of another.
+  bool isPlaced(int frame) const;
   /// Models of fused frames.
   FrameFiles countedModels() const;
   /// Frame of the last model: the last fused frame.

@@ -83,7 +83,12 @@ void RunRecord::add(const FrameRecord& record) {
   frame_ms_.push_back(record.elapsed_ms());
   located_ += record.pose.found;
   scope_static_ += record.pose.found && record.pose.scope_static;
+  if (record.join) {
+    frames_of_map_[record.join->into] += frames_of_map_[record.join->from];
+    frames_of_map_.erase(record.join->from);
+  }
   if (!record.fused()) return;
+  ++frames_of_map_[record.map];
   points_ = record.points;
   if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
   doubtful_ += record.confidence() < kDoubtful;
@@ -115,9 +120,20 @@ std::vector<std::string> RunRecord::conclusions() const {
                   " frames were fused with a confidence below " + fixed(kDoubtful, 1) +
                   ": the model does not fit the image in many places; possible causes: blur, weak "
                   "texture, changing light");
+  if (framesElsewhere() > 0)
+    all.push_back(std::to_string(framesElsewhere()) +
+                  " frames were fused with models of other places, begun where the first model was "
+                  "not found and not recognised as a part of it since: their poses are not "
+                  "relative to the first frame (frames.csv, column map; model_mapN.ply)");
   if (located_ > 0 && scope_static_ == located_)
     all.push_back("no motion of the scope was detected; if it moved, state --scope moving");
   return all;
+}
+
+int RunRecord::framesElsewhere() const {
+  int frames = 0;
+  for (const auto& [map, count] : frames_of_map_) frames += map == 0 ? 0 : count;
+  return frames;
 }
 
 std::string RunRecord::statusText() const {
@@ -138,6 +154,8 @@ Json RunRecord::json() const {
   all["frames_fused"] = outcomes_.count(FusionOutcome::kFused);
   all["frames_by_status"] = frames_of_status_;
   all["outcomes"] = outcomes_.json();
+  all["maps"] = frames_of_map_.size();
+  all["frames_in_other_maps"] = framesElsewhere();
   all["points"] = points_;
   all["nodes"] = nodes_;
   all["mean_inliers"] = orNull(meanOf(matches_));
@@ -168,6 +186,10 @@ FactSheet RunRecord::text(const std::string& folder) const {
                                std::to_string(located_) + " frames");
   facts.addLine("model",
                 std::to_string(points_) + " points on " + std::to_string(nodes_) + " nodes");
+  if (framesElsewhere() > 0)
+    facts.addLine("maps", std::to_string(frames_of_map_.size()) + ", " +
+                              std::to_string(framesElsewhere()) +
+                              " frames in others than the first");
   if (!matches_.empty())
     facts.addLine("matches", fixed(meanOf(matches_), 0) + " inliers of the pose per frame");
   if (!backprojection_mm_.empty())

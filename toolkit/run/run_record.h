@@ -39,11 +39,13 @@ class RunRecord {
 
  private:
   std::string statusText() const;
+  int framesElsewhere() const;
   double meanOf(const std::vector<double>& values) const;
 
   FactSheet::Json json_;
   FactSheet::Json warnings_ = FactSheet::Json::array();
   std::map<std::string, int> frames_of_status_;
+  std::map<int, int> frames_of_map_;  // fused ones
   FrameOutcomes outcomes_;
   std::map<std::string, double> elapsed_ms_;  // per stage, over all frames
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;

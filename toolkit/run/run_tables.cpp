@@ -6,6 +6,7 @@
 
 #include "core/decimal_number.h"
 #include "core/error.h"
+#include "io/text/text_lines.h"
 
 namespace softscope {
 namespace {
@@ -17,7 +18,7 @@ constexpr const char* kColumns =
     "row_difference_px,lifted,pose_rms_mm,scope_static,scope_moved_mm,pose_sigma_mm,pose_sigma_deg,"
     "solver_stop,solver_iterations,"
     "residual_before_mm,"
-    "residual_mm,in_sight,seen,fused,inserted,contradicted";
+    "residual_mm,in_sight,seen,fused,inserted,contradicted,map";
 
 /// Cells of one row, separated by commas.
 class CsvLine {
@@ -162,10 +163,28 @@ std::string framesCsvLine(const FrameRecord& record) {
   line.add(record.fusion.fused);
   line.add(record.fusion.inserted);
   line.add(record.fusion.contradicted);
+  line.add(record.map);
   for (const std::string& stage : timedStages()) line.add(timeOf(record, stage), 2);
   line.add(record.elapsed_ms(), 2);
   line.addText(quoted(record.reason));
   return line.ended();
+}
+
+std::string moveRows(const std::string& rows, const MapJoin& join) {
+  const std::vector<std::string> heading = cellsOfLine(framesCsvHeading());
+  const std::size_t map =
+      std::size_t(std::find(heading.begin(), heading.end(), "map") - heading.begin());
+  std::string moved;
+  for (const std::string_view row : linesOf(rows)) {
+    if (row.empty()) continue;
+    std::vector<std::string> cells = cellsOfLine(row);
+    if (map < cells.size() && cells[map] == std::to_string(join.from))
+      cells[map] = std::to_string(join.into);
+    CsvLine line;
+    for (const std::string& cell : cells) line.addText(cell);
+    moved += line.ended();
+  }
+  return moved;
 }
 
 FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
@@ -186,6 +205,7 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
   record.frame = whole("frame");
   record.status = statusNamed(cell("status"), name);
   record.points = whole("points");
+  record.map = whole("map");
   record.warp.nodes = whole("nodes");
   record.pose.inliers = whole("inliers");
   record.pose.found = !cell("scope_static").empty();
@@ -203,8 +223,10 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
 
 FrameRecord asTabled(const FrameRecord& record) {
   std::string line = framesCsvLine(record);
-  line.pop_back();  // final comma
-  return readFramesCsvLine(line, "frames.csv");
+  line.pop_back();  // end of line
+  FrameRecord tabled = readFramesCsvLine(line, "frames.csv");
+  tabled.join = record.join;
+  return tabled;
 }
 
 std::string tracksCsvLines(const FrameRecord& record) {

@@ -19,9 +19,12 @@ std::string imagesCsvHeading();
 /// One row with its newline.
 std::string framesCsvLine(const FrameRecord& record);
 
-/// Values of a row that sums over a run need: frame, status, points, nodes, inliers,
+/// Values of a row that sums over a run need: frame, status, map, points, nodes, inliers,
 /// mean back-projection and prediction, times. Throws InputError with `name`.
 FrameRecord readFramesCsvLine(std::string_view line, const std::string& name);
+
+/// Rows of frames.csv in which the frames of one map are of another: as they are after a join.
+std::string moveRows(const std::string& rows, const MapJoin& join);
 
 /// Record rounded as in frames.csv: a resumed run
 /// has the same sums as an uninterrupted one.

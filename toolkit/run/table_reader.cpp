@@ -120,13 +120,14 @@ std::vector<TrackSample> readTracks(const std::filesystem::path& file) {
 
 FrameRows readFrameRows(const std::filesystem::path& file) {
   const NumberTable table(readBytes(file), shown(file), {"frame"},
-                          {"backprojection_mean_mm", "coverage", "confidence"}, "status");
+                          {"backprojection_mean_mm", "coverage", "confidence", "map"}, "status");
   FrameRows rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     rows.frames.push_back(table.indexAt(i, 0));
     rows.backprojection_mm.push_back(table.at(i, 1));
     rows.coverage.push_back(table.at(i, 2));
     rows.confidence.push_back(table.at(i, 3));
+    rows.maps.push_back(table.has(4) ? table.indexAt(i, 4) : 0);
     if (i > 0 && rows.frames[i] <= rows.frames[i - 1])
       throw InputError(say(shown(file), ": frame ", rows.frames[i], " stands below frame ",
                            rows.frames[i - 1], "; they must ascend"));

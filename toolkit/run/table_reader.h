@@ -52,9 +52,9 @@ class NumberTable {
 std::vector<TrackSample> readTracks(const std::filesystem::path& file);
 
 /// From frames.csv: ascending `frame`; backprojection_mean_mm, coverage,
-/// confidence, NaN if missing; status, empty without that column.
+/// confidence, NaN if missing; map, 0 if missing; status, empty without that column.
 struct FrameRows {
-  std::vector<int> frames;
+  std::vector<int> frames, maps;
   std::vector<double> backprojection_mm, coverage, confidence;
   std::vector<FrameStatus> statuses;
 };

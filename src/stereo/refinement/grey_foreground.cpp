@@ -9,6 +9,7 @@
 #include "core/mask_morphology.h"
 #include "core/median.h"
 #include "core/parallel.h"
+#include "core/redness.h"
 
 namespace softscope {
 namespace {
@@ -26,7 +27,7 @@ constexpr float kSteepest = 2.75F;      // depth over width: 70 degrees
 /// Means over a square of pixels.
 struct Block {
   float brightness = 0;
-  float redness = 0;  // (R - (G + B) / 2) / (R + G + B)
+  float redness = 0;
   float depth_mm = 0;
   float nearest_mm = std::numeric_limits<float>::infinity(), farthest_mm = 0;
   int measured = 0;
@@ -98,7 +99,7 @@ class Blocks {
       }
     const int pixels = (u_end - x * block_px_) * (v_end - y * block_px_);
     block.brightness = static_cast<float>(all) / static_cast<float>(3 * pixels);
-    if (all > 0) block.redness = static_cast<float>(3 * red - all) / static_cast<float>(2 * all);
+    block.redness = redness(red, all);
     if (block.measured > 0) block.depth_mm /= static_cast<float>(block.measured);
     return block;
   }
