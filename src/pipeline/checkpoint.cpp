@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 10\n";
+constexpr std::string_view kMagic = "softscope checkpoint 11\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {

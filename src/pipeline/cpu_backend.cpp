@@ -351,9 +351,13 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
 
 FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
   FrameOutcome outcome{std::exchange(fused_, {}), {}, clock_.laps()};
-  if (tracks())
+  const bool fused = outcome.fusion.points > 0;
+  if (tracks()) {
     outcome.tracked =
         TrackSight(frame_, rig()).positions(state_.tracked, world_from_left, pictures_.reliefPx());
+    if (fused) state_.tracked.countVisible(outcome.tracked);
+    state_.tracked.hideUnmeasured(&outcome.tracked);
+  }
   clock_ = StageClock();
   return outcome;
 }

@@ -37,7 +37,7 @@ struct FirstLook {
     std::uint8_t unused = 0;                     // padding: checkpoints hold all bytes
   };
   std::array<Window, LookPicture::kLevels> windows;
-  std::array<std::uint8_t, 12> unused{};  // padding
+  std::array<std::uint8_t, 4> unused{};  // padding
 
   /// Pixels around a point that its windows cover.
   static constexpr int kReachPx = (kHalfPx + 2) << (LookPicture::kLevels - 1);

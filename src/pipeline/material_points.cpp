@@ -150,4 +150,14 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
   }
 }
 
+void MaterialPoints::countVisible(const std::vector<TrackedPosition>& positions) {
+  for (std::size_t k = 0; k < points.size(); ++k)
+    points[k].visible_frames += positions[k].visible ? 1 : 0;
+}
+
+void MaterialPoints::hideUnmeasured(std::vector<TrackedPosition>* positions) const {
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (points[k].visible_frames == 0) (*positions)[k] = {points[k].id};
+}
+
 }  // namespace softscope

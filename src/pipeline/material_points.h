@@ -25,7 +25,8 @@ struct TrackSeed {
   double u_px = 0, v_px = 0;
 };
 
-/// Position of a material point. position_mm: world frame; NaN if never measured. sigma_mm:
+/// Position of a material point. position_mm: world frame; NaN before it was visible, with a depth
+/// of its own, for the first time: until then its depth is that of other pixels. sigma_mm:
 /// predicted root mean square error of the position in the frame of the scope; NaN if unknown.
 struct TrackedPosition {
   int id = 0;
@@ -48,6 +49,7 @@ class MaterialPoints {
     /// one pixel right and one down; moved by the warp.
     Eigen::Matrix<double, 3, 2> pixels_mm = Eigen::Matrix<double, 3, 2>::Zero();
     FirstLook look;
+    std::int64_t visible_frames = 0;  // so far
     /// Predicted, of the position along the surface, per direction; NaN if unknown.
     double variance_mm2 = 0;
   };
@@ -80,11 +82,16 @@ class MaterialPoints {
   void settle(const PointModel& model, const Eigen::Vector3d& scope_mm, double limit_scale,
               SurfaceSearch* search);
 
+  /// Of a frame that was fused, one position per point.
+  void countVisible(const std::vector<TrackedPosition>& positions);
+  /// What was not visible in any frame so far has no position.
+  void hideUnmeasured(std::vector<TrackedPosition>* positions) const;
+
   std::vector<Point> points;
   /// Drift variance of a warp, per direction, from the last first looks; NaN before.
   double drift_mm2 = std::numeric_limits<double>::quiet_NaN();
 };
-static_assert(sizeof(MaterialPoints::Point) == 8 + 10 * sizeof(double) + sizeof(FirstLook),
+static_assert(sizeof(MaterialPoints::Point) == 8 + 11 * sizeof(double) + sizeof(FirstLook),
               "no padding between or behind the members");
 
 }  // namespace softscope

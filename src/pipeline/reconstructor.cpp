@@ -76,7 +76,8 @@ FrameRecord Reconstructor::skip(int index, const std::string& reason, double tim
   return record;
 }
 
-/// Without fusion, the scope and the tracked points keep their last positions.
+/// Without fusion, the scope and the tracked points keep their last positions; in the world of
+/// another map, those of the points are unknown.
 void Reconstructor::finish(FrameRecord& record) {
   record.world_from_left = scope_.world_from_left;
   record.map = scope_.map;
@@ -87,7 +88,7 @@ void Reconstructor::finish(FrameRecord& record) {
   record.times = std::move(outcome.times);
   if (const MaterialPoints* elsewhere = others_.tracked(); elsewhere != nullptr)
     for (const MaterialPoints::Point& point : elsewhere->points)
-      record.tracked.push_back({point.id, point.position_mm, false, kUnknown});
+      record.tracked.push_back({point.id});
   scope_.unfused_frames = record.fused() ? 0 : scope_.unfused_frames + 1;
   if (record.fused()) scope_.searches = 0;
   if (record.fused()) return;

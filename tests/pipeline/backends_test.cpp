@@ -189,8 +189,9 @@ TEST(WorkingAhead, LeavesTrackedPointsWhereTheyAreWithout) {
     std::vector<double> values;
     for (const FrameRecord& record : run(reconstructor, 0, 4))
       for (const TrackedPosition& point : record.tracked) {
-        values.insert(values.end(), point.position_mm.begin(), point.position_mm.end());
         values.push_back(point.visible);
+        if (!point.position_mm.allFinite()) continue;  // not measured yet
+        values.insert(values.end(), point.position_mm.begin(), point.position_mm.end());
         if (point.visible) values.push_back(point.sigma_mm);
       }
     return values;

@@ -252,5 +252,23 @@ TEST(MaterialPoints, GoWithTheirNeighboursWhereTheyAreNotSeen) {
   EXPECT_EQ(far.points[0].position_mm, alone_mm);
 }
 
+TEST(MaterialPoints, HaveNoPositionBeforeTheyWereVisible) {
+  MaterialPoints tracked;
+  tracked.points.resize(2);
+  tracked.points[0].id = 4;
+  tracked.points[1].id = 5;
+  const Eigen::Vector3d place(1, 2, 40);
+  const auto reported = [&](bool is_visible) {
+    std::vector<TrackedPosition> positions{{4, place, true, 0.1}, {5, place, is_visible, 0.1}};
+    tracked.countVisible(positions);
+    tracked.hideUnmeasured(&positions);
+    return positions;
+  };
+  EXPECT_TRUE(reported(false)[1].position_mm.array().isNaN().all());
+  EXPECT_EQ(reported(false)[0].position_mm, place);
+  EXPECT_EQ(reported(true)[1].position_mm, place);
+  EXPECT_EQ(reported(false)[1].position_mm, place) << "hidden again, it is where it went";
+}
+
 }  // namespace
 }  // namespace softscope

@@ -249,7 +249,9 @@ TEST(Reconstructor, TracksBesideAnInstrumentBeginOnTheTissue) {
     for (int u = 90; u < 150; ++u) frame.mask.at(u, v) = 255;
   Reconstructor reconstructor = reconstructorOf(clip, smallOptions());
   reconstructor.track(seedsInColumn(152));
-  const FrameRecord record = reconstructor.process(frame);
+  for (const TrackedPosition& point : reconstructor.process(frame).tracked)
+    EXPECT_TRUE(point.position_mm.array().isNaN().all()) << "not measured yet, row " << point.id;
+  const FrameRecord record = reconstructor.process(clip.frames[0]);
   const Raster<float>& truth_mm = clip.truth.front().depth_mm;
   for (const TrackedPosition& point : record.tracked)
     EXPECT_NEAR(point.position_mm.z(), truth_mm.at(152, point.id), 1.0) << "row " << point.id;
