@@ -35,8 +35,8 @@ bool runHasEnded(const std::filesystem::path& run);
 /// True if the writing process ended without finishing the run.
 bool runHasStopped(const std::filesystem::path& run);
 
-/// Camera positions in the tables of the run,
-/// with their frames; empty without tables.
+/// Camera positions in the tables of the run, in the world of
+/// the first map, with their frames; empty without tables.
 std::vector<std::pair<int, Eigen::Vector3f>> readScopePath(const std::filesystem::path& run);
 
 }  // namespace softscope
