@@ -22,6 +22,7 @@ COLUMNS = [
     ("evaluation.outcomes.fused_share", "fused [share]", 2),
     ("evaluation.wrong.frames", "wrong [frames]", 0),
     ("evaluation.wrong.silent_frames", "silently wrong [frames]", 0),
+    ("evaluation.tracks.reported", "material points reported [share]", 2),
     ("evaluation.tracks.mean_mm", "material points mean [mm]", 3),
     ("evaluation.tracks.p95_mm", "material points P95 [mm]", 3),
     ("evaluation.tracks.no_motion_control_mm", "had nothing been tracked [mm]", 2),

@@ -143,6 +143,7 @@ void addLevel(const StudyCase& one, const Json& record, const StudyPlot& plot,
 const std::vector<StudyMetric>& usualColumns() {
   static const std::vector<StudyMetric> columns{
       {"run.fused_share", "frames fused [share]", 2},
+      {"evaluation.tracks.reported", "material points reported [share]", 2},
       {"evaluation.tracks.mean_mm", "material points mean [mm]", 3},
       {"evaluation.tracks.p95_mm", "material points P95 [mm]", 3},
       {"evaluation.tracks.no_motion_control_mm", "had nothing been tracked [mm]", 2},
