@@ -25,7 +25,11 @@ class CudaStereoStage final : public StereoStage {
       : device_(options, rig, rig.left.width_px, rig.left.height_px, planePrior),
         method_(options.method) {}
   std::string name() const override { return method_; }
-  StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override;
+  MatchableViews prepare(const AlignedPair& aligned) const override {
+    return matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
+  }
+  StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
+                        const Mask& mask) override;
 
  private:
   cuda::Stereo device_;
@@ -33,14 +37,12 @@ class CudaStereoStage final : public StereoStage {
   bool is_masked_ = false;
 };
 
-StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Mask& mask) {
+StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const MatchableViews& prepared,
+                                       const Mask& mask) {
   StageClock clock;
-  const MatchableViews views =
-      matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
-  clock.lap("masks");
   if (is_masked_ || !mask.empty()) device_.setMask(mask);
   is_masked_ = !mask.empty();
-  device_.upload(views);
+  device_.upload(prepared);
   device_.compute(aligned.roll_rad);
   cuda::StereoDepth found = device_.download();
   clock.lap("disparity");

@@ -89,6 +89,9 @@ FrameViews FrameDepth::align(const Frame& frame) const {
   measured.rows = aligned.before;
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");
+  views.prepared = stage_->prepare(aligned);
+  views.clipped = clippedMask(aligned.pair.left);
+  clock.lap("masks");
   measured.times = clock.laps();
   return views;
 }
@@ -97,10 +100,10 @@ MeasuredFrame FrameDepth::measure(FrameViews views) {
   MeasuredFrame measured = std::move(views.measured);
   AlignedPair& aligned = views.aligned;
   if (aligned.pair.left.empty()) return measured;
-  StereoSurface found = stage_->measure(aligned, measured.mask);
+  StereoSurface found = stage_->measure(aligned, views.prepared, measured.mask);
   if (!views.instruments.empty())
     found.drop(leaksOf(views.instruments, found.disparity.disparity_px));
-  found.drop(clippedMask(aligned.pair.left));
+  found.drop(views.clipped);
   if (options_.detect_instruments)
     found.drop(greyForeground(aligned.pair.left, found.depth.depth_mm, rig().left));
   measured.disparity = std::move(found.disparity);

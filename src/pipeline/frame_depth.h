@@ -45,7 +45,9 @@ struct FrameViews {
   MeasuredFrame
       measured;         // all but disparity, depth and normals; whole where depth came from a file
   AlignedPair aligned;  // empty with depth from a file
-  Mask instruments;     // mask file of the frame, rectified; empty without one
+  MatchableViews prepared;  // of them, by the stage
+  Mask clipped;             // not measured; empty: none
+  Mask instruments;         // mask file of the frame, rectified; empty without one
 };
 
 /// Rectifies, aligns rows, matches, converts to depth; or takes the depth of the sequence.

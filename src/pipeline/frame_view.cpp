@@ -1,8 +1,9 @@
 #include "pipeline/frame_view.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -45,45 +46,108 @@ void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
   if (reference_mm > 0) reference_mm = std::max(reference_mm, typical_mm);
 }
 
-using Rows = std::vector<std::vector<float>>;
+/// Measured pixels of tissue.
+struct Tally {
+  SizeCounts depths, sigmas;
+  int tissue_px = 0, precise_px = 0;
 
-std::size_t countOf(const Rows& rows) {
-  std::size_t count = 0;
-  for (const std::vector<float>& row : rows) count += row.size();
-  return count;
-}
+  void add(const Tally& other) {
+    depths.add(other.depths);
+    sigmas.add(other.sigmas);
+    tissue_px += other.tissue_px;
+    precise_px += other.precise_px;
+  }
+};
+
+/// Exact medians over the measured pixels of tissue, in two passes over the image.
+class TissueDepths {
+ public:
+  TissueDepths(const DepthMap& depth, const Mask& not_tissue)
+      : depth_(depth), not_tissue_(not_tissue) {
+    forEachTask([&](int begin, int end) {
+      Tally own;
+      for (int v = begin; v < end; ++v) countRow(v, &own);
+      const std::lock_guard<std::mutex> lock(adding_);
+      tally_.add(own);
+    });
+    measured_px_ = tally_.depths.total();
+    if (measured_px_ > 0) findMedians();
+  }
+
+  int tissuePx() const { return tally_.tissue_px; }
+  int measuredPx() const { return static_cast<int>(measured_px_); }
+  /// NaN without sigmas or measured pixels, as the medians.
+  double preciseShare() const {
+    return hasSigmas() && measured_px_ > 0 ? double(tally_.precise_px) / double(measured_px_)
+                                           : kUnknown;
+  }
+  double medianMm() const { return median_mm_; }
+  double medianSigmaMm() const { return median_sigma_mm_; }
+
+ private:
+  bool hasSigmas() const { return !depth_.sigma_mm.empty(); }
+  template <class Rows>
+  void forEachTask(const Rows& rows) {
+    constexpr int kRowsPerTask = 32;
+    parallelRanges(not_tissue_.height_px, kRowsPerTask, rows);
+  }
+  bool isMeasured(int u, int v) const {
+    return not_tissue_.at(u, v) == 0 && std::isfinite(depth_.depth_mm.at(u, v));
+  }
+
+  void countRow(int v, Tally* tally) const {
+    for (int u = 0; u < not_tissue_.width_px; ++u) {
+      tally->tissue_px += not_tissue_.at(u, v) == 0;
+      if (!isMeasured(u, v)) continue;
+      tally->depths.add(depth_.depth_mm.at(u, v));
+      if (!hasSigmas()) continue;
+      const float sigma_mm = depth_.sigma_mm.at(u, v);
+      tally->sigmas.add(sigma_mm);
+      tally->precise_px += sigma_mm <= kPreciseSigmaMm;
+    }
+  }
+  void findMedians() {
+    const SizeCounts::Place depth = tally_.depths.placeOfMedian();
+    const SizeCounts::Place sigma =
+        hasSigmas() ? tally_.sigmas.placeOfMedian() : SizeCounts::Place();
+    std::vector<float> depths_mm, sigmas_mm;
+    const auto keep = [](float value, std::uint32_t bin, std::vector<float>* kept) {
+      if (SizeCounts::binOf(value) == bin) kept->push_back(std::abs(value));
+    };
+    forEachTask([&](int begin, int end) {
+      std::vector<float> own_depths_mm, own_sigmas_mm;
+      for (int v = begin; v < end; ++v)
+        for (int u = 0; u < not_tissue_.width_px; ++u) {
+          if (!isMeasured(u, v)) continue;
+          keep(depth_.depth_mm.at(u, v), depth.bin, &own_depths_mm);
+          if (hasSigmas()) keep(depth_.sigma_mm.at(u, v), sigma.bin, &own_sigmas_mm);
+        }
+      const std::lock_guard<std::mutex> lock(adding_);
+      depths_mm.insert(depths_mm.end(), own_depths_mm.begin(), own_depths_mm.end());
+      sigmas_mm.insert(sigmas_mm.end(), own_sigmas_mm.begin(), own_sigmas_mm.end());
+    });
+    median_mm_ = SizeCounts::valueAt(depth, &depths_mm);
+    if (hasSigmas()) median_sigma_mm_ = SizeCounts::valueAt(sigma, &sigmas_mm);
+  }
+
+  const DepthMap& depth_;
+  const Mask& not_tissue_;
+  std::mutex adding_;
+  Tally tally_;
+  std::size_t measured_px_ = 0;
+  double median_mm_ = kUnknown, median_sigma_mm_ = kUnknown;
+};
 
 DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
                        const RectifiedRig& rig) {
+  const TissueDepths depths(measured.depth, not_tissue);
   DepthSummary summary;
-  const Raster<float>&all_mm = measured.depth.depth_mm, &all_sigmas_mm = measured.depth.sigma_mm;
-  Rows sigmas_mm(static_cast<std::size_t>(not_tissue.height_px)), depths_mm(sigmas_mm.size());
-  std::atomic<int> tissue_px{0}, precise_px{0};
-  parallelRows(not_tissue.height_px, [&](int v) {
-    const std::size_t row = static_cast<std::size_t>(v);
-    depths_mm[row].reserve(static_cast<std::size_t>(not_tissue.width_px));
-    sigmas_mm[row].reserve(depths_mm[row].capacity());
-    int tissue = 0, precise = 0;
-    for (int u = 0; u < not_tissue.width_px; ++u) {
-      if (not_tissue.at(u, v) != 0) continue;
-      ++tissue;
-      if (!std::isfinite(all_mm.at(u, v))) continue;
-      depths_mm[row].push_back(all_mm.at(u, v));
-      if (all_sigmas_mm.empty()) continue;
-      sigmas_mm[row].push_back(all_sigmas_mm.at(u, v));
-      precise += all_sigmas_mm.at(u, v) <= kPreciseSigmaMm;
-    }
-    tissue_px += tissue;
-    precise_px += precise;
-  });
-  summary.tissue_px = tissue_px;
-  summary.measured_px = static_cast<int>(countOf(depths_mm));
-  if (!all_sigmas_mm.empty() && summary.measured_px > 0)
-    summary.precise_share = static_cast<double>(precise_px) / summary.measured_px;
-  double depth_mm = 0;
-  parallelInvoke([&] { summary.median_sigma_mm = absoluteMedian(sigmas_mm); },
-                 [&] { depth_mm = absoluteMedian(depths_mm); });
-  const double mm_per_px = depth_mm * depth_mm / (rig.left.fx_px * rig.baseline_mm);
+  summary.tissue_px = depths.tissuePx();
+  summary.measured_px = depths.measuredPx();
+  summary.precise_share = depths.preciseShare();
+  summary.median_sigma_mm = depths.medianSigmaMm();
+  const double mm_per_px =
+      depths.medianMm() * depths.medianMm() / (rig.left.fx_px * rig.baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   if (measured.rows.known()) summary.row_difference_px = measured.rows.mean_row_difference_px;
   return summary;

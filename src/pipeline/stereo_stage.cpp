@@ -17,14 +17,16 @@ class CpuStereoStage final : public StereoStage {
     matcher_->prepare(rig.left.width_px, rig.left.height_px);
   }
   std::string name() const override { return matcher_->name(); }
-  StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override;
+  StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
+                        const Mask& mask) override;
 
  private:
   std::unique_ptr<StereoMatcher> matcher_;
   RectifiedRig rig_;
 };
 
-StereoSurface CpuStereoStage::measure(const AlignedPair& aligned, const Mask& mask) {
+StereoSurface CpuStereoStage::measure(const AlignedPair& aligned,
+                                      const MatchableViews& /*prepared*/, const Mask& mask) {
   StageClock clock;
   StereoSurface found;
   found.disparity = matcher_->matchColour(aligned.pair, aligned.ignored);

@@ -7,6 +7,7 @@
 
 #include "core/depth_map.h"
 #include "core/rectified_rig.h"
+#include "stereo/images/view_masks.h"
 #include "stereo/matching/stereo_matcher.h"
 #include "stereo/rectification/row_alignment.h"
 
@@ -29,8 +30,11 @@ class StereoStage {
   virtual ~StereoStage() = default;
   /// Of the matcher, one of stereoMethods(); written to every report.
   virtual std::string name() const = 0;
-  /// No disparity and no depth under `mask`, which may be empty.
-  virtual StereoSurface measure(const AlignedPair& aligned, const Mask& mask) = 0;
+  /// What measure() can be spared: made on any thread, also while it measures another pair.
+  virtual MatchableViews prepare(const AlignedPair& /*aligned*/) const { return {}; }
+  /// `prepared`: from prepare(). No disparity and no depth under `mask`, which may be empty.
+  virtual StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
+                                const Mask& mask) = 0;
 };
 
 using StereoStageFactory =

@@ -40,9 +40,21 @@ TEST(ValueOfRank, TakesZeroAndInfinity) {
 }
 
 TEST(ValueOfRank, MedianIsTheUpperOfTwo) {
-  EXPECT_EQ(absoluteMedian({{-4, 1}, {}, {2, 3}}), 3);
-  EXPECT_EQ(absoluteMedian({{-4, 1}, {2}}), 2);
-  EXPECT_TRUE(std::isnan(absoluteMedian({{}, {}})));
+  const auto medianOf = [](const std::vector<float>& values) {
+    SizeCounts first, second, all;
+    for (std::size_t i = 0; i < values.size(); ++i) (i % 2 == 0 ? first : second).add(values[i]);
+    all.add(first);
+    all.add(second);
+    EXPECT_EQ(all.total(), values.size());
+    const SizeCounts::Place place = all.placeOfMedian();
+    std::vector<float> in_bin;
+    for (const float value : values)
+      if (SizeCounts::binOf(value) == place.bin) in_bin.push_back(std::abs(value));
+    return SizeCounts::valueAt(place, &in_bin);
+  };
+  EXPECT_EQ(medianOf({-4, 1, 2, 3}), 3);
+  EXPECT_EQ(medianOf({-4, 1, 2}), 2);
+  EXPECT_EQ(medianOf({1.0001F, 1.0003F, -1.0002F}), 1.0002F) << "in one bin";
 }
 
 }  // namespace

@@ -20,10 +20,12 @@ class StereoOnTheHost : public StereoStage {
   StereoOnTheHost(const StereoOptions& options, const RectifiedRig& rig)
       : stereo_(options, rig.left.width_px, rig.left.height_px, 5), rig_(rig) {}
   std::string name() const override { return "elas"; }
-  StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override {
-    stereo_.compute(
-        matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored),
-        rig_, aligned.roll_rad, mask);
+  MatchableViews prepare(const AlignedPair& aligned) const override {
+    return matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
+  }
+  StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
+                        const Mask& mask) override {
+    stereo_.compute(prepared, rig_, aligned.roll_rad, mask);
     const cuda::StereoLayout& found = stereo_.layout();
     StereoSurface surface;
     surface.disparity = {rasterOf(found.disparity), rasterOf(found.sigma)};

@@ -220,9 +220,10 @@ class FailingStage : public StereoStage {
  public:
   explicit FailingStage(std::unique_ptr<StereoStage> stage) : stage_(std::move(stage)) {}
   std::string name() const override { return stage_->name(); }
-  StereoSurface measure(const AlignedPair& aligned, const Mask& mask) override {
+  StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
+                        const Mask& mask) override {
     if (++frames_ > 2) throw BackendError("CUDA: the device is lost");
-    return stage_->measure(aligned, mask);
+    return stage_->measure(aligned, prepared, mask);
   }
 
  private:
