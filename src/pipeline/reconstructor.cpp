@@ -241,25 +241,35 @@ bool Reconstructor::enterOther(std::size_t viewpoints, bool (*accepts)(const Fra
   if (!rough.found) return false;
   exchange(&other);
   const ScopeState before = scope_;
-  FrameRecord found = measured(record);
-  const bool recognised =
-      locateFrom(rough.target_from_source, found) && explain(found) && accepts(found);
-  if (!recognised) {
+  const auto leave = [&] {
     backend_->rejectWarp();
     scope_ = before;
     exchange(&other);
-    return false;
+  };
+  FrameRecord found = measured(record);
+  try {
+    if (locateFrom(rough.target_from_source, found) && explain(found) && accepts(found)) {
+      scope_.lost = false;
+      fuse(FrameStatus::kRecovered, found);
+      record = found;
+      return true;
+    }
+  } catch (const BackendError&) {
+    leave();
+    throw;
   }
-  scope_.lost = false;
-  fuse(FrameStatus::kRecovered, found);
-  record = found;
-  return true;
+  leave();
+  return false;
 }
 
 /// Two maps that both show the frame become one, in the world of the older.
 void Reconstructor::join(FrameRecord& record) {
   FrameRecord found = record;
-  if (!enterOther(1, isBeyondDoubt, found)) return;
+  try {
+    if (!enterOther(1, isBeyondDoubt, found)) return;
+  } catch (const BackendError&) {
+    return;  // this frame is fused; the next one meets the failure
+  }
   Submap newer = others_.take();
   if (newer.scope.map < scope_.map)
     exchange(&newer);

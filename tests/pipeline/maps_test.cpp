@@ -1,6 +1,8 @@
 // tests/pipeline/maps_test.cpp: places that the first model lacks, on a clip whose truth is known.
 #include <gtest/gtest.h>
 
+#include "core/error.h"
+#include "pipeline/cpu_backend.h"
 #include "pipeline/reconstructor.h"
 #include "short_clip.h"
 
@@ -82,6 +84,48 @@ TEST(ReconstructorMaps, JoinsMapsThatOverlap) {
   record = reconstructor.process(toAndFro(clip, at));
   EXPECT_EQ(record.status, FrameStatus::kFused) << record.reason;
   EXPECT_GT(record.confidence(), 0.5);
+}
+
+/// A device that is lost after some matches; negative: never.
+class FailingMatches : public MatchStage {
+ public:
+  FailingMatches(std::unique_ptr<MatchStage> stage, int* until_failure)
+      : stage_(std::move(stage)), until_failure_(until_failure) {}
+  ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+                     const GrayImage& seen_gray, const MatchPicture& live,
+                     const MeasuredFrame& frame, StageClock* clock) override {
+    if ((*until_failure_)-- == 0) throw BackendError("CUDA: the device is lost");
+    return stage_->match(model, viewed_from, seen_gray, live, frame, clock);
+  }
+
+ private:
+  std::unique_ptr<MatchStage> stage_;
+  int* until_failure_;
+};
+
+TEST(ReconstructorMaps, StayAsTheyWereWhereTheDeviceFailsInTheOther) {
+  const ShortClip& clip = shortClip();
+  const ReconstructionOptions options = smallOptions();
+  int until_failure = -1;
+  BackendParts parts;
+  parts.makeMatching = [&](const ReconstructionOptions& all, const RectifiedRig& rig) {
+    return std::make_unique<FailingMatches>(makeCpuMatchStage(all, rig), &until_failure);
+  };
+  Reconstructor reconstructor(makeCpuBackend(clip.calibration, options, parts), options);
+  for (const Frame& frame : clip.frames) reconstructor.process(columnsOf(frame, 0, 130));
+  ASSERT_TRUE(beginsAnotherMap(clip, reconstructor,
+                               [](const Frame& frame) { return columnsOf(frame, 150, 240); }));
+  until_failure = 1;  // that with the second map
+  const FrameRecord record = reconstructor.process(toAndFro(clip, 0));
+  EXPECT_EQ(record.status, FrameStatus::kFused) << record.reason;
+  EXPECT_EQ(record.map, 1);
+  EXPECT_FALSE(record.join);
+  ASSERT_EQ(reconstructor.state().others.size(), 1u);
+  EXPECT_EQ(reconstructor.state().others[0].scope.map, 0);
+  bool joined = false;
+  for (int i = 1; i < 6 && !joined; ++i)
+    joined = reconstructor.process(toAndFro(clip, i)).join.has_value();
+  EXPECT_TRUE(joined);
 }
 
 // Gauze over the lens has texture and depth, but is no place.
