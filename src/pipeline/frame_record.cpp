@@ -39,12 +39,12 @@ std::optional<FrameStatus> frameStatusNamed(std::string_view name) {
 
 double FrameRecord::confidence() const {
   constexpr double kUnknownPlace = 0.5;
-  const double most = map == 0 ? 1 : kUnknownPlace;
+  const bool is_first = status == FrameStatus::kStarted;
+  if (!is_first && !std::isfinite(evidence.view.depth_share)) return kUnknown;
   // The minimum of an unknown number and another is the other.
-  if (status == FrameStatus::kStarted)
-    return map == 0 ? depth.precise_share : std::fmin(depth.precise_share, most);
-  if (!std::isfinite(evidence.view.depth_share)) return kUnknown;
-  return std::fmin(std::fmin(evidence.view.agreement(), depth.precise_share), most);
+  const double certain =
+      is_first ? depth.precise_share : std::fmin(evidence.view.agreement(), depth.precise_share);
+  return map == 0 ? certain : std::fmin(certain, kUnknownPlace);
 }
 
 double FrameRecord::elapsed_ms() const {

@@ -17,9 +17,9 @@ CellKey keyOf(const Eigen::Vector3f& point_mm) {
 }
 
 /// The cells of space that hold points.
-class Cells {
+class OccupiedCells {
  public:
-  explicit Cells(const std::vector<Eigen::Vector3f>& points_mm) : table_(points_mm.size()) {
+  explicit OccupiedCells(const std::vector<Eigen::Vector3f>& points_mm) : table_(points_mm.size()) {
     for (const Eigen::Vector3f& point_mm : points_mm) insert(keyOf(point_mm));
   }
   /// True if the cell of the point, or one next to it, holds points.
@@ -52,7 +52,7 @@ void uniteModels(const ModelState& other, const Eigen::Isometry3d& into_from_oth
                  ModelState* into) {
   const Eigen::Isometry3f move = into_from_other.cast<float>();
   const ColourGain &from = other.exposure, &to = into->exposure;
-  const Cells known(into->model.positions_mm);
+  const OccupiedCells known(into->model.positions_mm);
   const PointModel& more = other.model;
   for (std::size_t i = 0; i < more.size(); ++i) {
     const Eigen::Vector3f position_mm = move * more.positions_mm[i];

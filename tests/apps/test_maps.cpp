@@ -8,6 +8,7 @@
 #include <csignal>
 #include <thread>
 
+#include "io/files/folder.h"
 #include "io/images/image_writer.h"
 #include "support/run_results.h"
 #include "tests/apps/run_softscope.h"
@@ -23,11 +24,6 @@ using testing::HasSubstr;
 
 constexpr int kWidth = 240, kHeight = 180;
 constexpr int kLeftFrames = 6, kRightFrames = 18, kWholeFrames = 6;
-
-std::string picture(int number) {
-  const std::string digits = std::to_string(number);
-  return std::string(6 - digits.size(), '0') + digits + ".png";
-}
 
 class Maps : public InFolder {
  protected:
@@ -48,13 +44,14 @@ class Maps : public InFolder {
     for (int i = 0; i < kLeftFrames + kRightFrames + kWholeFrames; ++i) {
       const int moment = i % 10 < 6 ? i % 10 : 10 - i % 10;
       for (const char* view : {"left", "right"})
-        fs::copy_file(from / view / picture(moment), clip / view / picture(i));
+        fs::copy_file(from / view / numberedName(moment, ".png"),
+                      clip / view / numberedName(i, ".png"));
       const bool is_left = i < kLeftFrames, is_right = !is_left && i < kLeftFrames + kRightFrames;
       GrayImage mask(kWidth, kHeight, 0);
       for (int v = 0; v < kHeight; ++v)
         for (int u = 0; u < kWidth; ++u)
           if ((is_left && u >= 130) || (is_right && u < 150)) mask.at(u, v) = 255;
-      writePng(clip / "mask" / picture(i), mask);
+      writePng(clip / "mask" / numberedName(i, ".png"), mask);
     }
   }
   std::vector<std::string> command(const std::string& out) const {
@@ -87,7 +84,7 @@ class Maps : public InFolder {
       execv(executable().c_str(), arguments.data());
       _exit(127);
     }
-    const fs::path model = fs::path(at(out)) / "models" / ("0000" + std::to_string(last) + ".ply");
+    const fs::path model = fs::path(at(out)) / "models" / numberedName(last, ".ply");
     for (int i = 0; i < 12000 && !fs::exists(model); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     kill(child, SIGKILL);

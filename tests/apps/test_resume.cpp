@@ -11,6 +11,7 @@
 #include <functional>
 #include <thread>
 
+#include "io/files/folder.h"
 #include "support/run_results.h"
 #include "tests/apps/run_softscope.h"
 #include "tests/io/temporary_folder.h"
@@ -40,15 +41,11 @@ class Resume : public InFolder {
   /// 60 frames of four moments, there and back: a motion as smooth as that of 60 simulated ones.
   void makeLongClip() const {
     const fs::path four = fourFrames() / "clip", clip = at("clip");
-    const auto picture = [](int number) {
-      const std::string digits = std::to_string(number);
-      return std::string(6 - digits.size(), '0') + digits + ".png";
-    };
     for (const char* view : {"left", "right"}) {
       fs::create_directories(clip / view);
       for (int i = 0; i < 60; ++i)
-        fs::copy_file(four / view / picture(i % 6 < 4 ? i % 6 : 6 - i % 6),
-                      clip / view / picture(i));
+        fs::copy_file(four / view / numberedName(i % 6 < 4 ? i % 6 : 6 - i % 6, ".png"),
+                      clip / view / numberedName(i, ".png"));
     }
     fs::copy_file(four / "calibration.yaml", clip / "calibration.yaml");
   }

@@ -146,8 +146,7 @@ std::vector<std::pair<int, Eigen::Vector3f>> readScopePath(const fs::path& run) 
   if (!hasTables(run)) return path;
   const JudgedRun tables = openJudgedRun(run);
   for (std::size_t k = 0; k < tables.frames.size(); ++k)
-    if (const auto map = tables.maps.find(tables.frames[k]);
-        map == tables.maps.end() || map->second == 0)
+    if (tables.isInFirstMap(tables.frames[k]))
       path.emplace_back(tables.frames[k],
                         tables.trajectory[k].world_from_left.translation().cast<float>());
   return path;

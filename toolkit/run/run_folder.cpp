@@ -53,13 +53,22 @@ std::string otherMapName(int map) { return say("model_map", map, ".ply"); }
 
 bool isOtherMap(const fs::path& file) {
   const std::string name = file.filename().string();
-  return name.rfind("model_map", 0) == 0 && file.extension() == ".ply";
+  const std::size_t first = std::string_view("model_map").size();
+  const std::size_t end = name.find_first_not_of("0123456789", first);
+  return name.rfind("model_map", 0) == 0 && end > first && end != std::string::npos &&
+         name.substr(end) == ".ply";
 }
 
-void removeOtherMaps(const fs::path& folder) {
+/// Of all maps but `kept`.
+void removeOtherMaps(const fs::path& folder, const std::vector<Submap>& kept) {
   std::vector<fs::path> earlier;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (isOtherMap(entry.path())) earlier.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto isKept = [&](const Submap& map) {
+      return entry.path().filename() == otherMapName(map.scope.map);
+    };
+    if (isOtherMap(entry.path()) && std::none_of(kept.begin(), kept.end(), isKept))
+      earlier.push_back(entry.path());
+  }
   for (const fs::path& path : earlier) fs::remove(path);
 }
 
@@ -240,7 +249,7 @@ void RunFolder::begin() {
                      ". Choose a folder that you may write to");
   hold();
   for (const char* name : kRunFiles) fs::remove(file(name));
-  removeOtherMaps(options_.folder);
+  removeOtherMaps(options_.folder, {});
   for (const char* saved : {kModels, kNodes}) {
     if (!fs::is_directory(file(saved))) continue;
     std::vector<fs::path> earlier;
@@ -336,7 +345,7 @@ void RunFolder::writeTables(const ModelState& state) {
 }
 
 void RunFolder::writeOtherMaps(const std::vector<Submap>& others) {
-  removeOtherMaps(options_.folder);
+  removeOtherMaps(options_.folder, others);
   for (const Submap& other : others)
     writePly(file(otherMapName(other.scope.map)), cloudOf(other.model), {"world", ""}, true);
 }

@@ -79,9 +79,9 @@ double JudgedRun::timeOf(int frame) const {
   return trajectory[static_cast<std::size_t>(found - frames.begin())].time_s;
 }
 
-bool JudgedRun::isPlaced(int frame) const {
+bool JudgedRun::isInFirstMap(int frame) const {
   const auto map = maps.find(frame);
-  return counts(frame) && (map == maps.end() || map->second == 0);
+  return map == maps.end() || map->second == 0;
 }
 
 FrameFiles JudgedRun::countedModels() const {

@@ -44,7 +44,8 @@ struct JudgedRun {
   bool counts(int frame) const { return outcomes.fused(frame); }
   /// True if pose and tracks describe it as well: it was fused with the first model. The pose
   /// relative to the first one is unknown in a frame of another.
-  bool isPlaced(int frame) const;
+  bool isPlaced(int frame) const { return counts(frame) && isInFirstMap(frame); }
+  bool isInFirstMap(int frame) const;
   /// Models of fused frames.
   FrameFiles countedModels() const;
   /// Frame of the last model: the last fused frame.

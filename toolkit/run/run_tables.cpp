@@ -67,6 +67,17 @@ std::vector<std::string> cellsOfLine(std::string_view line) {
   return cells;
 }
 
+/// Of frames.csv.
+const std::vector<std::string>& columns() {
+  static const std::vector<std::string> all = cellsOfLine(framesCsvHeading());
+  return all;
+}
+
+std::size_t columnOf(const std::string& name) {
+  return static_cast<std::size_t>(std::find(columns().begin(), columns().end(), name) -
+                                  columns().begin());
+}
+
 /// Limits implausibly large and infinite values, which would distort the sums of the run.
 template <class Number>
 Number numberIn(const std::string& cell, Number otherwise, const std::string& file) {
@@ -171,9 +182,7 @@ std::string framesCsvLine(const FrameRecord& record) {
 }
 
 std::string moveRows(const std::string& rows, const MapJoin& join) {
-  const std::vector<std::string> heading = cellsOfLine(framesCsvHeading());
-  const std::size_t map =
-      std::size_t(std::find(heading.begin(), heading.end(), "map") - heading.begin());
+  const std::size_t map = columnOf("map");
   std::string moved;
   for (const std::string_view row : linesOf(rows)) {
     if (row.empty()) continue;
@@ -188,14 +197,13 @@ std::string moveRows(const std::string& rows, const MapJoin& join) {
 }
 
 FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
-  static const std::vector<std::string> heading = cellsOfLine(framesCsvHeading());
   const std::vector<std::string> cells = cellsOfLine(line);
-  if (cells.size() != heading.size())
+  if (cells.size() != columns().size())
     throw InputError(name + ": a line has " + std::to_string(cells.size()) + " cells, but " +
-                     std::to_string(heading.size()) +
+                     std::to_string(columns().size()) +
                      " are expected; start again without `resume=`");
   const auto cell = [&](const std::string& column) -> const std::string& {
-    return cells[std::size_t(std::find(heading.begin(), heading.end(), column) - heading.begin())];
+    return cells[columnOf(column)];
   };
   FrameRecord record;
   const auto whole = [&](const char* column) { return numberIn(cell(column), 0, name); };
