@@ -185,6 +185,33 @@ TEST_P(BothNodeModels, ASolverThatIsUsedAgainForgetsTheLastGraph) {
   }
 }
 
+TEST_P(BothNodeModels, StopBeforeAStepThatWouldGainNothing) {
+  PointModel model = scenes::makeHill(30, 24, 0.5);
+  const WarpGraph start = scenes::bindGraph(&model);
+  const auto view =
+      scenes::renderHill(scenes::makeCamera(320, 260, 600), scenes::smoothBend, 34, 28);
+  DeformOptions options = optionsFor(GetParam());
+  options.solver.step_tolerance_mm = 0;
+  const DepthTarget target(view.depth, view.normals, view.camera, Eigen::Isometry3d::Identity(),
+                           options.association);
+  DeformObservation seen;
+  seen.surface = &target;
+  seen.matches = scenes::makeMatches(model, scenes::smoothBend, 50);
+  const auto solve = [&](double cost_tolerance) {
+    options.solver.cost_tolerance = cost_tolerance;
+    WarpGraph graph = start;
+    return makeDeformSolver(options)->solve(model, seen, &graph);
+  };
+
+  const DeformSummary patient = solve(1e-9), usual = solve(1e-3);
+
+  EXPECT_TRUE(usual.converged()) << toString(usual.reason);
+  EXPECT_LT(usual.iterations, patient.iterations);
+  EXPECT_LT(usual.after.total(), patient.after.total() * (1 + 2e-3));
+  const std::vector<double>& costs = usual.costs;  // the last step still gained more than the limit
+  EXPECT_GT(costs[costs.size() - 2] - costs.back(), 1e-3 * costs[costs.size() - 2]);
+}
+
 INSTANTIATE_TEST_SUITE_P(RigidAndAffine, BothNodeModels,
                          ::testing::Values(NodeModel::kRigid, NodeModel::kAffine));
 

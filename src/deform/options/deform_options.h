@@ -54,7 +54,7 @@ struct SolverOptions {
   static constexpr double kMinDamping = 1e-10;
   static constexpr double kMaxDamping = 1e6;
   double step_tolerance_mm = 2e-3;  // converged if no node moves more than this in a step
-  double cost_tolerance = 1e-3;     // or if a step reduces the cost by less than this share
+  double cost_tolerance = 1e-3;     // or if all steps to come gain less than this share of the cost
 };
 
 /// Weights of the energy and all other options of stage 6. The defaults are

@@ -18,6 +18,19 @@ double meanDataResidual(const EnergySums& energy, int points) {
   return points > 0 ? energy.data_abs_sum_mm / points : 0;
 }
 
+/// By how much, as a share of the cost, all further steps together reduce it, if the gains of steps
+/// go on to shrink as the last two did; the last gain, if there is one alone. `costs` before and
+/// after each step.
+double gainToCome(const std::vector<double>& costs) {
+  const auto gain = [&](std::size_t end) {
+    return (costs[end - 2] - costs[end - 1]) / costs[end - 2];
+  };
+  const double last = gain(costs.size());
+  if (costs.size() < 4) return last;
+  const double shrinks = last / gain(costs.size() - 2);
+  return shrinks < 0.5 ? last * shrinks / (1 - shrinks) : last;
+}
+
 class WarpSolver final : public DeformSolver {
  public:
   WarpSolver(const DeformOptions& options, std::unique_ptr<WarpSystem> system)
@@ -122,7 +135,7 @@ class WarpSolver final : public DeformSolver {
         const double decrease = current_.terms.total() - trial->energy.terms.total();
         if (std::isfinite(trial->energy.terms.total()) && decrease > 0) {
           relax(decrease / trial->predicted_decrease);
-          return accept(*trial, decrease, attempt == 0, summary);
+          return accept(*trial, attempt == 0, summary);
         }
       }
       ++summary->rejections;
@@ -142,16 +155,15 @@ class WarpSolver final : public DeformSolver {
   }
 
   /// A step that is small because of damping does not indicate convergence.
-  Step accept(const TrialStep& trial, double decrease, bool undoubted, DeformSummary* summary) {
-    const double cost = current_.terms.total();
-    summary->costs.push_back(cost);
+  Step accept(const TrialStep& trial, bool undoubted, DeformSummary* summary) {
+    summary->costs.push_back(current_.terms.total());
     summary->costs.push_back(trial.energy.terms.total());
     system_->acceptStep();
     current_ = trial.energy;
     ++summary->iterations;
     summary->last_step_mm = trial.furthest_mm;
     const bool small_step = summary->last_step_mm < options_.solver.step_tolerance_mm;
-    const bool small_gain = decrease < options_.solver.cost_tolerance * cost;
+    const bool small_gain = gainToCome(summary->costs) < options_.solver.cost_tolerance;
     return undoubted && (small_step || small_gain) ? Step::kConverged : Step::kAccepted;
   }
 
