@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cuda/comparison/comparison_layout.h"
+#include "cuda/device/block_totals.h"
 #include "cuda/device/kernel.h"
 #include "fusion/anchor_agreement.h"
 #include "fusion/fusion_weights.h"
@@ -102,10 +103,9 @@ struct SeenQuestions {
 
 /// After HideKernel, one thread per point: gain, anchors and innovation of visible points.
 struct SeenKernel {
-  static constexpr int kThreads = 256, kPhases = 3;
-  struct Shared {
-    InnovationSums sums;
-  };
+  using Totals = BlockTotals<256, 3>;
+  static constexpr int kThreads = 256, kPhases = Totals::kSteps;
+  using Shared = Totals::Shared;
   using Local = Nothing;
   ComparisonFrameLayout frame;
   ComparisonModelLayout model;
@@ -117,25 +117,28 @@ struct SeenKernel {
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
     const int i = at.x * kThreads + at.thread;
     if constexpr (kPhase == 0) {
-      if (at.thread == 0) shared.sums = {0, 0, 0, 0};
+      FixedSum own[3] = {};
+      if (i < model.count && model.seen[i] != 0) look(i, own);
+      Totals::take(at.thread, own, shared);
     } else if constexpr (kPhase == 1) {
-      if (i >= model.count || model.seen[i] == 0) return;
-      const int pixel = model.sights[i].pixel;
-      if (asked.gain && i % asked.gain_stride == 0) countGain(i, pixel);
-      if (asked.anchors)
-        addToBlock(frame, model.anchors[i], pixel % frame.width, pixel / frame.width,
-                   AnchorAgreement::kSlipPx, &frame.anchors[frame.blockOf(pixel)],
-                   [](std::uint32_t* word, std::uint32_t value) { atomicPlus(word, value); });
-      if (asked.innovation) addDifference(i, pixel, &shared.sums);
-    } else {
-      if (at.thread != 0 || shared.sums.weight == 0) return;
-      atomicPlus(&frame.totals->frame.weight, shared.sums.weight);
-      atomicPlus(&frame.totals->frame.away_mm, shared.sums.away_mm);
-      atomicPlus(&frame.totals->frame.expected_mm2, shared.sums.expected_mm2);
+      Totals::addLane(at.thread, shared);
+    } else if (at.thread < 3) {
+      InnovationSums& frame_sums = frame.totals->frame;
+      FixedSum* totals[] = {&frame_sums.weight, &frame_sums.away_mm, &frame_sums.expected_mm2};
+      Totals::addTo(totals[at.thread], at.thread, shared);
     }
   }
 
  private:
+  SOFTSCOPE_HD void look(int i, FixedSum (&own)[3]) const {
+    const int pixel = model.sights[i].pixel;
+    if (asked.gain && i % asked.gain_stride == 0) countGain(i, pixel);
+    if (asked.anchors)
+      addToBlock(frame, model.anchors[i], pixel % frame.width, pixel / frame.width,
+                 AnchorAgreement::kSlipPx, &frame.anchors[frame.blockOf(pixel)],
+                 [](std::uint32_t* word, std::uint32_t value) { atomicPlus(word, value); });
+    if (asked.innovation) addDifference(i, pixel, own);
+  }
   SOFTSCOPE_HD void countGain(int i, int pixel) const {
     const Rgb8 seen = frame.colour[pixel], known = model.colours[i];
     if (!isUsableForGain(seen, asked.colour) || !isUsableForGain(known, asked.colour)) return;
@@ -147,7 +150,7 @@ struct SeenKernel {
     const int bin = frame.gain_bins[seen * 256 + known];
     if (bin >= 0) atomicPlus(&frame.totals->gain[channel][bin], 1);
   }
-  SOFTSCOPE_HD void addDifference(int i, int pixel, InnovationSums* all) const {
+  SOFTSCOPE_HD void addDifference(int i, int pixel, FixedSum (&own)[3]) const {
     const PointBinding& binding = model.bindings[i];
     if (!isCarried(binding, graph.stencil_count)) return;
     const double sigma_mm = frame.sigma_mm[pixel];
@@ -155,7 +158,9 @@ struct SeenKernel {
         depthWeight(frame.sigma_mm[pixel], asked.reference_mm, asked.largest_weight);
     const double away_mm = std::abs(model.sights[i].ahead_mm);
     const double expected_mm2 = sigma_mm * sigma_mm;
-    add(all, weight, away_mm, expected_mm2);
+    own[0] = toFixed(weight);
+    own[1] = toFixed(weight * away_mm);
+    own[2] = toFixed(weight * expected_mm2);
     const NodeStencil& stencil = graph.stencils[binding.stencil];
     for (int k = 0; k < kNodesPerPoint; ++k)
       add(&graph.sums[stencil[k]], weight * binding.weights[k], away_mm, expected_mm2);
@@ -189,10 +194,9 @@ struct MeanDifferenceKernel {
 
 /// After MeanDifferenceKernel, one thread per point: squares of the counted differences.
 struct SquareDifferenceKernel {
-  static constexpr int kThreads = 256, kPhases = 3;
-  struct Shared {
-    FixedSum square_mm2;
-  };
+  using Totals = BlockTotals<256, 1>;
+  static constexpr int kThreads = 256, kPhases = Totals::kSteps;
+  using Shared = Totals::Shared;
   using Local = Nothing;
   ComparisonFrameLayout frame;
   ComparisonModelLayout model;
@@ -204,26 +208,32 @@ struct SquareDifferenceKernel {
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
     const int i = at.x * kThreads + at.thread;
     if constexpr (kPhase == 0) {
-      if (at.thread == 0) shared.square_mm2 = 0;
+      FixedSum own[1] = {};
+      if (i < model.count && model.seen[i] != 0) look(i, own[0]);
+      Totals::take(at.thread, own, shared);
     } else if constexpr (kPhase == 1) {
-      if (i >= model.count || model.seen[i] == 0) return;
-      const PointBinding& binding = model.bindings[i];
-      if (!isCarried(binding, graph.stencil_count)) return;
-      const NodeStencil& stencil = graph.stencils[binding.stencil];
-      double around_mm = 0;
-      for (int k = 0; k < kNodesPerPoint; ++k)
-        around_mm += static_cast<double>(binding.weights[k]) * graph.away_mm[stencil[k]];
-      const double counted_mm = countedDifference(std::abs(model.sights[i].ahead_mm), around_mm);
-      const double weight =
-          depthWeight(frame.sigma_mm[model.sights[i].pixel], reference_mm, largest_weight);
-      const double square_mm2 = counted_mm * counted_mm;
-      atomicPlus(&shared.square_mm2, toFixed(weight * square_mm2));
-      for (int k = 0; k < kNodesPerPoint; ++k)
-        atomicPlus(&graph.sums[stencil[k]].square_mm2,
-                   toFixed(weight * binding.weights[k] * square_mm2));
-    } else {
-      if (at.thread == 0) atomicPlus(&frame.totals->frame.square_mm2, shared.square_mm2);
+      Totals::addLane(at.thread, shared);
+    } else if (at.thread == 0) {
+      Totals::addTo(&frame.totals->frame.square_mm2, 0, shared);
     }
+  }
+
+ private:
+  SOFTSCOPE_HD void look(int i, FixedSum& own) const {
+    const PointBinding& binding = model.bindings[i];
+    if (!isCarried(binding, graph.stencil_count)) return;
+    const NodeStencil& stencil = graph.stencils[binding.stencil];
+    double around_mm = 0;
+    for (int k = 0; k < kNodesPerPoint; ++k)
+      around_mm += static_cast<double>(binding.weights[k]) * graph.away_mm[stencil[k]];
+    const double counted_mm = countedDifference(std::abs(model.sights[i].ahead_mm), around_mm);
+    const double weight =
+        depthWeight(frame.sigma_mm[model.sights[i].pixel], reference_mm, largest_weight);
+    const double square_mm2 = counted_mm * counted_mm;
+    own = toFixed(weight * square_mm2);
+    for (int k = 0; k < kNodesPerPoint; ++k)
+      atomicPlus(&graph.sums[stencil[k]].square_mm2,
+                 toFixed(weight * binding.weights[k] * square_mm2));
   }
 };
 

@@ -8,17 +8,22 @@
 
 namespace softscope::cuda {
 
-/// Radix selection: four digits of 11 bits, then the least key with these digits: the upper median,
-/// to 2^-32 of its value. A thread holds kEach keys; bits of positive doubles have their order.
+/// Radix selection: three digits of 11 bits, then the least key with these digits: the upper
+/// median, to 2^-21 of its value. A thread holds kEach keys; bits of positive doubles have their
+/// order.
 template <int kThreads, int kEach>
 struct BlockMedian {
-  static constexpr int kDigitBits = 11, kDigits = 4, kBins = 1 << kDigitBits;
-  static constexpr int kSteps = 3 * kDigits + 2;  // phases, in order
+  static constexpr int kDigitBits = 11, kDigits = 3, kBins = 1 << kDigitBits;
+  static constexpr int kParts = 4;                     // of a digit: phases, in order
+  static constexpr int kSteps = kParts * kDigits + 2;  // all phases
   static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
+
+  static constexpr int kGroup = 16;  // threads
+  static_assert(kThreads % kGroup == 0);
 
   struct Shared {
     int bins[kBins];
-    int parts[kThreads];
+    int parts[kThreads], groups[kThreads / kGroup];
     std::uint64_t prefix[kDigits + 1];
     int rank[kDigits + 1];
     int count;  // of keys
@@ -50,11 +55,13 @@ struct BlockMedian {
         if (key != kNoKey && key >> shift(kDigits - 1) == shared.prefix[kDigits])
           atomicLeast(&shared.least, static_cast<unsigned long long>(key));
     } else {
-      constexpr int kDigit = (kStep - 1) / 3, kPart = (kStep - 1) % 3;
+      constexpr int kDigit = (kStep - 1) / kParts, kPart = (kStep - 1) % kParts;
       if constexpr (kPart == 0)
         count<kDigit>(keys, shared);
       else if constexpr (kPart == 1)
         sum(thread, shared);
+      else if constexpr (kPart == 2)
+        sumGroup(thread, shared);
       else
         select<kDigit>(thread, shared);
     }
@@ -85,11 +92,18 @@ struct BlockMedian {
     for (int k = 0; k < kBinsEach; ++k) total += shared.bins[thread * kBinsEach + k];
     shared.parts[thread] = total;
   }
+  SOFTSCOPE_HD static void sumGroup(int thread, Shared& shared) {
+    if (thread >= kThreads / kGroup) return;
+    int total = 0;
+    for (int k = 0; k < kGroup; ++k) total += shared.parts[thread * kGroup + k];
+    shared.groups[thread] = total;
+  }
   template <int kDigit>
   SOFTSCOPE_HD static void select(int thread, Shared& shared) {
     const int rank = kDigit == 0 ? shared.count / 2 : shared.rank[kDigit];
     int below = 0;
-    for (int k = 0; k < thread; ++k) below += shared.parts[k];
+    for (int group = 0; group < thread / kGroup; ++group) below += shared.groups[group];
+    for (int k = thread / kGroup * kGroup; k < thread; ++k) below += shared.parts[k];
     if (below <= rank && rank < below + shared.parts[thread]) {
       int bin = thread * kBinsEach;
       while (below + shared.bins[bin] <= rank) below += shared.bins[bin++];

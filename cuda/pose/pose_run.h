@@ -14,7 +14,7 @@ struct PoseLayout {
   explicit PoseLayout(Arena& arena)
       : inputs(arena.array<PoseInputs>(1)),
         pairs(arena.array<SeenPair>(kMostPosePairs)),
-        ends(arena.array<PoseEnd>(4)),
+        ends(arena.array<PoseEnd>(kPoseSearches)),
         sayings(arena.array<PairSaying>(2 * kMostPosePairs)),
         facts(arena.array<PoseFacts>(2)) {}
 
@@ -44,11 +44,10 @@ class PoseRun final : public PoseSearch {
     if (!question.pairs.empty())
       machine_.toDevice(layout_.pairs, question.pairs.data(),
                         question.pairs.size() * sizeof(SeenPair));
-    for (const PairPlace place : {PairPlace::kNow, PairPlace::kSince})
-      machine_.executor().launch(
-          "search pose",
-          SearchPoseKernel{layout_.inputs, layout_.pairs, place, layout_.ends, question.iterations},
-          Grid{2, 1, 1});
+    machine_.executor().launch(
+        "search pose",
+        SearchPoseKernel{layout_.inputs, layout_.pairs, layout_.ends, question.iterations},
+        Grid{kPoseSearches, 1, 1});
     machine_.executor().launch("judge pose",
                                JudgePoseKernel{layout_.inputs, layout_.pairs, layout_.ends,
                                                layout_.sayings, layout_.facts},

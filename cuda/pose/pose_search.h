@@ -92,6 +92,9 @@ SOFTSCOPE_HD inline void addToSums(const PairResidual& residual, double weight,
     for (int k = 0; k < 3; ++k) sums[at] -= weight * residual.slope[k][i] * residual.value[k];
 }
 
+/// Two searches with either kind of positions.
+constexpr int kPoseSearches = 4;
+
 /// One block per search; one Gauss-Newton step per repeat, the final cost in the last one.
 struct SearchPoseKernel {
   static constexpr int kThreads = kPoseThreads;
@@ -109,7 +112,6 @@ struct SearchPoseKernel {
   };
   const PoseInputs* inputs;
   const SeenPair* pairs;
-  PairPlace place;
   PoseEnd* ends;  // of both searches with the places of now, then of both since
   int iterations;
 
@@ -119,7 +121,7 @@ struct SearchPoseKernel {
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
     if constexpr (kPhase == 0) {
       if (at.repeat == 0 && at.thread == 0) {
-        shared.pose = startOf(at.x);
+        shared.pose = inputs->starts[startOf(at.x)];
         shared.has_converged = false;
       }
       PoseMedian::run<0>(at.thread, local.keys, shared.median);
@@ -134,19 +136,22 @@ struct SearchPoseKernel {
     } else {
       if (at.thread != 0) return;
       if (at.repeat == iterations)
-        ends[2 * static_cast<int>(place) + at.x] = {shared.pose, meanCost(shared.sums.total)};
+        ends[at.x] = {shared.pose, meanCost(shared.sums.total)};
       else if (!shared.has_converged)
         step(shared);
     }
   }
 
  private:
-  SOFTSCOPE_HD PoseRows startOf(int search) const {
-    if (place == PairPlace::kNow) return inputs->starts[search == 0 ? kFittedPose : kOldPose];
-    return search == 0 ? betterEnd(ends) : inputs->starts[kPoseBefore];
+  SOFTSCOPE_HD static PairPlace placeOf(int search) {
+    return search < 2 ? PairPlace::kNow : PairPlace::kSince;
   }
-  SOFTSCOPE_HD PairResidual residualAt(int i, const PoseRows& pose) const {
-    return pairResidual(pairs[i], place, inputs->rig, pose);
+  SOFTSCOPE_HD static PoseStart startOf(int search) {
+    if (search % 2 == 0) return kFittedPose;
+    return placeOf(search) == PairPlace::kNow ? kOldPose : kPoseBefore;
+  }
+  SOFTSCOPE_HD PairResidual residualAt(const Place& at, int i, const PoseRows& pose) const {
+    return pairResidual(pairs[i], placeOf(at.x), inputs->rig, pose);
   }
   SOFTSCOPE_HD void findKeys(const Place& at, const PoseRows& pose,
                              std::uint64_t (&keys)[kPairsEach]) const {
@@ -154,7 +159,7 @@ struct SearchPoseKernel {
       keys[k] = PoseMedian::kNoKey;
       const int i = k * kThreads + at.thread;
       if (i >= inputs->pairs) continue;
-      const PairResidual residual = residualAt(i, pose);
+      const PairResidual residual = residualAt(at, i, pose);
       if (residual.usable) keys[k] = PoseMedian::keyOf(residual.squared());
     }
   }
@@ -167,7 +172,7 @@ struct SearchPoseKernel {
     for (int k = 0; k < kPairsEach; ++k) {
       const int i = k * kThreads + at.thread;
       if (i >= inputs->pairs) continue;
-      const PairResidual residual = residualAt(i, shared.pose);
+      const PairResidual residual = residualAt(at, i, shared.pose);
       if (!residual.usable) continue;
       if (is_step) {
         addToSums(residual, pairWeight(residual.squared(), scale_sq > 1 ? scale_sq : 1), sums);
@@ -218,12 +223,23 @@ struct PairSaying {
 /// One block per kind of positions: three medians, then the sums of regions.
 struct JudgePoseKernel {
   static constexpr int kThreads = kPoseThreads;
-  static constexpr int kSumStep = PoseMedian::kSteps, kEnd = kSumStep + PoseSums<1>::kSteps;
-  static constexpr int kPhases = kEnd + 1;
+  static constexpr int kSumStep = PoseMedian::kSteps, kTell = kSumStep + PoseSums<1>::kSteps;
+  static constexpr int kPhases = kTell + 2;
+  static constexpr int kRegionSums = 7;  // the scores, and the gain
+  static constexpr int kLanes = kPoseThreads / kRegions;
   struct Shared {
     PoseMedian::Shared median;
     PoseSums<kPoseSums>::Shared sums;
+    int score_counts[kRegions], counts[kRegions];
     int explained;
+
+    /// In memory that the sums of all pairs need no more.
+    SOFTSCOPE_HD double& regionSum(int what, int region, int lane) {
+      const int at = (what * kRegions + region) * kLanes + lane;
+      return sums.half[at / kHalf][at % kHalf];
+    }
+    static constexpr int kHalf = PoseSums<kPoseSums>::kHalf;
+    static_assert(kRegionSums * kRegions * kLanes <= kPoseSums * kHalf);
   };
   struct Local {
     std::uint64_t keys[kPairsEach];
@@ -247,9 +263,12 @@ struct JudgePoseKernel {
     } else if constexpr (kPhase < kSumStep) {
       if constexpr (kPhase == 1) lookAt(at, shared, local);
       PoseMedian::run<kPhase>(at.thread, local.keys, shared.median);
-    } else if constexpr (kPhase < kEnd) {
-      if (is_last) PoseSums<kPoseSums>::run<kPhase - kSumStep>(at.thread, local.sums, shared.sums);
-    } else {
+    } else if constexpr (kPhase < kTell) {
+      if (!is_last) return;
+      if constexpr (kPhase == kSumStep)
+        if (at.thread < kRegions) shared.score_counts[at.thread] = shared.counts[at.thread] = 0;
+      PoseSums<kPoseSums>::run<kPhase - kSumStep>(at.thread, local.sums, shared.sums);
+    } else if constexpr (kPhase == kTell) {
       PoseFacts& out = facts[at.x];
       if (at.thread == 0) {
         out.medians[at.repeat] = shared.median.count > 0 ? shared.median.value() : 0;
@@ -261,7 +280,9 @@ struct JudgePoseKernel {
         out.explained = shared.explained;
       }
       if (at.thread < triangleSize(6)) out.normal[at.thread] = shared.sums.total[at.thread];
-      if (at.thread < kRegions * 7) sumRegion(at, &out);
+      if (at.thread < kRegions * kLanes) sumRegion(at, shared);
+    } else if (is_last) {
+      if (at.thread < kRegions * kRegionSums) tellRegion(at, shared, &facts[at.x]);
     }
   }
 
@@ -303,27 +324,35 @@ struct JudgePoseKernel {
     if (explained > 0) atomicPlus(&shared.explained, explained);
   }
 
-  /// One thread per region and sum, in the order of the pairs.
-  SOFTSCOPE_HD void sumRegion(const Place& at, PoseFacts* out) const {
-    const int region = at.thread / 7, what = at.thread % 7;
-    const PairSaying* first = sayings + at.x * kMostPosePairs;
-    double sum = 0;
+  /// Every lane of a region has every kLanes-th pair.
+  SOFTSCOPE_HD void sumRegion(const Place& at, Shared& shared) const {
+    const int region = at.thread / kLanes, lane = at.thread % kLanes;
+    const PairSaying* sayings_here = sayings + at.x * kMostPosePairs;
+    double sums[kRegionSums] = {};
     int count = 0, both = 0;
-    for (const PairSaying* saying = first; saying != first + inputs->pairs; ++saying) {
-      if (saying->region != region) continue;
+    for (int i = lane; i < inputs->pairs; i += kLanes) {
+      const PairSaying& saying = sayings_here[i];
+      if (saying.region != region) continue;
       ++count;
-      both += saying->is_both;
-      if (what < 6)
-        sum += saying->score[what];
-      else if (saying->is_both != 0)
-        sum += saying->gain;
+      for (int j = 0; j < 6; ++j) sums[j] += saying.score[j];
+      if (saying.is_both == 0) continue;
+      ++both;
+      sums[6] += saying.gain;
     }
+    for (int j = 0; j < kRegionSums; ++j) shared.regionSum(j, region, lane) = sums[j];
+    atomicPlus(&shared.score_counts[region], count);
+    atomicPlus(&shared.counts[region], both);
+  }
+  SOFTSCOPE_HD static void tellRegion(const Place& at, Shared& shared, PoseFacts* out) {
+    const int region = at.thread / kRegionSums, what = at.thread % kRegionSums;
+    double sum = 0;
+    for (int lane = 0; lane < kLanes; ++lane) sum += shared.regionSum(what, region, lane);
     if (what < 6) {
       out->scores[region][what] = sum;
-      if (what == 0) out->score_counts[region] = count;
     } else {
       out->gains[region] = sum;
-      out->counts[region] = both;
+      out->score_counts[region] = shared.score_counts[region];
+      out->counts[region] = shared.counts[region];
     }
   }
 };

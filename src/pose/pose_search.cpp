@@ -170,11 +170,13 @@ PoseRows rowsOf(const Eigen::Isometry3d& left_from_world) {
 
 PoseAnswer CpuPoseSearch::answer(const PoseQuestion& question) {
   const Pairs now(question, PairPlace::kNow), since(question, PairPlace::kSince);
-  const Eigen::Isometry3d best = now.search(question.fitted, question.old);
-  const Eigen::Isometry3d best_since = since.search(best, question.before);
   PoseAnswer answer;
-  parallelInvoke([&] { answer.now = now.findingsAt(best, question.old); },
-                 [&] { answer.since = since.findingsAt(best_since, question.before); });
+  parallelInvoke(
+      [&] { answer.now = now.findingsAt(now.search(question.fitted, question.old), question.old); },
+      [&] {
+        answer.since =
+            since.findingsAt(since.search(question.fitted, question.before), question.before);
+      });
   return answer;
 }
 

@@ -18,8 +18,9 @@ struct PoseQuestion {
   std::vector<SeenPair> pairs;
   RectifiedRig rig;
   PairRegions regions{};
-  Eigen::Isometry3d fitted, old;  // start with positions of the last frame
-  Eigen::Isometry3d before;       // start with positions since the reference
+  Eigen::Isometry3d fitted;  // start with either positions
+  Eigen::Isometry3d old;     // start with positions of the last frame
+  Eigen::Isometry3d before;  // start with positions since the reference
   int iterations = 0;
 };
 
