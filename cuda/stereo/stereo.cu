@@ -23,17 +23,14 @@ std::size_t bytesFor(const StereoOptions& options, int width_px, int height_px) 
 struct Exchange {
   FrameInputs inputs;
   OpenShare shares[16];
-  int point_count;  // of the prior from the host
 };
 
 }  // namespace
 
 class Stereo::Device {
  public:
-  Device(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
-         HostPriorFunction host_prior)
-      : host_prior_(std::move(host_prior)),
-        memory_((check(options, width_px, host_prior_), bytesFor(options, width_px, height_px)),
+  Device(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px)
+      : memory_((check(options, width_px), bytesFor(options, width_px, height_px)),
                 "memory for stereo"),
         arena_(memory_.data()),
         layout_(arena_, options, width_px, height_px),
@@ -41,7 +38,6 @@ class Stereo::Device {
         pixels_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
         staging_(4 * pixels_, "pinned memory for images"),
         exchange_memory_(sizeof(Exchange), "pinned memory"),
-        points_memory_(pointBytes(full()), "pinned memory for support points"),
         results_memory_(pixels_ * (kRasters * sizeof(float) + sizeof(NormalPixel)),
                         "pinned memory for depth"),
         executor_(stream_, nullptr),
@@ -51,7 +47,6 @@ class Stereo::Device {
         timed_executor_(stream_, &clock_),
         timed_passes_(timed_executor_, layout_),
         levels_(layout_.levels.size()),
-        level_ends_(layout_.levels.size()),
         shares_(layout_.levels.size()),
         ascents_(layout_.levels.size()) {
     std::memset(exchange_memory_.data(), 0, sizeof(Exchange));
@@ -149,11 +144,8 @@ class Stereo::Device {
   static constexpr int kRasters = 4;  // of floats, that download() fetches beside the normals
 
   /// Checks before any allocation.
-  static void check(const StereoOptions& options, int width_px,
-                    const HostPriorFunction& host_prior) {
+  static void check(const StereoOptions& options, int width_px) {
     requireDeviceLimits(options, width_px);
-    if (options.elas.prior == PriorMethod::kPlanes && host_prior == nullptr)
-      throw OptionError("the prior by planes comes from the host: give planePrior(), or take rows");
     requireDevice();
   }
   const StereoLevel& full() const { return layout_.levels.front(); }
@@ -203,30 +195,6 @@ class Stereo::Device {
       });
     for (std::future<void>& part : parts) part.get();
   }
-  static std::size_t pointBytes(const StereoLevel& level) {
-    return sizeof(float) * static_cast<std::size_t>(level.grid.columns) *
-           static_cast<std::size_t>(level.grid.rows);
-  }
-  /// Fetches the support points of the level and uploads their prior.
-  void priorFromHost(const StereoLevel& level) {
-    auto* points = static_cast<float*>(points_memory_.data());
-    stream_.fromDevice(points, level.kept, pointBytes(level));
-    stream_.wait();
-    Raster<float> confirmed(level.grid.columns, level.grid.rows);
-    std::memcpy(confirmed.values.data(), points, pointBytes(level));
-    const HostPrior prior = host_prior_(confirmed, level.options, level.width, level.height);
-    std::memcpy(points, prior.support.values.data(), pointBytes(level));
-    stream_.toDevice(level.kept, points, pointBytes(level));
-    exchange().point_count = prior.point_count;
-    stream_.toDevice(&level.counters->point_count, &exchange().point_count, sizeof(int));
-    auto* staged = static_cast<std::int16_t*>(staging_.data());
-    for (const Raster<std::int16_t>* px8 : {&prior.left_px8, &prior.right_px8}) {
-      std::memcpy(staged, px8->values.data(), px8->size() * sizeof(std::int16_t));
-      stream_.toDevice(level.prior[px8 == &prior.left_px8 ? 0 : 1].data, staged,
-                       px8->size() * sizeof(std::int16_t));
-      staged += px8->size();
-    }
-  }
 
   /// In parallel to the main stream, whose next kernels do not change the measured data.
   template <class Launch>
@@ -246,16 +214,10 @@ class Stereo::Device {
   void run(Passes& passes, const Launch& launch) {
     const auto finish = [&] { launch(finish_, stream_, [&] { passes.finish(rig_); }); };
     const auto matchLevel = [&](int k, const auto& begin) {
-      const bool by_rows = full().options.elas.prior == PriorMethod::kRows;
-      const auto end = [&] { passes.finishLevel(level(k)); };
       launch(levels_[static_cast<std::size_t>(k)], stream_, [&] {
         begin();
-        passes.startLevel(level(k));
-        if (by_rows) end();
+        passes.matchLevel(level(k));
       });
-      if (by_rows) return;
-      priorFromHost(level(k));
-      launch(level_ends_[static_cast<std::size_t>(k)], stream_, end);
     };
     matchLevel(0,
                [&] { stream_.toDevice(layout_.inputs, &exchange().inputs, sizeof(FrameInputs)); });
@@ -280,13 +242,12 @@ class Stereo::Device {
   }
 
   using Executor = DeviceExecutor<EventClock>;
-  HostPriorFunction host_prior_;
   DeviceMemory memory_;
   Arena arena_;
   StereoLayout layout_;
   RectifiedRig rig_;
   std::size_t pixels_;
-  PinnedMemory staging_, exchange_memory_, points_memory_, results_memory_;
+  PinnedMemory staging_, exchange_memory_, results_memory_;
   Stream stream_, side_stream_;
   EventClock clock_;
   Executor executor_;
@@ -295,7 +256,7 @@ class Stereo::Device {
   StereoPasses<Executor> side_passes_;
   Executor timed_executor_;
   StereoPasses<Executor> timed_passes_;
-  std::vector<Graph> levels_, level_ends_, shares_, ascents_;
+  std::vector<Graph> levels_, shares_, ascents_;
   Graph finish_;
   cudaEvent_t share_read_ = nullptr, level_done_ = nullptr;
   bool is_enqueued_ = false, is_timed_ = false, has_ignored_ = false;
@@ -303,9 +264,8 @@ class Stereo::Device {
   std::vector<std::pair<std::string, double>> stage_times_;
 };
 
-Stereo::Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
-               HostPriorFunction host_prior)
-    : device_(std::make_unique<Device>(options, rig, width_px, height_px, std::move(host_prior))) {}
+Stereo::Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px)
+    : device_(std::make_unique<Device>(options, rig, width_px, height_px)) {}
 Stereo::~Stereo() = default;
 
 void Stereo::upload(const MatchableViews& views) { device_->upload(views); }

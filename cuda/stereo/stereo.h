@@ -11,7 +11,6 @@
 #include "core/image.h"
 #include "core/rectified_rig.h"
 #include "stereo/images/view_masks.h"
-#include "stereo/matching/host_prior.h"
 #include "stereo/options/stereo_options.h"
 
 namespace softscope::cuda {
@@ -30,11 +29,8 @@ struct StereoDepth {
 class Stereo {
  public:
   /// Throws BackendError without a suitable device, or with too little memory;
-  /// OptionError for an option without GPU version. `host_prior` (planePrior())
-  /// computes the prior by planes, which has no kernels: two waits and some
-  /// milliseconds per level; the prior by rows does not need it.
-  Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px,
-         HostPriorFunction host_prior);
+  /// OptionError for an option without GPU version.
+  Stereo(const StereoOptions& options, const RectifiedRig& rig, int width_px, int height_px);
   ~Stereo();
   Stereo(const Stereo&) = delete;
   Stereo& operator=(const Stereo&) = delete;
@@ -44,7 +40,7 @@ class Stereo {
   /// Pixels removed from the result. Empty: none. Valid for the following frames.
   void setMask(const Mask& mask);
 
-  /// Asynchronous; with the prior by rows it usually returns before the end.
+  /// Asynchronous; returns before the end if one level of the pyramid is enough.
   void compute(double roll_rad = 0);
   void wait();
   StereoDepth download();

@@ -38,14 +38,11 @@ class StereoPasses {
     }
   }
 
-  /// First part of a level, up to confirmed support points; by rows, also the prior.
-  void startLevel(const StereoLevel& level) {
+  /// One level of the pyramid, up to refined disparities.
+  void matchLevel(const StereoLevel& level) {
     prepare(level);
     findSupport(level);
-    if (level.options.elas.prior == PriorMethod::kRows) interpolatePrior(level);
-  }
-  /// Second part. By planes, support points and prior come from the host.
-  void finishLevel(const StereoLevel& level) {
+    interpolatePrior(level);
     perElement("tile bits", TileBitsBody{level.grid, level.kept, level.bits}, level.grid.columns,
                level.grid.rows, 2);
     matchDense(level);

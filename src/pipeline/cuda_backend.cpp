@@ -13,7 +13,6 @@
 #include "deform/solver/device_warp_system.h"
 #include "pipeline/cpu_backend.h"
 #include "stereo/images/view_masks.h"
-#include "stereo/matching/host_prior.h"
 #include "stereo/matching/stage_clock.h"
 
 namespace softscope {
@@ -22,8 +21,7 @@ namespace {
 class CudaStereoStage final : public StereoStage {
  public:
   CudaStereoStage(const StereoOptions& options, const RectifiedRig& rig)
-      : device_(options, rig, rig.left.width_px, rig.left.height_px, planePrior),
-        method_(options.method) {}
+      : device_(options, rig, rig.left.width_px, rig.left.height_px), method_(options.method) {}
   std::string name() const override { return method_; }
   MatchableViews prepare(const AlignedPair& aligned) const override {
     return matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);

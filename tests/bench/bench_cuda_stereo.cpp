@@ -1,7 +1,7 @@
 // tests/bench/bench_cuda_stereo.cpp: stereo on the GPU: equal to the CPU, and how long.
 //
-// bench_cuda_stereo LEFT.pgm RIGHT.pgm [LEFT.pgm RIGHT.pgm …] [--repeats N] [--rows] [--check]
-// Binary 8-bit PGM, rectified, rows aligned. --rows: the prior by rows. --check compares
+// bench_cuda_stereo LEFT.pgm RIGHT.pgm [LEFT.pgm RIGHT.pgm …] [--repeats N] [--check]
+// Binary 8-bit PGM, rectified, rows aligned. --check compares
 // alone, for compute-sanitizer.
 #include <algorithm>
 #include <cstdio>
@@ -89,7 +89,7 @@ int run(const std::vector<std::string>& files, const StereoOptions& options, int
   for (std::size_t i = 0; i + 1 < files.size(); i += 2) {
     const GrayImage left = readPgm(files[i]), right = readPgm(files[i + 1]);
     const RectifiedRig rig = rigOf(left);
-    cuda::Stereo stereo(options, rig, left.width_px, left.height_px, planePrior);
+    cuda::Stereo stereo(options, rig, left.width_px, left.height_px);
     std::printf("%s: %d x %d, %.1f MB on the device\n", files[i].c_str(), left.width_px,
                 left.height_px, static_cast<double>(stereo.deviceBytes()) / 1e6);
     const MatchableViews views = matchableViews(left, right, {});
@@ -108,7 +108,7 @@ int run(const std::vector<std::string>& files, const StereoOptions& options, int
 int usage() {
   std::fprintf(stderr,
                "usage: bench_cuda_stereo LEFT.pgm RIGHT.pgm [LEFT.pgm RIGHT.pgm ...] [--repeats N] "
-               "[--rows] [--check]\n");
+               "[--check]\n");
   return 2;
 }
 
@@ -121,9 +121,7 @@ int main(int argc, char** argv) {
   bool check_only = false;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
-    if (argument == "--rows")
-      options.elas.prior = PriorMethod::kRows;
-    else if (argument == "--check")
+    if (argument == "--check")
       check_only = true;
     else if (argument == "--repeats" && i + 1 < argc)
       repeats = std::max(1, std::atoi(argv[++i]));

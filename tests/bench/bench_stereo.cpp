@@ -1,5 +1,5 @@
 // tests/bench/bench_stereo.cpp: time and error of depth, as tables for docs/benchmarks.md.
-//   SOFTSCOPE_TEST_DATA=… build/release/tests/bench/bench_stereo [accuracy|times|triangulation]
+//   SOFTSCOPE_TEST_DATA=… build/release/tests/bench/bench_stereo [accuracy|times]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -13,7 +13,6 @@
 #include "stereo/depth/depth_from_disparity.h"
 #include "stereo/images/gradient_image.h"
 #include "stereo/images/opencv_view.h"
-#include "stereo/matching/delaunay.h"
 #include "stereo/matching/stereo_matcher.h"
 #include "stereo/matching/support_points.h"
 #include "stereo/rectification/row_alignment.h"
@@ -167,22 +166,6 @@ ColourImage resized(const ColourImage& image, int width, int height) {
   return out;
 }
 
-/// Delaunay's triangles of a pair's support points, on one core.
-void printTriangulation(const GrayImage& left, const GrayImage& right) {
-  constexpr int kRuns = 41;
-  const StereoOptions options;
-  const auto gradient = [&](const GrayImage& image) {
-    return GradientImage(image, options.elas.gradient_gain, options.disparity_max_px);
-  };
-  std::vector<Eigen::Vector2i> points;
-  for (const SupportPoint& p : findSupportPoints(gradient(left), gradient(right), options))
-    points.emplace_back(p.u_px, p.v_px);
-  std::vector<double> times;
-  for (int run = 0; run < kRuns; ++run) times.push_back(elapsedMs([&] { delaunay(points); }));
-  std::printf("| %d x %d | %zu | %.2f |\n", left.width_px, left.height_px, points.size(),
-              median(times));
-}
-
 /// What a frame costs besides the matcher.
 void printOtherStages(const StereoPair& pair, int threads) {
   constexpr int kRuns = 9;
@@ -228,17 +211,6 @@ void printAllTimes() {
     printOtherStages({resized(left, 640, 480), resized(right, 640, 480)}, threads);
 }
 
-void printTriangulations() {
-  const auto folder = dataFolder("endonerf_pulling");
-  if (folder.empty()) return;
-  const GrayImage left = toGray(readColourImage(folder / "left" / "000000.jpg"));
-  const GrayImage right = toGray(readColourImage(folder / "right" / "000000.jpg"));
-  std::printf("\n| in vivo | support points | triangulation ms |\n|---|---|---|\n");
-  for (const auto& [width, height] :
-       {std::pair{360, 288}, std::pair{640, 480}, std::pair{1280, 1024}})
-    printTriangulation(resized(left, width, height), resized(right, width, height));
-}
-
 }  // namespace
 }  // namespace softscope::test
 
@@ -251,5 +223,4 @@ int main(int count, char** arguments) {
     softscope::test::printCt();
   }
   if (asked("times")) softscope::test::printAllTimes();
-  if (asked("triangulation")) softscope::test::printTriangulations();
 }

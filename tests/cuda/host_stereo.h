@@ -10,7 +10,6 @@
 #include "cuda/stereo/stereo_passes.h"
 #include "host_memory.h"
 #include "stereo/images/view_masks.h"
-#include "stereo/matching/host_prior.h"
 
 namespace softscope::test {
 
@@ -59,17 +58,7 @@ class HostStereo {
                    cuda::ignoredBits);
   }
   void matchLevel(const cuda::StereoLevel& level) {
-    passes_.startLevel(level);
-    if (level.options.elas.prior == PriorMethod::kPlanes) {
-      Raster<float> confirmed(level.grid.columns, level.grid.rows);
-      std::copy_n(level.kept, confirmed.size(), confirmed.values.data());
-      const HostPrior prior = planePrior(confirmed, level.options, level.width, level.height);
-      std::copy_n(prior.support.values.data(), confirmed.size(), level.kept);
-      std::copy_n(prior.left_px8.values.data(), prior.left_px8.size(), level.prior[0].data);
-      std::copy_n(prior.right_px8.values.data(), prior.right_px8.size(), level.prior[1].data);
-      level.counters->point_count = prior.point_count;
-    }
-    passes_.finishLevel(level);
+    passes_.matchLevel(level);
     passes_.measureShare(level);
   }
   static std::size_t bytesFor(const StereoOptions& options, int width, int height) {

@@ -82,11 +82,8 @@ inline StereoOptions optionsTo(int disparity_max_px) {
 }
 
 inline std::vector<StereoCase> stereoCases() {
-  StereoOptions rows = optionsTo(255);
-  rows.elas.prior = PriorMethod::kRows;
   StereoOptions odd = optionsTo(61);
   odd.disparity_min_px = 3;
-  odd.elas.prior = PriorMethod::kRows;
   odd.elas.support_step_px = 4;
   odd.elas.speckle_size_px = 40;
   odd.smoothing.block_px = 20;
@@ -96,7 +93,7 @@ inline std::vector<StereoCase> stereoCases() {
   one_level.smoothing.reach_blocks = 0;
   one_level.elas.coarser_levels = 0;
   return {{"defaults", 240, 180, optionsTo(255), 0, false, false},
-          {"rowPrior", 240, 180, rows, 0, false, true},
+          {"bordered", 240, 180, optionsTo(255), 0, false, true},
           {"otherOptions", 171, 131, odd, 0.01, true, true},
           {"oneLevel", 96, 80, one_level, 0, false, false}};
 }

@@ -53,7 +53,7 @@ class StereoOnDevice : public testing::TestWithParam<test::StereoCase> {
 TEST_P(StereoOnDevice, GivesTheCpusDepthFrameAfterFrame) {
   const test::StereoCase& of = GetParam();
   test::Scene scene = test::steppedScene(of.width, of.height);
-  cuda::Stereo stereo(of.options, scene.rig, of.width, of.height, planePrior);
+  cuda::Stereo stereo(of.options, scene.rig, of.width, of.height);
   const Mask mask = test::maskOf(of);
   stereo.setMask(mask);
   for (int frame = 0; frame < 3; ++frame) {
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Cuda, StereoOnDevice, testing::ValuesIn(test::stereoCas
 TEST(StereoOnDeviceErrors, AnotherShapeIsRefused) {
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (info.devices.empty()) GTEST_SKIP() << info.why_none;
-  cuda::Stereo stereo(StereoOptions(), test::endoscope(), 96, 80, planePrior);
+  cuda::Stereo stereo(StereoOptions(), test::endoscope(), 96, 80);
   EXPECT_THROW(stereo.upload({GrayImage(95, 80), GrayImage(95, 80), {}}), InputError);
 }
 
@@ -81,7 +81,7 @@ TEST(StereoOnDeviceErrors, WithoutADeviceTheReasonIsGiven) {
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) GTEST_SKIP() << "this machine has a GPU";
   try {
-    cuda::Stereo stereo(StereoOptions(), test::endoscope(), 96, 80, planePrior);
+    cuda::Stereo stereo(StereoOptions(), test::endoscope(), 96, 80);
     FAIL() << "no device, and no error";
   } catch (const BackendError& error) {
     EXPECT_NE(std::string(error.what()).find(info.why_none), std::string::npos) << error.what();
@@ -91,7 +91,7 @@ TEST(StereoOnDeviceErrors, WithoutADeviceTheReasonIsGiven) {
 TEST(StereoOnDeviceErrors, AMethodWithoutKernelsIsRefused) {
   StereoOptions options;
   options.method = "sgbm";
-  EXPECT_THROW(cuda::Stereo(options, test::endoscope(), 96, 80, planePrior), OptionError);
+  EXPECT_THROW(cuda::Stereo(options, test::endoscope(), 96, 80), OptionError);
 }
 
 }  // namespace

@@ -47,10 +47,8 @@ TEST_P(StereoPasses, FindTheCpusSupportAndPrior) {
   EXPECT_EQ(differing(test::rasterOf(kept), expected), 0);
   EXPECT_EQ(full().counters->point_count, static_cast<int>(points.size()));
 
-  const bool by_rows = options.elas.prior == PriorMethod::kRows;
   const auto priorOf = [&](const std::vector<SupportPoint>& from) {
-    return by_rows ? interpolateRows(from, GetParam().width, GetParam().height)
-                   : interpolatePlanes(from, GetParam().width, GetParam().height);
+    return interpolateRows(from, GetParam().width, GetParam().height);
   };
   const Raster<std::int16_t> prior = priorOf(points);
   EXPECT_EQ(differing(test::rasterOf(full().prior[0]), prior), 0);

@@ -48,7 +48,7 @@ BREACHES = [
     ("python/bindings.cpp", '#include "toolkit/run/run_reader.h"', "python may include softscope"),
     ("toolkit/face/run.cpp", "#include <pybind11/numpy.h>", "its home in python"),
     ("src/stereo/refinement/plane.cpp", "#include <curl/curl.h>", "no home"),
-    ("src/stereo/matching/delaunay.cpp", "#include <boost/polygon/voronoi.hpp>", "no home"),
+    ("src/stereo/matching/row_prior.cpp", "#include <boost/polygon/voronoi.hpp>", "no home"),
     ("src/stereo/refinement/plane.cpp", "#include <math.h>", "no home"),
 ]
 

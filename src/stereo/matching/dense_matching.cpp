@@ -7,7 +7,6 @@
 #include "core/parallel.h"
 #include "stereo/kernels/matching_formulas.h"
 #include "stereo/kernels/stereo_kernels.h"
-#include "stereo/matching/plane_prior.h"
 #include "stereo/matching/row_prior.h"
 
 namespace softscope {
@@ -139,9 +138,7 @@ Raster<std::int16_t> matchDense(const GradientImage& left, const GradientImage& 
   const int width = left.width_px(), height = left.height_px();
   Raster<std::int16_t> disparity(width, height, -1);
   if (points.empty()) return disparity;
-  const Raster<std::int16_t> prior = options.elas.prior == PriorMethod::kRows
-                                         ? interpolateRows(points, width, height)
-                                         : interpolatePlanes(points, width, height);
+  const Raster<std::int16_t> prior = interpolateRows(points, width, height);
   const int columns = (width + kTileWidth - 1) / kTileWidth;
   const int rows = (height + kTileHeight - 1) / kTileHeight;
   const SharedDisparities shared(points, columns, rows);

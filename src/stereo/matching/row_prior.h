@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "core/raster.h"
-#include "stereo/matching/plane_prior.h"  // kNoPrior
 #include "stereo/matching/support_points.h"
 
 namespace softscope {
+
+/// Prior of an image without support points.
+constexpr std::int16_t kNoPrior = INT16_MIN;
 
 /// Prior disparity per pixel, unit 1/8 px (docs/stereo.md 3.2). Each row with points is
 /// interpolated linearly between them and constant beyond them; a pixel is interpolated

@@ -113,27 +113,6 @@ Raster<float> removeLonely(const Raster<float>& grid, const ElasOptions& options
   return kept;
 }
 
-/// True if, within reach, both neighbours along (dx, dy) have the disparity of this point.
-bool isRedundant(const Raster<float>& grid, int c, int r, int dx, int dy, int reach) {
-  int agreeing = 0;
-  for (const int sign : {-1, 1})
-    for (int k = 1; k <= reach; ++k) {
-      const int x = c + sign * k * dx, y = r + sign * k * dy;
-      if (!grid.contains(x, y)) break;
-      if (grid.at(x, y) == kNoCandidate) continue;
-      agreeing += std::abs(grid.at(x, y) - grid.at(c, r)) <= 0.5f;
-      break;
-    }
-  return agreeing == 2;
-}
-
-void removeRedundant(Raster<float>& grid, int dx, int dy, int reach) {
-  for (int r = 0; r < grid.height_px; ++r)
-    for (int c = 0; c < grid.width_px; ++c)
-      if (grid.at(c, r) != kNoCandidate && isRedundant(grid, c, r, dx, dy, reach))
-        grid.at(c, r) = kNoCandidate;
-}
-
 void matchRows(const GradientImage& left, const GradientImage& right, const BlockedPixels& blocked,
                const StereoOptions& options, int row_offset_px, const std::vector<int>& rows,
                Raster<float>& grid) {
@@ -193,15 +172,6 @@ std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const Gra
   matchRows(left, right, blocked, narrowedTo(foundIn(grid), options), row_offset_px, other_rows,
             grid);
   grid = removeLonely(grid, options.elas);
-  return pointsOf(grid, options.elas);
-}
-
-std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options) {
-  if (options.prior == PriorMethod::kPlanes) {  // triangles need no redundant points
-    removeRedundant(grid, 0, 1, options.support_redundant_cells);
-    removeRedundant(grid, 1, 0, options.support_redundant_cells);
-  }
-  const int step = options.support_step_px;
   std::vector<SupportPoint> points;
   for (int r = 0; r < grid.height_px; ++r)
     for (int c = 0; c < grid.width_px; ++c)

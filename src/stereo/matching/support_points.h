@@ -16,15 +16,11 @@ struct SupportPoint {
 };
 
 /// Matches a grid of pixels over the whole range of disparities (every fourth row; the others
-/// over the range found there), keeps those that are unique, textured, cross-checked and
-/// confirmed by their neighbours, and removes those that their neighbours predict. In raster
-/// order. Rows of the right image are searched `row_offset_px` below those of the left.
+/// over the range found there) and keeps those that are unique, textured, cross-checked and
+/// confirmed by their neighbours. In raster order. Rows of the right image are searched
+/// `row_offset_px` below those of the left.
 std::vector<SupportPoint> findSupportPoints(const GradientImage& left, const GradientImage& right,
                                             const StereoOptions& options, int row_offset_px = 0);
-
-/// The points of a grid of disparities, kNoSupport for none; for the prior
-/// by planes without those that their neighbours predict. In raster order.
-std::vector<SupportPoint> pointsOf(Raster<float> grid, const ElasOptions& options);
 
 /// The same points in the right image.
 std::vector<SupportPoint> supportFromRight(std::vector<SupportPoint> points);

@@ -11,10 +11,6 @@ namespace softscope {
 /// Fields are settings (stereo_settings.h) or differ between
 /// uses of a matcher; all others are constants of the method.
 
-/// Disparity prior between support points: the planes of their triangles, or interpolated along and
-/// between the rows of their grid, which the GPU computes without the CPU (docs/stereo.md, 3.2).
-enum class PriorMethod { kPlanes, kRows };
-
 /// ELAS (Geiger, Roser, Urtasun, ACCV 2010), stage by stage. Costs are mean absolute differences
 /// of the gradient descriptors, so that thresholds are independent of the window size.
 struct ElasOptions {
@@ -30,10 +26,8 @@ struct ElasOptions {
   static constexpr int support_window_cells = 5;  // neighbours, in grid steps, that must agree …
   static constexpr int support_agreement_px = 5;  // … to this many pixels …
   static constexpr int support_min_neighbours = 5;  // … and at least so many of them
-  int support_redundant_cells = 4;  // a point between two equal ones this close is left out
 
-  PriorMethod prior = PriorMethod::kPlanes;
-  static constexpr double prior_sigma_px = 1.0;  // of the distance of the surface from its triangle
+  static constexpr double prior_sigma_px = 1.0;  // of the distance of the surface from its prior
   // cost of a distant surface, in mean gradient steps
   static constexpr double prior_weight = 1.0;
 

@@ -17,11 +17,12 @@ constexpr int kRowPointsPerTask = 64;
 // Grid of the pixels that are matched: finer in small images, which would have too few matches.
 constexpr int kGridColumns = 53;
 constexpr int kFinestGridPx = 4, kCoarsestGridPx = 12;
-constexpr int kMeterReach = 4;           // of the window, every second pixel
-constexpr int kRowReach = 2;             // rows tried around a support point's
-constexpr int kCoarseOffset = 2;         // rows between the coarse trials
-constexpr int kFarthestOffset = 10;      // of the trials
-constexpr std::size_t kMany = 150;       // matches sufficient to determine the rows
+constexpr int kMeterReach = 4;        // of the window, every second pixel
+constexpr int kRowReach = 2;          // rows tried around a support point's
+constexpr int kCoarseOffset = 2;      // rows between the coarse trials
+constexpr int kFarthestOffset = 10;   // of the trials
+constexpr std::size_t kMany = 150;    // matches sufficient to determine the rows
+constexpr std::size_t kPlenty = 300;  // of a sparser grid: sufficient to see that rows correspond
 constexpr double kLeastCurvature = 0.3;  // of the cost over rows; below, rows are not determined
 
 /// Mean difference of the two windows.
@@ -71,9 +72,7 @@ RowMeter::RowMeter(const GrayImage& left, int disparity_max_px, const Mask& igno
     : margin_px_(disparity_max_px),
       left_(fillMasked(left, ignored), ElasOptions{}.gradient_gain, disparity_max_px, ignored) {
   options_.disparity_max_px = disparity_max_px;
-  options_.elas.support_step_px =
-      std::clamp(left_.width_px() / kGridColumns, kFinestGridPx, kCoarsestGridPx);
-  options_.elas.support_redundant_cells = 0;
+  grid_px_ = std::clamp(left_.width_px() / kGridColumns, kFinestGridPx, kCoarsestGridPx);
 }
 
 RowAlignment RowMeter::scale() const {
@@ -84,17 +83,30 @@ RowAlignment RowMeter::scale() const {
   return scale;
 }
 
-std::vector<RowMatch> RowMeter::match(const GrayImage& right_image, const Mask& ignored) {
-  const GradientImage right(fillMasked(right_image, ignored), ElasOptions{}.gradient_gain,
-                            margin_px_, ignored);
-  const auto matches = matchRows(right, 0);
+GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) const {
+  return {fillMasked(right, ignored), ElasOptions{}.gradient_gain, margin_px_, ignored};
+}
+
+RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored) {
+  const GradientImage gradient = gradientOf(right, ignored);
+  const auto few = matchRows(gradient, 0, grid_px_ + grid_px_ / 2);
+  const bool is_enough = few.size() >= kPlenty && isWellAligned(few);
+  return fitRowModel(is_enough ? few : matchNearest(gradient), scale());
+}
+
+std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignored) {
+  return matchNearest(gradientOf(right, ignored));
+}
+
+std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
+  const auto matches = matchRows(right, 0, grid_px_);
   if (isWellAligned(matches)) return matches;
   // The true rows give the most matches, except those that a roll moves further.
   std::map<int, std::vector<RowMatch>> found{{0, matches}};
   int best = 0;
   for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
     for (const int signed_offset : {-offset, offset}) {
-      found[signed_offset] = matchRows(right, signed_offset);
+      found[signed_offset] = matchRows(right, signed_offset, grid_px_);
       if (found[signed_offset].size() > found[best].size()) best = signed_offset;
     }
     if (offset >= std::abs(best) + 2 * kCoarseOffset && found[best].size() >= kMany) break;
@@ -105,7 +117,8 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right_image, const Mask& 
   return nearest;
 }
 
-std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_offset) {
+std::vector<RowMatch> RowMeter::matchRows(const GradientImage& right, int row_offset, int grid_px) {
+  options_.elas.support_step_px = grid_px;
   const auto points = findSupportPoints(left_, right, options_, row_offset);
   const int top = kMeterReach + kRowReach, bottom = left_.height_px() - top;
   std::vector<std::optional<RowMatch>> found(points.size());

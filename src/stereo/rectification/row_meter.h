@@ -22,18 +22,19 @@ class RowMeter {
   /// Matches; most of them correct.
   std::vector<RowMatch> match(const GrayImage& right, const Mask& ignored = {});
 
-  /// The smooth row difference of the matches.
-  RowAlignment measure(const GrayImage& right, const Mask& ignored = {}) {
-    return fitRowModel(match(right, ignored), scale());
-  }
+  /// The smooth row difference of the matches, of which rows that correspond need only half.
+  RowAlignment measure(const GrayImage& right, const Mask& ignored = {});
 
   /// Without measurement: the frame of reference of fitRowModel().
   RowAlignment scale() const;
 
  private:
-  std::vector<RowMatch> matchRows(const GradientImage& right, int row_offset);
+  GradientImage gradientOf(const GrayImage& right, const Mask& ignored) const;
+  std::vector<RowMatch> matchNearest(const GradientImage& right);
+  std::vector<RowMatch> matchRows(const GradientImage& right, int row_offset, int grid_px);
 
   int margin_px_;
+  int grid_px_;
   GradientImage left_;
   StereoOptions options_;
 };
