@@ -98,6 +98,7 @@ class CpuBackend : public ReconstructionBackend {
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
                            ScopeBefore before);
+  void grow();
   void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, ScopeBefore before,
               PoseSummary* summary);
   bool tracks() const { return !state_.tracked.points.empty(); }
@@ -115,6 +116,7 @@ class CpuBackend : public ReconstructionBackend {
   mutable ModelState state_;      // its memory may lie on a device until state() is called
   std::vector<TrackSeed> seeds_;  // until the first model begins with them
   GraphAhead growth_;  // of the model and the graph as fuse() left them; ends before they do
+  bool is_grown_ = false;
 
   AcceptedWarp warp_;
   template <class Work>
@@ -244,8 +246,8 @@ DeformObservation CpuBackend::matchConstraints(const Eigen::Isometry3d& world_fr
 }
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
-  growth_.grow(options_.graph, &state_.model, &state_.graph);
-  updater_->changed(kModelBindings);
+  is_grown_ = false;
+  if (state_.graph.empty() || !growth_.canWait(state_.model)) grow();
   clock_.lap("graph");
   const std::vector<std::int32_t> visible = comparer_->visiblePoints(
       state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility);
@@ -262,7 +264,14 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   return summary;
 }
 
+void CpuBackend::grow() {
+  growth_.grow(options_.graph, &state_.model, &state_.graph);
+  updater_->changed(kModelBindings);
+  is_grown_ = true;
+}
+
 void CpuBackend::acceptWarp(bool is_reference) {
+  if (!is_grown_) grow();
   warp_.apply(updater_.get(), options_.graph.node_spacing_mm, &state_);
   if (is_reference) state_.graph.since_reference.assign(state_.graph.size(), NodeTransform());
   clock_.lap("warp");

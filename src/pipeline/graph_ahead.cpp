@@ -1,50 +1,89 @@
 #include "pipeline/graph_ahead.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "core/parallel.h"
 #include "deform/graph/graph_builder.h"
 
 namespace softscope {
+namespace {
+
+constexpr double kFewUnbound = 0.01;  // of the points: these can follow their neighbours once
+
+bool isFew(const std::vector<PointBinding>& bindings) {
+  const auto unbound = std::count_if(bindings.begin(), bindings.end(),
+                                     [](const PointBinding& each) { return !each.bound(); });
+  return static_cast<double>(unbound) <= kFewUnbound * static_cast<double>(bindings.size());
+}
+
+/// Calls `work`, then fulfils `done`.
+template <class Work>
+void workFor(std::promise<void>* done, const Work& work) {
+  try {
+    work();
+    done->set_value();
+  } catch (...) {
+    done->set_exception(std::current_exception());
+  }
+}
+
+}  // namespace
 
 void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
                          const WarpGraph& graph, DeformSolver* solver) {
   drop();
-  std::promise<void> grown;
+  can_wait_ = isFew(model.bindings);
+  std::promise<void> grown, prepared;
   growth_ = grown.get_future();
-  thread_ = std::async(std::launch::async,
-                       [this, options, &model, &graph, solver, grown = std::move(grown)]() mutable {
-                         try {
-                           grown_.bindings = model.bindings;
-                           grown_.graph = graph;
-                           growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
-                           analysed_ = grown_.graph;
-                         } catch (...) {
-                           grown.set_exception(std::current_exception());
-                           return;
-                         }
-                         grown.set_value();
-                         solver->prepare(analysed_);
-                       });
+  solver_ = prepared.get_future();
+  thread_ = std::async(
+      std::launch::async, [this, options, &model, &graph, solver, grown = std::move(grown),
+                           prepared = std::move(prepared)]() mutable {
+        const auto grow = [&] {
+          workFor(&grown, [&] {
+            grown_.bindings = model.bindings;
+            grown_.graph = graph;
+            growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
+          });
+        };
+        const auto prepareFor = [&](const WarpGraph& next) {
+          workFor(&prepared, [&] {
+            analysed_ = next;
+            solver->prepare(analysed_);
+          });
+        };
+        if (can_wait_) return parallelInvoke(grow, [&] { prepareFor(graph); });
+        grow();
+        prepareFor(grown_.graph);
+      });
+}
+
+bool GraphAhead::canWait(const PointModel& model) const {
+  return growth_.valid() ? can_wait_ : isFew(model.bindings);
 }
 
 void GraphAhead::grow(const GraphOptions& options, PointModel* model, WarpGraph* graph) {
-  if (!growth_.valid()) {
+  std::vector<NodeTransform> found = graph->transforms;
+  if (growth_.valid()) {
+    growth_.get();
+    std::swap(model->bindings, grown_.bindings);
+    std::swap(*graph, grown_.graph);
+  } else {
     growGraph(options, model, graph);
-    return;
   }
-  growth_.get();
-  std::swap(model->bindings, grown_.bindings);
-  std::swap(*graph, grown_.graph);
+  followNeighbours(std::move(found), graph);
 }
 
 void GraphAhead::waitForSolver() {
-  if (thread_.valid()) thread_.get();
+  if (solver_.valid()) solver_.get();
 }
 
 void GraphAhead::drop() {
   if (thread_.valid()) thread_.wait();
   thread_ = {};
   growth_ = {};
+  solver_ = {};
 }
 
 }  // namespace softscope

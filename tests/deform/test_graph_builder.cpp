@@ -143,6 +143,27 @@ TEST(GraphBuilder, NewNodesHaveMovedLikeTheTissueBesideThem) {
   }
 }
 
+TEST(GraphBuilder, NewNodesFollowTheNearestOldOnes) {
+  PointModel model = scenes::makeHill(30, 20, 0.5);
+  WarpGraph graph = scenes::bindGraph(&model);
+  const Eigen::Isometry3d motion = scenes::rigidMotion();
+  scenes::moveNodes(motion, &graph);
+  std::vector<NodeTransform> known = graph.transforms;
+  known.resize(graph.size() / 2);
+
+  followNeighbours(known, &graph);
+
+  ASSERT_EQ(graph.transforms.size(), graph.size());
+  for (std::size_t j = 0; j < graph.size(); ++j) {
+    const Eigen::Vector3d& at = graph.positions_mm[j];
+    EXPECT_LT((warpByNode(graph.transforms[j], at, at) - motion * at).norm(), 1e-9) << j;
+    EXPECT_LT((graph.transforms[j].linear - motion.linear()).norm(), 1e-12) << j;
+  }
+  followNeighbours({}, &graph);  // none is known: they stay
+  for (const NodeTransform& transform : graph.transforms)
+    EXPECT_EQ(transform.translation_mm, Eigen::Vector3d::Zero());
+}
+
 TEST(GraphBuilder, DoesNothingWhereEveryPointIsBound) {
   PointModel model = scenes::makeHill(20, 20, 0.5);
   WarpGraph graph = scenes::bindGraph(&model);

@@ -59,6 +59,20 @@ std::vector<int> pointsInside(const Positions& positions_mm, const CellNumbering
   return points;
 }
 
+/// The node closest to a position, of the first `count`; `count` without any.
+std::size_t nearestNode(const WarpGraph& graph, std::size_t count,
+                        const Eigen::Vector3d& position_mm) {
+  std::size_t nearest = count;
+  double nearest_mm2 = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < count; ++j) {
+    const double away_mm2 = (graph.positions_mm[j] - position_mm).squaredNorm();
+    if (!(away_mm2 < nearest_mm2)) continue;
+    nearest_mm2 = away_mm2;
+    nearest = j;
+  }
+  return nearest;
+}
+
 /// Numbers every set of nodes; drops unused numbers.
 class StencilBook {
  public:
@@ -154,14 +168,7 @@ class Growth {
  private:
   /// New tissue moved like the nearest known tissue: neither was visible before.
   NodeTransform motionNear(const Eigen::Vector3d& position_mm) const {
-    std::size_t nearest = graph_.size();
-    double nearest_mm2 = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < graph_.size(); ++j) {
-      const double away_mm2 = (graph_.positions_mm[j] - position_mm).squaredNorm();
-      if (!(away_mm2 < nearest_mm2)) continue;
-      nearest_mm2 = away_mm2;
-      nearest = j;
-    }
+    const std::size_t nearest = nearestNode(graph_, graph_.size(), position_mm);
     if (nearest == graph_.size()) return {};
     NodeTransform motion = graph_.since_reference[nearest];
     motion.translation_mm =
@@ -238,6 +245,22 @@ GraphGrowth growGraph(const GraphOptions& options, const std::vector<Eigen::Vect
 
 GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph* graph) {
   return growGraph(options, model->positions_mm, &model->bindings, graph);
+}
+
+void followNeighbours(std::vector<NodeTransform> transforms, WarpGraph* graph) {
+  const std::size_t known = transforms.size();
+  for (std::size_t j = known; j < graph->size(); ++j) {
+    const Eigen::Vector3d& position_mm = graph->positions_mm[j];
+    const std::size_t nearest = nearestNode(*graph, known, position_mm);
+    NodeTransform motion;
+    if (nearest < known) {
+      motion = transforms[nearest];
+      motion.translation_mm =
+          warpByNode(motion, graph->positions_mm[nearest], position_mm) - position_mm;
+    }
+    transforms.push_back(motion);
+  }
+  graph->transforms = std::move(transforms);
 }
 
 }  // namespace softscope

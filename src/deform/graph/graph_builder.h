@@ -32,4 +32,7 @@ GraphGrowth growGraph(const GraphOptions& options, PointModel* model, WarpGraph*
 GraphGrowth growGraph(const GraphOptions& options, const std::vector<Eigen::Vector3f>& positions_mm,
                       std::vector<PointBinding>* bindings, WarpGraph* graph);
 
+/// After growth: the first nodes get these transforms, new nodes the motion of the nearest of them.
+void followNeighbours(std::vector<NodeTransform> transforms, WarpGraph* graph);
+
 }  // namespace softscope
