@@ -40,12 +40,12 @@ void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
   thread_ = std::async(
       std::launch::async, [this, options, &model, &graph, solver, grown = std::move(grown),
                            prepared = std::move(prepared)]() mutable {
+        // First: once the solver is prepared, it changes the transforms of the graph.
+        grown_.bindings = model.bindings;
+        grown_.graph = graph;
         const auto grow = [&] {
-          workFor(&grown, [&] {
-            grown_.bindings = model.bindings;
-            grown_.graph = graph;
-            growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
-          });
+          workFor(&grown,
+                  [&] { growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph); });
         };
         const auto prepareFor = [&](const WarpGraph& next) {
           workFor(&prepared, [&] {
