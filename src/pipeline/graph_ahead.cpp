@@ -40,22 +40,20 @@ void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
   thread_ = std::async(
       std::launch::async, [this, options, &model, &graph, solver, grown = std::move(grown),
                            prepared = std::move(prepared)]() mutable {
-        // First: once the solver is prepared, it changes the transforms of the graph.
+        // Copies first: of what is grown or prepared, others may change the original.
         grown_.bindings = model.bindings;
         grown_.graph = graph;
+        if (can_wait_) analysed_ = graph;
         const auto grow = [&] {
-          workFor(&grown,
-                  [&] { growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph); });
-        };
-        const auto prepareFor = [&](const WarpGraph& next) {
-          workFor(&prepared, [&] {
-            analysed_ = next;
-            solver->prepare(analysed_);
+          workFor(&grown, [&] {
+            growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
+            if (!can_wait_) analysed_ = grown_.graph;
           });
         };
-        if (can_wait_) return parallelInvoke(grow, [&] { prepareFor(graph); });
+        const auto prepareSolver = [&] { workFor(&prepared, [&] { solver->prepare(analysed_); }); };
+        if (can_wait_) return parallelInvoke(grow, prepareSolver);
         grow();
-        prepareFor(grown_.graph);
+        prepareSolver();
       });
 }
 

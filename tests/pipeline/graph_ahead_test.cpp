@@ -74,5 +74,29 @@ TEST(GrowthAheadOfFew, CanWaitAndOfManyCannot) {
   }
 }
 
+/// Keeps the nodes of the graph that it is prepared for.
+class RememberingSolver : public DeformSolver {
+ public:
+  NodeModel nodeModel() const override { return NodeModel::kRigid; }
+  void prepare(const WarpGraph& graph) override { prepared_mm = graph.positions_mm; }
+  DeformSummary solve(const PointModel&, const DeformObservation&, WarpGraph*) override {
+    return {};
+  }
+  std::vector<Eigen::Vector3d> prepared_mm;
+};
+
+TEST(GrowthAheadOfMany, PreparesTheSolverForTheGrownGraphThoughItIsTakenAtOnce) {
+  const Growing begun(10.0F);
+  for (int trial = 0; trial < 50; ++trial) {
+    Growing growing = begun;
+    RememberingSolver solver;
+    GraphAhead growth;
+    growth.prepare(GraphOptions(), growing.model, growing.graph, &solver);
+    growth.grow(GraphOptions(), &growing.model, &growing.graph);
+    growth.waitForSolver();
+    ASSERT_EQ(solver.prepared_mm, growing.graph.positions_mm) << "trial " << trial;
+  }
+}
+
 }  // namespace
 }  // namespace softscope
