@@ -7,6 +7,7 @@
 #include "cuda/device/device_executor.cuh"
 #include "cuda/device/device_stream.h"
 #include "cuda/device/event_clock.h"
+#include "cuda/stereo/coarser_levels.h"
 #include "cuda/stereo/stereo.h"
 #include "cuda/stereo/stereo_passes.h"
 

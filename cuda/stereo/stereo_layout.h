@@ -56,7 +56,7 @@ struct StereoLevel {
   PriorRows rows;
   View<std::int16_t> prior[2], whole[2];
   TileBits bits;
-  View<float> slow[2], smooth[2];          // of the first pass, along rows
+  View<float> slow[2], smooth[2];          // of the first pass, along rows; then EvidenceCentre
   View<float> fast_part[2], slow_part[2];  // of the brightness
   LightSums* light_parts;
   View<std::uint8_t> dark_rows, marks, near_marks, mixed;

@@ -247,6 +247,7 @@ class StereoPasses {
     for (int i = 0; i + 1 < options.steps; ++i) step<false>(level, i, window);
     step<true>(level, options.steps - 1, window);
     shrinkRelief(level, window);
+    if (options.drop_beyond_evidence) dropBeyondEvidence(level);
     executor_.mark("refine");
   }
   static Selection selectionOf(const RefinementOptions& options) {
@@ -302,7 +303,11 @@ class StereoPasses {
              level);
     // Windows with mixed surfaces, slow to solve, are processed in the second step.
     const bool hold = i == 0 && !kLast;
-    const StepSolver solver{limits, rules, before, disparityOf(level, i + 1), level.sigma};
+    StepSolver solver{limits, rules, before, disparityOf(level, i + 1), level.sigma, {}, {}};
+    if (options.drop_beyond_evidence) {
+      solver.beside = level.smooth[0];
+      solver.below = level.smooth[1];
+    }
     WindowStepKernel<kLast> windows{level.residuals,
                                     readOnly(level.mixed),
                                     solver,
@@ -336,6 +341,18 @@ class StereoPasses {
              level);
   }
 
+  void dropBeyondEvidence(const StereoLevel& level) {
+    const RefinementOptions& options = level.options.refinement;
+    perPixel("beyond evidence",
+             MarkBeyondEvidenceBody{readOnly(refined(level)), readOnly(level.smooth[0]),
+                                    readOnly(level.smooth[1]), readOnly(level.fast_part[0]),
+                                    readOnly(level.slow_part[0]), level.near_marks,
+                                    rimFromEvidencePx(options), options.radius_px},
+             level);
+    perPixel("drop marked", DropMarkedBody{readOnly(level.near_marks), refined(level), level.sigma},
+             level);
+  }
+
   void smooth(const StereoLevel& level) {
     const std::vector<float> weights = smoothingWindow(layout_.smoothing.reach);
     const BlockMeanKernel means{readOnly(layout_.smoothed), readOnly(layout_.smoothed_sigma),
@@ -353,31 +370,6 @@ class StereoPasses {
   Executor& executor_;
   const StereoLayout& layout_;
 };
-
-/// Share of the matchable pixels without a disparity.
-inline double unmatchedShare(const OpenShare& share) {
-  return share.matchable == 0 ? 1 : static_cast<double>(share.unmatched) / share.matchable;
-}
-
-/// Runs coarser levels while they are useful, and fills the finer from them. `readShare(k)`
-/// waits for the unmatched share of level k, after level 0; `matchHalf(k)` halves level k -
-/// 1 and matches it; `ascend(k)` fills level k from its half. Returns the number of levels.
-template <class ReadShare, class MatchHalf, class Ascend>
-int runCoarserLevels(const StereoLayout& layout, const ReadShare& readShare,
-                     const MatchHalf& matchHalf, const Ascend& ascend) {
-  double finer_unmatched = 2;  // more than any share
-  int level = 0;
-  while (level + 1 < static_cast<int>(layout.levels.size())) {
-    const double unmatched = unmatchedShare(readShare(level));
-    if (!isHalvingWorth(layout.levels[static_cast<std::size_t>(level)].options.elas, unmatched,
-                        finer_unmatched))
-      break;
-    finer_unmatched = unmatched;
-    matchHalf(++level);
-  }
-  for (int k = level; k-- > 0;) ascend(k);
-  return level + 1;
-}
 
 /// Throws OptionError for options without GPU version.
 inline void requireDeviceLimits(const StereoOptions& options, int width_px) {

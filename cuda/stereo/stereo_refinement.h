@@ -162,6 +162,7 @@ struct StepSolver {
   RefinementStep rules;
   View<const float> before;
   View<float> next, sigma;
+  View<float> beside, below;  // EvidenceCentre; without memory if it is not wanted
 
   template <bool kLast>
   SOFTSCOPE_HD void solve(int u, int v, const float (&moments)[9],
@@ -176,6 +177,12 @@ struct StepSolver {
                         limits.max_variance_px2, limits.max_difference, &holds);
       disparity = holds ? disparity : quietNan();
       sigma.at(u, v) = holds ? std::sqrt(variance) : quietNan();
+      if (beside.data != nullptr) {
+        const EvidenceCentre<float> centre =
+            evidenceCentre(moments, evidence, limits.prior_weight, limits.noise_floor_sq);
+        beside.at(u, v) = centre.x;
+        below.at(u, v) = centre.y;
+      }
     }
     next.at(u, v) = disparity;
   }
@@ -353,6 +360,38 @@ struct ShrinkReliefBody {
     const float of_planes = planes.at(u, v), of_sigma = sigma.at(u, v);
     disparity.at(u, v) = of_planes + gain * (disparity.at(u, v) - of_planes);
     sigma.at(u, v) = std::sqrt(varianceWithRelief(of_sigma * of_sigma, gain, model_variance_px2));
+  }
+};
+
+// --- rims
+// ---------------------------------------------------------------------------------
+
+struct MarkBeyondEvidenceBody {
+  View<const float> disparity, beside, below, fast, slow;
+  View<std::uint8_t> beyond;
+  float rim_px;
+  int reach;
+
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    const auto isMeasured = [&](int x, int y) {
+      return disparity.contains(u + x, v + y) && isNumber(disparity.at(u + x, v + y));
+    };
+    const auto grayAt = [&](int x, int y) {
+      const int column = clamped(u + x, fast.width - 1), row = clamped(v + y, fast.height - 1);
+      return fast.at(column, row) + slow.at(column, row);
+    };
+    beyond.at(u, v) = isMeasured(0, 0) && isBeyondEvidence(beside.at(u, v), below.at(u, v), rim_px,
+                                                           reach, isMeasured, grayAt);
+  }
+
+ private:
+  SOFTSCOPE_HD static int clamped(int i, int last) { return i < 0 ? 0 : (i > last ? last : i); }
+};
+struct DropMarkedBody {
+  View<const std::uint8_t> marks;
+  View<float> disparity, sigma;
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    if (marks.at(u, v) != 0) disparity.at(u, v) = sigma.at(u, v) = quietNan();
   }
 };
 

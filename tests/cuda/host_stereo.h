@@ -7,6 +7,7 @@
 #include "core/depth_map.h"
 #include "core/image.h"
 #include "cuda/device/host_executor.h"
+#include "cuda/stereo/coarser_levels.h"
 #include "cuda/stereo/stereo_passes.h"
 #include "host_memory.h"
 #include "stereo/images/view_masks.h"

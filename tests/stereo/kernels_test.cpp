@@ -151,7 +151,7 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
   before[17] = std::numeric_limits<float>::quiet_NaN();
   for (const float of_disparity : {1.0f, 0.0f})
     expectEqual([&](const StereoKernels& set) {
-      Floats copy = sums, out(2 * width);
+      Floats copy = sums, out(4 * width);
       const PlaneRow row{momentsIn(copy, width),
                          before.data(),
                          width,
@@ -165,7 +165,9 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
                          1e9f,
                          1.5f,
                          out.data(),
-                         out.data() + width};
+                         out.data() + width,
+                         out.data() + 2 * width,
+                         out.data() + 3 * width};
       set.refinement->solvePlanes(row);
       set.refinement->estimatePlaneErrors(row);
       EXPECT_TRUE(std::isnan(out[17]));

@@ -8,8 +8,10 @@
 #include <limits>
 #include <random>
 
+#include "stereo/kernels/filter_formulas.h"
 #include "stereo/kernels/light_formulas.h"
 #include "stereo/kernels/refinement_formulas.h"
+#include "stereo/refinement/refinement_window.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -307,6 +309,90 @@ TEST(SubpixelRefinement, IsUnsureWhereThereIsNoTexture) {
   const GrayImage flat(96, 96, 120);
   const auto map = refineDisparity(flat, flat, Raster<float>(96, 96, 10.0f), {});
   for (const float d : map.disparity_px.values) EXPECT_TRUE(std::isnan(d));
+}
+
+constexpr std::uint8_t kFlatGray = 40;  // the texture has 90 on average
+
+/// Columns of both images without texture, where the left one sees [begin, end).
+void flatten(int begin, int end, test::Scene* scene) {
+  for (int v = 0; v < scene->left.height_px; ++v)
+    for (int u = begin; u < end; ++u) {
+      scene->left.at(u, v) = kFlatGray;
+      const int right = u - static_cast<int>(std::lround(scene->disparity_px.at(u, v)));
+      if (right >= 0) scene->right.at(right, v) = kFlatGray;
+    }
+}
+
+TEST(SubpixelRefinement, DropsTheRimBeyondItsEvidenceIfAsked) {
+  auto scene = test::makeScene(test::endoscope(), test::plane(55), 1.0);
+  constexpr int kRim = 160, kMatchedFrom = 148;
+  flatten(0, kRim, &scene);
+  Raster<float> initial = rounded(scene.disparity_px);
+  for (int v = 0; v < initial.height_px; ++v)
+    std::fill_n(initial.row(v), kMatchedFrom, std::numeric_limits<float>::quiet_NaN());
+  RefinementOptions options;
+  const DisparityMap all = refineDisparity(scene.left, scene.right, initial, options);
+  options.drop_beyond_evidence = true;
+  const DisparityMap kept = refineDisparity(scene.left, scene.right, initial, options);
+
+  int beyond = 0, beyond_kept = 0, inside = 0, inside_kept = 0;
+  for (int v = 0; v < initial.height_px; ++v)
+    for (int u = kMatchedFrom; u < initial.width_px - 10; ++u) {
+      const bool measured = !std::isnan(all.disparity_px.at(u, v));
+      const bool is_kept = !std::isnan(kept.disparity_px.at(u, v));
+      if (is_kept) {
+        EXPECT_EQ(kept.disparity_px.at(u, v), all.disparity_px.at(u, v));
+      }
+      EXPECT_EQ(is_kept, !std::isnan(kept.sigma_px.at(u, v)));
+      (u < kRim - 1 ? beyond : inside) += measured;
+      (u < kRim - 1 ? beyond_kept : inside_kept) += is_kept;
+    }
+  EXPECT_GT(beyond, 4 * initial.height_px);  // by the texture of the rim alone
+  EXPECT_LT(beyond_kept, beyond / 7);
+  EXPECT_GT(inside_kept, 0.95 * inside);
+}
+
+TEST(SubpixelRefinement, KeepsWhatLiesBetweenEvidence) {
+  auto scene = test::makeScene(test::endoscope(), test::plane(55), 1.0);
+  flatten(160, 166, &scene);
+  RefinementOptions options;
+  options.drop_beyond_evidence = true;
+  const DisparityMap map =
+      refineDisparity(scene.left, scene.right, rounded(scene.disparity_px), options);
+  for (int v = 20; v < map.disparity_px.height_px - 20; ++v)
+    for (int u = 155; u < 171; ++u) EXPECT_FALSE(std::isnan(map.disparity_px.at(u, v))) << u;
+}
+
+TEST(RimFromEvidence, IsTheMeanOfHalfAWindow) {
+  const RefinementOptions options;
+  double sum = 0, moment = 0;
+  for (int x = 0; x <= options.radius_px; ++x)
+    for (int y = -options.radius_px; y <= options.radius_px; ++y) {
+      const double w = std::exp(-0.5 * (x * x + y * y) / std::pow(options.windowSigmaPx(), 2));
+      sum += w;
+      moment += w * x;
+    }
+  EXPECT_NEAR(rimFromEvidencePx(options), moment / sum, 1e-5);
+}
+
+TEST(BeyondEvidence, IsAnUnmeasuredSideOfARim) {
+  const auto everywhere = [](int, int) { return true; };
+  const auto right = [](int x, int) { return x > -4; };
+  const auto rim = [](int x, int) { return x > 2 ? 100.0f : 85.0f; };
+  const auto isBeyond = [&](float x, float y, int reach, const auto& measured, const auto& gray) {
+    return isBeyondEvidence(x, y, 2.0f, reach, measured, gray);
+  };
+  EXPECT_TRUE(isBeyond(3, 0, 6, right, rim));
+  EXPECT_TRUE(isBeyond(3, -3, 6, right, rim));       // obliquely
+  EXPECT_TRUE(isBeyond(1e4f, 0, 6, right, rim));     // not looked for outside of the window
+  EXPECT_FALSE(isBeyond(3, 0, 6, everywhere, rim));  // between evidence and measured pixels
+  EXPECT_FALSE(isBeyond(3, 0, 3, right, rim));       // measured as far as asked
+  EXPECT_FALSE(isBeyond(1.9f, 0, 6, right, rim));    // evidence around it
+  EXPECT_FALSE(isBeyond(-3, 0, 6, right, rim));      // the other side is measured
+  EXPECT_FALSE(isBeyond(0.5f, -3, 6, right, rim));   // upwards
+  EXPECT_FALSE(isBeyond(3, 0, 6, right, [](int, int) { return 90.0f; }));  // texture, no rim
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(isBeyond(nan, nan, 6, right, rim));
 }
 
 }  // namespace

@@ -11,6 +11,9 @@ namespace softscope {
 
 SOFTSCOPE_FORMULA float absoluteOf(float x) { return x < 0.0f ? -x : x; }
 SOFTSCOPE_FORMULA bool isNumber(float x) { return x == x; }
+SOFTSCOPE_FORMULA int nearestInteger(float x) {
+  return static_cast<int>(x < 0.0f ? x - 0.5f : x + 0.5f);
+}
 
 /// Whether the right image confirms disparity `d` of column u. `back`:
 /// disparity of the right image at column u - d; -1 if unmatched.
@@ -27,6 +30,30 @@ SOFTSCOPE_FORMULA float gapValue(float before, float after, int k, int gap) {
 /// Whether there is a step between two measured pixels `apart` pixels from each other.
 SOFTSCOPE_FORMULA bool isDepthStep(float a, float b, int apart, float step, float slope) {
   return absoluteOf(a - b) > step + slope * static_cast<float>(apart - 1);
+}
+
+constexpr float kRimContrast = 0.13f;  // share of the brightness by which two surfaces differ
+
+/// Whether a pixel was measured by the rim of the surface beside it, given the centre (x, y) of its
+/// evidence: farther away than `rim_px`, of another brightness on its other side, and one of the
+/// `reach` pixels away from it is unmeasured. isMeasured(x, y) and grayAt(x, y) are relative to the
+/// pixel, as x and y are.
+template <class IsMeasured, class GrayAt>
+SOFTSCOPE_FORMULA bool isBeyondEvidence(float x, float y, float rim_px, int reach,
+                                        const IsMeasured& isMeasured, const GrayAt& grayAt) {
+  if (!(x * x + y * y > rim_px * rim_px)) return false;
+  const float across = absoluteOf(x), along = absoluteOf(y);
+  const float longer = across > along ? across : along;
+  const float farthest = static_cast<float>(reach);
+  const float twice = longer > farthest ? 2 * farthest / longer : 2.0f;
+  const float here = grayAt(0, 0),
+              there = grayAt(nearestInteger(twice * x), nearestInteger(twice * y));
+  if (!(absoluteOf(here - there) > kRimContrast * (here > there ? here : there))) return false;
+  for (int i = 1; i <= reach; ++i) {
+    const float away = -static_cast<float>(i) / longer;
+    if (!isMeasured(nearestInteger(away * x), nearestInteger(away * y))) return true;
+  }
+  return false;
 }
 
 constexpr float kOneSurfacePx = 1.5f;  // four pixels with larger differences are on two surfaces

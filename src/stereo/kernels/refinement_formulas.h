@@ -147,6 +147,33 @@ SOFTSCOPE_FORMULA V planeDisparity(const V (&m)[9], V before, float of_disparity
 /// the 3 x 3 filter, by which pixels two apart share a sixth of their noise, five sixths.
 constexpr float kSlopeNoise = 0.5f * 0.5f * 5.0f / 6.0f;
 
+/// Squared noise of the residuals in a window.
+template <class V>
+SOFTSCOPE_FORMULA V noiseOfWindow(const V (&evidence_sums)[4], float noise_floor_sq) {
+  return evidence_sums[0] / evidence_sums[1] + noise_floor_sq;
+}
+
+/// Share of the information that is evidence. The stabilising term, the matched disparity and the
+/// slope of noise are none: they do not lower the error.
+template <class V>
+SOFTSCOPE_FORMULA V evidenceShare(V information, V weight, V noise_sq, float prior_weight) {
+  const V share = 1.0f - (prior_weight + kSlopeNoise * noise_sq) * weight / information;
+  return share > 1e-3f ? share : V{} + 1e-3f;
+}
+
+/// Centre of gravity of a window's evidence, in pixels from the centre of the window.
+template <class V>
+struct EvidenceCentre {
+  V x, y;
+};
+template <class V>
+SOFTSCOPE_FORMULA EvidenceCentre<V> evidenceCentre(const V (&m)[9], const V (&evidence_sums)[4],
+                                                   float prior_weight, float noise_floor_sq) {
+  const V noise_sq = noiseOfWindow(evidence_sums, noise_floor_sq);
+  const V evidence = m[0] * evidenceShare(m[0], evidence_sums[1], noise_sq, prior_weight);
+  return {m[1] / evidence, m[2] / evidence};
+}
+
 /// Variance of planeDisparity() from the moments and residual_sq and
 /// weight, and whether the fit is reliable, given difference_sq and energy.
 template <class V, class Mask>
@@ -157,11 +184,8 @@ SOFTSCOPE_FORMULA V planeVariance(const V (&m)[9], const V (&evidence_sums)[4], 
   const V a = m[0], b = m[1], c = m[2], d = m[3], e = m[4], f = m[5];
   const V c00 = d * f - e * e;
   const V determinant = a * c00 + b * (c * e - b * f) + c * (b * e - c * d);
-  // The stabilising term, the matched disparity and the slope
-  // of noise are no evidence: they do not lower the error.
-  const V weight = evidence_sums[1], noise_sq = evidence_sums[0] / weight + noise_floor_sq;
-  const V raw = 1.0f - (prior_weight + kSlopeNoise * noise_sq) * weight / a;
-  const V evidence = raw > 1e-3f ? raw : V{} + 1e-3f;
+  const V noise_sq = noiseOfWindow(evidence_sums, noise_floor_sq);
+  const V evidence = evidenceShare(a, evidence_sums[1], noise_sq, prior_weight);
   const V variance = noise_sq * (c00 / determinant) / (evidence * evidence * independent_pixels) +
                      model_variance_px2;
   *holds = (disparity == disparity) & (variance <= max_variance_px2) &

@@ -182,8 +182,8 @@ void solvePlanes(const PlaneRow& row) {
   }
 }
 
-/// Standard errors of the results of solvePlanes();
-/// NaN, and the disparity too, if unreliable.
+/// Standard errors of the results of solvePlanes(), NaN, and the disparity
+/// too, if unreliable; and where the evidence is, if wanted.
 void estimatePlaneErrors(const PlaneRow& row) {
   for (int u = 0; u < row.width; u += kFloatLanes) {
     Floats m[kFirstEvidence], evidence[kMomentCount - kFirstEvidence];
@@ -197,6 +197,11 @@ void estimatePlaneErrors(const PlaneRow& row) {
         row.model_variance_px2, row.max_variance_px2, row.max_difference, &holds);
     store(row.disparity + u, holds ? disparity : broadcast(kNaN));
     store(row.sigma + u, holds ? squareRoot(variance) : broadcast(kNaN));
+    if (row.beside == nullptr) continue;
+    const EvidenceCentre<Floats> centre =
+        evidenceCentre(m, evidence, row.prior_weight, row.noise_floor_sq);
+    store(row.beside + u, centre.x);
+    store(row.below + u, centre.y);
   }
 }
 

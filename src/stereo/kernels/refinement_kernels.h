@@ -67,6 +67,7 @@ struct PlaneRow {
   float relaxation;        // share of the step applied; above 1 converges faster
   float* disparity;
   float* sigma;
+  float *beside, *below;  // EvidenceCentre; null if it is not wanted
 };
 
 /// Windows near a depth step: of each, the pixels on the surface of the

@@ -68,6 +68,8 @@ struct RefinementOptions {
   static constexpr double max_difference = 0.5;
   // pixels whose predicted standard error is larger are dropped
   static constexpr double max_sigma_px = 2.0;
+  // pixels beyond the evidence of their windows, at the rim of what is measured, are dropped
+  bool drop_beyond_evidence = false;
 
   /// Standard deviation of the Gaussian window, and the area of correlated errors.
   double windowSigmaPx() const { return 0.55 * radius_px; }

@@ -54,6 +54,18 @@ inline RefinementWindow refinementWindow(const RefinementOptions& options) {
   return window;
 }
 
+/// Distance of a pixel on a straight rim from the centre of its evidence, where texture is even.
+inline float rimFromEvidencePx(const RefinementOptions& options) {
+  const std::vector<float> weights = gaussianWeights(options.windowSigmaPx(), options.radius_px);
+  float sum = 0, moment = 0;
+  for (int x = 0; x <= options.radius_px; ++x) {
+    const float weight = weights[static_cast<std::size_t>(options.radius_px + x)];
+    sum += weight;
+    moment += weight * static_cast<float>(x);
+  }
+  return moment / sum;
+}
+
 /// One step of the refinement.
 struct RefinementStep {
   float relaxation;    // share of the step that is applied; above 1 converges faster

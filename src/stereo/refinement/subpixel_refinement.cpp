@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/not_measured.h"
 #include "core/parallel.h"
+#include "stereo/kernels/filter_formulas.h"
 #include "stereo/kernels/stereo_kernels.h"
 #include "stereo/refinement/depth_steps.h"
 #include "stereo/refinement/plane.h"
@@ -36,6 +38,12 @@ struct RefinementContext {
   PlaneLimits limits;
 };
 
+/// EvidenceCentre of every pixel.
+struct EvidenceCentres {
+  EvidenceCentres(int width, int height) : beside(width, height), below(width, height) {}
+  Plane beside, below;
+};
+
 /// A band of rows, solved from top to bottom. Only the rows
 /// of a window are held, so that they stay in the cache.
 class Band {
@@ -47,6 +55,7 @@ class Band {
     Plane& next;
     RefinementStep rules;
     Plane* sigma;                 // null but in the last step, which is complete and gives errors
+    EvidenceCentres* centres;     // null if they are not wanted
     Raster<std::uint8_t>& mixed;  // windows that may contain two surfaces; after the first step: do
     bool first;                   // mixed windows, slow to solve, wait for the next step
   };
@@ -61,6 +70,7 @@ class Band {
         rules_(step.rules),
         residual_limits_(residualLimits(context.options, step.rules)),
         sigma_(step.sigma),
+        centres_(step.centres),
         mixed_(step.mixed),
         first_(step.first),
         pixels_(step.sigma == nullptr ? kTarget + 1 : kPixelPlanes, Plane(width_, height(), 0, 0)),
@@ -113,7 +123,9 @@ class Band {
                        limits.max_difference,
                        rules_.relaxation,
                        next_.row(v),
-                       sigma_ != nullptr ? sigma_->row(v) : nullptr};
+                       sigma_ != nullptr ? sigma_->row(v) : nullptr,
+                       centres_ != nullptr ? centres_->beside.row(v) : nullptr,
+                       centres_ != nullptr ? centres_->below.row(v) : nullptr};
     refinementKernels().solvePlanes(row);
     if (holdsMixed())
       for (const int u : near_) next_.row(v)[u] = disparity_.row(v)[u];
@@ -193,6 +205,7 @@ class Band {
   RefinementStep rules_;
   ResidualLimits residual_limits_;
   Plane* sigma_;
+  EvidenceCentres* centres_;
   Raster<std::uint8_t>& mixed_;
   bool first_;
   std::vector<Plane> pixels_;
@@ -271,6 +284,29 @@ void shrinkRelief(const RefinementContext& context, const Plane& planes, Plane& 
   });
 }
 
+/// At the rim of a surface, windows see its texture from beside it.
+void dropBeyondEvidence(const RefinementContext& context, const EvidenceCentres& centres,
+                        DisparityMap& map) {
+  const Raster<float> measured = map.disparity_px;
+  const float rim_px = rimFromEvidencePx(context.options);
+  parallelRows(context.height, [&](int v) {
+    for (int u = 0; u < context.width; ++u) {
+      const auto isMeasured = [&](int x, int y) {
+        return measured.contains(u + x, v + y) && isNumber(measured.at(u + x, v + y));
+      };
+      const auto grayAt = [&](int x, int y) {
+        const int column = std::clamp(u + x, 0, context.width - 1);
+        const int row = std::clamp(v + y, 0, context.height - 1);
+        return context.left.fast.row(row)[column] + context.left.slow.row(row)[column];
+      };
+      if (isMeasured(0, 0) &&
+          isBeyondEvidence(centres.beside.row(v)[u], centres.below.row(v)[u], rim_px,
+                           context.options.radius_px, isMeasured, grayAt))
+        map.disparity_px.at(u, v) = map.sigma_px.at(u, v) = kNotMeasured<float>;
+    }
+  });
+}
+
 }  // namespace
 
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
@@ -281,13 +317,16 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   const int width = left.width_px, height = left.height_px;
   Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
   LightDifference light;
+  std::optional<EvidenceCentres> centres;
+  if (options.drop_beyond_evidence) centres.emplace(width, height);
   const auto runSteps = [&](int begin_step, int end_step) {
     for (int i = begin_step; i < end_step; ++i) {
       const RefinementStep rules = refinementStep(i);
       for (int round = 0; round < LightFit::rounds(i); ++round)
         light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
       parallelRanges(height, kBandRows, [&](int begin, int end) {
-        Band(context, {light, disparity, next, rules, rules.last ? &sigma : nullptr, mixed, i == 0})
+        Band(context, {light, disparity, next, rules, rules.last ? &sigma : nullptr,
+                       rules.last && centres ? &*centres : nullptr, mixed, i == 0})
             .solve(begin, end);
       });
       std::swap(disparity, next);
@@ -297,7 +336,9 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   const Plane planes = disparity;
   runSteps(options.plane_steps, options.steps);
   shrinkRelief(context, planes, disparity, sigma);
-  return {rasterOf(disparity, width, height), rasterOf(sigma, width, height)};
+  DisparityMap map{rasterOf(disparity, width, height), rasterOf(sigma, width, height)};
+  if (centres) dropBeyondEvidence(context, *centres, map);
+  return map;
 }
 
 }  // namespace softscope
