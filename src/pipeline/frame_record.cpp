@@ -42,8 +42,8 @@ double FrameRecord::confidence() const {
   const bool is_first = status == FrameStatus::kStarted;
   if (!is_first && !std::isfinite(evidence.view.depth_share)) return kUnknown;
   // The minimum of an unknown number and another is the other.
-  const double certain =
-      is_first ? depth.precise_share : std::fmin(evidence.view.agreement(), depth.precise_share);
+  const double precise = std::fmin(depth.precise_share, precise_tracks_share);
+  const double certain = is_first ? precise : std::fmin(evidence.view.agreement(), precise);
   return map == 0 ? certain : std::fmin(certain, kUnknownPlace);
 }
 

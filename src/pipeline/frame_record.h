@@ -50,15 +50,16 @@ struct FrameRecord {
   FusionSummary fusion;
   int points = 0;
   std::vector<TrackedPosition> tracked;
+  double precise_tracks_share = kUnknown;  // preciseShare() of them
   StageTimes times;
 
   bool fused() const {
     return status == FrameStatus::kStarted || status == FrameStatus::kFused ||
            status == FrameStatus::kRecovered;
   }
-  /// Of pose, warp and depth, 0 to 1: docs/fusion.md (F27). NaN if neither the first fused frame,
-  /// of depth with sigmas, nor compared with the model. At most one half in another map than the
-  /// first: the pose relative to the first one is not known.
+  /// Of pose, warp, depth and tracked points, 0 to 1: docs/fusion.md (F27). NaN if neither the
+  /// first fused frame, of depth with sigmas, nor compared with the model. At most one half in
+  /// another map than the first: the pose relative to the first one is not known.
   double confidence() const;
   double elapsed_ms() const;
 };

@@ -18,9 +18,6 @@ namespace {
 /// largest sigma of a new point, 0.5 mm, is twice the 0.1 px that stereo errs by.
 constexpr double kNearMmPerPx = 2.5;
 
-/// Of a predicted error that is tolerable with a probability of 95 %.
-constexpr double kPreciseSigmaMm = kTolerableErrorMm / 1.96;
-
 /// Limits in mm are those of near tissue and grow with what a pixel of disparity is worth. Fusion
 /// compares a depth with the typical one of its frame: where all depths are worse, because the
 /// tissue is far or the images are poor, they still make a model. The warp does not: tissue far

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/not_measured.h"
+#include "core/tolerance.h"
 #include "deform/graph/warp.h"
 #include "fusion/surface_search.h"
 #include "pipeline/nearest_depth.h"
@@ -158,6 +159,15 @@ void MaterialPoints::countVisible(const std::vector<TrackedPosition>& positions)
 void MaterialPoints::hideUnmeasured(std::vector<TrackedPosition>* positions) const {
   for (std::size_t k = 0; k < points.size(); ++k)
     if (points[k].visible_frames == 0) (*positions)[k] = {points[k].id};
+}
+
+double preciseShare(const std::vector<TrackedPosition>& positions) {
+  int visible = 0, precise = 0;
+  for (const TrackedPosition& point : positions) {
+    visible += point.visible;
+    precise += point.visible && point.sigma_mm <= kPreciseSigmaMm;
+  }
+  return visible > 0 ? double(precise) / visible : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace softscope

@@ -35,6 +35,10 @@ struct TrackedPosition {
   double sigma_mm = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Share of the visible points whose predicted error is tolerable with a probability of 95 %. NaN
+/// without visible points.
+double preciseShare(const std::vector<TrackedPosition>& positions);
+
 /// Moves points by the warp of the nearest model point; after fusion they
 /// are placed where the image shows their first looks, and projected onto
 /// the surface of the model, so that points and surface stay consistent.

@@ -85,6 +85,7 @@ void Reconstructor::finish(FrameRecord& record) {
   record.fusion = outcome.fusion;
   record.points = outcome.fusion.points;
   record.tracked = std::move(outcome.tracked);
+  record.precise_tracks_share = preciseShare(record.tracked);
   record.times = std::move(outcome.times);
   if (const MaterialPoints* elsewhere = others_.tracked(); elsewhere != nullptr)
     for (const MaterialPoints::Point& point : elsewhere->points)

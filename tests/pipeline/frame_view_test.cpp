@@ -76,7 +76,7 @@ TEST(FrameView, DepthIsPreciseIfItsErrorIsTolerableWith95PercentProbability) {
   EXPECT_TRUE(std::isnan(viewOf(std::move(without_sigma)).summary.precise_share));
 }
 
-TEST(FrameRecord, ConfidenceIsTheSmallerOfAgreementAndPreciseShare) {
+TEST(FrameRecord, ConfidenceIsTheSmallestOfAgreementAndPreciseShares) {
   FrameRecord record;
   record.status = FrameStatus::kFused;
   record.evidence.view.depth_share = record.evidence.view.image_share = 1;
@@ -85,13 +85,17 @@ TEST(FrameRecord, ConfidenceIsTheSmallerOfAgreementAndPreciseShare) {
   EXPECT_EQ(record.confidence(), 0.3);
   record.evidence.view.depth_share = 0.2;
   EXPECT_EQ(record.confidence(), 0.2);
+  record.precise_tracks_share = 0.1;
+  EXPECT_EQ(record.confidence(), 0.1);
 }
 
-TEST(FrameRecord, TheFirstFrameHasTheConfidenceOfItsDepth) {
+TEST(FrameRecord, TheFirstFrameHasTheConfidenceOfItsDepthAndPoints) {
   FrameRecord record;
   record.depth.precise_share = 0.3;
   record.status = FrameStatus::kStarted;
   EXPECT_EQ(record.confidence(), 0.3);
+  record.precise_tracks_share = 0.2;
+  EXPECT_EQ(record.confidence(), 0.2);
   record.status = FrameStatus::kLost;
   EXPECT_TRUE(std::isnan(record.confidence())) << "nothing was compared";
 }

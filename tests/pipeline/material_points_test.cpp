@@ -270,5 +270,17 @@ TEST(MaterialPoints, HaveNoPositionBeforeTheyWereVisible) {
   EXPECT_EQ(reported(false)[1].position_mm, place) << "hidden again, it is where it went";
 }
 
+TEST(PreciseShare, IsOfTheVisiblePointsWithATolerableError) {
+  const Eigen::Vector3d anywhere(1, 2, 3);
+  EXPECT_TRUE(std::isnan(preciseShare({})));
+  EXPECT_TRUE(std::isnan(preciseShare({{1, anywhere, false, 0.1}})));
+  EXPECT_EQ(preciseShare({{1, anywhere, true, 0.51},
+                          {2, anywhere, true, 0.52},
+                          {3, anywhere, true, std::nan("")},
+                          {4, anywhere, true, 0.1},
+                          {5, anywhere, false, 0.1}}),
+            0.5);
+}
+
 }  // namespace
 }  // namespace softscope

@@ -93,6 +93,7 @@ void RunRecord::add(const FrameRecord& record) {
   if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
   doubtful_ += record.confidence() < kDoubtful;
   imprecise_ += record.depth.precise_share < kDoubtful;
+  imprecise_tracks_ += record.precise_tracks_share < kDoubtful;
   if (record.status == FrameStatus::kStarted) return;
   matches_.push_back(record.pose.inliers);
   disagreeing_ += record.evidence.view.agreement() < kDoubtful;
@@ -109,12 +110,16 @@ std::vector<std::string> RunRecord::conclusions() const {
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
                   ") and did not update the model; the reasons are in frames.csv, column reason");
-  if (imprecise_ > kWarnShare * frames_)
+  const auto warnOfImprecise = [&](int frames, const char* what) {
+    if (frames <= kWarnShare * frames_) return;
     all.push_back(
-        "in " + std::to_string(imprecise_) + " of " + std::to_string(frames_) +
-        " frames, less than half of the depth is accurate to " + fixed(kTolerableErrorMm, 0) +
+        "in " + std::to_string(frames) + " of " + std::to_string(frames_) +
+        " frames, less than half of the " + what + " accurate to " + fixed(kTolerableErrorMm, 0) +
         " mm (95 %), so their confidence is below " + fixed(kDoubtful, 1) +
         "; possible causes: distant tissue, a short baseline, small images, weak texture");
+  };
+  warnOfImprecise(imprecise_, "depth is");
+  warnOfImprecise(imprecise_tracks_, "tracked points in view are");
   if (disagreeing_ > kWarnShare * frames_)
     all.push_back(std::to_string(disagreeing_) + " of " + std::to_string(frames_) +
                   " frames were fused with a confidence below " + fixed(kDoubtful, 1) +

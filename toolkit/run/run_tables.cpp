@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kColumns =
     "frame,time_s,status,points,nodes,matches,inliers,backprojection_mean_mm,"
     "backprojection_p95_mm,prediction_mean_mm,prediction_p95_mm,confidence,depth_agreement,image_"
-    "agreement,coverage,depth_sigma_mm,precise_share,"
+    "agreement,coverage,depth_sigma_mm,precise_share,precise_tracks_share,"
     "row_difference_px,lifted,pose_rms_mm,scope_static,scope_moved_mm,pose_sigma_mm,pose_sigma_deg,"
     "solver_stop,solver_iterations,"
     "residual_before_mm,"
@@ -159,6 +159,7 @@ std::string framesCsvLine(const FrameRecord& record) {
   line.add(record.depth.coverage(), 4);
   line.add(record.depth.median_sigma_mm, 4);
   line.add(record.depth.precise_share, 3);
+  line.add(record.precise_tracks_share, 3);
   line.add(record.depth.row_difference_px, 3);
   line.add(record.matches.lifted);
   line.add(record.pose.rms_mm, 4);
@@ -219,6 +220,7 @@ FrameRecord readFramesCsvLine(std::string_view line, const std::string& name) {
   record.pose.found = !cell("scope_static").empty();
   record.pose.scope_static = cell("scope_static") == "1";
   record.depth.precise_share = real("precise_share");
+  record.precise_tracks_share = real("precise_tracks_share");
   record.evidence.view.depth_share = real("depth_agreement");
   record.evidence.view.image_share = real("image_agreement");
   record.fusion.corrected.mean_mm = real("backprojection_mean_mm");
