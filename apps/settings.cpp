@@ -6,7 +6,7 @@
 #include "apps/result_output.h"
 #include "core/error.h"
 #include "io/settings/settings_text.h"
-#include "pipeline/run_options.h"
+#include "pipeline/options/run_options.h"
 #include "toolkit/record/setting_json.h"
 #include "toolkit/simulation/simulate_options.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "pipeline/run_options.h"
+#include "pipeline/options/run_options.h"
 #include "toolkit/simulation/simulate_options.h"
 
 namespace softscope {

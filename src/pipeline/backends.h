@@ -7,9 +7,9 @@
 
 #include "core/stereo_rig.h"
 #include "cuda/device/device_info.h"
-#include "pipeline/frame_depth.h"
+#include "pipeline/frame/frame_depth.h"
+#include "pipeline/options/reconstruction_options.h"
 #include "pipeline/reconstruction_backend.h"
-#include "pipeline/reconstruction_options.h"
 
 namespace softscope {
 

@@ -10,16 +10,16 @@
 #include "core/parallel.h"
 #include "deform/energy/surface_target.h"
 #include "fusion/visibility.h"
-#include "pipeline/accepted_warp.h"
-#include "pipeline/frame_ahead.h"
-#include "pipeline/graph_ahead.h"
-#include "pipeline/key_point_matches.h"
-#include "pipeline/model_matches.h"
-#include "pipeline/relocaliser.h"
-#include "pipeline/tissue_colour.h"
-#include "pipeline/track_pictures.h"
-#include "pipeline/track_sight.h"
-#include "pipeline/united_models.h"
+#include "pipeline/frame/frame_ahead.h"
+#include "pipeline/frame/key_point_matches.h"
+#include "pipeline/frame/model_matches.h"
+#include "pipeline/frame/relocaliser.h"
+#include "pipeline/frame/tissue_colour.h"
+#include "pipeline/model/accepted_warp.h"
+#include "pipeline/model/graph_ahead.h"
+#include "pipeline/model/united_models.h"
+#include "pipeline/tracks/track_pictures.h"
+#include "pipeline/tracks/track_sight.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
 
@@ -247,7 +247,7 @@ DeformObservation CpuBackend::matchConstraints(const Eigen::Isometry3d& world_fr
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   is_grown_ = false;
-  if (state_.graph.empty() || !growth_.canWait(state_.model)) grow();
+  if (!growth_.canWait(state_.model)) grow();
   clock_.lap("graph");
   const std::vector<std::int32_t> visible = comparer_->visiblePoints(
       state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility);

@@ -10,10 +10,10 @@
 #include "fusion/frame_comparer.h"
 #include "fusion/model_updater.h"
 #include "fusion/surface_search.h"
-#include "pipeline/match_stage.h"
+#include "pipeline/frame/match_stage.h"
+#include "pipeline/frame/stereo_stage.h"
+#include "pipeline/options/reconstruction_options.h"
 #include "pipeline/reconstruction_backend.h"
-#include "pipeline/reconstruction_options.h"
-#include "pipeline/stereo_stage.h"
 #include "pose/pose_search.h"
 
 namespace softscope {

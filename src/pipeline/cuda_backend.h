@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/stereo_rig.h"
+#include "pipeline/frame/stereo_stage.h"
+#include "pipeline/options/reconstruction_options.h"
 #include "pipeline/reconstruction_backend.h"
-#include "pipeline/reconstruction_options.h"
-#include "pipeline/stereo_stage.h"
 
 namespace softscope {
 

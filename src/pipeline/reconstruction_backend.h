@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,32 +9,16 @@
 #include "core/frame.h"
 #include "core/point_model.h"
 #include "core/stereo_rig.h"
-#include "core/warp_graph.h"
 #include "deform/solver/lm_solver.h"
 #include "fusion/back_projection_error.h"
-#include "fusion/colour_gain.h"
-#include "fusion/point_insertion.h"
 #include "fusion/view_evidence.h"
-#include "pipeline/material_points.h"
-#include "pipeline/model_sigma.h"
+#include "pipeline/frame/depth_summary.h"
+#include "pipeline/model/model_state.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
 #include "stereo/matching/stereo_matcher.h"
 
 namespace softscope {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-struct DepthSummary {
-  int tissue_px = 0;    // that no mask hides
-  int measured_px = 0;  // of those
-  double median_sigma_mm = kUnknown;
-  /// Of the measured pixels: their predicted error is tolerable with a probability of 95 %.
-  double precise_share = kUnknown;
-  double limit_scale = 1;               // of limits in mm, which hold for near tissue
-  double row_difference_px = kUnknown;  // as found after rectification
-  double coverage() const { return tissue_px > 0 ? double(measured_px) / tissue_px : 0; }
-};
 
 struct MatchSummary {
   int matches = 0;  // pixels of the model view found again
@@ -85,23 +67,6 @@ struct FrameOutcome {
   FusionSummary fusion;                  // zeros where nothing was fused
   std::vector<TrackedPosition> tracked;  // position, and whether the pose given sees it
   StageTimes times;                      // in the order of work; verbs called twice add up
-};
-
-/// What the scope saw when the model last learned.
-struct LastPicture {
-  ColourImage left;  // rectified
-  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-};
-
-/// What must outlive the program for a run to go on as if it had never stopped.
-struct ModelState {
-  PointModel model;
-  WarpGraph graph;
-  InsertionMemory memory;
-  MaterialPoints tracked;
-  LastingErrors errors;
-  LastPicture last;     // kept only where it is matched
-  ColourGain exposure;  // of the last image that was fused, against the model's colours
 };
 
 /// The working set of a run, and one verb a stage. The reconstructor owns the order. Poses are

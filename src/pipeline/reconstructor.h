@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipeline/frame_record.h"
+#include "pipeline/options/reconstruction_options.h"
 #include "pipeline/reconstruction_backend.h"
-#include "pipeline/reconstruction_options.h"
 #include "pipeline/submaps.h"
 
 namespace softscope {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/reconstruction_options.h"
+#include "pipeline/options/reconstruction_options.h"
 
 namespace softscope {
 namespace {

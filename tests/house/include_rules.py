@@ -39,8 +39,9 @@ class Rules:
             self.allowed[names(folder)[0]] = None if everything else set(names(may_include))
         self.rooms = {}  # room, as a path from the root: the rooms of its library it may include
         for room, _, may_include in table(text, "Inside a library"):
-            library = names(room)[0].rpartition("/")[0]
-            self.rooms[names(room)[0]] = {f"{library}/{name}" for name in names(may_include)}
+            place = names(room)[0]
+            library = self.library_of(place)
+            self.rooms[place] = {f"{library}/{name}" for name in names(may_include)}
         self.homes = {}  # beginning of a header's name: the places it may be included, None = all
         self.free = []  # places that may include every library
         for _, headers, home in table(text, "Library"):
@@ -53,6 +54,10 @@ class Rules:
     def folder_of(self, path):
         """"src/core" of "src/core/camera.h"; None where no row speaks of it."""
         return next((folder for folder in self.allowed if lies_in(path, folder)), None)
+
+    def library_of(self, room):
+        """The library of a room. Its own folder, without the others, may be a room too."""
+        return room if room in self.allowed else room.rpartition("/")[0]
 
     def check(self, path, line):
         """What is wrong with this line of this file; None where nothing is."""
@@ -76,7 +81,7 @@ class Rules:
 
     def room_of(self, path):
         """"src/io/files" of "src/io/files/folder.h"; None in a library without rooms."""
-        return next((room for room in self.rooms if lies_in(path, room)), None)
+        return max((room for room in self.rooms if lies_in(path, room)), key=len, default=None)
 
     def check_room(self, path, folder, header):
         room, target = self.room_of(path), self.room_of(folder + header[header.index("/"):])
@@ -127,6 +132,6 @@ def folders_without_row(root):
 def sources_without_room(root):
     """Sources of a library with rooms that lie in none of them."""
     rules = Rules((root / "docs/architecture.md").read_text(encoding="utf-8"))
-    libraries = sorted({room.rpartition("/")[0] for room in rules.rooms})
+    libraries = sorted({rules.library_of(room) for room in rules.rooms})
     paths = [path.relative_to(root).as_posix() for path in source_files(root, libraries)]
     return [path for path in paths if rules.room_of(path) is None]

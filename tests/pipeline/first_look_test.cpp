@@ -1,5 +1,5 @@
 // tests/pipeline/first_look_test.cpp: a window of the first image is found again.
-#include "pipeline/first_look.h"
+#include "pipeline/tracks/first_look.h"
 
 #include <gtest/gtest.h>
 

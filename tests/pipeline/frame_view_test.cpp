@@ -1,5 +1,5 @@
 // tests/pipeline/frame_view_test.cpp: a flat piece of tissue, measured surely and unsurely.
-#include "pipeline/frame_view.h"
+#include "pipeline/frame/frame_view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // tests/pipeline/graph_ahead_test.cpp: a graph that grows on a thread is the one that grows at
 // once.
-#include "pipeline/graph_ahead.h"
+#include "pipeline/model/graph_ahead.h"
 
 #include <gtest/gtest.h>
 

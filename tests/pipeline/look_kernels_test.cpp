@@ -1,5 +1,5 @@
 // tests/pipeline/look_kernels_test.cpp: instruction sets agree to the byte, and with plain sums.
-#include "pipeline/look_kernels.h"
+#include "pipeline/tracks/look_kernels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // tests/pipeline/material_points_test.cpp: points go where their tissue goes.
-#include "pipeline/material_points.h"
+#include "pipeline/tracks/material_points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // tests/pipeline/model_sigma_test.cpp: predicted errors of model points over surfaces whose relief
 // is known.
-#include "pipeline/model_sigma.h"
+#include "pipeline/model/model_sigma.h"
 
 #include <gtest/gtest.h>
 

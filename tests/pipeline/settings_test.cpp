@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "io/sequences/sequence_settings.h"
 #include "io/settings/settings_text.h"
-#include "pipeline/reconstruction_settings.h"
-#include "pipeline/run_options.h"
+#include "pipeline/options/reconstruction_settings.h"
+#include "pipeline/options/run_options.h"
 
 namespace softscope::test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "pipeline/tissue_colour.h"
-#include "pipeline/united_models.h"
+#include "pipeline/frame/tissue_colour.h"
+#include "pipeline/model/united_models.h"
 
 namespace softscope {
 namespace {

@@ -1,6 +1,6 @@
 // tests/pipeline/track_sight_test.cpp: visibility of tracked points, and their predicted
 // sigma.
-#include "pipeline/track_sight.h"
+#include "pipeline/tracks/track_sight.h"
 
 #include <gtest/gtest.h>
 

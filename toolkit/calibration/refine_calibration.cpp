@@ -12,7 +12,7 @@
 #include "io/sequences/sequence_reader.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
-#include "pipeline/frame_depth.h"
+#include "pipeline/frame/frame_depth.h"
 #include "stereo/rectification/rectifier.h"
 #include "stereo/rectification/row_meter.h"
 

@@ -8,7 +8,7 @@
 #include "core/frame.h"
 #include "core/point_cloud.h"
 #include "core/stereo_rig.h"
-#include "pipeline/frame_depth.h"
+#include "pipeline/frame/frame_depth.h"
 
 namespace softscope {
 

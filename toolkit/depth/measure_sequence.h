@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/sequences/sequence_paths.h"
-#include "pipeline/run_options.h"
+#include "pipeline/options/run_options.h"
 #include "toolkit/depth/depth_outputs.h"
 #include "toolkit/progress.h"
 #include "toolkit/record/fact_sheet.h"

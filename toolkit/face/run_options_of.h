@@ -1,7 +1,7 @@
 // toolkit/face/run_options_of.h: conversion of options of the public interface to the pipeline.
 #pragma once
 
-#include "pipeline/run_options.h"
+#include "pipeline/options/run_options.h"
 #include "softscope/options.h"
 
 namespace softscope::api {

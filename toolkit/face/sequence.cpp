@@ -1,7 +1,7 @@
 // toolkit/face/sequence.cpp: implementation of include/softscope/sequence.h.
 #include "softscope/sequence.h"
 
-#include "pipeline/run_options.h"
+#include "pipeline/options/run_options.h"
 #include "toolkit/face/calibration_data.h"
 #include "toolkit/face/image_copies.h"
 #include "toolkit/face/run_options_of.h"

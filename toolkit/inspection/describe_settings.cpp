@@ -1,6 +1,6 @@
 // toolkit/inspection/describe_settings.cpp: facts about a settings file, per key.
 #include "core/error.h"
-#include "pipeline/run_options.h"
+#include "pipeline/options/run_options.h"
 #include "toolkit/inspection/describe_file.h"
 
 namespace softscope {

@@ -16,7 +16,7 @@
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
-#include "pipeline/model_sigma.h"
+#include "pipeline/model/model_sigma.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/run/model_file.h"
 #include "toolkit/run/models_on_disk.h"

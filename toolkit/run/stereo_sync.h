@@ -5,7 +5,7 @@
 
 #include "io/sequences/sequence_options.h"
 #include "io/sequences/sequence_paths.h"
-#include "pipeline/reconstruction_options.h"
+#include "pipeline/options/reconstruction_options.h"
 
 namespace softscope {
 

@@ -10,7 +10,7 @@
 #include "io/sequences/sequence_options.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
-#include "pipeline/run_options.h"
+#include "pipeline/options/run_options.h"
 #include "toolkit/simulation/simulate_options.h"
 
 namespace softscope {

@@ -1,0 +1,47 @@
+// src/pipeline/frame/frame_ahead.h: stage 1 of the next two frames, computed during the current
+// one.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <utility>
+
+#include "pipeline/frame/frame_depth.h"
+#include "pipeline/frame/frame_view.h"
+#include "stereo/matching/stage_clock.h"
+
+namespace softscope {
+
+/// FrameDepth and viewFrame() with at most two frames under way, each on a thread of its own: the
+/// views of one are aligned while the one before it is matched. Same results.
+class FrameAhead {
+ public:
+  FrameAhead(std::unique_ptr<FrameDepth> depth, const ReconstructionOptions& options)
+      : depth_(std::move(depth)), options_(options) {}
+
+  const FrameDepth& depth() const { return *depth_; }
+
+  /// Begins, with `after` (the frame after it) too, where that isn't null.
+  void prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after);
+  /// What was begun, if that is this frame; whatever went wrong with it is thrown here. Laps
+  /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
+  FrameView measure(const Frame& frame, StageClock* clock);
+
+ private:
+  /// Everything that is found before the frame is measured.
+  struct Aligned {
+    FrameViews views;
+    FramePictures pictures;
+  };
+  Aligned align(const Frame& frame) const;
+  FrameView measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
+  std::future<Aligned> takeViews(const Frame& frame);
+
+  std::unique_ptr<FrameDepth> depth_;
+  ReconstructionOptions options_;
+  std::shared_ptr<const Frame> prepared_, aligned_;
+  std::future<Aligned> views_;     // of aligned_; both end before the frames and depth_ do
+  std::future<FrameView> result_;  // of prepared_
+};
+
+}  // namespace softscope

@@ -1,0 +1,41 @@
+// src/pipeline/frame/frame_view.h: masks, pixel states and typical sigma of a measured frame.
+#pragma once
+
+#include "core/image.h"
+#include "core/rectified_rig.h"
+#include "fusion/observation.h"
+#include "pipeline/frame/depth_summary.h"
+#include "pipeline/frame/frame_depth.h"
+#include "pipeline/frame/model_matches.h"
+#include "pipeline/options/reconstruction_options.h"
+
+namespace softscope {
+
+/// One frame, masked and judged; options are scaled to its depths. Rasters have the shape of the
+/// rectified left image.
+struct FrameView {
+  MeasuredFrame measured;
+  Mask not_tissue;
+  MatchPicture live;  // as it is matched
+  Raster<PixelState> states;
+  DepthSummary summary;
+  AssociationOptions association;
+  FusionOptions fusion;
+  RansacOptions pose;
+};
+
+/// What the rectified left image and its masks alone tell of a frame.
+struct FramePictures {
+  Mask not_tissue;
+  MatchPicture live;
+};
+
+/// Both depend on nothing else, and may run ahead: the first before the frame is measured.
+FramePictures framePictures(const FrameViews& views, const ReconstructionOptions& options);
+FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const RectifiedRig& rig,
+                    const ReconstructionOptions& options);
+/// The same, where the pictures are still to be made.
+FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
+                    const ReconstructionOptions& options);
+
+}  // namespace softscope

@@ -1,0 +1,38 @@
+// src/pipeline/tracks/track_pictures.h: what tracked points need of a frame, found in parallel to
+// stages that do not need it.
+#pragma once
+
+#include <future>
+#include <optional>
+
+#include "pipeline/tracks/first_look.h"
+#include "pipeline/tracks/track_sight.h"
+
+namespace softscope {
+
+/// One frame at a time. Same results with prepare() and without.
+class TrackPictures {
+ public:
+  /// Both must live; the frame may change after end() only.
+  TrackPictures(const FrameView* frame, const RectifiedRig* rig) : frame_(frame), rig_(rig) {}
+
+  /// Begins to make what is otherwise made when it is needed.
+  void prepare();
+  const LookPicture& looks();
+  const Raster<float>& reliefPx();
+  void end();
+
+ private:
+  LookPicture makeLooks() const;
+  Raster<float> makeRelief() const;
+
+  const FrameView* frame_;
+  const RectifiedRig* rig_;
+  std::optional<LookPicture> looks_;
+  std::optional<Raster<float>> relief_px_;
+  // Their threads end before the members above are destroyed.
+  std::future<LookPicture> making_looks_;
+  std::future<Raster<float>> making_relief_;
+};
+
+}  // namespace softscope
