@@ -70,7 +70,7 @@ class PoseRun final : public PoseSearch {
     inputs.regions = question.regions;
     const Eigen::Isometry3d* starts[] = {&question.fitted, &question.old, &question.before};
     for (int s = 0; s < kPoseStarts; ++s) inputs.starts[s] = rowsOf(*starts[s]);
-    inputs.scale_factor = RefinePoseOptions::kRobustScale * RefinePoseOptions::kRobustScale;
+    inputs.scale_of_median = question.scale_of_median;
     inputs.pairs = static_cast<int>(question.pairs.size());
     return inputs;
   }

@@ -21,7 +21,7 @@ struct PoseInputs {
   RectifiedRig rig;
   PairRegions regions;
   PoseRows starts[kPoseStarts];
-  double scale_factor;  // of the median square: the robust scale
+  double scale_of_median;
   int pairs;
 };
 
@@ -168,14 +168,15 @@ struct SearchPoseKernel {
     for (double& sum : sums) sum = 0;
     const bool is_step = at.repeat < iterations;
     if (is_step && shared.median.count < 3) return;
-    const double scale_sq = is_step ? inputs->scale_factor * shared.median.value() : 1;
+    const double scale_sq =
+        is_step ? robustScaleSq(shared.median.value(), inputs->scale_of_median) : 1;
     for (int k = 0; k < kPairsEach; ++k) {
       const int i = k * kThreads + at.thread;
       if (i >= inputs->pairs) continue;
       const PairResidual residual = residualAt(at, i, shared.pose);
       if (!residual.usable) continue;
       if (is_step) {
-        addToSums(residual, pairWeight(residual.squared(), scale_sq > 1 ? scale_sq : 1), sums);
+        addToSums(residual, pairWeight(residual.squared(), scale_sq), sums);
       } else {
         sums[0] += pairCost(residual.squared());
         sums[1] += 1;

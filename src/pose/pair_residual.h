@@ -72,6 +72,14 @@ SOFTSCOPE_HD inline PairResidual pairResidual(const SeenPair& pair, PairPlace pl
 /// Robust cost of a pair, 0 to 1: docs/energy.md (28).
 SOFTSCOPE_HD inline double pairCost(double squared) { return squared / (squared + kCostScaleSq); }
 
+/// Square of the robust scale c from the median of the squared residuals: docs/energy.md (27).
+/// `of_median`: share of the median that always counts.
+SOFTSCOPE_HD inline double robustScaleSq(double median_squared, double of_median) {
+  constexpr double kLeast = 2;  // standard errors
+  const double scale_sq = of_median * of_median * median_squared;
+  return scale_sq > kLeast * kLeast ? scale_sq : kLeast * kLeast;
+}
+
 /// Weight of Geman and McClure: docs/energy.md (27).
 SOFTSCOPE_HD inline double pairWeight(double squared, double scale_sq) {
   const double share = scale_sq / (scale_sq + squared);

@@ -7,7 +7,6 @@
 
 #include "core/median.h"
 #include "core/parallel.h"
-#include "pose/refine_pose.h"
 
 namespace softscope {
 namespace {
@@ -139,15 +138,13 @@ class Pairs {
     return left_from_world;
   }
 
-  /// docs/energy.md (27): the scale follows the median, so that half of the pairs always count.
   Vector6d stepFrom(const Eigen::Isometry3d& left_from_world) const {
     const std::vector<Residual> residuals = residualsAt(left_from_world);
     if (residuals.size() < 3) return Vector6d::Zero();
     std::vector<double> squares;
     squares.reserve(residuals.size());
     for (const Residual& residual : residuals) squares.push_back(residual.value.squaredNorm());
-    const double scale_sq =
-        std::max(1.0, std::pow(RefinePoseOptions::kRobustScale, 2) * medianOf(std::move(squares)));
+    const double scale_sq = robustScaleSq(medianOf(std::move(squares)), question_.scale_of_median);
     PoseEquations equations;
     for (const Residual& residual : residuals)
       equations.add(residual, pairWeight(residual.value.squaredNorm(), scale_sq));

@@ -18,9 +18,10 @@ struct PoseQuestion {
   std::vector<SeenPair> pairs;
   RectifiedRig rig;
   PairRegions regions{};
-  Eigen::Isometry3d fitted;  // start with either positions
-  Eigen::Isometry3d old;     // start with positions of the last frame
-  Eigen::Isometry3d before;  // start with positions since the reference
+  Eigen::Isometry3d fitted;    // start with either positions
+  Eigen::Isometry3d old;       // start with positions of the last frame
+  Eigen::Isometry3d before;    // start with positions since the reference
+  double scale_of_median = 0;  // robust scale of a pair over the median residual
   int iterations = 0;
 };
 

@@ -25,6 +25,10 @@ constexpr double kRigidShare = 2.0 / 3;
 constexpr double kSeenSigmas =
     6;  // of a shift that is seen in a single pair: two poses explain it to three
 
+// Robust scale of a pair over the median residual. From frame to frame most of the tissue moves
+// little, and what moves more is not of the scope. In a gap all of it has moved.
+constexpr double kScaleOfMedian = 0.5, kScaleAfterGap = 1.5;
+
 // Of the median residual after a motion of the scope, match
 // errors included; deformed tissue leaves a larger share.
 constexpr double kLeftShare = 1.0 / 3;
@@ -111,7 +115,8 @@ void RefinePoseOptions::validate() const { requireAllowed(*this); }
 
 PoseQuestion poseQuestion(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                           const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
-                          const Eigen::Isometry3d& reference, const RefinePoseOptions& options) {
+                          const Eigen::Isometry3d& reference, ScopeBefore before,
+                          const RefinePoseOptions& options) {
   PoseQuestion question;
   question.pairs.reserve(pairs.size());
   for (const PosePair& pair : pairs) question.pairs.push_back(seenPair(pair));
@@ -124,6 +129,7 @@ PoseQuestion poseQuestion(const std::vector<PosePair>& pairs, const RectifiedRig
   question.fitted = fitted.inverse();
   question.old = last.inverse();
   question.before = reference.inverse();
+  question.scale_of_median = before == ScopeBefore::kUnknown ? kScaleAfterGap : kScaleOfMedian;
   question.iterations = options.iterations;
   return question;
 }
@@ -134,8 +140,9 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
                        const RefinePoseOptions& options, PoseSearch* search) {
   options.validate();
   CpuPoseSearch on_cpu;
-  const PoseAnswer answer = (search != nullptr ? *search : on_cpu)
-                                .answer(poseQuestion(pairs, rig, fitted, last, reference, options));
+  const PoseAnswer answer =
+      (search != nullptr ? *search : on_cpu)
+          .answer(poseQuestion(pairs, rig, fitted, last, reference, before, options));
   const PoseFindings &now = answer.now, &since = answer.since;
   const bool moved_now = differs(now, options.significance),
              moved_since = differs(since, options.significance);

@@ -16,7 +16,6 @@ struct RefinePoseOptions {
   int iterations = 20;
   static constexpr double kNoisePx = 0.1;  // lower limit of the error of matching and the model
   static constexpr double kDisparityNoisePx = 0.25;  // lower limit of the live disparity's error
-  static constexpr double kRobustScale = 1.5;        // of the median residual; tissue moves more
   std::string scope = "auto";                        // "static" or "moving" if known
   double significance = 1e-5;  // probability to classify a static scope as moving
 
@@ -71,6 +70,7 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
 /// Input of the search of refinePose().
 PoseQuestion poseQuestion(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                           const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
-                          const Eigen::Isometry3d& reference, const RefinePoseOptions& options);
+                          const Eigen::Isometry3d& reference, ScopeBefore before,
+                          const RefinePoseOptions& options);
 
 }  // namespace softscope

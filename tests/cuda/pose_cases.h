@@ -65,7 +65,7 @@ inline PoseQuestion poseQuestionOf(const PoseCase& of) {
   }
   const Eigen::Isometry3d rough = seen_from * poseOf(0.004, {0.2, -0.1, 0.3});
   return poseQuestion(pairs, rig, rough, Eigen::Isometry3d::Identity(), poseOf(0, {0, 0.01, 0}),
-                      RefinePoseOptions());
+                      ScopeBefore::kMoving, RefinePoseOptions());
 }
 
 inline void expectClose(double found, double expected, double tolerance, const char* what) {
