@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
+#include "stereo/rectification/row_meter.h"
 #include "stereo/rectification/row_model.h"
 #include "support/scene.h"
 
@@ -81,6 +84,33 @@ TEST(RowAlignment, MatchesMorePixelsOfASmallImage) {
       measureRowAlignment(middleOf(scene.left, 128, 96), middleOf(scene.right, 128, 96), 60);
   ASSERT_TRUE(found.known());
   EXPECT_NEAR(found.at(64, 48), 3.5, 0.2);
+}
+
+/// A third of the contrast, and noise.
+void weaken(unsigned seed, GrayImage* image) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0, 3);
+  for (std::uint8_t& gray : image->values)
+    gray = static_cast<std::uint8_t>(std::lround(90 + (gray - 90) / 3.0 + noise(random)));
+}
+
+/// Matches to a quarter of a pixel, of weak texture whose rows are off by `shift_px`.
+long rightMatches(double shift_px) {
+  test::Scene scene = misaligned(shift_px, 0);
+  weaken(1, &scene.left);
+  weaken(2, &scene.right);
+  const std::vector<RowMatch> found = RowMeter(scene.left, 100).match(scene.right);
+  return std::count_if(found.begin(), found.end(), [&](const RowMatch& match) {
+    return std::abs(match.difference_px - shift_px) < 0.25;
+  });
+}
+
+// One row off, such texture has a quarter of the matches, and every second row is tried.
+TEST(RowMeter, MatchesWeakTextureInOddRowsAsInEvenOnes) {
+  const auto even = static_cast<double>(rightMatches(2));
+  EXPECT_GT(even, 150);
+  for (const double odd_px : {-3, -1, 1, 3})
+    EXPECT_GT(static_cast<double>(rightMatches(odd_px)), 0.75 * even) << odd_px;
 }
 
 TEST(RowAlignment, TellsARollByTheTiltOfTheRows) {

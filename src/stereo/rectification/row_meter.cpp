@@ -101,19 +101,29 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignore
 std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
   const auto matches = matchRows(right, 0, grid_px_);
   if (isWellAligned(matches)) return matches;
-  // The true rows give the most matches, except those that a roll moves further.
   std::map<int, std::vector<RowMatch>> found{{0, matches}};
+  const auto matchesAt = [&](int offset) -> const std::vector<RowMatch>& {
+    const auto [place, is_new] = found.try_emplace(offset);
+    if (is_new) place->second = matchRows(right, offset, grid_px_);
+    return place->second;
+  };
+  // The true rows give the most matches, except those that a roll moves further.
   int best = 0;
+  const auto compare = [&](int offset) {
+    if (matchesAt(offset).size() > matchesAt(best).size()) best = offset;
+  };
   for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
-    for (const int signed_offset : {-offset, offset}) {
-      found[signed_offset] = matchRows(right, signed_offset, grid_px_);
-      if (found[signed_offset].size() > found[best].size()) best = signed_offset;
-    }
-    if (offset >= std::abs(best) + 2 * kCoarseOffset && found[best].size() >= kMany) break;
+    compare(-offset);
+    compare(offset);
+    if (offset >= std::abs(best) + 2 * kCoarseOffset && matchesAt(best).size() >= kMany) break;
   }
-  std::vector<RowMatch> nearest = found[best];
-  for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset})
-    nearest.insert(nearest.end(), found[neighbour].begin(), found[neighbour].end());
+  // Weak texture has matches in its own row alone, which may be one between the trials.
+  for (const int between : {best - 1, best + 1}) compare(between);
+  std::vector<RowMatch> nearest = matchesAt(best);
+  for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset}) {
+    const std::vector<RowMatch>& more = matchesAt(neighbour);
+    nearest.insert(nearest.end(), more.begin(), more.end());
+  }
   return nearest;
 }
 
