@@ -21,6 +21,7 @@ constexpr int kMeterReach = 4;        // of the window, every second pixel
 constexpr int kRowReach = 2;          // rows tried around a support point's
 constexpr int kCoarseOffset = 2;      // rows between the coarse trials
 constexpr int kFarthestOffset = 10;   // of the trials
+constexpr double kManyMore = 1.5;     // matches one row off, where texture is weak
 constexpr std::size_t kMany = 150;    // matches sufficient to determine the rows
 constexpr std::size_t kPlenty = 300;  // of a sparser grid: sufficient to see that rows correspond
 constexpr double kLeastCurvature = 0.3;  // of the cost over rows; below, rows are not determined
@@ -109,16 +110,17 @@ std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
   };
   // The true rows give the most matches, except those that a roll moves further.
   int best = 0;
-  const auto compare = [&](int offset) {
-    if (matchesAt(offset).size() > matchesAt(best).size()) best = offset;
+  const auto compare = [&](int offset, double least_gain) {
+    const auto count = static_cast<double>(matchesAt(offset).size());
+    if (count > least_gain * static_cast<double>(matchesAt(best).size())) best = offset;
   };
   for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
-    compare(-offset);
-    compare(offset);
+    compare(-offset, 1);
+    compare(offset, 1);
     if (offset >= std::abs(best) + 2 * kCoarseOffset && matchesAt(best).size() >= kMany) break;
   }
   // Weak texture has matches in its own row alone, which may be one between the trials.
-  for (const int between : {best - 1, best + 1}) compare(between);
+  for (const int between : {best - 1, best + 1}) compare(between, kManyMore);
   std::vector<RowMatch> nearest = matchesAt(best);
   for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset}) {
     const std::vector<RowMatch>& more = matchesAt(neighbour);
