@@ -158,7 +158,7 @@ bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& 
 }
 
 ScopeBefore Reconstructor::scopeBefore() const {
-  if (scope_.unfused_frames > 0) return ScopeBefore::kUnknown;
+  if (scope_.unfused_frames > 0) return ScopeBefore::kUnclear;
   return scope_.scope_moves ? ScopeBefore::kMoving : ScopeBefore::kStatic;
 }
 

@@ -129,7 +129,7 @@ PoseQuestion poseQuestion(const std::vector<PosePair>& pairs, const RectifiedRig
   question.fitted = fitted.inverse();
   question.old = last.inverse();
   question.before = reference.inverse();
-  question.scale_of_median = before == ScopeBefore::kUnknown ? kScaleAfterGap : kScaleOfMedian;
+  question.scale_of_median = before == ScopeBefore::kUnclear ? kScaleAfterGap : kScaleOfMedian;
   question.iterations = options.iterations;
   return question;
 }
@@ -158,7 +158,7 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   const bool is_far = before == ScopeBefore::kMoving
                           ? refined.moved_mm > kRestSigmas * refined.sigma_mm
                           : rigid && refined.moved_mm > kMovedSigmas * refined.sigma_mm;
-  const bool moves = options.scope == "moving" || before == ScopeBefore::kUnknown || moved_now ||
+  const bool moves = options.scope == "moving" || before == ScopeBefore::kUnclear || moved_now ||
                      (rigid && moved_since) || is_far;
   refined.scope_static = options.scope == "static" || !moves;
   refined.keeps_shape = refined.scope_static || rigid;

@@ -34,7 +34,7 @@ struct PosePair {
 };
 
 /// What is known of the scope's motion up to the last fused frame.
-enum class ScopeBefore { kStatic, kMoving, kUnknown };
+enum class ScopeBefore { kStatic, kMoving, kUnclear };
 
 struct RefinedPose {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();

@@ -232,7 +232,7 @@ TEST(RefinePose, AScopeThatStopsIsStaticAlsoAfterAMotion) {
   const std::vector<PosePair> pairs = seenFrom(pose, nothing, 0.3);
   const Eigen::Isometry3d fitted = pose * poseOf(0.001, {0, 0.1, 0});
   EXPECT_TRUE(refined(pairs, fitted, pose, {}, ScopeBefore::kMoving).scope_static);
-  EXPECT_FALSE(refined(pairs, fitted, pose, {}, ScopeBefore::kUnknown).scope_static);
+  EXPECT_FALSE(refined(pairs, fitted, pose, {}, ScopeBefore::kUnclear).scope_static);
 }
 
 TEST(RefinePose, AStaticScopeIsNotTakenForMovingByNoise) {
