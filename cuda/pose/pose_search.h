@@ -21,7 +21,7 @@ struct PoseInputs {
   RectifiedRig rig;
   PairRegions regions;
   PoseRows starts[kPoseStarts];
-  double scale_of_median;
+  double scale_of_median;  // see PoseQuestion
   int pairs;
 };
 

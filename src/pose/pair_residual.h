@@ -73,7 +73,7 @@ SOFTSCOPE_HD inline PairResidual pairResidual(const SeenPair& pair, PairPlace pl
 SOFTSCOPE_HD inline double pairCost(double squared) { return squared / (squared + kCostScaleSq); }
 
 /// Square of the robust scale c from the median of the squared residuals: docs/energy.md (27).
-/// `of_median`: share of the median that always counts.
+/// `of_median`: c over the median, where that is large.
 SOFTSCOPE_HD inline double robustScaleSq(double median_squared, double of_median) {
   constexpr double kLeast = 2;  // standard errors
   const double scale_sq = of_median * of_median * median_squared;
