@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "pose/pair_columns.h"
 #include "pose/pose_settings.h"
 
 namespace softscope {
@@ -20,54 +21,35 @@ void requireOneEach(const PointPairs& pairs) {
               std::to_string(pairs.weights.size()) + " weights; one of each a pair is expected");
 }
 
-std::vector<int> usablePairs(const PointPairs& pairs) {
-  std::vector<int> usable;
-  for (std::size_t i = 0; i < pairs.sources_mm.size(); ++i)
-    if (pairs.sources_mm[i].allFinite() && pairs.targets_mm[i].allFinite() && pairs.weight(i) > 0 &&
-        std::isfinite(pairs.weight(i)))
-      usable.push_back(static_cast<int>(i));
-  return usable;
+float limitOf(const RansacOptions& options) {
+  return static_cast<float>(options.threshold_mm * options.threshold_mm);
 }
 
-float squaredDistance(const PointPairs& pairs, int i, const Eigen::Isometry3f& motion) {
-  const std::size_t k = static_cast<std::size_t>(i);
-  return (motion * pairs.sources_mm[k] - pairs.targets_mm[k]).squaredNorm();
-}
+struct Inliers {
+  Inliers(const PairColumns& pairs, const Eigen::Isometry3d& motion, float limit)
+      : squares(pairs.squaredDistances(motion.cast<float>())),
+        count(static_cast<int>((squares <= limit).count())) {}
 
-/// Sum of truncated squared distances; stops once it exceeds `best`.
-double truncatedScore(const PointPairs& pairs, const std::vector<int>& usable,
-                      const Eigen::Isometry3f& motion, float limit, double best) {
-  double score = 0;
-  for (std::size_t i = 0; i < usable.size() && score < best; ++i)
-    score += std::min(squaredDistance(pairs, usable[i], motion), limit);
-  return score;
-}
-
-std::vector<int> inliersOf(const PointPairs& pairs, const std::vector<int>& usable,
-                           const Eigen::Isometry3d& motion, float limit) {
-  const Eigen::Isometry3f motion_f = motion.cast<float>();
-  std::vector<int> inliers;
-  for (const int i : usable)
-    if (squaredDistance(pairs, i, motion_f) <= limit) inliers.push_back(i);
-  return inliers;
-}
+  Eigen::ArrayXf squares;  // of the distance of each pair
+  int count;               // of those up to the limit
+};
 
 /// Three different pairs. mt19937 gives the same numbers
 /// on all platforms, the standard distributions do not.
-std::vector<int> drawThree(const std::vector<int>& usable, std::mt19937* random) {
+std::vector<int> drawThree(int usable, std::mt19937* random) {
   std::vector<int> drawn;
   while (drawn.size() < 3) {
-    const std::uint64_t product = std::uint64_t{(*random)()} * usable.size();
-    const int i = usable[static_cast<std::size_t>(product >> 32)];
+    const std::uint64_t product = std::uint64_t{(*random)()} * static_cast<std::uint64_t>(usable);
+    const int i = static_cast<int>(product >> 32);
     if (std::find(drawn.begin(), drawn.end(), i) == drawn.end()) drawn.push_back(i);
   }
   return drawn;
 }
 
 /// Whether the triangle keeps its shape to within the threshold and is not degenerate.
-bool plausible(const PointPairs& pairs, const std::vector<int>& drawn, double threshold_mm) {
-  const auto source = [&](int k) { return pairs.sources_mm[static_cast<std::size_t>(drawn[k])]; };
-  const auto target = [&](int k) { return pairs.targets_mm[static_cast<std::size_t>(drawn[k])]; };
+bool plausible(const PairColumns& pairs, const std::vector<int>& drawn, double threshold_mm) {
+  const auto source = [&](int k) { return pairs.source(drawn[k]); };
+  const auto target = [&](int k) { return pairs.target(drawn[k]); };
   for (int k = 0; k < 3; ++k) {
     const double change =
         (source(k) - source((k + 1) % 3)).norm() - (target(k) - target((k + 1) % 3)).norm();
@@ -87,84 +69,91 @@ int trialsNeeded(double inlier_share, const RansacOptions& options) {
   return static_cast<int>(std::min<double>(std::ceil(needed), options.kMaxTrials));
 }
 
-Eigen::Isometry3d bestOfTrials(const PointPairs& pairs, const std::vector<int>& usable,
-                               const RansacOptions& options, int* trials) {
-  const float limit = static_cast<float>(options.threshold_mm * options.threshold_mm);
+Eigen::Isometry3d fitTo(const PairColumns& pairs, const std::vector<int>& drawn) {
+  PairSums sums;
+  for (const int i : drawn)
+    sums.add(pairs.source(i).cast<double>(), pairs.target(i).cast<double>(), pairs.weight(i));
+  return fitPairs(sums).target_from_source;
+}
+
+Eigen::Isometry3d bestOfTrials(const PairColumns& pairs, const RansacOptions& options,
+                               int* trials) {
+  const float limit = limitOf(options);
   std::mt19937 random(options.seed);
   Eigen::Isometry3d best = Eigen::Isometry3d::Identity();
   // The identity is tried first: free, and right for many frames.
-  double best_score = truncatedScore(pairs, usable, best.cast<float>(), limit,
-                                     std::numeric_limits<double>::infinity());
+  double best_score =
+      pairs.truncatedScore(best.cast<float>(), limit, std::numeric_limits<double>::infinity());
   int needed = options.kMaxTrials;
   for (*trials = 0; *trials < needed; ++*trials) {
-    const std::vector<int> drawn = drawThree(usable, &random);
+    const std::vector<int> drawn = drawThree(pairs.size(), &random);
     if (!plausible(pairs, drawn, options.threshold_mm)) continue;
-    const Eigen::Isometry3d motion = fitPairs(pairs, drawn).target_from_source;
-    const double score = truncatedScore(pairs, usable, motion.cast<float>(), limit, best_score);
+    const Eigen::Isometry3d motion = fitTo(pairs, drawn);
+    const double score = pairs.truncatedScore(motion.cast<float>(), limit, best_score);
     if (score >= best_score) continue;
     best = motion;
     best_score = score;
-    const double share = static_cast<double>(inliersOf(pairs, usable, motion, limit).size()) /
-                         static_cast<double>(usable.size());
-    needed = trialsNeeded(share, options);
+    const Inliers inliers(pairs, motion, limit);
+    needed = trialsNeeded(inliers.count / static_cast<double>(pairs.size()), options);
   }
   return best;
 }
 
-std::string tooFew(std::size_t found, const char* what, int needed) {
+std::string tooFew(int found, const char* what, int needed) {
   return std::to_string(found) + " " + what + ", but " + std::to_string(needed) + " are needed";
 }
 
-void keepPose(const PointPairs& pairs, const std::vector<int>& inliers,
+void keepPose(const PairColumns& pairs, const Inliers& inliers, float limit,
               const Eigen::Isometry3d& motion, RigidPose* pose) {
   pose->found = true;
   pose->target_from_source = motion;
-  pose->inliers = static_cast<int>(inliers.size());
+  pose->inliers = inliers.count;
   double sum = 0;
-  for (const int i : inliers) {
-    pose->inlier[static_cast<std::size_t>(i)] = 1;
-    sum += squaredDistance(pairs, i, motion.cast<float>());
+  for (int i = 0; i < pairs.size(); ++i) {
+    if (!(inliers.squares[i] <= limit)) continue;
+    pose->inlier[pairs.pair(i)] = 1;
+    sum += inliers.squares[i];
   }
-  pose->rms_mm = std::sqrt(sum / static_cast<double>(inliers.size()));
+  pose->rms_mm = std::sqrt(sum / inliers.count);
 }
 
 }  // namespace
 
 void RansacOptions::validate() const { requireAllowed(*this); }
 
-RigidPose estimateRigidPose(const PointPairs& pairs, const RansacOptions& options) {
+RigidPose estimateRigidPose(const PointPairs& given, const RansacOptions& options) {
   options.validate();
-  requireOneEach(pairs);
+  requireOneEach(given);
   RigidPose pose;
-  pose.inlier.assign(pairs.sources_mm.size(), 0);
-  const std::vector<int> usable = usablePairs(pairs);
-  pose.usable = static_cast<int>(usable.size());
+  pose.inlier.assign(given.sources_mm.size(), 0);
+  const PairColumns pairs(given);
+  pose.usable = pairs.size();
   if (pose.usable < options.kMinInliers) {
-    pose.failure = tooFew(usable.size(), "usable pairs", options.kMinInliers);
+    pose.failure = tooFew(pose.usable, "usable pairs", options.kMinInliers);
     return pose;
   }
-  const float limit = static_cast<float>(options.threshold_mm * options.threshold_mm);
+  const float limit = limitOf(options);
   const int needed =
       std::max(options.kMinInliers, static_cast<int>(std::ceil(options.kMinShare * pose.usable)));
-  Eigen::Isometry3d motion = bestOfTrials(pairs, usable, options, &pose.trials);
-  std::vector<int> inliers = inliersOf(pairs, usable, motion, limit);
+  Eigen::Isometry3d motion = bestOfTrials(pairs, options, &pose.trials);
+  Inliers inliers(pairs, motion, limit);
   for (int k = 0; k < options.kRefits; ++k) {
-    if (static_cast<int>(inliers.size()) < needed) {
-      pose.failure = tooFew(inliers.size(), "inliers", needed);
+    if (inliers.count < needed) {
+      pose.failure = tooFew(inliers.count, "inliers", needed);
       return pose;
     }
-    const PairFit fit = fitPairs(pairs, inliers);
+    const PairFit fit = fitPairs(pairs.sumsWithin(inliers.squares, limit));
     if (!(fit.spread_mm >= options.kMinSpreadMm)) {
       pose.failure = "the inliers lie on a line, which leaves the rotation about it open";
       return pose;
     }
     motion = fit.target_from_source;
-    inliers = inliersOf(pairs, usable, motion, limit);
+    inliers = Inliers(pairs, motion, limit);
   }
-  if (static_cast<int>(inliers.size()) < needed)
-    pose.failure = tooFew(inliers.size(), "inliers", needed);
+  if (inliers.count < needed)
+    pose.failure = tooFew(inliers.count, "inliers", needed);
   else
-    keepPose(pairs, inliers, motion, &pose);
+    keepPose(pairs, inliers, limit, motion, &pose);
   return pose;
 }
 

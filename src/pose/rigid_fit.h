@@ -17,6 +17,16 @@ struct PointPairs {
   float weight(std::size_t i) const { return weights.empty() ? 1.0f : weights[i]; }
 };
 
+/// Weighted sums over pairs, of coordinates from the origin: at 100 mm they leave 1e-11 mm².
+struct PairSums {
+  double weight = 0;
+  Eigen::Vector3d source = Eigen::Vector3d::Zero(), target = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();    // target times source
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  // source times source
+
+  void add(const Eigen::Vector3d& source_mm, const Eigen::Vector3d& target_mm, double of_weight);
+};
+
 struct PairFit {
   Eigen::Isometry3d target_from_source = Eigen::Isometry3d::Identity();
   /// Weighted standard deviation of the sources across their best line, mm; near
@@ -24,8 +34,8 @@ struct PairFit {
   double spread_mm = 0;
 };
 
-/// Least squares in closed form (Kabsch 1976, Horn 1987) over the selected pairs; never
-/// a reflection. Fewer than three pairs, or no weight, give the identity and no spread.
-PairFit fitPairs(const PointPairs& pairs, const std::vector<int>& chosen);
+/// Least squares in closed form (Kabsch 1976, Horn 1987); never a reflection.
+/// No weight gives the identity and no spread.
+PairFit fitPairs(const PairSums& sums);
 
 }  // namespace softscope
