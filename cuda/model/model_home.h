@@ -25,6 +25,9 @@ class ModelHome {
     if ((parts & kModelShape) != 0) forgetFrame();
   }
 
+  /// In these parts, the device's model replaces that of the host.
+  void isAhead(ModelParts parts) { stale_ &= ~parts; }
+
   /// Copies those of the `parts` that changed on the host. `machine`: the caller's, or what has its
   /// executor(), toDevice() and wait(); the caller waits for it before the host's model changes.
   /// There is room for `more` points then.

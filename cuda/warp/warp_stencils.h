@@ -3,25 +3,12 @@
 #pragma once
 
 #include "cuda/device/kernel.h"
+#include "cuda/warp/warp_lanes.h"
 #include "cuda/warp/warp_layout.h"
 #include "deform/energy/robust_loss.h"
 #include "deform/kernels/plane_term.h"
-#include "deform/kernels/warp_formulas.h"
 
 namespace softscope::cuda {
-
-/// Four floats, interface of warp_formulas.h.
-struct Lanes {
-  float values[4];
-  SOFTSCOPE_HD float operator[](int i) const { return values[i]; }
-  SOFTSCOPE_HD friend Lanes operator+(const Lanes& a, const Lanes& b) {
-    return {{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}};
-  }
-  SOFTSCOPE_HD friend Lanes operator*(const Lanes& a, const Lanes& b) {
-    return {{a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]}};
-  }
-};
-SOFTSCOPE_HD inline Lanes lanesOf(float x) { return {{x, x, x, x}}; }
 
 /// One thread per node: its displacement for warping, and its constraints.
 struct PackNodesKernel {
@@ -59,20 +46,9 @@ struct AssociateKernel {
     const int i = at.x * kThreads + at.thread;
     if (i >= count) return;
     const PointBinding& binding = points.bindings[i];
-    const NodeStencil& nodes = graph.stencil_nodes[binding.stencil];
-    Blend<Lanes> blend = {};
-    for (int k = 0; k < kNodesPerPoint; ++k) {
-      const float* values = graph.packed[nodes[k]].values;
-      for (int c = 0; c < 4; ++c)
-        blend.columns[c] = blend.columns[c] + lanesOf(binding.weights[k]) *
-                                                  Lanes{{values[4 * c], values[4 * c + 1],
-                                                         values[4 * c + 2], values[4 * c + 3]}};
-    }
-    const float* in = points.positions_mm[i].data();
     Eigen::Vector3f warped, normal;
-    warpPosition(blend, lanesOf(in[0]), lanesOf(in[1]), lanesOf(in[2]), in, warped.data());
-    warpNormal(blend, points.normals[i].data(), normal.data(),
-               [](float x) { return std::sqrt(x); });
+    warpBy(blendOf(graph.packed, graph.stencil_nodes[binding.stencil], binding),
+           points.positions_mm[i], points.normals[i], &warped, &normal);
     points.targets[i] = targetOf(warped, normal);
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -12,7 +13,7 @@
 #include "fusion/visibility.h"
 #include "pipeline/frame/frame_ahead.h"
 #include "pipeline/frame/key_point_matches.h"
-#include "pipeline/frame/model_matches.h"
+#include "pipeline/frame/pose_pairs.h"
 #include "pipeline/frame/relocaliser.h"
 #include "pipeline/frame/tissue_colour.h"
 #include "pipeline/model/accepted_warp.h"
@@ -25,8 +26,6 @@
 
 namespace softscope {
 namespace {
-
-constexpr std::size_t kPosePairs = 1500;  // of the matches, at most, refine the pose
 
 class CpuBackend : public ReconstructionBackend {
  public:
@@ -43,7 +42,8 @@ class CpuBackend : public ReconstructionBackend {
         solver_(parts.makeSolver(options.deform)),
         comparer_(parts.makeComparer(rig())),
         updater_(parts.makeUpdater(rig())),
-        surface_(parts.makeSurface()) {
+        surface_(parts.makeSurface()),
+        warp_(parts.makeWarp()) {
     options.validate();
   }
 
@@ -104,6 +104,9 @@ class CpuBackend : public ReconstructionBackend {
   bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
+  void endAlignment() {
+    if (aligning_.valid()) aligning_.get();
+  }
 
   ReconstructionOptions options_;
   std::string name_, device_;
@@ -118,7 +121,6 @@ class CpuBackend : public ReconstructionBackend {
   GraphAhead growth_;  // of the model and the graph as fuse() left them; ends before they do
   bool is_grown_ = false;
 
-  AcceptedWarp warp_;
   template <class Work>
   void orRejectWarp(const Work& work);
 
@@ -127,12 +129,14 @@ class CpuBackend : public ReconstructionBackend {
   std::unique_ptr<FrameComparer> comparer_;  // may read frame_ until endFrame()
   std::unique_ptr<ModelUpdater> updater_;
   std::unique_ptr<SurfaceSearch> surface_;
+  AcceptedWarp warp_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
   std::optional<ModelComparison> comparison_;  // with the warped model
   FusionSummary fused_;
   StageClock clock_;
   TrackPictures pictures_{&frame_, &frames_.depth().rig()};  // ends before the frame
+  std::future<void> aligning_;  // the tracked points, from confirm() to fuse(); ends before all
 };
 
 DepthSummary CpuBackend::measure(const Frame& frame) {
@@ -198,25 +202,9 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
   summary->inliers = pose_.inliers;
   summary->rms_mm = pose_.rms_mm;
   if (options_.refine_pose.iterations == 0) return;
-  const RectifiedRig& rig = this->rig();
-  std::vector<PosePair> pairs;
-  // Errors of neighbouring matches correlate; an even subset carries as much information.
-  const std::size_t step = 1 + matches_.size() / kPosePairs;
-  for (std::size_t i = 0; i < matches_.size(); i += step) {
-    if (pose_.inlier[i] == 0) continue;
-    const LiftedMatch& match = matches_[i];
-    const Eigen::Vector3d live = match.target_left_mm.cast<double>();
-    const double px_per_mm = rig.left.fx_px / live.z();
-    const double sigma_mm = std::isfinite(match.along_mm) ? match.along_mm : 0;
-    const PointBinding& binding =
-        state_.model.bindings[static_cast<std::size_t>(match.model_point)];
-    const Eigen::Vector3d model_mm = match.source_world_mm.cast<double>();
-    pairs.push_back({model_mm, referencePosition(state_.graph, binding, model_mm),
-                     projectPoint(rig.left, live), match.across_mm * px_per_mm,
-                     rig.disparityPx(live.z()), sigma_mm * px_per_mm * rig.baseline_mm / live.z()});
-  }
-  const RefinedPose best = refinePose(pairs, rig, pose_.target_from_source, last, reference, before,
-                                      options_.refine_pose, pose_search_.get());
+  const RefinedPose best = refinePose(
+      refinementPairs(matches_, pose_, state_.model, state_.graph, rig()), rig(),
+      pose_.target_from_source, last, reference, before, options_.refine_pose, pose_search_.get());
   summary->world_from_left = best.world_from_left;
   summary->scope_static = best.scope_static;
   summary->keeps_shape = best.keeps_shape;
@@ -272,13 +260,16 @@ void CpuBackend::grow() {
 
 void CpuBackend::acceptWarp(bool is_reference) {
   if (!is_grown_) grow();
-  warp_.apply(updater_.get(), options_.graph.node_spacing_mm, &state_);
+  orRejectWarp([&] { warp_.apply(updater_.get(), options_.graph.node_spacing_mm, &state_); });
   if (is_reference) state_.graph.since_reference.assign(state_.graph.size(), NodeTransform());
   clock_.lap("warp");
 }
 
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
-  // Nearly every frame is confirmed: what fusion asks first is found beside the evidence.
+  // Nearly every frame is confirmed: what fusion asks first is found beside the evidence, and the
+  // tracked points are aligned.
+  if (worksAhead())
+    aligning_ = std::async(std::launch::async, [=] { alignTracks(world_from_left); });
   FrameComparison found;
   orRejectWarp([&] {
     found = comparer_->compare(state_.model, state_.graph, observe(world_from_left), frame_.states,
@@ -302,6 +293,7 @@ void CpuBackend::orRejectWarp(const Work& work) {
 
 void CpuBackend::rejectWarp() {
   growth_.drop();
+  endAlignment();
   comparison_.reset();
   warp_.undo(updater_.get(), &state_);
 }
@@ -323,8 +315,9 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   // Neither needs the other.
   orRejectWarp([&] {
     parallelInvoke(updateModel, [&] {
-      if (!first) alignTracks(world_from_left);
+      if (!first && !aligning_.valid()) alignTracks(world_from_left);
     });
+    endAlignment();
   });
   warp_.keep();
   comparison_.reset();

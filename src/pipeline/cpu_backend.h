@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/stereo_rig.h"
+#include "deform/graph/model_warp.h"
 #include "deform/solver/lm_solver.h"
 #include "fusion/frame_comparer.h"
 #include "fusion/model_updater.h"
@@ -32,6 +33,9 @@ struct BackendParts {
       [](const RectifiedRig&) { return std::make_unique<CpuFrameComparer>(); };
   std::function<std::unique_ptr<ModelUpdater>(const RectifiedRig&)> makeUpdater =
       [](const RectifiedRig&) { return std::make_unique<CpuModelUpdater>(); };
+  std::function<std::unique_ptr<ModelWarp>()> makeWarp = [] {
+    return std::make_unique<CpuModelWarp>();
+  };
   std::function<std::unique_ptr<SurfaceSearch>()> makeSurface = [] {
     return std::make_unique<CpuSurfaceSearch>();
   };

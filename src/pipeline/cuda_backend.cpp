@@ -9,6 +9,7 @@
 #include "cuda/pose/pose.h"
 #include "cuda/stereo/stereo.h"
 #include "cuda/surface/surface.h"
+#include "cuda/warp/model_warp.h"
 #include "cuda/warp/warp.h"
 #include "deform/solver/device_warp_system.h"
 #include "pipeline/cpu_backend.h"
@@ -142,6 +143,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.makeUpdater = [rasters, model](const RectifiedRig& rig) {
     return cuda::makeModelUpdater(rig.left, rasters, model);
   };
+  parts.makeWarp = [model] { return cuda::makeModelWarp(model); };
   parts.makeSurface = [model] { return cuda::makeSurfaceSearch(model); };
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "cuda/comparison/comparison_run.h"
 #include "cuda/fusion/fusion_run.h"
+#include "cuda/warp/model_warp_run.h"
 #include "host_locate.h"
 #include "host_machine.h"
 #include "host_stereo.h"
@@ -99,6 +100,9 @@ BackendParts partsWithModelOnTheDevice(unsigned seed) {
     comparer->share(rasters);
     comparer->share(home);
     return comparer;
+  };
+  parts.makeWarp = [=] {
+    return std::make_unique<cuda::ModelWarpRun<HostMachine>>(home, seed + 2);
   };
   parts.makeUpdater = [=](const RectifiedRig& rig) {
     auto updater = std::make_unique<cuda::FusionRun<HostMachine>>(rig.left, seed + 1);

@@ -9,6 +9,7 @@
 #include "io/sequences/sequence_reader.h"
 #include "io/text/message.h"
 #include "pipeline/frame/model_matches.h"
+#include "pipeline/frame/pose_pairs.h"
 #include "pipeline/options/run_options.h"
 #include "pose/ransac_pose.h"
 #include "toolkit/run/model_file.h"

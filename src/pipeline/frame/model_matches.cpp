@@ -1,8 +1,5 @@
-// src/pipeline/frame/model_matches.cpp: masks, images, pairs.
+// src/pipeline/frame/model_matches.cpp: masks and images.
 #include "pipeline/frame/model_matches.h"
-
-#include <algorithm>
-#include <cmath>
 
 #include "core/mask_morphology.h"
 #include "core/parallel.h"
@@ -60,18 +57,6 @@ ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
   matches.pixels = matcher.match(picture, live);
   matches.lifted = liftMatches(matches.pixels, view, frame.depth, view.camera);
   return matches;
-}
-
-PointPairs posePairs(const std::vector<LiftedMatch>& matches) {
-  PointPairs pairs;
-  for (const LiftedMatch& match : matches) {
-    pairs.sources_mm.push_back(match.target_left_mm);
-    pairs.targets_mm.push_back(match.source_world_mm);
-    const float along = std::isfinite(match.along_mm) ? match.along_mm : match.across_mm;
-    const float variance = (2 * match.across_mm * match.across_mm + along * along) / 3;
-    pairs.weights.push_back(1 / std::max(variance, 1e-6f));
-  }
-  return pairs;
 }
 
 }  // namespace softscope

@@ -1,4 +1,5 @@
-// src/pipeline/frame/model_matches.h: stages 2 to 4: from model view and live image to point pairs.
+// src/pipeline/frame/model_matches.h: stages 2 and 3: from model view and live image to lifted
+// matches.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,6 @@
 #include "features/matcher.h"
 #include "pipeline/frame/frame_depth.h"
 #include "pipeline/options/reconstruction_options.h"
-#include "pose/rigid_fit.h"
 
 namespace softscope {
 
@@ -32,8 +32,5 @@ MatchPicture modelPicture(const ModelView& view);
 ModelMatches matchModel(const ModelView& view, const MatchPicture& picture,
                         const MatchPicture& live, const MeasuredFrame& frame,
                         FeatureMatcher& matcher);
-
-/// From the live camera's frame to the world, weighted by their inverse variances.
-PointPairs posePairs(const std::vector<LiftedMatch>& matches);
 
 }  // namespace softscope

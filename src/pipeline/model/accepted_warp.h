@@ -1,9 +1,10 @@
 // src/pipeline/model/accepted_warp.h: warp of model, graph and tracked points that can be undone.
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
+#include <memory>
+#include <utility>
 
+#include "deform/graph/model_warp.h"
 #include "fusion/model_updater.h"
 #include "pipeline/model/model_state.h"
 
@@ -12,7 +13,10 @@ namespace softscope {
 /// At most one warp at a time: apply(), then keep() or undo().
 class AcceptedWarp {
  public:
-  /// Warps by the graph's transforms and re-bases the graph.
+  explicit AcceptedWarp(std::unique_ptr<ModelWarp> of_model) : of_model_(std::move(of_model)) {}
+
+  /// Warps by the graph's transforms and re-bases the graph. The model's points on the host may
+  /// move with the next update only. Where a device fails, all is as it was.
   void apply(ModelUpdater* updater, double node_spacing_mm, ModelState* state);
   void keep() { is_applied_ = false; }
   /// All is as it was before apply(), without transforms. Without a warp, drops the transforms.
@@ -20,10 +24,10 @@ class AcceptedWarp {
 
  private:
   struct Before {
-    std::vector<Eigen::Vector3f> positions_mm, normals;
     WarpGraph graph;
     MaterialPoints tracked;
   };
+  std::unique_ptr<ModelWarp> of_model_;
   Before before_;  // of a warp that is applied; otherwise memory to reuse
   bool is_applied_ = false;
 };

@@ -43,33 +43,35 @@ Raster<float> thinned(const Raster<float>& fine) {
   return coarse;
 }
 
-struct SumOf {
-  double total = 0;
-  int count = 0;
-};
-
 /// Mean over the known values within kReach, where the value itself is known; else NaN.
 Raster<float> windowMeans(const Raster<float>& in) {
-  Raster<SumOf> along_rows(in.width_px, in.height_px);
-  parallelRows(in.height_px, [&](int v) {
-    for (int u = 0; u < in.width_px; ++u)
-      for (int x = std::max(0, u - kReach); x <= std::min(in.width_px - 1, u + kReach); ++x) {
-        if (std::isnan(in.at(x, v))) continue;
-        along_rows.at(u, v).total += in.at(x, v);
-        ++along_rows.at(u, v).count;
+  const int width = in.width_px, height = in.height_px;
+  Raster<double> totals(width, height, 0);  // along the rows
+  Raster<int> counts(width, height, 0);
+  parallelRows(height, [&](int v) {
+    const float* values = in.row(v);
+    double* total = totals.row(v);
+    int* count = counts.row(v);
+    for (int x = -kReach; x <= kReach; ++x)
+      for (int u = std::max(0, -x); u < std::min(width, width - x); ++u) {
+        const bool is_known = !std::isnan(values[u + x]);
+        total[u] += is_known ? values[u + x] : 0.0f;
+        count[u] += is_known;
       }
   });
-  Raster<float> means(in.width_px, in.height_px, kNaN);
-  parallelRows(in.height_px, [&](int v) {
-    for (int u = 0; u < in.width_px; ++u) {
-      if (std::isnan(in.at(u, v))) continue;
-      SumOf sum;
-      for (int y = std::max(0, v - kReach); y <= std::min(in.height_px - 1, v + kReach); ++y) {
-        sum.total += along_rows.at(u, y).total;
-        sum.count += along_rows.at(u, y).count;
+  Raster<float> means(width, height, kNaN);
+  parallelRows(height, [&](int v) {
+    std::vector<double> total(static_cast<std::size_t>(width), 0);
+    std::vector<int> count(static_cast<std::size_t>(width), 0);
+    for (int y = std::max(0, v - kReach); y <= std::min(height - 1, v + kReach); ++y)
+      for (int u = 0; u < width; ++u) {
+        total[static_cast<std::size_t>(u)] += totals.row(y)[u];
+        count[static_cast<std::size_t>(u)] += counts.row(y)[u];
       }
-      means.at(u, v) = static_cast<float>(sum.total / sum.count);
-    }
+    for (int u = 0; u < width; ++u)
+      if (!std::isnan(in.at(u, v)))
+        means.at(u, v) = static_cast<float>(total[static_cast<std::size_t>(u)] /
+                                            count[static_cast<std::size_t>(u)]);
   });
   return means;
 }
