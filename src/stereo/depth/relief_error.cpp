@@ -16,6 +16,13 @@ namespace {
 // differences of unsigned ones are right nevertheless.
 using Counts = Raster<std::uint32_t>;
 
+/// A value and whether it is measured, in one number, of which sums over windows are those of both:
+/// 32 bits are enough for each.
+using Pairs = Raster<std::uint64_t>;
+std::uint64_t pairOf(std::uint32_t value) { return std::uint64_t{value} << 32 | 1; }
+std::uint32_t valueIn(std::uint64_t pair) { return static_cast<std::uint32_t>(pair >> 32); }
+std::uint32_t countIn(std::uint64_t pair) { return static_cast<std::uint32_t>(pair); }
+
 constexpr int kSmoothedReach = 2 * RefinementOptions::radius_px;  // two windows in sequence
 constexpr float kStepsPerPx = 1024;    // of disparity: 625 times 3355 px fit
 constexpr float kStepsAPx2 = 65536;    // of squared bends …
@@ -38,33 +45,31 @@ struct Extents {
 
 bool isStep(std::uint32_t a, std::uint32_t b) { return (a > b ? a - b : b - a) > kEdge; }
 
-/// Counts pixels since the last depth step between measured pixels.
-class StepFreeRun {
- public:
-  std::uint8_t extend(std::uint32_t disparity) {
-    length_ = std::min(length_ + 1, kSmoothedReach + 1);
-    if (disparity != 0) {
-      if (last_ != 0 && isStep(disparity, last_)) length_ = 1;
-      last_ = disparity;
-    }
-    return static_cast<std::uint8_t>(length_ - 1);
-  }
-
- private:
-  int length_ = 0;
-  std::uint32_t last_ = 0;  // disparity of the last measured pixel; 0: none
-};
+/// Counts pixels since the last depth step between measured pixels, here with the first; `last`:
+/// disparity of the last measured pixel; 0: none.
+void extendRun(std::uint32_t disparity, std::uint32_t* length, std::uint32_t* last) {
+  const bool begins = disparity != 0 && *last != 0 && isStep(disparity, *last);
+  constexpr std::uint32_t kMost = kSmoothedReach + 1;
+  const std::uint32_t longer = *length + 1 < kMost ? *length + 1 : kMost;
+  *length = begins ? 1 : longer;
+  *last = disparity != 0 ? disparity : *last;
+}
 
 /// Windows end at the border of the image and at depth steps.
 Extents extentsAlongRows(const Counts& disparity) {
   Extents extents{{disparity.width_px, disparity.height_px},
                   {disparity.width_px, disparity.height_px}};
   parallelRows(disparity.height_px, [&](int v) {
-    StepFreeRun rightwards, leftwards;
+    const auto extend = [&](int u, std::uint32_t* length, std::uint32_t* last) {
+      extendRun(disparity.at(u, v), length, last);
+      return static_cast<std::uint8_t>(*length - 1);
+    };
+    std::uint32_t length = 0, last = 0;
     for (int u = 0; u < disparity.width_px; ++u)
-      extents.before.at(u, v) = rightwards.extend(disparity.at(u, v));
+      extents.before.at(u, v) = extend(u, &length, &last);
+    length = last = 0;
     for (int u = disparity.width_px - 1; u >= 0; --u)
-      extents.after.at(u, v) = leftwards.extend(disparity.at(u, v));
+      extents.after.at(u, v) = extend(u, &length, &last);
   });
   return extents;
 }
@@ -73,60 +78,66 @@ Extents extentsAlongColumns(const Counts& disparity) {
   const int height = disparity.height_px;
   Extents extents{{disparity.width_px, height}, {disparity.width_px, height}};
   parallelRanges(disparity.width_px, kReliefBand, [&](int begin, int end) {
-    std::vector<StepFreeRun> downwards(static_cast<std::size_t>(end - begin)),
-        upwards(static_cast<std::size_t>(end - begin));
-    for (int v = 0; v < height; ++v)
-      for (int u = begin; u < end; ++u)
-        extents.before.at(u, v) =
-            downwards[static_cast<std::size_t>(u - begin)].extend(disparity.at(u, v));
-    for (int v = height - 1; v >= 0; --v)
-      for (int u = begin; u < end; ++u)
-        extents.after.at(u, v) =
-            upwards[static_cast<std::size_t>(u - begin)].extend(disparity.at(u, v));
+    std::vector<std::uint32_t> length(static_cast<std::size_t>(end - begin), 0), last(length);
+    // No branch, and no byte in the loop: several columns at a time.
+    std::uint32_t *lengths = length.data(), *lasts = last.data();
+    const auto extend = [&](int v, Raster<std::uint8_t>* to) {
+      const std::uint32_t* from = disparity.row(v) + begin;
+      for (int k = 0; k < end - begin; ++k) extendRun(from[k], lengths + k, lasts + k);
+      std::uint8_t* reach = to->row(v) + begin;
+      for (int k = 0; k < end - begin; ++k) reach[k] = static_cast<std::uint8_t>(lengths[k] - 1);
+    };
+    for (int v = 0; v < height; ++v) extend(v, &extents.before);
+    std::fill(length.begin(), length.end(), 0);
+    std::fill(last.begin(), last.end(), 0);
+    for (int v = height - 1; v >= 0; --v) extend(v, &extents.after);
   });
   return extents;
 }
 
-/// Both sides as far as the shorter one: a plane is then the mean of its window in its middle.
-Extents symmetric(const Extents& extents) {
-  Extents both = extents;
-  parallelRows(both.before.height_px, [&](int v) {
-    std::uint8_t *before = both.before.row(v), *after = both.after.row(v);
-    for (int u = 0; u < both.before.width_px; ++u)
-      before[u] = after[u] = std::min(before[u], after[u]);
-  });
-  return both;
+/// Whether both sides of a window reach as far as the shorter one: a plane is then the mean of its
+/// window in its middle.
+enum class Sides { kBoth, kEven };
+
+/// `sums(place)` of the window's values, by prefix sums: prefixAt(end) - prefixAt(begin).
+template <Sides kSides, class PrefixAt>
+std::uint64_t sumWithin(int middle, int before, int after, const PrefixAt& prefixAt) {
+  if (kSides == Sides::kEven) before = after = std::min(before, after);
+  return prefixAt(middle + 1 + after) - prefixAt(middle - before);
 }
 
-/// None at pixels without `disparity`, which may be in the gap of a step.
-Counts sumsAlongRows(const Counts& in, const Extents& extents, const Counts& disparity) {
-  Counts out(in.width_px, in.height_px);
+/// None at pixels that are not measured, which may be in the gap of a step.
+template <Sides kSides>
+Pairs sumsAlongRows(const Pairs& in, const Extents& extents) {
+  Pairs out(in.width_px, in.height_px);
   parallelRanges(in.height_px, kReliefBand, [&](int begin, int end) {
-    std::vector<std::uint32_t> prefix(static_cast<std::size_t>(in.width_px) + 1, 0);
+    std::vector<std::uint64_t> prefix(static_cast<std::size_t>(in.width_px) + 1, 0);
     for (int v = begin; v < end; ++v) {
-      const std::uint32_t* from = in.row(v);
+      const std::uint64_t* from = in.row(v);
       for (int u = 0; u < in.width_px; ++u) prefix[u + 1] = prefix[u] + from[u];
       const std::uint8_t *before = extents.before.row(v), *after = extents.after.row(v);
-      const std::uint32_t* is_measured = disparity.row(v);
-      std::uint32_t* to = out.row(v);
+      std::uint64_t* to = out.row(v);
       for (int u = 0; u < in.width_px; ++u)
-        to[u] = is_measured[u] != 0 ? prefix[u + 1 + after[u]] - prefix[u - before[u]] : 0;
+        to[u] = countIn(from[u]) != 0
+                    ? sumWithin<kSides>(u, before[u], after[u], [&](int at) { return prefix[at]; })
+                    : 0;
     }
   });
   return out;
 }
 
-Counts sumsAlongColumns(const Counts& in, const Extents& extents) {
-  Counts prefix(in.width_px, in.height_px + 1, 0), out(in.width_px, in.height_px);
+template <Sides kSides>
+Pairs sumsAlongColumns(const Pairs& in, const Extents& extents) {
+  Pairs prefix(in.width_px, in.height_px + 1, 0), out(in.width_px, in.height_px);
   parallelRanges(in.width_px, kReliefBand, [&](int begin, int end) {
     for (int v = 0; v < in.height_px; ++v)
       for (int u = begin; u < end; ++u) prefix.at(u, v + 1) = prefix.at(u, v) + in.at(u, v);
   });
   parallelRows(in.height_px, [&](int v) {
     const std::uint8_t *before = extents.before.row(v), *after = extents.after.row(v);
-    std::uint32_t* to = out.row(v);
+    std::uint64_t* to = out.row(v);
     for (int u = 0; u < in.width_px; ++u)
-      to[u] = prefix.at(u, v + 1 + after[u]) - prefix.at(u, v - before[u]);
+      to[u] = sumWithin<kSides>(v, before[u], after[u], [&](int at) { return prefix.at(u, at); });
   });
   return out;
 }
@@ -144,8 +155,9 @@ Windows windowsOf(const Counts& disparity) {
   return windows;
 }
 
-Counts sumsOver(const Windows& windows, const Counts& in, const Counts& disparity) {
-  return sumsAlongColumns(sumsAlongRows(in, windows.rows, disparity), windows.columns);
+template <Sides kSides>
+Pairs sumsOver(const Windows& windows, const Pairs& in) {
+  return sumsAlongColumns<kSides>(sumsAlongRows<kSides>(in, windows.rows), windows.columns);
 }
 
 }  // namespace
@@ -160,46 +172,40 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
   const int width = depth_mm.width_px, height = depth_mm.height_px;
   const float scale = static_cast<float>(rig.left.fx_px * rig.baseline_mm);
   constexpr float kLargest = static_cast<float>(StereoOptions::kLargestDisparityPx);
-  Counts measured(width, height, 0), steps(width, height, 0);
+  Counts steps(width, height, 0);
+  Pairs pairs(width, height, 0);
   parallelRows(height, [&](int v) {
     const float* z = depth_mm.row(v);
-    std::uint32_t *is_measured = measured.row(v), *step = steps.row(v);
+    std::uint32_t* step = steps.row(v);
+    std::uint64_t* pair = pairs.row(v);
     for (int u = 0; u < width; ++u) {
-      is_measured[u] = z[u] > 0 ? 1 : 0;
       step[u] = rounded(z[u] > 0 ? kStepsPerPx * std::min(scale / z[u], kLargest) : 0.0f);
+      pair[u] = z[u] > 0 ? pairOf(step[u]) : 0;
     }
   });
   const Windows windows = windowsOf(steps);
-  const Windows even{symmetric(windows.rows), symmetric(windows.columns)};
-  Counts means_of, means, counts;
-  // Independent.
-  parallelInvoke([&] { means = sumsOver(even, steps, steps); },
-                 [&] {
-                   parallelInvoke([&] { means_of = sumsOver(even, measured, steps); },
-                                  [&] { counts = sumsOver(windows, measured, steps); });
-                 });
-  Counts squares(width, height, 0);
+  const Pairs means = sumsOver<Sides::kEven>(windows, pairs);
   parallelRows(height, [&](int v) {
-    const std::uint32_t *is_measured = measured.row(v), *step = steps.row(v), *sum = means.row(v),
-                        *count = means_of.row(v);
-    std::uint32_t* square = squares.row(v);
+    const std::uint32_t* step = steps.row(v);
+    const std::uint64_t* sum = means.row(v);
+    std::uint64_t* pair = pairs.row(v);
     for (int u = 0; u < width; ++u) {
       const double bend_px =
-          (step[u] - static_cast<double>(sum[u]) / std::max(count[u], 1U)) / kStepsPerPx;
-      square[u] = is_measured[u] *
-                  rounded(kStepsAPx2 * std::min<double>(bend_px * bend_px, kLargestBendPx2));
+          (step[u] - static_cast<double>(valueIn(sum[u])) / std::max(countIn(sum[u]), 1U)) /
+          kStepsPerPx;
+      const double square = std::min<double>(bend_px * bend_px, kLargestBendPx2);
+      pair[u] = countIn(pair[u]) != 0 ? pairOf(rounded(kStepsAPx2 * square)) : 0;
     }
   });
-  const Counts energies = sumsOver(windows, squares, steps);
+  const Pairs energies = sumsOver<Sides::kBoth>(windows, pairs);
   Raster<float> error_px(width, height, std::numeric_limits<float>::quiet_NaN());
   parallelRows(height, [&](int v) {
-    const std::uint32_t *is_measured = measured.row(v), *energy = energies.row(v),
-                        *count = counts.row(v);
+    const std::uint64_t *pair = pairs.row(v), *energy = energies.row(v);
     float* error = error_px.row(v);
     for (int u = 0; u < width; ++u)
-      if (is_measured[u] != 0)
-        error[u] =
-            std::sqrt(static_cast<float>(energy[u]) / (kStepsAPx2 * static_cast<float>(count[u])));
+      if (countIn(pair[u]) != 0)
+        error[u] = std::sqrt(static_cast<float>(valueIn(energy[u])) /
+                             (kStepsAPx2 * static_cast<float>(countIn(energy[u]))));
   });
   return error_px;
 }
