@@ -6,7 +6,7 @@
 namespace softscope::cuda {
 
 std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left,
-                                                 std::shared_ptr<SharedRasters> shared,
+                                                 std::shared_ptr<const SharedRasters> shared,
                                                  std::shared_ptr<SharedModel> model) {
   requireDevice();
   auto run = std::make_unique<ComparisonRun<DeviceMachine>>(left);

@@ -12,8 +12,8 @@ namespace softscope::cuda {
 
 /// `shared`: where it tells what rasters lie on the device; `model`: ComparisonRun::share(). Both
 /// may be null. Throws BackendError where no GPU works.
-std::unique_ptr<FrameComparer> makeFrameComparer(const PinholeCamera& left,
-                                                 std::shared_ptr<SharedRasters> shared = nullptr,
-                                                 std::shared_ptr<SharedModel> model = nullptr);
+std::unique_ptr<FrameComparer> makeFrameComparer(
+    const PinholeCamera& left, std::shared_ptr<const SharedRasters> shared = nullptr,
+    std::shared_ptr<SharedModel> model = nullptr);
 
 }  // namespace softscope::cuda

@@ -41,7 +41,7 @@ struct ComparisonTotals {
   std::int32_t gain[3][kGainBins];
 };
 
-/// Arrays of the image's size. The rasters of a frame, then what is drawn.
+/// Arrays of the image's size: the rasters of a frame, and what is drawn.
 struct ComparisonFrameLayout {
   ComparisonFrameLayout() = default;
   ComparisonFrameLayout(Arena& arena, int width_px, int height_px)
@@ -51,11 +51,6 @@ struct ComparisonFrameLayout {
         block_columns(blocksFor(width_px, block_px)),
         block_rows(blocksFor(height_px, block_px)) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    depth_mm = arena.array<float>(pixels);
-    sigma_mm = arena.array<float>(pixels);
-    normals = arena.array<Eigen::Vector3f>(pixels);
-    states = arena.array<PixelState>(pixels);
-    colour = arena.array<Rgb8>(pixels);
     gain_bins = arena.array<std::int16_t>(256 * 256);
     near_cells = arena.array<std::uint32_t>(cells());
     drawn_cells = arena.array<std::uint32_t>(cells());
@@ -87,10 +82,10 @@ struct ComparisonFrameLayout {
 
   int width = 0, height = 0, block_px = 1, block_columns = 0, block_rows = 0;
   bool has_sigma = false, has_colour = false;
-  float *depth_mm = nullptr, *sigma_mm = nullptr;
-  Eigen::Vector3f* normals = nullptr;
-  PixelState* states = nullptr;
-  Rgb8* colour = nullptr;
+  const float *depth_mm = nullptr, *sigma_mm = nullptr;  // they lie elsewhere
+  const Eigen::Vector3f* normals = nullptr;
+  const PixelState* states = nullptr;
+  const Rgb8* colour = nullptr;
   std::int16_t* gain_bins = nullptr;                            // by seen and known level
   std::uint32_t *near_cells = nullptr, *drawn_cells = nullptr;  // bits of depths
   unsigned long long* drawn = nullptr;                          // DrawnPoints::entry()

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <future>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "cuda/comparison/comparison_passes.h"
 #include "cuda/device/shared_rasters.h"
+#include "cuda/frame/raster_layout.h"
 #include "cuda/model/model_home.h"
 #include "fusion/frame_comparer.h"
 
@@ -39,30 +39,11 @@ class ComparisonRun final : public FrameComparer {
     send(frame_.gain_bins, bins);
     machine_.wait();
   }
-  /// Tells other stages what lies on the device.
-  void share(std::shared_ptr<SharedRasters> shared) { shared_ = std::move(shared); }
+  /// Rasters already on the device are not copied again.
+  void share(std::shared_ptr<const SharedRasters> shared) { shared_ = std::move(shared); }
   /// A model that knows what has changed; what compare() says of its points stays there, and the
   /// visibility that it returns is empty.
   void share(std::shared_ptr<ModelHome<Machine>> home) { shared_home_ = std::move(home); }
-  ~ComparisonRun() override {
-    if (sending_.valid()) sending_.wait();
-  }
-
-  void beginFrame(const Observation& frame, const Raster<PixelState>& states) override {
-    endFrame();
-    has_frame_ = true;
-    sending_ = std::async(std::launch::async, [this, depth = &frame.depth, normals = &frame.normals,
-                                               colour = &frame.colour, states = &states] {
-      sendFrame(*depth, *normals, *colour, *states);
-    });
-  }
-  void endFrame() override {
-    if (sending_.valid()) sending_.wait();  // what went wrong is of no interest any more
-    sending_ = {};
-    has_frame_ = false;
-    if (shared_) *shared_ = {};
-  }
-
   std::vector<std::int32_t> visiblePoints(const PointModel& model, const Observation& observation,
                                           const Raster<PixelState>& states,
                                           const VisibilityOptions& options) override {
@@ -136,28 +117,32 @@ class ComparisonRun final : public FrameComparer {
 
   void needFrame(const Observation& observation, const Raster<PixelState>& states) {
     observation.validate();
-    if (sending_.valid()) sending_.get();
-    if (has_frame_) return;
-    sendFrame(observation.depth, observation.normals, observation.colour, states);
-    has_frame_ = true;
-  }
-  void sendFrame(const DepthMap& depth, const NormalMap& normals, const ColourImage& colour,
-                 const Raster<PixelState>& states) {
+    const DepthMap& depth = observation.depth;
     frame_.has_sigma = !depth.sigma_mm.empty();
-    frame_.has_colour = !colour.empty();
-    send(frame_.states, states.values);
-    send(frame_.depth_mm, depth.depth_mm.values);
-    send(frame_.normals, normals.values);
-    send(frame_.sigma_mm, depth.sigma_mm.values);
-    send(frame_.colour, colour.values);
+    frame_.has_colour = !observation.colour.empty();
+    if (shared_ && shared_->holds(depth.depth_mm.values.data()))
+      takeRasters(*shared_);
+    else
+      sendRasters(observation, states);
+  }
+  template <class Rasters>
+  void takeRasters(const Rasters& from) {
+    frame_.depth_mm = from.depth_mm;
+    frame_.sigma_mm = from.sigma_mm;
+    frame_.normals = from.normals;
+    frame_.states = from.states;
+    frame_.colour = from.colour;
+  }
+  void sendRasters(const Observation& observation, const Raster<PixelState>& states) {
+    const std::size_t pixels = states.size();
+    Arena counting;
+    const RasterLayout planned(counting, pixels);
+    if (raster_memory_.bytes() < counting.bytes()) raster_memory_ = Memory(counting.bytes(), kWhat);
+    Arena arena(raster_memory_.data());
+    const RasterLayout own(arena, pixels);
+    own.send(observation, states, machine_);
     machine_.wait();
-    if (shared_)
-      *shared_ = {depth.depth_mm.values.data(),
-                  frame_.depth_mm,
-                  frame_.sigma_mm,
-                  frame_.normals,
-                  frame_.states,
-                  frame_.colour};
+    takeRasters(own);
   }
   void takeModel(const PointModel& model, ModelParts parts) {
     ModelHome<Machine>& home = shared_home_ ? *shared_home_ : own_home_;
@@ -263,7 +248,7 @@ class ComparisonRun final : public FrameComparer {
     if (!from.empty()) machine_.toDevice(to, from.data(), from.size() * sizeof(T));
   }
 
-  Memory frame_memory_, model_memory_, graph_memory_;
+  Memory frame_memory_, raster_memory_, model_memory_, graph_memory_;
   Machine machine_;
   ComparisonPasses<typename Machine::Executor> passes_;
   ComparisonFrameLayout frame_;
@@ -272,11 +257,9 @@ class ComparisonRun final : public FrameComparer {
   std::size_t capacity_ = 0;
   std::vector<std::uint8_t> seen_;
   std::vector<char> totals_;
-  std::shared_ptr<SharedRasters> shared_;
+  std::shared_ptr<const SharedRasters> shared_;
   std::shared_ptr<ModelHome<Machine>> shared_home_;
   ModelHome<Machine> own_home_;
-  std::future<void> sending_;
-  bool has_frame_ = false;
 };
 
 }  // namespace softscope::cuda

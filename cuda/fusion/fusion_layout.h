@@ -53,23 +53,6 @@ struct FusionFrameLayout {
   FusionCounts* counts = nullptr;
 };
 
-/// The frame's rasters, where no other stage has copied them.
-struct FusionRasterLayout {
-  FusionRasterLayout() = default;
-  FusionRasterLayout(Arena& arena, std::size_t pixels) {
-    depth_mm = arena.array<float>(pixels);
-    sigma_mm = arena.array<float>(pixels);
-    normals = arena.array<Eigen::Vector3f>(pixels);
-    colour = arena.array<Rgb8>(pixels);
-    states = arena.array<PixelState>(pixels);
-  }
-
-  float *depth_mm = nullptr, *sigma_mm = nullptr;
-  Eigen::Vector3f* normals = nullptr;
-  Rgb8* colour = nullptr;
-  PixelState* states = nullptr;
-};
-
 /// Arrays of the model's size with all the points that a frame may add, and a table of cells.
 struct FusionPointLayout {
   FusionPointLayout() = default;

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "cuda/device/downlink.h"
 #include "cuda/device/shared_rasters.h"
+#include "cuda/frame/raster_layout.h"
 #include "cuda/fusion/fusion_passes.h"
 #include "cuda/model/model_home.h"
 #include "fusion/model_updater.h"
@@ -92,11 +93,7 @@ class FusionRun final : public ModelUpdater {
       work->states = shared_->states;
     } else {
       reserveRasters();
-      send(rasters_.depth_mm, depth.depth_mm.values);
-      send(rasters_.sigma_mm, depth.sigma_mm.values);
-      send(rasters_.normals, observation.normals.values);
-      send(rasters_.colour, observation.colour.values);
-      send(rasters_.states, states.values);
+      rasters_.send(observation, states, machine_);
       work->frame.rasters = {rasters_.depth_mm, has_sigma ? rasters_.sigma_mm : nullptr,
                              rasters_.normals, has_colour ? rasters_.colour : nullptr};
       work->states = rasters_.states;
@@ -192,10 +189,10 @@ class FusionRun final : public ModelUpdater {
   void reserveRasters() {
     if (rasters_.depth_mm != nullptr) return;
     Arena counting;
-    FusionRasterLayout(counting, pixels_);
+    RasterLayout(counting, pixels_);
     raster_memory_ = Memory(counting.bytes(), kWhat);
     Arena arena(raster_memory_.data());
-    rasters_ = FusionRasterLayout(arena, pixels_);
+    rasters_ = RasterLayout(arena, pixels_);
   }
   void reservePoints(std::size_t capacity) {
     if (capacity <= points_.capacity) return;
@@ -219,7 +216,7 @@ class FusionRun final : public ModelUpdater {
   FusionPasses<typename Machine::Executor> passes_;
   Downlink<Machine> downlink_;
   FusionFrameLayout image_;
-  FusionRasterLayout rasters_;
+  RasterLayout rasters_;
   FusionPointLayout points_;
   std::shared_ptr<const SharedRasters> shared_;
   bool is_memory_due_ = false;      // to the host, where it has arrived in pinned memory

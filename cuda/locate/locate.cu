@@ -71,11 +71,23 @@ class Locator::Device {
     send(depth.depth_mm, layout_.live_depth);
     if (!depth.sigma_mm.empty())
       send(depth.sigma_mm, layout_.live_sigma);
-    else  // NaN
-      check(cudaMemsetAsync(layout_.live_sigma.data, 0xFF, depth.depth_mm.size() * sizeof(float),
-                            stream_),
-            "setting memory");
+    else
+      forgetSigma(depth.depth_mm.size());
     wait();
+  }
+  void setLive(const SharedRasters& from) {
+    is_live_masked_ = from.ignore != nullptr;
+    const std::size_t pixels =
+        static_cast<std::size_t>(camera_.width_px) * static_cast<std::size_t>(camera_.height_px);
+    CopyKernel copy;
+    copy.add(from.match_gray, layout_.match.levels.front().gray[1].data, pixels);
+    if (is_live_masked_) copy.add(from.ignore, layout_.match.mask[1].data, pixels);
+    copy.add(from.depth_mm, layout_.live_depth.data, pixels);
+    if (from.sigma_mm != nullptr)
+      copy.add(from.sigma_mm, layout_.live_sigma.data, pixels);
+    else
+      forgetSigma(pixels);
+    executor_.launch("copy", copy, copy.blocks());
   }
   void setSeenGray(const GrayImage& gray) {
     has_seen_gray_ = !gray.empty();
@@ -128,6 +140,11 @@ class Locator::Device {
   std::size_t deviceBytes() const { return memory_.bytes(); }
 
  private:
+  /// NaN.
+  void forgetSigma(std::size_t pixels) {
+    check(cudaMemsetAsync(layout_.live_sigma.data, 0xFF, pixels * sizeof(float), stream_),
+          "setting memory");
+  }
   LocateExchange& exchange() { return *static_cast<LocateExchange*>(exchange_memory_.data()); }
   template <class T>
   void send(const Raster<T>& image, const View<T>& to) {
@@ -177,6 +194,7 @@ void Locator::setModel(const PointModel& model, SharedModel& on_device) {
 void Locator::setLive(const MatchPicture& live, const DepthMap& depth) {
   device_->setLive(live, depth);
 }
+void Locator::setLive(const SharedRasters& from) { device_->setLive(from); }
 void Locator::setSeenGray(const GrayImage& gray) { device_->setSeenGray(gray); }
 void Locator::locate(const Eigen::Isometry3d& world_from_left) { device_->locate(world_from_left); }
 void Locator::wait() { device_->wait(); }

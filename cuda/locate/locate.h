@@ -10,6 +10,7 @@
 
 #include "core/depth_map.h"
 #include "core/point_model.h"
+#include "cuda/device/shared_rasters.h"
 #include "cuda/model/shared_model.h"
 #include "features/lift_matches.h"
 #include "features/matcher.h"
@@ -41,6 +42,8 @@ class Locator {
   void setModel(const PointModel& model, SharedModel& on_device);
   /// Throws InputError for another shape. `depth.sigma_mm` may be empty.
   void setLive(const MatchPicture& live, const DepthMap& depth);
+  /// The same, of rasters on the device.
+  void setLive(const SharedRasters& from);
   /// Seen from there, the model looked so; empty: as it is drawn.
   void setSeenGray(const GrayImage& gray);
 

@@ -26,12 +26,8 @@ struct FrameComparison {
 class FrameComparer {
  public:
   virtual ~FrameComparer() = default;
-  /// A new frame, whose rasters the calls up to endFrame() are given: they may be copied to the
-  /// device on another thread, and must live and stay as they are. The pose doesn't matter yet.
-  virtual void beginFrame(const Observation& /*frame*/, const Raster<PixelState>& /*states*/) {}
-  virtual void endFrame() {}
 
-  // The observation is that of beginFrame(), with its pose; `states` are its pixels'.
+  // `states` are those of the observation's pixels.
   /// Indices of the points that the camera sees, ascending: findVisible().
   virtual std::vector<std::int32_t> visiblePoints(const PointModel& model,
                                                   const Observation& observation,

@@ -35,8 +35,8 @@ class CpuBackend : public ReconstructionBackend {
         name_(parts.name),
         device_(parts.device),
         ahead_from_threads_(parts.ahead_from_threads),
-        frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo),
-                options),
+        frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo), options,
+                parts.makeUploader),
         matching_(parts.makeMatching(options, rig())),
         pose_search_(parts.makePoseSearch()),
         solver_(parts.makeSolver(options.deform)),
@@ -126,7 +126,7 @@ class CpuBackend : public ReconstructionBackend {
 
   // Of the frame at hand.
   FrameView frame_;
-  std::unique_ptr<FrameComparer> comparer_;  // may read frame_ until endFrame()
+  std::unique_ptr<FrameComparer> comparer_;
   std::unique_ptr<ModelUpdater> updater_;
   std::unique_ptr<SurfaceSearch> surface_;
   AcceptedWarp warp_;
@@ -140,7 +140,6 @@ class CpuBackend : public ReconstructionBackend {
 };
 
 DepthSummary CpuBackend::measure(const Frame& frame) {
-  comparer_->endFrame();
   pictures_.end();
   clock_ = StageClock();
   matches_.clear();
@@ -164,8 +163,6 @@ LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
                                  ScopeBefore before) {
   LocateSummary summary;
   summary.matches = match(viewed_from);
-  // Beside the pose: its copies would delay those of the matches.
-  comparer_->beginFrame(observe(Eigen::Isometry3d::Identity()), frame_.states);
   summary.pose = estimatePose(last, reference, before);
   return summary;
 }

@@ -11,6 +11,7 @@
 #include "fusion/frame_comparer.h"
 #include "fusion/model_updater.h"
 #include "fusion/surface_search.h"
+#include "pipeline/frame/frame_ahead.h"
 #include "pipeline/frame/match_stage.h"
 #include "pipeline/frame/stereo_stage.h"
 #include "pipeline/options/reconstruction_options.h"
@@ -29,6 +30,7 @@ struct BackendParts {
   std::function<std::unique_ptr<PoseSearch>()> makePoseSearch = [] {
     return std::make_unique<CpuPoseSearch>();
   };
+  FrameUploaderFactory makeUploader;  // may be empty
   std::function<std::unique_ptr<FrameComparer>(const RectifiedRig&)> makeComparer =
       [](const RectifiedRig&) { return std::make_unique<CpuFrameComparer>(); };
   std::function<std::unique_ptr<ModelUpdater>(const RectifiedRig&)> makeUpdater =

@@ -4,6 +4,7 @@
 
 #include "cuda/comparison/comparison.h"
 #include "cuda/device/device_info.h"
+#include "cuda/frame/upload.h"
 #include "cuda/fusion/fusion.h"
 #include "cuda/locate/locate.h"
 #include "cuda/pose/pose.h"
@@ -52,10 +53,12 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Matchab
 class CudaMatchStage final : public MatchStage {
  public:
   CudaMatchStage(const ReconstructionOptions& options, const RectifiedRig& rig,
+                 std::shared_ptr<const cuda::SharedRasters> rasters,
                  std::shared_ptr<cuda::SharedModel> model)
       : matcher_(options.matcher),
         view_(options.model_view),
         left_(rig.left),
+        rasters_(std::move(rasters)),
         model_(std::move(model)) {
     reserve(static_cast<std::size_t>(left_.width_px) * static_cast<std::size_t>(left_.height_px) /
             4);
@@ -75,6 +78,7 @@ class CudaMatchStage final : public MatchStage {
   MatcherOptions matcher_;
   ModelViewOptions view_;
   PinholeCamera left_;
+  std::shared_ptr<const cuda::SharedRasters> rasters_;
   std::shared_ptr<cuda::SharedModel> model_;
   std::size_t capacity_ = 0;
   std::unique_ptr<cuda::Locator> device_;
@@ -86,7 +90,10 @@ ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometr
   // Twice the points at a time, so that a growing model rarely reallocates.
   if (model.size() > capacity_) reserve(2 * model.size());
   device_->setModel(model, *model_);
-  device_->setLive(live, frame.depth);
+  if (rasters_->holds(frame.depth.depth_mm.values.data()))
+    device_->setLive(*rasters_);
+  else
+    device_->setLive(live, frame.depth);
   device_->setSeenGray(seen_gray);
   device_->locate(viewed_from);
   cuda::LocatedMatches found = device_->download();
@@ -97,9 +104,10 @@ ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometr
 /// Other methods have no kernels.
 std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& options,
                                                const RectifiedRig& rig,
+                                               std::shared_ptr<const cuda::SharedRasters> rasters,
                                                std::shared_ptr<cuda::SharedModel> model) {
   if (options.matcher.method != MatcherOptions::kDenseSurf) return makeCpuMatchStage(options, rig);
-  return std::make_unique<CudaMatchStage>(options, rig, std::move(model));
+  return std::make_unique<CudaMatchStage>(options, rig, std::move(rasters), std::move(model));
 }
 
 /// Affine nodes have no kernels.
@@ -127,13 +135,15 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.makeStereo = makeCudaStereoStage;
   // The model stays on the device between the stages.
   const auto model = cuda::makeSharedModel();
-  parts.makeMatching = [model](const ReconstructionOptions& all, const RectifiedRig& rig) {
-    return makeCudaMatchStage(all, rig, model);
+  // So does the frame, from before it is worked on.
+  const auto rasters = std::make_shared<cuda::SharedRasters>();
+  parts.makeUploader = [rasters](const RectifiedRig& rig) {
+    return cuda::makeFrameUploader(rig.left, rasters);
+  };
+  parts.makeMatching = [rasters, model](const ReconstructionOptions& all, const RectifiedRig& rig) {
+    return makeCudaMatchStage(all, rig, rasters, model);
   };
   parts.makePoseSearch = cuda::makePoseSearch;
-  // The comparer copies the frame's rasters to the device while the pose is found; the solver takes
-  // them from there.
-  const auto rasters = std::make_shared<cuda::SharedRasters>();
   parts.makeSolver = [rasters, model](const DeformOptions& warp) {
     return makeCudaSolver(warp, rasters, model);
   };

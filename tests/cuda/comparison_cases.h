@@ -65,14 +65,12 @@ class ComparisonScene {
     FrameComparison comparison;
     BackProjectionError error;
   };
-  Found compareWith(FrameComparer* comparer, bool ahead) const {
+  Found compareWith(FrameComparer* comparer) const {
     const Observation seen = observation();
-    if (ahead) comparer->beginFrame(seen, states_);
     Found found;
     found.seen = comparer->visiblePoints(model_, seen, states_, options_.visibility);
     found.comparison = comparer->compare(model_, graph_, seen, states_, options_);
     found.error = comparer->error(model_, seen, states_);
-    comparer->endFrame();
     return found;
   }
 

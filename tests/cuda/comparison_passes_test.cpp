@@ -14,14 +14,13 @@ class ComparisonPasses : public testing::TestWithParam<ComparisonCase> {};
 TEST_P(ComparisonPasses, FindWhatTheCpuFindsInAnyOrderOfThreads) {
   const ComparisonScene scene(GetParam()), other(comparisonCases()[1]);
   CpuFrameComparer cpu;
-  const bool ahead = true;
-  const ComparisonScene::Found expected = scene.compareWith(&cpu, ahead);
+  const ComparisonScene::Found expected = scene.compareWith(&cpu);
   cuda::ComparisonRun<HostMachine> ordered(ComparisonScene::camera(), 1U);
   cuda::ComparisonRun<HostMachine> shuffled(ComparisonScene::camera(), 77U);
-  const ComparisonScene::Found found = scene.compareWith(&ordered, ahead);
+  const ComparisonScene::Found found = scene.compareWith(&ordered);
   scene.expectSame(found, expected);
-  other.compareWith(&shuffled, ahead);  // nothing is left of another frame
-  scene.expectEqual(scene.compareWith(&shuffled, !ahead), found);
+  other.compareWith(&shuffled);  // nothing is left of another frame
+  scene.expectEqual(scene.compareWith(&shuffled), found);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cuda, ComparisonPasses, testing::ValuesIn(comparisonCases()),

@@ -8,6 +8,7 @@
 
 #include "comparison_cases.h"
 #include "fusion/frame_comparer.h"
+#include "fusion/frame_uploader.h"
 #include "fusion/model_updater.h"
 
 namespace softscope::test {
@@ -81,8 +82,10 @@ class FusionScene {
     return made;
   }
   /// Three frames over what update() left where it lies, with the comparer's questions before and
-  /// after; the host's model is told to have changed before the second.
-  UpdatedModel follow(FrameComparer* comparer, ModelUpdater* updater) const {
+  /// after; the host's model is told to have changed before the second. With an uploader, the
+  /// frames lie where it copies them.
+  UpdatedModel follow(FrameComparer* comparer, ModelUpdater* updater,
+                      FrameUploader* uploader = nullptr) const {
     UpdatedModel made;
     made.model = scene_.model();
     updater->changed(kWholeModel);
@@ -91,14 +94,16 @@ class FusionScene {
         for (Eigen::Vector3f& point : made.model.positions_mm) point.z() += 0.02f;
         updater->changed(kModelShape);
       }
-      comparer->beginFrame(observation_, scene_.states());
+      if (uploader != nullptr) {
+        uploader->upload(observation_, scene_.states(), {}, {});
+        uploader->use(observation_.depth);
+      }
       comparer->visiblePoints(made.model, observation_, scene_.states(), options_.visibility);
       const FrameComparison found =
           comparer->compare(made.model, scene_.graph(), observation_, scene_.states(), options_);
       made.summary = updater->update(observation_, scene_.states(), scene_.graph(), options_,
                                      found.model, &made.memory, &made.model);
       EXPECT_GT(comparer->error(made.model, observation_, scene_.states()).compared_px, 1000);
-      comparer->endFrame();
     }
     updater->fetch(&made.memory);
     return made;

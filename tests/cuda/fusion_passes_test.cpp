@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cuda/comparison/comparison_run.h"
+#include "cuda/frame/upload_run.h"
 #include "cuda/fusion/fusion_run.h"
 #include "fusion_cases.h"
 #include "host_machine.h"
@@ -41,6 +42,9 @@ TEST_P(FusionPasses, FindTheModelWhereOtherStagesLeftIt) {
   kernels.share(home);
   kernels.share(rasters);
   expectSameUpdate(scene.follow(&comparer, &kernels), expected);
+  cuda::UploadRun<HostMachine> uploader(FusionScene::camera(), rasters, 6U);
+  expectSameUpdate(scene.follow(&comparer, &kernels, &uploader), expected);
+  EXPECT_NE(rasters->depth_mm, nullptr);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cuda, FusionPasses, testing::ValuesIn(comparisonCases()),

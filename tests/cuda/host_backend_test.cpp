@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "cuda/comparison/comparison_run.h"
+#include "cuda/frame/upload_run.h"
 #include "cuda/fusion/fusion_run.h"
 #include "cuda/warp/model_warp_run.h"
 #include "host_locate.h"
@@ -95,6 +96,9 @@ BackendParts partsWithModelOnTheDevice(unsigned seed) {
   parts.name = "cuda";
   const auto home = std::make_shared<cuda::ModelHome<HostMachine>>();
   const auto rasters = std::make_shared<cuda::SharedRasters>();
+  parts.makeUploader = [=](const RectifiedRig& rig) {
+    return std::make_unique<cuda::UploadRun<HostMachine>>(rig.left, rasters, seed + 3);
+  };
   parts.makeComparer = [=](const RectifiedRig& rig) {
     auto comparer = std::make_unique<cuda::ComparisonRun<HostMachine>>(rig.left, seed);
     comparer->share(rasters);
@@ -163,10 +167,6 @@ class FailingComparer : public FrameComparer {
  public:
   explicit FailingComparer(std::unique_ptr<FrameComparer> comparer)
       : comparer_(std::move(comparer)) {}
-  void beginFrame(const Observation& frame, const Raster<PixelState>& states) override {
-    comparer_->beginFrame(frame, states);
-  }
-  void endFrame() override { comparer_->endFrame(); }
   std::vector<std::int32_t> visiblePoints(const PointModel& model, const Observation& observation,
                                           const Raster<PixelState>& states,
                                           const VisibilityOptions& options) override {

@@ -3,11 +3,25 @@
 
 #include "core/error.h"
 #include "cuda/device/device_info.h"
+#include "cuda/frame/upload.h"
 #include "cuda/locate/locate.h"
 #include "locate_cases.h"
 
 namespace softscope {
 namespace {
+
+/// As the back end does, ahead.
+void uploadFrame(const test::LocateScene& scene,
+                 const std::shared_ptr<cuda::SharedRasters>& rasters, FrameUploader* uploader) {
+  const NormalMap normals(scene.camera.width_px, scene.camera.height_px);
+  const Raster<PixelState> states(scene.camera.width_px, scene.camera.height_px);
+  const ColourImage no_colour;
+  const Mask no_mask;
+  uploader->upload({scene.depth, normals, no_colour, no_mask, scene.camera}, states,
+                   scene.live.gray, scene.live.ignore);
+  uploader->use(scene.depth);
+  ASSERT_NE(rasters->match_gray, nullptr);
+}
 
 TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
   const cuda::DeviceInfo info = cuda::queryDevices();
@@ -15,6 +29,8 @@ TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
   test::LocateScene scene = test::locateScene();
   cuda::Locator locator(scene.camera, scene.view_options, MatcherOptions(),
                         static_cast<int>(scene.model.size()) + 100);
+  const auto rasters = std::make_shared<cuda::SharedRasters>();
+  const auto uploader = cuda::makeFrameUploader(scene.camera, rasters);
   for (int frame = 0; frame < 4; ++frame) {
     const GrayImage seen_gray = frame % 2 == 0 ? GrayImage() : scene.live.gray;
     if (frame == 2) {  // a smaller model, no sigma
@@ -34,6 +50,10 @@ TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
     const std::vector<LiftedMatch> expected = test::cpuLifted(scene, seen_gray);
     EXPECT_GT(expected.size(), 200U);
     EXPECT_EQ(test::differingLifted(found.lifted, expected), 0);
+    uploadFrame(scene, rasters, uploader.get());
+    locator.setLive(*rasters);
+    locator.locate(scene.world_from_left);
+    EXPECT_EQ(test::differingLifted(locator.download().lifted, expected), 0);
   }
   EXPECT_FALSE(locator.stageTimes().empty());
 }

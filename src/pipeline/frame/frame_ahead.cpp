@@ -17,6 +17,10 @@ FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
   clock->lap("depth");
   FrameView view =
       viewFrame(std::move(measured), std::move(aligned.pictures), depth_->rig(), options_);
+  if (uploader_)
+    uploader_->upload({view.measured.depth, view.measured.normals, view.measured.left,
+                       view.not_tissue, depth_->rig().left},
+                      view.states, view.live.gray, view.live.ignore);
   clock->lap("mask");
   return view;
 }
@@ -51,6 +55,12 @@ void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<cons
 }
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
+  FrameView view = take(frame, clock);
+  if (uploader_) uploader_->use(view.measured.depth);
+  return view;
+}
+
+FrameView FrameAhead::take(const Frame& frame, StageClock* clock) {
   if (!result_.valid()) return measureNow(takeViews(frame), frame, clock);
   if (prepared_.get() != &frame) {  // what was prepared is of no use
     result_.wait();

@@ -2,22 +2,30 @@
 // one.
 #pragma once
 
+#include <functional>
 #include <future>
 #include <memory>
 #include <utility>
 
+#include "fusion/frame_uploader.h"
 #include "pipeline/frame/frame_depth.h"
 #include "pipeline/frame/frame_view.h"
 #include "stereo/matching/stage_clock.h"
 
 namespace softscope {
 
+using FrameUploaderFactory = std::function<std::unique_ptr<FrameUploader>(const RectifiedRig&)>;
+
 /// FrameDepth and viewFrame() with at most two frames under way, each on a thread of its own: the
 /// views of one are aligned while the one before it is matched. Same results.
 class FrameAhead {
  public:
-  FrameAhead(std::unique_ptr<FrameDepth> depth, const ReconstructionOptions& options)
-      : depth_(std::move(depth)), options_(options) {}
+  /// With an uploader, every frame lies on its device when measure() returns.
+  FrameAhead(std::unique_ptr<FrameDepth> depth, const ReconstructionOptions& options,
+             const FrameUploaderFactory& makeUploader = nullptr)
+      : depth_(std::move(depth)),
+        options_(options),
+        uploader_(makeUploader ? makeUploader(depth_->rig()) : nullptr) {}
 
   const FrameDepth& depth() const { return *depth_; }
 
@@ -36,9 +44,11 @@ class FrameAhead {
   Aligned align(const Frame& frame) const;
   FrameView measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
   std::future<Aligned> takeViews(const Frame& frame);
+  FrameView take(const Frame& frame, StageClock* clock);
 
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
+  std::unique_ptr<FrameUploader> uploader_;
   std::shared_ptr<const Frame> prepared_, aligned_;
   std::future<Aligned> views_;     // of aligned_; both end before the frames and depth_ do
   std::future<FrameView> result_;  // of prepared_
