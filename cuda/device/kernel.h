@@ -134,6 +134,16 @@ SOFTSCOPE_HD inline double inverseRoot(double value) {
 #endif
 }
 
+/// a b + c in one instruction of the device, for loops of sums: elsewhere, compiled so that nothing
+/// is contracted, kernels round as the CPU does.
+SOFTSCOPE_HD inline double multiplyAdd(double a, double b, double c) {
+#ifdef __CUDA_ARCH__
+  return fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
 SOFTSCOPE_HD inline float bitsAsFloat(std::uint32_t bits) {
 #ifdef __CUDA_ARCH__
   return __uint_as_float(bits);

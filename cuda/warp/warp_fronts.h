@@ -9,8 +9,8 @@ namespace softscope::cuda {
 
 constexpr int kMostColumns = kMostPivots * kUnknowns;
 
-/// Place of an entry of the factor in the rows of the pivots.
-SOFTSCOPE_HD inline std::ptrdiff_t triangleAt(const FrontShape& front, int row, int column) {
+/// Place of an entry of a front's inverse of L^T in its pivots.
+SOFTSCOPE_HD inline std::ptrdiff_t inverseAt(const FrontShape& front, int row, int column) {
   return static_cast<std::ptrdiff_t>(front.first * kUnknowns + column) * kMostColumns + row;
 }
 
@@ -76,7 +76,9 @@ struct AssembleFrontsKernel {
 };
 
 /// Pivot columns of the fronts of a level, six at a time, left-looking. Every block of a front has
-/// all rows of its pivots, and some of its border: none waits for another. A thread has one row.
+/// all rows of its pivots, and some of those below: none waits for another. A thread has one row.
+/// Below are the border and the unit matrix, which becomes the inverse of L^T: with it, the
+/// solution takes products alone.
 struct FactorFrontsKernel {
   static constexpr int kThreads = 128, kPhases = 2, kBorderRows = kThreads - kMostColumns;
   struct Shared {
@@ -89,35 +91,33 @@ struct FactorFrontsKernel {
   WarpStructureLayout graph;
   int first_front;
 
-  /// Blocks of a front; the right-hand side is the last row of its border.
-  static int blocks(const FrontShape& front) {
-    return blocksFor((front.blocks - front.pivots) * kUnknowns + 1, kBorderRows);
-  }
+  static int blocks(const FrontShape& front) { return blocksFor(rowsBelow(front), kBorderRows); }
   SOFTSCOPE_HD int repeats(const Place& at) const {
     const FrontShape front = graph.fronts[first_front + at.x];
-    const int border = (front.blocks - front.pivots) * kUnknowns + 1;
-    return at.y * kBorderRows < border ? front.pivots : 0;
+    return at.y * kBorderRows < rowsBelow(front) ? front.pivots : 0;
   }
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
     const FrontShape front = graph.fronts[first_front + at.x];
     const int column = at.repeat * kUnknowns, pivots = front.pivots * kUnknowns;
-    const int r = rowOf(front, at);
-    double* base = graph.factor + front.factor + (r < 0 ? 0 : r);
+    const int r = rowOf(front, at), unit = r - rowsStored(front);  // row of the unit matrix, from 0
+    double* base = graph.factor + front.factor + (r < 0 || unit >= 0 ? 0 : r);
     const std::ptrdiff_t leading = front.factor_leading;
     if constexpr (kPhase == 0) {
       if (at.repeat == 0) {
         const int known = r < 0 ? 0 : r < pivots ? (r / kUnknowns + 1) * kUnknowns : pivots;
         SOFTSCOPE_UNROLL(6)
-        for (int k = 0; k < known; ++k) local.own[k] = base[k * leading];
+        for (int k = 0; k < known; ++k)
+          local.own[k] = unit < 0 ? base[k * leading] : k == unit ? 1 : 0;
       }
-      if (r < column) return;
+      if (r < column || unit >= column + kUnknowns) return;
       double row[kUnknowns];
       for (int j = 0; j < kUnknowns; ++j) row[j] = local.own[column + j];
       for (int first = 0; first < column; first += kUnknowns) SOFTSCOPE_UNROLL(6)
       for (int k = first; k < first + kUnknowns; ++k) {
         const double value = local.own[k];
-        for (int j = 0; j < kUnknowns; ++j) row[j] -= value * shared.triangle[k][column + j];
+        for (int j = 0; j < kUnknowns; ++j)
+          row[j] = multiplyAdd(-value, shared.triangle[k][column + j], row[j]);
       }
       if (r < column + kUnknowns)
         for (int j = 0; j < kUnknowns; ++j) shared.corner[r - column][j] = row[j];
@@ -130,33 +130,38 @@ struct FactorFrontsKernel {
       if (is_first && at.thread == 0)  // 0 for a pivot that is not above 0
         for (int j = 0; j < kUnknowns; ++j)
           graph.inverse_pivots[front.first * kUnknowns + column + j] = inverse[j];
-      if (r < column) return;
+      if (r < column || unit >= column + kUnknowns) return;
       double row[kUnknowns];
       for (int j = 0; j < kUnknowns; ++j) row[j] = local.own[column + j];
       for (int j = 0; j < kUnknowns; ++j) {
-        for (int k = 0; k < j; ++k) row[j] -= row[k] * corner[j][k];
+        for (int k = 0; k < j; ++k) row[j] = multiplyAdd(-row[k], corner[j][k], row[j]);
         row[j] *= inverse[j];
       }
       for (int j = 0; j < kUnknowns; ++j) {
         local.own[column + j] = row[j];
-        if (r >= pivots) {
+        if (unit >= 0)
+          graph.inverses[inverseAt(front, unit, column + j)] = row[j];
+        else if (r >= pivots)
           base[(column + j) * leading] = row[j];
-          continue;
-        }
-        shared.triangle[column + j][r] = row[j];
-        if (is_first)  // elsewhere than what it is made from, which other blocks may still read
-          graph.triangles[triangleAt(front, r, column + j)] = row[j];
+        else
+          shared.triangle[column + j][r] = row[j];
       }
     }
   }
 
  private:
+  /// The right-hand side is the last row of the border.
+  SOFTSCOPE_HD static int rowsStored(const FrontShape& front) {
+    return front.blocks * kUnknowns + 1;
+  }
+  /// Stored ones without those of the pivots, and as many of the unit matrix.
+  SOFTSCOPE_HD static int rowsBelow(const FrontShape& front) { return rowsStored(front); }
   /// -1: none.
   SOFTSCOPE_HD static int rowOf(const FrontShape& front, const Place& at) {
     const int pivots = front.pivots * kUnknowns;
     if (at.thread < kMostColumns) return at.thread < pivots ? at.thread : -1;
     const int r = pivots + at.y * kBorderRows + at.thread - kMostColumns;
-    return r < front.blocks * kUnknowns + 1 ? r : -1;
+    return r < pivots + rowsBelow(front) ? r : -1;
   }
 
   SOFTSCOPE_HD static void factorCorner(const Shared& shared,
@@ -166,11 +171,11 @@ struct FactorFrontsKernel {
       for (int j = 0; j <= i; ++j) corner[i][j] = shared.corner[i][j];
     for (int j = 0; j < kUnknowns; ++j) {
       double pivot = corner[j][j];
-      for (int k = 0; k < j; ++k) pivot -= corner[j][k] * corner[j][k];
+      for (int k = 0; k < j; ++k) pivot = multiplyAdd(-corner[j][k], corner[j][k], pivot);
       inverse[j] = pivot > 0 ? inverseRoot(pivot) : 0;
       for (int i = j + 1; i < kUnknowns; ++i) {
         double value = corner[i][j];
-        for (int k = 0; k < j; ++k) value -= corner[i][k] * corner[j][k];
+        for (int k = 0; k < j; ++k) value = multiplyAdd(-corner[i][k], corner[j][k], value);
         corner[i][j] = value * inverse[j];
       }
     }
@@ -215,7 +220,8 @@ struct UpdateFrontsKernel {
       for (int k = 0; k < kColumns; ++k) SOFTSCOPE_UNROLL(3)
       for (int i = 0; i < kEach; ++i) SOFTSCOPE_UNROLL(3)
       for (int j = 0; j < kEach; ++j)
-        local.total[i][j] -= shared.rows[k][x + i * kSide] * shared.columns[k][y + j * kSide];
+        local.total[i][j] = multiplyAdd(-shared.rows[k][x + i * kSide],
+                                        shared.columns[k][y + j * kSide], local.total[i][j]);
       if ((at.repeat + 1) * kColumns < pivots) return;
       SOFTSCOPE_UNROLL(3)
       for (int i = 0; i < kEach; ++i) SOFTSCOPE_UNROLL(3)
@@ -275,63 +281,53 @@ struct UpdateFrontsKernel {
 
 /// One block per front of a level, from the roots down: x = L^-T (y - L^T x of the border).
 struct SolveFrontsKernel {
-  static constexpr int kThreads = 1024, kPhases = 3, kParts = 14, kStagedBorder = 1024;
+  // A thread has one row of the pivots and one node of them, or one part of the border.
+  static constexpr int kThreads = 1024, kPhases = 5, kStagedBorder = 1024;
+  static_assert(kThreads >= kMostColumns * kMostPivots);
   struct Shared {
-    double corner[kMostColumns * (kMostColumns + 1) / 2];  // rows of the lower triangle
-    double inverse[kMostColumns];
     double border[kStagedBorder];
-    double partial[kMostColumns][kParts];
-    double x[kMostColumns];
+    double partial[kMostPivots][kMostColumns];
+    double right[kMostColumns];
   };
   struct Local {
-    double x[kUnknowns];
+    double inverse[kUnknowns];
   };
   WarpStructureLayout graph;
   int first_front;
 
-  /// The first one subtracts the contribution of the border.
-  SOFTSCOPE_HD int repeats(const Place& at) const {
-    return graph.fronts[first_front + at.x].pivots + 1;
-  }
   template <int kPhase>
   SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local& local) const {
     const FrontShape front = graph.fronts[first_front + at.x];
     const int pivots = front.pivots * kUnknowns;
-    if (at.repeat == 0) {
-      if constexpr (kPhase == 0) {
-        stage(front, at.thread, shared);
-      } else if constexpr (kPhase == 1) {
-        for (int i = at.thread; i < pivots * kParts; i += kThreads)
-          shared.partial[i / kParts][i % kParts] =
-              borderPart(front, i / kParts, i % kParts, shared);
-      } else {
-        for (int k = at.thread; k < pivots; k += kThreads) {
-          double sum = entry(front, front.blocks * kUnknowns, k);
-          for (int part = 0; part < kParts; ++part) sum -= shared.partial[k][part];
-          shared.x[k] = sum;
-        }
-      }
-      return;
-    }
-    const int column = pivots - at.repeat * kUnknowns;
+    const int row = at.thread % kMostColumns, part = at.thread / kMostColumns;
     if constexpr (kPhase == 0) {
-      if (at.thread < column || at.thread == kThreads - 1) solveCorner(column, shared, local.x);
+      for (int j = 0; j < kUnknowns; ++j)
+        local.inverse[j] = row < pivots && part < front.pivots && part >= row / kUnknowns
+                               ? graph.inverses[inverseAt(front, row, part * kUnknowns + j)]
+                               : 0;
+      const int border = front.blocks * kUnknowns - pivots;
+      for (int i = at.thread; i < border && i < kStagedBorder; i += kThreads)
+        shared.border[i] = unknown(front, pivots + i);
     } else if constexpr (kPhase == 1) {
-      if (at.thread == kThreads - 1)
-        for (int j = 0; j < kUnknowns; ++j) shared.x[column + j] = local.x[j];
-      for (int k = at.thread; k < column; k += kThreads) {
-        double value = shared.x[k];
-        for (int j = 0; j < kUnknowns; ++j)
-          value -= shared.corner[cornerAt(column + j, k)] * local.x[j];
-        shared.x[k] = value;
-      }
-    } else if (column == 0) {
-      for (int k = at.thread; k < pivots; k += kThreads) unknown(front, k) = shared.x[k];
+      const int of_border = at.thread % kMostPivots, column = at.thread / kMostPivots;
+      if (column < pivots)
+        shared.partial[of_border][column] = borderPart(front, column, of_border, shared);
+    } else if constexpr (kPhase == 2) {
+      if (part > 0 || row >= pivots) return;
+      shared.right[row] =
+          entry(front, front.blocks * kUnknowns, row) - sumOfParts(kMostPivots, row, shared);
+    } else if constexpr (kPhase == 3) {
+      if (part >= front.pivots) return;
+      double sum = 0;
+      for (int j = 0; j < kUnknowns; ++j)
+        sum = multiplyAdd(local.inverse[j], shared.right[part * kUnknowns + j], sum);
+      shared.partial[part][row] = sum;
+    } else {
+      if (part == 0 && row < pivots) unknown(front, row) = sumOfParts(front.pivots, row, shared);
     }
   }
 
  private:
-  SOFTSCOPE_HD static int cornerAt(int row, int column) { return row * (row + 1) / 2 + column; }
   SOFTSCOPE_HD double entry(const FrontShape& front, int row, int column) const {
     return graph
         .factor[front.factor + row + static_cast<std::ptrdiff_t>(column) * front.factor_leading];
@@ -340,17 +336,6 @@ struct SolveFrontsKernel {
     return graph
         .solution[graph.front_nodes[front.nodes + row / kUnknowns] * kUnknowns + row % kUnknowns];
   }
-  SOFTSCOPE_HD void stage(const FrontShape& front, int thread, Shared& shared) const {
-    const int pivots = front.pivots * kUnknowns, border = front.blocks * kUnknowns - pivots;
-    constexpr int kLanes = 32;
-    for (int column = thread / kLanes; column < pivots; column += kThreads / kLanes)
-      for (int row = column + thread % kLanes; row < pivots; row += kLanes)
-        shared.corner[cornerAt(row, column)] = graph.triangles[triangleAt(front, row, column)];
-    for (int i = thread; i < pivots; i += kThreads)
-      shared.inverse[i] = graph.inverse_pivots[front.first * kUnknowns + i];
-    for (int i = thread; i < border && i < kStagedBorder; i += kThreads)
-      shared.border[i] = unknown(front, pivots + i);
-  }
   SOFTSCOPE_HD double borderPart(const FrontShape& front, int column, int part,
                                  const Shared& shared) const {
     const int pivots = front.pivots * kUnknowns, border = front.blocks * kUnknowns - pivots;
@@ -358,18 +343,16 @@ struct SolveFrontsKernel {
     double sum = 0;
     int i = part;
     SOFTSCOPE_UNROLL(8)
-    for (; i < staged; i += kParts) sum += entry(front, pivots + i, column) * shared.border[i];
-    for (; i < border; i += kParts)
-      sum += entry(front, pivots + i, column) * unknown(front, pivots + i);
+    for (; i < staged; i += kMostPivots)
+      sum = multiplyAdd(entry(front, pivots + i, column), shared.border[i], sum);
+    for (; i < border; i += kMostPivots)
+      sum = multiplyAdd(entry(front, pivots + i, column), unknown(front, pivots + i), sum);
     return sum;
   }
-  SOFTSCOPE_HD static void solveCorner(int column, const Shared& shared, double (&x)[kUnknowns]) {
-    for (int j = kUnknowns - 1; j >= 0; --j) {
-      double value = shared.x[column + j];
-      for (int i = j + 1; i < kUnknowns; ++i)
-        value -= shared.corner[cornerAt(column + i, column + j)] * x[i];
-      x[j] = value * shared.inverse[column + j];
-    }
+  SOFTSCOPE_HD static double sumOfParts(int parts, int row, const Shared& shared) {
+    double sum = 0;
+    for (int part = 0; part < parts; ++part) sum += shared.partial[part][row];
+    return sum;
   }
 };
 

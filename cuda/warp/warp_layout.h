@@ -55,7 +55,7 @@ struct WarpStructureLayout {
     matrix = arena.array<double>(of.diagonal_of.size() * static_cast<std::size_t>(kBlockEntries));
     gradient = arena.array<double>(unknowns);
     factor = arena.array<double>(of.fronts.factor_doubles);
-    triangles = arena.array<double>(unknowns * static_cast<std::size_t>(kMostPivots * kUnknowns));
+    inverses = arena.array<double>(unknowns * static_cast<std::size_t>(kMostPivots * kUnknowns));
     updates = arena.array<double>(of.fronts.update_doubles);
     inverse_pivots = arena.array<double>(unknowns);
     solution = arena.array<double>(unknowns);
@@ -86,7 +86,7 @@ struct WarpStructureLayout {
   double *part_blocks, *part_gradients;
   double *matrix, *gradient;  // blocks of the pattern, column-major; per node
   double *factor, *updates, *inverse_pivots;
-  double* triangles;  // of the factor, the rows of the pivots
+  double* inverses;  // of L^T in the pivots of each front, by columns
   double* solution;
   StencilSums* stencil_sums;
   double *edge_energies, *rest_energies;

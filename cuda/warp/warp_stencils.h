@@ -216,7 +216,8 @@ struct StencilKernel {
     if (thread >= kMatrix) {
       for (int r = 0; r < batch; ++r)
         for (int e = 0; e < kEntriesEach; ++e)
-          total[e] += shared.pulls[r] * shared.rows[r][(thread - kMatrix) * kEntriesEach + e];
+          total[e] = multiplyAdd(shared.pulls[r],
+                                 shared.rows[r][(thread - kMatrix) * kEntriesEach + e], total[e]);
       return;
     }
     int i = 0, j = thread / kInBlock;  // the block's column and row
@@ -226,7 +227,7 @@ struct StencilKernel {
     const int column = i * kUnknowns + inside / kUnknowns, row = j * kUnknowns + inside % kUnknowns;
     for (int r = 0; r < batch; ++r)
       for (int e = 0; e < kEntriesEach; ++e)
-        total[e] += shared.rows[r][column] * shared.rows[r][row + e];
+        total[e] = multiplyAdd(shared.rows[r][column], shared.rows[r][row + e], total[e]);
   }
   SOFTSCOPE_HD void store(const Place& at, const Local& local) const {
     constexpr int kMatrix = kStencilBlocks * kBlockEntries;

@@ -73,7 +73,7 @@ float distanceMm(const PointModel& model, std::size_t place, const Eigen::Vector
 }
 
 /// Bytes where every frame was computed on the processor. A GPU takes the solver's sums in another
-/// order: energies differ by 1e-11 of their size, so one point in thousands falls on the other side
+/// order: energies differ by 1e-15 of their size, so one point in thousands falls on the other side
 /// of a threshold, and all others lie within 0.003 mm, below which differences between two surfaces
 /// mean nothing.
 void expectModelOfTheCpu(const Reconstructor& reconstructor, const std::string& backend) {

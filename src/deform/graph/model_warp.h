@@ -9,8 +9,8 @@
 
 namespace softscope {
 
-/// Carries points and normals by docs/energy.md (2), (24), on any device. Implementations agree up
-/// to rounding.
+/// Carries points and normals by docs/energy.md (2), (24), on any device. All implementations give
+/// the same bytes.
 class ModelWarp {
  public:
   virtual ~ModelWarp() = default;
