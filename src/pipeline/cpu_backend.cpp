@@ -265,7 +265,7 @@ void CpuBackend::acceptWarp(bool is_reference) {
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
   // Nearly every frame is confirmed: what fusion asks first is found beside the evidence, and the
   // tracked points are aligned.
-  if (worksAhead())
+  if (tracks() && worksAhead())
     aligning_ = std::async(std::launch::async, [=] { alignTracks(world_from_left); });
   FrameComparison found;
   orRejectWarp([&] {
