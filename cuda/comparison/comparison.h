@@ -10,7 +10,7 @@
 
 namespace softscope::cuda {
 
-/// `shared`: where it tells what rasters lie on the device; `model`: ComparisonRun::share(). Both
+/// `shared`: what rasters lie on the device already; `model`: ComparisonRun::share(). Both
 /// may be null. Throws BackendError where no GPU works.
 std::unique_ptr<FrameComparer> makeFrameComparer(
     const PinholeCamera& left, std::shared_ptr<const SharedRasters> shared = nullptr,

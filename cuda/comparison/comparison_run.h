@@ -44,6 +44,7 @@ class ComparisonRun final : public FrameComparer {
   /// A model that knows what has changed; what compare() says of its points stays there, and the
   /// visibility that it returns is empty.
   void share(std::shared_ptr<ModelHome<Machine>> home) { shared_home_ = std::move(home); }
+
   std::vector<std::int32_t> visiblePoints(const PointModel& model, const Observation& observation,
                                           const Raster<PixelState>& states,
                                           const VisibilityOptions& options) override {

@@ -99,7 +99,8 @@ Extents extentsAlongColumns(const Counts& disparity) {
 /// window in its middle.
 enum class Sides { kBoth, kEven };
 
-/// `sums(place)` of the window's values, by prefix sums: prefixAt(end) - prefixAt(begin).
+/// Sum of the values from `before` places before the middle to `after` behind it; prefixAt(k): of
+/// the first k.
 template <Sides kSides, class PrefixAt>
 std::uint64_t sumWithin(int middle, int before, int after, const PrefixAt& prefixAt) {
   if (kSides == Sides::kEven) before = after = std::min(before, after);
