@@ -121,10 +121,9 @@ class ComparisonRun final : public FrameComparer {
     const DepthMap& depth = observation.depth;
     frame_.has_sigma = !depth.sigma_mm.empty();
     frame_.has_colour = !observation.colour.empty();
-    if (shared_ && shared_->holds(depth.depth_mm.values.data()))
-      takeRasters(*shared_);
-    else
-      sendRasters(observation, states);
+    if (shared_ && shared_->holds(depth.depth_mm.values.data())) return takeRasters(*shared_);
+    takeRasters(own_rasters_.send(observation, states, machine_));
+    machine_.wait();
   }
   template <class Rasters>
   void takeRasters(const Rasters& from) {
@@ -133,17 +132,6 @@ class ComparisonRun final : public FrameComparer {
     frame_.normals = from.normals;
     frame_.states = from.states;
     frame_.colour = from.colour;
-  }
-  void sendRasters(const Observation& observation, const Raster<PixelState>& states) {
-    const std::size_t pixels = states.size();
-    Arena counting;
-    const RasterLayout planned(counting, pixels);
-    if (raster_memory_.bytes() < counting.bytes()) raster_memory_ = Memory(counting.bytes(), kWhat);
-    Arena arena(raster_memory_.data());
-    const RasterLayout own(arena, pixels);
-    own.send(observation, states, machine_);
-    machine_.wait();
-    takeRasters(own);
   }
   void takeModel(const PointModel& model, ModelParts parts) {
     ModelHome<Machine>& home = shared_home_ ? *shared_home_ : own_home_;
@@ -249,7 +237,8 @@ class ComparisonRun final : public FrameComparer {
     if (!from.empty()) machine_.toDevice(to, from.data(), from.size() * sizeof(T));
   }
 
-  Memory frame_memory_, raster_memory_, model_memory_, graph_memory_;
+  Memory frame_memory_, model_memory_, graph_memory_;
+  OwnRasters<Machine> own_rasters_;
   Machine machine_;
   ComparisonPasses<typename Machine::Executor> passes_;
   ComparisonFrameLayout frame_;

@@ -41,4 +41,27 @@ struct RasterLayout {
   PixelState* states = nullptr;
 };
 
+/// Room for the rasters of a stage that finds none on the device. Machine: as WarpRun has it.
+template <class Machine>
+class OwnRasters {
+ public:
+  /// The caller waits for the machine before the frame changes.
+  const RasterLayout& send(const Observation& frame, const Raster<PixelState>& states,
+                           const Machine& machine) {
+    const std::size_t pixels = states.size();
+    Arena counting;
+    const RasterLayout planned(counting, pixels);
+    if (memory_.bytes() < counting.bytes())
+      memory_ = typename Machine::Memory(counting.bytes(), "memory for a frame");
+    Arena arena(memory_.data());
+    rasters_ = RasterLayout(arena, pixels);
+    rasters_.send(frame, states, machine);
+    return rasters_;
+  }
+
+ private:
+  typename Machine::Memory memory_;
+  RasterLayout rasters_;
+};
+
 }  // namespace softscope::cuda

@@ -92,11 +92,10 @@ class FusionRun final : public ModelUpdater {
                              shared_->normals, has_colour ? shared_->colour : nullptr};
       work->states = shared_->states;
     } else {
-      reserveRasters();
-      rasters_.send(observation, states, machine_);
-      work->frame.rasters = {rasters_.depth_mm, has_sigma ? rasters_.sigma_mm : nullptr,
-                             rasters_.normals, has_colour ? rasters_.colour : nullptr};
-      work->states = rasters_.states;
+      const RasterLayout& own = own_rasters_.send(observation, states, machine_);
+      work->frame.rasters = {own.depth_mm, has_sigma ? own.sigma_mm : nullptr, own.normals,
+                             has_colour ? own.colour : nullptr};
+      work->states = own.states;
     }
     work->image = image_;
     work->unexplained_mm = image_.unexplained_mm[current_];
@@ -186,14 +185,6 @@ class FusionRun final : public ModelUpdater {
     return summary;
   }
 
-  void reserveRasters() {
-    if (rasters_.depth_mm != nullptr) return;
-    Arena counting;
-    RasterLayout(counting, pixels_);
-    raster_memory_ = Memory(counting.bytes(), kWhat);
-    Arena arena(raster_memory_.data());
-    rasters_ = RasterLayout(arena, pixels_);
-  }
   void reservePoints(std::size_t capacity) {
     if (capacity <= points_.capacity) return;
     Arena counting;
@@ -210,13 +201,13 @@ class FusionRun final : public ModelUpdater {
 
   std::size_t pixels_;
   std::shared_ptr<ModelHome<Machine>> home_;
-  Memory frame_memory_, raster_memory_, point_memory_, graph_memory_, last_memory_;
+  Memory frame_memory_, point_memory_, graph_memory_, last_memory_;
+  OwnRasters<Machine> own_rasters_;
   typename Machine::Pinned memory_arrived_;
   Machine machine_;
   FusionPasses<typename Machine::Executor> passes_;
   Downlink<Machine> downlink_;
   FusionFrameLayout image_;
-  RasterLayout rasters_;
   FusionPointLayout points_;
   std::shared_ptr<const SharedRasters> shared_;
   bool is_memory_due_ = false;      // to the host, where it has arrived in pinned memory
