@@ -10,6 +10,7 @@
 #include "core/warp_graph.h"
 #include "cuda/device/arena.h"
 #include "cuda/device/fixed_sum.h"
+#include "cuda/device/rank_search.h"
 #include "cuda/model/model_layout.h"
 #include "fusion/block_correlation.h"
 #include "fusion/colour_gain.h"
@@ -22,13 +23,6 @@ namespace softscope::cuda {
 /// Weighted totals of seen points: of one node, or of the frame.
 struct InnovationSums {
   FixedSum weight, away_mm, expected_mm2, square_mm2;
-};
-
-/// A value of some rank is found in three steps, by 11, 11 and 9 bits of its size.
-constexpr int kRankSteps = 3, kRankBins = 2048;
-SOFTSCOPE_HD constexpr int rankShift(int step) { return step == 0 ? 20 : step == 1 ? 9 : 0; }
-struct RankSearch {
-  std::uint32_t rank, bits;  // left within `bits`, which are those found so far
 };
 
 /// What comes down in one piece; the blocks of the image follow.
@@ -56,7 +50,7 @@ struct ComparisonFrameLayout {
     drawn_cells = arena.array<std::uint32_t>(cells());
     drawn = arena.array<unsigned long long>(pixels);
     differences_mm = arena.array<float>(pixels);
-    rank_counts = arena.array<std::uint32_t>(kRankSteps * kRankBins);
+    rank_counts = arena.array<std::uint32_t>(kRankCounts);
     // From here on in one piece:
     const std::size_t begin = arena.bytes();
     totals = arena.array<ComparisonTotals>(1);

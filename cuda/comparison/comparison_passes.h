@@ -22,7 +22,7 @@ class ComparisonPasses {
       reset.add(frame.drawn_cells, frame.cells(), floatAsBits(kFar));
       reset.add(frame.drawn, 2 * pixels(frame), 0xFFFFFFFFu);  // DrawnPoints::kNoPoint
       reset.add(frame.totals, frame.totals_bytes / sizeof(std::uint32_t), 0);
-      reset.add(frame.rank_counts, kRankSteps * kRankBins, 0);
+      reset.add(frame.rank_counts, kRankCounts, 0);
     }
     launch("reset", reset);
     launch("sight", SightKernel{frame, model, camera, limits, draws});
@@ -59,7 +59,8 @@ class ComparisonPasses {
         const PixelKernel<CountRankBody> count{{frame, step}, frame.width, frame.height};
         executor_.launch("count rank", count, count.grid());
       }
-      executor_.launch("pick rank", PickRankKernel{frame, step}, Grid{});
+      launch("pick rank",
+             PickRankKernel<Percentile95>{frame.rank_counts, &frame.totals->rank, step, 1});
     }
     executor_.mark("pixels");
   }

@@ -94,43 +94,6 @@ struct EvidenceKernel {
   }
 };
 
-/// One block: bin of the counts of a step that contains the value of the rank.
-struct PickRankKernel {
-  static constexpr int kThreads = 256, kPhases = 2, kBinsEach = kRankBins / kThreads;
-  struct Shared {
-    std::uint32_t counts[kThreads];
-  };
-  using Local = Nothing;
-  ComparisonFrameLayout frame;
-  int step;
-
-  template <int kPhase>
-  SOFTSCOPE_HD void run(const Place& at, Shared& shared, Local&) const {
-    const std::uint32_t* counts = frame.rank_counts + step * kRankBins;
-    if constexpr (kPhase == 0) {
-      std::uint32_t sum = 0;
-      for (int k = 0; k < kBinsEach; ++k) sum += counts[at.thread * kBinsEach + k];
-      shared.counts[at.thread] = sum;
-    } else {
-      if (at.thread > 0) return;
-      ComparisonTotals& totals = *frame.totals;
-      RankSearch search = totals.rank;
-      if (step == 0) {
-        const unsigned long long last = totals.differences > 0 ? totals.differences - 1 : 0;
-        search = {static_cast<std::uint32_t>(last * 95 / 100), 0};
-      }
-      int part = 0;
-      for (; part < kThreads - 1 && shared.counts[part] <= search.rank; ++part)
-        search.rank -= shared.counts[part];
-      int bin = part * kBinsEach;
-      for (; bin < part * kBinsEach + kBinsEach - 1 && counts[bin] <= search.rank; ++bin)
-        search.rank -= counts[bin];
-      search.bits |= static_cast<std::uint32_t>(bin) << rankShift(step);
-      totals.rank = search;
-    }
-  }
-};
-
 /// Counts of the next bits of those differences that have the bits found so far.
 struct CountRankBody {
   ComparisonFrameLayout frame;
@@ -139,13 +102,8 @@ struct CountRankBody {
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     const float difference_mm = frame.differences_mm[v * frame.width + u];
     if (!std::isfinite(difference_mm)) return;
-    const std::uint32_t bits = floatAsBits(std::abs(difference_mm));
-    const int found = rankShift(step - 1);
-    if (bits >> found != frame.totals->rank.bits >> found) return;
-    const std::uint32_t mask = (1u << (found - rankShift(step))) - 1;
-    atomicPlus(
-        &frame.rank_counts[step * kRankBins + static_cast<int>(bits >> rankShift(step) & mask)],
-        1u);
+    const int bin = rankBin(difference_mm, step, frame.totals->rank);
+    if (bin >= 0) atomicPlus(&frame.rank_counts[step * kRankBins + bin], 1u);
   }
 };
 

@@ -137,6 +137,20 @@ class Stereo::Device {
     return found;
   }
 
+  void drop(const Mask& mask) {
+    requireShape(mask);
+    stream_.toDevice(layout_.dropped.data, mask.values.data(), pixels_);
+    passes_.drop();
+    wait();
+  }
+  SharedRasters rasters() const {
+    SharedRasters measured;
+    measured.depth_mm = layout_.depth.data;
+    measured.sigma_mm = layout_.depth_sigma.data;
+    measured.normals = reinterpret_cast<const Eigen::Vector3f*>(layout_.normals.data);
+    return measured;
+  }
+
   void timeStages(bool on) { is_timed_ = on; }
   const std::vector<std::pair<std::string, double>>& stageTimes() const { return stage_times_; }
   std::size_t deviceBytes() const { return memory_.bytes(); }
@@ -274,6 +288,8 @@ void Stereo::setMask(const Mask& mask) { device_->setMask(mask); }
 void Stereo::compute(double roll_rad) { device_->compute(roll_rad); }
 void Stereo::wait() { device_->wait(); }
 StereoDepth Stereo::download() { return device_->download(); }
+void Stereo::drop(const Mask& mask) { device_->drop(mask); }
+SharedRasters Stereo::rasters() const { return device_->rasters(); }
 void Stereo::timeStages(bool on) { device_->timeStages(on); }
 const std::vector<std::pair<std::string, double>>& Stereo::stageTimes() const {
   return device_->stageTimes();

@@ -10,6 +10,7 @@
 #include "core/depth_map.h"
 #include "core/image.h"
 #include "core/rectified_rig.h"
+#include "cuda/device/shared_rasters.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/options/stereo_options.h"
 
@@ -44,6 +45,10 @@ class Stereo {
   void compute(double roll_rad = 0);
   void wait();
   StereoDepth download();
+  /// Removes pixels from what was computed last; downloads before stay as they are.
+  void drop(const Mask& mask);
+  /// What was computed last; host_depth_mm is left to the caller.
+  SharedRasters rasters() const;
 
   /// With stage times, kernels are launched one by one and compute() waits; otherwise as graphs.
   void timeStages(bool on);

@@ -173,6 +173,7 @@ struct StereoLayout {
     }
     const StereoLevel& full = levels.front();
     mask = arena.image<std::uint8_t>(full.width, full.height);
+    dropped = arena.image<std::uint8_t>(full.width, full.height);
     if (options.smoothing.reach_blocks > 0) {
       smoothing = smoothingRules(options.smoothing, options.refinement, full.width, full.height);
       const auto blocks =
@@ -191,7 +192,7 @@ struct StereoLayout {
   }
 
   std::vector<StereoLevel> levels;
-  View<std::uint8_t> mask;
+  View<std::uint8_t> mask, dropped;  // before the normals; after them
   SmoothingRules smoothing{};
   SmoothingBlock* means = nullptr;
   SmoothingPatch* patches = nullptr;

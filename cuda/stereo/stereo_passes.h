@@ -109,6 +109,15 @@ class StereoPasses {
     executor_.mark("normals");
   }
 
+  /// After finish().
+  void drop() {
+    perPixel("drop",
+             DropPixelBody{readOnly(layout_.dropped),
+                           {layout_.disparity, layout_.sigma, layout_.depth, layout_.depth_sigma},
+                           layout_.normals},
+             layout_.levels.front());
+  }
+
   static View<float> refined(const StereoLevel& level) {
     return disparityOf(level, RefinementOptions::steps);
   }

@@ -196,6 +196,19 @@ struct NormalPixel {
   float x, y, z;
 };
 
+/// Removes all measurements of masked pixels.
+struct DropPixelBody {
+  View<const std::uint8_t> mask;
+  View<float> rasters[4];
+  View<NormalPixel> normals;
+
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    if (mask.at(u, v) == 0) return;
+    for (const View<float>& raster : rasters) raster.at(u, v) = quietNan();
+    normals.at(u, v) = {quietNan(), quietNan(), quietNan()};
+  }
+};
+
 /// Plane fitted to the inverse depth around each pixel; one block: 32 x 16 pixels.
 struct NormalKernel {
   static constexpr int kThreads = 256, kPhases = 3, kWidth = 32, kHeight = 16;

@@ -36,7 +36,7 @@ class CpuBackend : public ReconstructionBackend {
         device_(parts.device),
         ahead_from_threads_(parts.ahead_from_threads),
         frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo), options,
-                parts.makeUploader),
+                parts.makeSurvey),
         matching_(parts.makeMatching(options, rig())),
         pose_search_(parts.makePoseSearch()),
         solver_(parts.makeSolver(options.deform)),

@@ -30,7 +30,9 @@ struct BackendParts {
   std::function<std::unique_ptr<PoseSearch>()> makePoseSearch = [] {
     return std::make_unique<CpuPoseSearch>();
   };
-  FrameUploaderFactory makeUploader;  // may be empty
+  FrameSurveyFactory makeSurvey = [](const RectifiedRig&) {
+    return std::make_unique<CpuFrameSurvey>();
+  };
   std::function<std::unique_ptr<FrameComparer>(const RectifiedRig&)> makeComparer =
       [](const RectifiedRig&) { return std::make_unique<CpuFrameComparer>(); };
   std::function<std::unique_ptr<ModelUpdater>(const RectifiedRig&)> makeUpdater =

@@ -4,7 +4,7 @@
 
 #include "cuda/comparison/comparison.h"
 #include "cuda/device/device_info.h"
-#include "cuda/frame/upload.h"
+#include "cuda/frame/survey.h"
 #include "cuda/fusion/fusion.h"
 #include "cuda/locate/locate.h"
 #include "cuda/pose/pose.h"
@@ -22,18 +22,28 @@ namespace {
 
 class CudaStereoStage final : public StereoStage {
  public:
-  CudaStereoStage(const StereoOptions& options, const RectifiedRig& rig)
-      : device_(options, rig, rig.left.width_px, rig.left.height_px), method_(options.method) {}
+  /// Depth that stays on the device is told of by `measured`.
+  CudaStereoStage(const StereoOptions& options, const RectifiedRig& rig,
+                  std::shared_ptr<cuda::SharedRasters> measured)
+      : device_(options, rig, rig.left.width_px, rig.left.height_px),
+        method_(options.method),
+        measured_(std::move(measured)) {}
   std::string name() const override { return method_; }
   MatchableViews prepare(const AlignedPair& aligned) const override {
     return matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
   }
   StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
                         const Mask& mask) override;
+  void drop(const Mask& mask, StereoSurface* measured) override {
+    if (mask.empty()) return;
+    measured->drop(mask);
+    device_.drop(mask);
+  }
 
  private:
   cuda::Stereo device_;
   std::string method_;
+  std::shared_ptr<cuda::SharedRasters> measured_;
   bool is_masked_ = false;
 };
 
@@ -45,6 +55,8 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Matchab
   device_.upload(prepared);
   device_.compute(aligned.roll_rad);
   cuda::StereoDepth found = device_.download();
+  *measured_ = device_.rasters();
+  measured_->host_depth_mm = found.depth.depth_mm.values.data();
   clock.lap("disparity");
   return {std::move(found.disparity), std::move(found.depth), std::move(found.normals),
           clock.laps()};
@@ -125,20 +137,23 @@ std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
 
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
                                                  const RectifiedRig& rig) {
-  return std::make_unique<CudaStereoStage>(options, rig);
+  return std::make_unique<CudaStereoStage>(options, rig, std::make_shared<cuda::SharedRasters>());
 }
 
 std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& calibration,
                                                        const ReconstructionOptions& options) {
   BackendParts parts;
   parts.name = "cuda";
-  parts.makeStereo = makeCudaStereoStage;
   // The model stays on the device between the stages.
   const auto model = cuda::makeSharedModel();
-  // So does the frame, from before it is worked on.
+  // So does the frame, measured and at hand.
+  const auto measured = std::make_shared<cuda::SharedRasters>();
   const auto rasters = std::make_shared<cuda::SharedRasters>();
-  parts.makeUploader = [rasters](const RectifiedRig& rig) {
-    return cuda::makeFrameUploader(rig.left, rasters);
+  parts.makeStereo = [measured](const StereoOptions& options, const RectifiedRig& rig) {
+    return std::make_unique<CudaStereoStage>(options, rig, measured);
+  };
+  parts.makeSurvey = [measured, rasters](const RectifiedRig& rig) {
+    return cuda::makeFrameSurvey(rig.left, measured, rasters);
   };
   parts.makeMatching = [rasters, model](const ReconstructionOptions& all, const RectifiedRig& rig) {
     return makeCudaMatchStage(all, rig, rasters, model);

@@ -8,8 +8,9 @@
 
 #include "comparison_cases.h"
 #include "fusion/frame_comparer.h"
-#include "fusion/frame_uploader.h"
+#include "fusion/frame_survey.h"
 #include "fusion/model_updater.h"
+#include "survey_frame.h"
 
 namespace softscope::test {
 
@@ -82,10 +83,10 @@ class FusionScene {
     return made;
   }
   /// Three frames over what update() left where it lies, with the comparer's questions before and
-  /// after; the host's model is told to have changed before the second. With an uploader, the
-  /// frames lie where it copies them.
+  /// after; the host's model is told to have changed before the second. With a survey, the
+  /// frames lie where it leaves them.
   UpdatedModel follow(FrameComparer* comparer, ModelUpdater* updater,
-                      FrameUploader* uploader = nullptr) const {
+                      FrameSurvey* survey = nullptr) const {
     UpdatedModel made;
     made.model = scene_.model();
     updater->changed(kWholeModel);
@@ -94,9 +95,9 @@ class FusionScene {
         for (Eigen::Vector3f& point : made.model.positions_mm) point.z() += 0.02f;
         updater->changed(kModelShape);
       }
-      if (uploader != nullptr) {
-        uploader->upload(observation_, scene_.states(), {}, {});
-        uploader->use(observation_.depth);
+      if (survey != nullptr) {
+        surveyFrame(observation_, options_.pixels, survey);
+        survey->use(observation_.depth);
       }
       comparer->visiblePoints(made.model, observation_, scene_.states(), options_.visibility);
       const FrameComparison found =

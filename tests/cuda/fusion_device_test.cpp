@@ -3,7 +3,7 @@
 
 #include "cuda/comparison/comparison.h"
 #include "cuda/device/device_info.h"
-#include "cuda/frame/upload.h"
+#include "cuda/frame/survey.h"
 #include "cuda/fusion/fusion.h"
 #include "fusion_cases.h"
 
@@ -38,8 +38,8 @@ TEST_P(FusionOnDevice, FindsTheModelWhereTheComparerLeftIt) {
   const auto comparer = cuda::makeFrameComparer(FusionScene::camera(), rasters, model);
   const auto updater = cuda::makeModelUpdater(FusionScene::camera(), rasters, model);
   expectSameUpdate(scene.follow(comparer.get(), updater.get()), expected);
-  const auto uploader = cuda::makeFrameUploader(FusionScene::camera(), rasters);
-  expectSameUpdate(scene.follow(comparer.get(), updater.get(), uploader.get()), expected);
+  const auto survey = cuda::makeFrameSurvey(FusionScene::camera(), nullptr, rasters);
+  expectSameUpdate(scene.follow(comparer.get(), updater.get(), survey.get()), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cuda, FusionOnDevice, testing::ValuesIn(comparisonCases()),

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "cuda/comparison/comparison_run.h"
-#include "cuda/frame/upload_run.h"
+#include "cuda/frame/survey_run.h"
 #include "cuda/fusion/fusion_run.h"
 #include "fusion_cases.h"
 #include "host_machine.h"
-#include "pixel_state_body.h"
 
 namespace softscope::test {
 namespace {
@@ -42,8 +41,8 @@ TEST_P(FusionPasses, FindTheModelWhereOtherStagesLeftIt) {
   kernels.share(home);
   kernels.share(rasters);
   expectSameUpdate(scene.follow(&comparer, &kernels), expected);
-  cuda::UploadRun<HostMachine> uploader(FusionScene::camera(), rasters, 6U);
-  expectSameUpdate(scene.follow(&comparer, &kernels, &uploader), expected);
+  cuda::SurveyRun<HostMachine> survey(FusionScene::camera(), nullptr, rasters, 6U);
+  expectSameUpdate(scene.follow(&comparer, &kernels, &survey), expected);
   EXPECT_NE(rasters->depth_mm, nullptr);
 }
 
@@ -58,22 +57,6 @@ TEST(FusionCrowd, IsThinnedAsTheCpuDoes) {
             static_cast<std::int32_t>(expected.summary.index_map.new_of_old.size()) - 2900);
   cuda::FusionRun<HostMachine> kernels(FusionScene::camera(), 5U);
   expectSameUpdate(thinCrowd(scene, &kernels), expected);
-}
-
-TEST(PixelStates, AreThoseOfTheCpuInAnyOrderOfThreads) {
-  for (const ComparisonCase& each : comparisonCases()) {
-    const ComparisonScene scene(each);
-    const Observation frame = scene.observation();
-    const PosedCamera camera = posedCamera(frame.left, frame.world_from_left);
-    std::vector<PixelState> states(scene.states().size());
-    const cuda::PixelKernel<PixelStateBody> kernel{
-        {frameRasters(frame), camera, frame.mask.empty() ? nullptr : frame.mask.values.data(),
-         static_cast<float>(scene.options().pixels.max_sigma_mm), states.data()},
-        camera.width_px,
-        camera.height_px};
-    cuda::HostExecutor(3).launch("states", kernel, kernel.grid());
-    EXPECT_TRUE(states == scene.states().values) << each.name;
-  }
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "cuda/comparison/comparison_run.h"
-#include "cuda/frame/upload_run.h"
+#include "cuda/frame/survey_run.h"
 #include "cuda/fusion/fusion_run.h"
 #include "cuda/warp/model_warp_run.h"
 #include "host_locate.h"
@@ -96,8 +96,8 @@ BackendParts partsWithModelOnTheDevice(unsigned seed) {
   parts.name = "cuda";
   const auto home = std::make_shared<cuda::ModelHome<HostMachine>>();
   const auto rasters = std::make_shared<cuda::SharedRasters>();
-  parts.makeUploader = [=](const RectifiedRig& rig) {
-    return std::make_unique<cuda::UploadRun<HostMachine>>(rig.left, rasters, seed + 3);
+  parts.makeSurvey = [=](const RectifiedRig& rig) {
+    return std::make_unique<cuda::SurveyRun<HostMachine>>(rig.left, nullptr, rasters, seed + 3);
   };
   parts.makeComparer = [=](const RectifiedRig& rig) {
     auto comparer = std::make_unique<cuda::ComparisonRun<HostMachine>>(rig.left, seed);

@@ -3,24 +3,21 @@
 
 #include "core/error.h"
 #include "cuda/device/device_info.h"
-#include "cuda/frame/upload.h"
+#include "cuda/frame/survey.h"
 #include "cuda/locate/locate.h"
 #include "locate_cases.h"
+#include "survey_frame.h"
 
 namespace softscope {
 namespace {
 
-/// As the back end does, ahead.
-void uploadFrame(const test::LocateScene& scene,
-                 const std::shared_ptr<cuda::SharedRasters>& rasters, FrameUploader* uploader) {
+void surveyScene(const test::LocateScene& scene, FrameSurvey* survey) {
   const NormalMap normals(scene.camera.width_px, scene.camera.height_px);
-  const Raster<PixelState> states(scene.camera.width_px, scene.camera.height_px);
   const ColourImage no_colour;
   const Mask no_mask;
-  uploader->upload({scene.depth, normals, no_colour, no_mask, scene.camera}, states,
-                   scene.live.gray, scene.live.ignore);
-  uploader->use(scene.depth);
-  ASSERT_NE(rasters->match_gray, nullptr);
+  test::surveyFrame({scene.depth, normals, no_colour, no_mask, scene.camera}, {}, survey,
+                    scene.live.gray, scene.live.ignore);
+  survey->use(scene.depth);
 }
 
 TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
@@ -30,7 +27,7 @@ TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
   cuda::Locator locator(scene.camera, scene.view_options, MatcherOptions(),
                         static_cast<int>(scene.model.size()) + 100);
   const auto rasters = std::make_shared<cuda::SharedRasters>();
-  const auto uploader = cuda::makeFrameUploader(scene.camera, rasters);
+  const auto survey = cuda::makeFrameSurvey(scene.camera, nullptr, rasters);
   for (int frame = 0; frame < 4; ++frame) {
     const GrayImage seen_gray = frame % 2 == 0 ? GrayImage() : scene.live.gray;
     if (frame == 2) {  // a smaller model, no sigma
@@ -50,7 +47,8 @@ TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
     const std::vector<LiftedMatch> expected = test::cpuLifted(scene, seen_gray);
     EXPECT_GT(expected.size(), 200U);
     EXPECT_EQ(test::differingLifted(found.lifted, expected), 0);
-    uploadFrame(scene, rasters, uploader.get());
+    surveyScene(scene, survey.get());
+    ASSERT_NE(rasters->match_gray, nullptr);
     locator.setLive(*rasters);
     locator.locate(scene.world_from_left);
     EXPECT_EQ(test::differingLifted(locator.download().lifted, expected), 0);

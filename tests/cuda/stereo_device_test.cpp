@@ -70,6 +70,34 @@ TEST_P(StereoOnDevice, GivesTheCpusDepthFrameAfterFrame) {
 INSTANTIATE_TEST_SUITE_P(Cuda, StereoOnDevice, testing::ValuesIn(test::stereoCases()),
                          [](const auto& each) { return each.param.name; });
 
+TEST(StereoOnDevice, DropsMaskedPixels) {
+  const cuda::DeviceInfo info = cuda::queryDevices();
+  if (info.devices.empty()) GTEST_SKIP() << info.why_none;
+  const test::StereoCase of = test::stereoCases().front();
+  const test::Scene scene = test::steppedScene(of.width, of.height);
+  cuda::Stereo stereo(of.options, scene.rig, of.width, of.height);
+  stereo.upload(test::viewsOf(scene, of));
+  stereo.compute(of.roll_rad);
+  const cuda::StereoDepth all = stereo.download();
+  Mask mask(of.width, of.height, 0);
+  for (int v = 0; v < of.height; ++v)
+    for (int u = v % 7; u < of.width; u += 3) mask.at(u, v) = 1;
+  stereo.drop(mask);
+  const cuda::StereoDepth left = stereo.download();
+  int kept = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const float depth_mm = left.depth.depth_mm.values[i];
+    if (mask.values[i] != 0) {
+      EXPECT_TRUE(std::isnan(depth_mm) && std::isnan(left.normals.values[i].z()) &&
+                  std::isnan(left.disparity.sigma_px.values[i]));
+    } else if (!std::isnan(depth_mm)) {
+      EXPECT_EQ(depth_mm, all.depth.depth_mm.values[i]);
+      ++kept;
+    }
+  }
+  EXPECT_GT(kept, 1000);
+}
+
 TEST(StereoOnDeviceErrors, AnotherShapeIsRefused) {
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (info.devices.empty()) GTEST_SKIP() << info.why_none;

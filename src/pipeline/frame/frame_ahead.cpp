@@ -13,14 +13,13 @@ FrameAhead::Aligned FrameAhead::align(const Frame& frame) const {
 FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
                                  StageClock* clock) {
   Aligned aligned = begun.valid() ? begun.get() : align(frame);
+  const FramePictures& pictures = aligned.pictures;
+  survey_->show(aligned.views.left(), pictures.not_tissue, pictures.live.gray,
+                pictures.live.ignore);
   MeasuredFrame measured = depth_->measure(std::move(aligned.views));
   clock->lap("depth");
-  FrameView view =
-      viewFrame(std::move(measured), std::move(aligned.pictures), depth_->rig(), options_);
-  if (uploader_)
-    uploader_->upload({view.measured.depth, view.measured.normals, view.measured.left,
-                       view.not_tissue, depth_->rig().left},
-                      view.states, view.live.gray, view.live.ignore);
+  FrameView view = viewFrame(std::move(measured), std::move(aligned.pictures), depth_->rig(),
+                             options_, survey_.get());
   clock->lap("mask");
   return view;
 }
@@ -56,7 +55,7 @@ void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<cons
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
   FrameView view = take(frame, clock);
-  if (uploader_) uploader_->use(view.measured.depth);
+  survey_->use(view.measured.depth);
   return view;
 }
 

@@ -7,25 +7,23 @@
 #include <memory>
 #include <utility>
 
-#include "fusion/frame_uploader.h"
+#include "fusion/frame_survey.h"
 #include "pipeline/frame/frame_depth.h"
 #include "pipeline/frame/frame_view.h"
 #include "stereo/matching/stage_clock.h"
 
 namespace softscope {
 
-using FrameUploaderFactory = std::function<std::unique_ptr<FrameUploader>(const RectifiedRig&)>;
+using FrameSurveyFactory = std::function<std::unique_ptr<FrameSurvey>(const RectifiedRig&)>;
 
 /// FrameDepth and viewFrame() with at most two frames under way, each on a thread of its own: the
 /// views of one are aligned while the one before it is matched. Same results.
 class FrameAhead {
  public:
-  /// With an uploader, every frame lies on its device when measure() returns.
+  /// Every frame lies on the device of its survey when measure() returns.
   FrameAhead(std::unique_ptr<FrameDepth> depth, const ReconstructionOptions& options,
-             const FrameUploaderFactory& makeUploader = nullptr)
-      : depth_(std::move(depth)),
-        options_(options),
-        uploader_(makeUploader ? makeUploader(depth_->rig()) : nullptr) {}
+             const FrameSurveyFactory& makeSurvey)
+      : depth_(std::move(depth)), options_(options), survey_(makeSurvey(depth_->rig())) {}
 
   const FrameDepth& depth() const { return *depth_; }
 
@@ -48,7 +46,7 @@ class FrameAhead {
 
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
-  std::unique_ptr<FrameUploader> uploader_;
+  std::unique_ptr<FrameSurvey> survey_;
   std::shared_ptr<const Frame> prepared_, aligned_;
   std::future<Aligned> views_;     // of aligned_; both end before the frames and depth_ do
   std::future<FrameView> result_;  // of prepared_

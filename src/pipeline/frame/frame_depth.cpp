@@ -96,10 +96,10 @@ MeasuredFrame FrameDepth::measure(FrameViews views) {
   if (aligned.pair.left.empty()) return measured;
   StereoSurface found = stage_->measure(aligned, views.prepared, measured.mask);
   if (!views.instruments.empty())
-    found.drop(leaksOf(views.instruments, found.disparity.disparity_px));
-  found.drop(views.clipped);
+    stage_->drop(leaksOf(views.instruments, found.disparity.disparity_px), &found);
+  stage_->drop(views.clipped, &found);
   if (options_.detect_instruments)
-    found.drop(greyForeground(aligned.pair.left, found.depth.depth_mm, rig().left));
+    stage_->drop(greyForeground(aligned.pair.left, found.depth.depth_mm, rig().left), &found);
   measured.disparity = std::move(found.disparity);
   measured.depth = std::move(found.depth);
   measured.normals = std::move(found.normals);

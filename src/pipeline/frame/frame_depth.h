@@ -36,6 +36,10 @@ struct FrameViews {
   MatchableViews prepared;  // of them, by the stage
   Mask clipped;             // not measured; empty: none
   Mask instruments;         // mask file of the frame, rectified; empty without one
+
+  const ColourImage& left() const {
+    return aligned.pair.left.empty() ? measured.left : aligned.pair.left;
+  }
 };
 
 /// Rectifies, aligns rows, matches, converts to depth; or takes the depth of the sequence.

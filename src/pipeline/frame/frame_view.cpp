@@ -2,14 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <mutex>
 #include <utility>
-#include <vector>
-
-#include "core/parallel.h"
-#include "core/tolerance.h"
-#include "core/value_of_rank.h"
 
 namespace softscope {
 namespace {
@@ -43,108 +36,15 @@ void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
   if (reference_mm > 0) reference_mm = std::max(reference_mm, typical_mm);
 }
 
-/// Measured pixels of tissue.
-struct Tally {
-  SizeCounts depths, sigmas;
-  int tissue_px = 0, precise_px = 0;
-
-  void add(const Tally& other) {
-    depths.add(other.depths);
-    sigmas.add(other.sigmas);
-    tissue_px += other.tissue_px;
-    precise_px += other.precise_px;
-  }
-};
-
-/// Exact medians over the measured pixels of tissue, in two passes over the image.
-class TissueDepths {
- public:
-  TissueDepths(const DepthMap& depth, const Mask& not_tissue)
-      : depth_(depth), not_tissue_(not_tissue) {
-    forEachTask([&](int begin, int end) {
-      Tally own;
-      for (int v = begin; v < end; ++v) countRow(v, &own);
-      const std::lock_guard<std::mutex> lock(adding_);
-      tally_.add(own);
-    });
-    measured_px_ = tally_.depths.total();
-    if (measured_px_ > 0) findMedians();
-  }
-
-  int tissuePx() const { return tally_.tissue_px; }
-  int measuredPx() const { return static_cast<int>(measured_px_); }
-  /// NaN without sigmas or measured pixels, as the medians.
-  double preciseShare() const {
-    return hasSigmas() && measured_px_ > 0 ? double(tally_.precise_px) / double(measured_px_)
-                                           : kUnknown;
-  }
-  double medianMm() const { return median_mm_; }
-  double medianSigmaMm() const { return median_sigma_mm_; }
-
- private:
-  bool hasSigmas() const { return !depth_.sigma_mm.empty(); }
-  template <class Rows>
-  void forEachTask(const Rows& rows) {
-    constexpr int kRowsPerTask = 32;
-    parallelRanges(not_tissue_.height_px, kRowsPerTask, rows);
-  }
-  bool isMeasured(int u, int v) const {
-    return not_tissue_.at(u, v) == 0 && std::isfinite(depth_.depth_mm.at(u, v));
-  }
-
-  void countRow(int v, Tally* tally) const {
-    for (int u = 0; u < not_tissue_.width_px; ++u) {
-      tally->tissue_px += not_tissue_.at(u, v) == 0;
-      if (!isMeasured(u, v)) continue;
-      tally->depths.add(depth_.depth_mm.at(u, v));
-      if (!hasSigmas()) continue;
-      const float sigma_mm = depth_.sigma_mm.at(u, v);
-      tally->sigmas.add(sigma_mm);
-      tally->precise_px += sigma_mm <= kPreciseSigmaMm;
-    }
-  }
-  void findMedians() {
-    const SizeCounts::Place depth = tally_.depths.placeOfMedian();
-    const SizeCounts::Place sigma =
-        hasSigmas() ? tally_.sigmas.placeOfMedian() : SizeCounts::Place();
-    std::vector<float> depths_mm, sigmas_mm;
-    const auto keep = [](float value, std::uint32_t bin, std::vector<float>* kept) {
-      if (SizeCounts::binOf(value) == bin) kept->push_back(std::abs(value));
-    };
-    forEachTask([&](int begin, int end) {
-      std::vector<float> own_depths_mm, own_sigmas_mm;
-      for (int v = begin; v < end; ++v)
-        for (int u = 0; u < not_tissue_.width_px; ++u) {
-          if (!isMeasured(u, v)) continue;
-          keep(depth_.depth_mm.at(u, v), depth.bin, &own_depths_mm);
-          if (hasSigmas()) keep(depth_.sigma_mm.at(u, v), sigma.bin, &own_sigmas_mm);
-        }
-      const std::lock_guard<std::mutex> lock(adding_);
-      depths_mm.insert(depths_mm.end(), own_depths_mm.begin(), own_depths_mm.end());
-      sigmas_mm.insert(sigmas_mm.end(), own_sigmas_mm.begin(), own_sigmas_mm.end());
-    });
-    median_mm_ = SizeCounts::valueAt(depth, &depths_mm);
-    if (hasSigmas()) median_sigma_mm_ = SizeCounts::valueAt(sigma, &sigmas_mm);
-  }
-
-  const DepthMap& depth_;
-  const Mask& not_tissue_;
-  std::mutex adding_;
-  Tally tally_;
-  std::size_t measured_px_ = 0;
-  double median_mm_ = kUnknown, median_sigma_mm_ = kUnknown;
-};
-
-DepthSummary summarise(const MeasuredFrame& measured, const Mask& not_tissue,
+DepthSummary summarise(const TissueDepths& depths, const MeasuredFrame& measured,
                        const RectifiedRig& rig) {
-  const TissueDepths depths(measured.depth, not_tissue);
   DepthSummary summary;
-  summary.tissue_px = depths.tissuePx();
-  summary.measured_px = depths.measuredPx();
-  summary.precise_share = depths.preciseShare();
-  summary.median_sigma_mm = depths.medianSigmaMm();
-  const double mm_per_px =
-      depths.medianMm() * depths.medianMm() / (rig.left.fx_px * rig.baseline_mm);
+  summary.tissue_px = depths.tissue_px;
+  summary.measured_px = depths.measured_px;
+  if (depths.measured_px > 0 && !measured.depth.sigma_mm.empty())
+    summary.precise_share = double(depths.precise_px) / depths.measured_px;
+  summary.median_sigma_mm = depths.median_sigma_mm;
+  const double mm_per_px = depths.median_mm * depths.median_mm / (rig.left.fx_px * rig.baseline_mm);
   if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
   if (measured.rows.known()) summary.row_difference_px = measured.rows.mean_row_difference_px;
   return summary;
@@ -161,28 +61,28 @@ FramePictures picturesOf(const ColourImage& left, const MeasuredFrame& measured,
 }  // namespace
 
 FramePictures framePictures(const FrameViews& views, const ReconstructionOptions& options) {
-  const ColourImage& aligned = views.aligned.pair.left;
-  return picturesOf(aligned.empty() ? views.measured.left : aligned, views.measured, options);
+  return picturesOf(views.left(), views.measured, options);
 }
 
 FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
                     const ReconstructionOptions& options) {
   FramePictures pictures = picturesOf(measured.left, measured, options);
-  return viewFrame(std::move(measured), std::move(pictures), rig, options);
+  CpuFrameSurvey survey;
+  return viewFrame(std::move(measured), std::move(pictures), rig, options, &survey);
 }
 
 FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const RectifiedRig& rig,
-                    const ReconstructionOptions& options) {
+                    const ReconstructionOptions& options, FrameSurvey* survey) {
   FrameView view;
   view.measured = std::move(measured);
   view.not_tissue = std::move(pictures.not_tissue);
   view.live = std::move(pictures.live);
-  view.summary = summarise(view.measured, view.not_tissue, rig);
+  // Neither depends on the camera's pose.
+  const Observation frame{view.measured.depth, view.measured.normals, view.measured.left,
+                          view.not_tissue, rig.left};
+  view.summary = summarise(survey->depthsOf(frame), view.measured, rig);
   scaleOptions(options, &view);
-  // The state of a pixel does not depend on the camera's pose.
-  view.states = classifyPixels({view.measured.depth, view.measured.normals, view.measured.left,
-                                view.not_tissue, rig.left, Eigen::Isometry3d::Identity()},
-                               view.fusion.pixels);
+  view.states = survey->statesOf(frame, view.fusion.pixels);
   return view;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "core/rectified_rig.h"
+#include "fusion/frame_survey.h"
 #include "fusion/observation.h"
 #include "pipeline/frame/depth_summary.h"
 #include "pipeline/frame/frame_depth.h"
@@ -33,8 +34,8 @@ struct FramePictures {
 /// Both depend on nothing else, and may run ahead: the first before the frame is measured.
 FramePictures framePictures(const FrameViews& views, const ReconstructionOptions& options);
 FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const RectifiedRig& rig,
-                    const ReconstructionOptions& options);
-/// The same, where the pictures are still to be made.
+                    const ReconstructionOptions& options, FrameSurvey* survey);
+/// The same on the CPU, where the pictures are still to be made.
 FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
                     const ReconstructionOptions& options);
 

@@ -1,4 +1,4 @@
-// tests/cuda/pixel_state_body.h: kernel body that finds the states of pixels.
+// cuda/frame/pixel_state_body.h: kernel body that finds the states of pixels.
 #pragma once
 
 #include <limits>
@@ -6,7 +6,7 @@
 #include "cuda/device/kernel.h"
 #include "fusion/pixel_formulas.h"
 
-namespace softscope::test {
+namespace softscope::cuda {
 
 /// By all depths around each.
 struct PixelStateBody {
@@ -38,4 +38,4 @@ struct PixelStateBody {
   }
 };
 
-}  // namespace softscope::test
+}  // namespace softscope::cuda

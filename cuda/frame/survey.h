@@ -1,0 +1,18 @@
+// cuda/frame/survey.h: frames surveyed by the first GPU ahead of the stages.
+#pragma once
+
+#include <memory>
+
+#include "core/camera.h"
+#include "cuda/device/shared_rasters.h"
+#include "fusion/frame_survey.h"
+
+namespace softscope::cuda {
+
+/// Tells the stages by `shared`. Depth that lies in `measured` is not copied from the host. Throws
+/// BackendError where no GPU works.
+std::unique_ptr<FrameSurvey> makeFrameSurvey(const PinholeCamera& left,
+                                             std::shared_ptr<const SharedRasters> measured,
+                                             std::shared_ptr<SharedRasters> shared);
+
+}  // namespace softscope::cuda

@@ -1,0 +1,184 @@
+// cuda/frame/survey_run.h: frames surveyed ahead of the stages, on any machine.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "core/camera.h"
+#include "core/error.h"
+#include "cuda/device/copy_kernel.h"
+#include "cuda/device/reset_kernel.h"
+#include "cuda/device/shared_rasters.h"
+#include "cuda/frame/pixel_state_body.h"
+#include "cuda/frame/raster_layout.h"
+#include "cuda/frame/tissue_count.h"
+#include "fusion/frame_survey.h"
+
+namespace softscope::cuda {
+
+/// Room for two frames: the one at hand, and the next. Machine: as WarpRun has it.
+template <class Machine>
+class SurveyRun final : public FrameSurvey {
+ public:
+  template <class... Arguments>
+  SurveyRun(const PinholeCamera& left, std::shared_ptr<const SharedRasters> measured,
+            std::shared_ptr<SharedRasters> shared, Arguments&&... arguments)
+      : left_(left),
+        measured_(std::move(measured)),
+        shared_(std::move(shared)),
+        memory_(bytesFor(left), "memory for two frames"),
+        machine_(std::forward<Arguments>(arguments)...) {
+    Arena arena(memory_.data());
+    rooms_ = Rooms(arena, pixelsOf(left));
+    ResetKernel reset;  // arrays of bytes are copied in whole words
+    reset.add(memory_.data(), memory_.bytes() / sizeof(std::uint32_t), 0);
+    launch("reset", reset);
+    machine_.wait();
+  }
+
+  void show(const ColourImage& left, const Mask& not_tissue, const GrayImage& gray,
+            const Mask& ignore) override {
+    surveyed_ = {};
+    for (const auto& [width, height] : {std::pair(left.width_px, left.height_px),
+                                        std::pair(not_tissue.width_px, not_tissue.height_px)})
+      if (width != 0 && (width != left_.width_px || height != left_.height_px))
+        throw Error("a frame of another camera than the one that was planned for");
+    const Slot& to = next();
+    RasterLayout::sendTo(to.rasters.colour, left, machine_);
+    RasterLayout::sendTo(to.not_tissue, not_tissue, machine_);
+    RasterLayout::sendTo(to.match_gray, gray, machine_);
+    RasterLayout::sendTo(to.ignore, ignore, machine_);
+    shown_ = {};
+    shown_.colour = left.empty() ? nullptr : to.rasters.colour;
+    shown_.match_gray = gray.empty() ? nullptr : to.match_gray;
+    shown_.ignore = ignore.empty() ? nullptr : to.ignore;
+  }
+
+  TissueDepths depthsOf(const Observation& frame) override {
+    frame.validate();
+    takeDepth(frame);
+    count();
+    TissueTotals totals;
+    machine_.fromDevice(&totals, rooms_.totals, sizeof totals);
+    machine_.wait();
+    TissueDepths found;
+    found.tissue_px = totals.tissue_px;
+    found.measured_px = totals.measured_px;
+    found.precise_px = totals.precise_px;
+    if (found.measured_px == 0) return found;
+    found.median_mm = bitsAsFloat(totals.medians[0].bits);
+    if (shown_.sigma_mm != nullptr) found.median_sigma_mm = bitsAsFloat(totals.medians[1].bits);
+    return found;
+  }
+
+  Raster<PixelState> statesOf(const Observation& frame, const PixelOptions& options) override {
+    options.validate();
+    const Slot& to = next();
+    const PixelKernel<PixelStateBody> classify{
+        {{shown_.depth_mm, shown_.sigma_mm, shown_.normals, shown_.colour},
+         posedCamera(frame.left, frame.world_from_left),
+         frame.mask.empty() ? nullptr : to.not_tissue,
+         static_cast<float>(options.max_sigma_mm),
+         to.rasters.states},
+        left_.width_px,
+        left_.height_px};
+    machine_.executor().launch("pixel states", classify, classify.grid());
+    Raster<PixelState> states(left_.width_px, left_.height_px);
+    machine_.fromDevice(states.values.data(), to.rasters.states, states.size());
+    machine_.wait();
+    surveyed_ = std::exchange(shown_, {});
+    surveyed_.host_depth_mm = frame.depth.depth_mm.values.data();
+    surveyed_.states = to.rasters.states;
+    return states;
+  }
+
+  void use(const DepthMap& depth) override {
+    *shared_ = std::exchange(surveyed_, {});
+    if (shared_->holds(depth.depth_mm.values.data()))
+      at_hand_ = 1 - at_hand_;
+    else
+      *shared_ = {};
+  }
+
+ private:
+  struct Slot {
+    Slot() = default;
+    Slot(Arena& arena, std::size_t pixels)
+        : rasters(arena, pixels),
+          match_gray(arena.array<std::uint8_t>(pixels)),
+          ignore(arena.array<std::uint8_t>(pixels)),
+          not_tissue(arena.array<std::uint8_t>(pixels)) {}
+
+    RasterLayout rasters;
+    std::uint8_t *match_gray = nullptr, *ignore = nullptr, *not_tissue = nullptr;
+  };
+
+  struct Rooms {
+    Rooms() = default;
+    Rooms(Arena& arena, std::size_t pixels) {
+      for (Slot& slot : slots) slot = Slot(arena, pixels);
+      counts = arena.array<std::uint32_t>(TissueTotals::kSearches * kRankCounts);
+      totals = arena.array<TissueTotals>(1);
+    }
+
+    Slot slots[2];
+    std::uint32_t* counts = nullptr;
+    TissueTotals* totals = nullptr;
+  };
+  static std::size_t bytesFor(const PinholeCamera& left) {
+    Arena counting;
+    Rooms(counting, pixelsOf(left));
+    return counting.bytes();
+  }
+  static std::size_t pixelsOf(const PinholeCamera& left) {
+    return static_cast<std::size_t>(left.width_px) * static_cast<std::size_t>(left.height_px);
+  }
+  const Slot& next() const { return rooms_.slots[1 - at_hand_]; }
+
+  /// Depth, sigma and normals, from where the stage of stereo left them or from the host.
+  void takeDepth(const Observation& frame) {
+    const RasterLayout& to = next().rasters;
+    if (measured_ && measured_->holds(frame.depth.depth_mm.values.data())) {
+      CopyKernel copy;
+      copy.add(measured_->depth_mm, to.depth_mm, pixelsOf(left_));
+      copy.add(measured_->sigma_mm, to.sigma_mm, pixelsOf(left_));
+      copy.add(measured_->normals, to.normals, pixelsOf(left_));
+      launch("copy depth", copy);
+    } else {
+      RasterLayout::sendTo(to.depth_mm, frame.depth.depth_mm, machine_);
+      RasterLayout::sendTo(to.sigma_mm, frame.depth.sigma_mm, machine_);
+      RasterLayout::sendTo(to.normals, frame.normals, machine_);
+    }
+    shown_.depth_mm = to.depth_mm;
+    shown_.sigma_mm = frame.depth.sigma_mm.empty() ? nullptr : to.sigma_mm;
+    shown_.normals = to.normals;
+  }
+  void count() {
+    ResetKernel reset;
+    reset.add(rooms_.counts, TissueTotals::kSearches * kRankCounts, 0);
+    reset.add(rooms_.totals, sizeof(TissueTotals) / sizeof(std::uint32_t), 0);
+    launch("reset", reset);
+    const TissueRasters rasters{shown_.depth_mm, shown_.sigma_mm, next().not_tissue,
+                                static_cast<int>(pixelsOf(left_))};
+    for (int step = 0; step < kRankSteps; ++step) {
+      launch("count depths", TissueCountKernel{rasters, rooms_.counts, rooms_.totals, step});
+      launch("pick median", PickRankKernel<UpperMedian>{rooms_.counts, rooms_.totals->medians, step,
+                                                        TissueTotals::kSearches});
+    }
+  }
+  template <class Kernel>
+  void launch(const char* name, const Kernel& kernel) {
+    machine_.executor().launch(name, kernel, kernel.blocks());
+  }
+
+  PinholeCamera left_;
+  std::shared_ptr<const SharedRasters> measured_;
+  std::shared_ptr<SharedRasters> shared_;
+  typename Machine::Memory memory_;
+  Machine machine_;
+  Rooms rooms_;
+  int at_hand_ = 0;
+  SharedRasters shown_, surveyed_;  // under way; where it was not used yet
+};
+
+}  // namespace softscope::cuda

@@ -1,0 +1,91 @@
+// tests/cuda/survey_passes_test.cpp: frames surveyed ahead give the CPU's numbers and states; they
+// are those at hand, and no others are.
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "cuda/frame/survey_run.h"
+#include "host_machine.h"
+#include "survey_cases.h"
+
+namespace softscope::test {
+namespace {
+
+using HostSurvey = cuda::SurveyRun<HostMachine>;
+
+class Surveys : public testing::Test {
+ protected:
+  void survey(const ComparisonScene& scene) {
+    surveyFrame(scene.observation(), scene.options().pixels, &survey_, gray_);
+  }
+  void expectAtHand(const ComparisonScene& scene) const {
+    const Observation frame = scene.observation();
+    const DepthMap& depth = frame.depth;
+    ASSERT_TRUE(rasters_->holds(depth.depth_mm.values.data()));
+    const std::size_t pixels = depth.depth_mm.size();
+    EXPECT_EQ(std::memcmp(rasters_->depth_mm, depth.depth_mm.values.data(), 4 * pixels), 0);
+    EXPECT_EQ(std::memcmp(rasters_->normals, frame.normals.values.data(), 12 * pixels), 0);
+    EXPECT_EQ(std::memcmp(rasters_->states, scene.states().values.data(), pixels), 0);
+    EXPECT_EQ(std::memcmp(rasters_->match_gray, gray_.values.data(), pixels), 0);
+    EXPECT_EQ(std::memcmp(rasters_->colour, frame.colour.values.data(), 3 * pixels), 0);
+    EXPECT_EQ(rasters_->sigma_mm == nullptr, depth.sigma_mm.empty());
+    EXPECT_EQ(rasters_->ignore, nullptr);
+  }
+
+  const ComparisonScene first_{comparisonCases()[0]}, second_{comparisonCases()[1]};
+  const GrayImage gray_{241, 178, 77};
+  std::shared_ptr<cuda::SharedRasters> rasters_ = std::make_shared<cuda::SharedRasters>();
+  std::shared_ptr<cuda::SharedRasters> measured_ = std::make_shared<cuda::SharedRasters>();
+  HostSurvey survey_{ComparisonScene::camera(), measured_, rasters_, 1U};
+};
+
+TEST_F(Surveys, GiveTheCpusNumbersAndStatesInAnyOrderOfThreads) {
+  for (const unsigned seed : {1U, 2U}) {
+    HostSurvey survey(ComparisonScene::camera(), nullptr, rasters_, seed);
+    expectTheCpusSurvey(&survey);
+  }
+}
+
+TEST_F(Surveys, LieBesideTheFrameAtHandUntilTheyAreUsed) {
+  survey(first_);
+  survey_.use(first_.observation().depth);
+  expectAtHand(first_);
+  survey(second_);
+  expectAtHand(first_);
+  survey_.use(second_.observation().depth);
+  expectAtHand(second_);
+}
+
+TEST_F(Surveys, AreUsedOnceAndForTheirFrameAlone) {
+  survey(first_);
+  survey_.use(second_.observation().depth);
+  EXPECT_FALSE(rasters_->holds(first_.observation().depth.depth_mm.values.data()));
+  EXPECT_FALSE(rasters_->holds(second_.observation().depth.depth_mm.values.data()));
+  survey_.use(first_.observation().depth);
+  EXPECT_FALSE(rasters_->holds(first_.observation().depth.depth_mm.values.data()));
+}
+
+/// Only where it is known to lie there; here it differs, so that one sees from where it came.
+TEST_F(Surveys, TakeDepthFromTheDevice) {
+  const Observation frame = first_.observation();
+  DepthMap other = frame.depth;
+  for (float& depth_mm : other.depth_mm.values) depth_mm += 7;
+  measured_->depth_mm = other.depth_mm.values.data();
+  measured_->sigma_mm = other.sigma_mm.values.data();
+  measured_->normals = frame.normals.values.data();
+  const auto medianMm = [&] {
+    return surveyFrame(frame, first_.options().pixels, &survey_).depths.median_mm;
+  };
+  const double from_host_mm = medianMm();
+  measured_->host_depth_mm = frame.depth.depth_mm.values.data();
+  EXPECT_NEAR(medianMm(), from_host_mm + 7, 1e-4);
+}
+
+TEST_F(Surveys, OfAnotherCameraAreRefused) {
+  PinholeCamera small = ComparisonScene::camera();
+  --small.width_px;
+  HostSurvey survey(small, nullptr, rasters_, 1U);
+  EXPECT_THROW(surveyFrame(first_.observation(), first_.options().pixels, &survey), Error);
+}
+
+}  // namespace
+}  // namespace softscope::test
