@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <future>
+#include <utility>
 
 #include "core/error.h"
 #include "io/calibrations/calibration_check.h"
@@ -119,6 +121,10 @@ bool FrameLoader::survivesErrors() const {
   return left_->survivesErrors() && (!right_ || right_->survivesErrors());
 }
 
+bool FrameLoader::readsInAnyOrder() const {
+  return left_->readsInAnyOrder() && (!right_ || right_->readsInAnyOrder());
+}
+
 Frame FrameLoader::load(int index) {
   requirePartner(index);  // before any read: a video cannot seek back
   Frame frame;
@@ -143,8 +149,14 @@ Frame FrameLoader::load(int index) {
 }
 
 StereoPair FrameLoader::readPair(int index) {
-  if (!is_packed_)
-    return {left_->read(index), right_ ? right_->read(index + right_offset_) : ColourImage{}};
+  if (!is_packed_) {
+    std::future<ColourImage> right;
+    if (right_)
+      right = std::async(std::launch::async,
+                         [this, index] { return right_->read(index + right_offset_); });
+    ColourImage left = left_->read(index);
+    return {std::move(left), right_ ? right.get() : ColourImage{}};
+  }
   const ColourImage packed = left_->read(index);
   const PinholeCamera& camera = calibration_.left.pinhole;
   if (!is_settled_)

@@ -16,7 +16,7 @@
 
 namespace softscope {
 
-/// Not thread-safe; frames must be requested in ascending order.
+/// Not thread-safe, and frames must be requested in ascending order, unless readsInAnyOrder().
 class FrameLoader {
  public:
   /// Opens all parts, pairs images, masks and depth files by the numbers in
@@ -30,6 +30,8 @@ class FrameLoader {
 
   const StereoCalibration& calibration() const { return calibration_; }
   bool survivesErrors() const;
+  /// True if several threads may load at once, in any order, after the first call of load().
+  bool readsInAnyOrder() const;
 
   /// Throws InputError, also for a missing right
   /// image. The first call determines the packing,

@@ -24,6 +24,7 @@ class PictureFiles : public PictureSource {
   std::string nameOf(int index) const override {
     return shown(files_[static_cast<std::size_t>(index)]);
   }
+  bool readsInAnyOrder() const override { return true; }
   bool survivesErrors() const override { return true; }
   std::vector<fs::path> files() const override { return files_; }
 

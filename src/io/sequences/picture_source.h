@@ -22,8 +22,11 @@ class PictureSource {
   /// Number of images; for a video the number in its header.
   virtual int count() const = 0;
 
-  /// Throws InputError. Indices must not decrease between calls.
+  /// Throws InputError. Indices must not decrease between calls, unless readsInAnyOrder().
   virtual ColourImage read(int index) = 0;
+
+  /// True if several threads may read at once, whatever each reads; then survivesErrors() too.
+  virtual bool readsInAnyOrder() const { return false; }
 
   /// Name of image `index` in messages.
   virtual std::string nameOf(int index) const = 0;

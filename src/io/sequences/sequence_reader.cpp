@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <future>
 #include <thread>
+#include <utility>
 
 #include "core/error.h"
 #include "io/sequences/bounded_queue.h"
@@ -54,26 +56,37 @@ class SequenceReader::Impl {
   int totalCount() const { return loader_.count(); }
 
   std::optional<FrameResult> next() {
-    std::optional<FrameResult> result = queue_.pop();
+    std::optional<std::future<FrameResult>> begun = queue_.pop();
     // The queue is closed after failure_ is set, so its mutex orders both.
-    if (!result && failure_) std::rethrow_exception(failure_);
-    return result;
+    if (!begun && failure_) std::rethrow_exception(failure_);
+    if (!begun) return std::nullopt;
+    return begun->get();
   }
 
  private:
   void readAhead() {
     try {
       bool go_on = true;
-      for (int index = range_.begin; index < range_.end && go_on; index += range_.step) {
-        if (range_.holdsOut(index)) continue;
-        FrameResult result = index == first_.index ? std::move(first_) : load(index);
-        go_on = result.ok() || index < first_.index || loader_.survivesErrors();
-        go_on = queue_.push(std::move(result)) && go_on;
-      }
+      for (int index = range_.begin; index < range_.end && go_on; index += range_.step)
+        if (!range_.holdsOut(index)) go_on = index == first_.index ? give(first_) : read(index);
     } catch (...) {
       failure_ = std::current_exception();
     }
     queue_.close();
+  }
+
+  /// Whether more is to be read: what cannot be read in any order is read one by one.
+  bool read(int index) {
+    if (loader_.readsInAnyOrder())
+      return queue_.push(std::async(std::launch::async, [this, index] { return load(index); }));
+    FrameResult result = load(index);
+    const bool go_on = result.ok() || index < first_.index || loader_.survivesErrors();
+    return give(result) && go_on;
+  }
+  bool give(FrameResult& result) {
+    std::promise<FrameResult> done;
+    done.set_value(std::move(result));
+    return queue_.push(done.get_future());
   }
 
   FrameResult load(int index) {
@@ -90,11 +103,11 @@ class SequenceReader::Impl {
     return result;
   }
 
-  FrameLoader loader_;  // after the constructor used by the thread only, except count()
+  FrameLoader loader_;  // after the constructor used by readers only, except count()
   FrameRange range_;
   FrameResult first_;
   StereoCalibration calibration_;
-  BoundedQueue<FrameResult> queue_;
+  BoundedQueue<std::future<FrameResult>> queue_;  // in order; its readers end before the loader
   std::exception_ptr failure_;
   std::thread thread_;
 };
