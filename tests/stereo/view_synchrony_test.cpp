@@ -22,7 +22,7 @@ GrayImage momentOf(const GrayImage& tall, int t, double reach_px) {
 }
 
 /// Right picture f shows moment f + late.
-ViewSynchrony measure(double reach_px, int late) {
+SynchronyMeter meterOf(double reach_px, int late) {
   static const test::Scene tall =
       test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
   SynchronyMeter meter(100);
@@ -32,7 +32,15 @@ ViewSynchrony measure(double reach_px, int late) {
       rights[k] = momentOf(tall.right, f + k - SynchronyMeter::kReach + late, reach_px);
     meter.add(momentOf(tall.left, f, reach_px), rights);
   }
-  return meter.result();
+  return meter;
+}
+ViewSynchrony measure(double reach_px, int late) { return meterOf(reach_px, late).result(); }
+
+TEST(ViewSynchrony, IsClearWhereOneOffsetAloneAgrees) {
+  EXPECT_TRUE(meterOf(3, 0).isClear());
+  EXPECT_FALSE(meterOf(3, 1).isClear());  // another one does
+  EXPECT_FALSE(meterOf(0, 0).isClear());  // all do
+  EXPECT_FALSE(SynchronyMeter(64).isClear());
 }
 
 TEST(ViewSynchrony, FindsAViewThatIsPicturesApart) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kFrames = 120;  // length of the search; tissue moves by breathing within some seconds
 constexpr int kMoments = 12;  // compared times within the search
+constexpr int kFirstMoments = 3;  // after which the answer may be clear
 constexpr std::size_t kReach = SynchronyMeter::kReach;
 
 /// Consecutive pairs; the left image of the middle one is compared with all right images.
@@ -41,14 +42,16 @@ ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options
   const Rectifier rectifier(reader.calibration());
   SynchronyMeter meter(disparity_max_px);
   Window window;
+  int moments = 0;
   for (int i = 0; i < kFrames; ++i) {
     auto result = reader.next();
     if (!result) break;
     window.push_back(std::move(result->frame.pair));
     if (!result->ok()) window.clear();
     if (window.size() > SynchronyMeter::kOffsets) window.pop_front();
-    if (window.size() == SynchronyMeter::kOffsets && i % step == 0)
-      addMoment(window, rectifier, meter);
+    if (window.size() < SynchronyMeter::kOffsets || i % step != 0) continue;
+    addMoment(window, rectifier, meter);
+    if (++moments == kFirstMoments && meter.isClear()) break;
   }
   return meter.result();
 }

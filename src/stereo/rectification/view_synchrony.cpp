@@ -9,6 +9,7 @@ namespace {
 constexpr double kAgreesPx = 0.25;    // of a match with the model of all frames
 constexpr double kClearlyMore = 1.2;  // than the count at offset 0
 constexpr int kFewestAgreeing = 200;  // for a decision
+constexpr int kBeyondDoubt = 2;       // times the count of any other offset
 
 }  // namespace
 
@@ -28,6 +29,14 @@ int SynchronyMeter::agreeingAt(int offset) const {
   return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const RowMatch& m) {
     return std::abs(m.difference_px - shared.at(m.u_right_px, m.v_right_px)) < kAgreesPx;
   }));
+}
+
+bool SynchronyMeter::isClear() const {
+  const int as_is = agreeingAt(0);
+  if (as_is < kFewestAgreeing) return false;
+  for (int offset = -kReach; offset <= kReach; ++offset)
+    if (offset != 0 && kBeyondDoubt * agreeingAt(offset) > as_is) return false;
+  return true;
 }
 
 ViewSynchrony SynchronyMeter::result() const {

@@ -30,6 +30,9 @@ class SynchronyMeter {
   /// One frame, rectified: rights[k] is right image f + k - kReach of left image f.
   void add(const GrayImage& left, const std::array<GrayImage, kOffsets>& rights);
 
+  /// Whether the frames so far leave no doubt of offset 0: more frames need not be added.
+  bool isClear() const;
+
   /// Offset 0 unless another one is clearly better: a static clip gives no information.
   ViewSynchrony result() const;
 
