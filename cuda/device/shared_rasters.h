@@ -21,4 +21,11 @@ struct SharedRasters {
   bool holds(const float* depth) const { return depth != nullptr && depth == host_depth_mm; }
 };
 
+/// The way of a frame through the device.
+struct SharedFrames {
+  SharedRasters measured;  // where stereo left it
+  SharedRasters next;      // surveyed, not used yet
+  SharedRasters at_hand;
+};
+
 }  // namespace softscope::cuda

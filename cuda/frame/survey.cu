@@ -5,10 +5,9 @@
 namespace softscope::cuda {
 
 std::unique_ptr<FrameSurvey> makeFrameSurvey(const PinholeCamera& left,
-                                             std::shared_ptr<const SharedRasters> measured,
-                                             std::shared_ptr<SharedRasters> shared) {
+                                             std::shared_ptr<SharedFrames> frames) {
   requireDevice();
-  return std::make_unique<SurveyRun<DeviceMachine>>(left, std::move(measured), std::move(shared));
+  return std::make_unique<SurveyRun<DeviceMachine>>(left, std::move(frames));
 }
 
 }  // namespace softscope::cuda

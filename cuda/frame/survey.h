@@ -9,10 +9,9 @@
 
 namespace softscope::cuda {
 
-/// Tells the stages by `shared`. Depth that lies in `measured` is not copied from the host. Throws
-/// BackendError where no GPU works.
+/// Leaves the next frame and the one at hand in `frames`. Depth that is measured there is not
+/// copied from the host. Throws BackendError where no GPU works.
 std::unique_ptr<FrameSurvey> makeFrameSurvey(const PinholeCamera& left,
-                                             std::shared_ptr<const SharedRasters> measured,
-                                             std::shared_ptr<SharedRasters> shared);
+                                             std::shared_ptr<SharedFrames> frames);
 
 }  // namespace softscope::cuda

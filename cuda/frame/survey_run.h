@@ -21,11 +21,10 @@ template <class Machine>
 class SurveyRun final : public FrameSurvey {
  public:
   template <class... Arguments>
-  SurveyRun(const PinholeCamera& left, std::shared_ptr<const SharedRasters> measured,
-            std::shared_ptr<SharedRasters> shared, Arguments&&... arguments)
+  SurveyRun(const PinholeCamera& left, std::shared_ptr<SharedFrames> frames,
+            Arguments&&... arguments)
       : left_(left),
-        measured_(std::move(measured)),
-        shared_(std::move(shared)),
+        frames_(std::move(frames)),
         memory_(bytesFor(left), "memory for two frames"),
         machine_(std::forward<Arguments>(arguments)...) {
     Arena arena(memory_.data());
@@ -38,7 +37,7 @@ class SurveyRun final : public FrameSurvey {
 
   void show(const ColourImage& left, const Mask& not_tissue, const GrayImage& gray,
             const Mask& ignore) override {
-    surveyed_ = {};
+    frames_->next = {};
     for (const auto& [width, height] : {std::pair(left.width_px, left.height_px),
                                         std::pair(not_tissue.width_px, not_tissue.height_px)})
       if (width != 0 && (width != left_.width_px || height != left_.height_px))
@@ -86,18 +85,18 @@ class SurveyRun final : public FrameSurvey {
     Raster<PixelState> states(left_.width_px, left_.height_px);
     machine_.fromDevice(states.values.data(), to.rasters.states, states.size());
     machine_.wait();
-    surveyed_ = std::exchange(shown_, {});
-    surveyed_.host_depth_mm = frame.depth.depth_mm.values.data();
-    surveyed_.states = to.rasters.states;
+    frames_->next = std::exchange(shown_, {});
+    frames_->next.host_depth_mm = frame.depth.depth_mm.values.data();
+    frames_->next.states = to.rasters.states;
     return states;
   }
 
   void use(const DepthMap& depth) override {
-    *shared_ = std::exchange(surveyed_, {});
-    if (shared_->holds(depth.depth_mm.values.data()))
+    frames_->at_hand = std::exchange(frames_->next, {});
+    if (frames_->at_hand.holds(depth.depth_mm.values.data()))
       at_hand_ = 1 - at_hand_;
     else
-      *shared_ = {};
+      frames_->at_hand = {};
   }
 
  private:
@@ -138,11 +137,12 @@ class SurveyRun final : public FrameSurvey {
   /// Depth, sigma and normals, from where the stage of stereo left them or from the host.
   void takeDepth(const Observation& frame) {
     const RasterLayout& to = next().rasters;
-    if (measured_ && measured_->holds(frame.depth.depth_mm.values.data())) {
+    const SharedRasters& measured = frames_->measured;
+    if (measured.holds(frame.depth.depth_mm.values.data())) {
       CopyKernel copy;
-      copy.add(measured_->depth_mm, to.depth_mm, pixelsOf(left_));
-      copy.add(measured_->sigma_mm, to.sigma_mm, pixelsOf(left_));
-      copy.add(measured_->normals, to.normals, pixelsOf(left_));
+      copy.add(measured.depth_mm, to.depth_mm, pixelsOf(left_));
+      copy.add(measured.sigma_mm, to.sigma_mm, pixelsOf(left_));
+      copy.add(measured.normals, to.normals, pixelsOf(left_));
       launch("copy depth", copy);
     } else {
       RasterLayout::sendTo(to.depth_mm, frame.depth.depth_mm, machine_);
@@ -172,13 +172,12 @@ class SurveyRun final : public FrameSurvey {
   }
 
   PinholeCamera left_;
-  std::shared_ptr<const SharedRasters> measured_;
-  std::shared_ptr<SharedRasters> shared_;
+  std::shared_ptr<SharedFrames> frames_;
   typename Machine::Memory memory_;
   Machine machine_;
   Rooms rooms_;
   int at_hand_ = 0;
-  SharedRasters shown_, surveyed_;  // under way; where it was not used yet
+  SharedRasters shown_;  // under way
 };
 
 }  // namespace softscope::cuda

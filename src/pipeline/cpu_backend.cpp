@@ -27,6 +27,12 @@
 namespace softscope {
 namespace {
 
+/// Matches that were begun in parallel to the end of the frame before.
+struct BegunMatch {
+  const float* depth_mm;  // of the frame, which stays where it is
+  Eigen::Isometry3d viewed_from;
+};
+
 class CpuBackend : public ReconstructionBackend {
  public:
   CpuBackend(const StereoCalibration& calibration, const ReconstructionOptions& options,
@@ -57,12 +63,14 @@ class CpuBackend : public ReconstructionBackend {
   }
   void restore(ModelState state) override {
     growth_.drop();
+    begun_.reset();
     state_ = std::move(state);
     updater_->changed(kWholeModel);
     if (!empty()) seeds_.clear();
   }
   void add(const ModelState& other, const Eigen::Isometry3d& world_from_other) override {
     growth_.drop();
+    begun_.reset();
     uniteModels(other, world_from_other, &state_);
     updater_->changed(kWholeModel);
   }
@@ -96,6 +104,8 @@ class CpuBackend : public ReconstructionBackend {
                                      const std::vector<int>& visible) const;
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
+  ModelMatches findMatches(const Eigen::Isometry3d& viewed_from);
+  void beginMatch(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
                            ScopeBefore before);
   void grow();
@@ -126,6 +136,7 @@ class CpuBackend : public ReconstructionBackend {
 
   // Of the frame at hand.
   FrameView frame_;
+  std::optional<BegunMatch> begun_;
   std::unique_ptr<FrameComparer> comparer_;
   std::unique_ptr<ModelUpdater> updater_;
   std::unique_ptr<SurfaceSearch> surface_;
@@ -176,10 +187,31 @@ RigidPose CpuBackend::relocalise(const PointModel& model,
 }
 
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
-  ModelMatches found = matching_->match(state_.model, viewed_from, seenFrom(viewed_from),
-                                        frame_.live, frame_.measured, &clock_);
+  ModelMatches found = findMatches(viewed_from);
   matches_ = std::move(found.lifted);
   return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
+}
+
+ModelMatches CpuBackend::findMatches(const Eigen::Isometry3d& viewed_from) {
+  const std::optional<BegunMatch> begun = std::exchange(begun_, std::nullopt);
+  if (begun && begun->depth_mm == frame_.measured.depth.depth_mm.values.data() &&
+      begun->viewed_from.matrix() == viewed_from.matrix())
+    return matching_->take(&clock_);
+  return matching_->match(state_.model, viewed_from, seenFrom(viewed_from), frame_.live,
+                          frame_.measured, &clock_);
+}
+
+/// Of the next frame, if it is measured by now, with the updated model.
+void CpuBackend::beginMatch(const Eigen::Isometry3d& viewed_from) {
+  begun_.reset();
+  const FrameView* next = frames_.next();
+  if (next == nullptr || options_.match_last_picture) return;
+  try {
+    if (matching_->begin(state_.model, viewed_from, next->live, next->measured))
+      begun_ = {next->measured.depth.depth_mm.values.data(), viewed_from};
+  } catch (const BackendError&) {
+    // This frame is fused; the next one meets the failure.
+  }
 }
 
 PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
@@ -308,6 +340,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
     update = updater_->update(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
                               &state_.memory, &state_.model);
     if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
+    beginMatch(world_from_left);
   };
   // Neither needs the other.
   orRejectWarp([&] {

@@ -22,12 +22,12 @@ namespace {
 
 class CudaStereoStage final : public StereoStage {
  public:
-  /// Depth that stays on the device is told of by `measured`.
+  /// The depth stays on the device, in `frames`.
   CudaStereoStage(const StereoOptions& options, const RectifiedRig& rig,
-                  std::shared_ptr<cuda::SharedRasters> measured)
+                  std::shared_ptr<cuda::SharedFrames> frames)
       : device_(options, rig, rig.left.width_px, rig.left.height_px),
         method_(options.method),
-        measured_(std::move(measured)) {}
+        frames_(std::move(frames)) {}
   std::string name() const override { return method_; }
   MatchableViews prepare(const AlignedPair& aligned) const override {
     return matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
@@ -43,7 +43,7 @@ class CudaStereoStage final : public StereoStage {
  private:
   cuda::Stereo device_;
   std::string method_;
-  std::shared_ptr<cuda::SharedRasters> measured_;
+  std::shared_ptr<cuda::SharedFrames> frames_;
   bool is_masked_ = false;
 };
 
@@ -55,8 +55,8 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Matchab
   device_.upload(prepared);
   device_.compute(aligned.roll_rad);
   cuda::StereoDepth found = device_.download();
-  *measured_ = device_.rasters();
-  measured_->host_depth_mm = found.depth.depth_mm.values.data();
+  frames_->measured = device_.rasters();
+  frames_->measured.host_depth_mm = found.depth.depth_mm.values.data();
   clock.lap("disparity");
   return {std::move(found.disparity), std::move(found.depth), std::move(found.normals),
           clock.laps()};
@@ -65,12 +65,12 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Matchab
 class CudaMatchStage final : public MatchStage {
  public:
   CudaMatchStage(const ReconstructionOptions& options, const RectifiedRig& rig,
-                 std::shared_ptr<const cuda::SharedRasters> rasters,
+                 std::shared_ptr<const cuda::SharedFrames> frames,
                  std::shared_ptr<cuda::SharedModel> model)
       : matcher_(options.matcher),
         view_(options.model_view),
         left_(rig.left),
-        rasters_(std::move(rasters)),
+        frames_(std::move(frames)),
         model_(std::move(model)) {
     reserve(static_cast<std::size_t>(left_.width_px) * static_cast<std::size_t>(left_.height_px) /
             4);
@@ -78,8 +78,26 @@ class CudaMatchStage final : public MatchStage {
   ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                      const GrayImage& seen_gray, const MatchPicture& live,
                      const MeasuredFrame& frame, StageClock* clock) override;
+  bool begin(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+             const MatchPicture& live, const MeasuredFrame& frame) override {
+    enqueue(model, viewed_from, {}, live, frame);
+    return true;
+  }
+  ModelMatches take(StageClock* clock) override {
+    cuda::LocatedMatches found = device_->download();
+    clock->lap("match");
+    return {std::move(found.pixels), std::move(found.lifted)};
+  }
 
  private:
+  void enqueue(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+               const GrayImage& seen_gray, const MatchPicture& live, const MeasuredFrame& frame);
+  /// Where the rasters of a frame lie on the device; else null.
+  const cuda::SharedRasters* rastersOf(const MeasuredFrame& frame) const {
+    for (const cuda::SharedRasters* rasters : {&frames_->at_hand, &frames_->next})
+      if (rasters->holds(frame.depth.depth_mm.values.data())) return rasters;
+    return nullptr;
+  }
   /// Memory of before is given back first, so that the old and the new never add up.
   void reserve(std::size_t points) {
     device_.reset();
@@ -90,7 +108,7 @@ class CudaMatchStage final : public MatchStage {
   MatcherOptions matcher_;
   ModelViewOptions view_;
   PinholeCamera left_;
-  std::shared_ptr<const cuda::SharedRasters> rasters_;
+  std::shared_ptr<const cuda::SharedFrames> frames_;
   std::shared_ptr<cuda::SharedModel> model_;
   std::size_t capacity_ = 0;
   std::unique_ptr<cuda::Locator> device_;
@@ -99,27 +117,31 @@ class CudaMatchStage final : public MatchStage {
 ModelMatches CudaMatchStage::match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                                    const GrayImage& seen_gray, const MatchPicture& live,
                                    const MeasuredFrame& frame, StageClock* clock) {
+  enqueue(model, viewed_from, seen_gray, live, frame);
+  return take(clock);
+}
+
+void CudaMatchStage::enqueue(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+                             const GrayImage& seen_gray, const MatchPicture& live,
+                             const MeasuredFrame& frame) {
   // Twice the points at a time, so that a growing model rarely reallocates.
   if (model.size() > capacity_) reserve(2 * model.size());
   device_->setModel(model, *model_);
-  if (rasters_->holds(frame.depth.depth_mm.values.data()))
-    device_->setLive(*rasters_);
+  if (const cuda::SharedRasters* rasters = rastersOf(frame); rasters != nullptr)
+    device_->setLive(*rasters);
   else
     device_->setLive(live, frame.depth);
   device_->setSeenGray(seen_gray);
   device_->locate(viewed_from);
-  cuda::LocatedMatches found = device_->download();
-  clock->lap("match");
-  return {std::move(found.pixels), std::move(found.lifted)};
 }
 
 /// Other methods have no kernels.
 std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& options,
                                                const RectifiedRig& rig,
-                                               std::shared_ptr<const cuda::SharedRasters> rasters,
+                                               std::shared_ptr<const cuda::SharedFrames> frames,
                                                std::shared_ptr<cuda::SharedModel> model) {
   if (options.matcher.method != MatcherOptions::kDenseSurf) return makeCpuMatchStage(options, rig);
-  return std::make_unique<CudaMatchStage>(options, rig, std::move(rasters), std::move(model));
+  return std::make_unique<CudaMatchStage>(options, rig, std::move(frames), std::move(model));
 }
 
 /// Affine nodes have no kernels.
@@ -137,7 +159,7 @@ std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
 
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
                                                  const RectifiedRig& rig) {
-  return std::make_unique<CudaStereoStage>(options, rig, std::make_shared<cuda::SharedRasters>());
+  return std::make_unique<CudaStereoStage>(options, rig, std::make_shared<cuda::SharedFrames>());
 }
 
 std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& calibration,
@@ -146,17 +168,17 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   parts.name = "cuda";
   // The model stays on the device between the stages.
   const auto model = cuda::makeSharedModel();
-  // So does the frame, measured and at hand.
-  const auto measured = std::make_shared<cuda::SharedRasters>();
-  const auto rasters = std::make_shared<cuda::SharedRasters>();
-  parts.makeStereo = [measured](const StereoOptions& options, const RectifiedRig& rig) {
-    return std::make_unique<CudaStereoStage>(options, rig, measured);
+  // So do the frames.
+  const auto frames = std::make_shared<cuda::SharedFrames>();
+  const std::shared_ptr<const cuda::SharedRasters> rasters(frames, &frames->at_hand);
+  parts.makeStereo = [frames](const StereoOptions& options, const RectifiedRig& rig) {
+    return std::make_unique<CudaStereoStage>(options, rig, frames);
   };
-  parts.makeSurvey = [measured, rasters](const RectifiedRig& rig) {
-    return cuda::makeFrameSurvey(rig.left, measured, rasters);
+  parts.makeSurvey = [frames](const RectifiedRig& rig) {
+    return cuda::makeFrameSurvey(rig.left, frames);
   };
-  parts.makeMatching = [rasters, model](const ReconstructionOptions& all, const RectifiedRig& rig) {
-    return makeCudaMatchStage(all, rig, rasters, model);
+  parts.makeMatching = [frames, model](const ReconstructionOptions& all, const RectifiedRig& rig) {
+    return makeCudaMatchStage(all, rig, frames, model);
   };
   parts.makePoseSearch = cuda::makePoseSearch;
   parts.makeSolver = [rasters, model](const DeformOptions& warp) {

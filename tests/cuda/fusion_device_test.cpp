@@ -33,12 +33,13 @@ TEST_P(FusionOnDevice, FindsTheModelWhereTheComparerLeftIt) {
   CpuModelUpdater cpu;
   const auto apart = cuda::makeFrameComparer(FusionScene::camera());
   const UpdatedModel expected = scene.follow(apart.get(), &cpu);
-  const auto rasters = std::make_shared<cuda::SharedRasters>();
+  const auto frames = std::make_shared<cuda::SharedFrames>();
+  const std::shared_ptr<const cuda::SharedRasters> rasters(frames, &frames->at_hand);
   const auto model = cuda::makeSharedModel();
   const auto comparer = cuda::makeFrameComparer(FusionScene::camera(), rasters, model);
   const auto updater = cuda::makeModelUpdater(FusionScene::camera(), rasters, model);
   expectSameUpdate(scene.follow(comparer.get(), updater.get()), expected);
-  const auto survey = cuda::makeFrameSurvey(FusionScene::camera(), nullptr, rasters);
+  const auto survey = cuda::makeFrameSurvey(FusionScene::camera(), frames);
   expectSameUpdate(scene.follow(comparer.get(), updater.get(), survey.get()), expected);
 }
 

@@ -33,7 +33,8 @@ TEST_P(FusionPasses, FindTheModelWhereOtherStagesLeftIt) {
   CpuModelUpdater cpu;
   const UpdatedModel expected = scene.follow(&comparer_apart, &cpu);
   const auto home = std::make_shared<cuda::ModelHome<HostMachine>>();
-  const auto rasters = std::make_shared<cuda::SharedRasters>();
+  const auto frames = std::make_shared<cuda::SharedFrames>();
+  const std::shared_ptr<const cuda::SharedRasters> rasters(frames, &frames->at_hand);
   cuda::ComparisonRun<HostMachine> comparer(FusionScene::camera(), 4U);
   cuda::FusionRun<HostMachine> kernels(FusionScene::camera(), 5U);
   comparer.share(home);
@@ -41,7 +42,7 @@ TEST_P(FusionPasses, FindTheModelWhereOtherStagesLeftIt) {
   kernels.share(home);
   kernels.share(rasters);
   expectSameUpdate(scene.follow(&comparer, &kernels), expected);
-  cuda::SurveyRun<HostMachine> survey(FusionScene::camera(), nullptr, rasters, 6U);
+  cuda::SurveyRun<HostMachine> survey(FusionScene::camera(), frames, 6U);
   expectSameUpdate(scene.follow(&comparer, &kernels, &survey), expected);
   EXPECT_NE(rasters->depth_mm, nullptr);
 }

@@ -95,9 +95,10 @@ BackendParts partsWithModelOnTheDevice(unsigned seed) {
   BackendParts parts;
   parts.name = "cuda";
   const auto home = std::make_shared<cuda::ModelHome<HostMachine>>();
-  const auto rasters = std::make_shared<cuda::SharedRasters>();
+  const auto frames = std::make_shared<cuda::SharedFrames>();
+  const std::shared_ptr<const cuda::SharedRasters> rasters(frames, &frames->at_hand);
   parts.makeSurvey = [=](const RectifiedRig& rig) {
-    return std::make_unique<cuda::SurveyRun<HostMachine>>(rig.left, nullptr, rasters, seed + 3);
+    return std::make_unique<cuda::SurveyRun<HostMachine>>(rig.left, frames, seed + 3);
   };
   parts.makeComparer = [=](const RectifiedRig& rig) {
     auto comparer = std::make_unique<cuda::ComparisonRun<HostMachine>>(rig.left, seed);

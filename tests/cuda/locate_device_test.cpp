@@ -26,8 +26,8 @@ TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
   test::LocateScene scene = test::locateScene();
   cuda::Locator locator(scene.camera, scene.view_options, MatcherOptions(),
                         static_cast<int>(scene.model.size()) + 100);
-  const auto rasters = std::make_shared<cuda::SharedRasters>();
-  const auto survey = cuda::makeFrameSurvey(scene.camera, nullptr, rasters);
+  const auto frames = std::make_shared<cuda::SharedFrames>();
+  const auto survey = cuda::makeFrameSurvey(scene.camera, frames);
   for (int frame = 0; frame < 4; ++frame) {
     const GrayImage seen_gray = frame % 2 == 0 ? GrayImage() : scene.live.gray;
     if (frame == 2) {  // a smaller model, no sigma
@@ -48,8 +48,8 @@ TEST(LocateOnDevice, GivesTheCpusLiftedMatchesFrameAfterFrame) {
     EXPECT_GT(expected.size(), 200U);
     EXPECT_EQ(test::differingLifted(found.lifted, expected), 0);
     surveyScene(scene, survey.get());
-    ASSERT_NE(rasters->match_gray, nullptr);
-    locator.setLive(*rasters);
+    ASSERT_NE(frames->at_hand.match_gray, nullptr);
+    locator.setLive(frames->at_hand);
     locator.locate(scene.world_from_left);
     EXPECT_EQ(test::differingLifted(locator.download().lifted, expected), 0);
   }

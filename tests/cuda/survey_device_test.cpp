@@ -11,8 +11,8 @@ namespace {
 TEST(SurveyOnDevice, GivesTheCpusNumbersAndStatesFrameAfterFrame) {
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (info.devices.empty()) GTEST_SKIP() << info.why_none;
-  const auto survey = cuda::makeFrameSurvey(ComparisonScene::camera(), nullptr,
-                                            std::make_shared<cuda::SharedRasters>());
+  const auto survey =
+      cuda::makeFrameSurvey(ComparisonScene::camera(), std::make_shared<cuda::SharedFrames>());
   expectTheCpusSurvey(survey.get());
 }
 

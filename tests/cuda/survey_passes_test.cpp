@@ -20,27 +20,26 @@ class Surveys : public testing::Test {
   void expectAtHand(const ComparisonScene& scene) const {
     const Observation frame = scene.observation();
     const DepthMap& depth = frame.depth;
-    ASSERT_TRUE(rasters_->holds(depth.depth_mm.values.data()));
+    ASSERT_TRUE(frames_->at_hand.holds(depth.depth_mm.values.data()));
     const std::size_t pixels = depth.depth_mm.size();
-    EXPECT_EQ(std::memcmp(rasters_->depth_mm, depth.depth_mm.values.data(), 4 * pixels), 0);
-    EXPECT_EQ(std::memcmp(rasters_->normals, frame.normals.values.data(), 12 * pixels), 0);
-    EXPECT_EQ(std::memcmp(rasters_->states, scene.states().values.data(), pixels), 0);
-    EXPECT_EQ(std::memcmp(rasters_->match_gray, gray_.values.data(), pixels), 0);
-    EXPECT_EQ(std::memcmp(rasters_->colour, frame.colour.values.data(), 3 * pixels), 0);
-    EXPECT_EQ(rasters_->sigma_mm == nullptr, depth.sigma_mm.empty());
-    EXPECT_EQ(rasters_->ignore, nullptr);
+    EXPECT_EQ(std::memcmp(frames_->at_hand.depth_mm, depth.depth_mm.values.data(), 4 * pixels), 0);
+    EXPECT_EQ(std::memcmp(frames_->at_hand.normals, frame.normals.values.data(), 12 * pixels), 0);
+    EXPECT_EQ(std::memcmp(frames_->at_hand.states, scene.states().values.data(), pixels), 0);
+    EXPECT_EQ(std::memcmp(frames_->at_hand.match_gray, gray_.values.data(), pixels), 0);
+    EXPECT_EQ(std::memcmp(frames_->at_hand.colour, frame.colour.values.data(), 3 * pixels), 0);
+    EXPECT_EQ(frames_->at_hand.sigma_mm == nullptr, depth.sigma_mm.empty());
+    EXPECT_EQ(frames_->at_hand.ignore, nullptr);
   }
 
   const ComparisonScene first_{comparisonCases()[0]}, second_{comparisonCases()[1]};
   const GrayImage gray_{241, 178, 77};
-  std::shared_ptr<cuda::SharedRasters> rasters_ = std::make_shared<cuda::SharedRasters>();
-  std::shared_ptr<cuda::SharedRasters> measured_ = std::make_shared<cuda::SharedRasters>();
-  HostSurvey survey_{ComparisonScene::camera(), measured_, rasters_, 1U};
+  std::shared_ptr<cuda::SharedFrames> frames_ = std::make_shared<cuda::SharedFrames>();
+  HostSurvey survey_{ComparisonScene::camera(), frames_, 1U};
 };
 
 TEST_F(Surveys, GiveTheCpusNumbersAndStatesInAnyOrderOfThreads) {
   for (const unsigned seed : {1U, 2U}) {
-    HostSurvey survey(ComparisonScene::camera(), nullptr, rasters_, seed);
+    HostSurvey survey(ComparisonScene::camera(), frames_, seed);
     expectTheCpusSurvey(&survey);
   }
 }
@@ -58,10 +57,10 @@ TEST_F(Surveys, LieBesideTheFrameAtHandUntilTheyAreUsed) {
 TEST_F(Surveys, AreUsedOnceAndForTheirFrameAlone) {
   survey(first_);
   survey_.use(second_.observation().depth);
-  EXPECT_FALSE(rasters_->holds(first_.observation().depth.depth_mm.values.data()));
-  EXPECT_FALSE(rasters_->holds(second_.observation().depth.depth_mm.values.data()));
+  EXPECT_FALSE(frames_->at_hand.holds(first_.observation().depth.depth_mm.values.data()));
+  EXPECT_FALSE(frames_->at_hand.holds(second_.observation().depth.depth_mm.values.data()));
   survey_.use(first_.observation().depth);
-  EXPECT_FALSE(rasters_->holds(first_.observation().depth.depth_mm.values.data()));
+  EXPECT_FALSE(frames_->at_hand.holds(first_.observation().depth.depth_mm.values.data()));
 }
 
 /// Only where it is known to lie there; here it differs, so that one sees from where it came.
@@ -69,21 +68,21 @@ TEST_F(Surveys, TakeDepthFromTheDevice) {
   const Observation frame = first_.observation();
   DepthMap other = frame.depth;
   for (float& depth_mm : other.depth_mm.values) depth_mm += 7;
-  measured_->depth_mm = other.depth_mm.values.data();
-  measured_->sigma_mm = other.sigma_mm.values.data();
-  measured_->normals = frame.normals.values.data();
+  frames_->measured.depth_mm = other.depth_mm.values.data();
+  frames_->measured.sigma_mm = other.sigma_mm.values.data();
+  frames_->measured.normals = frame.normals.values.data();
   const auto medianMm = [&] {
     return surveyFrame(frame, first_.options().pixels, &survey_).depths.median_mm;
   };
   const double from_host_mm = medianMm();
-  measured_->host_depth_mm = frame.depth.depth_mm.values.data();
+  frames_->measured.host_depth_mm = frame.depth.depth_mm.values.data();
   EXPECT_NEAR(medianMm(), from_host_mm + 7, 1e-4);
 }
 
 TEST_F(Surveys, OfAnotherCameraAreRefused) {
   PinholeCamera small = ComparisonScene::camera();
   --small.width_px;
-  HostSurvey survey(small, nullptr, rasters_, 1U);
+  HostSurvey survey(small, frames_, 1U);
   EXPECT_THROW(surveyFrame(first_.observation(), first_.options().pixels, &survey), Error);
 }
 

@@ -1,6 +1,9 @@
 #include "pipeline/frame/frame_ahead.h"
 
+#include <chrono>
+
 #include "core/background_work.h"
+#include "core/error.h"
 
 namespace softscope {
 
@@ -40,8 +43,8 @@ void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<cons
   result_ =
       std::async(std::launch::async, [this, frame = prepared_, begun = std::move(begun)]() mutable {
         StageClock unused;
-        FrameView view;
-        runInBackground([&] { view = measureNow(std::move(begun), *frame, &unused); });
+        auto view = std::make_shared<FrameView>();
+        runInBackground([&] { *view = measureNow(std::move(begun), *frame, &unused); });
         return view;
       });
   if (after == nullptr) return;
@@ -66,9 +69,19 @@ FrameView FrameAhead::take(const Frame& frame, StageClock* clock) {
     result_ = {};
     return measureNow(takeViews(frame), frame, clock);
   }
-  FrameView view = result_.get();
+  FrameView view = std::move(*std::exchange(result_, {}).get());
   clock->lap("depth");
   return view;
+}
+
+const FrameView* FrameAhead::next() const {
+  if (!result_.valid() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return nullptr;
+  try {
+    return result_.get().get();
+  } catch (const Error&) {
+    return nullptr;  // measure() throws it
+  }
 }
 
 }  // namespace softscope

@@ -32,6 +32,9 @@ class FrameAhead {
   /// What was begun, if that is this frame; whatever went wrong with it is thrown here. Laps
   /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
   FrameView measure(const Frame& frame, StageClock* clock);
+  /// What measure() will return for the next frame, where that is measured by now, valid until
+  /// then; else null.
+  const FrameView* next() const;
 
  private:
   /// Everything that is found before the frame is measured.
@@ -48,8 +51,8 @@ class FrameAhead {
   ReconstructionOptions options_;
   std::unique_ptr<FrameSurvey> survey_;
   std::shared_ptr<const Frame> prepared_, aligned_;
-  std::future<Aligned> views_;     // of aligned_; both end before the frames and depth_ do
-  std::future<FrameView> result_;  // of prepared_
+  std::future<Aligned> views_;  // of aligned_; both end before the frames and depth_ do
+  std::shared_future<std::shared_ptr<FrameView>> result_;  // of prepared_
 };
 
 }  // namespace softscope

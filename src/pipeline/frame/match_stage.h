@@ -24,6 +24,14 @@ class MatchStage {
   virtual ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                              const GrayImage& seen_gray, const MatchPicture& live,
                              const MeasuredFrame& frame, StageClock* clock) = 0;
+  /// Begins match() without a recorded image. False: it does not run in parallel to other stages.
+  /// All arguments may change afterwards.
+  virtual bool begin(const PointModel& /*model*/, const Eigen::Isometry3d& /*viewed_from*/,
+                     const MatchPicture& /*live*/, const MeasuredFrame& /*frame*/) {
+    return false;
+  }
+  /// Result of what begin() began.
+  virtual ModelMatches take(StageClock* /*clock*/) { return {}; }
 };
 
 using MatchStageFactory =

@@ -129,8 +129,9 @@ Pairs sumsAlongRows(const Pairs& in, const Extents& extents) {
 
 template <Sides kSides>
 Pairs sumsAlongColumns(const Pairs& in, const Extents& extents) {
-  Pairs prefix(in.width_px, in.height_px + 1, 0), out(in.width_px, in.height_px);
+  Pairs prefix(in.width_px, in.height_px + 1), out(in.width_px, in.height_px);
   parallelRanges(in.width_px, kReliefBand, [&](int begin, int end) {
+    std::fill(prefix.row(0) + begin, prefix.row(0) + end, 0);
     for (int v = 0; v < in.height_px; ++v)
       for (int u = begin; u < end; ++u) prefix.at(u, v + 1) = prefix.at(u, v) + in.at(u, v);
   });
