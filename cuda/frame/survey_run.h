@@ -1,6 +1,7 @@
 // cuda/frame/survey_run.h: frames surveyed ahead of the stages, on any machine.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -25,7 +26,8 @@ class SurveyRun final : public FrameSurvey {
             Arguments&&... arguments)
       : left_(left),
         frames_(std::move(frames)),
-        memory_(bytesFor(left), "memory for two frames"),
+        memory_(bytesFor<Rooms>(left), "memory for two frames"),
+        staging_memory_(bytesFor<Staging>(left), "pinned memory for the images of a frame"),
         machine_(std::forward<Arguments>(arguments)...) {
     Arena arena(memory_.data());
     rooms_ = Rooms(arena, pixelsOf(left));
@@ -43,10 +45,12 @@ class SurveyRun final : public FrameSurvey {
       if (width != 0 && (width != left_.width_px || height != left_.height_px))
         throw Error("a frame of another camera than the one that was planned for");
     const Slot& to = next();
-    RasterLayout::sendTo(to.rasters.colour, left, machine_);
-    RasterLayout::sendTo(to.not_tissue, not_tissue, machine_);
-    RasterLayout::sendTo(to.match_gray, gray, machine_);
-    RasterLayout::sendTo(to.ignore, ignore, machine_);
+    Arena arena(staging_memory_.data());
+    const Staging staging(arena, pixelsOf(left_));
+    send(to.rasters.colour, left, staging.colour);
+    send(to.not_tissue, not_tissue, staging.not_tissue);
+    send(to.match_gray, gray, staging.gray);
+    send(to.ignore, ignore, staging.ignore);
     shown_ = {};
     shown_.colour = left.empty() ? nullptr : to.rasters.colour;
     shown_.match_gray = gray.empty() ? nullptr : to.match_gray;
@@ -112,6 +116,18 @@ class SurveyRun final : public FrameSurvey {
     std::uint8_t *match_gray = nullptr, *ignore = nullptr, *not_tissue = nullptr;
   };
 
+  /// What the host shows of a frame, on its way.
+  struct Staging {
+    Staging(Arena& arena, std::size_t pixels)
+        : colour(arena.array<Rgb8>(pixels)),
+          not_tissue(arena.array<std::uint8_t>(pixels)),
+          gray(arena.array<std::uint8_t>(pixels)),
+          ignore(arena.array<std::uint8_t>(pixels)) {}
+
+    Rgb8* colour;
+    std::uint8_t *not_tissue, *gray, *ignore;
+  };
+
   struct Rooms {
     Rooms() = default;
     Rooms(Arena& arena, std::size_t pixels) {
@@ -124,13 +140,21 @@ class SurveyRun final : public FrameSurvey {
     std::uint32_t* counts = nullptr;
     TissueTotals* totals = nullptr;
   };
+  template <class Layout>
   static std::size_t bytesFor(const PinholeCamera& left) {
     Arena counting;
-    Rooms(counting, pixelsOf(left));
+    Layout(counting, pixelsOf(left));
     return counting.bytes();
   }
   static std::size_t pixelsOf(const PinholeCamera& left) {
     return static_cast<std::size_t>(left.width_px) * static_cast<std::size_t>(left.height_px);
+  }
+  /// From pinned memory: the caller does not wait. It is free again once depthsOf() has waited.
+  template <class T>
+  void send(T* to, const Raster<T>& from, T* staged) {
+    if (from.empty()) return;
+    std::copy(from.values.begin(), from.values.end(), staged);
+    machine_.toDevice(to, staged, from.size() * sizeof(T));
   }
   const Slot& next() const { return rooms_.slots[1 - at_hand_]; }
 
@@ -174,6 +198,7 @@ class SurveyRun final : public FrameSurvey {
   PinholeCamera left_;
   std::shared_ptr<SharedFrames> frames_;
   typename Machine::Memory memory_;
+  typename Machine::Pinned staging_memory_;
   Machine machine_;
   Rooms rooms_;
   int at_hand_ = 0;

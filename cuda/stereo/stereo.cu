@@ -1,8 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <future>
 #include <limits>
-#include <optional>
 
 #include "cuda/device/device_executor.cuh"
 #include "cuda/device/device_stream.h"
@@ -105,38 +105,35 @@ class Stereo::Device {
   }
 
   StereoDepth download() {
+    StereoDepth found = downloadWithoutDisparity();
+    found.disparity = downloadDisparity();
+    return found;
+  }
+  DisparityMap downloadDisparity() {
+    wait();
+    DisparityMap found;
+    Copies copies =
+        copyTo({{{layout_.disparity, &found.disparity_px}, {layout_.sigma, &found.sigma_px}}});
+    finish(&copies);
+    return found;
+  }
+  StereoDepth downloadWithoutDisparity() {
     wait();
     StereoDepth found;
-    const int width = full().width, height = full().height;
-    auto* arrived = static_cast<float*>(results_memory_.data());
-    const View<float> rasters[] = {layout_.disparity, layout_.sigma, layout_.depth,
-                                   layout_.depth_sigma};
-    for (int i = 0; i < kRasters; ++i) fetch(rasters[i], arrived + i * pixels_);
-    wait();
-    Raster<float>* places[] = {&found.disparity.disparity_px, &found.disparity.sigma_px,
-                               &found.depth.depth_mm, &found.depth.sigma_mm};
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();  // one of many, as on the CPU
-    std::future<void> copies[kRasters];
-    for (int i = 0; i < kRasters; ++i)
-      copies[i] = std::async(std::launch::async, [&, i] {
-        *places[i] = Raster<float>(width, height);
-        std::transform(arrived + i * pixels_, arrived + (i + 1) * pixels_, places[i]->values.data(),
-                       [](float value) { return value == value ? value : kNan; });
-      });
+    Copies copies = copyTo(
+        {{{layout_.depth, &found.depth.depth_mm}, {layout_.depth_sigma, &found.depth.sigma_mm}}});
     // Beside the copies.
-    void* normals = arrived + kRasters * pixels_;
+    void* normals = static_cast<float*>(results_memory_.data()) + kRasters * pixels_;
     fetch(layout_.normals, static_cast<NormalPixel*>(normals));
     wait();
     static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
-    const auto* first = static_cast<const Eigen::Vector3f*>(normals);
-    found.normals.width_px = width;
-    found.normals.height_px = height;
-    copyInParts(first, &found.normals.values);
-    for (std::future<void>& copy : copies) copy.get();
+    found.normals.width_px = full().width;
+    found.normals.height_px = full().height;
+    copyInParts(static_cast<const Eigen::Vector3f*>(normals), &found.normals.values);
+    finish(&copies);
     found.levels = levels_run_;
     return found;
   }
-
   void drop(const Mask& mask) {
     requireShape(mask);
     stream_.toDevice(layout_.dropped.data, mask.values.data(), pixels_);
@@ -156,7 +153,12 @@ class Stereo::Device {
   std::size_t deviceBytes() const { return memory_.bytes(); }
 
  private:
-  static constexpr int kRasters = 4;  // of floats, that download() fetches beside the normals
+  static constexpr int kRasters = 2;  // of floats, that are copied at a time, beside the normals
+  struct RasterCopy {
+    View<float> from;
+    Raster<float>* to;
+  };
+  using Copies = std::array<std::future<void>, kRasters>;
 
   /// Checks before any allocation.
   static void check(const StereoOptions& options, int width_px) {
@@ -196,6 +198,26 @@ class Stereo::Device {
   template <class T>
   void fetch(const View<T>& from, T* to) {
     stream_.fromDevice(to, from.data, pixels_ * sizeof(T));
+  }
+
+  /// Begins copies by a thread each, through pinned memory.
+  Copies copyTo(const std::array<RasterCopy, kRasters>& rasters) {
+    auto* arrived = static_cast<float*>(results_memory_.data());
+    for (int i = 0; i < kRasters; ++i) fetch(rasters[i].from, arrived + i * pixels_);
+    wait();
+    Copies copies;
+    for (int i = 0; i < kRasters; ++i)
+      copies[i] = std::async(std::launch::async, [=, to = rasters[i].to] {
+        constexpr float kNan =
+            std::numeric_limits<float>::quiet_NaN();  // one of many, as on the CPU
+        *to = Raster<float>(full().width, full().height);
+        std::transform(arrived + i * pixels_, arrived + (i + 1) * pixels_, to->values.data(),
+                       [](float value) { return value == value ? value : kNan; });
+      });
+    return copies;
+  }
+  static void finish(Copies* copies) {
+    for (std::future<void>& copy : *copies) copy.get();
   }
 
   /// Each part by a thread: what limits it are the pages of new memory.
@@ -288,6 +310,8 @@ void Stereo::setMask(const Mask& mask) { device_->setMask(mask); }
 void Stereo::compute(double roll_rad) { device_->compute(roll_rad); }
 void Stereo::wait() { device_->wait(); }
 StereoDepth Stereo::download() { return device_->download(); }
+StereoDepth Stereo::downloadWithoutDisparity() { return device_->downloadWithoutDisparity(); }
+DisparityMap Stereo::downloadDisparity() { return device_->downloadDisparity(); }
 void Stereo::drop(const Mask& mask) { device_->drop(mask); }
 SharedRasters Stereo::rasters() const { return device_->rasters(); }
 void Stereo::timeStages(bool on) { device_->timeStages(on); }

@@ -45,6 +45,9 @@ class Stereo {
   void compute(double roll_rad = 0);
   void wait();
   StereoDepth download();
+  /// The same in two parts.
+  StereoDepth downloadWithoutDisparity();
+  DisparityMap downloadDisparity();
   /// Removes pixels from what was computed last; downloads before stay as they are.
   void drop(const Mask& mask);
   /// What was computed last; host_depth_mm is left to the caller.

@@ -13,6 +13,7 @@
 #include "fusion/visibility.h"
 #include "pipeline/frame/frame_ahead.h"
 #include "pipeline/frame/key_point_matches.h"
+#include "pipeline/frame/match_ahead.h"
 #include "pipeline/frame/pose_pairs.h"
 #include "pipeline/frame/relocaliser.h"
 #include "pipeline/frame/tissue_colour.h"
@@ -26,12 +27,6 @@
 
 namespace softscope {
 namespace {
-
-/// Matches that were begun in parallel to the end of the frame before.
-struct BegunMatch {
-  const float* depth_mm;  // of the frame, which stays where it is
-  Eigen::Isometry3d viewed_from;
-};
 
 class CpuBackend : public ReconstructionBackend {
  public:
@@ -63,14 +58,14 @@ class CpuBackend : public ReconstructionBackend {
   }
   void restore(ModelState state) override {
     growth_.drop();
-    begun_.reset();
+    matching_.drop();
     state_ = std::move(state);
     updater_->changed(kWholeModel);
     if (!empty()) seeds_.clear();
   }
   void add(const ModelState& other, const Eigen::Isometry3d& world_from_other) override {
     growth_.drop();
-    begun_.reset();
+    matching_.drop();
     uniteModels(other, world_from_other, &state_);
     updater_->changed(kWholeModel);
   }
@@ -104,8 +99,6 @@ class CpuBackend : public ReconstructionBackend {
                                      const std::vector<int>& visible) const;
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
-  ModelMatches findMatches(const Eigen::Isometry3d& viewed_from);
-  void beginMatch(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
                            ScopeBefore before);
   void grow();
@@ -122,7 +115,7 @@ class CpuBackend : public ReconstructionBackend {
   std::string name_, device_;
   int ahead_from_threads_;
   FrameAhead frames_;
-  std::unique_ptr<MatchStage> matching_;
+  MatchAhead matching_;
   std::unique_ptr<PoseSearch> pose_search_;
   std::unique_ptr<DeformSolver> solver_;
 
@@ -136,7 +129,6 @@ class CpuBackend : public ReconstructionBackend {
 
   // Of the frame at hand.
   FrameView frame_;
-  std::optional<BegunMatch> begun_;
   std::unique_ptr<FrameComparer> comparer_;
   std::unique_ptr<ModelUpdater> updater_;
   std::unique_ptr<SurfaceSearch> surface_;
@@ -187,31 +179,10 @@ RigidPose CpuBackend::relocalise(const PointModel& model,
 }
 
 MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
-  ModelMatches found = findMatches(viewed_from);
+  ModelMatches found =
+      matching_.match(state_.model, viewed_from, seenFrom(viewed_from), frame_, &clock_);
   matches_ = std::move(found.lifted);
   return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
-}
-
-ModelMatches CpuBackend::findMatches(const Eigen::Isometry3d& viewed_from) {
-  const std::optional<BegunMatch> begun = std::exchange(begun_, std::nullopt);
-  if (begun && begun->depth_mm == frame_.measured.depth.depth_mm.values.data() &&
-      begun->viewed_from.matrix() == viewed_from.matrix())
-    return matching_->take(&clock_);
-  return matching_->match(state_.model, viewed_from, seenFrom(viewed_from), frame_.live,
-                          frame_.measured, &clock_);
-}
-
-/// Of the next frame, if it is measured by now, with the updated model.
-void CpuBackend::beginMatch(const Eigen::Isometry3d& viewed_from) {
-  begun_.reset();
-  const FrameView* next = frames_.next();
-  if (next == nullptr || options_.match_last_picture) return;
-  try {
-    if (matching_->begin(state_.model, viewed_from, next->live, next->measured))
-      begun_ = {next->measured.depth.depth_mm.values.data(), viewed_from};
-  } catch (const BackendError&) {
-    // This frame is fused; the next one meets the failure.
-  }
 }
 
 PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
@@ -340,7 +311,8 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
     update = updater_->update(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
                               &state_.memory, &state_.model);
     if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
-    beginMatch(world_from_left);
+    const FrameView* next = options_.match_last_picture ? nullptr : frames_.next();
+    if (next != nullptr) matching_.begin(state_.model, world_from_left, *next);
   };
   // Neither needs the other.
   orRejectWarp([&] {

@@ -22,18 +22,23 @@ namespace {
 
 class CudaStereoStage final : public StereoStage {
  public:
-  /// The depth stays on the device, in `frames`.
+  /// The depth stays on the device, in `frames`; disparities too, until they are asked for, unless
+  /// `downloads_disparity`.
   CudaStereoStage(const StereoOptions& options, const RectifiedRig& rig,
-                  std::shared_ptr<cuda::SharedFrames> frames)
+                  std::shared_ptr<cuda::SharedFrames> frames, bool downloads_disparity)
       : device_(options, rig, rig.left.width_px, rig.left.height_px),
         method_(options.method),
-        frames_(std::move(frames)) {}
+        frames_(std::move(frames)),
+        downloads_disparity_(downloads_disparity) {}
   std::string name() const override { return method_; }
   MatchableViews prepare(const AlignedPair& aligned) const override {
-    return matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
+    return matchableViews(aligned.left_gray, aligned.right_gray, aligned.ignored);
   }
   StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
                         const Mask& mask) override;
+  void fetchDisparity(StereoSurface* measured) override {
+    if (!downloads_disparity_) measured->disparity = device_.downloadDisparity();
+  }
   void drop(const Mask& mask, StereoSurface* measured) override {
     if (mask.empty()) return;
     measured->drop(mask);
@@ -44,6 +49,7 @@ class CudaStereoStage final : public StereoStage {
   cuda::Stereo device_;
   std::string method_;
   std::shared_ptr<cuda::SharedFrames> frames_;
+  bool downloads_disparity_;
   bool is_masked_ = false;
 };
 
@@ -54,7 +60,8 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Matchab
   is_masked_ = !mask.empty();
   device_.upload(prepared);
   device_.compute(aligned.roll_rad);
-  cuda::StereoDepth found = device_.download();
+  cuda::StereoDepth found =
+      downloads_disparity_ ? device_.download() : device_.downloadWithoutDisparity();
   frames_->measured = device_.rasters();
   frames_->measured.host_depth_mm = found.depth.depth_mm.values.data();
   clock.lap("disparity");
@@ -159,7 +166,8 @@ std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
 
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
                                                  const RectifiedRig& rig) {
-  return std::make_unique<CudaStereoStage>(options, rig, std::make_shared<cuda::SharedFrames>());
+  return std::make_unique<CudaStereoStage>(options, rig, std::make_shared<cuda::SharedFrames>(),
+                                           /*downloads_disparity=*/true);
 }
 
 std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& calibration,
@@ -172,7 +180,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   const auto frames = std::make_shared<cuda::SharedFrames>();
   const std::shared_ptr<const cuda::SharedRasters> rasters(frames, &frames->at_hand);
   parts.makeStereo = [frames](const StereoOptions& options, const RectifiedRig& rig) {
-    return std::make_unique<CudaStereoStage>(options, rig, frames);
+    return std::make_unique<CudaStereoStage>(options, rig, frames, /*downloads_disparity=*/false);
   };
   parts.makeSurvey = [frames](const RectifiedRig& rig) {
     return cuda::makeFrameSurvey(rig.left, frames);

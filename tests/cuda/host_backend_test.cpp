@@ -23,7 +23,7 @@ class StereoOnTheHost : public StereoStage {
       : stereo_(options, rig.left.width_px, rig.left.height_px, 5), rig_(rig) {}
   std::string name() const override { return "elas"; }
   MatchableViews prepare(const AlignedPair& aligned) const override {
-    return matchableViews(toGray(aligned.pair.left), toGray(aligned.pair.right), aligned.ignored);
+    return matchableViews(aligned.left_gray, aligned.right_gray, aligned.ignored);
   }
   StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
                         const Mask& mask) override {

@@ -138,8 +138,8 @@ RunFigure drawMatchFigure(const RunFigureOptions& options, SceneInputs& inputs) 
       readFrame(options.sequence, moment.frame, settings.sequence, inputs, &calibration);
   FrameDepth depth(calibration, settings.method.depth);
   const MeasuredFrame measured = depth.measure(frame);
-  const MatchPicture live =
-      livePicture(measured.left, notTissue(measured.left, measured, settings.method.tissue));
+  const MatchPicture live = livePicture(measured.left, toGray(measured.left),
+                                        notTissue(measured.left, measured, settings.method.tissue));
   const fs::path file = run.models.at(moment.model_frame);
   inputs.note("model", file.string());
   const ModelView view = renderModelView(readModel(file).model, depth.rig().left,

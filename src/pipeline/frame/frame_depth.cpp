@@ -65,7 +65,7 @@ FrameViews FrameDepth::align(const Frame& frame) const {
   MeasuredFrame& measured = views.measured;
   AlignedPair& aligned = views.aligned;
   StageClock clock;
-  const StereoPair rectified = rectifier_.rectify(frame.pair);
+  StereoPair rectified = rectifier_.rectify(frame.pair);
   if (!frame.mask.empty()) views.instruments = rectifier_.rectifyMask(frame.mask);
   const Mask& known = frame.mask.empty() ? rectifier_.outside() : views.instruments;
   // Instruments are masked afterwards: their mask is that of one view, and
@@ -74,12 +74,8 @@ FrameViews FrameDepth::align(const Frame& frame) const {
   measured.mask = united(known, ignored.left);
   measured.border = ignored.left;
   clock.lap("rectify");
-  if (options_.align_rows)
-    aligned = alignRows(rectified, options_.stereo.disparity_max_px, ignored);
-  else
-    aligned = {rectified, ignored,
-               measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
-                                   options_.stereo.disparity_max_px, ignored)};
+  const auto align = options_.align_rows ? alignRows : withoutAlignment;
+  aligned = align(std::move(rectified), options_.stereo.disparity_max_px, ignored);
   measured.rows = aligned.before;
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");
@@ -95,8 +91,10 @@ MeasuredFrame FrameDepth::measure(FrameViews views) {
   AlignedPair& aligned = views.aligned;
   if (aligned.pair.left.empty()) return measured;
   StereoSurface found = stage_->measure(aligned, views.prepared, measured.mask);
-  if (!views.instruments.empty())
+  if (!views.instruments.empty()) {
+    stage_->fetchDisparity(&found);
     stage_->drop(leaksOf(views.instruments, found.disparity.disparity_px), &found);
+  }
   stage_->drop(views.clipped, &found);
   if (options_.detect_instruments)
     stage_->drop(greyForeground(aligned.pair.left, found.depth.depth_mm, rig().left), &found);

@@ -20,7 +20,7 @@ struct MeasuredFrame {
   ColourImage left;    // rectified
   Mask mask;    // instruments, black border, pixels outside of the raw left image; may be empty
   Mask border;  // part of it known before matching; may be empty
-  DisparityMap disparity;  // empty with depth from a file
+  DisparityMap disparity;  // empty with depth from a file; may be in a reconstruction
   DepthMap depth;          // NaN under the mask
   NormalMap normals;
   RowAlignment rows;  // as measured after rectification
@@ -39,6 +39,9 @@ struct FrameViews {
 
   const ColourImage& left() const {
     return aligned.pair.left.empty() ? measured.left : aligned.pair.left;
+  }
+  GrayImage leftGray() const {
+    return aligned.pair.left.empty() ? toGray(measured.left) : aligned.left_gray;
   }
 };
 

@@ -50,23 +50,23 @@ DepthSummary summarise(const TissueDepths& depths, const MeasuredFrame& measured
   return summary;
 }
 
-FramePictures picturesOf(const ColourImage& left, const MeasuredFrame& measured,
+FramePictures picturesOf(const ColourImage& left, GrayImage gray, const MeasuredFrame& measured,
                          const ReconstructionOptions& options) {
   FramePictures pictures;
   pictures.not_tissue = notTissue(left, measured, options.tissue);
-  pictures.live = livePicture(left, pictures.not_tissue);
+  pictures.live = livePicture(left, std::move(gray), pictures.not_tissue);
   return pictures;
 }
 
 }  // namespace
 
 FramePictures framePictures(const FrameViews& views, const ReconstructionOptions& options) {
-  return picturesOf(views.left(), views.measured, options);
+  return picturesOf(views.left(), views.leftGray(), views.measured, options);
 }
 
 FrameView viewFrame(MeasuredFrame measured, const RectifiedRig& rig,
                     const ReconstructionOptions& options) {
-  FramePictures pictures = picturesOf(measured.left, measured, options);
+  FramePictures pictures = picturesOf(measured.left, toGray(measured.left), measured, options);
   CpuFrameSurvey survey;
   return viewFrame(std::move(measured), std::move(pictures), rig, options, &survey);
 }

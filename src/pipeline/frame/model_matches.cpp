@@ -1,6 +1,8 @@
 // src/pipeline/frame/model_matches.cpp: masks and images.
 #include "pipeline/frame/model_matches.h"
 
+#include <utility>
+
 #include "core/mask_morphology.h"
 #include "core/parallel.h"
 #include "features/highlight_mask.h"
@@ -40,8 +42,8 @@ Mask notTissue(const ColourImage& left, const MeasuredFrame& frame,
   return mask;
 }
 
-MatchPicture livePicture(const ColourImage& left, const Mask& not_tissue) {
-  MatchPicture live{toGray(left), not_tissue};
+MatchPicture livePicture(const ColourImage& left, GrayImage gray, const Mask& not_tissue) {
+  MatchPicture live{std::move(gray), not_tissue};
   addTo(live.ignore, highlightMask(left));
   return live;
 }

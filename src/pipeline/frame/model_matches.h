@@ -17,7 +17,7 @@ Mask notTissue(const ColourImage& left, const MeasuredFrame& frame,
                const TissueMaskOptions& options);
 
 /// The rectified left image as it is matched: without what is no tissue, without highlights.
-MatchPicture livePicture(const ColourImage& left, const Mask& not_tissue);
+MatchPicture livePicture(const ColourImage& left, GrayImage gray, const Mask& not_tissue);
 
 struct ModelMatches {
   std::vector<PixelMatch> pixels;

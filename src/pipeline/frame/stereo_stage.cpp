@@ -29,7 +29,9 @@ StereoSurface CpuStereoStage::measure(const AlignedPair& aligned,
                                       const MatchableViews& /*prepared*/, const Mask& mask) {
   StageClock clock;
   StereoSurface found;
-  found.disparity = matcher_->matchColour(aligned.pair, aligned.ignored);
+  found.disparity = matcher_->usesColour()
+                        ? matcher_->matchColour(aligned.pair, aligned.ignored)
+                        : matcher_->match(aligned.left_gray, aligned.right_gray, aligned.ignored);
   removeRoll(aligned.roll_rad, &found.disparity.disparity_px);
   clock.lap("disparity");
   found.depth = depthFromDisparity(found.disparity, rig_);

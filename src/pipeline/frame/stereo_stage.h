@@ -35,6 +35,8 @@ class StereoStage {
   /// `prepared`: from prepare(). No disparity and no depth under `mask`, which may be empty.
   virtual StereoSurface measure(const AlignedPair& aligned, const MatchableViews& prepared,
                                 const Mask& mask) = 0;
+  /// Fetches the disparities of what was measured last, where measure() left them on a device.
+  virtual void fetchDisparity(StereoSurface* /*measured*/) {}
   /// Removes measurements under `mask`, which may be empty, from what was measured last.
   virtual void drop(const Mask& mask, StereoSurface* measured) { measured->drop(mask); }
 };

@@ -16,6 +16,7 @@ class OnnxMatcher final : public StereoMatcher {
   using StereoMatcher::match;
   DisparityMap match(const GrayImage& left, const GrayImage& right,
                      const ViewMasks& ignored) override;
+  bool usesColour() const override { return true; }
   DisparityMap matchColour(const StereoPair& pair, const ViewMasks& ignored) override;
   void prepare(int width_px, int height_px) override;
   const StageTimes& times() const override { return times_; }

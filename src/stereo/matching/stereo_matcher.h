@@ -33,7 +33,8 @@ class StereoMatcher {
     return match(left, right, {});
   }
 
-  /// The same for colour images; matchers without colour use their luma.
+  /// Whether matchColour() is more than match() of the images' luma.
+  virtual bool usesColour() const { return false; }
   virtual DisparityMap matchColour(const StereoPair& pair, const ViewMasks& ignored) {
     return match(toGray(pair.left), toGray(pair.right), ignored);
   }

@@ -1,5 +1,7 @@
 #include "stereo/rectification/row_alignment.h"
 
+#include <utility>
+
 #include "core/mask_morphology.h"
 #include "stereo/rectification/row_meter.h"
 #include "stereo/rectification/row_resampling.h"
@@ -12,6 +14,15 @@ bool needsNoShift(const RowAlignment& found) {
   return !found.known() ||
          found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||
          found.mean_row_difference_px < RowAlignment::kRemoveAbovePx;
+}
+
+AlignedPair grayPair(StereoPair rectified, const ViewMasks& ignored) {
+  AlignedPair aligned;
+  aligned.left_gray = toGray(rectified.left);
+  aligned.right_gray = toGray(rectified.right);
+  aligned.pair = std::move(rectified);
+  aligned.ignored = ignored;
+  return aligned;
 }
 
 /// Masked where a masked pixel contributes to the moved image.
@@ -33,16 +44,25 @@ ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignme
   return moveRows(right, alignment);
 }
 
-AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px, const ViewMasks& ignored) {
-  RowMeter meter(toGray(rectified.left), disparity_max_px, ignored.left);
-  const GrayImage right = toGray(rectified.right);
-  AlignedPair aligned{rectified, ignored, meter.measure(right, ignored.right)};
+AlignedPair withoutAlignment(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored) {
+  AlignedPair aligned = grayPair(std::move(rectified), ignored);
+  aligned.before =
+      measureRowAlignment(aligned.left_gray, aligned.right_gray, disparity_max_px, ignored);
+  return aligned;
+}
+
+AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored) {
+  AlignedPair aligned = grayPair(std::move(rectified), ignored);
+  RowMeter meter(aligned.left_gray, disparity_max_px, ignored.left);
+  aligned.before = meter.measure(aligned.right_gray, ignored.right);
   if (needsNoShift(aligned.before)) return aligned;
   RowAlignment whole = aligned.before;
-  const RowAlignment rest = meter.measure(moveRows(right, whole), moveMask(ignored.right, whole));
+  const RowAlignment rest =
+      meter.measure(moveRows(aligned.right_gray, whole), moveMask(ignored.right, whole));
   if (!needsNoShift(rest))
     for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
-  aligned.pair.right = removeRowError(rectified.right, whole);
+  aligned.pair.right = removeRowError(aligned.pair.right, whole);
+  aligned.right_gray = toGray(aligned.pair.right);
   aligned.ignored.right = moveMask(ignored.right, whole);
   aligned.removed = true;
   aligned.roll_rad = whole.tilt_px_per_px();

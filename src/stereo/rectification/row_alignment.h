@@ -44,9 +44,10 @@ ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignme
 /// A rectified pair whose rows correspond.
 struct AlignedPair {
   StereoPair pair;
-  ViewMasks ignored;     // the right one moved with its view
-  RowAlignment before;   // as measured
-  bool removed = false;  // whether the right image was moved
+  GrayImage left_gray, right_gray;  // toGray() of both
+  ViewMasks ignored;                // the right one moved with its view
+  RowAlignment before;              // as measured
+  bool removed = false;             // whether the right image was moved
   /// Of the right camera about its optical axis, from the tilt of the rows: see removeRoll().
   double roll_rad = 0;
 };
@@ -54,8 +55,9 @@ struct AlignedPair {
 /// Measures the row difference and, above kRemoveAbovePx, moves the
 /// right image; then measures again, with better matches, and moves
 /// the right image by both at once. Ignored pixels do not count.
-AlignedPair alignRows(const StereoPair& rectified, int disparity_max_px,
-                      const ViewMasks& ignored = {});
+AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored = {});
+/// Measures the row difference only.
+AlignedPair withoutAlignment(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored);
 
 /// Moving rows removes half of a roll; the other half makes disparities
 /// too large by roll_rad * (v - centre_v), px, which is subtracted here.
