@@ -12,6 +12,7 @@
 #include "cuda/device/shared_rasters.h"
 #include "cuda/frame/pixel_state_body.h"
 #include "cuda/frame/raster_layout.h"
+#include "cuda/frame/relief.h"
 #include "cuda/frame/tissue_count.h"
 #include "fusion/frame_survey.h"
 
@@ -77,15 +78,12 @@ class SurveyRun final : public FrameSurvey {
   Raster<PixelState> statesOf(const Observation& frame, const PixelOptions& options) override {
     options.validate();
     const Slot& to = next();
-    const PixelKernel<PixelStateBody> classify{
-        {{shown_.depth_mm, shown_.sigma_mm, shown_.normals, shown_.colour},
-         posedCamera(frame.left, frame.world_from_left),
-         frame.mask.empty() ? nullptr : to.not_tissue,
-         static_cast<float>(options.max_sigma_mm),
-         to.rasters.states},
-        left_.width_px,
-        left_.height_px};
-    machine_.executor().launch("pixel states", classify, classify.grid());
+    const PixelStateBody classify{{shown_.depth_mm, shown_.sigma_mm, shown_.normals, shown_.colour},
+                                  posedCamera(frame.left, frame.world_from_left),
+                                  frame.mask.empty() ? nullptr : to.not_tissue,
+                                  static_cast<float>(options.max_sigma_mm),
+                                  to.rasters.states};
+    perPixel("pixel states", classify);
     Raster<PixelState> states(left_.width_px, left_.height_px);
     machine_.fromDevice(states.values.data(), to.rasters.states, states.size());
     machine_.wait();
@@ -93,6 +91,22 @@ class SurveyRun final : public FrameSurvey {
     frames_->next.host_depth_mm = frame.depth.depth_mm.values.data();
     frames_->next.states = to.rasters.states;
     return states;
+  }
+
+  Raster<float> reliefOf(const Observation& frame, double focal_baseline_px_mm) override {
+    const int width = left_.width_px;
+    const ReliefLayout& at = rooms_.relief;
+    perPixel("relief steps", ReliefStepsBody{frames_->next.depth_mm, at, width,
+                                             static_cast<float>(focal_baseline_px_mm)});
+    perPixel("relief windows", ReliefExtentsBody{at, width, left_.height_px});
+    perPixel("relief rows", ReliefRowsBody<ReliefSides::kEven>{at, width});
+    perPixel("relief bends", ReliefBendBody{at, width});
+    perPixel("relief rows", ReliefRowsBody<ReliefSides::kBoth>{at, width});
+    perPixel("relief error", ReliefErrorBody{at, width});
+    Raster<float> error_px(frame.left.width_px, frame.left.height_px);
+    machine_.fromDevice(error_px.values.data(), at.error_px, error_px.size() * sizeof(float));
+    machine_.wait();
+    return error_px;
   }
 
   void use(const DepthMap& depth) override {
@@ -134,11 +148,13 @@ class SurveyRun final : public FrameSurvey {
       for (Slot& slot : slots) slot = Slot(arena, pixels);
       counts = arena.array<std::uint32_t>(TissueTotals::kSearches * kRankCounts);
       totals = arena.array<TissueTotals>(1);
+      relief = ReliefLayout(arena, pixels);
     }
 
     Slot slots[2];
     std::uint32_t* counts = nullptr;
     TissueTotals* totals = nullptr;
+    ReliefLayout relief;
   };
   template <class Layout>
   static std::size_t bytesFor(const PinholeCamera& left) {
@@ -189,6 +205,11 @@ class SurveyRun final : public FrameSurvey {
       launch("pick median", PickRankKernel<UpperMedian>{rooms_.counts, rooms_.totals->medians, step,
                                                         TissueTotals::kSearches});
     }
+  }
+  template <class Body>
+  void perPixel(const char* name, const Body& body) {
+    const PixelKernel<Body> kernel{body, left_.width_px, left_.height_px};
+    machine_.executor().launch(name, kernel, kernel.grid());
   }
   template <class Kernel>
   void launch(const char* name, const Kernel& kernel) {

@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// show(), depthsOf() and statesOf() are called in this order for each frame, on any thread, while
-/// the stages work on the frame before. The camera's pose does not matter. All implementations give
-/// the same bytes.
+/// show(), depthsOf(), statesOf() and reliefOf() are called in this order for each frame, on any
+/// thread, while the stages work on the frame before. The camera's pose does not matter. All
+/// implementations give the same bytes.
 class FrameSurvey {
  public:
   virtual ~FrameSurvey() = default;
@@ -20,6 +20,9 @@ class FrameSurvey {
                     const Mask& ignore) = 0;
   virtual TissueDepths depthsOf(const Observation& frame) = 0;
   virtual Raster<PixelState> statesOf(const Observation& frame, const PixelOptions& options) = 0;
+  /// reliefErrorPx(), for `focal_baseline_px_mm`, the focal length times the baseline; empty: not
+  /// found here. May be left out.
+  virtual Raster<float> reliefOf(const Observation& frame, double focal_baseline_px_mm) = 0;
   /// The stages work on the frame with that depth now, whose rasters stay where they are in memory
   /// until the next frame is used. One that was not surveyed last is copied by each stage that
   /// needs it.
@@ -35,6 +38,9 @@ class CpuFrameSurvey final : public FrameSurvey {
   }
   Raster<PixelState> statesOf(const Observation& frame, const PixelOptions& options) override {
     return classifyPixels(frame, options);
+  }
+  Raster<float> reliefOf(const Observation& /*frame*/, double /*focal_baseline_px_mm*/) override {
+    return {};
   }
   void use(const DepthMap& /*depth*/) override {}
 };

@@ -72,7 +72,7 @@ class CpuBackend : public ReconstructionBackend {
 
   void prepare(const std::shared_ptr<const Frame>& next,
                const std::shared_ptr<const Frame>& after) override {
-    if (worksAhead()) frames_.prepare(next, after);
+    if (worksAhead()) frames_.prepare(next, after, tracks() || !seeds_.empty());
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
@@ -94,9 +94,7 @@ class CpuBackend : public ReconstructionBackend {
   const PinholeCamera& left() const { return rig().left; }
   bool worksAhead() const { return threadCount() >= ahead_from_threads_; }
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
-  DeformObservation matchConstraints(const Eigen::Isometry3d& world_from_left,
-                                     const SurfaceTarget& surface,
-                                     const std::vector<int>& visible) const;
+  std::vector<KeyPointMatch> pulls(const Eigen::Isometry3d& world_from_left) const;
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
@@ -107,6 +105,10 @@ class CpuBackend : public ReconstructionBackend {
   bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
+  void observeErrors(const Eigen::Isometry3d& world_from_left) {
+    state_.errors.observe(frame_.measured.depth, rig(), world_from_left, state_.graph,
+                          frame_.fusion);
+  }
   void endAlignment() {
     if (aligning_.valid()) aligning_.get();
   }
@@ -222,30 +224,32 @@ Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const 
           world_from_left};
 }
 
-DeformObservation CpuBackend::matchConstraints(const Eigen::Isometry3d& world_from_left,
-                                               const SurfaceTarget& surface,
-                                               const std::vector<int>& visible) const {
-  DeformObservation seen;
-  seen.surface = &surface;
-  seen.visible = &visible;
-  if (options_.deform.correspondence_weight > 0)
-    seen.matches = keyPointMatches(matches_, pose_, frame_.association, world_from_left);
-  return seen;
+/// Of the matches on the model; none where they have no weight.
+std::vector<KeyPointMatch> CpuBackend::pulls(const Eigen::Isometry3d& world_from_left) const {
+  if (!(options_.deform.correspondence_weight > 0)) return {};
+  return keyPointMatches(matches_, pose_, frame_.association, world_from_left);
 }
 
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   is_grown_ = false;
   if (!growth_.canWait(state_.model)) grow();
   clock_.lap("graph");
-  const std::vector<std::int32_t> visible = comparer_->visiblePoints(
-      state_.model, observe(world_from_left), frame_.states, frame_.fusion.visibility);
+  std::vector<std::int32_t> visible;
+  DeformObservation seen;
+  parallelInvoke(
+      [&] {
+        visible = comparer_->visiblePoints(state_.model, observe(world_from_left), frame_.states,
+                                           frame_.fusion.visibility);
+      },
+      [&] { seen.matches = pulls(world_from_left); });
+  seen.visible = &visible;
   const DepthTarget surface(frame_.measured.depth, frame_.measured.normals, left(),
                             world_from_left.inverse(), frame_.association);
   clock_.lap("visible");
   WarpSummary summary;
   summary.in_sight = static_cast<int>(visible.size());
   summary.nodes = static_cast<int>(state_.graph.size());
-  const DeformObservation seen = matchConstraints(world_from_left, surface, visible);
+  seen.surface = &surface;
   growth_.waitForSolver();
   summary.solver = solver_->solve(state_.model, seen, &state_.graph);
   clock_.lap("solve");
@@ -318,6 +322,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   orRejectWarp([&] {
     parallelInvoke(updateModel, [&] {
       if (!first && !aligning_.valid()) alignTracks(world_from_left);
+      observeErrors(world_from_left);
     });
     endAlignment();
   });
@@ -326,25 +331,17 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
-  parallelInvoke(
-      [&] {
-        state_.tracked.renumber(update.index_map, state_.model, options_.graph.node_spacing_mm,
-                                surface_.get());
-        if (first) {
-          state_.tracked.anchor(state_.model, surface_.get());
-          if (tracks())
-            state_.tracked.look(pictures_.looks(), state_.model, left(), world_from_left,
-                                frame_.measured.depth);
-        }
-        state_.tracked.settle(state_.model, world_from_left.translation(),
-                              frame_.summary.limit_scale, surface_.get());
-        // Not beside the search: both may work on the model of a device.
-        fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
-      },
-      [&] {
-        state_.errors.observe(frame_.measured.depth, rig(), world_from_left, state_.graph,
-                              frame_.fusion);
-      });
+  state_.tracked.renumber(update.index_map, state_.model, options_.graph.node_spacing_mm,
+                          surface_.get());
+  if (first) {
+    state_.tracked.anchor(state_.model, surface_.get());
+    if (tracks())
+      state_.tracked.look(pictures_.looks(), state_.model, left(), world_from_left,
+                          frame_.measured.depth);
+  }
+  state_.tracked.settle(state_.model, world_from_left.translation(), frame_.summary.limit_scale,
+                        surface_.get());
+  fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
   fused_.points = static_cast<int>(state_.model.size());
   fused_.seen = update.seen;
   fused_.fused = update.points.fused;

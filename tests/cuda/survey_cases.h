@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "comparison_cases.h"
+#include "stereo/depth/relief_error.h"
 #include "survey_frame.h"
 
 namespace softscope::test {
@@ -40,6 +42,13 @@ inline void expectTheCpusSurvey(FrameSurvey* survey) {
       const Surveyed found = surveyFrame(masked, scene.options().pixels, survey);
       expectSameDepths(found.depths, tissueDepths(depth, mask));
       EXPECT_TRUE(found.states.values == classifyPixels(masked, scene.options().pixels).values);
+      RectifiedRig rig;
+      rig.left = camera;
+      rig.baseline_mm = kFocalBaseline / camera.fx_px;
+      const Raster<float> relief_px = reliefErrorPx(depth.depth_mm, rig);
+      EXPECT_EQ(
+          std::memcmp(found.relief_px.values.data(), relief_px.values.data(), 4 * relief_px.size()),
+          0);
       survey->use(depth);
     }
   }

@@ -36,17 +36,28 @@ std::future<FrameAhead::Aligned> FrameAhead::takeViews(const Frame& frame) {
   return std::move(views_);
 }
 
-void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after) {
+void FrameAhead::addRelief(FrameView* view) {
+  const RectifiedRig& rig = depth_->rig();
+  view->relief_px = survey_->reliefOf({view->measured.depth, view->measured.normals,
+                                       view->measured.left, view->not_tissue, rig.left},
+                                      rig.left.fx_px * rig.baseline_mm);
+}
+
+void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after,
+                         bool with_relief) {
   if (result_.valid()) result_.wait();
   std::future<Aligned> begun = takeViews(*next);
   prepared_ = std::move(next);
-  result_ =
-      std::async(std::launch::async, [this, frame = prepared_, begun = std::move(begun)]() mutable {
-        StageClock unused;
-        auto view = std::make_shared<FrameView>();
-        runInBackground([&] { *view = measureNow(std::move(begun), *frame, &unused); });
-        return view;
-      });
+  result_ = std::async(std::launch::async,
+                       [this, with_relief, frame = prepared_, begun = std::move(begun)]() mutable {
+                         StageClock unused;
+                         auto view = std::make_shared<FrameView>();
+                         runInBackground([&] {
+                           *view = measureNow(std::move(begun), *frame, &unused);
+                           if (with_relief) addRelief(view.get());
+                         });
+                         return view;
+                       });
   if (after == nullptr) return;
   aligned_ = std::move(after);
   views_ = std::async(std::launch::async, [this, frame = aligned_] {

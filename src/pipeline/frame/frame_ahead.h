@@ -27,8 +27,10 @@ class FrameAhead {
 
   const FrameDepth& depth() const { return *depth_; }
 
-  /// Begins, with `after` (the frame after it) too, where that isn't null.
-  void prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after);
+  /// Begins, with `after` (the frame after it) too, where that isn't null. `with_relief`: also the
+  /// next frame's relief, where its survey finds it.
+  void prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after,
+               bool with_relief);
   /// What was begun, if that is this frame; whatever went wrong with it is thrown here. Laps
   /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
   FrameView measure(const Frame& frame, StageClock* clock);
@@ -44,6 +46,7 @@ class FrameAhead {
   };
   Aligned align(const Frame& frame) const;
   FrameView measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
+  void addRelief(FrameView* view);
   std::future<Aligned> takeViews(const Frame& frame);
   FrameView take(const Frame& frame, StageClock* clock);
 

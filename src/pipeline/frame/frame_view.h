@@ -19,6 +19,7 @@ struct FrameView {
   Mask not_tissue;
   MatchPicture live;  // as it is matched
   Raster<PixelState> states;
+  Raster<float> relief_px;  // reliefErrorPx(); may be empty
   DepthSummary summary;
   AssociationOptions association;
   FusionOptions fusion;

@@ -2,15 +2,20 @@
 
 #include <utility>
 
+#include "core/parallel.h"
 #include "deform/graph/warp.h"
 
 namespace softscope {
 
 void AcceptedWarp::apply(ModelUpdater* updater, double node_spacing_mm, ModelState* state) {
-  if (of_model_->apply(state->graph, &state->model)) updater->changed(kModelShape);
+  bool is_on_host = false;
+  parallelInvoke([&] { is_on_host = of_model_->apply(state->graph, &state->model); },
+                 [&] {
+                   before_.graph = state->graph;
+                   before_.tracked = state->tracked;
+                 });
+  if (is_on_host) updater->changed(kModelShape);
   is_applied_ = true;
-  before_.graph = state->graph;
-  before_.tracked = state->tracked;
   state->tracked.warp(state->graph, state->model, node_spacing_mm);
   rebase(&state->graph);
 }

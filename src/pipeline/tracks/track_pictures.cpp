@@ -21,7 +21,8 @@ void drop(std::future<Made>* making, std::optional<Made>* made) {
 void TrackPictures::prepare() {
   end();
   making_looks_ = std::async(std::launch::async, [this] { return makeLooks(); });
-  making_relief_ = std::async(std::launch::async, [this] { return makeRelief(); });
+  if (frame_->relief_px.empty())
+    making_relief_ = std::async(std::launch::async, [this] { return makeRelief(); });
 }
 
 const LookPicture& TrackPictures::looks() {
@@ -29,6 +30,7 @@ const LookPicture& TrackPictures::looks() {
 }
 
 const Raster<float>& TrackPictures::reliefPx() {
+  if (!frame_->relief_px.empty()) return frame_->relief_px;
   return take(&making_relief_, &relief_px_, [this] { return makeRelief(); });
 }
 

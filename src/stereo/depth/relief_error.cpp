@@ -7,48 +7,26 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "stereo/options/stereo_options.h"
+#include "stereo/depth/relief_formulas.h"
 
 namespace softscope {
 namespace {
 
-// Integer sums: the same in any order of addition. Prefix sums may overflow,
-// differences of unsigned ones are right nevertheless.
+// Prefix sums may overflow, differences of unsigned ones are right nevertheless.
 using Counts = Raster<std::uint32_t>;
+using Pairs = Raster<std::uint64_t>;  // reliefPair()
 
-/// A value and whether it is measured, in one number, of which sums over windows are those of both:
-/// 32 bits are enough for each.
-using Pairs = Raster<std::uint64_t>;
-std::uint64_t pairOf(std::uint32_t value) { return std::uint64_t{value} << 32 | 1; }
-std::uint32_t valueIn(std::uint64_t pair) { return static_cast<std::uint32_t>(pair >> 32); }
-std::uint32_t countIn(std::uint64_t pair) { return static_cast<std::uint32_t>(pair); }
-
-constexpr int kSmoothedReach = 2 * RefinementOptions::radius_px;  // two windows in sequence
-constexpr float kStepsPerPx = 1024;    // of disparity: 625 times 3355 px fit
-constexpr float kStepsAPx2 = 65536;    // of squared bends …
-constexpr float kLargestBendPx2 = 50;  // … 625 of which fit
-constexpr std::uint32_t kEdge =
-    static_cast<std::uint32_t>(StereoOptions::edge_step_px * kStepsPerPx);
 constexpr int kReliefBand = 48;  // rows or columns of one task
-
-/// The nearest whole number of one that is not negative, as std::lround(), which is a call.
-template <class Real>
-std::uint32_t rounded(Real x) {
-  const auto whole = static_cast<std::uint32_t>(x);
-  return whole + (x - static_cast<Real>(whole) >= Real(0.5) ? 1 : 0);
-}
 
 /// Pixels of a window before and after its centre, up to `kSmoothedReach`, in one direction.
 struct Extents {
   Raster<std::uint8_t> before, after;
 };
 
-bool isStep(std::uint32_t a, std::uint32_t b) { return (a > b ? a - b : b - a) > kEdge; }
-
 /// Counts pixels since the last depth step between measured pixels, here with the first; `last`:
 /// disparity of the last measured pixel; 0: none.
 void extendRun(std::uint32_t disparity, std::uint32_t* length, std::uint32_t* last) {
-  const bool begins = disparity != 0 && *last != 0 && isStep(disparity, *last);
+  const bool begins = disparity != 0 && *last != 0 && isReliefStep(disparity, *last);
   constexpr std::uint32_t kMost = kSmoothedReach + 1;
   const std::uint32_t longer = *length + 1 < kMost ? *length + 1 : kMost;
   *length = begins ? 1 : longer;
@@ -95,20 +73,16 @@ Extents extentsAlongColumns(const Counts& disparity) {
   return extents;
 }
 
-/// Whether both sides of a window reach as far as the shorter one: a plane is then the mean of its
-/// window in its middle.
-enum class Sides { kBoth, kEven };
-
 /// Sum of the values from `before` places before the middle to `after` behind it; prefixAt(k): of
 /// the first k.
-template <Sides kSides, class PrefixAt>
+template <ReliefSides kSides, class PrefixAt>
 std::uint64_t sumWithin(int middle, int before, int after, const PrefixAt& prefixAt) {
-  if (kSides == Sides::kEven) before = after = std::min(before, after);
+  if (kSides == ReliefSides::kEven) before = after = std::min(before, after);
   return prefixAt(middle + 1 + after) - prefixAt(middle - before);
 }
 
 /// None at pixels that are not measured, which may be in the gap of a step.
-template <Sides kSides>
+template <ReliefSides kSides>
 Pairs sumsAlongRows(const Pairs& in, const Extents& extents) {
   Pairs out(in.width_px, in.height_px);
   parallelRanges(in.height_px, kReliefBand, [&](int begin, int end) {
@@ -127,7 +101,7 @@ Pairs sumsAlongRows(const Pairs& in, const Extents& extents) {
   return out;
 }
 
-template <Sides kSides>
+template <ReliefSides kSides>
 Pairs sumsAlongColumns(const Pairs& in, const Extents& extents) {
   Pairs prefix(in.width_px, in.height_px + 1), out(in.width_px, in.height_px);
   parallelRanges(in.width_px, kReliefBand, [&](int begin, int end) {
@@ -157,7 +131,7 @@ Windows windowsOf(const Counts& disparity) {
   return windows;
 }
 
-template <Sides kSides>
+template <ReliefSides kSides>
 Pairs sumsOver(const Windows& windows, const Pairs& in) {
   return sumsAlongColumns<kSides>(sumsAlongRows<kSides>(in, windows.rows), windows.columns);
 }
@@ -173,7 +147,6 @@ float sigmaWithRelief(const RectifiedRig& rig, float sigma_mm, float depth_mm, f
 Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& rig) {
   const int width = depth_mm.width_px, height = depth_mm.height_px;
   const float scale = static_cast<float>(rig.left.fx_px * rig.baseline_mm);
-  constexpr float kLargest = static_cast<float>(StereoOptions::kLargestDisparityPx);
   Counts steps(width, height, 0);
   Pairs pairs(width, height, 0);
   parallelRows(height, [&](int v) {
@@ -181,33 +154,25 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
     std::uint32_t* step = steps.row(v);
     std::uint64_t* pair = pairs.row(v);
     for (int u = 0; u < width; ++u) {
-      step[u] = rounded(z[u] > 0 ? kStepsPerPx * std::min(scale / z[u], kLargest) : 0.0f);
-      pair[u] = z[u] > 0 ? pairOf(step[u]) : 0;
+      step[u] = disparitySteps(z[u], scale);
+      pair[u] = z[u] > 0 ? reliefPair(step[u]) : 0;
     }
   });
   const Windows windows = windowsOf(steps);
-  const Pairs means = sumsOver<Sides::kEven>(windows, pairs);
+  const Pairs means = sumsOver<ReliefSides::kEven>(windows, pairs);
   parallelRows(height, [&](int v) {
     const std::uint32_t* step = steps.row(v);
     const std::uint64_t* sum = means.row(v);
     std::uint64_t* pair = pairs.row(v);
-    for (int u = 0; u < width; ++u) {
-      const double bend_px =
-          (step[u] - static_cast<double>(valueIn(sum[u])) / std::max(countIn(sum[u]), 1U)) /
-          kStepsPerPx;
-      const double square = std::min<double>(bend_px * bend_px, kLargestBendPx2);
-      pair[u] = countIn(pair[u]) != 0 ? pairOf(rounded(kStepsAPx2 * square)) : 0;
-    }
+    for (int u = 0; u < width; ++u) pair[u] = countIn(pair[u]) != 0 ? bendPair(step[u], sum[u]) : 0;
   });
-  const Pairs energies = sumsOver<Sides::kBoth>(windows, pairs);
+  const Pairs energies = sumsOver<ReliefSides::kBoth>(windows, pairs);
   Raster<float> error_px(width, height, std::numeric_limits<float>::quiet_NaN());
   parallelRows(height, [&](int v) {
     const std::uint64_t *pair = pairs.row(v), *energy = energies.row(v);
     float* error = error_px.row(v);
     for (int u = 0; u < width; ++u)
-      if (countIn(pair[u]) != 0)
-        error[u] = std::sqrt(static_cast<float>(valueIn(energy[u])) /
-                             (kStepsAPx2 * static_cast<float>(countIn(energy[u]))));
+      if (countIn(pair[u]) != 0) error[u] = reliefErrorOf(energy[u]);
   });
   return error_px;
 }
