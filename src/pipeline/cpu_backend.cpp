@@ -38,6 +38,7 @@ class CpuBackend : public ReconstructionBackend {
         ahead_from_threads_(parts.ahead_from_threads),
         frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo), options,
                 parts.makeSurvey),
+        thread_limit_(parts.thread_limit),
         matching_(parts.makeMatching(options, rig())),
         pose_search_(parts.makePoseSearch()),
         solver_(parts.makeSolver(options.deform)),
@@ -94,7 +95,6 @@ class CpuBackend : public ReconstructionBackend {
   const PinholeCamera& left() const { return rig().left; }
   bool worksAhead() const { return threadCount() >= ahead_from_threads_; }
   Observation observe(const Eigen::Isometry3d& world_from_left) const;
-  std::vector<KeyPointMatch> pulls(const Eigen::Isometry3d& world_from_left) const;
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
@@ -105,6 +105,7 @@ class CpuBackend : public ReconstructionBackend {
   bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
+  void measureError(const Observation& observation);
   void observeErrors(const Eigen::Isometry3d& world_from_left) {
     state_.errors.observe(frame_.measured.depth, rig(), world_from_left, state_.graph,
                           frame_.fusion);
@@ -117,6 +118,7 @@ class CpuBackend : public ReconstructionBackend {
   std::string name_, device_;
   int ahead_from_threads_;
   FrameAhead frames_;
+  std::shared_ptr<ThreadLimit> thread_limit_;
   MatchAhead matching_;
   std::unique_ptr<PoseSearch> pose_search_;
   std::unique_ptr<DeformSolver> solver_;
@@ -224,12 +226,6 @@ Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const 
           world_from_left};
 }
 
-/// Of the matches on the model; none where they have no weight.
-std::vector<KeyPointMatch> CpuBackend::pulls(const Eigen::Isometry3d& world_from_left) const {
-  if (!(options_.deform.correspondence_weight > 0)) return {};
-  return keyPointMatches(matches_, pose_, frame_.association, world_from_left);
-}
-
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   is_grown_ = false;
   if (!growth_.canWait(state_.model)) grow();
@@ -241,7 +237,10 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
         visible = comparer_->visiblePoints(state_.model, observe(world_from_left), frame_.states,
                                            frame_.fusion.visibility);
       },
-      [&] { seen.matches = pulls(world_from_left); });
+      [&] {
+        if (options_.deform.correspondence_weight > 0)
+          seen.matches = keyPointMatches(matches_, pose_, frame_.association, world_from_left);
+      });
   seen.visible = &visible;
   const DepthTarget surface(frame_.measured.depth, frame_.measured.normals, left(),
                             world_from_left.inverse(), frame_.association);
@@ -267,6 +266,16 @@ void CpuBackend::acceptWarp(bool is_reference) {
   orRejectWarp([&] { warp_.apply(updater_.get(), options_.graph.node_spacing_mm, &state_); });
   if (is_reference) state_.graph.since_reference.assign(state_.graph.size(), NodeTransform());
   clock_.lap("warp");
+}
+
+/// After the update; the tracked points may still be aligned.
+void CpuBackend::measureError(const Observation& observation) {
+  try {
+    fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
+  } catch (const BackendError&) {
+    endAlignment();
+    throw;
+  }
 }
 
 EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
@@ -324,10 +333,11 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
       if (!first && !aligning_.valid()) alignTracks(world_from_left);
       observeErrors(world_from_left);
     });
-    endAlignment();
   });
   warp_.keep();
   comparison_.reset();
+  measureError(observation);
+  endAlignment();
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
@@ -341,7 +351,6 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   }
   state_.tracked.settle(state_.model, world_from_left.translation(), frame_.summary.limit_scale,
                         surface_.get());
-  fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
   fused_.points = static_cast<int>(state_.model.size());
   fused_.seen = update.seen;
   fused_.fused = update.points.fused;

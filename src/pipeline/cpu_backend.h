@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/parallel.h"
 #include "core/stereo_rig.h"
 #include "deform/graph/model_warp.h"
 #include "deform/solver/lm_solver.h"
@@ -46,6 +47,7 @@ struct BackendParts {
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp.
   int ahead_from_threads = 2;
+  std::shared_ptr<ThreadLimit> thread_limit;  // kept as long as the back end; may be null
 };
 
 /// Same input, same bytes, whatever the number of threads.

@@ -1,5 +1,6 @@
 #include "pipeline/cuda_backend.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "cuda/comparison/comparison.h"
@@ -162,6 +163,14 @@ std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
                                                          std::move(model))));
 }
 
+/// The loops that are left to the host are short. More threads find nothing to do most of the time,
+/// and look for it (docs/benchmarks.md).
+std::shared_ptr<ThreadLimit> threadLimit(const PinholeCamera& image) {
+  constexpr int kFewThreads = 4, kPixelsPerThread = 40000;
+  const int enough = std::max(kFewThreads, image.width_px * image.height_px / kPixelsPerThread);
+  return std::make_shared<ThreadLimit>(std::min(threadCount(), enough));
+}
+
 }  // namespace
 
 std::unique_ptr<StereoStage> makeCudaStereoStage(const StereoOptions& options,
@@ -174,6 +183,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
                                                        const ReconstructionOptions& options) {
   BackendParts parts;
   parts.name = "cuda";
+  parts.thread_limit = threadLimit(calibration.left.pinhole);
   // The model stays on the device between the stages.
   const auto model = cuda::makeSharedModel();
   // So do the frames.
