@@ -166,7 +166,7 @@ std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
 /// The loops that are left to the host are short. More threads find nothing to do most of the time,
 /// and look for it (docs/benchmarks.md).
 std::shared_ptr<ThreadLimit> threadLimit(const PinholeCamera& image) {
-  constexpr int kFewThreads = 4, kPixelsPerThread = 40000;
+  constexpr int kFewThreads = 8, kPixelsPerThread = 40000;
   const int enough = std::max(kFewThreads, image.width_px * image.height_px / kPixelsPerThread);
   return std::make_shared<ThreadLimit>(std::min(threadCount(), enough));
 }

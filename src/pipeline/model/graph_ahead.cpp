@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr double kFewUnbound = 0.1;  // of the points: these can follow their neighbours once
+constexpr double kFewUnbound = 0.01;  // of the points: these can follow their neighbours once
 
 bool isFew(const std::vector<PointBinding>& bindings) {
   const auto unbound = std::count_if(bindings.begin(), bindings.end(),
