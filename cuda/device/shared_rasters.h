@@ -21,7 +21,7 @@ struct SharedRasters {
   bool holds(const float* depth) const { return depth != nullptr && depth == host_depth_mm; }
 };
 
-/// The way of a frame through the device.
+/// Rasters of the frames on the device.
 struct SharedFrames {
   SharedRasters measured;  // where stereo left it
   SharedRasters next;      // surveyed, not used yet

@@ -89,7 +89,7 @@ struct ReliefRowsBody {
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     const int pixel = v * width + u;
     const ReliefExtent& extent = at.extents[pixel];
-    at.rows[pixel] = countIn(at.pairs[pixel]) == 0
+    at.rows[pixel] = reliefCount(at.pairs[pixel]) == 0
                          ? 0
                          : reliefSum<kSides>(at.pairs + pixel, 1, extent.left, extent.right);
   }
@@ -102,7 +102,7 @@ struct ReliefBendBody {
 
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     const int pixel = v * width + u;
-    if (countIn(at.pairs[pixel]) == 0) return;
+    if (reliefCount(at.pairs[pixel]) == 0) return;
     const ReliefExtent& extent = at.extents[pixel];
     at.pairs[pixel] =
         bendPair(at.steps[pixel],
@@ -117,7 +117,7 @@ struct ReliefErrorBody {
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     const int pixel = v * width + u;
     const ReliefExtent& extent = at.extents[pixel];
-    at.error_px[pixel] = countIn(at.pairs[pixel]) == 0
+    at.error_px[pixel] = reliefCount(at.pairs[pixel]) == 0
                              ? quietNan()
                              : reliefErrorOf(reliefSum<ReliefSides::kBoth>(at.rows + pixel, width,
                                                                            extent.up, extent.down));

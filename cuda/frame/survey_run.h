@@ -41,6 +41,7 @@ class SurveyRun final : public FrameSurvey {
   void show(const ColourImage& left, const Mask& not_tissue, const GrayImage& gray,
             const Mask& ignore) override {
     frames_->next = {};
+    machine_.wait();  // the pinned memory is free, whatever became of the frame before
     for (const auto& [width, height] : {std::pair(left.width_px, left.height_px),
                                         std::pair(not_tissue.width_px, not_tissue.height_px)})
       if (width != 0 && (width != left_.width_px || height != left_.height_px))
@@ -177,7 +178,7 @@ class SurveyRun final : public FrameSurvey {
   /// Depth, sigma and normals, from where the stage of stereo left them or from the host.
   void takeDepth(const Observation& frame) {
     const RasterLayout& to = next().rasters;
-    const SharedRasters& measured = frames_->measured;
+    const SharedRasters measured = std::exchange(frames_->measured, {});
     if (measured.holds(frame.depth.depth_mm.values.data())) {
       CopyKernel copy;
       copy.add(measured.depth_mm, to.depth_mm, pixelsOf(left_));

@@ -1,5 +1,5 @@
-// src/fusion/frame_survey.h: what the pixels of a measured frame tell of it, found on the device
-// whose stages work on the frame next.
+// src/fusion/frame_survey.h: statistics of depths, states of pixels and relief of a measured frame,
+// on the device whose stages work on it next.
 #pragma once
 
 #include "core/image.h"

@@ -106,10 +106,6 @@ class CpuBackend : public ReconstructionBackend {
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
   void measureError(const Observation& observation);
-  void observeErrors(const Eigen::Isometry3d& world_from_left) {
-    state_.errors.observe(frame_.measured.depth, rig(), world_from_left, state_.graph,
-                          frame_.fusion);
-  }
   void endAlignment() {
     if (aligning_.valid()) aligning_.get();
   }
@@ -268,13 +264,12 @@ void CpuBackend::acceptWarp(bool is_reference) {
   clock_.lap("warp");
 }
 
-/// After the update; the tracked points may still be aligned.
+/// After the update. If a device fails, this frame is complete without it.
 void CpuBackend::measureError(const Observation& observation) {
   try {
     fused_.corrected = comparer_->error(state_.model, observation, frame_.states);
   } catch (const BackendError&) {
-    endAlignment();
-    throw;
+    fused_.corrected = CpuFrameComparer().error(state_.model, observation, frame_.states);
   }
 }
 
@@ -327,14 +322,16 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
     const FrameView* next = options_.match_last_picture ? nullptr : frames_.next();
     if (next != nullptr) matching_.begin(state_.model, world_from_left, *next);
   };
+  LastingErrors errors = state_.errors;
   // Neither needs the other.
   orRejectWarp([&] {
     parallelInvoke(updateModel, [&] {
       if (!first && !aligning_.valid()) alignTracks(world_from_left);
-      observeErrors(world_from_left);
+      errors.observe(frame_.measured.depth, rig(), world_from_left, state_.graph, frame_.fusion);
     });
   });
   warp_.keep();
+  state_.errors = std::move(errors);
   comparison_.reset();
   measureError(observation);
   endAlignment();

@@ -47,7 +47,8 @@ struct BackendParts {
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp.
   int ahead_from_threads = 2;
-  std::shared_ptr<ThreadLimit> thread_limit;  // kept as long as the back end; may be null
+  std::shared_ptr<ThreadLimit>
+      thread_limit;  // of the process, as long as the back end lives; may be null
 };
 
 /// Same input, same bytes, whatever the number of threads.

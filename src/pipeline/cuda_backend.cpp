@@ -109,6 +109,7 @@ class CudaMatchStage final : public MatchStage {
   /// Memory of before is given back first, so that the old and the new never add up.
   void reserve(std::size_t points) {
     device_.reset();
+    capacity_ = 0;
     device_ = std::make_unique<cuda::Locator>(left_, view_, matcher_, static_cast<int>(points));
     capacity_ = points;
   }

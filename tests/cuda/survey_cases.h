@@ -46,6 +46,7 @@ inline void expectTheCpusSurvey(FrameSurvey* survey) {
       rig.left = camera;
       rig.baseline_mm = kFocalBaseline / camera.fx_px;
       const Raster<float> relief_px = reliefErrorPx(depth.depth_mm, rig);
+      ASSERT_EQ(found.relief_px.size(), relief_px.size());
       EXPECT_EQ(
           std::memcmp(found.relief_px.values.data(), relief_px.values.data(), 4 * relief_px.size()),
           0);

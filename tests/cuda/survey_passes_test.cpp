@@ -68,15 +68,14 @@ TEST_F(Surveys, TakeDepthFromTheDevice) {
   const Observation frame = first_.observation();
   DepthMap other = frame.depth;
   for (float& depth_mm : other.depth_mm.values) depth_mm += 7;
-  frames_->measured.depth_mm = other.depth_mm.values.data();
-  frames_->measured.sigma_mm = other.sigma_mm.values.data();
-  frames_->measured.normals = frame.normals.values.data();
-  const auto medianMm = [&] {
+  const auto medianMm = [&](const float* host_depth_mm) {
+    frames_->measured = {host_depth_mm, other.depth_mm.values.data(), other.sigma_mm.values.data(),
+                         frame.normals.values.data()};
     return surveyFrame(frame, first_.options().pixels, &survey_).depths.median_mm;
   };
-  const double from_host_mm = medianMm();
-  frames_->measured.host_depth_mm = frame.depth.depth_mm.values.data();
-  EXPECT_NEAR(medianMm(), from_host_mm + 7, 1e-4);
+  const double from_host_mm = medianMm(nullptr);
+  EXPECT_NEAR(medianMm(frame.depth.depth_mm.values.data()), from_host_mm + 7, 1e-4);
+  EXPECT_EQ(frames_->measured.depth_mm, nullptr);  // it is taken once
 }
 
 TEST_F(Surveys, OfAnotherCameraAreRefused) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "io/calibrations/calibration_check.h"
 #include "io/calibrations/one_camera.h"
 #include "io/files/folder.h"
@@ -152,7 +153,7 @@ StereoPair FrameLoader::readPair(int index) {
   if (!is_packed_) {
     std::future<ColourImage> right;
     if (right_)
-      right = std::async(std::launch::async,
+      right = std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred,
                          [this, index] { return right_->read(index + right_offset_); });
     ColourImage left = left_->read(index);
     return {std::move(left), right_ ? right.get() : ColourImage{}};

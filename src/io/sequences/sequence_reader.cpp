@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "io/sequences/bounded_queue.h"
 #include "io/sequences/frame_loader.h"
 #include "io/text/message.h"
@@ -77,7 +78,7 @@ class SequenceReader::Impl {
 
   /// Whether more is to be read: what cannot be read in any order is read one by one.
   bool read(int index) {
-    if (loader_.readsInAnyOrder())
+    if (loader_.readsInAnyOrder() && threadCount() > 1)
       return queue_.push(std::async(std::launch::async, [this, index] { return load(index); }));
     FrameResult result = load(index);
     const bool go_on = result.ok() || index < first_.index || loader_.survivesErrors();

@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "core/background_work.h"
-#include "core/error.h"
 
 namespace softscope {
 
@@ -23,6 +22,7 @@ FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
   clock->lap("depth");
   FrameView view = viewFrame(std::move(measured), std::move(aligned.pictures), depth_->rig(),
                              options_, survey_.get());
+  view.serial = ++measured_;
   clock->lap("mask");
   return view;
 }
@@ -90,7 +90,7 @@ const FrameView* FrameAhead::next() const {
     return nullptr;
   try {
     return result_.get().get();
-  } catch (const Error&) {
+  } catch (...) {
     return nullptr;  // measure() throws it
   }
 }

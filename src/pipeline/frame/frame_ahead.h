@@ -53,6 +53,7 @@ class FrameAhead {
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
   std::unique_ptr<FrameSurvey> survey_;
+  int measured_ = 0;  // so far; one frame is measured at a time
   std::shared_ptr<const Frame> prepared_, aligned_;
   std::future<Aligned> views_;  // of aligned_; both end before the frames and depth_ do
   std::shared_future<std::shared_ptr<FrameView>> result_;  // of prepared_

@@ -15,6 +15,7 @@ namespace softscope {
 /// One frame, masked and judged; options are scaled to its depths. Rasters have the shape of the
 /// rectified left image.
 struct FrameView {
+  int serial = 0;  // differs between frames of one FrameAhead
   MeasuredFrame measured;
   Mask not_tissue;
   MatchPicture live;  // as it is matched

@@ -3,18 +3,13 @@
 #include "core/error.h"
 
 namespace softscope {
-namespace {
-
-const float* placeOf(const FrameView& frame) { return frame.measured.depth.depth_mm.values.data(); }
-
-}  // namespace
 
 void MatchAhead::begin(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                        const FrameView& next) {
   drop();
   try {
     if (stage_->begin(model, viewed_from, next.live, next.measured))
-      begun_ = {placeOf(next), viewed_from};
+      begun_ = {next.serial, viewed_from};
   } catch (const BackendError&) {
     // The frame at hand is complete without it.
   }
@@ -24,7 +19,7 @@ ModelMatches MatchAhead::match(const PointModel& model, const Eigen::Isometry3d&
                                const GrayImage& seen_gray, const FrameView& frame,
                                StageClock* clock) {
   const std::optional<Begun> begun = std::exchange(begun_, std::nullopt);
-  if (begun && begun->depth_mm == placeOf(frame) && seen_gray.empty() &&
+  if (begun && begun->frame == frame.serial && seen_gray.empty() &&
       begun->viewed_from.matrix() == viewed_from.matrix())
     return stage_->take(clock);
   return stage_->match(model, viewed_from, seen_gray, frame.live, frame.measured, clock);

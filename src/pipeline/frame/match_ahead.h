@@ -27,7 +27,7 @@ class MatchAhead {
 
  private:
   struct Begun {
-    const float* depth_mm;  // of the frame, which stays where it is in memory
+    int frame;  // its serial number
     Eigen::Isometry3d viewed_from;
   };
   std::unique_ptr<MatchStage> stage_;

@@ -93,7 +93,7 @@ Pairs sumsAlongRows(const Pairs& in, const Extents& extents) {
       const std::uint8_t *before = extents.before.row(v), *after = extents.after.row(v);
       std::uint64_t* to = out.row(v);
       for (int u = 0; u < in.width_px; ++u)
-        to[u] = countIn(from[u]) != 0
+        to[u] = reliefCount(from[u]) != 0
                     ? sumWithin<kSides>(u, before[u], after[u], [&](int at) { return prefix[at]; })
                     : 0;
     }
@@ -164,7 +164,8 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
     const std::uint32_t* step = steps.row(v);
     const std::uint64_t* sum = means.row(v);
     std::uint64_t* pair = pairs.row(v);
-    for (int u = 0; u < width; ++u) pair[u] = countIn(pair[u]) != 0 ? bendPair(step[u], sum[u]) : 0;
+    for (int u = 0; u < width; ++u)
+      pair[u] = reliefCount(pair[u]) != 0 ? bendPair(step[u], sum[u]) : 0;
   });
   const Pairs energies = sumsOver<ReliefSides::kBoth>(windows, pairs);
   Raster<float> error_px(width, height, std::numeric_limits<float>::quiet_NaN());
@@ -172,7 +173,7 @@ Raster<float> reliefErrorPx(const Raster<float>& depth_mm, const RectifiedRig& r
     const std::uint64_t *pair = pairs.row(v), *energy = energies.row(v);
     float* error = error_px.row(v);
     for (int u = 0; u < width; ++u)
-      if (countIn(pair[u]) != 0) error[u] = reliefErrorOf(energy[u]);
+      if (reliefCount(pair[u]) != 0) error[u] = reliefErrorOf(energy[u]);
   });
   return error_px;
 }

@@ -17,23 +17,23 @@ namespace softscope {
 SOFTSCOPE_HD inline std::uint64_t reliefPair(std::uint32_t value) {
   return std::uint64_t{value} << 32 | 1;
 }
-SOFTSCOPE_HD inline std::uint32_t valueIn(std::uint64_t pair) {
+SOFTSCOPE_HD inline std::uint32_t reliefValue(std::uint64_t pair) {
   return static_cast<std::uint32_t>(pair >> 32);
 }
-SOFTSCOPE_HD inline std::uint32_t countIn(std::uint64_t pair) {
+SOFTSCOPE_HD inline std::uint32_t reliefCount(std::uint64_t pair) {
   return static_cast<std::uint32_t>(pair);
 }
 
 constexpr int kSmoothedReach = 2 * RefinementOptions::radius_px;  // two windows in sequence
 constexpr float kStepsPerPx = 1024;    // of disparity: 625 times 3355 px fit
-constexpr float kStepsAPx2 = 65536;    // of squared bends …
+constexpr float kStepsPerPx2 = 65536;  // of squared bends …
 constexpr float kLargestBendPx2 = 50;  // … 625 of which fit
 constexpr std::uint32_t kReliefEdge =
     static_cast<std::uint32_t>(StereoOptions::edge_step_px * kStepsPerPx);
 
 /// The nearest whole number of one that is not negative, as std::lround(), which is a call.
 template <class Real>
-SOFTSCOPE_HD inline std::uint32_t rounded(Real x) {
+SOFTSCOPE_HD inline std::uint32_t roundedSteps(Real x) {
   const auto whole = static_cast<std::uint32_t>(x);
   return whole + (x - static_cast<Real>(whole) >= Real(0.5) ? 1 : 0);
 }
@@ -43,7 +43,7 @@ SOFTSCOPE_HD inline std::uint32_t disparitySteps(float depth_mm, float scale) {
   constexpr float kLargest = static_cast<float>(StereoOptions::kLargestDisparityPx);
   if (!(depth_mm > 0)) return 0;
   const float disparity_px = scale / depth_mm;
-  return rounded(kStepsPerPx * (disparity_px < kLargest ? disparity_px : kLargest));
+  return roundedSteps(kStepsPerPx * (disparity_px < kLargest ? disparity_px : kLargest));
 }
 
 /// Whether windows end between two measured pixels.
@@ -53,16 +53,17 @@ SOFTSCOPE_HD inline bool isReliefStep(std::uint32_t a, std::uint32_t b) {
 
 /// Squared distance of a disparity from the mean of its window.
 SOFTSCOPE_HD inline std::uint64_t bendPair(std::uint32_t steps, std::uint64_t window) {
-  const std::uint32_t count = countIn(window) > 1 ? countIn(window) : 1;
-  const double bend_px = (steps - static_cast<double>(valueIn(window)) / count) / kStepsPerPx;
+  const std::uint32_t count = reliefCount(window) > 1 ? reliefCount(window) : 1;
+  const double bend_px = (steps - static_cast<double>(reliefValue(window)) / count) / kStepsPerPx;
   const double square = bend_px * bend_px;
-  return reliefPair(rounded(kStepsAPx2 * (square < kLargestBendPx2 ? square : kLargestBendPx2)));
+  return reliefPair(
+      roundedSteps(kStepsPerPx2 * (square < kLargestBendPx2 ? square : kLargestBendPx2)));
 }
 
 /// Root of the mean of such squares over a window.
 SOFTSCOPE_HD inline float reliefErrorOf(std::uint64_t window) {
-  return std::sqrt(static_cast<float>(valueIn(window)) /
-                   (kStepsAPx2 * static_cast<float>(countIn(window))));
+  return std::sqrt(static_cast<float>(reliefValue(window)) /
+                   (kStepsPerPx2 * static_cast<float>(reliefCount(window))));
 }
 
 /// Whether both sides of a window reach as far as the shorter one: a plane is then the mean of its
