@@ -47,7 +47,7 @@ class Locator {
   /// Seen from there, the model looked so; empty: as it is drawn.
   void setSeenGray(const GrayImage& gray);
 
-  /// Returns when everything is enqueued.
+  /// Returns when everything is enqueued; what it needs of model and image is copied by then.
   void locate(const Eigen::Isometry3d& world_from_left);
   void wait();
   LocatedMatches download();
