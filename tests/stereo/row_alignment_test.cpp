@@ -113,6 +113,27 @@ TEST(RowMeter, MatchesWeakTextureInOddRowsAsInEvenOnes) {
     EXPECT_GT(static_cast<double>(rightMatches(odd_px)), 0.75 * even) << odd_px;
 }
 
+/// Noise alone must not send the search to rows that cannot be the true ones.
+TEST(RowMeter, LooksNoFartherForNoiseAlone) {
+  auto scene = misaligned(0, 0);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 9);
+  for (GrayImage* image : {&scene.left, &scene.right})
+    for (std::uint8_t& gray : image->values)
+      gray = static_cast<std::uint8_t>(std::clamp(std::lround(gray + noise(random)), 0L, 255L));
+  double sum_px = 0, farthest_px = 0;
+  const std::vector<RowMatch> matches = RowMeter(scene.left, 100).match(scene.right);
+  for (const RowMatch& match : matches) {
+    sum_px += std::abs(match.difference_px);
+    farthest_px = std::max(farthest_px, std::abs(match.difference_px));
+  }
+  EXPECT_GT(sum_px, RowAlignment::kRemoveAbovePx * static_cast<double>(matches.size()));
+  EXPECT_LE(farthest_px, 1.5);  // of its own row and the two beside it
+  const RowAlignment found = measureRowAlignment(scene.left, scene.right, 100);
+  ASSERT_TRUE(found.known());
+  EXPECT_NEAR(found.shift_px(), 0, 0.05);
+}
+
 TEST(RowAlignment, TellsARollByTheTiltOfTheRows) {
   const auto scene = misaligned(5, 0.0087);  // half a degree: 2.8 px at either side
   const AlignedPair aligned =

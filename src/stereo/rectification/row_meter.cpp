@@ -24,6 +24,7 @@ constexpr int kFarthestOffset = 10;   // of the trials
 constexpr double kManyMore = 1.5;     // matches one row off, where texture is weak
 constexpr std::size_t kMany = 150;    // matches sufficient to determine the rows
 constexpr std::size_t kPlenty = 300;  // of a sparser grid: sufficient to see that rows correspond
+constexpr double kInReachPx = 0.35;   // mean difference: half of what matches by chance have
 constexpr double kLeastCurvature = 0.3;  // of the cost over rows; below, rows are not determined
 
 /// Mean difference of the two windows.
@@ -59,12 +60,13 @@ std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& r
   return RowMatch{static_cast<double>(point.u_px - disparity), point.v_px + row, row};
 }
 
-/// With many matches in their own row, farther rows are not needed.
-bool isWellAligned(const std::vector<RowMatch>& matches) {
+/// With many matches near their own row, farther rows are not needed: what difference they have is
+/// measured by these.
+bool isInReach(const std::vector<RowMatch>& matches) {
   if (matches.size() < kMany) return false;
   double sum = 0;
   for (const RowMatch& m : matches) sum += std::abs(m.difference_px);
-  return sum < RowAlignment::kRemoveAbovePx * static_cast<double>(matches.size());
+  return sum < kInReachPx * static_cast<double>(matches.size());
 }
 
 }  // namespace
@@ -91,7 +93,7 @@ GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) 
 RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored) {
   const GradientImage gradient = gradientOf(right, ignored);
   const auto few = matchRows(gradient, 0, grid_px_ + grid_px_ / 2);
-  const bool is_enough = few.size() >= kPlenty && isWellAligned(few);
+  const bool is_enough = few.size() >= kPlenty && isInReach(few);
   return fitRowModel(is_enough ? few : matchNearest(gradient), scale());
 }
 
@@ -101,7 +103,7 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignore
 
 std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
   const auto matches = matchRows(right, 0, grid_px_);
-  if (isWellAligned(matches)) return matches;
+  if (isInReach(matches)) return matches;
   std::map<int, std::vector<RowMatch>> found{{0, matches}};
   const auto matchesAt = [&](int offset) -> const std::vector<RowMatch>& {
     const auto [place, is_new] = found.try_emplace(offset);
