@@ -115,12 +115,7 @@ TEST(RowMeter, MatchesWeakTextureInOddRowsAsInEvenOnes) {
 
 /// Noise alone must not send the search to rows that cannot be the true ones.
 TEST(RowMeter, LooksNoFartherForNoiseAlone) {
-  auto scene = misaligned(0, 0);
-  std::mt19937 random(5);
-  std::normal_distribution<double> noise(0, 9);
-  for (GrayImage* image : {&scene.left, &scene.right})
-    for (std::uint8_t& gray : image->values)
-      gray = static_cast<std::uint8_t>(std::clamp(std::lround(gray + noise(random)), 0L, 255L));
+  const test::Scene scene = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 9);
   double sum_px = 0, farthest_px = 0;
   const std::vector<RowMatch> matches = RowMeter(scene.left, 100).match(scene.right);
   for (const RowMatch& match : matches) {

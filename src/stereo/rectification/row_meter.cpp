@@ -24,7 +24,7 @@ constexpr int kFarthestOffset = 10;   // of the trials
 constexpr double kManyMore = 1.5;     // matches one row off, where texture is weak
 constexpr std::size_t kMany = 150;    // matches sufficient to determine the rows
 constexpr std::size_t kPlenty = 300;  // of a sparser grid: sufficient to see that rows correspond
-constexpr double kInReachPx = 0.35;   // mean difference: half of what matches by chance have
+constexpr double kInReachPx = 0.35;   // mean difference: half of one spread evenly over the reach
 constexpr double kLeastCurvature = 0.3;  // of the cost over rows; below, rows are not determined
 
 /// Mean difference of the two windows.
