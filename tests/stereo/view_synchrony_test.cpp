@@ -55,6 +55,23 @@ TEST(ViewSynchrony, LeavesAClipInStepAsItIs) {
   EXPECT_GT(found.agreeing, 1000);
 }
 
+/// More matches agree with rows two pictures earlier, which have no noise; but in one of the
+/// frames, the scope had moved by then.
+TEST(ViewSynchrony, IsNotThatOfEasierMatchesOfOtherMoments) {
+  const test::Surface tissue = test::plane(55, 0.2, 0.1);
+  const test::Scene clean = test::makeScene(test::endoscope(), tissue);
+  const test::Scene noisy = test::makeScene(test::endoscope(), tissue, 10);
+  const GrayImage flat(clean.left.width_px, kRows, 100);
+  SynchronyMeter meter(100);
+  for (int f = 0; f < 5; ++f) {
+    const GrayImage earlier = momentOf(clean.right, f == 2 ? 1 : 0, 4);
+    meter.add(momentOf(clean.left, 0, 4), {earlier, flat, momentOf(noisy.right, 0, 4), flat, flat});
+  }
+  const ViewSynchrony found = meter.result();
+  EXPECT_EQ(found.right_offset, 0);
+  EXPECT_GT(found.agreeing, 200);
+}
+
 TEST(ViewSynchrony, IsUnknownWithoutMotionOrTexture) {
   EXPECT_EQ(measure(0, 1).right_offset, 0);
   SynchronyMeter meter(64);

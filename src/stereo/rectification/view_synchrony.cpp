@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace softscope {
 namespace {
@@ -10,6 +11,7 @@ constexpr double kAgreesPx = 0.25;    // of a match with the model of all frames
 constexpr double kClearlyMore = 1.2;  // than the count at offset 0
 constexpr int kFewestAgreeing = 200;  // for a decision
 constexpr int kBeyondDoubt = 2;       // times the count of any other offset
+constexpr double kUnknownPx = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -18,36 +20,53 @@ void SynchronyMeter::add(const GrayImage& left, const std::array<GrayImage, kOff
   scale_ = unused.scale();
   for (int k = 0; k < kOffsets; ++k) {
     RowMeter meter = unused;
-    const std::vector<RowMatch> found = meter.match(rights[k]);
-    matches_[k].insert(matches_[k].end(), found.begin(), found.end());
+    frames_[k].push_back(meter.match(rights[k]));
   }
 }
 
-int SynchronyMeter::agreeingAt(int offset) const {
-  const std::vector<RowMatch>& matches = matches_[offset + kReach];
-  const RowAlignment shared = fitRowModel(matches, scale_);
-  return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const RowMatch& m) {
-    return std::abs(m.difference_px - shared.at(m.u_right_px, m.v_right_px)) < kAgreesPx;
-  }));
+SynchronyMeter::Agreement SynchronyMeter::agreementAt(int offset) const {
+  const std::vector<std::vector<RowMatch>>& frames = frames_[offset + kReach];
+  std::vector<RowMatch> all;
+  for (const std::vector<RowMatch>& frame : frames)
+    all.insert(all.end(), frame.begin(), frame.end());
+  const RowAlignment shared = fitRowModel(all, scale_);
+  int agreeing = 0, compared = 0;
+  double sum_px2 = 0;
+  for (const std::vector<RowMatch>& frame : frames) {
+    const RowAlignment own = fitRowModel(frame, scale_);
+    for (const RowMatch& match : frame) {
+      const double shared_px = shared.at(match.u_right_px, match.v_right_px);
+      const double apart_px = own.at(match.u_right_px, match.v_right_px) - shared_px;
+      agreeing += std::abs(match.difference_px - shared_px) < kAgreesPx;
+      if (!own.known()) continue;
+      sum_px2 += apart_px * apart_px;
+      ++compared;
+    }
+  }
+  return {agreeing, compared > 0 ? std::sqrt(sum_px2 / compared) : kUnknownPx};
 }
 
 bool SynchronyMeter::isClear() const {
-  const int as_is = agreeingAt(0);
+  const int as_is = agreementAt(0).matches;
   if (as_is < kFewestAgreeing) return false;
   for (int offset = -kReach; offset <= kReach; ++offset)
-    if (offset != 0 && kBeyondDoubt * agreeingAt(offset) > as_is) return false;
+    if (offset != 0 && kBeyondDoubt * agreementAt(offset).matches > as_is) return false;
   return true;
 }
 
 ViewSynchrony SynchronyMeter::result() const {
+  const Agreement as_is = agreementAt(0);
   ViewSynchrony found;
-  found.agreeing = found.agreeing_as_is = agreeingAt(0);
-  const double enough = std::max<double>(kFewestAgreeing, kClearlyMore * found.agreeing_as_is);
+  found.agreeing = found.agreeing_as_is = as_is.matches;
+  const double enough = std::max<double>(kFewestAgreeing, kClearlyMore * as_is.matches);
   for (int offset = -kReach; offset <= kReach; ++offset) {
-    const int agreeing = agreeingAt(offset);
-    if (agreeing < enough || agreeing <= found.agreeing) continue;
+    const Agreement there = agreementAt(offset);
+    if (there.matches < enough || there.matches <= found.agreeing) continue;
+    // A scope that moves sideways may bring one view closer to where the other one was. Matches are
+    // then easier, but not those of one moment.
+    if (there.scatter_px > as_is.scatter_px) continue;
     found.right_offset = offset;
-    found.agreeing = agreeing;
+    found.agreeing = there.matches;
   }
   return found;
 }

@@ -19,7 +19,8 @@ struct ViewSynchrony {
 /// Two videos may have been started or cut a few images apart; then tissue that moves sideways has
 /// a wrong depth, and tissue that moves up or down differs in its rows. For synchronous images,
 /// row differences are the same in every frame: the error of the calibration. The offset is
-/// therefore the one at which most matches of many frames agree on one row model (docs/stereo.md).
+/// therefore the one at which most matches of many frames agree on one row model, unless the models
+/// of single frames differ more than without it (docs/stereo.md).
 class SynchronyMeter {
  public:
   static constexpr int kReach = 2;  // offsets -kReach … kReach are tried
@@ -37,10 +38,15 @@ class SynchronyMeter {
   ViewSynchrony result() const;
 
  private:
-  int agreeingAt(int offset) const;
+  struct Agreement {
+    int matches = 0;    // that agree with the model of all frames
+    double scatter_px;  // RMS difference of the known models of single frames from it, at matches;
+                        // infinite if none is known
+  };
+  Agreement agreementAt(int offset) const;
 
   int disparity_max_px_;
-  std::array<std::vector<RowMatch>, kOffsets> matches_;
+  std::array<std::vector<std::vector<RowMatch>>, kOffsets> frames_;  // matches of each
   RowAlignment scale_;
 };
 
