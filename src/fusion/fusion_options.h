@@ -1,6 +1,8 @@
 // src/fusion/fusion_options.h: options of fusion and their defaults.
 #pragma once
 
+#include <limits>
+
 namespace softscope {
 
 /// Weight of a warped point by the distance to its nodes: docs/fusion.md (F7).
@@ -76,9 +78,11 @@ struct InsertionOptions {
   double spacing_mm = 0.2;  // between new points, and from them to old ones, …
   // … but no more than this in the image: near tissue and fine images get more points
   static constexpr double kMostSpacingPx = 2.4;
-  double max_sigma_mm = 0.5;  // depths with a larger sigma add no points
-  double band_mm = 2.0;       // a model point this close in depth explains a pixel
-  bool confirm = true;        // require two consecutive frames
+  double max_sigma_mm = 0.5;  // depths with a larger sigma add no points …
+  // … nor do those with a larger sigma of the disparity: of sigma over the square of the depth
+  double max_sigma_over_square_per_mm = std::numeric_limits<double>::infinity();
+  double band_mm = 2.0;  // a model point this close in depth explains a pixel
+  bool confirm = true;   // require two consecutive frames
 
   void validate() const;
 };

@@ -18,11 +18,12 @@ namespace softscope {
 
 /// Options of insertion in single precision, for the inner loops.
 struct InsertionLimits {
-  float spacing_mm = 0, max_sigma_mm = 0, band_mm = 0;
+  float spacing_mm = 0, max_sigma_mm = 0, max_sigma_over_square_per_mm = 0, band_mm = 0;
 };
 
 inline InsertionLimits insertionLimits(const InsertionOptions& options) {
   return {static_cast<float>(options.spacing_mm), static_cast<float>(options.max_sigma_mm),
+          static_cast<float>(options.max_sigma_over_square_per_mm),
           static_cast<float>(options.band_mm)};
 }
 
@@ -38,9 +39,12 @@ SOFTSCOPE_HD inline int footprintPx(float depth_mm, float focal_px, float spacin
 }
 
 /// Whether a depth is accurate enough for a point. `sigma_mm`: null for depths without sigma.
-SOFTSCOPE_HD inline bool mayMakePoint(PixelState state, const float* sigma_mm, int pixel,
-                                      float max_sigma_mm) {
-  return state == PixelState::kAccepted && (sigma_mm == nullptr || sigma_mm[pixel] <= max_sigma_mm);
+SOFTSCOPE_HD inline bool mayMakePoint(PixelState state, float depth_mm, const float* sigma_mm,
+                                      const InsertionLimits& limits) {
+  if (state != PixelState::kAccepted) return false;
+  const float per_square_mm = limits.max_sigma_over_square_per_mm;
+  return sigma_mm == nullptr ||
+         (*sigma_mm <= limits.max_sigma_mm && *sigma_mm <= per_square_mm * (depth_mm * depth_mm));
 }
 
 /// Whether the nearest model depth within reach of a pixel

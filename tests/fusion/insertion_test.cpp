@@ -109,6 +109,21 @@ TEST(Insertion, GrowsAtTheRimAsTheScopeMoves) {
   EXPECT_NEAR(model.size(), 7.07 * 13.4 / 0.04, 0.1 * 7.07 * 13.4 / 0.04);
 }
 
+/// takeShot() makes sigma 3.3e-5 / mm times the square of the depth, at any depth.
+TEST(Insertion, NeedsSureDisparity) {
+  for (const double depth_mm : {20.0, 55.0, 120.0}) {
+    FusionOptions options;
+    PointModel model;
+    InsertionMemory memory;
+    options.insertion.max_sigma_over_square_per_mm = 3.2e-5;
+    update(takeShot(plane(depth_mm), smallCamera()), options, &memory, &model);
+    EXPECT_TRUE(model.empty()) << depth_mm;
+    options.insertion.max_sigma_over_square_per_mm = 3.4e-5;
+    update(takeShot(plane(depth_mm), smallCamera()), options, &memory, &model);
+    EXPECT_GT(model.size(), 500U) << depth_mm;
+  }
+}
+
 TEST(Insertion, NeedsSureDepth) {
   Shot shot = takeShot(plane(55), smallCamera());
   for (int v = 0; v < 72; ++v)

@@ -41,6 +41,14 @@ TEST(FrameView, FusionComparesDepthsWithinTheirFrame) {
   EXPECT_NEAR(viewOf(50, 0.4f).fusion.points.reference_sigma_mm, 0.4, 1e-6);
 }
 
+TEST(FrameView, NewPointsNeedADisparityThatIsSureToAPixel) {
+  const auto most_px = [](float sigma_mm) {  // a pixel is 1 mm
+    return viewOf(50, sigma_mm).fusion.insertion.max_sigma_over_square_per_mm * 50 * 50;
+  };
+  EXPECT_NEAR(most_px(0.05f), 1, 1e-6);
+  EXPECT_NEAR(most_px(0.6f), 1.8, 1e-6);  // or to three times what is typical
+}
+
 TEST(FrameView, UnsureDepthBendsTheModelLess) {
   EXPECT_EQ(viewOf(50, 0.4f).association.reference_sigma_mm,
             ReconstructionOptions().deform.association.reference_sigma_mm);

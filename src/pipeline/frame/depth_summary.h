@@ -13,6 +13,7 @@ struct DepthSummary {
   double median_sigma_mm = kUnknown;
   /// Of the measured pixels: their predicted error is tolerable with a probability of 95 %.
   double precise_share = kUnknown;
+  double mm_per_px = kUnknown;          // of depth by disparity, at the median depth
   double limit_scale = 1;               // of limits in mm, which hold for near tissue
   double row_difference_px = kUnknown;  // as found after rectification
   double coverage() const { return tissue_px > 0 ? double(measured_px) / tissue_px : 0; }

@@ -11,11 +11,15 @@ namespace {
 /// largest sigma of a new point, 0.5 mm, is twice the 0.1 px that stereo errs by.
 constexpr double kNearMmPerPx = 2.5;
 
+/// Sigma of the disparity of a new point: a pixel, or a few of the frame's typical ones. Beyond, it
+/// may be that of another structure, or of smoke; near the scope that is little in mm.
+constexpr double kMostSigmaPx = 1, kMostOfTypical = 3;
+
 /// Limits in mm are those of near tissue and grow with what a pixel of disparity is worth. Fusion
 /// compares a depth with the typical one of its frame: where all depths are worse, because the
 /// tissue is far or the images are poor, they still make a model. The warp does not: tissue far
 /// away bends no further than near tissue, so depth with a large sigma bends it less.
-void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
+void scaleOptions(const ReconstructionOptions& options, const RectifiedRig& rig, FrameView* view) {
   view->association = options.deform.association;
   view->fusion = options.fusion;
   view->pose = options.pose;
@@ -26,6 +30,10 @@ void scaleOptions(const ReconstructionOptions& options, FrameView* view) {
     *limit_mm *= view->summary.limit_scale;
   const double typical_mm = view->summary.median_sigma_mm;
   if (!std::isfinite(typical_mm)) return;
+  const double most_px =
+      std::max(kMostSigmaPx, kMostOfTypical * typical_mm / view->summary.mm_per_px);
+  view->fusion.insertion.max_sigma_over_square_per_mm =
+      most_px / (rig.left.fx_px * rig.baseline_mm);
   // At least half of the measured pixels may become points.
   const double excess = typical_mm / view->fusion.insertion.max_sigma_mm;
   if (excess > 1) {
@@ -44,8 +52,8 @@ DepthSummary summarise(const TissueDepths& depths, const MeasuredFrame& measured
   if (depths.measured_px > 0 && !measured.depth.sigma_mm.empty())
     summary.precise_share = double(depths.precise_px) / depths.measured_px;
   summary.median_sigma_mm = depths.median_sigma_mm;
-  const double mm_per_px = depths.median_mm * depths.median_mm / (rig.left.fx_px * rig.baseline_mm);
-  if (mm_per_px > kNearMmPerPx) summary.limit_scale = mm_per_px / kNearMmPerPx;
+  summary.mm_per_px = depths.median_mm * depths.median_mm / (rig.left.fx_px * rig.baseline_mm);
+  if (summary.mm_per_px > kNearMmPerPx) summary.limit_scale = summary.mm_per_px / kNearMmPerPx;
   if (measured.rows.known()) summary.row_difference_px = measured.rows.mean_row_difference_px;
   return summary;
 }
@@ -81,7 +89,7 @@ FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const Rectif
   const Observation frame{view.measured.depth, view.measured.normals, view.measured.left,
                           view.not_tissue, rig.left};
   view.summary = summarise(survey->depthsOf(frame), view.measured, rig);
-  scaleOptions(options, &view);
+  scaleOptions(options, rig, &view);
   view.states = survey->statesOf(frame, view.fusion.pixels);
   return view;
 }
