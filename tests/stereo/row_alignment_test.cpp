@@ -159,6 +159,21 @@ TEST(RowModel, DoesNotFollowItsSlopeWhereNothingWasMatched) {
   EXPECT_LT(std::abs(model.at(639, 240)), 1.0);
 }
 
+/// A calibration with rows that differ by 2.5 px, of which weak texture shows a part.
+TEST(RowModel, FollowsWhatItsMatchesHaveInCommon) {
+  RowAlignment picture;
+  picture.half_width_px = 180;
+  picture.centre_u_px = 179.5;
+  picture.centre_v_px = 143.5;
+  std::vector<RowMatch> matches;
+  for (int u = 250; u < 340; u += 10)
+    for (int v = 20; v < 130; v += 10)
+      matches.push_back({1.0 * u, 1.0 * v, -2.5 + 0.1 * ((u + 3 * v) % 70 / 10 - 3)});
+  const RowAlignment model = fitRowModel(matches, picture);
+  for (const int u : {0, 179, 359})
+    for (const int v : {0, 143, 287}) EXPECT_NEAR(model.at(u, v), -2.5, 0.25) << u << " " << v;
+}
+
 TEST(RowAlignment, IsUnknownWithoutTexture) {
   const GrayImage flat(160, 120, 100);
   EXPECT_FALSE(measureRowAlignment(flat, flat, 64).known());

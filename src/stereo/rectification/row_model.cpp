@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMismatchPx = 1;       // from the model: the match no longer counts
 constexpr int kColumns = 8, kRows = 6;  // of the grid in which matches are counted
-constexpr double kEmptyWeight = 1;      // of zero difference, in a cell without matches
+constexpr double kEmptyWeight = 1;      // of the common difference, in a cell without matches
 
 using Terms = Eigen::Matrix<double, 6, 1>;
 
@@ -45,14 +45,14 @@ class CellCounts {
     weight_[r][c] += weight;
   }
 
-  /// Without matches rows are unchanged, instead of an extrapolated curvature.
-  void addEmptyCells(const RowAlignment& scale, RowEquations& equations) const {
+  /// Without matches rows differ by the common difference, instead of an extrapolated curvature.
+  void addEmptyCells(const RowAlignment& scale, double common_px, RowEquations& equations) const {
     for (int r = 0; r < kRows; ++r)
       for (int c = 0; c < kColumns; ++c)
         if (weight_[r][c] < 1)
           equations.add(
-              termsAt(scale, (c + 0.5) * width_px_ / kColumns, (r + 0.5) * height_px_ / kRows), 0,
-              kEmptyWeight);
+              termsAt(scale, (c + 0.5) * width_px_ / kColumns, (r + 0.5) * height_px_ / kRows),
+              common_px, kEmptyWeight);
   }
 
  private:
@@ -73,7 +73,19 @@ double medianAbsolute(std::vector<double> values) {
   return medianOf(std::move(values));
 }
 
-std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlignment& alignment) {
+/// The median difference, as far as it exceeds the scatter: all rows of a calibration differ alike,
+/// those of an organ that moves between the exposures do not.
+double commonDifference(const std::vector<RowMatch>& matches) {
+  std::vector<double> differences;
+  for (const RowMatch& m : matches) differences.push_back(m.difference_px);
+  const double median = medianOf(differences);
+  for (double& x : differences) x -= median;
+  const double scatter = 1.4826 * medianAbsolute(std::move(differences));
+  return scatter < std::abs(median) ? median * (1 - std::pow(scatter / median, 2)) : 0;
+}
+
+std::array<double, 6> refit(const std::vector<RowMatch>& matches, double common_px,
+                            const RowAlignment& alignment) {
   const std::vector<double> residuals = residualsOf(matches, alignment);
   const double limit = std::max(0.4, 4.685 * 1.4826 * medianAbsolute(residuals));
   RowEquations equations;
@@ -84,7 +96,7 @@ std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlign
                   matches[i].difference_px, w);
     cells.add(matches[i], w);
   }
-  cells.addEmptyCells(alignment, equations);
+  cells.addEmptyCells(alignment, common_px, equations);
   // Few matches must not bend the image: slopes have a small cost, curvature a larger one.
   equations.normal.diagonal() += (Terms() << 0.1, 2, 2, 8, 8, 8).finished();
   const Terms solved = equations.normal.ldlt().solve(equations.rhs);
@@ -98,7 +110,9 @@ std::array<double, 6> refit(const std::vector<RowMatch>& matches, const RowAlign
 RowAlignment fitRowModel(const std::vector<RowMatch>& matches, RowAlignment alignment) {
   constexpr int kRounds = 8;
   if (matches.size() < RowAlignment::kFewestMatches) return alignment;
-  for (int round = 0; round < kRounds; ++round) alignment.model = refit(matches, alignment);
+  const double common_px = commonDifference(matches);
+  for (int round = 0; round < kRounds; ++round)
+    alignment.model = refit(matches, common_px, alignment);
   const std::vector<double> residuals = residualsOf(matches, alignment);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (std::abs(residuals[i]) > kMismatchPx) continue;

@@ -13,8 +13,8 @@ struct RowMatch {
 };
 
 /// Least squares with Tukey's weights about the median, then about the
-/// model. Without matches the model is drawn to zero difference, instead of
-/// an extrapolated curvature. Too few matches leave `alignment` unchanged.
+/// model. Without matches the model is drawn to the difference that the matches have in common,
+/// instead of an extrapolated curvature. Too few matches leave `alignment` unchanged.
 RowAlignment fitRowModel(const std::vector<RowMatch>& matches, RowAlignment alignment);
 
 }  // namespace softscope
