@@ -16,9 +16,9 @@ namespace softscope {
 namespace {
 
 /// The right picture as a scope with a row error of shift + tilt (u - w/2) would deliver it.
-test::Scene misaligned(double shift_px, double tilt_px_per_px) {
+test::Scene misaligned(double shift_px, double tilt_px_per_px, double noise_gray = 1) {
   const RectifiedRig rig = test::endoscope();
-  test::Scene scene = test::makeScene(rig, test::plane(55, 0.2, 0.1), 1.0);
+  test::Scene scene = test::makeScene(rig, test::plane(55, 0.2, 0.1), noise_gray);
   RowAlignment inverse;
   inverse.half_width_px = rig.left.width_px / 2.0;
   inverse.centre_u_px = rig.left.cx_px;
@@ -135,6 +135,16 @@ TEST(RowAlignment, TellsARollByTheTiltOfTheRows) {
       alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100);
   EXPECT_NEAR(aligned.roll_rad, 0.0087, 0.0008);
   EXPECT_EQ(alignRows({test::colourOf(scene.left), test::colourOf(scene.left)}, 100).roll_rad, 0);
+}
+
+/// Noise, too, sets rows apart: what is left of them is no less than most of it.
+TEST(RowAlignment, RemovesASmallRollFromNoisyPictures) {
+  const auto scene = misaligned(0.25, 0.0024, 8);
+  const AlignedPair aligned =
+      alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100);
+  EXPECT_LT(aligned.before.mean_row_difference_px - aligned.before.residual_px, 0.1);
+  EXPECT_TRUE(aligned.removed);
+  EXPECT_NEAR(aligned.roll_rad, 0.0024, 0.0004);
 }
 
 TEST(RowAlignment, LeavesAlignedPicturesAsTheyAre) {

@@ -11,9 +11,7 @@ namespace {
 
 /// Whether row differences are small enough to keep the image, or unknown.
 bool needsNoShift(const RowAlignment& found) {
-  return !found.known() ||
-         found.mean_row_difference_px - found.residual_px < RowAlignment::kRemoveAbovePx / 2 ||
-         found.mean_row_difference_px < RowAlignment::kRemoveAbovePx;
+  return !found.known() || found.explained_px() < RowAlignment::kRemoveAbovePx;
 }
 
 AlignedPair grayPair(StereoPair rectified, const ViewMasks& ignored) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "core/image.h"
 #include "stereo/images/view_masks.h"
@@ -19,6 +20,12 @@ struct RowAlignment {
   double half_width_px = 1;           // scale of x and y
   double centre_u_px = 0, centre_v_px = 0;
 
+  /// What the model explains of the differences; it and the noise of the matches add in squares.
+  double explained_px() const {
+    const double explained_px2 =
+        mean_row_difference_px * mean_row_difference_px - residual_px * residual_px;
+    return explained_px2 > 0 ? std::sqrt(explained_px2) : 0;
+  }
   double shift_px() const { return model[0]; }
   double tilt_px_per_px() const { return model[1] / half_width_px; }
   double at(double u_px, double v_px) const {
