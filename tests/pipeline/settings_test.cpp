@@ -147,7 +147,7 @@ TEST(SettingsList, EveryFieldOfEveryStructIsDescribed) {
   EXPECT_EQ(fieldCount<PointFusionOptions>() - 2,  // node spacing, tests
             settingCount<PointFusionOptions>());
   EXPECT_EQ(fieldCount<ColourOptions>(), settingCount<ColourOptions>());
-  EXPECT_EQ(fieldCount<InsertionOptions>() - 2, settingCount<InsertionOptions>());  // scaled
+  EXPECT_EQ(fieldCount<InsertionOptions>() - 3, settingCount<InsertionOptions>());  // by frame
   EXPECT_EQ(fieldCount<CalibrationHints>(), settingCount<CalibrationHints>());
   EXPECT_EQ(fieldCount<SequenceOptions>() - 4,  // arguments: --frames, in pixels; frames read ahead
             (ownSettingCount<SequenceOptions, CalibrationHints>()));

@@ -9,6 +9,10 @@
 namespace softscope {
 namespace {
 
+// Matches are drawn to whole rows by their noise: each measurement finds the larger part of what is
+// left, and the smaller this is the better.
+constexpr int kPasses = 2;
+
 /// Whether row differences are small enough to keep the image, or unknown.
 bool needsNoShift(const RowAlignment& found) {
   return !found.known() || found.explained_px() < RowAlignment::kRemoveAbovePx;
@@ -55,10 +59,12 @@ AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMask
   aligned.before = meter.measure(aligned.right_gray, ignored.right);
   if (needsNoShift(aligned.before)) return aligned;
   RowAlignment whole = aligned.before;
-  const RowAlignment rest =
-      meter.measure(moveRows(aligned.right_gray, whole), moveMask(ignored.right, whole));
-  if (!needsNoShift(rest))
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const RowAlignment rest =
+        meter.measure(moveRows(aligned.right_gray, whole), moveMask(ignored.right, whole));
+    if (!rest.known()) break;
     for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
+  }
   aligned.pair.right = removeRowError(aligned.pair.right, whole);
   aligned.right_gray = toGray(aligned.pair.right);
   aligned.ignored.right = moveMask(ignored.right, whole);

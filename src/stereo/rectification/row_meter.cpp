@@ -57,7 +57,8 @@ std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& r
   if (curvature < kLeastCurvature) return {};
   const double row = row_offset + static_cast<double>(best - cost.begin()) - kRowReach +
                      0.5 * (best[-1] - best[1]) / curvature;
-  return RowMatch{static_cast<double>(point.u_px - disparity), point.v_px + row, row};
+  return RowMatch{static_cast<double>(point.u_px - disparity), point.v_px + row, row, point.u_px,
+                  point.v_px};
 }
 
 /// With many matches near their own row, farther rows are not needed: what difference they have is

@@ -10,7 +10,8 @@
 namespace softscope {
 namespace {
 
-constexpr double kMismatchPx = 1;       // from the model: the match no longer counts
+constexpr double kMismatchPx = 1;  // from the model: the match no longer counts
+constexpr double kLeastLimitPx = 0.4;
 constexpr int kColumns = 8, kRows = 6;  // of the grid in which matches are counted
 constexpr double kEmptyWeight = 1;      // of the common difference, in a cell without matches
 
@@ -85,9 +86,10 @@ double commonDifference(const std::vector<RowMatch>& matches) {
 }
 
 std::array<double, 6> refit(const std::vector<RowMatch>& matches, double common_px,
-                            const RowAlignment& alignment) {
+                            double most_limit_px, const RowAlignment& alignment) {
   const std::vector<double> residuals = residualsOf(matches, alignment);
-  const double limit = std::max(0.4, 4.685 * 1.4826 * medianAbsolute(residuals));
+  const double limit =
+      std::clamp(4.685 * 1.4826 * medianAbsolute(residuals), kLeastLimitPx, most_limit_px);
   RowEquations equations;
   CellCounts cells(alignment);
   for (std::size_t i = 0; i < matches.size(); ++i) {
@@ -108,11 +110,13 @@ std::array<double, 6> refit(const std::vector<RowMatch>& matches, double common_
 }  // namespace
 
 RowAlignment fitRowModel(const std::vector<RowMatch>& matches, RowAlignment alignment) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 8, kFirstLimit = 4;
   if (matches.size() < RowAlignment::kFewestMatches) return alignment;
   const double common_px = commonDifference(matches);
+  alignment.model[0] = common_px;
   for (int round = 0; round < kRounds; ++round)
-    alignment.model = refit(matches, common_px, alignment);
+    alignment.model =
+        refit(matches, common_px, kMismatchPx * std::max(1, kFirstLimit - round), alignment);
   const std::vector<double> residuals = residualsOf(matches, alignment);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (std::abs(residuals[i]) > kMismatchPx) continue;

@@ -7,9 +7,11 @@
 
 namespace softscope {
 
-/// Match of a pixel of the left image in the right one.
+/// Match of a pixel of the left image in the right one. Searches in several rows find it
+/// repeatedly.
 struct RowMatch {
   double u_right_px, v_right_px, difference_px;  // v_right - v_left
+  int u_left_px = 0, v_left_px = 0;
 };
 
 /// Least squares with Tukey's weights about the median, then about the

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace softscope {
 namespace {
@@ -31,17 +33,21 @@ SynchronyMeter::Agreement SynchronyMeter::agreementAt(int offset) const {
     all.insert(all.end(), frame.begin(), frame.end());
   const RowAlignment shared = fitRowModel(all, scale_);
   int agreeing = 0, compared = 0;
+  std::set<std::pair<int, int>> pixels;
   double sum_px2 = 0;
   for (const std::vector<RowMatch>& frame : frames) {
     const RowAlignment own = fitRowModel(frame, scale_);
+    pixels.clear();
     for (const RowMatch& match : frame) {
       const double shared_px = shared.at(match.u_right_px, match.v_right_px);
       const double apart_px = own.at(match.u_right_px, match.v_right_px) - shared_px;
-      agreeing += std::abs(match.difference_px - shared_px) < kAgreesPx;
+      if (std::abs(match.difference_px - shared_px) < kAgreesPx)
+        pixels.emplace(match.v_left_px, match.u_left_px);
       if (!own.known()) continue;
       sum_px2 += apart_px * apart_px;
       ++compared;
     }
+    agreeing += static_cast<int>(pixels.size());
   }
   return {agreeing, compared > 0 ? std::sqrt(sum_px2 / compared) : kUnknownPx};
 }

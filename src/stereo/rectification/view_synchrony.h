@@ -39,7 +39,7 @@ class SynchronyMeter {
 
  private:
   struct Agreement {
-    int matches = 0;    // that agree with the model of all frames
+    int matches = 0;    // pixels whose rows agree with the model of all frames
     double scatter_px;  // RMS difference of the known models of single frames from it, at matches;
                         // infinite if none is known
   };
