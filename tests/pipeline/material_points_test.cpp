@@ -44,7 +44,9 @@ TEST(MaterialPoints, BeginWhereTheirRayMeetsTheDepth) {
 
 TEST(MaterialPoints, TakeDepthFromNearbyOrStayUnknown) {
   Raster<float> depth_mm(100, 80, std::numeric_limits<float>::quiet_NaN());
-  depth_mm.at(54, 40) = 40;
+  for (int v = 37; v < 44; ++v)
+    for (int u = 54; u < 57; ++u) depth_mm.at(u, v) = 40;
+  depth_mm.at(14, 40) = 40;  // alone: a mismatch
   MaterialPoints tracked;
   tracked.add(0, {50, 40}, kLeft, depth_mm, Eigen::Isometry3d::Identity());
   tracked.add(1, {10, 40}, kLeft, depth_mm, Eigen::Isometry3d::Identity());

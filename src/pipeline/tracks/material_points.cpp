@@ -34,15 +34,25 @@ double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
   return 1 / normal.ldlt().solve(right).x();
 }
 
+constexpr int kLeastMeasured = 13;  // pixels: fewer may be a mismatch
+
+bool isAmongMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel) {
+  int measured = 0;
+  visitMeasured(depth_mm, pixel, kSmallGapPx, [&](double, double, float) { ++measured; });
+  return measured >= kLeastMeasured;
+}
+
 /// Depth of the surface at the pixel: from its 5 x 5 neighbours; in a gap
 /// or next to an instrument, from measured pixels around it, extrapolated
-/// from the nearest one at 45 degrees at most. NaN without any.
+/// from the nearest one at 45 degrees at most. NaN without any, or with a few only.
 double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, double focal_px) {
-  const double here_mm = planeAround(depth_mm, pixel, 2, 13);
+  const double here_mm = planeAround(depth_mm, pixel, 2, kLeastMeasured);
   if (std::isfinite(here_mm)) return here_mm;
   const int gap_px = gapPx(depth_mm.width_px);
   const double around_mm = planeAround(depth_mm, pixel, gap_px, gap_px * gap_px);
-  if (!std::isfinite(around_mm)) return nearestDepth(depth_mm, pixel, kSmallGapPx).depth_mm;
+  if (!std::isfinite(around_mm))
+    return isAmongMeasured(depth_mm, pixel) ? nearestDepth(depth_mm, pixel, kSmallGapPx).depth_mm
+                                            : kNotMeasured<double>;
   const NearestDepth nearest = nearestDepth(depth_mm, pixel, gap_px);
   const double limit_mm = nearest.slackMm(focal_px);
   return std::clamp(around_mm, nearest.depth_mm - limit_mm, nearest.depth_mm + limit_mm);
