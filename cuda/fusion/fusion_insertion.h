@@ -28,10 +28,8 @@ struct UnexplainedBody {
     const int pixel = v * camera.width_px + u;
     unexplained_mm[pixel] = quietNan();
     image.slots[pixel] = -1;
-    const FrameRasters& rasters = frame.rasters;
-    const float depth_mm = rasters.depth_mm[pixel];
-    const float* sigma_mm = rasters.sigma_mm == nullptr ? nullptr : rasters.sigma_mm + pixel;
-    if (!mayMakePoint(states[pixel], depth_mm, sigma_mm, limits)) return;
+    const float depth_mm = frame.rasters.depth_mm[pixel];
+    if (!mayMakePoint(states[pixel], depth_mm, frame.rasters.sigma_mm, pixel, limits)) return;
     // Most pixels are explained by the point that they show.
     if (isExplained(bitsAsFloat(image.nearest[pixel]), depth_mm, limits.band_mm)) return;
     const int reach = footprintPx(depth_mm, camera.fx_px, limits.spacing_mm);

@@ -38,13 +38,14 @@ SOFTSCOPE_HD inline int footprintPx(float depth_mm, float focal_px, float spacin
   return rounded < 1 ? 1 : (kMostFootprintPx < rounded ? kMostFootprintPx : rounded);
 }
 
-/// Whether a depth is accurate enough for a point. `sigma_mm`: null for depths without sigma.
+/// Whether the depth of a pixel is accurate enough for a point. `sigma_mm`: null for depths without
+/// sigma.
 SOFTSCOPE_HD inline bool mayMakePoint(PixelState state, float depth_mm, const float* sigma_mm,
-                                      const InsertionLimits& limits) {
+                                      int pixel, const InsertionLimits& limits) {
   if (state != PixelState::kAccepted) return false;
-  const float per_square_mm = limits.max_sigma_over_square_per_mm;
-  return sigma_mm == nullptr ||
-         (*sigma_mm <= limits.max_sigma_mm && *sigma_mm <= per_square_mm * (depth_mm * depth_mm));
+  if (sigma_mm == nullptr) return true;
+  return sigma_mm[pixel] <= limits.max_sigma_mm &&
+         sigma_mm[pixel] <= limits.max_sigma_over_square_per_mm * (depth_mm * depth_mm);
 }
 
 /// Whether the nearest model depth within reach of a pixel

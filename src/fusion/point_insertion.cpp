@@ -94,8 +94,7 @@ class UnexplainedDepths {
     const float* sigma_mm = depth_.sigma_mm.empty() ? nullptr : depth_.sigma_mm.row(v);
     for (int u = 0; u < states_.width_px; ++u) {
       const float depth_mm = depth_.depth_mm.at(u, v);
-      if (!mayMakePoint(states_.at(u, v), depth_mm, sigma_mm ? sigma_mm + u : nullptr, limits_))
-        continue;
+      if (!mayMakePoint(states_.at(u, v), depth_mm, sigma_mm, u, limits_)) continue;
       if (isExplained(around.at(u, v), depth_mm, limits_.band_mm)) continue;
       const int reach = footprintPx(depth_mm, camera_.fx_px, limits_.spacing_mm);
       reaches[static_cast<std::size_t>(u)] = reach;

@@ -155,11 +155,16 @@ TEST(RowAlignment, LeavesAlignedPicturesAsTheyAre) {
   EXPECT_EQ(aligned.pair.right.values, test::colourOf(scene.right).values);
 }
 
-TEST(RowModel, DoesNotFollowItsSlopeWhereNothingWasMatched) {
+RowAlignment pictureOf(int width_px, int height_px) {
   RowAlignment picture;
-  picture.half_width_px = 320;
-  picture.centre_u_px = 319.5;
-  picture.centre_v_px = 239.5;
+  picture.half_width_px = width_px / 2.0;
+  picture.centre_u_px = (width_px - 1) / 2.0;
+  picture.centre_v_px = (height_px - 1) / 2.0;
+  return picture;
+}
+
+TEST(RowModel, DoesNotFollowItsSlopeWhereNothingWasMatched) {
+  const RowAlignment picture = pictureOf(640, 480);
   std::vector<RowMatch> matches;  // an organ at the left moved between the exposures
   for (int u = 5; u < 200; u += 12)
     for (int v = 5; v < 480; v += 12) matches.push_back({1.0 * u, 1.0 * v, 2.0 - 0.01 * u});
@@ -171,10 +176,7 @@ TEST(RowModel, DoesNotFollowItsSlopeWhereNothingWasMatched) {
 
 /// A calibration with rows that differ by 2.5 px, of which weak texture shows a part.
 TEST(RowModel, FollowsWhatItsMatchesHaveInCommon) {
-  RowAlignment picture;
-  picture.half_width_px = 180;
-  picture.centre_u_px = 179.5;
-  picture.centre_v_px = 143.5;
+  const RowAlignment picture = pictureOf(360, 288);
   std::vector<RowMatch> matches;
   for (int u = 250; u < 340; u += 10)
     for (int v = 20; v < 130; v += 10)
@@ -186,10 +188,7 @@ TEST(RowModel, FollowsWhatItsMatchesHaveInCommon) {
 
 /// Weak texture: at one side most of the matches are wrong.
 TEST(RowModel, IsNotBentByWrongMatches) {
-  RowAlignment picture;
-  picture.half_width_px = 180;
-  picture.centre_u_px = 179.5;
-  picture.centre_v_px = 143.5;
+  const RowAlignment picture = pictureOf(360, 288);
   const auto true_px = [](int u) { return 3.2 - 0.0049 * (u - 179.5); };
   std::mt19937 random(1);
   std::normal_distribution<double> noise_px(0, 0.2);

@@ -59,9 +59,9 @@ struct AlignedPair {
   double roll_rad = 0;
 };
 
-/// Measures the row difference and, above kRemoveAbovePx, moves the
-/// right image; then measures again, with better matches, and moves
-/// the right image by both at once. Ignored pixels do not count.
+/// Measures the row difference and, where the model explains kRemoveAbovePx, measures again on the
+/// moved right image, with better matches; moves the right image by the sum at once. Ignored pixels
+/// do not count.
 AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored = {});
 /// Measures the row difference only.
 AlignedPair withoutAlignment(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored);

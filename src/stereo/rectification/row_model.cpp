@@ -10,8 +10,8 @@
 namespace softscope {
 namespace {
 
-constexpr double kMismatchPx = 1;  // from the model: the match no longer counts
-constexpr double kLeastLimitPx = 0.4;
+constexpr double kMismatchPx = 1;       // from the model: the match no longer counts
+constexpr double kLeastLimitPx = 0.4;   // of the residuals that count
 constexpr int kColumns = 8, kRows = 6;  // of the grid in which matches are counted
 constexpr double kEmptyWeight = 1;      // of the common difference, in a cell without matches
 
@@ -69,9 +69,10 @@ std::vector<double> residualsOf(const std::vector<RowMatch>& matches,
   return residuals;
 }
 
-double medianAbsolute(std::vector<double> values) {
+/// Standard deviation of most of them about zero: by their median size.
+double scatterOf(std::vector<double> values) {
   for (double& x : values) x = std::abs(x);
-  return medianOf(std::move(values));
+  return 1.4826 * medianOf(std::move(values));
 }
 
 /// The median difference, as far as it exceeds the scatter: all rows of a calibration differ alike,
@@ -81,15 +82,14 @@ double commonDifference(const std::vector<RowMatch>& matches) {
   for (const RowMatch& m : matches) differences.push_back(m.difference_px);
   const double median = medianOf(differences);
   for (double& x : differences) x -= median;
-  const double scatter = 1.4826 * medianAbsolute(std::move(differences));
+  const double scatter = scatterOf(std::move(differences));
   return scatter < std::abs(median) ? median * (1 - std::pow(scatter / median, 2)) : 0;
 }
 
 std::array<double, 6> refit(const std::vector<RowMatch>& matches, double common_px,
                             double most_limit_px, const RowAlignment& alignment) {
   const std::vector<double> residuals = residualsOf(matches, alignment);
-  const double limit =
-      std::clamp(4.685 * 1.4826 * medianAbsolute(residuals), kLeastLimitPx, most_limit_px);
+  const double limit = std::clamp(4.685 * scatterOf(residuals), kLeastLimitPx, most_limit_px);
   RowEquations equations;
   CellCounts cells(alignment);
   for (std::size_t i = 0; i < matches.size(); ++i) {

@@ -38,15 +38,18 @@ class SynchronyMeter {
   ViewSynchrony result() const;
 
  private:
-  struct Agreement {
-    int matches = 0;    // pixels whose rows agree with the model of all frames
-    double scatter_px;  // RMS difference of the known models of single frames from it, at matches;
-                        // infinite if none is known
-  };
-  Agreement agreementAt(int offset) const;
+  using FrameMatches = std::vector<RowMatch>;
+
+  const std::vector<FrameMatches>& framesAt(int offset) const { return frames_[offset + kReach]; }
+  RowAlignment modelAt(int offset) const;
+  /// Pixels whose rows agree with the model of all frames.
+  int agreeingAt(int offset) const;
+  /// RMS difference of the known models of single frames from that of all, at their matches;
+  /// infinite if none is known.
+  double scatterAt(int offset) const;
 
   int disparity_max_px_;
-  std::array<std::vector<std::vector<RowMatch>>, kOffsets> frames_;  // matches of each
+  std::array<std::vector<FrameMatches>, kOffsets> frames_;
   RowAlignment scale_;
 };
 
