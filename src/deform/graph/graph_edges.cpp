@@ -46,23 +46,61 @@ std::vector<int> findParts(std::size_t nodes, const NodePairs& pairs, int* part_
   return part;
 }
 
+/// Nodes by their first coordinate, so that a search for near ones ends early.
+class NodesAlongX {
+ public:
+  explicit NodesAlongX(const WarpGraph& graph) : positions_mm_(graph.positions_mm) {
+    order_.resize(graph.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    std::sort(order_.begin(), order_.end(), [&](int a, int b) { return x(a) < x(b); });
+    place_.resize(graph.size());
+    for (std::size_t k = 0; k < order_.size(); ++k)
+      place_[static_cast<std::size_t>(order_[k])] = static_cast<std::ptrdiff_t>(k);
+  }
+
+  /// Calls visit(other, squared distance), outwards on both sides, while the first coordinate alone
+  /// leaves the distance at most `farthest_mm2`, which visit() may lower.
+  template <class Visit>
+  void visitAround(int node, const double& farthest_mm2, const Visit& visit) const {
+    for (const std::ptrdiff_t step : {-1, 1}) {
+      const std::ptrdiff_t end = step < 0 ? -1 : static_cast<std::ptrdiff_t>(order_.size());
+      for (std::ptrdiff_t k = place_[static_cast<std::size_t>(node)] + step; k != end; k += step) {
+        const int other = order_[static_cast<std::size_t>(k)];
+        const double along = x(other) - x(node);
+        if (along * along > farthest_mm2) break;
+        visit(other, (positions_mm_[static_cast<std::size_t>(node)] -
+                      positions_mm_[static_cast<std::size_t>(other)])
+                         .squaredNorm());
+      }
+    }
+  }
+
+ private:
+  double x(int node) const { return positions_mm_[static_cast<std::size_t>(node)].x(); }
+
+  const std::vector<Eigen::Vector3d>& positions_mm_;
+  std::vector<int> order_;
+  std::vector<std::ptrdiff_t> place_;
+};
+
 /// Node of part `own` closest to another part, with its distance order there.
-void bridge(const WarpGraph& graph, const std::vector<int>& part, int own, NodePairs* pairs) {
+void bridge(const WarpGraph& graph, const NodesAlongX& along, const std::vector<int>& part, int own,
+            NodePairs* pairs) {
   const int nodes = static_cast<int>(graph.size());
-  const auto& g = graph.positions_mm;
-  double closest = std::numeric_limits<double>::max();
+  double closest_mm2 = std::numeric_limits<double>::max();
   int from = -1;
   for (int i = 0; i < nodes; ++i) {
     if (part[i] != own) continue;
-    for (int j = 0; j < nodes; ++j) {
-      if (part[j] == own || (g[i] - g[j]).squaredNorm() >= closest) continue;
-      closest = (g[i] - g[j]).squaredNorm();
+    along.visitAround(i, closest_mm2, [&](int j, double away_mm2) {
+      if (part[j] == own || away_mm2 >= closest_mm2) return;
+      closest_mm2 = away_mm2;
       from = i;
-    }
+    });
   }
   std::vector<std::pair<double, int>> others;
   for (int j = 0; j < nodes; ++j)
-    if (part[j] != own) others.emplace_back((g[from] - g[j]).squaredNorm(), j);
+    if (part[j] != own)
+      others.emplace_back((graph.positions_mm[from] - graph.positions_mm[j]).squaredNorm(), j);
   const std::size_t bridges = std::min<std::size_t>(kBridges, others.size());
   std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(bridges),
                     others.end());
@@ -74,13 +112,15 @@ void bridge(const WarpGraph& graph, const std::vector<int>& part, int own, NodeP
 void joinParts(const WarpGraph& graph, NodePairs* pairs) {
   int count = 0;
   std::vector<int> part = findParts(graph.size(), *pairs, &count);
+  if (count <= 1) return;
+  const NodesAlongX along(graph);
   while (count > 1) {
     std::vector<int> sizes(static_cast<std::size_t>(count), 0);
     for (const int p : part) ++sizes[p];
     const int largest =
         static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
     for (int own = 0; own < count; ++own)
-      if (own != largest) bridge(graph, part, own, pairs);
+      if (own != largest) bridge(graph, along, part, own, pairs);
     part = findParts(graph.size(), *pairs, &count);
   }
 }
