@@ -144,6 +144,7 @@ struct LoadNodesKernel {
     const int i = at.x * kThreads + at.thread, s = i / kNodesPerPoint, k = i % kNodesPerPoint;
     if (s >= list.stencils) return;
     const std::int32_t node = stencils[s][static_cast<std::size_t>(k)];
+    if (node < 0) return;  // kOutsideStencil
     const FixedSum* shares = list.shares + 2 * kNodesPerPoint * s;
     if (shares[k] != 0) atomicPlus(&list.loads[node], shares[k]);
     if (shares[kNodesPerPoint + k] != 0)

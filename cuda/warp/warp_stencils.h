@@ -126,7 +126,7 @@ struct StencilKernel {
     } else if constexpr (kPhase == 4) {
       if constexpr (kAssembles) {
         addRows(at.thread, batch, shared, local.total);
-        if (is_last) store(at, local);
+        if (is_last && graph.stencil_nodes[at.x][0] >= 0) store(at, local);
       }
     } else if (is_last && at.thread == 0) {
       StencilSums sums = shared.sums[0];

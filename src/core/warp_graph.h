@@ -41,6 +41,9 @@ struct GraphEdge {
 /// four nodes the last one is repeated (with weight zero in the points).
 using NodeStencil = std::array<std::int32_t, kNodesPerPoint>;
 
+/// In a part of a graph: has nodes outside of it, and carries no point in sight.
+constexpr NodeStencil kOutsideStencil{-1, -1, -1, -1};
+
 /// Embedded deformation graph. Its warp maps the last frame to the live one: after each
 /// frame nodes are re-based, so that positions are live and transforms the identity.
 struct WarpGraph {
@@ -50,6 +53,9 @@ struct WarpGraph {
   std::vector<Eigen::Matrix3d> turned;         // rotation since creation, world from node
   std::vector<GraphEdge> edges;                // ascending by (first, second)
   std::vector<NodeStencil> stencils;           // indexed by PointBinding::stencil
+  /// 1: so far from visible tissue that the node follows others (deform/solver/local_solver.h).
+  /// Nodes beyond its end: 0.
+  std::vector<std::uint8_t> afar;
 
   std::size_t size() const { return positions_mm.size(); }
   bool empty() const { return positions_mm.empty(); }
@@ -80,6 +86,7 @@ inline Eigen::Vector3d referencePosition(const WarpGraph& graph, const PointBind
 
 /// Number of different nodes of a stencil.
 inline int distinctNodes(const NodeStencil& stencil) {
+  if (stencil == kOutsideStencil) return 0;
   int count = 1;
   while (count < kNodesPerPoint && stencil[count] != stencil[count - 1]) ++count;
   return count;

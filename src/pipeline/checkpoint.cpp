@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 11\n";
+constexpr std::string_view kMagic = "softscope checkpoint 12\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -122,6 +122,7 @@ void visitGraph(Archive& archive, Graph& graph) {
   archive.array(graph.turned);
   archive.array(graph.edges);
   archive.array(graph.stencils);
+  archive.array(graph.afar);
 }
 
 template <class Archive, class Camera>

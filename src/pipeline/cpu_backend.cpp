@@ -10,6 +10,7 @@
 #include "core/median.h"
 #include "core/parallel.h"
 #include "deform/energy/surface_target.h"
+#include "deform/solver/local_solver.h"
 #include "fusion/visibility.h"
 #include "pipeline/frame/frame_ahead.h"
 #include "pipeline/frame/key_point_matches.h"
@@ -41,7 +42,7 @@ class CpuBackend : public ReconstructionBackend {
         thread_limit_(parts.thread_limit),
         matching_(parts.makeMatching(options, rig())),
         pose_search_(parts.makePoseSearch()),
-        solver_(parts.makeSolver(options.deform)),
+        solver_(makeLocalSolver(parts.makeSolver(options.deform), options.graph.node_spacing_mm)),
         comparer_(parts.makeComparer(rig())),
         updater_(parts.makeUpdater(rig())),
         surface_(parts.makeSurface()),

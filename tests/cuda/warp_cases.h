@@ -7,6 +7,7 @@
 
 #include "deform/solver/device_warp_system.h"
 #include "deform/solver/lm_solver.h"
+#include "deform/solver/local_solver.h"
 #include "tests/deform/scenes.h"
 
 namespace softscope::test {
@@ -22,9 +23,14 @@ struct WarpCase {
 };
 
 inline std::vector<WarpCase> warpCases() {
-  return {{"surfaceAndMatches", 44, 32, 4, true, 40}, {"surfaceAlone", 30, 24, 4, true, 0},
-          {"matchesAlone", 30, 24, 4, false, 15},     {"oneFront", 9, 8, 4, true, 20},
-          {"manyFronts", 48, 36, 2.4, true, 60},      {"nothing", 12, 10, 4, false, 0}};
+  return {{"surfaceAndMatches", 44, 32, 4, true, 40},
+          {"surfaceAlone", 30, 24, 4, true, 0},
+          {"matchesAlone", 30, 24, 4, false, 15},
+          {"oneFront", 9, 8, 4, true, 20},
+          {"manyFronts", 48, 36, 2.4, true, 60},
+          {"nothing", 12, 10, 4, false, 0},
+          // Solved around what is seen, on the left of it.
+          {"largeGraph", 120, 24, 1.8, true, 0, -0.7, 0.5, {200, 150, 240, 240, 260, 74.5}}};
 }
 
 inline Eigen::Vector3d bend(const Eigen::Vector3d& p) { return scenes::smoothBend(p); }
@@ -33,7 +39,8 @@ inline Eigen::Vector3d bend(const Eigen::Vector3d& p) { return scenes::smoothBen
 class WarpScene {
  public:
   explicit WarpScene(const WarpCase& of)
-      : model_(scenes::makeHill(of.width_mm, of.height_mm, of.step_mm)) {
+      : spacing_mm_(of.spacing_mm),
+        model_(scenes::makeHill(of.width_mm, of.height_mm, of.step_mm)) {
     for (int i = 0; i < 60; ++i)
       model_.add(Eigen::Vector3f(200 + static_cast<float>(i % 8), static_cast<float>(i / 8), 60),
                  {0, 0, -1}, {90, 90, 90}, 1);
@@ -72,6 +79,11 @@ class WarpScene {
     DeformSummary summary;
     WarpGraph graph;
   };
+  /// As in a run: a large graph is solved around what is seen.
+  std::unique_ptr<DeformSolver> local(std::unique_ptr<DeformSolver> solver) const {
+    return makeLocalSolver(std::move(solver), spacing_mm_);
+  }
+  std::unique_ptr<DeformSolver> solverOnTheCpu() const { return local(makeDeformSolver(options_)); }
   Found solve(DeformSolver* solver) const {
     Found found{{}, graph_};
     found.summary = solver->solve(model_, seen_, &found.graph);
@@ -79,6 +91,7 @@ class WarpScene {
   }
 
  private:
+  double spacing_mm_;
   PointModel model_;
   WarpGraph graph_;
   DeformOptions options_;

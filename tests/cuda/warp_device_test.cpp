@@ -19,10 +19,10 @@ class WarpOnDevice : public testing::TestWithParam<test::WarpCase> {
 
 TEST_P(WarpOnDevice, HasTheCpusEnergyFrameAfterFrame) {
   const test::WarpScene scene(GetParam()), other(test::warpCases().front());
-  const test::WarpScene::Found expected = scene.solve(makeDeformSolver(scene.options()).get());
-  const auto solver = makeDeformSolver(
+  const test::WarpScene::Found expected = scene.solve(scene.solverOnTheCpu().get());
+  const auto solver = scene.local(makeDeformSolver(
       scene.options(),
-      makeDeviceWarpSystem(scene.options(), cuda::makeWarpDevice(scene.weights())));
+      makeDeviceWarpSystem(scene.options(), cuda::makeWarpDevice(scene.weights()))));
   const test::WarpScene::Found first = scene.solve(solver.get());
   test::expectSameSearch(first.summary, expected.summary);
   EXPECT_LT(test::furthestApart(first.graph, expected.graph), 1e-6);

@@ -15,15 +15,15 @@ namespace {
 
 std::unique_ptr<DeformSolver> solverOnTheHost(const test::WarpScene& scene, unsigned seed) {
   auto device = std::make_unique<cuda::WarpRun<test::HostMachine>>(scene.weights(), seed);
-  return makeDeformSolver(scene.options(),
-                          makeDeviceWarpSystem(scene.options(), std::move(device)));
+  return scene.local(
+      makeDeformSolver(scene.options(), makeDeviceWarpSystem(scene.options(), std::move(device))));
 }
 
 class WarpPasses : public testing::TestWithParam<test::WarpCase> {};
 
 TEST_P(WarpPasses, FindTheCpusWarpInAnyOrderOfThreads) {
   const test::WarpScene scene(GetParam()), other(test::warpCases().front());
-  const test::WarpScene::Found expected = scene.solve(makeDeformSolver(scene.options()).get());
+  const test::WarpScene::Found expected = scene.solve(scene.solverOnTheCpu().get());
   const auto solver = solverOnTheHost(scene, 1), shuffled = solverOnTheHost(scene, 77);
   other.solve(shuffled.get());  // nothing is left of another frame
   const test::WarpScene::Found found = scene.solve(solver.get());
@@ -60,8 +60,8 @@ std::unique_ptr<DeformSolver> solverWithTheModel(
     std::shared_ptr<cuda::ModelHome<test::HostMachine>> home) {
   auto device = std::make_unique<cuda::WarpRun<test::HostMachine>>(scene.weights(), seed);
   device->share(std::move(home));
-  return makeDeformSolver(scene.options(),
-                          makeDeviceWarpSystem(scene.options(), std::move(device)));
+  return scene.local(
+      makeDeformSolver(scene.options(), makeDeviceWarpSystem(scene.options(), std::move(device))));
 }
 
 TEST_P(WarpPasses, TakePointsFromTheModelOnTheDevice) {
@@ -93,12 +93,19 @@ TEST(WarpPassesEdge, PointsAreTakenFromTheHostWhereTheDeviceHasNoList) {
 }
 
 TEST(WarpPassesEdge, AffineNodesAreRefused) {
-  const test::WarpScene scene(test::warpCases().back());
+  const test::WarpScene scene(test::warpCases().front());
   DeformOptions affine = scene.options();
   affine.node_model = NodeModel::kAffine;
   EXPECT_THROW(makeDeviceWarpSystem(
                    affine, std::make_unique<cuda::WarpRun<test::HostMachine>>(scene.weights(), 1U)),
                OptionError);
+}
+
+TEST(WarpPassesEdge, ALargeGraphIsSolvedAroundWhatIsSeen) {
+  const test::WarpScene scene(test::warpCases().back());
+  const std::vector<std::uint8_t> afar = scene.solve(solverOnTheHost(scene, 1).get()).graph.afar;
+  EXPECT_GT(std::count(afar.begin(), afar.end(), 1), 200);
+  EXPECT_GT(std::count(afar.begin(), afar.end(), 0), 100);
 }
 
 /// Each node is eliminated once, and its neighbours then are in its front.

@@ -16,6 +16,7 @@ constexpr int kMatchesPerTask = 512;
 bool usable(const PointModel& model, const WarpGraph& graph, int point) {
   const PointBinding& binding = model.bindings[point];
   return binding.bound() && binding.stencil < static_cast<int>(graph.stencils.size()) &&
+         graph.stencils[static_cast<std::size_t>(binding.stencil)] != kOutsideStencil &&
          model.positions_mm[point].allFinite() && model.normals[point].allFinite();
 }
 

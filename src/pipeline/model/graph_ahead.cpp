@@ -40,12 +40,12 @@ void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
   thread_ = std::async(
       std::launch::async, [this, options, &model, &graph, solver, grown = std::move(grown),
                            prepared = std::move(prepared)]() mutable {
-        // Copies first: of what is grown or prepared, others may change the original.
-        grown_.bindings = model.bindings;
+        // Copied first: its transforms change once the solver is prepared.
         grown_.graph = graph;
         if (can_wait_) analysed_ = graph;
         const auto grow = [&] {
           workFor(&grown, [&] {
+            grown_.bindings = model.bindings;
             growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
             if (!can_wait_) analysed_ = grown_.graph;
           });
