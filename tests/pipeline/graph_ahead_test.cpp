@@ -36,13 +36,19 @@ TEST_P(GrowthAhead, IsTheSameAndKeepsTheMotionFoundMeanwhile) {
   GraphAhead growth;
   growth.prepare(GraphOptions(), ahead.model, ahead.graph, solver.get());
   growth.waitForSolver();
-  for (Growing* each : {&ahead, &now}) scenes::moveNodes(scenes::rigidMotion(), &each->graph);
+  for (Growing* each : {&ahead, &now}) {
+    scenes::moveNodes(scenes::rigidMotion(), &each->graph);
+    each->graph.afar.assign(nodes, 0);
+    each->graph.afar.front() = 1;
+  }
   const std::vector<NodeTransform> found = now.graph.transforms;
 
   growth.grow(GraphOptions(), &ahead.model, &ahead.graph);
   GraphAhead().grow(GraphOptions(), &now.model, &now.graph);
 
   EXPECT_EQ(ahead.graph.stencils, now.graph.stencils);
+  EXPECT_EQ(ahead.graph.afar, now.graph.afar);
+  EXPECT_EQ(now.graph.afar.front(), 1);
   ASSERT_EQ(ahead.graph.transforms.size(), now.graph.size());
   ASSERT_GE(now.graph.size(), nodes);
   for (std::size_t j = 0; j < now.graph.size(); ++j) {

@@ -67,6 +67,7 @@ void GraphAhead::grow(const GraphOptions& options, PointModel* model, WarpGraph*
     growth_.get();
     std::swap(model->bindings, grown_.bindings);
     std::swap(*graph, grown_.graph);
+    std::swap(graph->afar, grown_.graph.afar);  // may have been chosen since the copy
   } else {
     growGraph(options, model, graph);
   }

@@ -25,7 +25,7 @@ class GraphAhead {
   /// then follow their neighbours.
   bool canWait(const PointModel& model) const;
   /// Takes the growth started for this model and graph, or grows them now. Nodes keep their
-  /// transforms; new ones get the motion of the nearest.
+  /// transforms and `afar`; new ones get the motion of the nearest.
   void grow(const GraphOptions& options, PointModel* model, WarpGraph* graph);
   /// Waits until the solver is prepared.
   void waitForSolver();
