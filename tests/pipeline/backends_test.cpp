@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -62,33 +61,8 @@ const std::string& modelOfTheCpu() {
   return bytes;
 }
 
-/// Distance to the nearest of the points with about the same place in the model, mm.
-float distanceMm(const PointModel& model, std::size_t place, const Eigen::Vector3f& point_mm) {
-  constexpr std::size_t kAround = 30;
-  const std::size_t end = std::min(model.size(), place + kAround);
-  float nearest_mm = std::numeric_limits<float>::infinity();
-  for (std::size_t i = place < kAround ? 0 : place - kAround; i < end; ++i)
-    nearest_mm = std::min(nearest_mm, (model.positions_mm[i] - point_mm).norm());
-  return nearest_mm;
-}
-
-/// Bytes where every frame was computed on the processor. A GPU takes the solver's sums in another
-/// order: energies differ by 1e-15 of their size, so one point in thousands falls on the other side
-/// of a threshold, and all others lie within 0.003 mm, below which differences between two surfaces
-/// mean nothing.
 void expectModelOfTheCpu(const Reconstructor& reconstructor, const std::string& backend) {
-  if (backend == "cpu") {
-    EXPECT_TRUE(modelOf(reconstructor) == modelOfTheCpu());
-    return;
-  }
-  const PointModel& expected = pointsOfTheCpu();
-  const PointModel found = reconstructor.model().model;
-  const double few = 1e-3 * static_cast<double>(expected.size());
-  EXPECT_NEAR(static_cast<double>(found.size()), static_cast<double>(expected.size()), few);
-  int apart = 0;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    apart += distanceMm(expected, i, found.positions_mm[i]) > 0.003F;
-  EXPECT_LT(apart, few);
+  expectModel(pointsOfTheCpu(), backend, reconstructor.model().model);
 }
 
 class EveryBackend : public testing::TestWithParam<std::string> {

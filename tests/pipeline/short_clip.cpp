@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "eval/simulation/tissue/organ_mesh.h"
 #include "pipeline/cpu_backend.h"
@@ -34,6 +35,16 @@ ShortClip makeClip(SimulationOptions options, int frames) {
     clip.seeds.push_back({static_cast<int>(i), pixel.x(), pixel.y()});
   }
   return clip;
+}
+
+/// Distance to the nearest of the points with about the same place in the model, mm.
+float distanceMm(const PointModel& model, std::size_t place, const Eigen::Vector3f& point_mm) {
+  constexpr std::size_t kAround = 30;
+  const std::size_t end = std::min(model.size(), place + kAround);
+  float nearest_mm = std::numeric_limits<float>::infinity();
+  for (std::size_t i = place < kAround ? 0 : place - kAround; i < end; ++i)
+    nearest_mm = std::min(nearest_mm, (model.positions_mm[i] - point_mm).norm());
+  return nearest_mm;
 }
 
 }  // namespace
@@ -106,6 +117,19 @@ std::string bytesOf(const PointModel& model) {
   add(model.colours);
   add(model.weights);
   return bytes;
+}
+
+void expectModel(const PointModel& expected, const std::string& backend, const PointModel& found) {
+  if (backend == "cpu") {
+    EXPECT_TRUE(bytesOf(found) == bytesOf(expected));
+    return;
+  }
+  const double few = 1e-3 * static_cast<double>(expected.size());
+  EXPECT_NEAR(static_cast<double>(found.size()), static_cast<double>(expected.size()), few);
+  int apart = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    apart += distanceMm(expected, i, found.positions_mm[i]) > 0.003F;
+  EXPECT_LT(apart, few);
 }
 
 }  // namespace softscope::test
