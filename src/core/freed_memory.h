@@ -4,7 +4,9 @@
 namespace softscope {
 
 /// Large arrays of a frame then take the memory of those before, instead of new pages that the
-/// system clears first. Without effect where the C library is not glibc. For a program's start.
+/// system clears first; on up to four cores also that of other threads. The first 512 MB come in
+/// large pages where the system has them. Without effect where the C library is not glibc. For a
+/// program's start.
 void keepFreedMemory();
 
 }  // namespace softscope
