@@ -19,7 +19,7 @@ class Benchmark : public InFolder {
  protected:
   void simulate(const std::string& out, const std::vector<std::string>& more) const {
     std::vector<std::string> words{
-        "simulate", "--out", at(out), "--size", "176x132", "--set", "organ.cells_per_side=30",
+        "simulate", "--out", at(out), "--size", "144x108", "--set", "organ.cells_per_side=30",
         "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run(words);

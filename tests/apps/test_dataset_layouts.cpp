@@ -16,7 +16,7 @@ using testing::HasSubstr;
 class DatasetLayouts : public InFolder {
  protected:
   Outcome simulate(const std::string& out, std::vector<std::string> more) const {
-    std::vector<std::string> words{"simulate", "--out", at(out), "--size", "240x180", "--quiet"};
+    std::vector<std::string> words{"simulate", "--out", at(out), "--size", "176x132", "--quiet"};
     for (const char* setting : {"instrument.radius_mm=2", "organ.cells_per_side=30"})
       words.insert(words.end(), {"--set", setting});
     words.insert(words.end(), more.begin(), more.end());

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr int kWidth = 240, kHeight = 180;
+constexpr int kWidth = 160, kHeight = 120;
 constexpr int kLeftFrames = 6, kRightFrames = 18, kWholeFrames = 6;
 
 class Maps : public InFolder {
@@ -32,7 +32,7 @@ class Maps : public InFolder {
     static const TemporaryFolder folder;
     static const Outcome made =
         softscope::test::run({"simulate", "--out", folder / "clip", "--frames", "6", "--size",
-                              "240x180", "--set", "organ.cells_per_side=40", "--quiet"});
+                              "160x120", "--set", "organ.cells_per_side=40", "--quiet"});
     EXPECT_EQ(made.exit_code, 0) << made.err;
     return folder;
   }
@@ -50,7 +50,7 @@ class Maps : public InFolder {
       GrayImage mask(kWidth, kHeight, 0);
       for (int v = 0; v < kHeight; ++v)
         for (int u = 0; u < kWidth; ++u)
-          if ((is_left && u >= 130) || (is_right && u < 150)) mask.at(u, v) = 255;
+          if ((is_left && u >= 86) || (is_right && u < 100)) mask.at(u, v) = 255;
       writePng(clip / "mask" / numberedName(i, ".png"), mask);
     }
   }

@@ -27,7 +27,7 @@ class Layouts : public InFolder {
   void simulate(const std::string& out, const std::string& layout,
                 const std::vector<std::string>& more) const {
     SimulateOptions options;
-    set({"scope.width_px=240", "scope.height_px=180", "instrument.radius_mm=2",
+    set({"scope.width_px=176", "scope.height_px=132", "instrument.radius_mm=2",
          "organ.cells_per_side=30"},
         &options);
     set(more, &options);
@@ -59,7 +59,7 @@ TEST_F(Layouts, SurgtClipsAreReadAsTheyAre) {
   const Json info = checked("case/1");
   EXPECT_EQ(info["dataset"], "SurgT");
   EXPECT_EQ(info["frames"], 4);
-  EXPECT_EQ(info["height_px"], 180);
+  EXPECT_EQ(info["height_px"], 132);
   const auto truth = readSurgtTruth(at("case/1/gt_rectified_0.yaml"));
   ASSERT_EQ(truth.size(), 4u);
   ASSERT_TRUE(truth[0].visible_in_both);
@@ -109,7 +109,7 @@ TEST_F(Layouts, ShippedFormsAreReconstructedAsOurOwn) {
     const Json info = checked(layout + clipOf(layout));
     EXPECT_EQ(info["dataset"], form);
     EXPECT_EQ(info["frames"], 2);
-    EXPECT_EQ(info["height_px"], 180);
+    EXPECT_EQ(info["height_px"], 132);
     if (clip != at(layout))
       expectError<InputError>([&, above = at(layout)] { describePath(above); },
                               {"the first of them " + clip + " (" + form + ")"});
