@@ -6,6 +6,8 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+
 #include "core/background_work.h"
 
 namespace softscope {
@@ -15,6 +17,19 @@ void parallelRanges(int count, int grain, const std::function<void(int, int)>& b
   if (count <= grain || threadCount() == 1) return body(0, count);
   tbb::parallel_for(tbb::blocked_range<int>(0, count, static_cast<std::size_t>(grain)),
                     [&](const tbb::blocked_range<int>& r) { body(r.begin(), r.end()); });
+}
+
+std::vector<int> parallelFind(
+    int count, int grain,
+    const std::function<void(int begin, int end, std::vector<int>* found)>& body) {
+  std::vector<std::vector<int>> parts(static_cast<std::size_t>((count + grain - 1) / grain));
+  parallelRanges(static_cast<int>(parts.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i)
+      body(i * grain, std::min((i + 1) * grain, count), &parts[static_cast<std::size_t>(i)]);
+  });
+  std::vector<int> found;
+  for (const std::vector<int>& part : parts) found.insert(found.end(), part.begin(), part.end());
+  return found;
 }
 
 void parallelInvoke(const std::function<void()>& first, const std::function<void()>& second) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace softscope {
 
@@ -12,6 +13,12 @@ void parallelRanges(int count, int grain, const std::function<void(int begin, in
 
 /// Grain of loops over a point model.
 inline constexpr int kPointsPerTask = 4096;
+
+/// Calls body(begin, end, &found) over disjoint ranges that cover [0, count); all that was found,
+/// in the order of the ranges.
+std::vector<int> parallelFind(
+    int count, int grain,
+    const std::function<void(int begin, int end, std::vector<int>* found)>& body);
 
 /// Calls body(v) for every row v of [0, rows).
 template <class Body>

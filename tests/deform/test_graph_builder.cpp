@@ -123,21 +123,27 @@ TEST(GraphBuilder, TiesIslandsWhereTheyAreNearest) {
       return edge.first == std::min(a, b) && edge.second == std::max(a, b);
     });
   };
-  int missing = 0;  // that of the largest island: of equal ones the first
+  int missing = 0;  // those of the largest island: of equal ones the first
   for (int island = 0; island < 30; ++island) {
-    double nearest_mm = std::numeric_limits<double>::infinity();
-    int from = -1, to = -1;
+    struct Tie {
+      double away_mm;
+      int to, from;
+      bool operator<(const Tie& other) const { return away_mm < other.away_mm; }
+    };
+    std::vector<Tie> ties;
     for (int i = 6 * island; i < 6 * island + 6; ++i)
-      for (int j = 0; j < static_cast<int>(graph.size()); ++j) {
-        const double away_mm = (graph.positions_mm[i] - graph.positions_mm[j]).norm();
-        if (j / 6 == island || away_mm >= nearest_mm) continue;
-        nearest_mm = away_mm;
-        from = i;
-        to = j;
-      }
-    if (!tied(from, to)) ++missing;
+      for (int j = 0; j < static_cast<int>(graph.size()); ++j)
+        if (j / 6 != island)
+          ties.push_back({(graph.positions_mm[i] - graph.positions_mm[j]).norm(), j, i});
+    std::sort(ties.begin(), ties.end());
+    const int from = ties.front().from;
+    ties.erase(
+        std::remove_if(ties.begin(), ties.end(), [&](const Tie& tie) { return tie.from != from; }),
+        ties.end());
+    for (int k = 0; k < 3; ++k)
+      if (!tied(from, ties[static_cast<std::size_t>(k)].to)) ++missing;
   }
-  EXPECT_LE(missing, 1);
+  EXPECT_LE(missing, 3);
 }
 
 TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {

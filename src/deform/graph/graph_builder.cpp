@@ -1,6 +1,8 @@
 #include "deform/graph/graph_builder.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -18,45 +20,50 @@ namespace {
 using Positions = std::vector<Eigen::Vector3f>;
 using Bindings = std::vector<PointBinding>;
 
-std::vector<int> unboundPoints(const Bindings& bindings) {
-  std::vector<int> points;
-  for (std::size_t i = 0; i < bindings.size(); ++i)
-    if (!bindings[i].bound()) points.push_back(static_cast<int>(i));
-  return points;
-}
-
 /// Cubes of one reach around unbound points: nothing changes beyond two of them.
-CellNumbering changingRegion(const Positions& positions_mm, const std::vector<int>& unbound,
-                             double reach_mm) {
+class ChangingRegion {
+ public:
+  ChangingRegion(const Positions& positions_mm, const std::vector<int>& unbound, double reach_mm);
+  bool contains(const Eigen::Vector3f& position_mm) const {
+    return box_mm_.contains(position_mm) && CellFinder(cubes_).find(position_mm) >= 0;
+  }
+  std::vector<int> pointsInside(const Positions& positions_mm) const;
+
+ private:
+  CellNumbering cubes_;
+  Eigen::AlignedBox3f box_mm_;  // of more than the cubes; most of a large model is outside
+};
+
+ChangingRegion::ChangingRegion(const Positions& positions_mm, const std::vector<int>& unbound,
+                               double reach_mm)
+    : cubes_(reach_mm) {
   constexpr int kAround = 2;
-  CellNumbering centres(reach_mm), region(reach_mm);
+  CellNumbering centres(reach_mm);
   std::uint64_t key = 0;
-  for (const int point : unbound)
-    if (region.keyOf(positions_mm[point], &key)) centres.findOrAdd(key);
+  for (const int point : unbound) {
+    if (!cubes_.keyOf(positions_mm[point], &key)) continue;
+    centres.findOrAdd(key);
+    box_mm_.extend(positions_mm[point]);
+  }
   for (int c = 0; c < centres.size(); ++c)
     for (int dz = -kAround; dz <= kAround; ++dz)
       for (int dy = -kAround; dy <= kAround; ++dy)
         for (int dx = -kAround; dx <= kAround; ++dx)
-          region.findOrAdd(CellNumbering::shifted(centres.key(c), dx, dy, dz));
-  return region;
+          cubes_.findOrAdd(CellNumbering::shifted(centres.key(c), dx, dy, dz));
+  const Eigen::Vector3f margin_mm =
+      Eigen::Vector3f::Constant(static_cast<float>((kAround + 2) * reach_mm));
+  box_mm_ = {box_mm_.min() - margin_mm, box_mm_.max() + margin_mm};
 }
 
-bool inside(const CellNumbering& region, const Eigen::Vector3f& position_mm) {
-  return CellFinder(region).find(position_mm) >= 0;
-}
-
-std::vector<int> pointsInside(const Positions& positions_mm, const CellNumbering& region) {
-  std::vector<char> is_inside(positions_mm.size());
-  const int count = static_cast<int>(positions_mm.size());
-  parallelRanges(count, kPointsPerTask, [&](int begin, int end) {
-    CellFinder finder(region);
-    for (int i = begin; i < end; ++i) is_inside[i] = finder.find(positions_mm[i]) >= 0;
-  });
-  std::vector<int> points;
-  points.reserve(is_inside.size());
-  for (int i = 0; i < count; ++i)
-    if (is_inside[i]) points.push_back(i);
-  return points;
+std::vector<int> ChangingRegion::pointsInside(const Positions& positions_mm) const {
+  return parallelFind(
+      static_cast<int>(positions_mm.size()), kPointsPerTask,
+      [&](int begin, int end, std::vector<int>* found) {
+        CellFinder finder(cubes_);
+        for (int i = begin; i < end; ++i)
+          if (box_mm_.contains(positions_mm[i]) && finder.find(positions_mm[i]) >= 0)
+            found->push_back(i);
+      });
 }
 
 /// The node closest to a position, of the first `count`; `count` without any.
@@ -90,9 +97,7 @@ class StencilBook {
   }
 
   void dropUnused(Bindings* bindings) {
-    std::vector<std::int32_t> renumbered(stencils_->size(), -1);
-    for (const PointBinding& binding : *bindings)
-      if (binding.bound()) renumbered[binding.stencil] = 0;
+    std::vector<std::int32_t> renumbered = uses(*bindings);
     std::int32_t next = 0;
     for (std::size_t s = 0; s < stencils_->size(); ++s) {
       if (renumbered[s] < 0) continue;
@@ -101,11 +106,29 @@ class StencilBook {
     }
     if (next == static_cast<std::int32_t>(renumbered.size())) return;
     stencils_->resize(static_cast<std::size_t>(next));
-    for (PointBinding& binding : *bindings)
-      if (binding.bound()) binding.stencil = renumbered[binding.stencil];
+    parallelRanges(static_cast<int>(bindings->size()), kPointsPerTask, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        PointBinding& binding = (*bindings)[i];
+        if (binding.bound()) binding.stencil = renumbered[binding.stencil];
+      }
+    });
   }
 
  private:
+  /// Per stencil, 0 if a point is bound to it, else -1.
+  std::vector<std::int32_t> uses(const Bindings& bindings) const {
+    std::vector<std::atomic<bool>> is_used(stencils_->size());
+    parallelRanges(static_cast<int>(bindings.size()), kPointsPerTask, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        if (!bindings[i].bound()) continue;
+        std::atomic<bool>& used = is_used[bindings[i].stencil];
+        if (!used.load(std::memory_order_relaxed)) used.store(true, std::memory_order_relaxed);
+      }
+    });
+    std::vector<std::int32_t> found(is_used.size());
+    for (std::size_t s = 0; s < found.size(); ++s) found[s] = is_used[s] ? 0 : -1;
+    return found;
+  }
   void makeTable(std::size_t room) {
     std::size_t size = 64;
     while (size < room) size *= 2;
@@ -139,8 +162,8 @@ class Growth {
         positions_mm_(positions_mm),
         bindings_(*bindings),
         graph_(*graph),
-        region_(changingRegion(positions_mm, unbound, NodeReach::reachMm(options))),
-        points_(pointsInside(positions_mm, region_)),
+        region_(positions_mm, unbound, NodeReach::reachMm(options)),
+        points_(region_.pointsInside(positions_mm)),
         cells_(positions_mm, points_, options.cell_mm),
         reach_(cells_, options),
         near_new_node_(static_cast<std::size_t>(cells_.size()), 0) {}
@@ -150,7 +173,7 @@ class Growth {
     std::vector<NodeReach::Start> starts;
     for (std::size_t j = 0; j < graph_.size(); ++j) {
       const Eigen::Vector3f position_mm = graph_.positions_mm[j].cast<float>();
-      if (inside(region_, position_mm)) starts.push_back({static_cast<int>(j), position_mm});
+      if (region_.contains(position_mm)) starts.push_back({static_cast<int>(j), position_mm});
     }
     reach_.spreadAll(starts);
     addNodes();
@@ -225,7 +248,7 @@ class Growth {
   const Positions& positions_mm_;
   Bindings& bindings_;
   WarpGraph& graph_;
-  CellNumbering region_;
+  ChangingRegion region_;
   std::vector<int> points_;
   SurfaceCells cells_;
   NodeReach reach_;
@@ -234,6 +257,14 @@ class Growth {
 };
 
 }  // namespace
+
+std::vector<int> unboundPoints(const Bindings& bindings) {
+  return parallelFind(static_cast<int>(bindings.size()), kPointsPerTask,
+                      [&](int begin, int end, std::vector<int>* found) {
+                        for (int i = begin; i < end; ++i)
+                          if (!bindings[i].bound()) found->push_back(i);
+                      });
+}
 
 GraphGrowth growGraph(const GraphOptions& options, const std::vector<Eigen::Vector3f>& positions_mm,
                       std::vector<PointBinding>* bindings, WarpGraph* graph) {

@@ -18,6 +18,9 @@ struct GraphGrowth {
   bool structure_changed = false;  // nodes, edges or stencils
 };
 
+/// Ascending.
+std::vector<int> unboundPoints(const std::vector<PointBinding>& bindings);
+
 /// Adds nodes for unbound points without a node within the spacing along the
 /// surface, binds those points to their four nearest nodes along the surface
 /// (docs/energy.md (25)), rebinds points close to a new node, and updates the

@@ -1,6 +1,9 @@
 #include "deform/graph/graph_edges.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -13,14 +16,34 @@ namespace {
 
 constexpr int kBridges = 3;  // three neighbours hold a part's rotation too
 
-NodePairs sharedStencils(const WarpGraph& graph) {
-  NodePairs pairs;
-  pairs.reserve(graph.stencils.size() * 6);
+/// Calls visit(a, b) for every pair a < b in every stencil.
+template <class Visit>
+void visitPairs(const WarpGraph& graph, const Visit& visit) {
   for (const NodeStencil& stencil : graph.stencils)
     for (int b = 1; b < kNodesPerPoint; ++b)
       for (int a = 0; a < b; ++a)
-        if (stencil[a] != stencil[b]) pairs.emplace_back(stencil[a], stencil[b]);
-  sortNodePairs(static_cast<int>(graph.size()), &pairs);
+        if (stencil[a] != stencil[b]) visit(stencil[a], stencil[b]);
+}
+
+/// Ascending; each pair once.
+NodePairs sharedStencils(const WarpGraph& graph) {
+  const std::size_t nodes = graph.size();
+  std::vector<std::size_t> start(nodes + 1, 0);
+  visitPairs(graph, [&](std::int32_t a, std::int32_t) { ++start[a + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::int32_t> seconds(start.back());
+  std::vector<std::size_t> end(start.begin(), start.end() - 1);
+  visitPairs(graph, [&](std::int32_t a, std::int32_t b) { seconds[end[a]++] = b; });
+
+  NodePairs pairs;
+  std::vector<std::int32_t> partners, last_first(nodes, -1);
+  for (std::int32_t a = 0; a < static_cast<std::int32_t>(nodes); ++a) {
+    partners.clear();
+    for (std::size_t i = start[a]; i < end[a]; ++i)
+      if (std::exchange(last_first[seconds[i]], a) != a) partners.push_back(seconds[i]);
+    std::sort(partners.begin(), partners.end());
+    for (const std::int32_t b : partners) pairs.emplace_back(a, b);
+  }
   return pairs;
 }
 
@@ -46,66 +69,94 @@ std::vector<int> findParts(std::size_t nodes, const NodePairs& pairs, int* part_
   return part;
 }
 
-/// Nodes by their first coordinate, so that a search for near ones ends early.
-class NodesAlongX {
+/// Nodes in squares of their first two coordinates, about one in each.
+class NodeSquares {
  public:
-  explicit NodesAlongX(const WarpGraph& graph) : positions_mm_(graph.positions_mm) {
-    order_.resize(graph.size());
-    std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), [&](int a, int b) { return x(a) < x(b); });
-    place_.resize(graph.size());
-    for (std::size_t k = 0; k < order_.size(); ++k)
-      place_[static_cast<std::size_t>(order_[k])] = static_cast<std::ptrdiff_t>(k);
-  }
+  explicit NodeSquares(const WarpGraph& graph);
 
-  /// Calls visit(other, squared distance), outwards on both sides, while the first coordinate alone
-  /// leaves the distance at most `farthest_mm2`, which visit() may lower.
+  /// Calls visit(other, squared distance), outwards, while a square may hold nodes at most
+  /// `farthest_mm2` away, which visit() may lower.
   template <class Visit>
   void visitAround(int node, const double& farthest_mm2, const Visit& visit) const {
-    for (const std::ptrdiff_t step : {-1, 1}) {
-      const std::ptrdiff_t end = step < 0 ? -1 : static_cast<std::ptrdiff_t>(order_.size());
-      for (std::ptrdiff_t k = place_[static_cast<std::size_t>(node)] + step; k != end; k += step) {
-        const int other = order_[static_cast<std::size_t>(k)];
-        const double along = x(other) - x(node);
-        if (along * along > farthest_mm2) break;
-        visit(other, (positions_mm_[static_cast<std::size_t>(node)] -
-                      positions_mm_[static_cast<std::size_t>(other)])
-                         .squaredNorm());
+    const int u = columnOf(node), v = rowOf(node);
+    for (int ring = 0; ring <= side_; ++ring) {
+      const double least_mm = std::max(0, ring - 1) * square_mm_;
+      if (least_mm * least_mm > farthest_mm2) return;
+      for (int y = std::max(v - ring, 0); y <= std::min(v + ring, side_ - 1); ++y) {
+        const int step = std::abs(y - v) == ring ? 1 : 2 * ring;  // along the edge, or across
+        for (int x = u - ring; x <= u + ring; x += step)
+          if (x >= 0 && x < side_) visitSquare(x, y, node, visit);
       }
     }
   }
 
  private:
-  double x(int node) const { return positions_mm_[static_cast<std::size_t>(node)].x(); }
+  template <class Visit>
+  void visitSquare(int x, int y, int node, const Visit& visit) const {
+    const std::size_t square = static_cast<std::size_t>(y * side_ + x);
+    for (int k = start_[square]; k < start_[square + 1]; ++k)
+      if (nodes_[k] != node)
+        visit(nodes_[k], (positions_mm_[node] - positions_mm_[nodes_[k]]).squaredNorm());
+  }
+  int columnOf(int node) const { return placeOf(positions_mm_[node].x() - corner_mm_.x()); }
+  int rowOf(int node) const { return placeOf(positions_mm_[node].y() - corner_mm_.y()); }
+  int placeOf(double along_mm) const {
+    const double place = along_mm / square_mm_;
+    return place >= 0 && place < side_ ? static_cast<int>(place) : 0;
+  }
 
   const std::vector<Eigen::Vector3d>& positions_mm_;
-  std::vector<int> order_;
-  std::vector<std::ptrdiff_t> place_;
+  Eigen::Vector2d corner_mm_;
+  double square_mm_;
+  int side_;                // squares in a row, and in a column
+  std::vector<int> start_;  // per square, its first place in nodes_; side_ * side_ + 1
+  std::vector<int> nodes_;
 };
 
-/// Node of part `own` closest to another part, with its distance order there.
-void bridge(const WarpGraph& graph, const NodesAlongX& along, const std::vector<int>& part, int own,
-            NodePairs* pairs) {
+NodeSquares::NodeSquares(const WarpGraph& graph) : positions_mm_(graph.positions_mm) {
+  Eigen::AlignedBox2d box_mm;
+  for (const Eigen::Vector3d& position_mm : positions_mm_) box_mm.extend(position_mm.head<2>());
+  corner_mm_ = box_mm.min();
+  side_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(graph.size()))));
+  // The farthest node is in the last square.
+  square_mm_ = std::max(1e-6, 1.001 * box_mm.sizes().maxCoeff() / side_);
+  start_.assign(static_cast<std::size_t>(side_ * side_) + 1, 0);
+  const auto squareOf = [&](int node) {
+    return static_cast<std::size_t>(rowOf(node) * side_ + columnOf(node));
+  };
   const int nodes = static_cast<int>(graph.size());
+  for (int j = 0; j < nodes; ++j) ++start_[squareOf(j) + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  nodes_.resize(graph.size());
+  std::vector<int> next(start_.begin(), start_.end() - 1);
+  for (int j = 0; j < nodes; ++j) nodes_[next[squareOf(j)]++] = j;
+}
+
+/// The node of a part that is closest to another part, and the closest nodes of others to it.
+/// `nodes`: of the part, ascending.
+void bridge(const NodeSquares& squares, const std::vector<int>& part, const std::vector<int>& nodes,
+            NodePairs* pairs) {
+  const int own = part[nodes.front()];
   double closest_mm2 = std::numeric_limits<double>::max();
   int from = -1;
-  for (int i = 0; i < nodes; ++i) {
-    if (part[i] != own) continue;
-    along.visitAround(i, closest_mm2, [&](int j, double away_mm2) {
+  for (const int i : nodes)
+    squares.visitAround(i, closest_mm2, [&](int j, double away_mm2) {
       if (part[j] == own || away_mm2 >= closest_mm2) return;
       closest_mm2 = away_mm2;
       from = i;
     });
-  }
-  std::vector<std::pair<double, int>> others;
-  for (int j = 0; j < nodes; ++j)
-    if (part[j] != own)
-      others.emplace_back((graph.positions_mm[from] - graph.positions_mm[j]).squaredNorm(), j);
-  const std::size_t bridges = std::min<std::size_t>(kBridges, others.size());
-  std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(bridges),
-                    others.end());
-  for (std::size_t i = 0; i < bridges; ++i)
-    pairs->emplace_back(std::min(from, others[i].second), std::max(from, others[i].second));
+  std::vector<std::pair<double, int>> others;  // at most kBridges, ascending
+  double farthest_mm2 = std::numeric_limits<double>::max();
+  squares.visitAround(from, farthest_mm2, [&](int j, double away_mm2) {
+    if (part[j] == own) return;
+    const std::pair<double, int> other(away_mm2, j);
+    if (others.size() == kBridges && !(other < others.back())) return;
+    if (others.size() == kBridges) others.pop_back();
+    others.insert(std::upper_bound(others.begin(), others.end(), other), other);
+    if (others.size() == kBridges) farthest_mm2 = others.back().first;
+  });
+  for (const auto& [away_mm2, other] : others)
+    pairs->emplace_back(std::min(from, other), std::max(from, other));
 }
 
 /// Every component but the largest is connected to the closest one; repeated until one is left.
@@ -113,14 +164,15 @@ void joinParts(const WarpGraph& graph, NodePairs* pairs) {
   int count = 0;
   std::vector<int> part = findParts(graph.size(), *pairs, &count);
   if (count <= 1) return;
-  const NodesAlongX along(graph);
+  const NodeSquares squares(graph);
   while (count > 1) {
-    std::vector<int> sizes(static_cast<std::size_t>(count), 0);
-    for (const int p : part) ++sizes[p];
-    const int largest =
-        static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-    for (int own = 0; own < count; ++own)
-      if (own != largest) bridge(graph, along, part, own, pairs);
+    std::vector<std::vector<int>> nodes_of(static_cast<std::size_t>(count));
+    for (std::size_t j = 0; j < part.size(); ++j) nodes_of[part[j]].push_back(static_cast<int>(j));
+    const auto largest = std::max_element(
+        nodes_of.begin(), nodes_of.end(),
+        [](const auto& one, const auto& other) { return one.size() < other.size(); });
+    for (auto nodes = nodes_of.begin(); nodes != nodes_of.end(); ++nodes)
+      if (nodes != largest) bridge(squares, part, *nodes, pairs);
     part = findParts(graph.size(), *pairs, &count);
   }
 }

@@ -12,9 +12,15 @@ namespace {
 constexpr double kFewUnbound = 0.01;  // of the points: these can follow their neighbours once
 
 bool isFew(const std::vector<PointBinding>& bindings) {
-  const auto unbound = std::count_if(bindings.begin(), bindings.end(),
-                                     [](const PointBinding& each) { return !each.bound(); });
-  return static_cast<double>(unbound) <= kFewUnbound * static_cast<double>(bindings.size());
+  return static_cast<double>(unboundPoints(bindings).size()) <=
+         kFewUnbound * static_cast<double>(bindings.size());
+}
+
+void copyBindings(const std::vector<PointBinding>& from, std::vector<PointBinding>* to) {
+  to->resize(from.size());
+  parallelRanges(static_cast<int>(from.size()), kPointsPerTask, [&](int begin, int end) {
+    std::copy(from.begin() + begin, from.begin() + end, to->begin() + begin);
+  });
 }
 
 /// Calls `work`, then fulfils `done`.
@@ -45,7 +51,7 @@ void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
         if (can_wait_) analysed_ = graph;
         const auto grow = [&] {
           workFor(&grown, [&] {
-            grown_.bindings = model.bindings;
+            copyBindings(model.bindings, &grown_.bindings);
             growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
             if (!can_wait_) analysed_ = grown_.graph;
           });
