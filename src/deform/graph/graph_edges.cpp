@@ -69,13 +69,16 @@ std::vector<int> findParts(std::size_t nodes, const NodePairs& pairs, int* part_
   return part;
 }
 
-/// Nodes in squares of their first two coordinates, about one in each.
+/// Nodes in squares of their first two coordinates, a few in each.
 class NodeSquares {
  public:
   explicit NodeSquares(const WarpGraph& graph);
 
-  /// Calls visit(other, squared distance), outwards, while a square may hold nodes at most
-  /// `farthest_mm2` away, which visit() may lower.
+  /// Then visitAround() passes over squares without nodes of other parts.
+  void setParts(const std::vector<int>& part);
+
+  /// Calls visit(other, squared distance) for nodes of other parts, outwards, while a square may
+  /// hold nodes at most `farthest_mm2` away, which visit() may lower.
   template <class Visit>
   void visitAround(int node, const double& farthest_mm2, const Visit& visit) const {
     const int u = columnOf(node), v = rowOf(node);
@@ -85,19 +88,24 @@ class NodeSquares {
       for (int y = std::max(v - ring, 0); y <= std::min(v + ring, side_ - 1); ++y) {
         const int step = std::abs(y - v) == ring ? 1 : 2 * ring;  // along the edge, or across
         for (int x = u - ring; x <= u + ring; x += step)
-          if (x >= 0 && x < side_) visitSquare(x, y, node, visit);
+          if (x >= 0 && x < side_) visitSquare(squareAt(x, y), node, visit);
       }
     }
   }
 
  private:
+  static constexpr int kNobody = -1, kSeveral = -2;
+
   template <class Visit>
-  void visitSquare(int x, int y, int node, const Visit& visit) const {
-    const std::size_t square = static_cast<std::size_t>(y * side_ + x);
+  void visitSquare(std::size_t square, int node, const Visit& visit) const {
+    const int owner = owners_[square], own = part_[node];
+    if (owner == own || owner == kNobody) return;
     for (int k = start_[square]; k < start_[square + 1]; ++k)
-      if (nodes_[k] != node)
+      if (part_[nodes_[k]] != own)
         visit(nodes_[k], (positions_mm_[node] - positions_mm_[nodes_[k]]).squaredNorm());
   }
+  std::size_t squareAt(int x, int y) const { return static_cast<std::size_t>(y * side_ + x); }
+  std::size_t squareOf(int node) const { return squareAt(columnOf(node), rowOf(node)); }
   int columnOf(int node) const { return placeOf(positions_mm_[node].x() - corner_mm_.x()); }
   int rowOf(int node) const { return placeOf(positions_mm_[node].y() - corner_mm_.y()); }
   int placeOf(double along_mm) const {
@@ -111,19 +119,19 @@ class NodeSquares {
   int side_;                // squares in a row, and in a column
   std::vector<int> start_;  // per square, its first place in nodes_; side_ * side_ + 1
   std::vector<int> nodes_;
+  std::vector<int> part_;    // per node
+  std::vector<int> owners_;  // per square, the part of all its nodes; or kNobody, kSeveral
 };
 
 NodeSquares::NodeSquares(const WarpGraph& graph) : positions_mm_(graph.positions_mm) {
+  constexpr double kNodesPerSquare = 4;
   Eigen::AlignedBox2d box_mm;
   for (const Eigen::Vector3d& position_mm : positions_mm_) box_mm.extend(position_mm.head<2>());
   corner_mm_ = box_mm.min();
-  side_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(graph.size()))));
+  side_ = static_cast<int>(std::ceil(std::sqrt(graph.size() / kNodesPerSquare)));
   // The farthest node is in the last square.
   square_mm_ = std::max(1e-6, 1.001 * box_mm.sizes().maxCoeff() / side_);
   start_.assign(static_cast<std::size_t>(side_ * side_) + 1, 0);
-  const auto squareOf = [&](int node) {
-    return static_cast<std::size_t>(rowOf(node) * side_ + columnOf(node));
-  };
   const int nodes = static_cast<int>(graph.size());
   for (int j = 0; j < nodes; ++j) ++start_[squareOf(j) + 1];
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
@@ -132,23 +140,30 @@ NodeSquares::NodeSquares(const WarpGraph& graph) : positions_mm_(graph.positions
   for (int j = 0; j < nodes; ++j) nodes_[next[squareOf(j)]++] = j;
 }
 
+void NodeSquares::setParts(const std::vector<int>& part) {
+  part_ = part;
+  owners_.assign(start_.size() - 1, kNobody);
+  for (std::size_t square = 0; square < owners_.size(); ++square)
+    for (int k = start_[square]; k < start_[square + 1]; ++k) {
+      int& owner = owners_[square];
+      owner = owner == kNobody || owner == part_[nodes_[k]] ? part_[nodes_[k]] : kSeveral;
+    }
+}
+
 /// The node of a part that is closest to another part, and the closest nodes of others to it.
 /// `nodes`: of the part, ascending.
-void bridge(const NodeSquares& squares, const std::vector<int>& part, const std::vector<int>& nodes,
-            NodePairs* pairs) {
-  const int own = part[nodes.front()];
+void bridge(const NodeSquares& squares, const std::vector<int>& nodes, NodePairs* pairs) {
   double closest_mm2 = std::numeric_limits<double>::max();
   int from = -1;
   for (const int i : nodes)
-    squares.visitAround(i, closest_mm2, [&](int j, double away_mm2) {
-      if (part[j] == own || away_mm2 >= closest_mm2) return;
+    squares.visitAround(i, closest_mm2, [&](int, double away_mm2) {
+      if (away_mm2 >= closest_mm2) return;
       closest_mm2 = away_mm2;
       from = i;
     });
   std::vector<std::pair<double, int>> others;  // at most kBridges, ascending
   double farthest_mm2 = std::numeric_limits<double>::max();
   squares.visitAround(from, farthest_mm2, [&](int j, double away_mm2) {
-    if (part[j] == own) return;
     const std::pair<double, int> other(away_mm2, j);
     if (others.size() == kBridges && !(other < others.back())) return;
     if (others.size() == kBridges) others.pop_back();
@@ -164,15 +179,16 @@ void joinParts(const WarpGraph& graph, NodePairs* pairs) {
   int count = 0;
   std::vector<int> part = findParts(graph.size(), *pairs, &count);
   if (count <= 1) return;
-  const NodeSquares squares(graph);
+  NodeSquares squares(graph);
   while (count > 1) {
     std::vector<std::vector<int>> nodes_of(static_cast<std::size_t>(count));
     for (std::size_t j = 0; j < part.size(); ++j) nodes_of[part[j]].push_back(static_cast<int>(j));
+    squares.setParts(part);
     const auto largest = std::max_element(
         nodes_of.begin(), nodes_of.end(),
         [](const auto& one, const auto& other) { return one.size() < other.size(); });
     for (auto nodes = nodes_of.begin(); nodes != nodes_of.end(); ++nodes)
-      if (nodes != largest) bridge(squares, part, *nodes, pairs);
+      if (nodes != largest) bridge(squares, *nodes, pairs);
     part = findParts(graph.size(), *pairs, &count);
   }
 }
@@ -181,8 +197,11 @@ void joinParts(const WarpGraph& graph, NodePairs* pairs) {
 
 std::vector<GraphEdge> makeEdges(const WarpGraph& graph, const GraphOptions& options) {
   NodePairs pairs = sharedStencils(graph);
+  const auto bridges = static_cast<std::ptrdiff_t>(pairs.size());
   joinParts(graph, &pairs);
-  sortNodePairs(static_cast<int>(graph.size()), &pairs);
+  std::sort(pairs.begin() + bridges, pairs.end());
+  std::inplace_merge(pairs.begin(), pairs.begin() + bridges, pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<GraphEdge> edges;
   edges.reserve(pairs.size());
   for (const auto& [a, b] : pairs) {

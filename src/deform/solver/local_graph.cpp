@@ -80,7 +80,9 @@ std::vector<double> distancesFrom(const std::vector<char>& is_source, const Warp
 }
 
 void LocalGraph::take(const WarpGraph& graph) {
-  if (afar_ != graph.afar || !structure_.sameAs(graph)) takeStructure(graph);
+  std::vector<std::uint8_t> afar = graph.afar;
+  afar.resize(graph.size(), 0);
+  if (afar_ != afar || !structure_.sameAs(graph)) takeStructure(graph, std::move(afar));
   graph_.positions_mm.clear();
   graph_.transforms.clear();
   graph_.since_reference.clear();
@@ -105,8 +107,8 @@ void LocalGraph::take(const WarpGraph& graph) {
   }
 }
 
-void LocalGraph::takeStructure(const WarpGraph& graph) {
-  afar_ = graph.afar;
+void LocalGraph::takeStructure(const WarpGraph& graph, std::vector<std::uint8_t> afar) {
+  afar_ = std::move(afar);
   structure_.take(graph);
   whole_of_local_.clear();
   std::vector<std::int32_t> local_of_whole(graph.size(), -1);

@@ -25,8 +25,7 @@ std::vector<double> distancesFrom(const std::vector<char>& is_source, const Warp
 /// kOutsideStencil in place of one with another node.
 class LocalGraph {
  public:
-  /// Copies what has changed since the last call. `graph.afar` has one entry per node, at least one
-  /// of them 0.
+  /// Copies what has changed since the last call. At least one node is not afar.
   void take(const WarpGraph& graph);
   WarpGraph& graph() { return graph_; }
   /// The transforms of the local nodes; the others move with their neighbours nearer to the local
@@ -34,7 +33,7 @@ class LocalGraph {
   void returnTo(WarpGraph* whole) const;
 
  private:
-  void takeStructure(const WarpGraph& graph);
+  void takeStructure(const WarpGraph& graph, std::vector<std::uint8_t> afar);
 
   /// A node afar, and those that it follows: parents_[begin] to parents_[end - 1].
   struct Follower {

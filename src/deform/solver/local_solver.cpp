@@ -10,8 +10,7 @@ namespace softscope {
 namespace {
 
 bool isLocal(const WarpGraph& graph) {
-  return graph.afar.size() == graph.size() &&
-         std::find(graph.afar.begin(), graph.afar.end(), 1) != graph.afar.end();
+  return std::find(graph.afar.begin(), graph.afar.end(), 1) != graph.afar.end();
 }
 
 /// Per node, 1 if it carries a visible point or a match.
@@ -40,10 +39,8 @@ class LocalSolver final : public DeformSolver {
   void prepare(const WarpGraph& graph) override {
     if (!mayBeLocal(graph)) return whole_->prepare(graph);
     if (graph.afar.empty()) return;  // the first choice follows from what will be seen
-    WarpGraph known = graph;
-    known.afar.resize(graph.size(), 0);
-    if (!isLocal(known)) return whole_->prepare(graph);
-    local_.take(known);
+    if (!isLocal(graph)) return whole_->prepare(graph);
+    local_.take(graph);
     whole_->prepare(local_.graph());
   }
 
