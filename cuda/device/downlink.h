@@ -1,15 +1,13 @@
 // cuda/device/downlink.h: arrays of the device to vectors of the host, through pinned memory.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <functional>
 #include <utility>
 #include <vector>
 
-#include "core/parallel.h"
 #include "cuda/device/arena.h"
+#include "cuda/device/host_copies.h"
 
 namespace softscope::cuda {
 
@@ -44,31 +42,17 @@ class Downlink {
       arrived.push_back(to);
     }
     machine.wait();
-    std::vector<Piece> pieces;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      char* to = static_cast<char*>(parts[i].makeRoom());
-      for (std::size_t at = 0; at < parts[i].bytes; at += kPieceBytes)
-        pieces.push_back({arrived[i] + at, to + at, std::min(kPieceBytes, parts[i].bytes - at)});
-    }
-    parallelRanges(static_cast<int>(pieces.size()), 1, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) {
-        const Piece& piece = pieces[static_cast<std::size_t>(i)];
-        std::memcpy(piece.to, piece.from, piece.bytes);
-      }
-    });
+    HostCopies copies;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      copies.add(arrived[i], parts[i].makeRoom(), parts[i].bytes);
+    copies.copy();
   }
 
  private:
-  static constexpr std::size_t kPieceBytes = std::size_t{1} << 18;  // worth a task
   struct Part {
     const void* from;
     std::size_t bytes;
     std::function<void*()> makeRoom;
-  };
-  struct Piece {
-    const char* from;
-    char* to;
-    std::size_t bytes;
   };
 
   typename Machine::Pinned pinned_;

@@ -8,6 +8,7 @@
 
 #include "cuda/device/copy_kernel.h"
 #include "cuda/device/reset_kernel.h"
+#include "cuda/device/uplink.h"
 #include "cuda/model/model_layout.h"
 #include "fusion/model_parts.h"
 #include "fusion/sight.h"
@@ -29,8 +30,7 @@ class ModelHome {
   void isAhead(ModelParts parts) { stale_ &= ~parts; }
 
   /// Copies those of the `parts` that changed on the host. `machine`: the caller's, or what has its
-  /// executor(), toDevice() and wait(); the caller waits for it before the host's model changes.
-  /// There is room for `more` points then.
+  /// executor(), toDevice() and wait(). There is room for `more` points then.
   template <class Link>
   const ModelArrays& bring(const PointModel& model, ModelParts parts, std::size_t more,
                            Link& machine) {
@@ -40,15 +40,16 @@ class ModelHome {
     stale_ &= ~parts;
     const ModelArrays& to = arrays();
     if ((due & kModelShape) != 0) {
-      send(to.positions_mm, model.positions_mm, machine);
-      send(to.normals, model.normals, machine);
+      uplink_.add(to.positions_mm, model.positions_mm);
+      uplink_.add(to.normals, model.normals);
     }
     if ((due & kModelLooks) != 0) {
-      send(to.colours, model.colours, machine);
-      send(to.anchors, model.anchors, machine);
-      send(to.weights, model.weights, machine);
+      uplink_.add(to.colours, model.colours);
+      uplink_.add(to.anchors, model.anchors);
+      uplink_.add(to.weights, model.weights);
     }
-    if ((due & kModelBindings) != 0) send(to.bindings, model.bindings, machine);
+    if ((due & kModelBindings) != 0) uplink_.add(to.bindings, model.bindings);
+    uplink_.send(machine);
     return to;
   }
 
@@ -108,12 +109,9 @@ class ModelHome {
     current_ = 0;
     capacity_ = capacity;
   }
-  template <class T, class Link>
-  static void send(T* to, const std::vector<T>& from, Link& machine) {
-    if (!from.empty()) machine.toDevice(to, from.data(), from.size() * sizeof(T));
-  }
 
   Memory memory_;
+  Uplink<Machine> uplink_;
   ModelArrays sets_[2];
   int current_ = 0;
   std::size_t count_ = 0, capacity_ = 0;
