@@ -18,7 +18,7 @@
 #include "io/sequences/sequence_reader.h"
 #include "pipeline/backends.h"
 #include "pipeline/reconstructor.h"
-#include "tests/bench/cuda_bench.h"
+#include "tests/bench/bench_times.h"
 
 using namespace softscope;
 using namespace softscope::bench;
@@ -178,8 +178,9 @@ double time(const Clip& clip, const std::string& backend, std::size_t hidden, in
   }
   const ModelState& state = reconstructor.model();
   const auto afar = std::count(state.graph.afar.begin(), state.graph.afar.end(), 1);
-  std::printf("%s: %zu points, %zu nodes, %td of them far from what is seen\n",
-              reconstructor.backend().name().c_str(), state.model.size(), state.graph.size(), afar);
+  const ReconstructionBackend& on = reconstructor.backend();
+  std::printf("%s, %s: %zu points, %zu nodes, %td of them far from what is seen\n",
+              on.name().c_str(), on.device().c_str(), state.model.size(), state.graph.size(), afar);
   print("frame", whole_ms);
   for (const std::string& name : order) print(name.c_str(), laps[name]);
   return atShare(whole_ms, 0.5);
@@ -210,7 +211,7 @@ int main(int argc, char** argv) {
       return usage();
   }
   if (clip.empty() || hidden < 1 || frames < 1) return usage();
-  return onDevice([&] {
+  return orErrorCode([&] {
     const Clip frames_of = readClip(clip);
     const double small_ms = time(frames_of, backend, 0, frames);
     const double large_ms = time(frames_of, backend, static_cast<std::size_t>(hidden), frames);

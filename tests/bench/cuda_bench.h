@@ -1,9 +1,6 @@
-// tests/bench/cuda_bench.h: what the benchmarks of the GPU share: images, percentiles, stages, exit
-// codes.
+// tests/bench/cuda_bench.h: what the benchmarks of the GPU share: images, stages, exit codes.
 #pragma once
 
-#include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -15,6 +12,7 @@
 #include "core/image.h"
 #include "core/rectified_rig.h"
 #include "cuda/device/device_info.h"
+#include "tests/bench/bench_times.h"
 
 namespace softscope::bench {
 
@@ -31,21 +29,6 @@ inline GrayImage readPgm(const std::string& path) {
             static_cast<std::streamsize>(image.size()));
   if (!file) throw InputError(path + ": too short");
   return image;
-}
-
-inline double nowMs() {
-  return std::chrono::duration<double, std::milli>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-inline double atShare(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-inline void print(const char* what, const std::vector<double>& values) {
-  std::printf("  %-36s p50 %.3f  p95 %.3f  p99 %.3f  max %.3f ms\n", what, atShare(values, 0.5),
-              atShare(values, 0.95), atShare(values, 0.99), atShare(values, 1));
 }
 
 /// Of a scope that took this image.
@@ -84,19 +67,13 @@ void printStages(Stage& stage, const Work& work) {
 /// Names the GPU and runs `work()`, which returns the exit code; that of an error otherwise.
 template <class Work>
 int onDevice(const Work& work) {
-  try {
+  return orErrorCode([&] {
     const cuda::DeviceInfo info = cuda::queryDevices();
     if (!info.devices.empty())
       std::printf("%s, driver CUDA %s, runtime %s\n", info.devices.front().name.c_str(),
                   info.driver_version.c_str(), info.runtime_version.c_str());
     return work();
-  } catch (const BackendError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 4;
-  } catch (const Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 3;
-  }
+  });
 }
 
 }  // namespace softscope::bench
