@@ -20,8 +20,8 @@ extern "C" {
 // a small frame frees, instead of 256, which takes new pages all the while.
 const char* __asan_default_options() {
   return "detect_leaks=1:detect_stack_use_after_return=1:strict_init_order=1:"
-         "check_initialization_order=1:intercept_tls_get_addr=0:quarantine_size_mb="
-         "32" SOFTSCOPE_SYMBOLIZER_OPTION;
+         "check_initialization_order=1:intercept_tls_get_addr=0:"
+         "quarantine_size_mb=32" SOFTSCOPE_SYMBOLIZER_OPTION;
 }
 
 const char* __ubsan_default_options() { return "print_stacktrace=1"; }

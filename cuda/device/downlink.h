@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cuda/device/arena.h"
+#include "cuda/device/grown_memory.h"
 #include "cuda/device/host_copies.h"
 
 namespace softscope::cuda {
@@ -28,11 +29,7 @@ class Downlink {
   void fetch(Machine& machine) {
     Arena counting;
     for (const Part& part : parts_) counting.array<char>(part.bytes);
-    if (pinned_.bytes() < counting.bytes()) {
-      pinned_ = typename Machine::Pinned();
-      pinned_ = typename Machine::Pinned(counting.bytes() + counting.bytes() / 2,
-                                         "pinned memory for the model");
-    }
+    growTo(counting.bytes(), "pinned memory for the model", &pinned_);
     Arena arena(pinned_.data());
     std::vector<const char*> arrived;
     const std::vector<Part> parts = std::exchange(parts_, {});

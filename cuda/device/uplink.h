@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cuda/device/arena.h"
+#include "cuda/device/grown_memory.h"
 #include "cuda/device/host_copies.h"
 
 namespace softscope::cuda {
@@ -27,11 +28,7 @@ class Uplink {
     if (parts.empty()) return;
     Arena counting;
     for (const Part& part : parts) counting.array<char>(part.bytes);
-    if (pinned_.bytes() < counting.bytes()) {
-      pinned_ = typename Machine::Pinned();
-      pinned_ = typename Machine::Pinned(counting.bytes() + counting.bytes() / 2,
-                                         "pinned memory for the model");
-    }
+    growTo(counting.bytes(), "pinned memory for the model", &pinned_);
     Arena arena(pinned_.data());
     HostCopies copies;
     std::vector<char*> staged;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cuda/device/grown_memory.h"
 #include "cuda/device/shared_rasters.h"
 #include "cuda/model/model_home.h"
 #include "cuda/warp/warp_passes.h"
@@ -185,12 +186,7 @@ class WarpRun final : public WarpDevice {
     Arena arena(list_memory_.data());
     return {arena, stencils, nodes, points};
   }
-  /// Reserves half more, so that a growing graph rarely reallocates.
-  void reserve(std::size_t bytes, Memory* memory) {
-    if (memory->bytes() >= bytes) return;
-    *memory = Memory();
-    *memory = Memory(bytes + bytes / 2, "memory for the warp");
-  }
+  void reserve(std::size_t bytes, Memory* memory) { growTo(bytes, "memory for the warp", memory); }
   template <class T>
   void send(T* to, const T* from, std::size_t count) {
     if (count > 0) machine_.toDevice(to, from, count * sizeof(T));
@@ -204,10 +200,7 @@ class WarpRun final : public WarpDevice {
   template <class T>
   const T* fetch(const T* from, std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    if (arrived_.bytes() < bytes) {
-      arrived_ = typename Machine::Pinned();
-      arrived_ = typename Machine::Pinned(bytes + bytes / 2, "pinned memory for the warp");
-    }
+    growTo(bytes, "pinned memory for the warp", &arrived_);
     if (bytes > 0) machine_.fromDevice(arrived_.data(), from, bytes);
     machine_.wait();
     return static_cast<const T*>(arrived_.data());

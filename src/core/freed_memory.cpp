@@ -15,7 +15,6 @@ namespace softscope {
 namespace {
 
 constexpr int kBytesPerMB = 1 << 20;
-constexpr unsigned kFewCores = 4;  // on more, threads wait for each other at a single heap
 
 /// In the addresses that the heap grows into: they are taken now, their memory when it is used. A
 /// system without large pages, or with a limit of addresses, changes nothing.
@@ -35,10 +34,10 @@ void askForLargePages() {
 }  // namespace
 
 void keepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD,
-          32 * kBytesPerMB);  // the largest that glibc allows; rasters are smaller
+  constexpr int kMostOnHeapBytes = 32 * kBytesPerMB;  // glibc allows no more; rasters are smaller
+  mallopt(M_MMAP_THRESHOLD, kMostOnHeapBytes);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-  if (std::thread::hardware_concurrency() <= kFewCores) mallopt(M_ARENA_MAX, 1);
+  if (std::thread::hardware_concurrency() <= kMostCoresOfOneHeap) mallopt(M_ARENA_MAX, 1);
   askForLargePages();
 }
 #else

@@ -27,10 +27,7 @@ BlockPattern makeBlockPattern(int nodes, NodePairs pairs) {
 BlockPattern makeBlockPattern(const WarpGraph& graph) {
   NodePairs pairs;
   pairs.reserve(graph.stencils.size() * 6 + graph.edges.size());
-  for (const NodeStencil& stencil : graph.stencils)
-    for (int b = 1; b < kNodesPerPoint; ++b)
-      for (int a = 0; a < b; ++a)
-        if (stencil[a] != stencil[b]) pairs.emplace_back(stencil[b], stencil[a]);
+  visitNodePairs(graph.stencils, [&](std::int32_t a, std::int32_t b) { pairs.emplace_back(b, a); });
   for (const GraphEdge& edge : graph.edges) pairs.emplace_back(edge.second, edge.first);
   return makeBlockPattern(static_cast<int>(graph.size()), std::move(pairs));
 }

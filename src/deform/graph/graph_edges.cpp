@@ -16,24 +16,15 @@ namespace {
 
 constexpr int kBridges = 3;  // three neighbours hold a part's rotation too
 
-/// Calls visit(a, b) for every pair a < b in every stencil.
-template <class Visit>
-void visitPairs(const WarpGraph& graph, const Visit& visit) {
-  for (const NodeStencil& stencil : graph.stencils)
-    for (int b = 1; b < kNodesPerPoint; ++b)
-      for (int a = 0; a < b; ++a)
-        if (stencil[a] != stencil[b]) visit(stencil[a], stencil[b]);
-}
-
 /// Ascending; each pair once.
 NodePairs sharedStencils(const WarpGraph& graph) {
   const std::size_t nodes = graph.size();
   std::vector<std::size_t> start(nodes + 1, 0);
-  visitPairs(graph, [&](std::int32_t a, std::int32_t) { ++start[a + 1]; });
+  visitNodePairs(graph.stencils, [&](std::int32_t a, std::int32_t) { ++start[a + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
   std::vector<std::int32_t> seconds(start.back());
   std::vector<std::size_t> end(start.begin(), start.end() - 1);
-  visitPairs(graph, [&](std::int32_t a, std::int32_t b) { seconds[end[a]++] = b; });
+  visitNodePairs(graph.stencils, [&](std::int32_t a, std::int32_t b) { seconds[end[a]++] = b; });
 
   NodePairs pairs;
   std::vector<std::int32_t> partners, last_first(nodes, -1);
@@ -94,12 +85,12 @@ class NodeSquares {
   }
 
  private:
-  static constexpr int kNobody = -1, kSeveral = -2;
+  static constexpr int kEmpty = -1, kMixed = -2;
 
   template <class Visit>
   void visitSquare(std::size_t square, int node, const Visit& visit) const {
-    const int owner = owners_[square], own = part_[node];
-    if (owner == own || owner == kNobody) return;
+    const int there = part_of_square_[square], own = part_[node];
+    if (there == own || there == kEmpty) return;
     for (int k = start_[square]; k < start_[square + 1]; ++k)
       if (part_[nodes_[k]] != own)
         visit(nodes_[k], (positions_mm_[node] - positions_mm_[nodes_[k]]).squaredNorm());
@@ -119,8 +110,8 @@ class NodeSquares {
   int side_;                // squares in a row, and in a column
   std::vector<int> start_;  // per square, its first place in nodes_; side_ * side_ + 1
   std::vector<int> nodes_;
-  std::vector<int> part_;    // per node
-  std::vector<int> owners_;  // per square, the part of all its nodes; or kNobody, kSeveral
+  std::vector<int> part_;            // per node
+  std::vector<int> part_of_square_;  // of all nodes in it; or kEmpty, kMixed
 };
 
 NodeSquares::NodeSquares(const WarpGraph& graph) : positions_mm_(graph.positions_mm) {
@@ -142,11 +133,11 @@ NodeSquares::NodeSquares(const WarpGraph& graph) : positions_mm_(graph.positions
 
 void NodeSquares::setParts(const std::vector<int>& part) {
   part_ = part;
-  owners_.assign(start_.size() - 1, kNobody);
-  for (std::size_t square = 0; square < owners_.size(); ++square)
+  part_of_square_.assign(start_.size() - 1, kEmpty);
+  for (std::size_t square = 0; square < part_of_square_.size(); ++square)
     for (int k = start_[square]; k < start_[square + 1]; ++k) {
-      int& owner = owners_[square];
-      owner = owner == kNobody || owner == part_[nodes_[k]] ? part_[nodes_[k]] : kSeveral;
+      int& there = part_of_square_[square];
+      there = there == kEmpty || there == part_[nodes_[k]] ? part_[nodes_[k]] : kMixed;
     }
 }
 

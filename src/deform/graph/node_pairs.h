@@ -1,13 +1,24 @@
-// src/deform/graph/node_pairs.h: sorted, unique pairs of nodes.
+// src/deform/graph/node_pairs.h: pairs of nodes, of stencils, sorted and unique.
 #pragma once
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "core/warp_graph.h"
+
 namespace softscope {
 
 using NodePairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+/// Calls visit(a, b), a < b, for every pair of nodes in every stencil.
+template <class Visit>
+void visitNodePairs(const std::vector<NodeStencil>& stencils, const Visit& visit) {
+  for (const NodeStencil& stencil : stencils)
+    for (int b = 1; b < kNodesPerPoint; ++b)
+      for (int a = 0; a < b; ++a)
+        if (stencil[a] != stencil[b]) visit(stencil[a], stencil[b]);
+}
 
 /// Sorts by (first, second) and drops duplicates by two counting sorts,
 /// with time linear in pairs plus nodes. Nodes are 0 to `nodes` - 1.
