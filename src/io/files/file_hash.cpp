@@ -27,7 +27,7 @@ class Sha256 {
   void addFile(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw InputError(shown(file) + ": can't be read. Check its permissions");
-    std::vector<char> block(1 << 20);
+    std::vector<char> block(1 << 16);
     while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
            stream.gcount() > 0)
       add(block.data(), static_cast<std::size_t>(stream.gcount()));
