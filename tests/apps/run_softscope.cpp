@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "tests/apps/forked_program.h"
+#include "tests/apps/program_server.h"
 
 namespace softscope::test {
 namespace {
@@ -27,6 +27,14 @@ int spawn(const std::vector<std::string>& arguments, const std::string& out,
   return std::system((line + " >" + quoted(out) + " 2>" + quoted(err)).c_str());
 }
 
+/// `study` and `benchmark` run their own file; libraries read what `doctor` examines at their
+/// start.
+bool wantsItsStart(const std::vector<std::string>& arguments) {
+  for (const char* command : {"study", "benchmark", "doctor"})
+    if (!arguments.empty() && arguments[0] == command) return true;
+  return false;
+}
+
 }  // namespace
 
 std::string executable() { return SOFTSCOPE_EXECUTABLE; }
@@ -36,9 +44,8 @@ Outcome run(const std::vector<std::string>& arguments) {
   const fs::path base = fs::temp_directory_path() / ("softscope_run_" + std::to_string(getpid()) +
                                                      "_" + std::to_string(count++));
   const std::string out = base.string() + ".out", err = base.string() + ".err";
-  const bool runs_itself =  // by its own file
-      !arguments.empty() && (arguments[0] == "study" || arguments[0] == "benchmark");
-  const int status = runs_itself ? spawn(arguments, out, err) : runForked(arguments, out, err);
+  const int status =
+      wantsItsStart(arguments) ? spawn(arguments, out, err) : runOnServer(arguments, out, err);
   const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(out), textOf(err)};
   fs::remove(out);
   fs::remove(err);
