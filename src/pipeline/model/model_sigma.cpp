@@ -43,47 +43,54 @@ Raster<float> thinned(const Raster<float>& fine) {
   return coarse;
 }
 
-/// Mean over the known values within kReach, where the value itself is known; else NaN.
-Raster<float> windowMeans(const Raster<float>& in) {
+/// Sums over the squares within kReach of each pixel: along rows, then along columns.
+template <class Number>
+Raster<Number> windowSums(const Raster<Number>& in) {
   const int width = in.width_px, height = in.height_px;
-  Raster<double> totals(width, height, 0);  // along the rows
-  Raster<int> counts(width, height, 0);
+  Raster<Number> across(width, height, 0), sums(width, height, 0);
   parallelRows(height, [&](int v) {
-    const float* values = in.row(v);
-    double* total = totals.row(v);
-    int* count = counts.row(v);
+    const Number* from = in.row(v);
+    Number* to = across.row(v);
     for (int x = -kReach; x <= kReach; ++x)
-      for (int u = std::max(0, -x); u < std::min(width, width - x); ++u) {
-        const bool is_known = !std::isnan(values[u + x]);
-        total[u] += is_known ? values[u + x] : 0.0f;
-        count[u] += is_known;
-      }
+      for (int u = std::max(0, -x); u < std::min(width, width - x); ++u) to[u] += from[u + x];
   });
-  Raster<float> means(width, height, kNaN);
   parallelRows(height, [&](int v) {
-    std::vector<double> total(static_cast<std::size_t>(width), 0);
-    std::vector<int> count(static_cast<std::size_t>(width), 0);
+    Number* to = sums.row(v);
     for (int y = std::max(0, v - kReach); y <= std::min(height - 1, v + kReach); ++y)
-      for (int u = 0; u < width; ++u) {
-        total[static_cast<std::size_t>(u)] += totals.row(y)[u];
-        count[static_cast<std::size_t>(u)] += counts.row(y)[u];
-      }
-    for (int u = 0; u < width; ++u)
-      if (!std::isnan(in.at(u, v)))
-        means.at(u, v) = static_cast<float>(total[static_cast<std::size_t>(u)] /
-                                            count[static_cast<std::size_t>(u)]);
+      for (int u = 0; u < width; ++u) to[u] += across.row(y)[u];
   });
+  return sums;
+}
+
+/// Number of known values within kReach.
+Raster<int> windowCounts(const Raster<float>& in) {
+  Raster<int> known(in.width_px, in.height_px);
+  for (std::size_t i = 0; i < in.size(); ++i) known.values[i] = !std::isnan(in.values[i]);
+  return windowSums(known);
+}
+
+/// Mean over the `counts` known values within kReach, where the value itself is known; else NaN.
+Raster<float> windowMeans(const Raster<float>& in, const Raster<int>& counts) {
+  Raster<double> known(in.width_px, in.height_px);
+  for (std::size_t i = 0; i < in.size(); ++i)
+    known.values[i] = std::isnan(in.values[i]) ? 0.0f : in.values[i];
+  const Raster<double> sums = windowSums(known);
+  Raster<float> means(in.width_px, in.height_px);
+  for (std::size_t i = 0; i < in.size(); ++i)
+    means.values[i] =
+        std::isnan(in.values[i]) ? kNaN : static_cast<float>(sums.values[i] / counts.values[i]);
   return means;
 }
 
 /// Variance of the disparity by relief, px^2: docs/fusion.md (F30).
 Raster<float> reliefVariance(const Raster<float>& disparity_px) {
-  Raster<float> bend = windowMeans(disparity_px);
+  const Raster<int> counts = windowCounts(disparity_px);
+  Raster<float> bend = windowMeans(disparity_px, counts);
   for (std::size_t i = 0; i < bend.size(); ++i)
     bend.values[i] = disparity_px.values[i] - bend.values[i];
-  const Raster<float> mean = windowMeans(bend);
+  const Raster<float> mean = windowMeans(bend, counts);
   for (float& value : bend.values) value *= value;
-  Raster<float> variance = windowMeans(bend);
+  Raster<float> variance = windowMeans(bend, counts);
   for (std::size_t i = 0; i < variance.size(); ++i) {
     if (std::isnan(variance.values[i])) continue;
     const double mean_sq = static_cast<double>(mean.values[i]) * mean.values[i];
