@@ -20,10 +20,11 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-bool readAll(int from, void* data, std::size_t size) {
-  auto* at = static_cast<char*>(data);
+/// `step` is read() or write(), which may take several calls; false at the end of the pipe.
+template <class Step, class Byte>
+bool all(const Step& step, int descriptor, Byte* at, std::size_t size) {
   while (size > 0) {
-    const ssize_t count = read(from, at, size);
+    const ssize_t count = step(descriptor, at, size);
     if (count <= 0) return false;
     at += count;
     size -= static_cast<std::size_t>(count);
@@ -31,15 +32,12 @@ bool readAll(int from, void* data, std::size_t size) {
   return true;
 }
 
+bool readAll(int from, void* data, std::size_t size) {
+  return all(read, from, static_cast<char*>(data), size);
+}
+
 bool writeAll(int to, const void* data, std::size_t size) {
-  const auto* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t count = write(to, at, size);
-    if (count <= 0) return false;
-    at += count;
-    size -= static_cast<std::size_t>(count);
-  }
-  return true;
+  return all(write, to, static_cast<const char*>(data), size);
 }
 
 bool send(int to, const Words& words) {

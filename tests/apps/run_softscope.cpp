@@ -27,8 +27,7 @@ int spawn(const std::vector<std::string>& arguments, const std::string& out,
   return std::system((line + " >" + quoted(out) + " 2>" + quoted(err)).c_str());
 }
 
-/// `study` and `benchmark` run their own file; libraries read what `doctor` examines at their
-/// start.
+/// `study` and `benchmark` run their own file; what `doctor` examines is read as libraries start.
 bool wantsItsStart(const std::vector<std::string>& arguments) {
   for (const char* command : {"study", "benchmark", "doctor"})
     if (!arguments.empty() && arguments[0] == command) return true;
