@@ -18,8 +18,8 @@ struct Outcome {
   nlohmann::json json() const { return nlohmann::json::parse(out); }  // throws if it is none
 };
 
-/// Runs softscope with these arguments to its end, in another process: with some commands a new one,
-/// with others the one that ran the calls before (program_server.h).
+/// Runs softscope with these arguments to its end, in another process: with some commands a new
+/// one, with others the one that ran the calls before (program_server.h).
 Outcome run(const std::vector<std::string>& arguments);
 
 std::string executable();
