@@ -34,7 +34,10 @@ __global__ void __launch_bounds__(Kernel::kThreads)
            {static_cast<int>(gridDim.x), static_cast<int>(gridDim.y), static_cast<int>(gridDim.z)}};
   const int repeats = RepeatsOf<Kernel>::of(kernel, at);
   for (; at.repeat < repeats; ++at.repeat) {
-    if (at.repeat > 0) __syncthreads();
+    if (at.repeat > 0) {
+      __syncthreads();
+      if (EndOf<Kernel>::isOver(kernel, shared)) break;
+    }
     runPhasesFrom<0>(kernel, at, shared, local);
   }
 }

@@ -24,6 +24,17 @@ struct RepeatsOf<Kernel, std::void_t<decltype(&Kernel::repeats)>> {
   SOFTSCOPE_HD static int of(const Kernel& kernel, const Place& at) { return kernel.repeats(at); }
 };
 
+template <class Kernel, class = void>
+struct EndOf {
+  SOFTSCOPE_HD static bool isOver(const Kernel&, const typename Kernel::Shared&) { return false; }
+};
+template <class Kernel>
+struct EndOf<Kernel, std::void_t<decltype(&Kernel::isOver)>> {
+  SOFTSCOPE_HD static bool isOver(const Kernel& kernel, const typename Kernel::Shared& shared) {
+    return kernel.isOver(shared);
+  }
+};
+
 /// Shared memory is initialised with garbage, as on the device. Different
 /// results for two seeds show a race, or a dependence on the order of blocks.
 class HostExecutor {
@@ -39,8 +50,10 @@ class HostExecutor {
       std::memset(static_cast<void*>(shared.get()), 0xA5, sizeof *shared);
       Place at{block % grid.x, block / grid.x % grid.y, block / grid.x / grid.y, 0, 0, grid};
       const int repeats = RepeatsOf<Kernel>::of(kernel, at);
-      for (at.repeat = 0; at.repeat < repeats; ++at.repeat)
+      for (at.repeat = 0; at.repeat < repeats; ++at.repeat) {
+        if (at.repeat > 0 && EndOf<Kernel>::isOver(kernel, *shared)) break;
         runPhases(kernel, at, *shared, locals, std::make_integer_sequence<int, Kernel::kPhases>());
+      }
     }
   }
 

@@ -6,8 +6,9 @@
 //   struct Shared;                  // of the block
 //   struct Local;                   // of a thread, kept across barriers
 //   template <int kPhase> SOFTSCOPE_HD void run(const Place&, Shared&, Local&) const;
-// Optional: int repeats(const Place&) const, how often a block runs all its phases. Neither order
-// of threads nor order of blocks may change a result.
+// Optional: int repeats(const Place&) const, how often a block runs all its phases at most, and
+// bool isOver(const Shared&) const, whether it ends before the next repeat; the first phase may not
+// change the answer. Neither order of threads nor order of blocks may change a result.
 #pragma once
 
 #include <cmath>

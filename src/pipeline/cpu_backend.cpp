@@ -46,6 +46,7 @@ class CpuBackend : public ReconstructionBackend {
         comparer_(parts.makeComparer(rig())),
         updater_(parts.makeUpdater(rig())),
         surface_(parts.makeSurface()),
+        looks_(parts.makeLooks()),
         warp_(parts.makeWarp()) {
     options.validate();
   }
@@ -62,14 +63,14 @@ class CpuBackend : public ReconstructionBackend {
     growth_.drop();
     matching_.drop();
     state_ = std::move(state);
-    updater_->changed(kWholeModel);
+    stateChanged();
     if (!empty()) seeds_.clear();
   }
   void add(const ModelState& other, const Eigen::Isometry3d& world_from_other) override {
     growth_.drop();
     matching_.drop();
     uniteModels(other, world_from_other, &state_);
-    updater_->changed(kWholeModel);
+    stateChanged();
   }
 
   void prepare(const std::shared_ptr<const Frame>& next,
@@ -103,13 +104,15 @@ class CpuBackend : public ReconstructionBackend {
   void grow();
   void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, ScopeBefore before,
               PoseSummary* summary);
+  void stateChanged() {
+    updater_->changed(kWholeModel);
+    looks_->changed();
+  }
   bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
   void measureError(const Observation& observation);
-  void endAlignment() {
-    if (aligning_.valid()) aligning_.get();
-  }
+  void endAlignment() { aligning_.valid() ? aligning_.get() : void(); }
 
   ReconstructionOptions options_;
   std::string name_, device_;
@@ -133,6 +136,7 @@ class CpuBackend : public ReconstructionBackend {
   std::unique_ptr<FrameComparer> comparer_;
   std::unique_ptr<ModelUpdater> updater_;
   std::unique_ptr<SurfaceSearch> surface_;
+  std::unique_ptr<LookStage> looks_;
   AcceptedWarp warp_;
   std::vector<LiftedMatch> matches_;
   RigidPose pose_;
@@ -150,7 +154,7 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   comparison_.reset();
   pose_ = RigidPose();
   frame_ = frames_.measure(frame, &clock_);
-  if (tracks() && worksAhead()) pictures_.prepare();
+  if (tracks() && worksAhead()) pictures_.prepare(looks_->takesPictures());
   return frame_.summary;
 }
 
@@ -379,7 +383,8 @@ void CpuBackend::seedTracks(const Eigen::Isometry3d& world_from_left) {
 void CpuBackend::alignTracks(const Eigen::Isometry3d& world_from_left) {
   if (!tracks()) return;
   const TrackSight sight(frame_, rig());
-  state_.tracked.align(pictures_.looks(), left(), world_from_left, options_.graph.node_spacing_mm,
+  state_.tracked.align([&](const auto& sought) { return looks_->find(sought, frame_, &pictures_); },
+                       left(), world_from_left, options_.graph.node_spacing_mm,
                        [&](const Eigen::Vector3d& point) { return sight.shows(point); });
 }
 

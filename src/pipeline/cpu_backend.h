@@ -17,6 +17,7 @@
 #include "pipeline/frame/stereo_stage.h"
 #include "pipeline/options/reconstruction_options.h"
 #include "pipeline/reconstruction_backend.h"
+#include "pipeline/tracks/look_stage.h"
 #include "pose/pose_search.h"
 
 namespace softscope {
@@ -43,6 +44,9 @@ struct BackendParts {
   };
   std::function<std::unique_ptr<SurfaceSearch>()> makeSurface = [] {
     return std::make_unique<CpuSurfaceSearch>();
+  };
+  std::function<std::unique_ptr<LookStage>()> makeLooks = [] {
+    return std::make_unique<CpuLookStage>();
   };
   /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
   /// the graph grows beside the stages up to the warp.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/error.h"
 #include "cuda/comparison/comparison.h"
 #include "cuda/device/device_info.h"
 #include "cuda/frame/survey.h"
 #include "cuda/fusion/fusion.h"
 #include "cuda/locate/locate.h"
+#include "cuda/looks/looks.h"
 #include "cuda/pose/pose.h"
 #include "cuda/stereo/stereo.h"
 #include "cuda/surface/surface.h"
@@ -144,6 +146,31 @@ void CudaMatchStage::enqueue(const PointModel& model, const Eigen::Isometry3d& v
   device_->locate(viewed_from);
 }
 
+/// Where the device fails the CPU answers: the next stage that needs the device says so.
+class CudaLookStage final : public LookStage {
+ public:
+  explicit CudaLookStage(std::shared_ptr<const cuda::SharedFrames> frames)
+      : device_(cuda::makeLookFinder()), frames_(std::move(frames)) {}
+  bool takesPictures() const override { return false; }
+  void changed() override { device_->forget(); }
+  std::vector<FoundLook> find(const std::vector<SoughtLook>& sought, const FrameView& frame,
+                              TrackPictures* pictures) override {
+    const cuda::SharedRasters& rasters = frames_->at_hand;
+    const bool is_there = rasters.holds(frame.measured.depth.depth_mm.values.data());
+    try {
+      return device_->find(sought, frame.live.gray, frame.live.ignore,
+                           is_there ? &rasters : nullptr);
+    } catch (const BackendError&) {
+      device_->forget();
+      return findLooks(sought, pictures->looks());
+    }
+  }
+
+ private:
+  std::unique_ptr<cuda::LookFinder> device_;
+  std::shared_ptr<const cuda::SharedFrames> frames_;
+};
+
 /// Other methods have no kernels.
 std::unique_ptr<MatchStage> makeCudaMatchStage(const ReconstructionOptions& options,
                                                const RectifiedRig& rig,
@@ -211,6 +238,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   };
   parts.makeWarp = [model] { return cuda::makeModelWarp(model); };
   parts.makeSurface = [model] { return cuda::makeSurfaceSearch(model); };
+  parts.makeLooks = [frames] { return std::make_unique<CudaLookStage>(frames); };
   const cuda::DeviceInfo info = cuda::queryDevices();
   if (!info.devices.empty()) parts.device = info.devices.front().name;
   return makeCpuBackend(calibration, options, parts);

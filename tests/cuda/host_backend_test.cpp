@@ -6,6 +6,7 @@
 #include "cuda/comparison/comparison_run.h"
 #include "cuda/frame/survey_run.h"
 #include "cuda/fusion/fusion_run.h"
+#include "cuda/looks/looks_run.h"
 #include "cuda/warp/model_warp_run.h"
 #include "host_locate.h"
 #include "host_machine.h"
@@ -63,6 +64,20 @@ class MatchingOnTheHost : public MatchStage {
   PinholeCamera left_;
 };
 
+class LooksOnTheHost : public LookStage {
+ public:
+  explicit LooksOnTheHost(unsigned seed) : kernels_(seed) {}
+  bool takesPictures() const override { return false; }
+  void changed() override { kernels_.forget(); }
+  std::vector<FoundLook> find(const std::vector<SoughtLook>& sought, const FrameView& frame,
+                              TrackPictures* /*pictures*/) override {
+    return kernels_.find(sought, frame.live.gray, frame.live.ignore, nullptr);
+  }
+
+ private:
+  cuda::LooksRun<HostMachine> kernels_;
+};
+
 std::string modelAfterThreeFrames(const BackendParts& parts) {
   const ShortClip& clip = shortClip();
   Reconstructor reconstructor(makeCpuBackend(clip.calibration, smallOptions(), parts),
@@ -106,6 +121,7 @@ BackendParts partsWithModelOnTheDevice(unsigned seed) {
     comparer->share(home);
     return comparer;
   };
+  parts.makeLooks = [=] { return std::make_unique<LooksOnTheHost>(seed + 4); };
   parts.makeWarp = [=] {
     return std::make_unique<cuda::ModelWarpRun<HostMachine>>(home, seed + 2);
   };

@@ -25,6 +25,12 @@ CpuSurfaceSearch on_cpu;
 
 const PinholeCamera kLeft{100, 80, 100, 100, 50, 40};
 
+LookSearcher looksIn(const GrayImage& image) {
+  return [picture = LookPicture(image, Mask())](const std::vector<SoughtLook>& sought) {
+    return findLooks(sought, picture);
+  };
+}
+
 /// A point on a depth without relief, bound to the model.
 MaterialPoints boundTo(const PointModel& model, float depth_mm = 50,
                        const Eigen::Vector2d& pixel = {50, 40}) {
@@ -186,10 +192,10 @@ TEST(MaterialPoints, GoToWhereTheImageShowsTheirFirstLook) {
   EXPECT_LT((tracked.points[0].pixels_mm.col(1) - Eigen::Vector3d(0, 0.5, 0)).norm(), 1e-9);
   const Eigen::Vector3d warped(1, 0, 50);
   tracked.points[0].position_mm = warped;
-  tracked.align({GrayImage(100, 80, 120), Mask()}, kLeft, still, kNodeSpacingMm, everywhere);
+  tracked.align(looksIn(GrayImage(100, 80, 120)), kLeft, still, kNodeSpacingMm, everywhere);
   EXPECT_EQ(tracked.points[0].position_mm, warped) << "nothing to be seen";
   MaterialPoints there = tracked;
-  there.align({texture(), Mask()}, kLeft, still, kNodeSpacingMm, everywhere);
+  there.align(looksIn(texture()), kLeft, still, kNodeSpacingMm, everywhere);
   EXPECT_LT((there.points[0].position_mm - Eigen::Vector3d(0, 0, 50)).norm(), 0.03);
 }
 
@@ -214,7 +220,7 @@ TEST(MaterialPoints, PredictHowFarTheirWarpLeadsAstray) {
   const std::vector<MaterialPoints::Point> truth = tracked.points;
   for (MaterialPoints::Point& point : tracked.points)
     point.position_mm += Eigen::Vector3d(deviate_mm(random), deviate_mm(random), 0);
-  tracked.align({texture(), Mask()}, kLeft, still, kNodeSpacingMm, everywhere);
+  tracked.align(looksIn(texture()), kLeft, still, kNodeSpacingMm, everywhere);
   EXPECT_GT(std::sqrt(tracked.drift_mm2), 0.2);
   EXPECT_LT(std::sqrt(tracked.drift_mm2), 0.45);
   for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -223,10 +229,10 @@ TEST(MaterialPoints, PredictHowFarTheirWarpLeadsAstray) {
   }
   // An image without texture confirms nothing; what it does not show is not known.
   MaterialPoints unsure = tracked;
-  unsure.align({GrayImage(100, 80, 120), Mask()}, kLeft, still, kNodeSpacingMm, everywhere);
+  unsure.align(looksIn(GrayImage(100, 80, 120)), kLeft, still, kNodeSpacingMm, everywhere);
   EXPECT_NEAR(unsure.points[7].variance_mm2, tracked.points[7].variance_mm2 + tracked.drift_mm2,
               1e-12);
-  tracked.align({texture(), Mask()}, kLeft, still, kNodeSpacingMm,
+  tracked.align(looksIn(texture()), kLeft, still, kNodeSpacingMm,
                 [](const Eigen::Vector3d&) { return false; });
   EXPECT_TRUE(std::isnan(tracked.points[7].variance_mm2));
   EXPECT_LT((tracked.points[7].position_mm - truth[7].position_mm).norm(), 0.03);
@@ -242,7 +248,7 @@ TEST(MaterialPoints, GoWithTheirNeighboursWhereTheyAreNotSeen) {
   for (MaterialPoints::Point& point : tracked.points) point.position_mm += astray_mm;
   for (std::size_t k = 0; k < truth.size(); k += 4) tracked.points[k].look = FirstLook();
   MaterialPoints far = tracked;
-  tracked.align({texture(), Mask()}, kLeft, still, kNodeSpacingMm, everywhere);
+  tracked.align(looksIn(texture()), kLeft, still, kNodeSpacingMm, everywhere);
   for (std::size_t k = 0; k < truth.size(); ++k) {
     const double off_mm = (tracked.points[k].position_mm - truth[k].position_mm).norm();
     EXPECT_LT(off_mm, k % 4 == 0 ? 0.2 : 0.03) << k;
@@ -250,7 +256,7 @@ TEST(MaterialPoints, GoWithTheirNeighboursWhereTheyAreNotSeen) {
   // Distant points have no effect.
   far.points[0].position_mm.x() += 60;
   const Eigen::Vector3d alone_mm = far.points[0].position_mm;
-  far.align({texture(), Mask()}, kLeft, still, kNodeSpacingMm, everywhere);
+  far.align(looksIn(texture()), kLeft, still, kNodeSpacingMm, everywhere);
   EXPECT_EQ(far.points[0].position_mm, alone_mm);
 }
 

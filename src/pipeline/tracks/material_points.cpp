@@ -6,8 +6,8 @@
 #include "core/not_measured.h"
 #include "core/tolerance.h"
 #include "deform/graph/warp.h"
+#include "features/nearest_depth.h"
 #include "fusion/surface_search.h"
-#include "pipeline/tracks/nearest_depth.h"
 
 namespace softscope {
 namespace {

@@ -13,9 +13,9 @@
 #include "core/point_model.h"
 #include "core/raster.h"
 #include "core/warp_graph.h"
+#include "features/first_look.h"
 #include "fusion/density_grid.h"
 #include "fusion/surface_search.h"
-#include "pipeline/tracks/first_look.h"
 
 namespace softscope {
 
@@ -38,6 +38,9 @@ struct TrackedPosition {
 /// Share of the visible points whose predicted error is tolerable with a probability of 95 %. NaN
 /// without visible points.
 double preciseShare(const std::vector<TrackedPosition>& positions);
+
+/// Finds first looks in an image.
+using LookSearcher = std::function<std::vector<FoundLook>(const std::vector<SoughtLook>&)>;
 
 /// Moves points by the warp of the nearest model point; after fusion they
 /// are placed where the image shows their first looks, and projected onto
@@ -75,9 +78,10 @@ class MaterialPoints {
   void look(const LookPicture& picture, const PointModel& model, const PinholeCamera& left,
             const Eigen::Isometry3d& world_from_left, const DepthMap& depth);
   /// Moves them along the surface to where the image shows their first looks, or with their
-  /// neighbours, and predicts their error: docs/fusion.md (F29). `node_spacing_mm`: of the graph
-  /// that warped them. `inSight`: whether the image shows a point of the left camera frame.
-  void align(const LookPicture& picture, const PinholeCamera& left,
+  /// neighbours, and predicts their error: docs/fusion.md (F29). `findLooks`: in that image; a look
+  /// has the number of its point. `node_spacing_mm`: of the graph that warped them. `inSight`:
+  /// whether the image shows a point of the left camera frame.
+  void align(const LookSearcher& findLooks, const PinholeCamera& left,
              const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
              const std::function<bool(const Eigen::Vector3d&)>& inSight);
   /// Moves them towards the surface of the model points around them, along the

@@ -6,8 +6,8 @@
 #include "core/median.h"
 #include "core/not_measured.h"
 #include "core/parallel.h"
+#include "features/nearest_depth.h"
 #include "pipeline/tracks/material_points.h"
-#include "pipeline/tracks/nearest_depth.h"
 
 namespace softscope {
 namespace {
@@ -22,9 +22,8 @@ struct SeenLook {
   double off_mm2 = 0;  // squared distance from the expected position, along the surface
 };
 
-/// Searches first looks in one image.
+/// First looks in one image, of points of the left camera frame.
 struct FirstLookSearch {
-  const LookPicture& picture;
   const PinholeCamera& left;
   const Eigen::Isometry3d& world_from_left;
 
@@ -41,19 +40,23 @@ struct FirstLookSearch {
     }
     return map;
   }
-
-  /// `centre`: expected position, left camera frame.
-  void find(const MaterialPoints::Point& point, const Eigen::Vector3d& centre,
+  /// `centre`: expected position; `number`: of the point.
+  SoughtLook sought(const MaterialPoints::Point& point, std::size_t number,
+                    const Eigen::Vector3d& centre) const {
+    return {&point.look, static_cast<std::int32_t>(number), projectPoint(left, centre),
+            imageFromLook(point, centre)};
+  }
+  /// What was found, on the plane of the point's pixels.
+  void tell(const MaterialPoints::Point& point, const SoughtLook& expected, const FoundLook& found,
             SeenLook* seen) const {
-    const Eigen::Vector2d pixel = projectPoint(left, centre);
-    const FoundLook found = findLook(point.look, picture, pixel, imageFromLook(point, centre));
     if (!found.found) return;
+    const Eigen::Vector3d centre = world_from_left.inverse() * point.position_mm;
     const Eigen::Vector3d normal =
         world_from_left.linear().transpose() * point.pixels_mm.col(0).cross(point.pixels_mm.col(1));
     const Eigen::Vector3d ray = liftPixel(left, found.pixel.x(), found.pixel.y(), 1.0);
     const Eigen::Vector3d place = ray * (normal.dot(centre) / normal.dot(ray));
     const double pixel_mm = centre.z() / left.fx_px;
-    const double off_mm = (found.pixel - pixel).norm() * pixel_mm;
+    const double off_mm = (found.pixel - expected.pixel).norm() * pixel_mm;
     if (!((place - centre).norm() <= kSteepest * off_mm)) return;
     seen->found = true;
     seen->position_mm = world_from_left * place;
@@ -139,20 +142,25 @@ void MaterialPoints::look(const LookPicture& picture, const PointModel& model,
   });
 }
 
-void MaterialPoints::align(const LookPicture& picture, const PinholeCamera& left,
+void MaterialPoints::align(const LookSearcher& findLooks, const PinholeCamera& left,
                            const Eigen::Isometry3d& world_from_left, double node_spacing_mm,
                            const std::function<bool(const Eigen::Vector3d&)>& inSight) {
   if (points.empty()) return;
-  const FirstLookSearch search{picture, left, world_from_left};
+  const FirstLookSearch search{left, world_from_left};
+  const Eigen::Isometry3d left_from_world = world_from_left.inverse();
   std::vector<SeenLook> seen(points.size());
-  parallelRanges(static_cast<int>(points.size()), kLooksPerTask, [&](int begin, int end) {
-    for (std::size_t k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      if (!points[k].position_mm.allFinite()) continue;
-      const Eigen::Vector3d centre = world_from_left.inverse() * points[k].position_mm;
-      seen[k].in_sight = inSight(centre);
-      if (seen[k].in_sight) search.find(points[k], centre, &seen[k]);
-    }
-  });
+  std::vector<SoughtLook> sought;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!points[k].position_mm.allFinite()) continue;
+    const Eigen::Vector3d centre = left_from_world * points[k].position_mm;
+    seen[k].in_sight = inSight(centre);
+    if (seen[k].in_sight) sought.push_back(search.sought(points[k], k, centre));
+  }
+  const std::vector<FoundLook> looks = findLooks(sought);
+  for (std::size_t i = 0; i < sought.size(); ++i) {
+    const std::size_t k = static_cast<std::size_t>(sought[i].number);
+    search.tell(points[k], sought[i], looks[i], &seen[k]);
+  }
   const double drift_now_mm2 = driftOf(points, seen);
   if (std::isfinite(drift_now_mm2)) drift_mm2 = drift_now_mm2;
   std::vector<FoundMove> found;

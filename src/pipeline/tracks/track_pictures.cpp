@@ -18,9 +18,9 @@ void drop(std::future<Made>* making, std::optional<Made>* made) {
 
 }  // namespace
 
-void TrackPictures::prepare() {
+void TrackPictures::prepare(bool with_looks) {
   end();
-  making_looks_ = std::async(std::launch::async, [this] { return makeLooks(); });
+  if (with_looks) making_looks_ = std::async(std::launch::async, [this] { return makeLooks(); });
   if (frame_->relief_px.empty())
     making_relief_ = std::async(std::launch::async, [this] { return makeRelief(); });
 }

@@ -5,7 +5,7 @@
 #include <future>
 #include <optional>
 
-#include "pipeline/tracks/first_look.h"
+#include "features/first_look.h"
 #include "pipeline/tracks/track_sight.h"
 
 namespace softscope {
@@ -16,8 +16,8 @@ class TrackPictures {
   /// Both must live; the frame may change after end() only.
   TrackPictures(const FrameView* frame, const RectifiedRig* rig) : frame_(frame), rig_(rig) {}
 
-  /// Begins to make what is otherwise made when it is needed.
-  void prepare();
+  /// Begins to make what is otherwise made when it is needed; the looks only if they are.
+  void prepare(bool with_looks);
   const LookPicture& looks();
   const Raster<float>& reliefPx();
   void end();

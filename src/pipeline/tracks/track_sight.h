@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/rectified_rig.h"
+#include "features/nearest_depth.h"
 #include "pipeline/frame/frame_view.h"
 #include "pipeline/tracks/material_points.h"
-#include "pipeline/tracks/nearest_depth.h"
 
 namespace softscope {
 

@@ -1,4 +1,4 @@
-// src/pipeline/tracks/connected_surface.h: the part of the image that shows the surface of one
+// src/features/connected_surface.h: the part of the image that shows the surface of one
 // pixel.
 #pragma once
 

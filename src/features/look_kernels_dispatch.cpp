@@ -1,5 +1,5 @@
-// src/pipeline/tracks/look_kernels_dispatch.cpp: choice of the instruction set.
-#include "pipeline/tracks/look_kernels.h"
+// src/features/look_kernels_dispatch.cpp: choice of the instruction set.
+#include "features/look_kernels.h"
 
 namespace softscope {
 

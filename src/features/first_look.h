@@ -1,18 +1,20 @@
-// src/pipeline/tracks/first_look.h: how a tracked point looked when it was first seen.
+// src/features/first_look.h: how a tracked point looked when it was first seen.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/image.h"
-#include "pipeline/tracks/connected_surface.h"
+#include "features/connected_surface.h"
+#include "features/look_formulas.h"
 
 namespace softscope {
 
 /// An image at full, half and quarter size.
 struct LookPicture {
-  static constexpr int kLevels = 3;
+  static constexpr int kLevels = kLookLevels;
 
   LookPicture(const GrayImage& image, const Mask& ignore);
 
@@ -23,10 +25,8 @@ struct LookPicture {
 /// Windows of the first image around a point, one per image size: at
 /// smaller sizes a window covers more tissue, with less noise and blur.
 struct FirstLook {
-  static constexpr int kHalfPx = 10;
-  static constexpr int kSidePx = 2 * kHalfPx + 1;
-  static constexpr int kPixels = kSidePx * kSidePx;
-  static constexpr double kLeastShare = 0.6;     // of tissue in a window
+  static constexpr int kHalfPx = kLookHalfPx;
+  static constexpr int kPixels = kLookPixels;
   static constexpr double kLeastSurface = 0.35;  // of pixels on its surface
 
   /// Pixels are numbered row by row.
@@ -44,7 +44,7 @@ struct FirstLook {
 
   /// Windows around `pixel`; bilinear, pixels outside of the image are ignored, and those
   /// off the point's `surface` where it is known. A window is not taken if less than
-  /// `kLeastShare` of it is tissue, or less than `kLeastSurface` is on the surface.
+  /// `kLeastLookShare` of it is tissue, or less than `kLeastSurface` is on the surface.
   static FirstLook take(const LookPicture& picture, const Eigen::Vector2d& pixel,
                         const ConnectedSurface* surface = nullptr);
 };
@@ -57,11 +57,27 @@ struct FoundLook {
   double sigma_px = 0;     // predicted standard error along the worst direction
 };
 
-/// Searches near `pixel`, where the window is expected rotated and stretched by
-/// `image_from_look`: at full size and, without success there, from the smallest
+/// A first look, and where an image is expected to show it.
+struct SoughtLook {
+  const FirstLook* look;
+  std::int32_t number;  // of the look, as long as that stays
+  Eigen::Vector2d pixel;
+  Eigen::Matrix2d image_from_look;  // the rotated and stretched window
+};
+
+/// Searches near `pixel`: at full size and, without success there, from the smallest
 /// size up. Inverse compositional Gauss-Newton (Baker and Matthews, IJCV 2004) over
 /// six parameters of an affine map; gain, offset and slope of brightness are free.
-FoundLook findLook(const FirstLook& look, const LookPicture& picture, const Eigen::Vector2d& pixel,
-                   const Eigen::Matrix2d& image_from_look);
+FoundLook findLook(const SoughtLook& sought, const LookPicture& picture);
+/// In parallel.
+std::vector<FoundLook> findLooks(const std::vector<SoughtLook>& sought, const LookPicture& picture);
+
+inline LookPlace placeOf(const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map) {
+  return {pixel.x(), pixel.y(), {map(0, 0), map(0, 1), map(1, 0), map(1, 1)}};
+}
+inline FoundLook foundLook(const LookFind& find, const Eigen::Vector2d& expected) {
+  return {find.found, find.found ? Eigen::Vector2d(find.place.u, find.place.v) : expected,
+          find.correlation, find.sigma_px};
+}
 
 }  // namespace softscope

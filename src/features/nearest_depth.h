@@ -1,4 +1,4 @@
-// src/pipeline/tracks/nearest_depth.h: depth near a pixel that may have none.
+// src/features/nearest_depth.h: depth near a pixel that may have none.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,23 +1,20 @@
-// src/pipeline/tracks/look_kernels.cpp: plain loops of fixed length that the compiler turns into
+// src/features/look_kernels.cpp: plain loops of fixed length that the compiler turns into
 // SIMD; compiled once a set, with SOFTSCOPE_SIMD_SET naming it.
-#include "pipeline/tracks/look_kernels.h"
+#include "features/look_kernels.h"
 
 #include "features/lanes.h"
 
 namespace softscope {
 namespace {
 
-constexpr int kSide = FirstLook::kSidePx, kHalf = FirstLook::kHalfPx;
-constexpr int kPixels = FirstLook::kPixels, kLanes = kLookLanes;
+constexpr int kSide = kLookSidePx, kHalf = kLookHalfPx, kPixels = kLookPixels;
+constexpr int kLanes = kLookLanes;
 
 inline Float8 splat(float x) { return Float8{} + x; }
 inline Float8 splat(double x) { return Float8{} + static_cast<float>(x); }
 inline Float8 at(const LookPlane& plane, int i) { return load<Float8>(plane.values + i); }
 
-/// In an order that does not depend on the instruction set.
-inline double total(const Float8& x) {
-  return static_cast<double>(((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7])));
-}
+inline double total(const Float8& x) { return totalOfLanes(x); }
 
 /// Offsets from the window's centre, and 1 for pixels off the window's edges.
 struct Offsets {
@@ -40,23 +37,14 @@ struct Places8 {
 };
 inline Places8 placesAt(const LookPlaces& places, int i) {
   const Float8 x = at(kOffsets.x, i), y = at(kOffsets.y, i);
-  return {places.right + (places.map[0] * x + places.map[1] * y),
-          places.down + (places.map[2] * x + places.map[3] * y)};
+  return {lookRight(places, x, y), lookDown(places, x, y)};
 }
 
-/// Limits of positions, relative to the middle.
-struct Room {
-  Float8 left, right, top, bottom;
-  Room(const LookImage& image, const LookPlaces& places, float room_px)
-      : left(splat(room_px - static_cast<float>(places.u))),
-        right(splat(static_cast<float>(image.width_px - 1 - places.u) - room_px)),
-        top(splat(room_px - static_cast<float>(places.v))),
-        bottom(splat(static_cast<float>(image.height_px - 1 - places.v) - room_px)) {}
-  /// False for NaN.
-  Int8 holds(const Places8& at) const {
-    return (at.right >= left) & (at.right < right) & (at.down >= top) & (at.down < bottom);
-  }
-};
+/// Which of eight positions the room holds; not NaN.
+inline Int8 holds(const LookRoom& room, const Places8& at) {
+  return (at.right >= room.left) & (at.right < room.right) & (at.down >= room.top) &
+         (at.down < room.bottom);
+}
 
 /// Four pixels around each of eight positions, one in each byte.
 struct Quads8 {
@@ -91,19 +79,17 @@ inline Float8 byteOf(const Int8& pixels, int k) {
   return __builtin_convertvector((pixels >> (8 * k)) & 255, Float8);
 }
 inline Float8 bilinear(const Quads8& quads) {
-  const Float8 a = byteOf(quads.pixels, 0), b = byteOf(quads.pixels, 1);
-  const Float8 c = byteOf(quads.pixels, 2), d = byteOf(quads.pixels, 3);
-  const Float8 above = a + quads.right * (b - a), below = c + quads.right * (d - c);
-  return above + quads.down * (below - above);
+  return lookSample(byteOf(quads.pixels, 0), byteOf(quads.pixels, 1), byteOf(quads.pixels, 2),
+                    byteOf(quads.pixels, 3), quads.right, quads.down);
 }
 
 void countPixels(const std::uint8_t* ignored_look, const LookImage& ignore,
                  const LookPlaces& places, float room_px, LookTemplate* look) {
-  const Room room(ignore, places, room_px);
+  const LookRoom room = roomAround(places, ignore.width_px, ignore.height_px, room_px);
   Float8 count{};
   for (int i = 0; i < kLookValues; i += kLanes) {
     const Places8 at = placesAt(places, i);
-    const Int8 inside = room.holds(at);
+    const Int8 inside = holds(room, at);
     Int8 ignored = __builtin_convertvector(load<Bytes8>(ignored_look + i), Int8);
     if (ignore.values != nullptr) ignored |= quadsAt(ignore, places, at, inside).pixels;
     const Float8 weight = (inside & (ignored == 0)) ? splat(1.0f) : Float8{};
@@ -128,14 +114,9 @@ struct PlaneSums {
   }
 };
 
-struct Plane8 {
-  Float8 constant, across, down;
-  explicit Plane8(const ShadingPlane& plane)
-      : constant(splat(plane.constant)), across(splat(plane.across)), down(splat(plane.down)) {}
-  Float8 at(int i) const {
-    return constant + (across * softscope::at(kOffsets.x, i) + down * softscope::at(kOffsets.y, i));
-  }
-};
+inline Float8 at(const LookShading& shading, int i) {
+  return shadingAt(shading, at(kOffsets.x, i), at(kOffsets.y, i));
+}
 
 ShadingFit shadingOver(const LookPlane& weights, double count) {
   Float8 x_sum{}, y_sum{}, xx{}, xy{}, yy{};
@@ -181,13 +162,14 @@ void changesAlong(const LookTemplate& look, const LookPlane& slope, LookPlane* p
     x_sums.add(weighted * at(kOffsets.x, i), i);
     y_sums.add(weighted * at(kOffsets.y, i), i);
   }
-  const Plane8 plane(sums.fit(look.shading)), x_plane(x_sums.fit(look.shading)),
-      y_plane(y_sums.fit(look.shading));
+  const LookShading plane = shadingOf(sums.fit(look.shading)),
+                    x_plane = shadingOf(x_sums.fit(look.shading)),
+                    y_plane = shadingOf(y_sums.fit(look.shading));
   for (int i = 0; i < kLookValues; i += kLanes) {
     const Float8 w = at(look.weights, i), value = at(slope, i);
-    store(plain->values + i, w * (value - plane.at(i)));
-    store(times_x->values + i, w * (value * at(kOffsets.x, i) - x_plane.at(i)));
-    store(times_y->values + i, w * (value * at(kOffsets.y, i) - y_plane.at(i)));
+    store(plain->values + i, w * (value - at(plane, i)));
+    store(times_x->values + i, w * (value * at(kOffsets.x, i) - at(x_plane, i)));
+    store(times_y->values + i, w * (value * at(kOffsets.y, i) - at(y_plane, i)));
   }
 }
 
@@ -240,10 +222,11 @@ void describeLook(const std::uint8_t* gray, LookTemplate* look) {
     store(window.inside() + i, value);
     sums.add(at(look->weights, i) * value, i);
   }
-  const Plane8 shading(sums.fit(look->shading));
+  const LookShading shading = shadingOf(sums.fit(look->shading));
   Float8 squares{};
   for (int i = 0; i < kLookValues; i += kLanes) {
-    const Float8 value = at(look->weights, i) * (load<Float8>(window.inside() + i) - shading.at(i));
+    const Float8 value =
+        at(look->weights, i) * (load<Float8>(window.inside() + i) - at(shading, i));
     store(look->first.values + i, value);
     squares += value * value;
   }
@@ -259,13 +242,11 @@ void describeLook(const std::uint8_t* gray, LookTemplate* look) {
 
 // --- the image -----------------------------------------------------------------------------------
 
-constexpr double kRounding = 1e-5;  // share of a sum of squares that may be rounding
-
 bool sampleLook(const LookTemplate& look, const LookImage& image, const LookPlaces& places,
                 LookSamples* samples) {
   if (places.u < 0 || places.v < 0 || places.u >= image.width_px || places.v >= image.height_px)
     return false;
-  const Room room(image, places, 0);
+  const LookRoom room = roomAround(places, image.width_px, image.height_px, 0);
   const long middle = static_cast<long>(places.v) * image.width_px + places.u;
   samples->middle = static_cast<float>(image.values[middle]);
   Int8 missed{};
@@ -273,7 +254,7 @@ bool sampleLook(const LookTemplate& look, const LookImage& image, const LookPlac
   Float8 squares{}, with_first{};
   for (int i = 0; i < kLookValues; i += kLanes) {
     const Places8 at8 = placesAt(places, i);
-    const Int8 inside = room.holds(at8);
+    const Int8 inside = holds(room, at8);
     const Float8 w = at(look.weights, i);
     missed |= ~inside & (w > 0);
     const Float8 value = bilinear(quadsAt(image, places, at8, inside)) - samples->middle;
@@ -285,25 +266,19 @@ bool sampleLook(const LookTemplate& look, const LookImage& image, const LookPlac
   }
   for (int k = 0; k < kLanes; ++k)
     if (missed[k] != 0) return false;
-  const double values = total(sums.values), x_values = total(sums.x_values),
-               y_values = total(sums.y_values);
-  samples->shading = look.shading.plane(values, x_values, y_values);
-  const ShadingPlane& plane = samples->shading;
-  const double explained =
-      plane.constant * values + plane.across * x_values + plane.down * y_values;
-  const double all = total(squares), rest = all - explained;
-  samples->deviation = rest > kRounding * all ? __builtin_sqrt(rest / look.count) : 0;
+  samples->deviation = __builtin_sqrt(takeShading(look, total(sums.values), total(sums.x_values),
+                                                  total(sums.y_values), total(squares), samples));
   samples->with_first = total(with_first);
   productsWith(samples->values, look.changes, samples->with_changes);
   return true;
 }
 
 void differenceOf(const LookTemplate& look, const LookSamples& samples, LookPlane* difference) {
-  const Plane8 shading(samples.shading);
+  const LookShading shading = shadingOf(samples.shading);
   const Float8 scale = splat(1 / samples.deviation);
   for (int i = 0; i < kLookValues; i += kLanes)
     store(difference->values + i,
-          at(look.weights, i) * (scale * (at(samples.values, i) - shading.at(i))) -
+          at(look.weights, i) * (scale * (at(samples.values, i) - at(shading, i))) -
               at(look.first, i));
 }
 
@@ -354,17 +329,15 @@ void boxSums(const LookTemplate& look, const LookPlane& difference,
   alignas(32) float right[kBoxRows * kBoxStride] = {}, down[kBoxRows * kBoxStride] = {};
   sumsAcross(look, difference, place[0], right);
   sumsAcross(look, difference, place[1], down);
-  Float8 right_sq{}, both{}, down_sq{};
+  Float8 right_sq{}, down_sq{};
   for (int y = 0; y < kWide; ++y)
     for (int x = 0; x < kBoxStride; x += kLanes) {
       const Float8 u = sumDown(right + y * kBoxStride + x), v = sumDown(down + y * kBoxStride + x);
       right_sq += u * u;
-      both += u * v;
       down_sq += v * v;
     }
   sums[0] = total(right_sq);
-  sums[1] = total(both);
-  sums[2] = total(down_sq);
+  sums[1] = total(down_sq);
 }
 
 }  // namespace

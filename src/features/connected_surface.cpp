@@ -1,10 +1,10 @@
-#include "pipeline/tracks/connected_surface.h"
+#include "features/connected_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "pipeline/tracks/nearest_depth.h"
+#include "features/nearest_depth.h"
 
 namespace softscope {
 namespace {

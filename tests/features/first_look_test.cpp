@@ -1,5 +1,5 @@
-// tests/pipeline/first_look_test.cpp: a window of the first image is found again.
-#include "pipeline/tracks/first_look.h"
+// tests/features/first_look_test.cpp: a window of the first image is found again.
+#include "features/first_look.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ FirstLook firstLook() { return takeLook(imageOf(kMiddle, Eigen::Matrix2d::Identi
 
 FoundLook find(const FirstLook& look, const GrayImage& image, const Mask& ignore,
                const Eigen::Vector2d& pixel, const Eigen::Matrix2d& map) {
-  return findLook(look, LookPicture(image, ignore), pixel, map);
+  return findLook({&look, 0, pixel, map}, LookPicture(image, ignore));
 }
 
 TEST(FirstLook, IsFoundWhereItIsToATwentiethOfAPixel) {
@@ -184,10 +184,12 @@ TEST(FirstLook, FollowsTheTissueAndNotItsContour) {
   for (int v = 0; v < 160; ++v)
     for (int u = static_cast<int>(kBlob.x()) + 7; u < 160; ++u) depth.depth_mm.at(u, v) = 80;
   const ConnectedSurface surface(depth, kBlob, 300, FirstLook::kReachPx);
-  const FoundLook followed = findLook(FirstLook::take(first, kBlob, &surface), now, kBlob, same);
+  const FirstLook of_surface = FirstLook::take(first, kBlob, &surface);
+  const FoundLook followed = findLook({&of_surface, 0, kBlob, same}, now);
   ASSERT_TRUE(followed.found);
   EXPECT_LT((followed.pixel - kBlob - shift).norm(), 0.2);
-  const FoundLook misled = findLook(FirstLook::take(first, kBlob), now, kBlob, same);
+  const FirstLook of_window = FirstLook::take(first, kBlob);
+  const FoundLook misled = findLook({&of_window, 0, kBlob, same}, now);
   EXPECT_GT((misled.pixel - kBlob - shift).norm(), 1);
 }
 

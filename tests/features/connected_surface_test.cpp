@@ -1,11 +1,11 @@
-// tests/pipeline/connected_surface_test.cpp: which pixels show the surface of one.
-#include "pipeline/tracks/connected_surface.h"
+// tests/features/connected_surface_test.cpp: which pixels show the surface of one.
+#include "features/connected_surface.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "pipeline/tracks/first_look.h"
+#include "features/first_look.h"
 
 namespace softscope {
 namespace {

@@ -1,4 +1,4 @@
-// src/pipeline/tracks/shading_plane.h: brightness that varies linearly across a window.
+// src/features/shading_plane.h: brightness that varies linearly across a window.
 #pragma once
 
 #include "core/hd.h"
