@@ -39,9 +39,13 @@ PointModel pointInTheMiddle(float weight) {
   return model;
 }
 
+void observe(const DepthMap& depth, const WarpGraph& graph, LastingErrors* errors) {
+  errors->observe(levelledRelief(depth.depth_mm, rig()), {depth, {}, {}, {}, kLeft}, graph, {});
+}
+
 LastingErrors seen(const DepthMap& depth, const WarpGraph& graph = {}) {
   LastingErrors errors;
-  errors.observe(depth, rig(), Eigen::Isometry3d::Identity(), graph, {});
+  observe(depth, graph, &errors);
   return errors;
 }
 
@@ -99,11 +103,11 @@ TEST(ModelSigma, GrowsOutOfSightAsTheTissueInSightMoves) {
     for (int u = 180; u < 320; ++u) half.depth_mm.at(u, v) = std::nanf("");
   for (int frame = 1; frame <= 4; ++frame) {
     graph.positions_mm[0].x() += kStepMm;
-    errors.observe(half, rig(), Eigen::Isometry3d::Identity(), graph, {});
+    observe(half, graph, &errors);
     const double grown_mm2 = frame * kStepMm * kStepMm / 3;  // one direction of three
     EXPECT_NEAR(modelSigmas(model, graph, errors).at(0), std::sqrt(0.001 + grown_mm2), 2e-3);
   }
-  errors.observe(plane, rig(), Eigen::Isometry3d::Identity(), graph, {});
+  observe(plane, graph, &errors);
   EXPECT_NEAR(modelSigmas(model, graph, errors).at(0), 0.1 / std::sqrt(10.0), 1e-3) << "seen again";
 }
 

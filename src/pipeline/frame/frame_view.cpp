@@ -91,6 +91,7 @@ FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const Rectif
   view.summary = summarise(survey->depthsOf(frame), view.measured, rig);
   scaleOptions(options, rig, &view);
   view.states = survey->statesOf(frame, view.fusion.pixels);
+  view.levelled = levelledRelief(view.measured.depth.depth_mm, rig);
   return view;
 }
 

@@ -9,6 +9,7 @@
 #include "pipeline/frame/frame_depth.h"
 #include "pipeline/frame/model_matches.h"
 #include "pipeline/options/reconstruction_options.h"
+#include "stereo/depth/levelled_relief.h"
 
 namespace softscope {
 
@@ -20,6 +21,7 @@ struct FrameView {
   Mask not_tissue;
   MatchPicture live;  // as it is matched
   Raster<PixelState> states;
+  LevelledRelief levelled;
   Raster<float> relief_px;  // reliefErrorPx(); may be empty
   DepthSummary summary;
   AssociationOptions association;

@@ -1,6 +1,5 @@
 #include "pipeline/model/model_sigma.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,21 +7,13 @@
 #include "fusion/innovation.h"
 #include "fusion/posed_camera.h"
 #include "fusion/sight_formulas.h"
-#include "stereo/options/stereo_options.h"
 
 namespace softscope {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr int kWindowPx = 2 * RefinementOptions::radius_px + 1;      // of stereo
-constexpr int kTwoWindowsPx = 4 * RefinementOptions::radius_px + 1;  // one after the other
-constexpr int kReach = (kTwoWindowsPx / 2) / LastingErrors::kStepPx;
-/// Of what the mean over two windows takes from a bend that is alike everywhere, one window does.
-constexpr double kOneOfTwo =
-    static_cast<double>(kWindowPx * kWindowPx) / (kTwoWindowsPx * kTwoWindowsPx);
-
 PinholeCamera coarseCamera(const PinholeCamera& left) {
-  constexpr int step = LastingErrors::kStepPx;
+  constexpr int step = LevelledRelief::kStepPx;
   PinholeCamera camera = left;
   camera.width_px /= step;
   camera.height_px /= step;
@@ -31,73 +22,6 @@ PinholeCamera coarseCamera(const PinholeCamera& left) {
   camera.cx_px = (left.cx_px + 0.5) / step - 0.5;
   camera.cy_px = (left.cy_px + 0.5) / step - 0.5;
   return camera;
-}
-
-/// One pixel of each square.
-Raster<float> thinned(const Raster<float>& fine) {
-  constexpr int step = LastingErrors::kStepPx;
-  Raster<float> coarse(fine.width_px / step, fine.height_px / step);
-  for (int v = 0; v < coarse.height_px; ++v)
-    for (int u = 0; u < coarse.width_px; ++u)
-      coarse.at(u, v) = fine.at(step * u + step / 2, step * v + step / 2);
-  return coarse;
-}
-
-/// Sums over the squares within kReach of each pixel: along rows, then along columns.
-template <class Number>
-Raster<Number> windowSums(const Raster<Number>& in) {
-  const int width = in.width_px, height = in.height_px;
-  Raster<Number> across(width, height, 0), sums(width, height, 0);
-  parallelRows(height, [&](int v) {
-    const Number* from = in.row(v);
-    Number* to = across.row(v);
-    for (int x = -kReach; x <= kReach; ++x)
-      for (int u = std::max(0, -x); u < std::min(width, width - x); ++u) to[u] += from[u + x];
-  });
-  parallelRows(height, [&](int v) {
-    Number* to = sums.row(v);
-    for (int y = std::max(0, v - kReach); y <= std::min(height - 1, v + kReach); ++y)
-      for (int u = 0; u < width; ++u) to[u] += across.row(y)[u];
-  });
-  return sums;
-}
-
-/// Number of known values within kReach.
-Raster<int> windowCounts(const Raster<float>& in) {
-  Raster<int> known(in.width_px, in.height_px);
-  for (std::size_t i = 0; i < in.size(); ++i) known.values[i] = !std::isnan(in.values[i]);
-  return windowSums(known);
-}
-
-/// Mean over the `counts` known values within kReach, where the value itself is known; else NaN.
-Raster<float> windowMeans(const Raster<float>& in, const Raster<int>& counts) {
-  Raster<double> known(in.width_px, in.height_px);
-  for (std::size_t i = 0; i < in.size(); ++i)
-    known.values[i] = std::isnan(in.values[i]) ? 0.0f : in.values[i];
-  const Raster<double> sums = windowSums(known);
-  Raster<float> means(in.width_px, in.height_px);
-  for (std::size_t i = 0; i < in.size(); ++i)
-    means.values[i] =
-        std::isnan(in.values[i]) ? kNaN : static_cast<float>(sums.values[i] / counts.values[i]);
-  return means;
-}
-
-/// Variance of the disparity by relief, px^2: docs/fusion.md (F30).
-Raster<float> reliefVariance(const Raster<float>& disparity_px) {
-  const Raster<int> counts = windowCounts(disparity_px);
-  Raster<float> bend = windowMeans(disparity_px, counts);
-  for (std::size_t i = 0; i < bend.size(); ++i)
-    bend.values[i] = disparity_px.values[i] - bend.values[i];
-  const Raster<float> mean = windowMeans(bend, counts);
-  for (float& value : bend.values) value *= value;
-  Raster<float> variance = windowMeans(bend, counts);
-  for (std::size_t i = 0; i < variance.size(); ++i) {
-    if (std::isnan(variance.values[i])) continue;
-    const double mean_sq = static_cast<double>(mean.values[i]) * mean.values[i];
-    variance.values[i] = static_cast<float>(std::max(0.0, variance.values[i] - mean_sq) +
-                                            kOneOfTwo * kOneOfTwo * mean_sq);
-  }
-  return variance;
 }
 
 /// The coarse pixel whose depth a point lies on; false where it is out of sight.
@@ -109,24 +33,16 @@ bool seenAt(const LastingErrors& errors, const PosedCamera& camera, const Eigen:
 
 }  // namespace
 
-void LastingErrors::observe(const DepthMap& depth, const RectifiedRig& rig,
-                            const Eigen::Isometry3d& pose, const WarpGraph& graph,
-                            const FusionOptions& options) {
-  reference_sigma_mm = depth.sigma_mm.empty() ? 0 : options.points.reference_sigma_mm;
-  camera = coarseCamera(rig.left);
-  world_from_left = pose;
+void LastingErrors::observe(const LevelledRelief& relief, const Observation& frame,
+                            const WarpGraph& graph, const FusionOptions& options) {
+  reference_sigma_mm = frame.depth.sigma_mm.empty() ? 0 : options.points.reference_sigma_mm;
+  camera = coarseCamera(frame.left);
+  world_from_left = frame.world_from_left;
   same_surface_mm = options.visibility.max_distance_mm;
-  depth_mm = thinned(depth.depth_mm);
-  const double scale = rig.left.fx_px * rig.baseline_mm;
-  Raster<float> disparity_px = depth_mm;
-  for (float& value : disparity_px.values) value = static_cast<float>(scale / value);
-  variance_mm2 = reliefVariance(disparity_px);
-  for (std::size_t i = 0; i < variance_mm2.size(); ++i) {
-    const double mm_per_px = depth_mm.values[i] * (depth_mm.values[i] / scale);
-    variance_mm2.values[i] *= static_cast<float>(mm_per_px * mm_per_px);
-  }
+  depth_mm = relief.depth_mm;
+  variance_mm2 = relief.variance_mm2;
 
-  const PosedCamera posed = posedCamera(camera, pose);
+  const PosedCamera posed = posedCamera(camera, frame.world_from_left);
   nodes_mm2.resize(graph.size(), kNaN);
   std::vector<std::size_t> hidden;
   double moved_mm2 = 0;  // of the nodes in sight since the last frame

@@ -5,21 +5,19 @@
 #include <vector>
 
 #include "core/camera.h"
-#include "core/depth_map.h"
 #include "core/point_model.h"
-#include "core/rectified_rig.h"
 #include "core/warp_graph.h"
 #include "fusion/fusion_options.h"
+#include "fusion/observation.h"
+#include "stereo/depth/levelled_relief.h"
 
 namespace softscope {
 
 /// What the weights of points don't say of their errors: relief that stereo's windows level out,
 /// which errs alike in every frame, and motion of tissue out of sight. docs/fusion.md (F30), (F31).
 struct LastingErrors {
-  static constexpr int kStepPx = 4;  // rasters have one value per square of this size
-
-  /// Of the last fused frame: camera and pose, depth and its variance by relief; NaN where nothing
-  /// was measured.
+  /// Of the last fused frame, one pixel per square of LevelledRelief: camera and pose, depth and
+  /// its variance by relief.
   PinholeCamera camera;
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
   Raster<float> depth_mm;
@@ -32,9 +30,9 @@ struct LastingErrors {
   /// Standard error of a point of weight 1; 0: weights say nothing of errors.
   double reference_sigma_mm = 0;
 
-  /// `depth` as it was fused from `pose`; `graph` has live positions. Same input, same bytes.
-  void observe(const DepthMap& depth, const RectifiedRig& rig, const Eigen::Isometry3d& pose,
-               const WarpGraph& graph, const FusionOptions& options);
+  /// `frame` as it was fused, with its relief; `graph` has live positions. Same input, same bytes.
+  void observe(const LevelledRelief& relief, const Observation& frame, const WarpGraph& graph,
+               const FusionOptions& options);
 };
 
 /// Predicted standard error of each point's distance from the tissue's surface, mm; NaN where
