@@ -332,7 +332,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   orRejectWarp([&] {
     parallelInvoke(updateModel, [&] {
       if (!first && !aligning_.valid()) alignTracks(world_from_left);
-      errors.observe(frame_.levelled, observation, state_.graph, frame_.fusion);
+      errors.observe(frame_.levelled.get(), observation, state_.graph, frame_.fusion);
     });
   });
   warp_.keep();

@@ -40,7 +40,8 @@ PointModel pointInTheMiddle(float weight) {
 }
 
 void observe(const DepthMap& depth, const WarpGraph& graph, LastingErrors* errors) {
-  errors->observe(levelledRelief(depth.depth_mm, rig()), {depth, {}, {}, {}, kLeft}, graph, {});
+  errors->observe(levelledRelief(depthOfSquares(depth.depth_mm), rig()), {depth, {}, {}, {}, kLeft},
+                  graph, {});
 }
 
 LastingErrors seen(const DepthMap& depth, const WarpGraph& graph = {}) {

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/background_work.h"
+#include "core/parallel.h"
+
 namespace softscope {
 namespace {
 
@@ -66,6 +69,17 @@ FramePictures picturesOf(const ColourImage& left, GrayImage gray, const Measured
   return pictures;
 }
 
+/// On a thread of its own, if there are several.
+std::shared_future<LevelledRelief> beginLevelling(const Raster<float>& depth_mm,
+                                                  const RectifiedRig& rig) {
+  const auto work = [squares = depthOfSquares(depth_mm), rig] {
+    LevelledRelief relief;
+    runInBackground([&] { relief = levelledRelief(squares, rig); });
+    return relief;
+  };
+  return std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred, work).share();
+}
+
 }  // namespace
 
 FramePictures framePictures(const FrameViews& views, const ReconstructionOptions& options) {
@@ -91,7 +105,7 @@ FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const Rectif
   view.summary = summarise(survey->depthsOf(frame), view.measured, rig);
   scaleOptions(options, rig, &view);
   view.states = survey->statesOf(frame, view.fusion.pixels);
-  view.levelled = levelledRelief(view.measured.depth.depth_mm, rig);
+  view.levelled = beginLevelling(view.measured.depth.depth_mm, rig);
   return view;
 }
 

@@ -1,6 +1,8 @@
 // src/pipeline/frame/frame_view.h: masks, pixel states and typical sigma of a measured frame.
 #pragma once
 
+#include <future>
+
 #include "core/image.h"
 #include "core/rectified_rig.h"
 #include "fusion/frame_survey.h"
@@ -21,8 +23,8 @@ struct FrameView {
   Mask not_tissue;
   MatchPicture live;  // as it is matched
   Raster<PixelState> states;
-  LevelledRelief levelled;
-  Raster<float> relief_px;  // reliefErrorPx(); may be empty
+  std::shared_future<LevelledRelief> levelled;  // found beside the stages before fusion
+  Raster<float> relief_px;                      // reliefErrorPx(); may be empty
   DepthSummary summary;
   AssociationOptions association;
   FusionOptions fusion;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/parallel.h"
 #include "stereo/options/stereo_options.h"
@@ -17,16 +18,6 @@ constexpr int kReach = (kTwoWindowsPx / 2) / LevelledRelief::kStepPx;
 /// Of what the mean over two windows takes from a bend that is alike everywhere, one window does.
 constexpr double kOneOfTwo =
     static_cast<double>(kOneWindowPx * kOneWindowPx) / (kTwoWindowsPx * kTwoWindowsPx);
-
-/// One pixel of each square.
-Raster<float> thinned(const Raster<float>& fine) {
-  constexpr int step = LevelledRelief::kStepPx;
-  Raster<float> coarse(fine.width_px / step, fine.height_px / step);
-  for (int v = 0; v < coarse.height_px; ++v)
-    for (int u = 0; u < coarse.width_px; ++u)
-      coarse.at(u, v) = fine.at(step * u + step / 2, step * v + step / 2);
-  return coarse;
-}
 
 /// Sums over the squares within kReach of each pixel: along rows, then along columns.
 template <class Number>
@@ -87,9 +78,18 @@ Raster<float> reliefVariance(const Raster<float>& disparity_px) {
 
 }  // namespace
 
-LevelledRelief levelledRelief(const Raster<float>& depth_mm, const RectifiedRig& rig) {
+Raster<float> depthOfSquares(const Raster<float>& depth_mm) {
+  constexpr int step = LevelledRelief::kStepPx;
+  Raster<float> coarse(depth_mm.width_px / step, depth_mm.height_px / step);
+  for (int v = 0; v < coarse.height_px; ++v)
+    for (int u = 0; u < coarse.width_px; ++u)
+      coarse.at(u, v) = depth_mm.at(step * u + step / 2, step * v + step / 2);
+  return coarse;
+}
+
+LevelledRelief levelledRelief(Raster<float> depth_mm, const RectifiedRig& rig) {
   LevelledRelief relief;
-  relief.depth_mm = thinned(depth_mm);
+  relief.depth_mm = std::move(depth_mm);
   const double scale = rig.left.fx_px * rig.baseline_mm;
   Raster<float> disparity_px = relief.depth_mm;
   for (float& value : disparity_px.values) value = static_cast<float>(scale / value);

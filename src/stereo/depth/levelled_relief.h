@@ -16,7 +16,10 @@ struct LevelledRelief {
   Raster<float> variance_mm2;
 };
 
-/// Same input, same bytes.
-LevelledRelief levelledRelief(const Raster<float>& depth_mm, const RectifiedRig& rig);
+/// One pixel's depth of each square.
+Raster<float> depthOfSquares(const Raster<float>& depth_mm);
+
+/// From depthOfSquares(). Same input, same bytes.
+LevelledRelief levelledRelief(Raster<float> depth_mm, const RectifiedRig& rig);
 
 }  // namespace softscope
