@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "cuda/device/kernel.h"
+#include "cuda/device/squares.h"
 #include "cuda/looks/look_window.h"
 
 namespace softscope::cuda {
@@ -13,13 +14,8 @@ struct HalveLookBody {
   View<std::uint8_t> half_gray, half_ignore;
 
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
-    const std::uint8_t* a = gray.row(2 * v) + 2 * u;
-    const std::uint8_t* b = a + gray.stride;
-    half_gray.at(u, v) = meanOfFour(a[0], a[1], b[0], b[1]);
-    if (ignore.data == nullptr) return;
-    const std::uint8_t* c = ignore.row(2 * v) + 2 * u;
-    const std::uint8_t* d = c + ignore.stride;
-    half_ignore.at(u, v) = (c[0] | c[1] | d[0] | d[1]) != 0 ? 1 : 0;
+    half_gray.at(u, v) = meanOfSquare(gray, u, v);
+    if (ignore.data != nullptr) half_ignore.at(u, v) = bitsOfSquare(ignore, u, v) != 0 ? 1 : 0;
   }
 };
 

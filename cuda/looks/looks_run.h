@@ -12,7 +12,7 @@
 
 namespace softscope::cuda {
 
-static_assert(sizeof(LookBytes) == sizeof(FirstLook) && kLookLevels == LookPicture::kLevels);
+static_assert(sizeof(LookBytes) == sizeof(FirstLook));
 
 /// Machine: as WarpRun has it.
 template <class Machine>

@@ -4,6 +4,7 @@
 
 #include "core/image.h"
 #include "cuda/device/kernel.h"
+#include "cuda/device/squares.h"
 #include "features/match_formulas.h"
 #include "features/subpixel_formulas.h"
 
@@ -55,13 +56,9 @@ struct HalveMatchBody {
   const MatchInputs* inputs;
   SOFTSCOPE_HD void operator()(int u, int v, int image) const {
     if (image == 2 && inputs->has_anchor == 0) return;
-    const std::uint8_t* a = gray[image].row(2 * v) + 2 * u;
-    const std::uint8_t* b = gray[image].row(2 * v + 1) + 2 * u;
-    half_gray[image].at(u, v) = meanOfFour(a[0], a[1], b[0], b[1]);
+    half_gray[image].at(u, v) = meanOfSquare(gray[image], u, v);
     if (image == 2) return;
-    const std::uint8_t* c = ignore[image].row(2 * v) + 2 * u;
-    const std::uint8_t* d = ignore[image].row(2 * v + 1) + 2 * u;
-    half_ignore[image].at(u, v) = (c[0] | c[1] | d[0] | d[1]) != 0 ? 1 : 0;
+    half_ignore[image].at(u, v) = bitsOfSquare(ignore[image], u, v) != 0 ? 1 : 0;
   }
 };
 

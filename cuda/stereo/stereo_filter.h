@@ -4,6 +4,7 @@
 
 #include "core/image.h"
 #include "cuda/device/kernel.h"
+#include "cuda/device/squares.h"
 #include "cuda/stereo/stereo_ignored.h"
 #include "stereo/kernels/filter_formulas.h"
 
@@ -34,9 +35,7 @@ struct HalveBody {
   View<const std::uint8_t> whole[2];
   View<std::uint8_t> half[2];
   SOFTSCOPE_HD void operator()(int u, int v, int view) const {
-    const std::uint8_t *upper = whole[view].row(2 * v) + 2 * u,
-                       *lower = whole[view].row(2 * v + 1) + 2 * u;
-    half[view].at(u, v) = meanOfFour(upper[0], upper[1], lower[0], lower[1]);
+    half[view].at(u, v) = meanOfSquare(whole[view], u, v);
   }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cuda/device/kernel.h"
+#include "cuda/device/squares.h"
 #include "stereo/kernels/matching_formulas.h"
 
 namespace softscope::cuda {
@@ -23,9 +24,7 @@ struct HalveIgnoredBody {
   View<const std::uint8_t> whole[2];
   View<std::uint8_t> half[2];
   SOFTSCOPE_HD void operator()(int u, int v, int view) const {
-    const std::uint8_t *upper = whole[view].row(2 * v) + 2 * u,
-                       *lower = whole[view].row(2 * v + 1) + 2 * u;
-    half[view].at(u, v) = (upper[0] | upper[1] | lower[0] | lower[1]) & Ignored::kMasked;
+    half[view].at(u, v) = bitsOfSquare(whole[view], u, v) & Ignored::kMasked;
   }
 };
 

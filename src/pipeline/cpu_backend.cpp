@@ -60,17 +60,11 @@ class CpuBackend : public ReconstructionBackend {
     return state_;
   }
   void restore(ModelState state) override {
-    growth_.drop();
-    matching_.drop();
-    state_ = std::move(state);
-    stateChanged();
+    replaceState([&] { state_ = std::move(state); });
     if (!empty()) seeds_.clear();
   }
   void add(const ModelState& other, const Eigen::Isometry3d& world_from_other) override {
-    growth_.drop();
-    matching_.drop();
-    uniteModels(other, world_from_other, &state_);
-    stateChanged();
+    replaceState([&] { uniteModels(other, world_from_other, &state_); });
   }
 
   void prepare(const std::shared_ptr<const Frame>& next,
@@ -96,7 +90,6 @@ class CpuBackend : public ReconstructionBackend {
  private:
   const PinholeCamera& left() const { return rig().left; }
   bool worksAhead() const { return threadCount() >= ahead_from_threads_; }
-  Observation observe(const Eigen::Isometry3d& world_from_left) const;
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
@@ -104,15 +97,15 @@ class CpuBackend : public ReconstructionBackend {
   void grow();
   void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, ScopeBefore before,
               PoseSummary* summary);
-  void stateChanged() {
-    updater_->changed(kWholeModel);
-    looks_->changed();
-  }
   bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
+  void settleTracks(const IndexMap& index_map, bool first,
+                    const Eigen::Isometry3d& world_from_left);
   void measureError(const Observation& observation);
-  void endAlignment() { aligning_.valid() ? aligning_.get() : void(); }
+  void endAlignment() {
+    if (aligning_.valid()) aligning_.get();
+  }
 
   ReconstructionOptions options_;
   std::string name_, device_;
@@ -130,6 +123,14 @@ class CpuBackend : public ReconstructionBackend {
 
   template <class Work>
   void orRejectWarp(const Work& work);
+  template <class Work>
+  void replaceState(const Work& work) {
+    growth_.drop();
+    matching_.drop();
+    work();
+    updater_->changed(kWholeModel);
+    looks_->changed();
+  }
 
   // Of the frame at hand.
   FrameView frame_;
@@ -218,15 +219,6 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
   summary->sigma_deg = best.sigma_deg;
 }
 
-Observation CpuBackend::observe(const Eigen::Isometry3d& world_from_left) const {
-  return {frame_.measured.depth,
-          frame_.measured.normals,
-          frame_.measured.left,
-          frame_.not_tissue,
-          left(),
-          world_from_left};
-}
-
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   is_grown_ = false;
   if (!growth_.canWait(state_.model)) grow();
@@ -235,8 +227,9 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   DeformObservation seen;
   parallelInvoke(
       [&] {
-        visible = comparer_->visiblePoints(state_.model, observe(world_from_left), frame_.states,
-                                           frame_.fusion.visibility);
+        visible =
+            comparer_->visiblePoints(state_.model, observationOf(frame_, left(), world_from_left),
+                                     frame_.states, frame_.fusion.visibility);
       },
       [&] {
         if (options_.deform.correspondence_weight > 0)
@@ -285,7 +278,8 @@ EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
     aligning_ = std::async(std::launch::async, [=] { alignTracks(world_from_left); });
   FrameComparison found;
   orRejectWarp([&] {
-    found = comparer_->compare(state_.model, state_.graph, observe(world_from_left), frame_.states,
+    found = comparer_->compare(state_.model, state_.graph,
+                               observationOf(frame_, left(), world_from_left), frame_.states,
                                frame_.fusion);
   });
   comparison_ = std::move(found.model);
@@ -313,7 +307,7 @@ void CpuBackend::rejectWarp() {
 
 void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   growth_.drop();
-  const Observation observation = observe(world_from_left);
+  const Observation observation = observationOf(frame_, left(), world_from_left);
   const bool first = empty();
   if (first) seedTracks(world_from_left);
   if (!comparison_)
@@ -343,8 +337,19 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   state_.exposure = update.points.gain;
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
-  state_.tracked.renumber(update.index_map, state_.model, options_.graph.node_spacing_mm,
-                          surface_.get());
+  settleTracks(update.index_map, first, world_from_left);
+  fused_.points = static_cast<int>(state_.model.size());
+  fused_.seen = update.seen;
+  fused_.fused = update.points.fused;
+  fused_.contradicted = update.points.contradicted;
+  fused_.inserted = update.insertion.inserted;
+  clock_.lap("check");
+}
+
+/// On the surface of the updated model.
+void CpuBackend::settleTracks(const IndexMap& index_map, bool first,
+                              const Eigen::Isometry3d& world_from_left) {
+  state_.tracked.renumber(index_map, state_.model, options_.graph.node_spacing_mm, surface_.get());
   if (first) {
     state_.tracked.anchor(state_.model, surface_.get());
     if (tracks())
@@ -353,12 +358,6 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   }
   state_.tracked.settle(state_.model, world_from_left.translation(), frame_.summary.limit_scale,
                         surface_.get());
-  fused_.points = static_cast<int>(state_.model.size());
-  fused_.seen = update.seen;
-  fused_.fused = update.points.fused;
-  fused_.contradicted = update.points.contradicted;
-  fused_.inserted = update.insertion.inserted;
-  clock_.lap("check");
 }
 
 FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {

@@ -38,9 +38,8 @@ std::future<FrameAhead::Aligned> FrameAhead::takeViews(const Frame& frame) {
 
 void FrameAhead::addRelief(FrameView* view) {
   const RectifiedRig& rig = depth_->rig();
-  view->relief_px = survey_->reliefOf({view->measured.depth, view->measured.normals,
-                                       view->measured.left, view->not_tissue, rig.left},
-                                      rig.left.fx_px * rig.baseline_mm);
+  view->relief_px =
+      survey_->reliefOf(observationOf(*view, rig.left), rig.left.fx_px * rig.baseline_mm);
 }
 
 void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after,

@@ -100,8 +100,7 @@ FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const Rectif
   view.not_tissue = std::move(pictures.not_tissue);
   view.live = std::move(pictures.live);
   // Neither depends on the camera's pose.
-  const Observation frame{view.measured.depth, view.measured.normals, view.measured.left,
-                          view.not_tissue, rig.left};
+  const Observation frame = observationOf(view, rig.left);
   view.summary = summarise(survey->depthsOf(frame), view.measured, rig);
   scaleOptions(options, rig, &view);
   view.states = survey->statesOf(frame, view.fusion.pixels);

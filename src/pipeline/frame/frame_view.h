@@ -31,6 +31,14 @@ struct FrameView {
   RansacOptions pose;
 };
 
+/// References to members of the view.
+inline Observation observationOf(
+    const FrameView& view, const PinholeCamera& left,
+    const Eigen::Isometry3d& world_from_left = Eigen::Isometry3d::Identity()) {
+  return {view.measured.depth, view.measured.normals, view.measured.left, view.not_tissue, left,
+          world_from_left};
+}
+
 /// What the rectified left image and its masks alone tell of a frame.
 struct FramePictures {
   Mask not_tissue;
