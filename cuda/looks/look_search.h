@@ -228,8 +228,10 @@ struct SearchLookKernel {
     addLevel(shared.search, found, shared.level, &shared.find);
     setMode(LookMode::kBegin, shared, local);
     if (shared.comes_from_above != 0) {
-      --shared.level;
-      if (shared.level > 0 || (shared.level == 0 && shared.find.found)) return;
+      if (shared.level > 0) {
+        --shared.level;
+        if (shared.level > 0 || shared.find.found) return;
+      }
       finds[at.x] = shared.find.found ? shared.find : shared.whole;
       setMode(LookMode::kOver, shared, local);
     } else if (found) {
