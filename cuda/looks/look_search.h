@@ -1,7 +1,6 @@
 // cuda/looks/look_search.h: kernel bodies that find first looks in an image.
 #pragma once
 
-#include "core/image.h"
 #include "cuda/device/kernel.h"
 #include "cuda/device/squares.h"
 #include "cuda/looks/look_window.h"
@@ -58,8 +57,7 @@ struct SearchLookKernel {
     } else if constexpr (kPhase == 6) {
       if (at.thread == 0) fitShading(at, shared, local);
     } else if constexpr (kPhase == 7) {
-      if (shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict)
-        takeWindow(at.thread, shared);
+      if (findsChanges(shared)) takeWindow(at.thread, shared);
     } else if constexpr (kPhase == 8) {
       if (shared.mode == LookMode::kDescribe && at.thread < kLookLanes)
         shared.sums.add(0, at.thread, kLookValues,
@@ -67,23 +65,17 @@ struct SearchLookKernel {
     } else if constexpr (kPhase == 9) {
       if (at.thread == 0 && local.mode == LookMode::kDescribe) judgeContrast(at, shared, local);
     } else if constexpr (kPhase == 10) {
-      if (shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict)
-        findSlopes(at.thread, shared);
+      if (findsChanges(shared)) findSlopes(at.thread, shared);
     } else if constexpr (kPhase == 11) {
-      if (shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict)
-        sumSlopes(at.thread, shared);
+      if (findsChanges(shared)) sumSlopes(at.thread, shared);
     } else if constexpr (kPhase == 12) {
-      if (shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict)
-        fitSlopes(at.thread, shared);
+      if (findsChanges(shared)) fitSlopes(at.thread, shared);
     } else if constexpr (kPhase == 13) {
-      if (shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict)
-        findChanges(at.thread, shared);
+      if (findsChanges(shared)) findChanges(at.thread, shared);
     } else if constexpr (kPhase == 14) {
-      if (shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict)
-        sumChanges(at.thread, shared);
+      if (findsChanges(shared)) sumChanges(at.thread, shared);
     } else if constexpr (kPhase == 15) {
-      if (shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict)
-        takeNormal(at.thread, shared);
+      if (findsChanges(shared)) takeNormal(at.thread, shared);
     } else if constexpr (kPhase == 16) {
       if (at.thread == 0) beginSample(at, shared, local);
     } else if constexpr (kPhase == 17) {
@@ -108,6 +100,10 @@ struct SearchLookKernel {
   }
 
  private:
+  /// Of the look, or of what differs from it.
+  SOFTSCOPE_HD static bool findsChanges(const Shared& shared) {
+    return shared.mode == LookMode::kDescribe || shared.mode == LookMode::kPredict;
+  }
   SOFTSCOPE_HD const LookBytes::OfLevel& lookOf(const Place& at, const Shared& shared) const {
     return looks[questions[at.x].number].levels[shared.level];
   }
