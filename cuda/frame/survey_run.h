@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "core/camera.h"
 #include "core/error.h"
 #include "cuda/device/copy_kernel.h"
+#include "cuda/device/host_copies.h"
 #include "cuda/device/reset_kernel.h"
 #include "cuda/device/shared_rasters.h"
 #include "cuda/frame/pixel_state_body.h"
@@ -18,7 +20,7 @@
 
 namespace softscope::cuda {
 
-/// Room for two frames: the one at hand, and the next. Machine: as WarpRun has it.
+/// Room for the frame at hand, and for those that wait. Machine: as WarpRun has it.
 template <class Machine>
 class SurveyRun final : public FrameSurvey {
  public:
@@ -27,7 +29,7 @@ class SurveyRun final : public FrameSurvey {
             Arguments&&... arguments)
       : left_(left),
         frames_(std::move(frames)),
-        memory_(bytesFor<Rooms>(left), "memory for two frames"),
+        memory_(bytesFor<Rooms>(left), "memory for frames"),
         staging_memory_(bytesFor<Staging>(left), "pinned memory for the images of a frame"),
         machine_(std::forward<Arguments>(arguments)...) {
     Arena arena(memory_.data());
@@ -40,19 +42,25 @@ class SurveyRun final : public FrameSurvey {
 
   void show(const ColourImage& left, const Mask& not_tissue, const GrayImage& gray,
             const Mask& ignore) override {
-    frames_->next = {};
     machine_.wait();  // the pinned memory is free, whatever became of the frame before
     for (const auto& [width, height] : {std::pair(left.width_px, left.height_px),
                                         std::pair(not_tissue.width_px, not_tissue.height_px)})
       if (width != 0 && (width != left_.width_px || height != left_.height_px))
         throw Error("a frame of another camera than the one that was planned for");
-    const Slot& to = next();
+    takeFreeSlot();
+    const Slot& to = *slot_;
     Arena arena(staging_memory_.data());
     const Staging staging(arena, pixelsOf(left_));
-    send(to.rasters.colour, left, staging.colour);
-    send(to.not_tissue, not_tissue, staging.not_tissue);
-    send(to.match_gray, gray, staging.gray);
-    send(to.ignore, ignore, staging.ignore);
+    HostCopies copies;
+    stage(left, staging.colour, &copies);
+    stage(not_tissue, staging.not_tissue, &copies);
+    stage(gray, staging.gray, &copies);
+    stage(ignore, staging.ignore, &copies);
+    copies.copy();
+    send(to.rasters.colour, staging.colour, left.size());
+    send(to.not_tissue, staging.not_tissue, not_tissue.size());
+    send(to.match_gray, staging.gray, gray.size());
+    send(to.ignore, staging.ignore, ignore.size());
     shown_ = {};
     shown_.colour = left.empty() ? nullptr : to.rasters.colour;
     shown_.match_gray = gray.empty() ? nullptr : to.match_gray;
@@ -78,7 +86,7 @@ class SurveyRun final : public FrameSurvey {
 
   Raster<PixelState> statesOf(const Observation& frame, const PixelOptions& options) override {
     options.validate();
-    const Slot& to = next();
+    const Slot& to = *slot_;
     const PixelStateBody classify{{shown_.depth_mm, shown_.sigma_mm, shown_.normals, shown_.colour},
                                   posedCamera(frame.left, frame.world_from_left),
                                   frame.mask.empty() ? nullptr : to.not_tissue,
@@ -88,16 +96,16 @@ class SurveyRun final : public FrameSurvey {
     Raster<PixelState> states(left_.width_px, left_.height_px);
     machine_.fromDevice(states.values.data(), to.rasters.states, states.size());
     machine_.wait();
-    frames_->next = std::exchange(shown_, {});
-    frames_->next.host_depth_mm = frame.depth.depth_mm.values.data();
-    frames_->next.states = to.rasters.states;
+    shown_.host_depth_mm = frame.depth.depth_mm.values.data();
+    shown_.states = to.rasters.states;
+    frames_->add(std::exchange(shown_, {}));
     return states;
   }
 
   Raster<float> reliefOf(const Observation& frame, double focal_baseline_px_mm) override {
     const int width = left_.width_px;
     const ReliefLayout& at = rooms_.relief;
-    perPixel("relief steps", ReliefStepsBody{frames_->next.depth_mm, at, width,
+    perPixel("relief steps", ReliefStepsBody{slot_->rasters.depth_mm, at, width,
                                              static_cast<float>(focal_baseline_px_mm)});
     perPixel("relief windows", ReliefExtentsBody{at, width, left_.height_px});
     perPixel("relief rows", ReliefRowsBody<ReliefSides::kEven>{at, width});
@@ -110,13 +118,7 @@ class SurveyRun final : public FrameSurvey {
     return error_px;
   }
 
-  void use(const DepthMap& depth) override {
-    frames_->at_hand = std::exchange(frames_->next, {});
-    if (frames_->at_hand.holds(depth.depth_mm.values.data()))
-      at_hand_ = 1 - at_hand_;
-    else
-      frames_->at_hand = {};
-  }
+  void use(const DepthMap& depth) override { frames_->use(depth.depth_mm.values.data()); }
 
  private:
   struct Slot {
@@ -152,7 +154,7 @@ class SurveyRun final : public FrameSurvey {
       relief = ReliefLayout(arena, pixels);
     }
 
-    Slot slots[2];
+    Slot slots[SharedFrames::kWaiting + 1];
     std::uint32_t* counts = nullptr;
     TissueTotals* totals = nullptr;
     ReliefLayout relief;
@@ -166,18 +168,24 @@ class SurveyRun final : public FrameSurvey {
   static std::size_t pixelsOf(const PinholeCamera& left) {
     return static_cast<std::size_t>(left.width_px) * static_cast<std::size_t>(left.height_px);
   }
+  template <class T>
+  static void stage(const Raster<T>& from, T* staged, HostCopies* copies) {
+    copies->add(from.values.data(), staged, from.size() * sizeof(T));
+  }
   /// From pinned memory: the caller does not wait. It is free again once depthsOf() has waited.
   template <class T>
-  void send(T* to, const Raster<T>& from, T* staged) {
-    if (from.empty()) return;
-    std::copy(from.values.begin(), from.values.end(), staged);
-    machine_.toDevice(to, staged, from.size() * sizeof(T));
+  void send(T* to, const T* staged, std::size_t count) {
+    if (count > 0) machine_.toDevice(to, staged, count * sizeof(T));
   }
-  const Slot& next() const { return rooms_.slots[1 - at_hand_]; }
+  void takeFreeSlot() {
+    frames_->makeRoom();
+    slot_ = std::find_if(std::begin(rooms_.slots), std::end(rooms_.slots),
+                         [&](const Slot& slot) { return !frames_->holds(slot.rasters.states); });
+  }
 
   /// Depth, sigma and normals, from where the stage of stereo left them or from the host.
   void takeDepth(const Observation& frame) {
-    const RasterLayout& to = next().rasters;
+    const RasterLayout& to = slot_->rasters;
     const SharedRasters measured = std::exchange(frames_->measured, {});
     if (measured.holds(frame.depth.depth_mm.values.data())) {
       CopyKernel copy;
@@ -199,7 +207,7 @@ class SurveyRun final : public FrameSurvey {
     reset.add(rooms_.counts, TissueTotals::kSearches * kRankCounts, 0);
     reset.add(rooms_.totals, sizeof(TissueTotals) / sizeof(std::uint32_t), 0);
     launch("reset", reset);
-    const TissueRasters rasters{shown_.depth_mm, shown_.sigma_mm, next().not_tissue,
+    const TissueRasters rasters{shown_.depth_mm, shown_.sigma_mm, slot_->not_tissue,
                                 static_cast<int>(pixelsOf(left_))};
     for (int step = 0; step < kRankSteps; ++step) {
       launch("count depths", TissueCountKernel{rasters, rooms_.counts, rooms_.totals, step});
@@ -223,8 +231,8 @@ class SurveyRun final : public FrameSurvey {
   typename Machine::Pinned staging_memory_;
   Machine machine_;
   Rooms rooms_;
-  int at_hand_ = 0;
-  SharedRasters shown_;  // under way
+  const Slot* slot_ = rooms_.slots;  // of the frame under way
+  SharedRasters shown_;              // of it
 };
 
 }  // namespace softscope::cuda

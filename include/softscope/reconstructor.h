@@ -52,7 +52,7 @@ class Reconstructor {
   void recordTo(const std::string& folder, int save_every = 10, bool overwrite = false);
 
   /// Next frame of `sequence`, from its first on in the time of `softscope reconstruct`: the depth
-  /// of the two following frames is measured meanwhile. None after the last frame. A rejected or
+  /// of the following frames is measured meanwhile. None after the last frame. A rejected or
   /// unreadable frame leaves the model unchanged; the report contains the reason. Other images
   /// may follow after any frame. Throws InputError for images that do not fit the calibration or
   /// were deleted; OptionError if the folder of the run is in the sequence, if the run has frames

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "core/depth_map.h"
 #include "core/image.h"
@@ -15,5 +17,8 @@ struct Frame {
   Mask mask;               // empty without masks
   Raster<float> depth_mm;  // from depth/NNNNNN; NaN = unmeasured; empty without depth files
 };
+
+/// Those that follow the one at hand, in order, as far as they are known; none is null.
+using UpcomingFrames = std::vector<std::shared_ptr<const Frame>>;
 
 }  // namespace softscope

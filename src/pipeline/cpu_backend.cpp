@@ -38,7 +38,7 @@ class CpuBackend : public ReconstructionBackend {
         device_(parts.device),
         ahead_from_threads_(parts.ahead_from_threads),
         frames_(std::make_unique<FrameDepth>(calibration, options.depth, parts.makeStereo), options,
-                parts.makeSurvey),
+                parts.makeSurvey, parts.ahead),
         thread_limit_(parts.thread_limit),
         matching_(parts.makeMatching(options, rig())),
         pose_search_(parts.makePoseSearch()),
@@ -67,9 +67,8 @@ class CpuBackend : public ReconstructionBackend {
     replaceState([&] { uniteModels(other, world_from_other, &state_); });
   }
 
-  void prepare(const std::shared_ptr<const Frame>& next,
-               const std::shared_ptr<const Frame>& after) override {
-    if (worksAhead()) frames_.prepare(next, after, tracks() || !seeds_.empty());
+  void prepare(const UpcomingFrames& upcoming) override {
+    if (worksAhead()) frames_.prepare(upcoming, tracks() || !seeds_.empty());
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,

@@ -48,9 +48,10 @@ struct BackendParts {
   std::function<std::unique_ptr<LookStage>()> makeLooks = [] {
     return std::make_unique<CpuLookStage>();
   };
-  /// From so many threads on, the next frame's depth is measured beside the stages of this one, and
-  /// the graph grows beside the stages up to the warp.
+  /// From so many threads on, depths of the next frames are measured beside the stages of this one,
+  /// and the graph grows beside the stages up to the warp.
   int ahead_from_threads = 2;
+  FramesAhead ahead;
   std::shared_ptr<ThreadLimit>
       thread_limit;  // of the process, as long as the back end lives; may be null
 };

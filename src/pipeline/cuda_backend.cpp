@@ -102,11 +102,9 @@ class CudaMatchStage final : public MatchStage {
  private:
   void enqueue(const PointModel& model, const Eigen::Isometry3d& viewed_from,
                const GrayImage& seen_gray, const MatchPicture& live, const MeasuredFrame& frame);
-  /// Where the rasters of a frame lie on the device; else null.
-  const cuda::SharedRasters* rastersOf(const MeasuredFrame& frame) const {
-    for (const cuda::SharedRasters* rasters : {&frames_->at_hand, &frames_->next})
-      if (rasters->holds(frame.depth.depth_mm.values.data())) return rasters;
-    return nullptr;
+  /// Where the rasters of a frame lie on the device, if they do.
+  cuda::SharedRasters rastersOf(const float* depth_mm) const {
+    return frames_->at_hand.holds(depth_mm) ? frames_->at_hand : frames_->find(depth_mm);
   }
   /// Memory of before is given back first, so that the old and the new never add up.
   void reserve(std::size_t points) {
@@ -138,8 +136,9 @@ void CudaMatchStage::enqueue(const PointModel& model, const Eigen::Isometry3d& v
   // Twice the points at a time, so that a growing model rarely reallocates.
   if (model.size() > capacity_) reserve(2 * model.size());
   device_->setModel(model, *model_);
-  if (const cuda::SharedRasters* rasters = rastersOf(frame); rasters != nullptr)
-    device_->setLive(*rasters);
+  const float* depth_mm = frame.depth.depth_mm.values.data();
+  if (const cuda::SharedRasters rasters = rastersOf(depth_mm); rasters.holds(depth_mm))
+    device_->setLive(rasters);
   else
     device_->setLive(live, frame.depth);
   device_->setSeenGray(seen_gray);
@@ -212,6 +211,7 @@ std::unique_ptr<ReconstructionBackend> makeCudaBackend(const StereoCalibration& 
   BackendParts parts;
   parts.name = "cuda";
   parts.thread_limit = threadLimit(calibration.left.pinhole);
+  parts.ahead = {cuda::SharedFrames::kWaiting, 2 * cuda::SharedFrames::kWaiting};
   // The model stays on the device between the stages.
   const auto model = cuda::makeSharedModel();
   // So do the frames.

@@ -78,10 +78,8 @@ class ReconstructionBackend {
   virtual std::string device() const = 0;  // which processor or GPU
   virtual const RectifiedRig& rig() const = 0;
 
-  /// May begin what needs no model of the frame that comes next, and of the one `after` it, where
-  /// that isn't null. Results don't depend on it.
-  virtual void prepare(const std::shared_ptr<const Frame>& /*next*/,
-                       const std::shared_ptr<const Frame>& /*after*/) {}
+  /// May begin what needs no model of the frames that come next. Results don't depend on it.
+  virtual void prepare(const UpcomingFrames& /*upcoming*/) {}
   /// Stage 1: rectifies, masks and measures. Throws InputError where the frame doesn't fit.
   virtual DepthSummary measure(const Frame& frame) = 0;
   /// Stages 2 to 4: draws the model from that pose, finds its pixels in the live image, and the

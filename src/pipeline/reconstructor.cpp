@@ -52,13 +52,12 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
   options.validate();
 }
 
-FrameRecord Reconstructor::process(const Frame& frame, const std::shared_ptr<const Frame>& next,
-                                   const std::shared_ptr<const Frame>& after) {
+FrameRecord Reconstructor::process(const Frame& frame, const UpcomingFrames& upcoming) {
   FrameRecord record;
   record.frame = frame.index;
   record.time_s = frame.time_s;
   try {
-    reconstruct(frame, next, after, record);
+    reconstruct(frame, upcoming, record);
   } catch (const InputError& error) {
     reject(record, FrameStatus::kUnreadable, error.what());
   }
@@ -99,10 +98,10 @@ void Reconstructor::finish(FrameRecord& record) {
 
 // Song et al. 2018, section III, in its order: depth,
 // visible model, matches, rigid pose, warp field, fusion.
-void Reconstructor::reconstruct(const Frame& frame, const std::shared_ptr<const Frame>& next,
-                                const std::shared_ptr<const Frame>& after, FrameRecord& record) {
+void Reconstructor::reconstruct(const Frame& frame, const UpcomingFrames& upcoming,
+                                FrameRecord& record) {
   const bool has_depth = measure(frame, record);
-  if (next != nullptr) backend_->prepare(next, after);
+  backend_->prepare(upcoming);
   if (!has_depth) return;
   if (backend_->empty()) return begin(record);
   if (update(record)) return join(record);

@@ -30,10 +30,9 @@ class Reconstructor {
                 const ReconstructionOptions& options);
 
   /// One frame, from images to the updated model. A rejected frame leaves the model
-  /// unchanged; the record has the reason. `next` and `after`: the two following frames, if
-  /// known already, so that their depth can start in parallel. The model does not depend on them.
-  FrameRecord process(const Frame& frame, const std::shared_ptr<const Frame>& next = nullptr,
-                      const std::shared_ptr<const Frame>& after = nullptr);
+  /// unchanged; the record has the reason. `upcoming`: the following frames, if known already, so
+  /// that their depth can start in parallel. The model does not depend on them.
+  FrameRecord process(const Frame& frame, const UpcomingFrames& upcoming = {});
 
   /// A frame that is unreadable or has no partner.
   FrameRecord skip(int index, const std::string& reason, double time_s = kUnknown,
@@ -50,8 +49,7 @@ class Reconstructor {
   void restore(ReconstructionState state);
 
  private:
-  void reconstruct(const Frame& frame, const std::shared_ptr<const Frame>& next,
-                   const std::shared_ptr<const Frame>& after, FrameRecord& record);
+  void reconstruct(const Frame& frame, const UpcomingFrames& upcoming, FrameRecord& record);
   bool measure(const Frame& frame, FrameRecord& record);
   bool update(FrameRecord& record);
   bool locate(FrameRecord& record);

@@ -112,6 +112,7 @@ BackendParts partsWithModelOnTheDevice(unsigned seed) {
   const auto home = std::make_shared<cuda::ModelHome<HostMachine>>();
   const auto frames = std::make_shared<cuda::SharedFrames>();
   const std::shared_ptr<const cuda::SharedRasters> rasters(frames, &frames->at_hand);
+  parts.ahead = {cuda::SharedFrames::kWaiting, 2 * cuda::SharedFrames::kWaiting};
   parts.makeSurvey = [=](const RectifiedRig& rig) {
     return std::make_unique<cuda::SurveyRun<HostMachine>>(rig.left, frames, seed + 3);
   };

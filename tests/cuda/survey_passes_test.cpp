@@ -54,6 +54,36 @@ TEST_F(Surveys, LieBesideTheFrameAtHandUntilTheyAreUsed) {
   expectAtHand(second_);
 }
 
+TEST_F(Surveys, WaitForTheirTurn) {
+  const ComparisonScene third(comparisonCases()[2]);
+  const auto waits = [&](const ComparisonScene& scene) {
+    const float* depth_mm = scene.observation().depth.depth_mm.values.data();
+    return frames_->find(depth_mm).holds(depth_mm);
+  };
+  survey(first_);
+  survey_.use(first_.observation().depth);
+  survey(second_);
+  survey(third);
+  expectAtHand(first_);
+  EXPECT_TRUE(waits(second_) && waits(third));
+  survey_.use(second_.observation().depth);
+  expectAtHand(second_);
+  survey(first_);
+  EXPECT_TRUE(waits(third) && waits(first_));
+  survey_.use(first_.observation().depth);
+  expectAtHand(first_);
+  EXPECT_FALSE(waits(third)) << "its turn is over";
+}
+
+TEST_F(Surveys, OfTooManyTheLastWait) {
+  const ComparisonScene third(comparisonCases()[2]);
+  for (const ComparisonScene* scene : {&first_, &second_, &third}) survey(*scene);
+  survey_.use(third.observation().depth);
+  expectAtHand(third);
+  for (const ComparisonScene* scene : {&first_, &second_, &first_}) survey(*scene);
+  expectAtHand(third);
+}
+
 TEST_F(Surveys, AreUsedOnceAndForTheirFrameAlone) {
   survey(first_);
   survey_.use(second_.observation().depth);

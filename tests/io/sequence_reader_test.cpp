@@ -52,51 +52,32 @@ void makeTwoVideos(const TemporaryFolder& folder, int count) {
 }
 
 // A back end recognises a frame by its address when the window moves on to it.
-TEST(FrameWindow, HoldsAFrameAndTheOneAfterItInPlace) {
+TEST(FrameWindow, HoldsTheUpcomingFramesInPlaceUpToAnUnreadableOne) {
+  constexpr int kFrames = 8, kBroken = 6;
   TemporaryFolder folder;
-  makeSequence(folder.path(), 4);
-  put(folder / "right" / "000002.png", "broken");
+  makeSequence(folder.path(), kFrames);
+  put(folder / "right" / "000006.png", "broken");
   SequenceReader reader(folder.path());
   FrameWindow window(reader);
-  EXPECT_EQ(window.following(), nullptr);
-  std::shared_ptr<const Frame> expected;
-  for (int i = 0; i < 4; ++i) {
+  EXPECT_TRUE(window.upcoming().empty());
+  UpcomingFrames expected;
+  for (int i = 0; i < kFrames; ++i) {
     const FrameResult* result = window.advance();
     ASSERT_NE(result, nullptr);
     EXPECT_EQ(result->index, i);
-    EXPECT_EQ(result->ok(), i != 2);
-    if (expected != nullptr) {
-      EXPECT_EQ(expected.get(), &result->frame);
+    EXPECT_EQ(result->ok(), i != kBroken);
+    if (!expected.empty()) {
+      EXPECT_EQ(expected.front().get(), &result->frame);
     }
-    expected = window.following();
-    EXPECT_EQ(expected != nullptr, i == 0 || i == 2) << i;
-  }
-  EXPECT_EQ(window.advance(), nullptr);
-  EXPECT_EQ(window.following(), nullptr);
-}
-
-TEST(FrameWindow, HoldsTheTwoFramesAfterTheCurrentOneInPlace) {
-  TemporaryFolder folder;
-  makeSequence(folder.path(), 5);
-  SequenceReader reader(folder.path());
-  FrameWindow window(reader);
-  EXPECT_EQ(window.afterFollowing(), nullptr);
-  std::shared_ptr<const Frame> expected, expected_following;
-  for (int i = 0; i < 5; ++i) {
-    const FrameResult* result = window.advance();
-    ASSERT_NE(result, nullptr);
-    EXPECT_EQ(result->frame.index, i);
-    if (i > 0) {
-      EXPECT_EQ(&result->frame, expected.get());
-      EXPECT_EQ(window.following(), expected_following);
-    }
-    expected = window.following();
-    expected_following = window.afterFollowing();
-    EXPECT_EQ(expected != nullptr, i < 4) << i;
-    EXPECT_EQ(expected_following != nullptr, i < 3) << i;
+    const UpcomingFrames upcoming = window.upcoming();
+    const int last = std::min(i + FrameWindow::kUpcoming, (i < kBroken ? kBroken : kFrames) - 1);
+    ASSERT_EQ(upcoming.size(), std::size_t(last - i)) << i;
+    for (std::size_t k = 1; k < expected.size(); ++k) EXPECT_EQ(upcoming[k - 1], expected[k]) << i;
+    expected = upcoming;
   }
   EXPECT_EQ(window.advance(), nullptr);
   EXPECT_EQ(window.advance(), nullptr);
+  EXPECT_TRUE(window.upcoming().empty());
 }
 
 TEST(SequenceReader, ReadsAFolderOfPictures) {

@@ -26,20 +26,12 @@ Reconstructor reconstructorOf(const BackendParts& parts) {
   return {makeCpuBackend(shortClip().calibration, options, parts), options};
 }
 
-/// Of a frame that lives as long as the program.
-std::shared_ptr<const Frame> sharing(const Frame& frame) {
-  return {std::shared_ptr<const Frame>(), &frame};
-}
-
-/// Frames begin … end - 1, each with the two after it.
+/// Frames begin … end - 1, each with those after it.
 std::vector<FrameRecord> run(Reconstructor& reconstructor, std::size_t begin, std::size_t end) {
   const std::vector<Frame>& frames = shortClip().frames;
   std::vector<FrameRecord> records;
-  const auto frameAt = [&](std::size_t i) {
-    return i < frames.size() ? sharing(frames[i]) : nullptr;
-  };
   for (std::size_t i = begin; i < end; ++i)
-    records.push_back(reconstructor.process(frames[i], frameAt(i + 1), frameAt(i + 2)));
+    records.push_back(reconstructor.process(frames[i], framesAfter(frames, i)));
   return records;
 }
 
@@ -126,9 +118,16 @@ TEST_P(EveryBackend, GoesOnFromACheckpointOfTheCpuAndBack) {
 INSTANTIATE_TEST_SUITE_P(Built, EveryBackend, testing::ValuesIn(builtBackends()),
                          [](const auto& each) { return each.param; });
 
-TEST(WorkingAhead, GivesTheSameModelInWhateverOrderFramesCome) {
+class WorkingAhead : public testing::TestWithParam<FramesAhead> {
+ protected:
+  WorkingAhead() {
+    parts.ahead_from_threads = 1;
+    parts.ahead = GetParam();
+  }
   BackendParts parts;
-  parts.ahead_from_threads = 1;
+};
+
+TEST_P(WorkingAhead, GivesTheSameModelInWhateverOrderFramesCome) {
   Reconstructor ahead = reconstructorOf(parts);
   run(ahead, 0, 4);
   EXPECT_TRUE(modelOf(ahead) == modelOfTheCpu());
@@ -136,27 +135,26 @@ TEST(WorkingAhead, GivesTheSameModelInWhateverOrderFramesCome) {
   const std::vector<Frame>& frames = shortClip().frames;
   Reconstructor mistaken = reconstructorOf(parts);
   for (std::size_t i = 0; i < 4; ++i)
-    mistaken.process(frames[i], sharing(frames[5 - i]), sharing(frames[(i + 2) % 5]));
+    mistaken.process(frames[i], {sharing(frames[5 - i]), sharing(frames[(i + 2) % 5]),
+                                 sharing(frames[i]), sharing(frames[(i + 1) % 5])});
   EXPECT_TRUE(modelOf(mistaken) == modelOfTheCpu());
 }
 
 // A caller may stop after any frame, and continue with other images.
-TEST(WorkingAhead, KeepsTheFramesThatItReads) {
-  BackendParts parts;
-  parts.ahead_from_threads = 1;
+TEST_P(WorkingAhead, KeepsTheFramesThatItReads) {
   Reconstructor reconstructor = reconstructorOf(parts);
   const std::vector<Frame>& frames = shortClip().frames;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto image = std::make_shared<const Frame>(frames[i]);  // freed after this frame
-    reconstructor.process(*image, std::make_shared<const Frame>(frames[5 - i]),
-                          std::make_shared<const Frame>(frames[(i + 2) % 5]));
+    reconstructor.process(*image, {std::make_shared<const Frame>(frames[5 - i]),
+                                   std::make_shared<const Frame>(frames[(i + 2) % 5]),
+                                   std::make_shared<const Frame>(frames[i])});
   }
   EXPECT_TRUE(modelOf(reconstructor) == modelOfTheCpu());
 }
 
-TEST(WorkingAhead, LeavesTrackedPointsWhereTheyAreWithout) {
-  const auto tracksOf = [](int ahead_from_threads) {
-    BackendParts parts;
+TEST_P(WorkingAhead, LeavesTrackedPointsWhereTheyAreWithout) {
+  const auto tracksOf = [&](int ahead_from_threads) {
     parts.ahead_from_threads = ahead_from_threads;
     Reconstructor reconstructor = reconstructorOf(parts);
     reconstructor.track(shortClip().seeds);
@@ -175,19 +173,24 @@ TEST(WorkingAhead, LeavesTrackedPointsWhereTheyAreWithout) {
   EXPECT_EQ(ahead, in_turn);
 }
 
-TEST(WorkingAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
-  BackendParts parts;
-  parts.ahead_from_threads = 1;
+TEST_P(WorkingAhead, WhatIsWrongWithAFrameIsToldWhenItsTurnComes) {
   Reconstructor reconstructor = reconstructorOf(parts);
   const std::vector<Frame>& frames = shortClip().frames;
   Frame one_eyed = frames[1];
   one_eyed.pair.right = {};
-  EXPECT_TRUE(reconstructor.process(frames[0], sharing(one_eyed), sharing(frames[2])).fused());
-  const FrameRecord bad = reconstructor.process(one_eyed, sharing(frames[2]));
+  EXPECT_TRUE(reconstructor.process(frames[0], {sharing(one_eyed), sharing(frames[2])}).fused());
+  const FrameRecord bad = reconstructor.process(one_eyed, {sharing(frames[2])});
   EXPECT_EQ(bad.status, FrameStatus::kUnreadable);
   EXPECT_THAT(bad.reason, testing::HasSubstr("no right view"));
   EXPECT_TRUE(reconstructor.process(frames[2]).fused());
 }
+
+INSTANTIATE_TEST_SUITE_P(ByFrames, WorkingAhead,
+                         testing::Values(FramesAhead{0, 1}, FramesAhead{1, 2}, FramesAhead{2, 4}),
+                         [](const auto& one) {
+                           return std::to_string(one.param.measured) + "Of" +
+                                  std::to_string(one.param.aligned);
+                         });
 
 /// A device that is lost at its third frame.
 class FailingStage : public StereoStage {

@@ -39,16 +39,11 @@ const std::vector<Frame>& partlyMasked() {
   return all;
 }
 
-std::shared_ptr<const Frame> frameAt(std::size_t i) {
-  if (i >= partlyMasked().size()) return nullptr;
-  return {std::shared_ptr<const Frame>(), &partlyMasked()[i]};
-}
-
-/// Frames begin … end - 1, each with the two after it.
+/// Frames begin … end - 1, each with those after it.
 void follow(Reconstructor& reconstructor, std::size_t begin, std::size_t end) {
+  const std::vector<Frame>& frames = partlyMasked();
   for (std::size_t i = begin; i < end; ++i)
-    EXPECT_TRUE(reconstructor.process(partlyMasked()[i], frameAt(i + 1), frameAt(i + 2)).fused())
-        << i;
+    EXPECT_TRUE(reconstructor.process(frames[i], framesAfter(frames, i)).fused()) << i;
 }
 
 Reconstructor aheadFrom(int threads) {

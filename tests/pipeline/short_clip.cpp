@@ -71,6 +71,16 @@ ReconstructionOptions smallOptions() {
   return options;
 }
 
+std::shared_ptr<const Frame> sharing(const Frame& frame) {
+  return {std::shared_ptr<const Frame>(), &frame};
+}
+
+UpcomingFrames framesAfter(const std::vector<Frame>& frames, std::size_t index) {
+  UpcomingFrames upcoming;
+  for (std::size_t i = index + 1; i < frames.size(); ++i) upcoming.push_back(sharing(frames[i]));
+  return upcoming;
+}
+
 Reconstructor reconstructorOf(const ShortClip& clip, const ReconstructionOptions& options) {
   return {makeCpuBackend(clip.calibration, options), options};
 }

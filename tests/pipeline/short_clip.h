@@ -30,6 +30,11 @@ const ShortClip& clipWithAWithdrawal();
 /// Options for a clip of this size: fewer disparities, smaller search.
 ReconstructionOptions smallOptions();
 
+/// Of a frame that lives as long as the program.
+std::shared_ptr<const Frame> sharing(const Frame& frame);
+/// Those that come after that one.
+UpcomingFrames framesAfter(const std::vector<Frame>& frames, std::size_t index);
+
 Reconstructor reconstructorOf(const ShortClip& clip, const ReconstructionOptions& options);
 
 /// A frame without anything to match on: every pixel has this grey level.

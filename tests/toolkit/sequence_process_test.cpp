@@ -123,7 +123,7 @@ TEST_F(ProcessOfASequence, MayStopAtAnyFrameAndGoOn) {
   EXPECT_EQ(reconstructor.model().points_mm, modelOfFrames(5).points_mm);
 }
 
-// The images of the two following frames are still read when their sequence ends.
+// The images of the following frames are still read when their sequence ends.
 TEST_F(ProcessOfASequence, MayOutliveTheSequence) {
   makeClip(4);
   auto sequence = std::make_unique<api::Sequence>(at("clip"));

@@ -15,8 +15,7 @@ bool wasDeleted(const FrameResult& frame, const SequencePaths& sequence) {
 
 FrameRecord processFrame(const FrameResult& current, const FrameWindow& frames,
                          Reconstructor& reconstructor) {
-  if (current.ok())
-    return reconstructor.process(current.frame, frames.following(), frames.afterFollowing());
+  if (current.ok()) return reconstructor.process(current.frame, frames.upcoming());
   return reconstructor.skip(current.index, current.error, current.time_s,
                             current.unpaired ? FrameStatus::kUnpaired : FrameStatus::kUnreadable);
 }

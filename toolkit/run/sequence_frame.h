@@ -12,8 +12,8 @@ namespace softscope {
 /// True if the frame is unreadable because images of the sequence were deleted during the run.
 bool wasDeleted(const FrameResult& frame, const SequencePaths& sequence);
 
-/// Processes the current frame of `frames`; the depth of the two following ones starts in
-/// parallel. Skips an unreadable frame with its reason. Throws BackendError.
+/// Processes the current frame of `frames`; the depth of those that follow starts in parallel.
+/// Skips an unreadable frame with its reason. Throws BackendError.
 FrameRecord processFrame(const FrameResult& current, const FrameWindow& frames,
                          Reconstructor& reconstructor);
 

@@ -1,7 +1,7 @@
-// src/io/sequences/frame_window.h: sliding window of three frames of a sequence.
+// src/io/sequences/frame_window.h: a frame of a sequence, and those that follow it.
 #pragma once
 
-#include <array>
+#include <deque>
 #include <memory>
 #include <utility>
 
@@ -9,41 +9,35 @@
 
 namespace softscope {
 
-/// The two frames after the current one are shared with work that starts ahead of their turn.
+/// The frames after the current one are shared with work that starts ahead of their turn.
 class FrameWindow {
  public:
+  static constexpr int kUpcoming = 4;
+
   explicit FrameWindow(SequenceReader& reader) : reader_(reader) {}
 
-  /// Reads until the two frames after the next one are available. Returns the next frame, valid
-  /// until the following call; null after the last frame. Throws as the reader does.
+  /// Reads until the frames after the next one are available. Returns the next frame, valid until
+  /// the following call; null after the last frame. Throws as the reader does.
   const FrameResult* advance() {
-    for (int missing = begun_ ? 1 : kFrames; missing > 0; --missing)
-      results_ = {results_[1], results_[2], read()};
-    begun_ = true;
-    return results_[0].get();
+    if (!results_.empty()) results_.pop_front();
+    while (results_.size() <= kUpcoming) {
+      auto result = reader_.next();
+      if (!result) break;
+      results_.push_back(std::make_shared<const FrameResult>(std::move(*result)));
+    }
+    return results_.empty() ? nullptr : results_.front().get();
   }
-  /// Next frame; null if absent or unreadable.
-  std::shared_ptr<const Frame> following() const { return frameOf(results_[1]); }
-  /// Frame after following(); null if either is absent or unreadable.
-  std::shared_ptr<const Frame> afterFollowing() const {
-    return following() ? frameOf(results_[2]) : nullptr;
+  /// Up to the first that is unreadable.
+  UpcomingFrames upcoming() const {
+    UpcomingFrames frames;
+    for (std::size_t i = 1; i < results_.size() && results_[i]->ok(); ++i)
+      frames.emplace_back(results_[i], &results_[i]->frame);
+    return frames;
   }
 
  private:
-  using Shared = std::shared_ptr<const FrameResult>;
-  static constexpr int kFrames = 3;
-
-  static std::shared_ptr<const Frame> frameOf(const Shared& result) {
-    return result && result->ok() ? std::shared_ptr<const Frame>(result, &result->frame) : nullptr;
-  }
-  Shared read() {
-    auto result = reader_.next();
-    return result ? std::make_shared<const FrameResult>(std::move(*result)) : nullptr;
-  }
-
   SequenceReader& reader_;
-  std::array<Shared, kFrames> results_;  // of the current frame, and the two after it
-  bool begun_ = false;
+  std::deque<std::shared_ptr<const FrameResult>> results_;  // of the current frame, and after it
 };
 
 }  // namespace softscope

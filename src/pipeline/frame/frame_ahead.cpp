@@ -1,6 +1,6 @@
 #include "pipeline/frame/frame_ahead.h"
 
-#include <chrono>
+#include <algorithm>
 
 #include "core/background_work.h"
 
@@ -27,43 +27,55 @@ FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
   return view;
 }
 
-/// What was begun for this frame; of another one it is of no use.
-std::future<FrameAhead::Aligned> FrameAhead::takeViews(const Frame& frame) {
-  if (views_.valid() && aligned_.get() != &frame) {
-    views_.wait();
-    views_ = {};
-  }
-  return std::move(views_);
-}
-
 void FrameAhead::addRelief(FrameView* view) {
   const RectifiedRig& rig = depth_->rig();
   view->relief_px =
       survey_->reliefOf(observationOf(*view, rig.left), rig.left.fx_px * rig.baseline_mm);
 }
 
-void FrameAhead::prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after,
-                         bool with_relief) {
-  if (result_.valid()) result_.wait();
-  std::future<Aligned> begun = takeViews(*next);
-  prepared_ = std::move(next);
-  result_ = std::async(std::launch::async,
-                       [this, with_relief, frame = prepared_, begun = std::move(begun)]() mutable {
-                         StageClock unused;
-                         auto view = std::make_shared<FrameView>();
-                         runInBackground([&] {
-                           *view = measureNow(std::move(begun), *frame, &unused);
-                           if (with_relief) addRelief(view.get());
-                         });
-                         return view;
-                       });
-  if (after == nullptr) return;
-  aligned_ = std::move(after);
-  views_ = std::async(std::launch::async, [this, frame = aligned_] {
+void FrameAhead::beginAligning(const std::shared_ptr<const Frame>& frame) {
+  Coming coming;
+  coming.frame = frame;
+  coming.views = std::async(std::launch::async, [this, frame] {
     Aligned aligned;
     runInBackground([&] { aligned = align(*frame); });
     return aligned;
   });
+  coming_.push_back(std::move(coming));
+}
+
+/// After the frame before it.
+void FrameAhead::beginMeasuring(std::size_t index, bool with_relief) {
+  Coming& coming = coming_[index];
+  coming.measured = std::make_shared<Measured>();
+  auto work = [this, with_relief, frame = coming.frame, measured = coming.measured,
+               views = std::move(coming.views),
+               before = index > 0 ? coming_[index - 1].done : decltype(coming.done)()]() mutable {
+    if (before.valid()) before.wait();
+    StageClock unused;
+    runInBackground([&] {
+      measured->view = measureNow(std::move(views), *frame, &unused);
+      measured->is_found = true;
+      if (with_relief) addRelief(&measured->view);
+    });
+  };
+  coming.done = std::async(std::launch::async, std::move(work)).share();
+}
+
+/// Waits for their threads.
+void FrameAhead::dropFrom(std::size_t first) {
+  while (coming_.size() > first) coming_.pop_back();
+}
+
+void FrameAhead::prepare(const UpcomingFrames& upcoming, bool with_relief) {
+  const auto isSame = [](const Coming& coming, const auto& frame) { return coming.frame == frame; };
+  const auto begun =
+      std::mismatch(coming_.begin(), coming_.end(), upcoming.begin(), upcoming.end(), isSame).first;
+  dropFrom(static_cast<std::size_t>(begun - coming_.begin()));
+  const auto atMost = [&](int count) { return std::min(upcoming.size(), std::size_t(count)); };
+  while (coming_.size() < atMost(ahead_.aligned)) beginAligning(upcoming[coming_.size()]);
+  for (std::size_t i = 0; i < atMost(ahead_.measured); ++i)
+    if (coming_[i].measured == nullptr) beginMeasuring(i, with_relief);
 }
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
@@ -73,25 +85,20 @@ FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
 }
 
 FrameView FrameAhead::take(const Frame& frame, StageClock* clock) {
-  if (!result_.valid()) return measureNow(takeViews(frame), frame, clock);
-  if (prepared_.get() != &frame) {  // what was prepared is of no use
-    result_.wait();
-    result_ = {};
-    return measureNow(takeViews(frame), frame, clock);
-  }
-  FrameView view = std::move(*std::exchange(result_, {}).get());
+  if (!coming_.empty() && coming_.front().frame.get() != &frame) dropFrom(0);  // of no use
+  if (coming_.empty()) return measureNow({}, frame, clock);
+  Coming coming = std::move(coming_.front());
+  coming_.pop_front();
+  if (coming.measured == nullptr) return measureNow(std::move(coming.views), frame, clock);
+  coming.done.get();
   clock->lap("depth");
-  return view;
+  return std::move(coming.measured->view);
 }
 
 const FrameView* FrameAhead::next() const {
-  if (!result_.valid() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    return nullptr;
-  try {
-    return result_.get().get();
-  } catch (...) {
-    return nullptr;  // measure() throws it
-  }
+  const bool is_found =
+      !coming_.empty() && coming_.front().measured && coming_.front().measured->is_found;
+  return is_found ? &coming_.front().measured->view : nullptr;
 }
 
 }  // namespace softscope

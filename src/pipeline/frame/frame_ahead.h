@@ -1,7 +1,8 @@
-// src/pipeline/frame/frame_ahead.h: stage 1 of the next two frames, computed during the current
-// one.
+// src/pipeline/frame/frame_ahead.h: stage 1 of the next frames, computed during the current one.
 #pragma once
 
+#include <atomic>
+#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
@@ -16,26 +17,34 @@ namespace softscope {
 
 using FrameSurveyFactory = std::function<std::unique_ptr<FrameSurvey>(const RectifiedRig&)>;
 
-/// FrameDepth and viewFrame() with at most two frames under way, each on a thread of its own: the
-/// views of one are aligned while the one before it is matched. Same results.
+/// Of the frames that come next, how many are worked on.
+struct FramesAhead {
+  int measured = 1;  // one at a time, in order
+  int aligned = 2;   // their views, beside each other; not fewer
+};
+
+/// FrameDepth and viewFrame() of the next frames, each on threads of its own: the views of some are
+/// aligned while one before them is matched. Same results.
 class FrameAhead {
  public:
   /// Every frame lies on the device of its survey when measure() returns.
   FrameAhead(std::unique_ptr<FrameDepth> depth, const ReconstructionOptions& options,
-             const FrameSurveyFactory& makeSurvey)
-      : depth_(std::move(depth)), options_(options), survey_(makeSurvey(depth_->rig())) {}
+             const FrameSurveyFactory& makeSurvey, const FramesAhead& ahead)
+      : depth_(std::move(depth)),
+        options_(options),
+        survey_(makeSurvey(depth_->rig())),
+        ahead_(ahead) {}
 
   const FrameDepth& depth() const { return *depth_; }
 
-  /// Begins, with `after` (the frame after it) too, where that isn't null. `with_relief`: also the
-  /// next frame's relief, where its survey finds it.
-  void prepare(std::shared_ptr<const Frame> next, std::shared_ptr<const Frame> after,
-               bool with_relief);
-  /// What was begun, if that is this frame; whatever went wrong with it is thrown here. Laps
+  /// Begins those that are not begun yet. `with_relief`: also their relief, where the survey finds
+  /// it.
+  void prepare(const UpcomingFrames& upcoming, bool with_relief);
+  /// What was begun, if it is of this frame; whatever went wrong with it is thrown here. Laps
   /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
   FrameView measure(const Frame& frame, StageClock* clock);
-  /// What measure() will return for the next frame, where that is measured by now, valid until
-  /// then; else null.
+  /// What measure() will return for the next frame, but for its relief, where the rest is found by
+  /// now; valid until then; else null.
   const FrameView* next() const;
 
  private:
@@ -44,19 +53,32 @@ class FrameAhead {
     FrameViews views;
     FramePictures pictures;
   };
+  /// Being measured, on its thread.
+  struct Measured {
+    FrameView view;
+    std::atomic<bool> is_found{false};  // but for the relief
+  };
+  struct Coming {
+    std::shared_ptr<const Frame> frame;
+    std::future<Aligned> views;  // until they are measured
+    std::shared_ptr<Measured> measured;
+    std::shared_future<void> done;
+  };
+
   Aligned align(const Frame& frame) const;
   FrameView measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
   void addRelief(FrameView* view);
-  std::future<Aligned> takeViews(const Frame& frame);
+  void beginAligning(const std::shared_ptr<const Frame>& frame);
+  void beginMeasuring(std::size_t index, bool with_relief);
   FrameView take(const Frame& frame, StageClock* clock);
+  void dropFrom(std::size_t first);
 
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
   std::unique_ptr<FrameSurvey> survey_;
-  int measured_ = 0;  // so far; one frame is measured at a time
-  std::shared_ptr<const Frame> prepared_, aligned_;
-  std::future<Aligned> views_;  // of aligned_; both end before the frames and depth_ do
-  std::shared_future<std::shared_ptr<FrameView>> result_;  // of prepared_
+  FramesAhead ahead_;
+  int measured_ = 0;           // so far; one frame is measured at a time
+  std::deque<Coming> coming_;  // ends before all that its threads use
 };
 
 }  // namespace softscope
