@@ -14,13 +14,16 @@ endfunction()
 
 # softscope_precompile(<target>): takes the headers of the standard library, of Eigen and of JSON from
 # the target softscope_headers, which parses them once for all libraries that a shared library may
-# hold; what tests alone run takes them and GoogleTest's from softscope_test_headers. A folder that
-# builds alone has neither.
+# hold; what tests alone run takes them and GoogleTest's from softscope_test_headers, if it is
+# optimised alike. A folder that builds alone has neither.
 function(softscope_precompile target)
   set(donor softscope_test_headers)
   get_target_property(position_independent ${target} POSITION_INDEPENDENT_CODE)
+  get_target_property(quickly ${target} SOFTSCOPE_QUICKLY)
   if(position_independent)
     set(donor softscope_headers)
+  elseif(SOFTSCOPE_SANITIZE AND NOT quickly)
+    return()
   endif()
   if(NOT TARGET ${donor})
     return()
@@ -99,20 +102,26 @@ function(softscope_cover name)
   endif()
 endfunction()
 
-# softscope_test(<folder> SOURCES … LINKS … [SINGLY <suite>…] [SHARDS <count>]): one test program a
-# folder, one ctest entry a test suite, or a test in the suites of SINGLY, which take minutes; under
-# sanitizers, which start slowly, one entry a program, or as many as SHARDS says where one would keep
-# the others waiting. Label: the folder.
+# softscope_test(<folder> SOURCES … LINKS … [SINGLY <suite>…] [SHARDS <count>] [COMPUTES]): one test
+# program a folder, one ctest entry a test suite, or a test in the suites of SINGLY, which take minutes;
+# under sanitizers, which start slowly, one entry a program, or as many as SHARDS says where one would
+# keep the others waiting. COMPUTES: its own code takes long, unless it is optimised. Label: the folder.
 function(softscope_test name)
-  cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LINKS;SINGLY" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "SHARDS" "SOURCES;LINKS;SINGLY" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   softscope_join(test_${name})
-  softscope_compile_quickly(test_${name})
+  if(NOT ARG_COMPUTES OR NOT SOFTSCOPE_SANITIZE)
+    softscope_compile_quickly(test_${name})
+  endif()
   softscope_precompile(test_${name})
   target_link_libraries(test_${name} PRIVATE ${ARG_LINKS} GTest::gtest_main softscope_flags)
   target_include_directories(test_${name} PRIVATE ${SOFTSCOPE_ROOT}/tests)
+  softscope_link_optimised_first(test_${name})
   if(SOFTSCOPE_SANITIZE)
     softscope_test_shards(${name} ${ARG_SHARDS})
+    if(ARG_COMPUTES)
+      set_tests_properties(${name} PROPERTIES COST 15)
+    endif()
   else()
     softscope_test_suites(${name} ${ARG_SINGLY})
   endif()
@@ -136,25 +145,57 @@ endif()
     ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_include.cmake)
 endfunction()
 
-# softscope_compile_quickly(<target>): -O1 and little inlining, for code without inner loops (texts,
-# JSON, command lines) and for tests: a third less time to compile. Not for libraries that compute or
-# draw: a page of a report took 5 % more instructions.
+# softscope_compile_quickly(<target>): for code without inner loops (texts, JSON, command lines) and for
+# tests: -O1 and little inlining, a third less time to compile; under sanitizers -O0, half to a quarter
+# of the time. Not for libraries that compute or draw: a page of a report took 5 % more instructions.
 function(softscope_compile_quickly target)
+  set_target_properties(${target} PROPERTIES SOFTSCOPE_QUICKLY ON)
   target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANGUAGE:CXX>>:-O1>
     "$<$<AND:$<CONFIG:Release>,$<COMPILE_LANG_AND_ID:CXX,Clang>>:SHELL:-mllvm -inline-threshold=25>")
-endfunction()
-
-# softscope_compile_unoptimised(<target>): for tests of texts and files, under sanitizers: a third of
-# the time to compile. Not for tests that compute, as the linker takes inline functions of the first
-# object that has them: tests of deform ran 12 times as long, `depth` within test_apps 3 times.
-function(softscope_compile_unoptimised target)
   if(SOFTSCOPE_SANITIZE)
     target_compile_options(${target} PRIVATE -O0)
-    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # other options
+    get_target_property(position_independent ${target} POSITION_INDEPENDENT_CODE)
+    if(position_independent)  # whose precompiled headers are of optimised code
+      set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
+    endif()
   endif()
 endfunction()
 
-# softscope_test_shards(<folder> [count]): programs in several parts take longest and start first.
+# softscope_link_optimised_first(<program>): the linker takes inline functions from the first object
+# that has them. Were those of -O0 first, tests of deform would take 12 times as long under sanitizers.
+function(softscope_link_optimised_first target)
+  if(SOFTSCOPE_SANITIZE)
+    softscope_linked_libraries(${target} libraries)
+    list(TRANSFORM libraries REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+    target_link_options(${target} PRIVATE
+      "LINKER:--push-state,--whole-archive" ${libraries} "LINKER:--pop-state")
+  endif()
+endfunction()
+
+# softscope_linked_libraries(<target> <list>): appends what it links of ours, optimised, once each.
+function(softscope_linked_libraries target list)
+  get_target_property(links ${target} LINK_LIBRARIES)
+  foreach(link IN LISTS links)
+    if(link MATCHES "^softscope(_|::)" AND TARGET ${link})
+      get_target_property(type ${link} TYPE)
+      get_target_property(name ${link} ALIASED_TARGET)
+      if(NOT name)
+        set(name ${link})
+      endif()
+      get_target_property(quickly ${link} SOFTSCOPE_QUICKLY)
+      if(type STREQUAL "STATIC_LIBRARY" AND NOT name IN_LIST ${list})
+        if(NOT quickly)
+          list(APPEND ${list} ${name})
+        endif()
+        softscope_linked_libraries(${name} ${list})
+      endif()
+    endif()
+  endforeach()
+  set(${list} ${${list}} PARENT_SCOPE)
+endfunction()
+
+# softscope_test_shards(<folder> [count]): programs in several parts take longest and start first,
+# then those that compute.
 function(softscope_test_shards name)
   set(count 1)
   if(ARGC GREATER 1)
