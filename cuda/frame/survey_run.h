@@ -26,12 +26,13 @@ class SurveyRun final : public FrameSurvey {
  public:
   template <class... Arguments>
   SurveyRun(const PinholeCamera& left, std::shared_ptr<SharedFrames> frames,
-            Arguments&&... arguments)
+            const Arguments&... arguments)
       : left_(left),
         frames_(std::move(frames)),
         memory_(bytesFor<Rooms>(left), "memory for frames"),
         staging_memory_(bytesFor<Staging>(left), "pinned memory for the images of a frame"),
-        machine_(std::forward<Arguments>(arguments)...) {
+        machine_(arguments...),
+        beside_(arguments...) {
     Arena arena(memory_.data());
     rooms_ = Rooms(arena, pixelsOf(left));
     ResetKernel reset;  // arrays of bytes are copied in whole words
@@ -92,7 +93,7 @@ class SurveyRun final : public FrameSurvey {
                                   frame.mask.empty() ? nullptr : to.not_tissue,
                                   static_cast<float>(options.max_sigma_mm),
                                   to.rasters.states};
-    perPixel("pixel states", classify);
+    launchPerPixel(machine_, "pixel states", classify);
     Raster<PixelState> states(left_.width_px, left_.height_px);
     machine_.fromDevice(states.values.data(), to.rasters.states, states.size());
     machine_.wait();
@@ -102,23 +103,28 @@ class SurveyRun final : public FrameSurvey {
     return states;
   }
 
-  Raster<float> reliefOf(const Observation& frame, double focal_baseline_px_mm) override {
-    const int width = left_.width_px;
+  void use(const DepthMap& depth) override { frames_->use(depth.depth_mm.values.data()); }
+
+  Raster<float> reliefOf(const DepthMap& depth, double focal_baseline_px_mm) override {
+    const SharedRasters& frame = frames_->at_hand;
+    if (!frame.holds(depth.depth_mm.values.data())) return {};
+    const int width = left_.width_px, height = left_.height_px;
     const ReliefLayout& at = rooms_.relief;
-    perPixel("relief steps", ReliefStepsBody{slot_->rasters.depth_mm, at, width,
-                                             static_cast<float>(focal_baseline_px_mm)});
-    perPixel("relief windows", ReliefExtentsBody{at, width, left_.height_px});
+    const auto perPixel = [&](const char* name, const auto& body) {
+      launchPerPixel(beside_, name, body);
+    };
+    perPixel("relief steps",
+             ReliefStepsBody{frame.depth_mm, at, width, static_cast<float>(focal_baseline_px_mm)});
+    perPixel("relief windows", ReliefExtentsBody{at, width, height});
     perPixel("relief rows", ReliefRowsBody<ReliefSides::kEven>{at, width});
     perPixel("relief bends", ReliefBendBody{at, width});
     perPixel("relief rows", ReliefRowsBody<ReliefSides::kBoth>{at, width});
     perPixel("relief error", ReliefErrorBody{at, width});
-    Raster<float> error_px(frame.left.width_px, frame.left.height_px);
-    machine_.fromDevice(error_px.values.data(), at.error_px, error_px.size() * sizeof(float));
-    machine_.wait();
+    Raster<float> error_px(width, height);
+    beside_.fromDevice(error_px.values.data(), at.error_px, error_px.size() * sizeof(float));
+    beside_.wait();
     return error_px;
   }
-
-  void use(const DepthMap& depth) override { frames_->use(depth.depth_mm.values.data()); }
 
  private:
   struct Slot {
@@ -216,9 +222,9 @@ class SurveyRun final : public FrameSurvey {
     }
   }
   template <class Body>
-  void perPixel(const char* name, const Body& body) {
+  void launchPerPixel(Machine& machine, const char* name, const Body& body) const {
     const PixelKernel<Body> kernel{body, left_.width_px, left_.height_px};
-    machine_.executor().launch(name, kernel, kernel.grid());
+    machine.executor().launch(name, kernel, kernel.grid());
   }
   template <class Kernel>
   void launch(const char* name, const Kernel& kernel) {
@@ -229,7 +235,7 @@ class SurveyRun final : public FrameSurvey {
   std::shared_ptr<SharedFrames> frames_;
   typename Machine::Memory memory_;
   typename Machine::Pinned staging_memory_;
-  Machine machine_;
+  Machine machine_, beside_;  // of the frame that is surveyed, and of the one at hand
   Rooms rooms_;
   const Slot* slot_ = rooms_.slots;  // of the frame under way
   SharedRasters shown_;              // of it

@@ -8,9 +8,9 @@
 
 namespace softscope {
 
-/// show(), depthsOf(), statesOf() and reliefOf() are called in this order for each frame, on any
-/// thread, while the stages work on the frame before. The camera's pose does not matter. All
-/// implementations give the same bytes.
+/// show(), depthsOf() and statesOf() are called in this order for each frame, on any thread, while
+/// the stages work on a frame before. The camera's pose does not matter. All implementations give
+/// the same bytes.
 class FrameSurvey {
  public:
   virtual ~FrameSurvey() = default;
@@ -20,13 +20,13 @@ class FrameSurvey {
                     const Mask& ignore) = 0;
   virtual TissueDepths depthsOf(const Observation& frame) = 0;
   virtual Raster<PixelState> statesOf(const Observation& frame, const PixelOptions& options) = 0;
-  /// reliefErrorPx(), for `focal_baseline_px_mm`, the focal length times the baseline; empty: not
-  /// found here. May be left out.
-  virtual Raster<float> reliefOf(const Observation& frame, double focal_baseline_px_mm) = 0;
   /// The stages work on the frame with that depth now, whose rasters stay where they are in memory
   /// until the next frame is used. One that was not surveyed last is copied by each stage that
   /// needs it.
   virtual void use(const DepthMap& depth) = 0;
+  /// reliefErrorPx() of the frame in use, for `focal_baseline_px_mm`, the focal length times the
+  /// baseline; empty: not found here. On any thread, while others are surveyed.
+  virtual Raster<float> reliefOf(const DepthMap& depth, double focal_baseline_px_mm) = 0;
 };
 
 class CpuFrameSurvey final : public FrameSurvey {
@@ -39,10 +39,10 @@ class CpuFrameSurvey final : public FrameSurvey {
   Raster<PixelState> statesOf(const Observation& frame, const PixelOptions& options) override {
     return classifyPixels(frame, options);
   }
-  Raster<float> reliefOf(const Observation& /*frame*/, double /*focal_baseline_px_mm*/) override {
+  void use(const DepthMap& /*depth*/) override {}
+  Raster<float> reliefOf(const DepthMap& /*depth*/, double /*focal_baseline_px_mm*/) override {
     return {};
   }
-  void use(const DepthMap& /*depth*/) override {}
 };
 
 }  // namespace softscope

@@ -68,7 +68,7 @@ class CpuBackend : public ReconstructionBackend {
   }
 
   void prepare(const UpcomingFrames& upcoming) override {
-    if (worksAhead()) frames_.prepare(upcoming, tracks() || !seeds_.empty());
+    if (worksAhead()) frames_.prepare(upcoming);
   }
   DepthSummary measure(const Frame& frame) override;
   LocateSummary locate(const Eigen::Isometry3d& viewed_from, const Eigen::Isometry3d& last,
@@ -143,7 +143,7 @@ class CpuBackend : public ReconstructionBackend {
   std::optional<ModelComparison> comparison_;  // with the warped model
   FusionSummary fused_;
   StageClock clock_;
-  TrackPictures pictures_{&frame_, &frames_.depth().rig()};  // ends before the frame
+  TrackPictures pictures_{&frame_, &frames_};  // ends before the frame
   std::future<void> aligning_;  // the tracked points, from confirm() to fuse(); ends before all
 };
 

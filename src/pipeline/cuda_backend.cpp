@@ -191,11 +191,12 @@ std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
 }
 
 /// The loops that are left to the host are short. More threads find nothing to do most of the time,
-/// and look for it (docs/benchmarks.md).
+/// and look for it; those that read images and work ahead need the other half of the cores
+/// (docs/benchmarks.md).
 std::shared_ptr<ThreadLimit> threadLimit(const PinholeCamera& image) {
   constexpr int kFewThreads = 8, kPixelsPerThread = 40000;
   const int enough = std::max(kFewThreads, image.width_px * image.height_px / kPixelsPerThread);
-  return std::make_shared<ThreadLimit>(std::min(threadCount(), enough));
+  return std::make_shared<ThreadLimit>(std::min((threadCount() + 1) / 2, enough));
 }
 
 }  // namespace

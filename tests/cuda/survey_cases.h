@@ -13,6 +13,8 @@
 
 namespace softscope::test {
 
+constexpr double kFocalBaseline = 1400;  // pixels, mm
+
 inline void expectSameDepths(const TissueDepths& found, const TissueDepths& expected) {
   EXPECT_EQ(found.tissue_px, expected.tissue_px);
   EXPECT_EQ(found.measured_px, expected.measured_px);
@@ -22,6 +24,18 @@ inline void expectSameDepths(const TissueDepths& found, const TissueDepths& expe
       << found.median_mm << ", not " << expected.median_mm;
   EXPECT_TRUE(same(found.median_sigma_mm, expected.median_sigma_mm))
       << found.median_sigma_mm << ", not " << expected.median_sigma_mm;
+}
+
+/// Of the frame in use.
+inline void expectTheCpusRelief(const DepthMap& depth, const PinholeCamera& camera,
+                                FrameSurvey* survey) {
+  RectifiedRig rig;
+  rig.left = camera;
+  rig.baseline_mm = kFocalBaseline / camera.fx_px;
+  const Raster<float> found = survey->reliefOf(depth, kFocalBaseline);
+  const Raster<float> expected = reliefErrorPx(depth.depth_mm, rig);
+  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_EQ(std::memcmp(found.values.data(), expected.values.data(), 4 * expected.size()), 0);
 }
 
 /// Frames in turn, then one where nothing is measured, and one that shows no tissue.
@@ -42,15 +56,8 @@ inline void expectTheCpusSurvey(FrameSurvey* survey) {
       const Surveyed found = surveyFrame(masked, scene.options().pixels, survey);
       expectSameDepths(found.depths, tissueDepths(depth, mask));
       EXPECT_TRUE(found.states.values == classifyPixels(masked, scene.options().pixels).values);
-      RectifiedRig rig;
-      rig.left = camera;
-      rig.baseline_mm = kFocalBaseline / camera.fx_px;
-      const Raster<float> relief_px = reliefErrorPx(depth.depth_mm, rig);
-      ASSERT_EQ(found.relief_px.size(), relief_px.size());
-      EXPECT_EQ(
-          std::memcmp(found.relief_px.values.data(), relief_px.values.data(), 4 * relief_px.size()),
-          0);
       survey->use(depth);
+      expectTheCpusRelief(depth, camera, survey);
     }
   }
 }

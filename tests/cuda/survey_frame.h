@@ -8,10 +8,7 @@ namespace softscope::test {
 struct Surveyed {
   TissueDepths depths;
   Raster<PixelState> states;
-  Raster<float> relief_px;
 };
-
-constexpr double kFocalBaseline = 1400;  // pixels, mm
 
 inline Surveyed surveyFrame(const Observation& frame, const PixelOptions& options,
                             FrameSurvey* survey, const GrayImage& gray = {},
@@ -21,7 +18,6 @@ inline Surveyed surveyFrame(const Observation& frame, const PixelOptions& option
   Surveyed found;
   found.depths = survey->depthsOf(frame);
   found.states = survey->statesOf(frame, options);
-  found.relief_px = survey->reliefOf(frame, kFocalBaseline);
   return found;
 }
 

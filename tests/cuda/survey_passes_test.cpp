@@ -39,7 +39,7 @@ class Surveys : public testing::Test {
 
 TEST_F(Surveys, GiveTheCpusNumbersAndStatesInAnyOrderOfThreads) {
   for (const unsigned seed : {1U, 2U}) {
-    HostSurvey survey(ComparisonScene::camera(), frames_, seed);
+    HostSurvey survey(ComparisonScene::camera(), std::make_shared<cuda::SharedFrames>(), seed);
     expectTheCpusSurvey(&survey);
   }
 }
@@ -52,6 +52,15 @@ TEST_F(Surveys, LieBesideTheFrameAtHandUntilTheyAreUsed) {
   expectAtHand(first_);
   survey_.use(second_.observation().depth);
   expectAtHand(second_);
+}
+
+TEST_F(Surveys, HaveARelief) {
+  const DepthMap& depth = first_.observation().depth;
+  survey(first_);
+  EXPECT_TRUE(survey_.reliefOf(depth, kFocalBaseline).empty()) << "it is not in use yet";
+  survey_.use(depth);
+  survey(second_);
+  expectTheCpusRelief(depth, ComparisonScene::camera(), &survey_);
 }
 
 TEST_F(Surveys, WaitForTheirTurn) {

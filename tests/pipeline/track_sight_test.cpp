@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "stereo/depth/relief_error.h"
+
 namespace softscope {
 namespace {
 
@@ -39,7 +41,10 @@ struct WallWithHole {
     tracked.points.back().position_mm = point_left;
     tracked.points.back().variance_mm2 = along_mm2;
     const TrackSight sight(frame, rig);
-    return sight.positions(tracked, Eigen::Isometry3d::Identity(), sight.reliefPx()).front();
+    return sight
+        .positions(tracked, Eigen::Isometry3d::Identity(),
+                   reliefErrorPx(frame.measured.depth.depth_mm, rig))
+        .front();
   }
 
   RectifiedRig rig;

@@ -1,8 +1,11 @@
 #include "pipeline/frame/frame_ahead.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "core/background_work.h"
+#include "core/error.h"
+#include "stereo/depth/relief_error.h"
 
 namespace softscope {
 
@@ -27,12 +30,6 @@ FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
   return view;
 }
 
-void FrameAhead::addRelief(FrameView* view) {
-  const RectifiedRig& rig = depth_->rig();
-  view->relief_px =
-      survey_->reliefOf(observationOf(*view, rig.left), rig.left.fx_px * rig.baseline_mm);
-}
-
 void FrameAhead::beginAligning(const std::shared_ptr<const Frame>& frame) {
   Coming coming;
   coming.frame = frame;
@@ -45,21 +42,17 @@ void FrameAhead::beginAligning(const std::shared_ptr<const Frame>& frame) {
 }
 
 /// After the frame before it.
-void FrameAhead::beginMeasuring(std::size_t index, bool with_relief) {
+void FrameAhead::beginMeasuring(std::size_t index) {
   Coming& coming = coming_[index];
-  coming.measured = std::make_shared<Measured>();
-  auto work = [this, with_relief, frame = coming.frame, measured = coming.measured,
-               views = std::move(coming.views),
-               before = index > 0 ? coming_[index - 1].done : decltype(coming.done)()]() mutable {
+  auto work = [this, frame = coming.frame, views = std::move(coming.views),
+               before = index > 0 ? coming_[index - 1].view : decltype(coming.view)()]() mutable {
     if (before.valid()) before.wait();
     StageClock unused;
-    runInBackground([&] {
-      measured->view = measureNow(std::move(views), *frame, &unused);
-      measured->is_found = true;
-      if (with_relief) addRelief(&measured->view);
-    });
+    auto view = std::make_shared<FrameView>();
+    runInBackground([&] { *view = measureNow(std::move(views), *frame, &unused); });
+    return view;
   };
-  coming.done = std::async(std::launch::async, std::move(work)).share();
+  coming.view = std::async(std::launch::async, std::move(work)).share();
 }
 
 /// Waits for their threads.
@@ -67,7 +60,7 @@ void FrameAhead::dropFrom(std::size_t first) {
   while (coming_.size() > first) coming_.pop_back();
 }
 
-void FrameAhead::prepare(const UpcomingFrames& upcoming, bool with_relief) {
+void FrameAhead::prepare(const UpcomingFrames& upcoming) {
   const auto isSame = [](const Coming& coming, const auto& frame) { return coming.frame == frame; };
   const auto begun =
       std::mismatch(coming_.begin(), coming_.end(), upcoming.begin(), upcoming.end(), isSame).first;
@@ -75,7 +68,7 @@ void FrameAhead::prepare(const UpcomingFrames& upcoming, bool with_relief) {
   const auto atMost = [&](int count) { return std::min(upcoming.size(), std::size_t(count)); };
   while (coming_.size() < atMost(ahead_.aligned)) beginAligning(upcoming[coming_.size()]);
   for (std::size_t i = 0; i < atMost(ahead_.measured); ++i)
-    if (coming_[i].measured == nullptr) beginMeasuring(i, with_relief);
+    if (!coming_[i].view.valid()) beginMeasuring(i);
 }
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
@@ -89,16 +82,35 @@ FrameView FrameAhead::take(const Frame& frame, StageClock* clock) {
   if (coming_.empty()) return measureNow({}, frame, clock);
   Coming coming = std::move(coming_.front());
   coming_.pop_front();
-  if (coming.measured == nullptr) return measureNow(std::move(coming.views), frame, clock);
-  coming.done.get();
+  if (!coming.view.valid()) return measureNow(std::move(coming.views), frame, clock);
+  FrameView view = std::move(*coming.view.get());
   clock->lap("depth");
-  return std::move(coming.measured->view);
+  return view;
 }
 
 const FrameView* FrameAhead::next() const {
-  const bool is_found =
-      !coming_.empty() && coming_.front().measured && coming_.front().measured->is_found;
-  return is_found ? &coming_.front().measured->view : nullptr;
+  if (coming_.empty()) return nullptr;
+  const auto& view = coming_.front().view;
+  if (!view.valid() || view.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return nullptr;
+  try {
+    return view.get().get();
+  } catch (...) {
+    return nullptr;  // measure() throws it
+  }
+}
+
+Raster<float> FrameAhead::reliefOf(const FrameView& view) const {
+  const RectifiedRig& rig = depth_->rig();
+  const DepthMap& depth = view.measured.depth;
+  if (depth.sigma_mm.empty()) return {};
+  Raster<float> relief_px;
+  try {
+    relief_px = survey_->reliefOf(depth, rig.left.fx_px * rig.baseline_mm);
+  } catch (const BackendError&) {
+    // The next stage that needs the device says so.
+  }
+  return relief_px.empty() ? reliefErrorPx(depth.depth_mm, rig) : relief_px;
 }
 
 }  // namespace softscope

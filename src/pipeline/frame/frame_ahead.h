@@ -1,7 +1,6 @@
 // src/pipeline/frame/frame_ahead.h: stage 1 of the next frames, computed during the current one.
 #pragma once
 
-#include <atomic>
 #include <deque>
 #include <functional>
 #include <future>
@@ -37,15 +36,17 @@ class FrameAhead {
 
   const FrameDepth& depth() const { return *depth_; }
 
-  /// Begins those that are not begun yet. `with_relief`: also their relief, where the survey finds
-  /// it.
-  void prepare(const UpcomingFrames& upcoming, bool with_relief);
+  /// Begins those that are not begun yet.
+  void prepare(const UpcomingFrames& upcoming);
   /// What was begun, if it is of this frame; whatever went wrong with it is thrown here. Laps
   /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
   FrameView measure(const Frame& frame, StageClock* clock);
-  /// What measure() will return for the next frame, but for its relief, where the rest is found by
-  /// now; valid until then; else null.
+  /// What measure() will return for the next frame, where that is measured by now, valid until
+  /// then; else null.
   const FrameView* next() const;
+  /// reliefErrorPx() of the frame that measure() returned last, on any thread, until it is called
+  /// again; empty without sigmas.
+  Raster<float> reliefOf(const FrameView& view) const;
 
  private:
   /// Everything that is found before the frame is measured.
@@ -53,23 +54,16 @@ class FrameAhead {
     FrameViews views;
     FramePictures pictures;
   };
-  /// Being measured, on its thread.
-  struct Measured {
-    FrameView view;
-    std::atomic<bool> is_found{false};  // but for the relief
-  };
   struct Coming {
     std::shared_ptr<const Frame> frame;
-    std::future<Aligned> views;  // until they are measured
-    std::shared_ptr<Measured> measured;
-    std::shared_future<void> done;
+    std::future<Aligned> views;                           // until they are measured
+    std::shared_future<std::shared_ptr<FrameView>> view;  // once it is begun
   };
 
   Aligned align(const Frame& frame) const;
   FrameView measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
-  void addRelief(FrameView* view);
   void beginAligning(const std::shared_ptr<const Frame>& frame);
-  void beginMeasuring(std::size_t index, bool with_relief);
+  void beginMeasuring(std::size_t index);
   FrameView take(const Frame& frame, StageClock* clock);
   void dropFrom(std::size_t first);
 

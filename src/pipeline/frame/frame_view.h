@@ -24,7 +24,6 @@ struct FrameView {
   MatchPicture live;  // as it is matched
   Raster<PixelState> states;
   std::shared_future<LevelledRelief> levelled;  // found beside the stages before fusion
-  Raster<float> relief_px;                      // reliefErrorPx(); may be empty
   DepthSummary summary;
   AssociationOptions association;
   FusionOptions fusion;

@@ -34,10 +34,12 @@ Mask unseen(const ModelView& view) {
 Mask notTissue(const ColourImage& left, const MeasuredFrame& frame,
                const TissueMaskOptions& options) {
   Mask mask(left.width_px, left.height_px, 0);
-  if (!frame.mask.empty()) addTo(mask, frame.mask);
-  for (std::size_t i = 0; i < frame.border.size(); ++i)
-    mask.values[i] = frame.border.values[i] != 0 ? std::uint8_t{0} : mask.values[i];
-  if (options.margin_px > 0) mask = dilated(mask, options.margin_px);
+  if (!frame.mask.empty()) {
+    addTo(mask, frame.mask);
+    for (std::size_t i = 0; i < frame.border.size(); ++i)
+      mask.values[i] = frame.border.values[i] != 0 ? std::uint8_t{0} : mask.values[i];
+    if (options.margin_px > 0) mask = dilated(mask, options.margin_px);
+  }
   addTo(mask, frame.border);  // without a margin: no matching window reached it
   return mask;
 }

@@ -21,8 +21,7 @@ void drop(std::future<Made>* making, std::optional<Made>* made) {
 void TrackPictures::prepare(bool with_looks) {
   end();
   if (with_looks) making_looks_ = std::async(std::launch::async, [this] { return makeLooks(); });
-  if (frame_->relief_px.empty())
-    making_relief_ = std::async(std::launch::async, [this] { return makeRelief(); });
+  making_relief_ = std::async(std::launch::async, [this] { return makeRelief(); });
 }
 
 const LookPicture& TrackPictures::looks() {
@@ -30,7 +29,6 @@ const LookPicture& TrackPictures::looks() {
 }
 
 const Raster<float>& TrackPictures::reliefPx() {
-  if (!frame_->relief_px.empty()) return frame_->relief_px;
   return take(&making_relief_, &relief_px_, [this] { return makeRelief(); });
 }
 
@@ -43,6 +41,6 @@ LookPicture TrackPictures::makeLooks() const {
   return LookPicture(frame_->live.gray, frame_->live.ignore);
 }
 
-Raster<float> TrackPictures::makeRelief() const { return TrackSight(*frame_, *rig_).reliefPx(); }
+Raster<float> TrackPictures::makeRelief() const { return frames_->reliefOf(*frame_); }
 
 }  // namespace softscope

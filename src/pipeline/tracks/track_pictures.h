@@ -6,15 +6,16 @@
 #include <optional>
 
 #include "features/first_look.h"
-#include "pipeline/tracks/track_sight.h"
+#include "pipeline/frame/frame_ahead.h"
 
 namespace softscope {
 
 /// One frame at a time. Same results with prepare() and without.
 class TrackPictures {
  public:
-  /// Both must live; the frame may change after end() only.
-  TrackPictures(const FrameView* frame, const RectifiedRig* rig) : frame_(frame), rig_(rig) {}
+  /// Both must live; the frame, the last that was measured, may change after end() only.
+  TrackPictures(const FrameView* frame, const FrameAhead* frames)
+      : frame_(frame), frames_(frames) {}
 
   /// Begins to make what is otherwise made when it is needed; the looks only if they are.
   void prepare(bool with_looks);
@@ -27,7 +28,7 @@ class TrackPictures {
   Raster<float> makeRelief() const;
 
   const FrameView* frame_;
-  const RectifiedRig* rig_;
+  const FrameAhead* frames_;
   std::optional<LookPicture> looks_;
   std::optional<Raster<float>> relief_px_;
   // Their threads end before the members above are destroyed.

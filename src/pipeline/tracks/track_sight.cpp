@@ -60,11 +60,6 @@ bool TrackSight::shows(const Eigen::Vector3d& point_left, const NearestDepth& su
   return behind_mm <= limit_mm + slack_mm && -behind_mm <= kFloatingLimits * limit_mm + slack_mm;
 }
 
-Raster<float> TrackSight::reliefPx() const {
-  const DepthMap& depth = frame_.measured.depth;  // stages weight it by its noise only
-  return depth.sigma_mm.empty() ? Raster<float>() : reliefErrorPx(depth.depth_mm, rig_);
-}
-
 std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked,
                                                    const Eigen::Isometry3d& world_from_left,
                                                    const Raster<float>& relief_px) const {

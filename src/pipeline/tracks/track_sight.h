@@ -20,10 +20,9 @@ class TrackSight {
   bool shows(const Eigen::Vector3d& point_left) const {
     return shows(point_left, surfaceAt(point_left, 0));
   }
-  /// Of the frame, for positions(); empty without sigmas.
-  Raster<float> reliefPx() const;
   /// Visible: shown by the image with measured depth or, in a gap, next to it,
   /// with a predicted error, without relief, of at most the largest sigma of a used depth.
+  /// `relief_px`: reliefErrorPx() of the frame; without sigmas it is not used.
   std::vector<TrackedPosition> positions(const MaterialPoints& tracked,
                                          const Eigen::Isometry3d& world_from_left,
                                          const Raster<float>& relief_px) const;
