@@ -69,7 +69,6 @@ class SurveyRun final : public FrameSurvey {
   }
 
   TissueDepths depthsOf(const Observation& frame) override {
-    frame.validate();
     takeDepth(frame);
     count();
     TissueTotals totals;
@@ -189,7 +188,8 @@ class SurveyRun final : public FrameSurvey {
                          [&](const Slot& slot) { return !frames_->holds(slot.rasters.states); });
   }
 
-  /// Depth, sigma and normals, from where the stage of stereo left them or from the host.
+  /// Depth, sigma and normals, from where the stage of stereo left them or from the host. In the
+  /// first case those of the host may be on their way.
   void takeDepth(const Observation& frame) {
     const RasterLayout& to = slot_->rasters;
     const SharedRasters measured = std::exchange(frames_->measured, {});
@@ -200,6 +200,7 @@ class SurveyRun final : public FrameSurvey {
       copy.add(measured.normals, to.normals, pixelsOf(left_));
       launch("copy depth", copy);
     } else {
+      frame.validate();
       RasterLayout::sendTo(to.depth_mm, frame.depth.depth_mm, machine_);
       RasterLayout::sendTo(to.sigma_mm, frame.depth.sigma_mm, machine_);
       RasterLayout::sendTo(to.normals, frame.normals, machine_);

@@ -52,15 +52,17 @@ class Stereo::Device {
         ascents_(layout_.levels.size()) {
     std::memset(exchange_memory_.data(), 0, sizeof(Exchange));
     passes_.initialise();
-    for (cudaEvent_t* event : {&share_read_, &level_done_})
+    for (cudaEvent_t* event : {&share_read_, &level_done_, &normals_arrived_})
       cuda::check(cudaEventCreateWithFlags(event, cudaEventDisableTiming), "an event");
     wait();
   }
   ~Device() {
+    waitForNormals();
     cudaStreamSynchronize(side_stream_);
     cudaStreamSynchronize(stream_);
     cudaEventDestroy(share_read_);
     cudaEventDestroy(level_done_);
+    cudaEventDestroy(normals_arrived_);
   }
 
   void upload(const MatchableViews& views) {
@@ -105,8 +107,11 @@ class Stereo::Device {
   }
 
   StereoDepth download() {
-    StereoDepth found = downloadWithoutDisparity();
+    StereoDepth found;
+    found.depth = downloadDepth();
     found.disparity = downloadDisparity();
+    found.normals = downloadNormals().get();
+    found.levels = levels_run_;
     return found;
   }
   DisparityMap downloadDisparity() {
@@ -117,22 +122,34 @@ class Stereo::Device {
     finish(&copies);
     return found;
   }
-  StereoDepth downloadWithoutDisparity() {
+  DepthMap downloadDepth() {
     wait();
-    StereoDepth found;
-    Copies copies = copyTo(
-        {{{layout_.depth, &found.depth.depth_mm}, {layout_.depth_sigma, &found.depth.sigma_mm}}});
-    // Beside the copies.
-    void* normals = static_cast<float*>(results_memory_.data()) + kRasters * pixels_;
-    fetch(layout_.normals, static_cast<NormalPixel*>(normals));
-    wait();
-    static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
-    found.normals.width_px = full().width;
-    found.normals.height_px = full().height;
-    copyInParts(static_cast<const Eigen::Vector3f*>(normals), &found.normals.values);
+    DepthMap found;
+    Copies copies =
+        copyTo({{{layout_.depth, &found.depth_mm}, {layout_.depth_sigma, &found.sigma_mm}}});
     finish(&copies);
-    found.levels = levels_run_;
     return found;
+  }
+  /// What is enqueued later comes after the copy on the device's side.
+  std::future<NormalMap> downloadNormals() {
+    waitForNormals();
+    auto* arrived = reinterpret_cast<NormalPixel*>(static_cast<float*>(results_memory_.data()) +
+                                                   kRasters * pixels_);
+    fetch(layout_.normals, arrived);
+    cuda::check(cudaEventRecord(normals_arrived_, stream_), "recording an event");
+    std::promise<void> copied;
+    normals_copied_ = copied.get_future();
+    return std::async(std::launch::async, [this, arrived, copied = std::move(copied)]() mutable {
+      const std::promise<void> ends = std::move(copied);  // is told when it goes, whatever happens
+      cuda::check(cudaEventSynchronize(normals_arrived_), "waiting for normals");
+      static_assert(sizeof(NormalPixel) == sizeof(Eigen::Vector3f));
+      const auto* from = reinterpret_cast<const Eigen::Vector3f*>(arrived);
+      NormalMap normals;
+      normals.width_px = full().width;
+      normals.height_px = full().height;
+      copyInParts(from, &normals.values);
+      return normals;
+    });
   }
   void drop(const Mask& mask) {
     requireShape(mask);
@@ -232,6 +249,10 @@ class Stereo::Device {
       });
     for (std::future<void>& part : parts) part.get();
   }
+  /// Whatever became of them.
+  void waitForNormals() {
+    if (normals_copied_.valid()) normals_copied_.wait();
+  }
 
   /// In parallel to the main stream, whose next kernels do not change the measured data.
   template <class Launch>
@@ -295,7 +316,8 @@ class Stereo::Device {
   StereoPasses<Executor> timed_passes_;
   std::vector<Graph> levels_, shares_, ascents_;
   Graph finish_;
-  cudaEvent_t share_read_ = nullptr, level_done_ = nullptr;
+  cudaEvent_t share_read_ = nullptr, level_done_ = nullptr, normals_arrived_ = nullptr;
+  std::future<void> normals_copied_;
   bool is_enqueued_ = false, is_timed_ = false, has_ignored_ = false;
   int levels_run_ = 0;
   std::vector<std::pair<std::string, double>> stage_times_;
@@ -310,8 +332,9 @@ void Stereo::setMask(const Mask& mask) { device_->setMask(mask); }
 void Stereo::compute(double roll_rad) { device_->compute(roll_rad); }
 void Stereo::wait() { device_->wait(); }
 StereoDepth Stereo::download() { return device_->download(); }
-StereoDepth Stereo::downloadWithoutDisparity() { return device_->downloadWithoutDisparity(); }
+DepthMap Stereo::downloadDepth() { return device_->downloadDepth(); }
 DisparityMap Stereo::downloadDisparity() { return device_->downloadDisparity(); }
+std::future<NormalMap> Stereo::downloadNormals() { return device_->downloadNormals(); }
 void Stereo::drop(const Mask& mask) { device_->drop(mask); }
 SharedRasters Stereo::rasters() const { return device_->rasters(); }
 void Stereo::timeStages(bool on) { device_->timeStages(on); }

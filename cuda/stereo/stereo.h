@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <future>
 #include <memory>
 #include <string>
 #include <utility>
@@ -45,9 +46,10 @@ class Stereo {
   void compute(double roll_rad = 0);
   void wait();
   StereoDepth download();
-  /// The same in two parts.
-  StereoDepth downloadWithoutDisparity();
+  /// The same in parts. Normals are copied on a thread, also while the next frame is computed.
+  DepthMap downloadDepth();
   DisparityMap downloadDisparity();
+  std::future<NormalMap> downloadNormals();
   /// Removes pixels from what was computed last; downloads before stay as they are.
   void drop(const Mask& mask);
   /// What was computed last; host_depth_mm is left to the caller.

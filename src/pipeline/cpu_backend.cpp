@@ -89,6 +89,11 @@ class CpuBackend : public ReconstructionBackend {
  private:
   const PinholeCamera& left() const { return rig().left; }
   bool worksAhead() const { return threadCount() >= ahead_from_threads_; }
+  /// The frame at hand, with its normals.
+  Observation observed(const Eigen::Isometry3d& world_from_left) {
+    frames_.complete(&frame_);
+    return observationOf(frame_, left(), world_from_left);
+  }
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
   MatchSummary match(const Eigen::Isometry3d& viewed_from);
   PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
@@ -169,10 +174,7 @@ GrayImage CpuBackend::seenFrom(const Eigen::Isometry3d& world_from_left) const {
 LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
                                  const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
                                  ScopeBefore before) {
-  LocateSummary summary;
-  summary.matches = match(viewed_from);
-  summary.pose = estimatePose(last, reference, before);
-  return summary;
+  return {match(viewed_from), estimatePose(last, reference, before)};  // in this order
 }
 
 RigidPose CpuBackend::relocalise(const PointModel& model,
@@ -224,19 +226,19 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   clock_.lap("graph");
   std::vector<std::int32_t> visible;
   DeformObservation seen;
+  const Observation frame = observed(world_from_left);
   parallelInvoke(
       [&] {
         visible =
-            comparer_->visiblePoints(state_.model, observationOf(frame_, left(), world_from_left),
-                                     frame_.states, frame_.fusion.visibility);
+            comparer_->visiblePoints(state_.model, frame, frame_.states, frame_.fusion.visibility);
       },
       [&] {
         if (options_.deform.correspondence_weight > 0)
           seen.matches = keyPointMatches(matches_, pose_, frame_.association, world_from_left);
       });
   seen.visible = &visible;
-  const DepthTarget surface(frame_.measured.depth, frame_.measured.normals, left(),
-                            world_from_left.inverse(), frame_.association);
+  const DepthTarget surface(frame.depth, frame.normals, left(), world_from_left.inverse(),
+                            frame_.association);
   clock_.lap("visible");
   WarpSummary summary;
   summary.in_sight = static_cast<int>(visible.size());
@@ -277,8 +279,7 @@ EvidenceSummary CpuBackend::confirm(const Eigen::Isometry3d& world_from_left) {
     aligning_ = std::async(std::launch::async, [=] { alignTracks(world_from_left); });
   FrameComparison found;
   orRejectWarp([&] {
-    found = comparer_->compare(state_.model, state_.graph,
-                               observationOf(frame_, left(), world_from_left), frame_.states,
+    found = comparer_->compare(state_.model, state_.graph, observed(world_from_left), frame_.states,
                                frame_.fusion);
   });
   comparison_ = std::move(found.model);
@@ -306,7 +307,7 @@ void CpuBackend::rejectWarp() {
 
 void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   growth_.drop();
-  const Observation observation = observationOf(frame_, left(), world_from_left);
+  const Observation observation = observed(world_from_left);
   const bool first = empty();
   if (first) seedTracks(world_from_left);
   if (!comparison_)

@@ -47,6 +47,7 @@ class CudaStereoStage final : public StereoStage {
     measured->drop(mask);
     device_.drop(mask);
   }
+  std::future<NormalMap> fetchNormals() override { return device_.downloadNormals(); }
 
  private:
   cuda::Stereo device_;
@@ -63,13 +64,14 @@ StereoSurface CudaStereoStage::measure(const AlignedPair& aligned, const Matchab
   is_masked_ = !mask.empty();
   device_.upload(prepared);
   device_.compute(aligned.roll_rad);
-  cuda::StereoDepth found =
-      downloads_disparity_ ? device_.download() : device_.downloadWithoutDisparity();
+  StereoSurface found;
+  found.depth = device_.downloadDepth();
+  if (downloads_disparity_) found.disparity = device_.downloadDisparity();
   frames_->measured = device_.rasters();
   frames_->measured.host_depth_mm = found.depth.depth_mm.values.data();
   clock.lap("disparity");
-  return {std::move(found.disparity), std::move(found.depth), std::move(found.normals),
-          clock.laps()};
+  found.times = clock.laps();
+  return found;
 }
 
 class CudaMatchStage final : public MatchStage {

@@ -15,19 +15,20 @@ FrameAhead::Aligned FrameAhead::align(const Frame& frame) const {
   return aligned;
 }
 
-FrameView FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
-                                 StageClock* clock) {
+FrameAhead::Measured FrameAhead::measureNow(std::future<Aligned> begun, const Frame& frame,
+                                            StageClock* clock) {
   Aligned aligned = begun.valid() ? begun.get() : align(frame);
   const FramePictures& pictures = aligned.pictures;
   survey_->show(aligned.views.left(), pictures.not_tissue, pictures.live.gray,
                 pictures.live.ignore);
-  MeasuredFrame measured = depth_->measure(std::move(aligned.views));
+  Measured found;
+  MeasuredFrame measured = depth_->measure(std::move(aligned.views), &found.normals);
   clock->lap("depth");
-  FrameView view = viewFrame(std::move(measured), std::move(aligned.pictures), depth_->rig(),
-                             options_, survey_.get());
-  view.serial = ++measured_;
+  found.view = viewFrame(std::move(measured), std::move(aligned.pictures), depth_->rig(), options_,
+                         survey_.get());
+  found.view.serial = ++measured_;
   clock->lap("mask");
-  return view;
+  return found;
 }
 
 void FrameAhead::beginAligning(const std::shared_ptr<const Frame>& frame) {
@@ -45,14 +46,15 @@ void FrameAhead::beginAligning(const std::shared_ptr<const Frame>& frame) {
 void FrameAhead::beginMeasuring(std::size_t index) {
   Coming& coming = coming_[index];
   auto work = [this, frame = coming.frame, views = std::move(coming.views),
-               before = index > 0 ? coming_[index - 1].view : decltype(coming.view)()]() mutable {
+               before = index > 0 ? coming_[index - 1].measured
+                                  : decltype(coming.measured)()]() mutable {
     if (before.valid()) before.wait();
     StageClock unused;
-    auto view = std::make_shared<FrameView>();
-    runInBackground([&] { *view = measureNow(std::move(views), *frame, &unused); });
-    return view;
+    auto found = std::make_shared<Measured>();
+    runInBackground([&] { *found = measureNow(std::move(views), *frame, &unused); });
+    return found;
   };
-  coming.view = std::async(std::launch::async, std::move(work)).share();
+  coming.measured = std::async(std::launch::async, std::move(work)).share();
 }
 
 /// Waits for their threads.
@@ -68,36 +70,41 @@ void FrameAhead::prepare(const UpcomingFrames& upcoming) {
   const auto atMost = [&](int count) { return std::min(upcoming.size(), std::size_t(count)); };
   while (coming_.size() < atMost(ahead_.aligned)) beginAligning(upcoming[coming_.size()]);
   for (std::size_t i = 0; i < atMost(ahead_.measured); ++i)
-    if (!coming_[i].view.valid()) beginMeasuring(i);
+    if (!coming_[i].measured.valid()) beginMeasuring(i);
 }
 
 FrameView FrameAhead::measure(const Frame& frame, StageClock* clock) {
-  FrameView view = take(frame, clock);
-  survey_->use(view.measured.depth);
-  return view;
+  Measured found = take(frame, clock);
+  normals_ = std::move(found.normals);
+  survey_->use(found.view.measured.depth);
+  return std::move(found.view);
 }
 
-FrameView FrameAhead::take(const Frame& frame, StageClock* clock) {
+FrameAhead::Measured FrameAhead::take(const Frame& frame, StageClock* clock) {
   if (!coming_.empty() && coming_.front().frame.get() != &frame) dropFrom(0);  // of no use
   if (coming_.empty()) return measureNow({}, frame, clock);
   Coming coming = std::move(coming_.front());
   coming_.pop_front();
-  if (!coming.view.valid()) return measureNow(std::move(coming.views), frame, clock);
-  FrameView view = std::move(*coming.view.get());
+  if (!coming.measured.valid()) return measureNow(std::move(coming.views), frame, clock);
+  Measured found = std::move(*coming.measured.get());
   clock->lap("depth");
-  return view;
+  return found;
 }
 
 const FrameView* FrameAhead::next() const {
   if (coming_.empty()) return nullptr;
-  const auto& view = coming_.front().view;
-  if (!view.valid() || view.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+  const auto& measured = coming_.front().measured;
+  if (!measured.valid() || measured.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return nullptr;
   try {
-    return view.get().get();
+    return &measured.get()->view;
   } catch (...) {
     return nullptr;  // measure() throws it
   }
+}
+
+void FrameAhead::complete(FrameView* view) {
+  if (normals_.valid()) view->measured.normals = normals_.get();
 }
 
 Raster<float> FrameAhead::reliefOf(const FrameView& view) const {

@@ -39,8 +39,10 @@ class FrameAhead {
   /// Begins those that are not begun yet.
   void prepare(const UpcomingFrames& upcoming);
   /// What was begun, if it is of this frame; whatever went wrong with it is thrown here. Laps
-  /// `depth` and `mask`, or, where it was begun, the wait as `depth`.
+  /// `depth` and `mask`, or, where it was begun, the wait as `depth`. Without its normals.
   FrameView measure(const Frame& frame, StageClock* clock);
+  /// Adds its normals to the frame that measure() returned last.
+  void complete(FrameView* view);
   /// What measure() will return for the next frame, where that is measured by now, valid until
   /// then; else null.
   const FrameView* next() const;
@@ -54,25 +56,30 @@ class FrameAhead {
     FrameViews views;
     FramePictures pictures;
   };
+  struct Measured {
+    FrameView view;
+    std::future<NormalMap> normals;  // its own, if they are on their way
+  };
   struct Coming {
     std::shared_ptr<const Frame> frame;
-    std::future<Aligned> views;                           // until they are measured
-    std::shared_future<std::shared_ptr<FrameView>> view;  // once it is begun
+    std::future<Aligned> views;                              // until they are measured
+    std::shared_future<std::shared_ptr<Measured>> measured;  // once it is begun
   };
 
   Aligned align(const Frame& frame) const;
-  FrameView measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
+  Measured measureNow(std::future<Aligned> begun, const Frame& frame, StageClock* clock);
   void beginAligning(const std::shared_ptr<const Frame>& frame);
   void beginMeasuring(std::size_t index);
-  FrameView take(const Frame& frame, StageClock* clock);
+  Measured take(const Frame& frame, StageClock* clock);
   void dropFrom(std::size_t first);
 
   std::unique_ptr<FrameDepth> depth_;
   ReconstructionOptions options_;
   std::unique_ptr<FrameSurvey> survey_;
   FramesAhead ahead_;
-  int measured_ = 0;           // so far; one frame is measured at a time
-  std::deque<Coming> coming_;  // ends before all that its threads use
+  int measured_ = 0;                // so far; one frame is measured at a time
+  std::future<NormalMap> normals_;  // of the frame at hand, if they are on their way
+  std::deque<Coming> coming_;       // ends before all that its threads use
 };
 
 }  // namespace softscope

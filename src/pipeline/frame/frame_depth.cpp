@@ -87,6 +87,13 @@ FrameViews FrameDepth::align(const Frame& frame) const {
 }
 
 MeasuredFrame FrameDepth::measure(FrameViews views) {
+  std::future<NormalMap> normals;
+  MeasuredFrame measured = measure(std::move(views), &normals);
+  if (normals.valid()) measured.normals = normals.get();
+  return measured;
+}
+
+MeasuredFrame FrameDepth::measure(FrameViews views, std::future<NormalMap>* normals) {
   MeasuredFrame measured = std::move(views.measured);
   AlignedPair& aligned = views.aligned;
   if (aligned.pair.left.empty()) return measured;
@@ -98,6 +105,7 @@ MeasuredFrame FrameDepth::measure(FrameViews views) {
   stage_->drop(views.clipped, &found);
   if (options_.detect_instruments)
     stage_->drop(greyForeground(aligned.pair.left, found.depth.depth_mm, rig().left), &found);
+  *normals = stage_->fetchNormals();
   measured.disparity = std::move(found.disparity);
   measured.depth = std::move(found.depth);
   measured.normals = std::move(found.normals);

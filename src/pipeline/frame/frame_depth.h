@@ -1,6 +1,7 @@
 // src/pipeline/frame/frame_depth.h: stage 1, depth of one stereo frame.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <string>
 
@@ -62,6 +63,8 @@ class FrameDepth {
   // The same in two halves. The first may run in parallel to the second of another frame.
   FrameViews viewsOf(const Frame& frame) const;
   MeasuredFrame measure(FrameViews views);
+  /// Without normals where these are on their way from a device: then `normals` is valid.
+  MeasuredFrame measure(FrameViews views, std::future<NormalMap>* normals);
 
  private:
   FrameViews align(const Frame& frame) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <future>
 #include <memory>
 #include <string>
 
@@ -39,6 +40,9 @@ class StereoStage {
   virtual void fetchDisparity(StereoSurface* /*measured*/) {}
   /// Removes measurements under `mask`, which may be empty, from what was measured last.
   virtual void drop(const Mask& mask, StereoSurface* measured) { measured->drop(mask); }
+  /// Normals of what was measured last, where measure() left them on a device: copied on a thread,
+  /// also while the next pair is measured. Else invalid.
+  virtual std::future<NormalMap> fetchNormals() { return {}; }
 };
 
 using StereoStageFactory =
