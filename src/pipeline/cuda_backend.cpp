@@ -193,12 +193,13 @@ std::unique_ptr<DeformSolver> makeCudaSolver(const DeformOptions& options,
 }
 
 /// The loops that are left to the host are short. More threads find nothing to do most of the time,
-/// and look for it; those that read images and work ahead need the other half of the cores
+/// and look for it; of many cores, those that read images and work ahead need the other half
 /// (docs/benchmarks.md).
 std::shared_ptr<ThreadLimit> threadLimit(const PinholeCamera& image) {
-  constexpr int kFewThreads = 8, kPixelsPerThread = 40000;
+  constexpr int kLeast = 4, kFewThreads = 8, kPixelsPerThread = 40000;
   const int enough = std::max(kFewThreads, image.width_px * image.height_px / kPixelsPerThread);
-  return std::make_shared<ThreadLimit>(std::min((threadCount() + 1) / 2, enough));
+  const int half = std::max(threadCount() / 2, std::min(kLeast, threadCount()));
+  return std::make_shared<ThreadLimit>(std::min(half, enough));
 }
 
 }  // namespace
