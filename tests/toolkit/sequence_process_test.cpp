@@ -169,9 +169,9 @@ TEST_F(ProcessOfASequence, RefusesOtherImagesAndRepeatedFrames) {
   EXPECT_FALSE(fs::exists(at("clip/left/run")));
 }
 
-// A queue holds four frames, the window three; the ones after them are missing.
+// Those after the frames that the queue and the window hold, and that are being read, are missing.
 TEST_F(ProcessOfASequence, EndsWhereItsImagesAreDeleted) {
-  simulateClip(at("clip"), 10);
+  simulateClip(at("clip"), 20);
   api::Sequence sequence(at("clip"));
   api::Reconstructor reconstructor = reconstructorOf(sequence);
   reconstructor.recordTo(at("run"));
