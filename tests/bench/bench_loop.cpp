@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/sequences/frame_window.h"
 #include "io/sequences/sequence_reader.h"
 #include "pipeline/backends.h"
 #include "pipeline/reconstructor.h"
@@ -35,6 +36,12 @@ struct Clip {
   const std::shared_ptr<const Frame>& at(int i) const {
     const int last = static_cast<int>(frames.size()) - 1, along = i % (2 * last);
     return frames[static_cast<std::size_t>(along < last ? along : 2 * last - along)];
+  }
+
+  UpcomingFrames upcomingAfter(int i) const {
+    UpcomingFrames upcoming;
+    for (int k = 1; k <= FrameWindow::kUpcoming; ++k) upcoming.push_back(at(i + k));
+    return upcoming;
   }
 };
 
@@ -167,7 +174,7 @@ double time(const Clip& clip, const std::string& backend, std::size_t hidden, in
       reconstructor.restore(std::move(state));
     }
     const double start_ms = nowMs();
-    const FrameRecord record = reconstructor.process(*clip.at(i), clip.at(i + 1), clip.at(i + 2));
+    const FrameRecord record = reconstructor.process(*clip.at(i), clip.upcomingAfter(i));
     if (i < 2 * kWarmUp) continue;
     whole_ms.push_back(nowMs() - start_ms);
     for (const auto& [name, elapsed_ms] : record.times) {
