@@ -23,8 +23,8 @@ constexpr double kMapStepMm = 0.01;
 
 std::string noteOf(const DepthResult& measured) {
   const FrameStatistics statistics = statisticsOf(measured);
-  std::string note = "coverage " + fixed(100 * statistics.coverage, 1) + " %";
-  if (statistics.measured_pixels > 0)
+  std::string note = "coverage " + fixed(100 * statistics.coverage.share, 1) + " %";
+  if (statistics.coverage.measured_pixels > 0)
     note += ", median depth " + fixed(statistics.median_mm, 1) + " mm";
   if (std::isfinite(statistics.median_sigma_mm))
     note += ", median predicted error " + fixed(statistics.median_sigma_mm, 2) + " mm";

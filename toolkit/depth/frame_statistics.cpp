@@ -3,30 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
+#include <vector>
 
 #include "core/error.h"
+#include "eval/statistics/statistics.h"
 
 namespace softscope {
 namespace {
 
 constexpr double kLeastCoverage = 0.05;  // half of the tissue and more is usual
 
-std::vector<float> sortedFinite(const Raster<float>& raster) {
-  std::vector<float> values;
+std::vector<double> finite(const Raster<float>& raster) {
+  std::vector<double> values;
+  values.reserve(raster.size());
   std::copy_if(raster.values.begin(), raster.values.end(), std::back_inserter(values),
                [](float value) { return std::isfinite(value); });
-  std::sort(values.begin(), values.end());
   return values;
-}
-
-/// Linear interpolation between neighbours.
-double quantile(const std::vector<float>& sorted, double part) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double place = part * double(sorted.size() - 1);
-  const auto below = std::size_t(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - double(below)) * (double(sorted[above]) - sorted[below]);
 }
 
 FactSheet::Json rowsJson(const DepthResult& measured) {
@@ -43,28 +36,31 @@ FactSheet::Json rowsJson(const DepthResult& measured) {
 
 }  // namespace
 
-FrameStatistics statisticsOf(const DepthResult& measured) {
-  FrameStatistics statistics;
-  const std::vector<float> depth_mm = sortedFinite(measured.depth.depth_mm);
+FrameCoverage coverageOf(const DepthResult& measured) {
+  const std::vector<float>& depth_mm = measured.depth.depth_mm.values;
+  FrameCoverage coverage;
+  coverage.measured_pixels = std::count_if(depth_mm.begin(), depth_mm.end(),
+                                           [](float value) { return std::isfinite(value); });
   const auto masked = std::count_if(measured.mask.values.begin(), measured.mask.values.end(),
                                     [](std::uint8_t value) { return value != 0; });
-  const auto open_pixels = double(measured.depth.depth_mm.size()) - double(masked);
-  statistics.measured_pixels = long(depth_mm.size());
-  statistics.coverage = open_pixels > 0 ? double(depth_mm.size()) / open_pixels : 0;
-  statistics.p1_mm = quantile(depth_mm, 0.01);
-  statistics.p5_mm = quantile(depth_mm, 0.05);
-  statistics.median_mm = quantile(depth_mm, 0.5);
-  statistics.p95_mm = quantile(depth_mm, 0.95);
-  statistics.p99_mm = quantile(depth_mm, 0.99);
-  statistics.median_sigma_mm = quantile(sortedFinite(measured.depth.sigma_mm), 0.5);
-  return statistics;
+  const auto open_pixels = double(depth_mm.size()) - double(masked);
+  coverage.share = open_pixels > 0 ? double(coverage.measured_pixels) / open_pixels : 0;
+  return coverage;
+}
+
+FrameStatistics statisticsOf(const DepthResult& measured) {
+  const std::vector<double> depth_mm =
+      percentiles(finite(measured.depth.depth_mm), {1, 5, 50, 95, 99});
+  const std::vector<double> sigma_mm = percentiles(finite(measured.depth.sigma_mm), {50});
+  return {coverageOf(measured), depth_mm[0], depth_mm[1], depth_mm[2],
+          depth_mm[3],          depth_mm[4], sigma_mm[0]};
 }
 
 FactSheet::Json frameJson(const DepthResult& measured) {
   const FrameStatistics statistics = statisticsOf(measured);
   FactSheet::Json json;
-  json["coverage"] = statistics.coverage;
-  json["measured_pixels"] = statistics.measured_pixels;
+  json["coverage"] = statistics.coverage.share;
+  json["measured_pixels"] = statistics.coverage.measured_pixels;
   json["points"] = measured.cloud.points_mm.size();
   json["depth_mm"] = {{"p1", statistics.p1_mm},
                       {"p5", statistics.p5_mm},
@@ -82,11 +78,10 @@ std::string coverageWarning(const DepthResult& measured) {
   const std::string advice =
       ": are left and right of one moment, not exchanged, not black, and is the calibration this "
       "scope's? `softscope info` tells";
-  const FrameStatistics statistics = statisticsOf(measured);
-  if (statistics.measured_pixels == 0) throw InputError("no pixel could be measured" + advice);
-  if (statistics.coverage >= kLeastCoverage) return {};
-  return "only " + fixed(100 * statistics.coverage, 1) + " % of the pixels could be measured" +
-         advice;
+  const FrameCoverage coverage = coverageOf(measured);
+  if (coverage.measured_pixels == 0) throw InputError("no pixel could be measured" + advice);
+  if (coverage.share >= kLeastCoverage) return {};
+  return "only " + fixed(100 * coverage.share, 1) + " % of the pixels could be measured" + advice;
 }
 
 std::string rowWarning(const DepthResult& measured) {

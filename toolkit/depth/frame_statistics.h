@@ -6,13 +6,18 @@
 
 namespace softscope {
 
-struct FrameStatistics {
-  double coverage = 0;  // measured pixels / unmasked pixels
+struct FrameCoverage {
+  double share = 0;  // measured pixels / unmasked pixels
   long measured_pixels = 0;
+};
+
+struct FrameStatistics {
+  FrameCoverage coverage;
   double p1_mm = 0, p5_mm = 0, median_mm = 0, p95_mm = 0, p99_mm = 0;  // NaN without depth
   double median_sigma_mm = 0;  // predicted standard error; NaN if unknown
 };
 
+FrameCoverage coverageOf(const DepthResult& measured);
 FrameStatistics statisticsOf(const DepthResult& measured);
 
 /// Coverage, depth percentiles, vertical disparity, milliseconds per stage; units in key names.

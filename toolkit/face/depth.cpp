@@ -49,7 +49,7 @@ Depth DepthEstimator::measure(const FrameView& frame) {
   depth.centre_u_px = rig.left.cx_px;
   depth.centre_v_px = rig.left.cy_px;
   depth.baseline_mm = rig.baseline_mm;
-  depth.coverage = statisticsOf(measured).coverage;
+  depth.coverage = coverageOf(measured).share;
   depth.method = measured.method;
   return depth;
 }
