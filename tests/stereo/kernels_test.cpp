@@ -1,6 +1,7 @@
 // tests/stereo/kernels_test.cpp: every instruction set gives the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -271,6 +272,47 @@ TEST_F(EveryInstructionSet, SmoothsACellAsTheFormulasSay) {
     list_.sets[i]->smoothing->smoothCell(cell, kRow, kBegin, kEnd, out.data(),
                                          out.data() + kPixels);
     EXPECT_TRUE(sameBytes(out, expected)) << list_.sets[i]->name;
+  }
+}
+
+/// Bytes of four rows and phases, all of them.
+struct RowsToMix {
+  std::vector<std::uint8_t> rows[4], phase;
+
+  RowsToMix() {
+    std::mt19937 random(31);
+    for (int i = 0; i < 3 * kRowPhases + 5; ++i) {
+      for (auto& row : rows) row.push_back(static_cast<std::uint8_t>(random()));
+      phase.push_back(static_cast<std::uint8_t>(i % kRowPhases));
+    }
+  }
+
+  std::vector<std::uint8_t> mixedBy(const StereoKernels& set) const {
+    const std::uint8_t* const in[] = {rows[0].data(), rows[1].data(), rows[2].data(),
+                                      rows[3].data()};
+    std::vector<std::uint8_t> out(phase.size());
+    set.resampling->mixRows(in, phase.data(), static_cast<int>(phase.size()), out.data());
+    return out;
+  }
+};
+
+TEST_F(EveryInstructionSet, MixesRowsAlike) {
+  const RowsToMix mix;
+  expectEqual([&](const StereoKernels& set) {
+    const auto out = mix.mixedBy(set);
+    return Floats(out.begin(), out.end());
+  });
+}
+
+TEST(RowResampling, MixesRowsAsCatmullAndRomDo) {
+  const RowsToMix mix;
+  const auto out = mix.mixedBy(*allStereoKernels().sets[0]);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double t = static_cast<double>(mix.phase[i]) / kRowPhases;
+    const double a = mix.rows[0][i], b = mix.rows[1][i], c = mix.rows[2][i], d = mix.rows[3][i];
+    const double exact =
+        b + t / 2 * (c - a + t * (2 * a - 5 * b + 4 * c - d) + t * t * (3 * (b - c) + d - a));
+    EXPECT_NEAR(out[i], std::clamp(exact, 0.0, 255.0), 0.6) << i;  // rounding, and of weights
   }
 }
 

@@ -140,7 +140,7 @@ TEST(Rectifier, PassesRectifiedPicturesUnchanged) {
   const Rectifier rectifier(c);
   EXPECT_EQ(rectifier.rig().baseline_mm, 4);
   EXPECT_EQ(rectifier.rig().disparity_offset_px, 3);
-  EXPECT_TRUE(rectifier.outside().empty());
+  EXPECT_TRUE(rectifier.outside().left.empty());
   const StereoPair pair{ColourImage(64, 48, Rgb8{1, 2, 3}), ColourImage(64, 48, Rgb8{4, 5, 6})};
   EXPECT_EQ(rectifier.rectify(pair).left.values, pair.left.values);
 }
@@ -163,7 +163,7 @@ TEST(Rectifier, MarksWhatTheLeftCameraDidNotSee) {
   const Mask rectified = rectifier.rectifyMask(mask);
   EXPECT_EQ(rectified.values.size(), mask.values.size());
   EXPECT_GT(std::count(rectified.values.begin(), rectified.values.end(), 255), 0);
-  EXPECT_EQ(rectifier.outside().values.size(), mask.values.size());
+  EXPECT_EQ(rectifier.outside().left.values.size(), mask.values.size());
 }
 
 TEST(ValidRectification, LeavesNoPixelWithoutAnImageAndLeadsBackToTheRawOne) {

@@ -155,9 +155,9 @@ ClipFrames readClipFrames(const SequencePaths& clip, const SequenceOptions& sequ
     if (result->frame.pair.right.empty())
       throw InputError("the clip has no right view, but rows of both are compared.");
     const StereoPair rectified = rectifier.rectify(result->frame.pair);
-    const Mask ignored = rectifier.outside();
+    const Mask ignored = rectifier.outside().left;
     RowMatches matches = RowMeter(toGray(rectified.left), disparity_px, ignored)
-                             .match(toGray(rectified.right), rectifier.outsideRight());
+                             .match(toGray(rectified.right), rectifier.outside().right);
     if (static_cast<int>(matches.size()) < RowAlignment::kFewestMatches) continue;
     out.matches.push_back(std::move(matches));
     if (static_cast<int>(out.kept.size()) < options.depth_frames)

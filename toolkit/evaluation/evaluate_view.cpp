@@ -65,7 +65,7 @@ std::optional<ColourImage> ViewJudge::photograph(int frame) {
 
 Mask ViewJudge::instruments(int frame) const {
   const auto i = static_cast<std::size_t>(frame);
-  if (i >= masks_.size()) return rectifier_.outside();
+  if (i >= masks_.size()) return rectifier_.outside().left;
   const Mask raw = readMask(masks_[i]);
   requireSize(raw.width_px, raw.height_px, rig_.left, masks_[i]);
   return rectifier_.rectifyMask(raw);

@@ -67,7 +67,7 @@ FrameViews FrameDepth::align(const Frame& frame) const {
   StageClock clock;
   StereoPair rectified = rectifier_.rectify(frame.pair);
   if (!frame.mask.empty()) views.instruments = rectifier_.rectifyMask(frame.mask);
-  const Mask& known = frame.mask.empty() ? rectifier_.outside() : views.instruments;
+  const Mask& known = frame.mask.empty() ? rectifier_.outside().left : views.instruments;
   // Instruments are masked afterwards: their mask is that of one view, and
   // weak texture next to them needs the wide windows of the coarser sizes.
   const ViewMasks ignored = pixelsToIgnore(rectified, rectifier_, options_.find_border);

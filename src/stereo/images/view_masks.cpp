@@ -16,20 +16,35 @@ struct FillLevel {
   Raster<float> mean, count;
 };
 
-FillLevel coarser(const FillLevel& fine) {
-  const int width = (fine.mean.width_px + 1) / 2, height = (fine.mean.height_px + 1) / 2;
+/// Squares of 2 x 2 of a finer image, whose means and counts are those of two functions of u, v.
+template <class MeanAt, class CountAt>
+FillLevel coarser(int fine_width, int fine_height, const MeanAt& mean_at, const CountAt& count_at) {
+  const int width = (fine_width + 1) / 2, height = (fine_height + 1) / 2;
   FillLevel level{Raster<float>(width, height, 0), Raster<float>(width, height, 0)};
   parallelRows(height, [&](int coarse_v) {
     float *mean = level.mean.row(coarse_v), *count = level.count.row(coarse_v);
-    for (int v = 2 * coarse_v; v < std::min(2 * coarse_v + 2, fine.mean.height_px); ++v)
-      for (int u = 0; u < fine.mean.width_px; ++u) {
-        mean[u / 2] += fine.count.at(u, v) * fine.mean.at(u, v);
-        count[u / 2] += fine.count.at(u, v);
+    for (int v = 2 * coarse_v; v < std::min(2 * coarse_v + 2, fine_height); ++v)
+      for (int u = 0; u < fine_width; ++u) {
+        mean[u / 2] += count_at(u, v) * mean_at(u, v);
+        count[u / 2] += count_at(u, v);
       }
     for (int u = 0; u < width; ++u)
       if (count[u] > 0) mean[u] /= count[u];
   });
   return level;
+}
+
+FillLevel coarser(const FillLevel& fine) {
+  return coarser(
+      fine.mean.width_px, fine.mean.height_px, [&](int u, int v) { return fine.mean.at(u, v); },
+      [&](int u, int v) { return fine.count.at(u, v); });
+}
+
+FillLevel coarser(const GrayImage& image, const Mask& mask) {
+  return coarser(
+      image.width_px, image.height_px,
+      [&](int u, int v) { return static_cast<float>(image.at(u, v)); },
+      [&](int u, int v) { return mask.at(u, v) == 0 ? 1.0f : 0.0f; });
 }
 
 bool isFull(const FillLevel& level) {
@@ -73,16 +88,9 @@ void dropMasked(const Mask& mask, Raster<float>* raster) {
 }
 
 GrayImage fillMasked(const GrayImage& image, const Mask& mask) {
-  if (mask.empty()) return image;
-  std::vector<FillLevel> levels(1);
-  levels[0] = {Raster<float>(image.width_px, image.height_px),
-               Raster<float>(image.width_px, image.height_px)};
-  parallelRows(image.height_px, [&](int v) {
-    for (int u = 0; u < image.width_px; ++u) {
-      levels[0].mean.at(u, v) = image.at(u, v);
-      levels[0].count.at(u, v) = mask.at(u, v) == 0 ? 1.0f : 0.0f;
-    }
-  });
+  const auto is_seen = [](std::uint8_t masked) { return masked == 0; };
+  if (std::all_of(mask.values.begin(), mask.values.end(), is_seen)) return image;
+  std::vector<FillLevel> levels{coarser(image, mask)};
   while (!isFull(levels.back())) {
     if (levels.back().mean.size() == 1) return image;
     levels.push_back(coarser(levels.back()));
@@ -92,7 +100,7 @@ GrayImage fillMasked(const GrayImage& image, const Mask& mask) {
   parallelRows(image.height_px, [&](int v) {
     for (int u = 0; u < image.width_px; ++u)
       if (mask.at(u, v) != 0)
-        filled.at(u, v) = static_cast<std::uint8_t>(std::lround(levels[0].mean.at(u, v)));
+        filled.at(u, v) = static_cast<std::uint8_t>(std::lround(interpolate(levels[0].mean, u, v)));
   });
   return filled;
 }

@@ -6,6 +6,7 @@
 #include "stereo/kernels/matching_kernels.h"
 #include "stereo/kernels/normal_kernels.h"
 #include "stereo/kernels/refinement_kernels.h"
+#include "stereo/kernels/resampling_kernels.h"
 #include "stereo/kernels/smoothing_kernels.h"
 
 namespace softscope {
@@ -16,6 +17,7 @@ struct StereoKernels {
   const RefinementKernels* refinement;
   const NormalKernels* normal;
   const SmoothingKernels* smoothing;
+  const ResamplingKernels* resampling;
 };
 
 /// Sets that this processor supports, slowest first.
@@ -26,5 +28,6 @@ const MatchingKernels& matchingKernels();
 const RefinementKernels& refinementKernels();
 const NormalKernels& normalKernels();
 const SmoothingKernels& smoothingKernels();
+const ResamplingKernels& resamplingKernels();
 
 }  // namespace softscope

@@ -11,5 +11,6 @@ const MatchingKernels& matchingKernels() { return *allStereoKernels().fastest().
 const RefinementKernels& refinementKernels() { return *allStereoKernels().fastest().refinement; }
 const NormalKernels& normalKernels() { return *allStereoKernels().fastest().normal; }
 const SmoothingKernels& smoothingKernels() { return *allStereoKernels().fastest().smoothing; }
+const ResamplingKernels& resamplingKernels() { return *allStereoKernels().fastest().resampling; }
 
 }  // namespace softscope

@@ -116,9 +116,7 @@ Mask findBlackBorder(const ColourImage& image) {
 
 ViewMasks pixelsToIgnore(const StereoPair& rectified, const Rectifier& rectifier,
                          bool find_border) {
-  constexpr int kCubicReach = 2;  // of the resampling: these hold a share of the outside
-  ViewMasks ignored{dilated(rectifier.outside(), kCubicReach),
-                    dilated(rectifier.outsideRight(), kCubicReach)};
+  ViewMasks ignored = rectifier.mixedWithOutside();
   if (!find_border) return ignored;
   parallelInvoke([&] { ignored.left = united(ignored.left, findBlackBorder(rectified.left)); },
                  [&] { ignored.right = united(ignored.right, findBlackBorder(rectified.right)); });

@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/mask_morphology.h"
 #include "stereo/images/opencv_view.h"
 
 namespace softscope {
 namespace {
+
+constexpr int kCubicReach = 2;  // px, of the resampling of colours
 
 cv::Mat matrixOf(const RawCamera& camera) {
   cv::Mat k;
@@ -101,8 +104,8 @@ Rectifier::Rectifier(const StereoCalibration& calibration) {
   rig_.disparity_offset_px = right_projection.at<double>(0, 2) - p(0, 2);
   cv::cv2eigen(left_rotation, rig_.rectified_from_raw_left);
   const Mask open(size.width, size.height, 0);
-  outside_ = rectifyMask(open);
-  outside_right_ = resample(open, maps_->right_u, maps_->right_v);
+  outside_ = {rectifyMask(open), resample(open, maps_->right_u, maps_->right_v)};
+  mixed_with_outside_ = {dilated(outside_.left, kCubicReach), dilated(outside_.right, kCubicReach)};
 }
 
 StereoPair Rectifier::rectify(const StereoPair& raw) const {

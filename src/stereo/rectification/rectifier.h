@@ -5,6 +5,7 @@
 
 #include "core/image.h"
 #include "core/stereo_rig.h"
+#include "stereo/images/view_masks.h"
 
 namespace softscope {
 
@@ -30,16 +31,16 @@ class Rectifier {
   /// A mask of the left image; pixels outside of the raw left image count as masked.
   Mask rectifyMask(const Mask& raw) const;
 
-  /// Non-zero for rectified left pixels outside of the raw left image; empty if none.
-  const Mask& outside() const { return outside_; }
-  /// The same for the right view.
-  const Mask& outsideRight() const { return outside_right_; }
+  /// Non-zero for rectified pixels outside of the raw image; empty for rectified images.
+  const ViewMasks& outside() const { return outside_; }
+  /// Of which the outside has a share, too.
+  const ViewMasks& mixedWithOutside() const { return mixed_with_outside_; }
 
  private:
   struct Maps;
   RectifiedRig rig_;
   std::unique_ptr<Maps> maps_;  // null for rectified images
-  Mask outside_, outside_right_;
+  ViewMasks outside_, mixed_with_outside_;
 };
 
 }  // namespace softscope

@@ -61,13 +61,24 @@ std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& r
                   point.v_px};
 }
 
+/// How far many matches are from their own row.
+enum class Distance { kNone, kWithinReach, kUnknown };
+
 /// With many matches near their own row, farther rows are not needed: what difference they have is
-/// measured by these.
-bool isInReach(const std::vector<RowMatch>& matches) {
-  if (matches.size() < kMany) return false;
-  double sum = 0;
-  for (const RowMatch& m : matches) sum += std::abs(m.difference_px);
-  return sum < kInReachPx * static_cast<double>(matches.size());
+/// measured by these. Noise of single matches moves them out of reach, not the model they agree on.
+Distance distanceOf(const std::vector<RowMatch>& matches, const RowAlignment& model) {
+  if (matches.size() < kMany) return Distance::kUnknown;
+  double sum_px = 0, model_sum_px = 0, rest_sum_px = 0;
+  for (const RowMatch& m : matches) {
+    const double model_px = model.at(m.u_right_px, m.v_right_px);
+    sum_px += std::abs(m.difference_px);
+    model_sum_px += std::abs(model_px);
+    rest_sum_px += std::abs(m.difference_px - model_px);
+  }
+  const double limit_px = kInReachPx * static_cast<double>(matches.size());
+  if (sum_px < limit_px) return Distance::kNone;
+  return std::max(model_sum_px, rest_sum_px) < limit_px ? Distance::kWithinReach
+                                                        : Distance::kUnknown;
 }
 
 }  // namespace
@@ -93,9 +104,17 @@ GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) 
 
 RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored) {
   const GradientImage gradient = gradientOf(right, ignored);
-  const auto few = matchRows(gradient, 0, grid_px_ + grid_px_ / 2);
-  const bool is_enough = few.size() >= kPlenty && isInReach(few);
-  return fitRowModel(is_enough ? few : matchNearest(gradient), scale());
+  const int sparse_grid_px = grid_px_ + grid_px_ / 2;
+  auto few = matchRows(gradient, 0, sparse_grid_px);
+  const RowAlignment model = fitRowModel(few, scale());
+  const Distance distance = few.size() < kPlenty ? Distance::kUnknown : distanceOf(few, model);
+  if (distance == Distance::kUnknown) return fitRowModel(matchNearest(gradient), scale());
+  if (distance == Distance::kNone) return model;
+  for (const int beside : {-kCoarseOffset, kCoarseOffset}) {
+    const auto more = matchRows(gradient, beside, sparse_grid_px);
+    few.insert(few.end(), more.begin(), more.end());
+  }
+  return fitRowModel(few, scale());
 }
 
 std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignored) {
@@ -104,7 +123,7 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignore
 
 std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
   const auto matches = matchRows(right, 0, grid_px_);
-  if (isInReach(matches)) return matches;
+  if (distanceOf(matches, scale()) == Distance::kNone) return matches;
   std::map<int, std::vector<RowMatch>> found{{0, matches}};
   const auto matchesAt = [&](int offset) -> const std::vector<RowMatch>& {
     const auto [place, is_new] = found.try_emplace(offset);
