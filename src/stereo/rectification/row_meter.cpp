@@ -66,8 +66,9 @@ enum class Distance { kNone, kWithinReach, kUnknown };
 
 /// With many matches near their own row, farther rows are not needed: what difference they have is
 /// measured by these. Noise of single matches moves them out of reach, not the model they agree on.
-Distance distanceOf(const std::vector<RowMatch>& matches, const RowAlignment& model) {
+Distance distanceOf(const std::vector<RowMatch>& matches, const RowAlignment& scale) {
   if (matches.size() < kMany) return Distance::kUnknown;
+  const RowAlignment model = fitRowModel(matches, scale);
   double sum_px = 0, model_sum_px = 0, rest_sum_px = 0;
   for (const RowMatch& m : matches) {
     const double model_px = model.at(m.u_right_px, m.v_right_px);
@@ -104,17 +105,9 @@ GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) 
 
 RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored) {
   const GradientImage gradient = gradientOf(right, ignored);
-  const int sparse_grid_px = grid_px_ + grid_px_ / 2;
-  auto few = matchRows(gradient, 0, sparse_grid_px);
-  const RowAlignment model = fitRowModel(few, scale());
-  const Distance distance = few.size() < kPlenty ? Distance::kUnknown : distanceOf(few, model);
-  if (distance == Distance::kUnknown) return fitRowModel(matchNearest(gradient), scale());
-  if (distance == Distance::kNone) return model;
-  for (const int beside : {-kCoarseOffset, kCoarseOffset}) {
-    const auto more = matchRows(gradient, beside, sparse_grid_px);
-    few.insert(few.end(), more.begin(), more.end());
-  }
-  return fitRowModel(few, scale());
+  const auto few = matchRows(gradient, 0, grid_px_ + grid_px_ / 2);
+  const bool is_enough = few.size() >= kPlenty && distanceOf(few, scale()) == Distance::kNone;
+  return fitRowModel(is_enough ? few : matchNearest(gradient), scale());
 }
 
 std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignored) {
@@ -123,7 +116,8 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignore
 
 std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
   const auto matches = matchRows(right, 0, grid_px_);
-  if (distanceOf(matches, scale()) == Distance::kNone) return matches;
+  const Distance distance = distanceOf(matches, scale());
+  if (distance == Distance::kNone) return matches;
   std::map<int, std::vector<RowMatch>> found{{0, matches}};
   const auto matchesAt = [&](int offset) -> const std::vector<RowMatch>& {
     const auto [place, is_new] = found.try_emplace(offset);
@@ -136,13 +130,16 @@ std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
     const auto count = static_cast<double>(matchesAt(offset).size());
     if (count > least_gain * static_cast<double>(matchesAt(best).size())) best = offset;
   };
-  for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
-    compare(-offset, 1);
-    compare(offset, 1);
-    if (offset >= std::abs(best) + 2 * kCoarseOffset && matchesAt(best).size() >= kMany) break;
-  }
-  // Weak texture has matches in its own row alone, which may be one between the trials.
-  for (const int between : {best - 1, best + 1}) compare(between, kManyMore);
+  const auto search = [&] {
+    for (int offset = kCoarseOffset; offset <= kFarthestOffset; offset += kCoarseOffset) {
+      compare(-offset, 1);
+      compare(offset, 1);
+      if (offset >= std::abs(best) + 2 * kCoarseOffset && matchesAt(best).size() >= kMany) break;
+    }
+    // Weak texture has matches in its own row alone, which may be one between the trials.
+    for (const int between : {best - 1, best + 1}) compare(between, kManyMore);
+  };
+  if (distance == Distance::kUnknown) search();
   std::vector<RowMatch> nearest = matchesAt(best);
   for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset}) {
     const std::vector<RowMatch>& more = matchesAt(neighbour);
