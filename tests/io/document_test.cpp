@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
 
+#include "core/error.h"
 #include "io/documents/number_tree.h"
 #include "io/temporary_folder.h"
 #include "io/text/text_lines.h"
@@ -100,6 +104,21 @@ TEST(Numbers, AreReadWhateverTheLocaleAndRefusedInPart) {
   for (const char* word : {"", "1x", "0x10", "--1", "+-1", "1,5", "e5"})
     EXPECT_FALSE(numberOf(word)) << word;
   EXPECT_EQ(numberOf(exactText(0.1)), 0.1);
+}
+
+TEST(Numbers, AreWrittenWithAsManyDecimalsAsPrintfDoes) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> exponent(-9, 9);
+  std::vector<double> values{0, -0.0, 0.00005, -0.00015, 2.5, NAN, INFINITY, -1.7e308};
+  for (int i = 0; i < 2000; ++i)
+    values.push_back((i % 2 == 0 ? 1 : -1) * std::pow(10, exponent(random)));
+  for (const double value : values)
+    for (const int decimals : {0, 4, 9}) {
+      char expected[400];
+      std::snprintf(expected, sizeof expected, "%.*f", decimals, value);
+      EXPECT_EQ(fixedText(value, decimals), expected);
+    }
+  EXPECT_THROW(fixedText(-1.7e308, 90), Error);
 }
 
 TEST(Numbers, RowsLeaveHeadingsOut) {

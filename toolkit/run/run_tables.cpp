@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/decimal_number.h"
 #include "core/error.h"
@@ -25,9 +24,7 @@ class CsvLine {
  public:
   void add(int value) { addText(std::to_string(value)); }
   void add(double value, int decimals) {
-    char text[64] = "";
-    if (std::isfinite(value)) std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    addText(text);
+    addText(std::isfinite(value) ? fixedText(value, decimals) : "");
   }
   void addText(const std::string& text) {
     if (!text_.empty() || begun_) text_ += ',';
@@ -242,11 +239,10 @@ FrameRecord asTabled(const FrameRecord& record) {
 std::string tracksCsvLines(const FrameRecord& record) {
   std::string lines;
   for (const TrackedPosition& point : record.tracked) {
-    char line[160];
-    std::snprintf(line, sizeof line, "%d,%d,%.4f,%.4f,%.4f,%d,%.4f\n", record.frame, point.id,
-                  point.position_mm.x(), point.position_mm.y(), point.position_mm.z(),
-                  point.visible ? 1 : 0, point.sigma_mm);
-    lines += line;
+    lines += std::to_string(record.frame) + ',' + std::to_string(point.id);
+    for (const double coordinate_mm : point.position_mm) lines += ',' + fixedText(coordinate_mm, 4);
+    lines += point.visible ? ",1," : ",0,";
+    lines += fixedText(point.sigma_mm, 4) + '\n';
   }
   return lines;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/decimal_number.h"
+#include "core/error.h"
 
 namespace softscope {
 namespace {
@@ -80,6 +81,15 @@ std::optional<double> numberOf(std::string_view word) {
 std::string exactText(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string fixedText(double value, int decimals) {
+  std::array<char, 400> buffer{};  // the largest number has 309 digits
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                    std::chars_format::fixed, decimals);
+  if (result.ec != std::errc())
+    throw Error(std::to_string(decimals) + " decimals of a number, but at most 80 are written");
   return {buffer.data(), result.ptr};
 }
 

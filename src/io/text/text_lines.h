@@ -25,6 +25,9 @@ std::optional<double> numberOf(std::string_view word);
 /// Shortest text that gives the same double.
 std::string exactText(double value);
 
+/// With that many decimals, at most 80, as printf has it in the locale "C". Throws Error for more.
+std::string fixedText(double value, int decimals);
+
 /// Line of numbers only.
 struct NumberRow {
   int line = 0;  // from 1
