@@ -82,11 +82,11 @@ struct AssembleFrontsKernel {
 struct FactorFrontsKernel {
   static constexpr int kThreads = 128, kPhases = 2, kBorderRows = kThreads - kMostColumns;
   struct Shared {
-    double triangle[kMostColumns][kMostColumns];  // rows of the pivots, by columns
-    double corner[kUnknowns][kUnknowns];
+    alignas(16) double triangle[kMostColumns][kMostColumns];  // rows of the pivots, by columns
+    alignas(16) double corner[kUnknowns][kUnknowns];
   };
   struct Local {
-    double own[kMostColumns];
+    alignas(16) double own[kMostColumns];
   };
   WarpStructureLayout graph;
   int first_front;
