@@ -32,6 +32,27 @@ constexpr double kDoubtfulScale = 0.5;                          // per cent
 using RowMatches = std::vector<RowMatch>;
 using RowMotion = Eigen::Matrix<double, kUnknowns, 1>;
 
+/// Normal equations of least squares; plain loops, as fits to resampled frames add every match a
+/// thousand times.
+struct MotionEquations {
+  double normal[kUnknowns][kUnknowns] = {}, side[kUnknowns] = {};
+
+  void add(const RowMotion& terms, double value, double weight) {
+    const double* a = terms.data();
+    for (int i = 0; i < kUnknowns; ++i) {
+      const double weighted = weight * a[i];
+      side[i] += weighted * value;
+      for (int j = 0; j <= i; ++j) normal[i][j] += weighted * a[j];
+    }
+  }
+  RowMotion solution() const {
+    Eigen::Matrix<double, kUnknowns, kUnknowns> lower;
+    for (int i = 0; i < kUnknowns; ++i)
+      for (int j = 0; j < kUnknowns; ++j) lower(i, j) = normal[i][j] + (i == j ? 1e-9 : 0);
+    return lower.selfadjointView<Eigen::Lower>().ldlt().solve(Eigen::Map<const RowMotion>(side));
+  }
+};
+
 /// Derivative of the vertical disparity, divided by the focal length, with respect to each
 /// unknown, at a pixel of the right image: a point (x, y, 1) moves by omega x (x, y, 1).
 RowMotion rowDerivative(const PinholeCamera& right, const RowMatch& match) {
@@ -48,9 +69,7 @@ RowMotion fitMotion(const PinholeCamera& right, const std::vector<const RowMatch
   RowMotion motion = RowMotion::Zero();
   motion[0] = -statistics(differences).median / right.fy_px;
   for (int round = 0; round < kRobustRounds; ++round) {
-    Eigen::Matrix<double, kUnknowns, kUnknowns> normal =
-        1e-9 * Eigen::Matrix<double, kUnknowns, kUnknowns>::Identity();
-    RowMotion side = RowMotion::Zero();
+    MotionEquations equations;
     const double limit_px = kTukeyPx * (round == 0 ? 3 : 1);
     for (const RowMatches* matches : frames)
       for (const RowMatch& match : *matches) {
@@ -58,10 +77,9 @@ RowMotion fitMotion(const PinholeCamera& right, const std::vector<const RowMatch
         const double left_px = match.difference_px - right.fy_px * a.dot(motion);
         if (std::abs(left_px) >= limit_px) continue;
         const double weight = std::pow(1 - std::pow(left_px / limit_px, 2), 2);
-        normal += weight * a * a.transpose();
-        side += weight * a * (match.difference_px / right.fy_px);
+        equations.add(a, match.difference_px / right.fy_px, weight);
       }
-    motion = normal.ldlt().solve(side);
+    motion = equations.solution();
   }
   return motion;
 }
