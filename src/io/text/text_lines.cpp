@@ -85,11 +85,13 @@ std::string exactText(double value) {
 }
 
 std::string fixedText(double value, int decimals) {
+  constexpr int kMostDecimals = 80;
+  if (decimals > kMostDecimals)
+    throw Error(std::to_string(decimals) + " decimals of a number, but at most " +
+                std::to_string(kMostDecimals) + " are written");
   std::array<char, 400> buffer{};  // the largest number has 309 digits
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                     std::chars_format::fixed, decimals);
-  if (result.ec != std::errc())
-    throw Error(std::to_string(decimals) + " decimals of a number, but at most 80 are written");
   return {buffer.data(), result.ptr};
 }
 

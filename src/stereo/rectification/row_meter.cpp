@@ -61,25 +61,26 @@ std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& r
                   point.v_px};
 }
 
-/// How far many matches are from their own row.
-enum class Distance { kNone, kWithinReach, kUnknown };
-
 /// With many matches near their own row, farther rows are not needed: what difference they have is
-/// measured by these. Noise of single matches moves them out of reach, not the model they agree on.
-Distance distanceOf(const std::vector<RowMatch>& matches, const RowAlignment& scale) {
-  if (matches.size() < kMany) return Distance::kUnknown;
+/// measured by these.
+bool isInReach(const std::vector<RowMatch>& matches) {
+  if (matches.size() < kMany) return false;
+  double sum_px = 0;
+  for (const RowMatch& m : matches) sum_px += std::abs(m.difference_px);
+  return sum_px < kInReachPx * static_cast<double>(matches.size());
+}
+
+/// Noise moves single matches out of reach, but not the model that they agree on.
+bool hasModelInReach(const std::vector<RowMatch>& matches, const RowAlignment& scale) {
+  if (matches.size() < kMany) return false;
   const RowAlignment model = fitRowModel(matches, scale);
-  double sum_px = 0, model_sum_px = 0, rest_sum_px = 0;
+  double model_sum_px = 0, rest_sum_px = 0;
   for (const RowMatch& m : matches) {
     const double model_px = model.at(m.u_right_px, m.v_right_px);
-    sum_px += std::abs(m.difference_px);
     model_sum_px += std::abs(model_px);
     rest_sum_px += std::abs(m.difference_px - model_px);
   }
-  const double limit_px = kInReachPx * static_cast<double>(matches.size());
-  if (sum_px < limit_px) return Distance::kNone;
-  return std::max(model_sum_px, rest_sum_px) < limit_px ? Distance::kWithinReach
-                                                        : Distance::kUnknown;
+  return std::max(model_sum_px, rest_sum_px) < kInReachPx * static_cast<double>(matches.size());
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) 
 RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored) {
   const GradientImage gradient = gradientOf(right, ignored);
   const auto few = matchRows(gradient, 0, grid_px_ + grid_px_ / 2);
-  const bool is_enough = few.size() >= kPlenty && distanceOf(few, scale()) == Distance::kNone;
+  const bool is_enough = few.size() >= kPlenty && isInReach(few);
   return fitRowModel(is_enough ? few : matchNearest(gradient), scale());
 }
 
@@ -116,8 +117,7 @@ std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignore
 
 std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
   const auto matches = matchRows(right, 0, grid_px_);
-  const Distance distance = distanceOf(matches, scale());
-  if (distance == Distance::kNone) return matches;
+  if (isInReach(matches)) return matches;
   std::map<int, std::vector<RowMatch>> found{{0, matches}};
   const auto matchesAt = [&](int offset) -> const std::vector<RowMatch>& {
     const auto [place, is_new] = found.try_emplace(offset);
@@ -139,7 +139,7 @@ std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
     // Weak texture has matches in its own row alone, which may be one between the trials.
     for (const int between : {best - 1, best + 1}) compare(between, kManyMore);
   };
-  if (distance == Distance::kUnknown) search();
+  if (!hasModelInReach(matches, scale())) search();
   std::vector<RowMatch> nearest = matchesAt(best);
   for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset}) {
     const std::vector<RowMatch>& more = matchesAt(neighbour);
