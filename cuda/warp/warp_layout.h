@@ -115,6 +115,13 @@ struct WarpPointLayout {
   PointTarget* targets = nullptr;
 };
 
+/// The rows of matches of a frame, three each.
+struct WarpMatchLayout {
+  PlaneConstraint* rows = nullptr;
+  float* sizes_mm = nullptr;  // size of each match
+  std::size_t count = 0;      // of matches
+};
+
 /// The depth map of a frame.
 struct WarpSurfaceLayout {
   WarpSurfaceLayout(Arena& arena, std::size_t pixels) {

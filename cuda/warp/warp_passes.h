@@ -57,7 +57,7 @@ class WarpPasses {
 
   /// Targets, normal equations and energy at these transforms.
   void linearise(const WarpStructureLayout& graph, const WarpPointLayout& points,
-                 const PlaneConstraint* matches, const WarpInputs& inputs,
+                 const WarpMatchLayout& matches, const WarpInputs& inputs,
                  const NodeTransform* transforms) {
     launch("pack nodes", PackNodesKernel{graph, transforms});
     launch("associate", AssociateKernel{graph, points, inputs.surface, inputs.points,
@@ -89,7 +89,7 @@ class WarpPasses {
 
   /// After factor(): solution, resulting transforms, and their energy.
   void step(const WarpStructureLayout& graph, const FrontTables& fronts,
-            const WarpPointLayout& points, const PlaneConstraint* matches, const WarpInputs& inputs,
+            const WarpPointLayout& points, const WarpMatchLayout& matches, const WarpInputs& inputs,
             double damping, const NodeTransform* transforms, NodeTransform* trial) {
     for (int level = fronts.levels() - 1; level >= 0; --level) {
       const int first = fronts.level_start[level], count = fronts.level_start[level + 1] - first;

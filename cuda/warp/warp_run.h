@@ -120,10 +120,11 @@ class WarpRun final : public WarpDevice {
     const auto rows = static_cast<std::size_t>(matches.rows);
     Arena counting;
     counting.array<PlaneConstraint>(rows);
+    counting.array<float>(rows / 3);
     reserve(counting.bytes(), &match_memory_);
     Arena arena(match_memory_.data());
-    matches_ = arena.array<PlaneConstraint>(rows);
-    send(matches_, matches.constraints, rows);
+    matches_ = {arena.array<PlaneConstraint>(rows), arena.array<float>(rows / 3), rows / 3};
+    send(matches_.rows, matches.constraints, rows);
     send(graph_.match_start, matches.start, static_cast<std::size_t>(graph_.stencils) + 1);
     machine_.wait();
   }
@@ -141,6 +142,7 @@ class WarpRun final : public WarpDevice {
     machine_.wait();
   }
 
+  void setWeights(const WarpWeights& weights) override { inputs_.weights = weights; }
   WarpSums linearise() override {
     passes_.linearise(graph_, points_, matches_, inputs_, accepted());
     const WarpSums sums = fetchSums();
@@ -160,6 +162,10 @@ class WarpRun final : public WarpDevice {
     return fetchSums();
   }
   void acceptStep() override { accepted_ = 1 - accepted_; }
+  std::vector<float> matchSizes() override {
+    const float* sizes_mm = fetch(matches_.sizes_mm, matches_.count);
+    return {sizes_mm, sizes_mm + matches_.count};
+  }
   std::vector<NodeTransform> transforms() override {
     const NodeTransform* found = fetch(accepted(), static_cast<std::size_t>(graph_.nodes));
     return {found, found + graph_.nodes};
@@ -213,7 +219,7 @@ class WarpRun final : public WarpDevice {
   FrontTables fronts_;
   WarpStructureLayout graph_;
   WarpPointLayout points_;
-  PlaneConstraint* matches_ = nullptr;
+  WarpMatchLayout matches_;
   std::shared_ptr<const SharedRasters> shared_;
   std::shared_ptr<ModelHome<Machine>> home_;
   WarpInputs inputs_;

@@ -93,7 +93,7 @@ struct StencilKernel {
   };
   WarpStructureLayout graph;
   WarpPointLayout points;
-  const PlaneConstraint* matches;
+  WarpMatchLayout matches;
   const NodeTransform* transforms;
   RobustOptions data_robust, correspondence_robust;
 
@@ -156,7 +156,7 @@ struct StencilKernel {
     Vec3<double> point, normal, target;
     double weight;
     if (row < match_rows) {
-      const PlaneConstraint& match = matches[graph.match_start[at.x] + row];
+      const PlaneConstraint& match = matches.rows[graph.match_start[at.x] + row];
       point = vectorOf(match.point), normal = vectorOf(match.normal);
       target = vectorOf(match.target), weight = match.node_weights[k];
     } else {
@@ -196,11 +196,13 @@ struct StencilKernel {
       return;
     }
     const double* r = shared.residuals + slot / 3 * 3;
-    const double base = matches[graph.match_start[at.x] + row].weight;
-    const RobustValue value =
-        robustValue(correspondence_robust, r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    const int match_row = graph.match_start[at.x] + row;
+    const double base = matches.rows[match_row].weight, square = squaredMatch(r);
+    const RobustValue value = robustValue(correspondence_robust, square);
     setWeight(slot, base * value.weight, shared);
-    if (slot % 3 == 0) local.sums.correspondence += base * value.cost;
+    if (slot % 3 != 0) return;
+    local.sums.correspondence += base * value.cost;
+    matches.sizes_mm[match_row / 3] = static_cast<float>(std::sqrt(square));
   }
 
   SOFTSCOPE_HD static void setWeight(int slot, double weight, Shared& shared) {

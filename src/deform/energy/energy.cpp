@@ -24,9 +24,8 @@ double weighMatches(const PlaneConstraint* rows, const double* residuals, int ma
                     const RobustOptions& robust, double* weights) {
   double cost = 0;
   for (int m = 0; m < matches; ++m) {
-    const double* r = residuals + 3 * m;
     const double base = rows[3 * m].weight;
-    const RobustValue value = robustValue(robust, r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    const RobustValue value = robustValue(robust, squaredMatch(residuals + 3 * m));
     cost += base * value.cost;
     for (int c = 0; c < 3; ++c) weights[3 * m + c] = base * value.weight;
   }

@@ -15,6 +15,11 @@ struct RobustValue {
   double weight;
 };
 
+/// Square of the size of a match, of its three residuals: docs/energy.md (12).
+SOFTSCOPE_HD inline double squaredMatch(const double* residuals) {
+  return residuals[0] * residuals[0] + residuals[1] * residuals[1] + residuals[2] * residuals[2];
+}
+
 SOFTSCOPE_HD inline RobustValue robustValue(const RobustOptions& robust, double squared) {
   const double limit = robust.scale_mm * robust.scale_mm;
   if (robust.loss == RobustLoss::kHuber && squared > limit) {

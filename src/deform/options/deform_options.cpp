@@ -27,6 +27,8 @@ DeformOptions DeformOptions::paper() {
   options.correspondence_robust.loss = RobustLoss::kNone;
   options.association.max_distance_mm = 2;
   options.association.reference_sigma_mm = 0;
+  options.solver.follows_tissue = false;
+  options.solver.cost_tolerance = 1e-3;
   return options;
 }
 

@@ -46,7 +46,8 @@ struct RobustOptions {
 
 /// Levenberg-Marquardt: docs/energy.md (16) to (19).
 struct SolverOptions {
-  int max_iterations = 8;  // accepted linear solves, over all associations
+  int max_iterations = 8;      // accepted linear solves, over all associations
+  bool follows_tissue = true;  // less stiff from the second on, where tissue deforms: (7c)
   static constexpr int kIterationsPerAssociation = 1;
   static constexpr int kMaxRejections = 8;         // consecutive, before the solver stops
   static constexpr double kInitialDamping = 1e-7;  // lambda, relative to the block diagonal
@@ -54,7 +55,7 @@ struct SolverOptions {
   static constexpr double kMinDamping = 1e-10;
   static constexpr double kMaxDamping = 1e6;
   double step_tolerance_mm = 2e-3;  // converged if no node moves more than this in a step
-  double cost_tolerance = 1e-3;     // or if all steps to come gain less than this share of the cost
+  double cost_tolerance = 3e-3;     // or if all steps to come gain less than this share of the cost
 };
 
 /// Weights of the energy and all other options of stage 6. The defaults are
@@ -62,13 +63,13 @@ struct SolverOptions {
 /// for a point spacing of 0.2 mm: E_data grows with the number of points.
 struct DeformOptions {
   NodeModel node_model = NodeModel::kRigid;
-  double rotation_weight = 40.0;        // w_rot; has no effect on rigid nodes
-  double regularisation_weight = 30.0;  // w_reg
-  double seen_stiffness = 0.2;          // share of it between nodes with visible points only
-  double shape_memory = 0.2;            // share of the mean past shape in the expected shape
-  double rest_weight = 0.01;            // w_rest, for invisible nodes
-  double data_weight = 3.0;             // w_data
-  double correspondence_weight = 60.0;  // w_corr
+  double rotation_weight = 40.0;         // w_rot; has no effect on rigid nodes
+  double regularisation_weight = 200.0;  // w_reg, of still tissue
+  double seen_stiffness = 0.2;           // share of it between nodes with visible points only
+  double shape_memory = 0.2;             // share of the mean past shape in the expected shape
+  double rest_weight = 0.05;             // w_rest, for invisible nodes
+  double data_weight = 3.0;              // w_data
+  double correspondence_weight = 60.0;   // w_corr
   RobustOptions data_robust{RobustLoss::kHuber, 1.0};
   RobustOptions correspondence_robust{RobustLoss::kHuber, 0.3};
   AssociationOptions association;

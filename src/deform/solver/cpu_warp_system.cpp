@@ -1,11 +1,13 @@
 #include "deform/solver/cpu_warp_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "deform/cholesky/block_cholesky.h"
 #include "deform/energy/graph_facts.h"
 #include "deform/energy/node_sight.h"
+#include "deform/energy/robust_loss.h"
 #include "deform/graph/shape_memory.h"
 #include "deform/kernels/node_terms.h"
 #include "deform/solver/normal_equations.h"
@@ -17,7 +19,7 @@ namespace {
 template <class Node>
 class CpuWarpSystem final : public WarpSystem {
  public:
-  explicit CpuWarpSystem(const DeformOptions& options) : options_(options) {}
+  explicit CpuWarpSystem(const DeformOptions& options) : given_(options), options_(options) {}
 
   void analyse(const WarpGraph& graph) override {
     if (graph.empty() || structure_.sameAs(graph)) return;
@@ -46,6 +48,8 @@ class CpuWarpSystem final : public WarpSystem {
     lever_mm_ = meanEdgeLength(graph);
     return {constraints_.matches, constraints_.matches_dropped};
   }
+
+  void setStiffness(double factor) override { options_ = stiffer(given_, factor); }
 
   AssociatedEnergy associate() override {
     {
@@ -85,6 +89,9 @@ class CpuWarpSystem final : public WarpSystem {
     std::swap(current_, trial_);
   }
 
+  FirstFit firstFit() override {
+    return {matchSizes(), squaresOfSeenEdges(graph_, graph_.transforms, constraints_)};
+  }
   double pivotRatio() override { return cholesky_.pivotRatio(); }
   std::vector<NodeTransform> transforms() override { return graph_.transforms; }
   DeformTimes times() const override { return times_; }
@@ -93,6 +100,16 @@ class CpuWarpSystem final : public WarpSystem {
   void evaluate(EnergyValue* value) {
     const Stopwatch watch(&times_.evaluate_ms);
     evaluateEnergy(graph_, constraints_, options_, value);
+  }
+
+  std::vector<float> matchSizes() const {
+    std::vector<float> sizes_mm;
+    sizes_mm.reserve(static_cast<std::size_t>(constraints_.matches));
+    for (const StencilRows& rows : constraints_.stencils)
+      for (int m = 0; m < rows.matches; ++m)
+        sizes_mm.push_back(static_cast<float>(
+            std::sqrt(squaredMatch(current_.residuals.data() + rows.first + 3 * m))));
+    return sizes_mm;
   }
 
   bool findStep(double damping, Eigen::VectorXd* step) {
@@ -114,7 +131,7 @@ class CpuWarpSystem final : public WarpSystem {
     return largest;
   }
 
-  DeformOptions options_;
+  DeformOptions given_, options_;  // the latter of the stiffness at hand
   GraphStructure structure_;
   BlockPattern pattern_;
   NormalEquations<Node> equations_;

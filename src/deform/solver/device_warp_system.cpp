@@ -16,7 +16,7 @@ namespace {
 class DeviceWarpSystem final : public WarpSystem {
  public:
   DeviceWarpSystem(const DeformOptions& options, std::unique_ptr<WarpDevice> device)
-      : options_(options), device_(std::move(device)) {}
+      : given_(options), options_(options), device_(std::move(device)) {}
 
   void analyse(const WarpGraph& graph) override {
     if (graph.empty() || structure_.sameAs(graph)) return;
@@ -36,6 +36,11 @@ class DeviceWarpSystem final : public WarpSystem {
     device_->setSurface(surfaceOf(seen));
     takeNodes(loads);
     return {constraints_.matches, constraints_.matches_dropped};
+  }
+
+  void setStiffness(double factor) override {
+    options_ = stiffer(given_, factor);
+    device_->setWeights(warpWeights(options_));
   }
 
   /// The device assembles the normal equations with the energy.
@@ -65,6 +70,9 @@ class DeviceWarpSystem final : public WarpSystem {
   }
 
   void acceptStep() override { device_->acceptStep(); }
+  FirstFit firstFit() override {
+    return {device_->matchSizes(), squaresOfSeenEdges(graph_, device_->transforms(), constraints_)};
+  }
   double pivotRatio() override { return pivot_ratio_; }
   std::vector<NodeTransform> transforms() override { return device_->transforms(); }
   DeformTimes times() const override { return times_; }
@@ -142,7 +150,7 @@ class DeviceWarpSystem final : public WarpSystem {
     return energy;
   }
 
-  DeformOptions options_;
+  DeformOptions given_, options_;  // the latter of the stiffness at hand
   std::unique_ptr<WarpDevice> device_;
   GraphStructure structure_;
   WarpGraph graph_;

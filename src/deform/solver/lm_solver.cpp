@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "deform/energy/graph_facts.h"
+#include "deform/energy/stiffness.h"
 #include "deform/solver/cpu_warp_system.h"
 
 namespace softscope {
@@ -68,6 +69,7 @@ class WarpSolver final : public DeformSolver {
   void iterate(const WarpGraph& graph, DeformSummary* summary) {
     const SolverOptions& rules = options_.solver;
     damping_ = rules.kInitialDamping;
+    system_->setStiffness(options_.solver.follows_tissue ? kFirstStiffness : 1);
     summary->reason = StopReason::kIterationLimit;
     while (summary->iterations < rules.max_iterations) {
       if (summary->iterations % rules.kIterationsPerAssociation == 0) {
@@ -77,6 +79,8 @@ class WarpSolver final : public DeformSolver {
         }
       }
       const Step step = stepDown(summary);
+      if (step == Step::kAccepted && options_.solver.follows_tissue && summary->iterations == 1)
+        system_->setStiffness(stiffnessAfter(system_->firstFit()));
       if (step == Step::kAccepted) continue;
       summary->reason =
           step == Step::kConverged ? StopReason::kConverged : StopReason::kNoBetterStep;
@@ -154,7 +158,8 @@ class WarpSolver final : public DeformSolver {
         std::clamp(damping_ * factor, options_.solver.kMinDamping, options_.solver.kMaxDamping);
   }
 
-  /// A step that is small because of damping does not indicate convergence.
+  /// A step that is small because of damping does not indicate convergence, nor does the first
+  /// one if the weights of the next one follow from it.
   Step accept(const TrialStep& trial, bool undoubted, DeformSummary* summary) {
     summary->costs.push_back(current_.terms.total());
     summary->costs.push_back(trial.energy.terms.total());
@@ -162,6 +167,7 @@ class WarpSolver final : public DeformSolver {
     current_ = trial.energy;
     ++summary->iterations;
     summary->last_step_mm = trial.furthest_mm;
+    if (options_.solver.follows_tissue && summary->iterations == 1) return Step::kAccepted;
     const bool small_step = summary->last_step_mm < options_.solver.step_tolerance_mm;
     const bool small_gain = gainToCome(summary->costs) < options_.solver.cost_tolerance;
     return undoubted && (small_step || small_gain) ? Step::kConverged : Step::kAccepted;

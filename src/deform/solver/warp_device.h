@@ -83,6 +83,7 @@ class WarpDevice {
   virtual std::optional<NodeLoads> setSeenPoints(const PointModel& model) = 0;
   virtual void setMatches(const WarpMatches& matches) = 0;
   virtual void setNodes(const WarpNodes& nodes) = 0;
+  virtual void setWeights(const WarpWeights& weights) = 0;
   /// New targets and normal equations at the accepted transforms; their energy and the largest
   /// diagonal entry.
   virtual WarpSums linearise() = 0;
@@ -91,6 +92,8 @@ class WarpDevice {
   /// Step with this damping, and the energy after it.
   virtual WarpSums tryStep(double damping) = 0;
   virtual void acceptStep() = 0;
+  /// Size of each match after the last tryStep(), mm, by stencil.
+  virtual std::vector<float> matchSizes() = 0;
   virtual std::vector<NodeTransform> transforms() = 0;
 };
 

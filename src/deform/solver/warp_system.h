@@ -7,6 +7,7 @@
 
 #include "core/point_model.h"
 #include "core/warp_graph.h"
+#include "deform/energy/stiffness.h"
 #include "deform/options/deform_options.h"
 #include "deform/solver/deform_summary.h"
 
@@ -37,6 +38,8 @@ class WarpSystem {
   /// from the graph. `seen` must live until the next begin().
   virtual MatchCounts begin(const PointModel& model, const DeformObservation& seen,
                             const WarpGraph& graph) = 0;
+  /// Factor of w_reg and w_rest from the next association on: docs/energy.md (7c).
+  virtual void setStiffness(double factor) = 0;
   /// New target planes at the accepted transforms: docs/energy.md (8) to (11).
   virtual AssociatedEnergy associate() = 0;
   /// Per node, 1 if a point or a match of the last association constrains it.
@@ -48,6 +51,8 @@ class WarpSystem {
   virtual std::optional<TrialStep> tryStep(double damping) = 0;
   /// Accepts the transforms of the last trial.
   virtual void acceptStep() = 0;
+  /// At the transforms of the accepted step.
+  virtual FirstFit firstFit() = 0;
   /// Smallest to largest pivot of the last factorisation.
   virtual double pivotRatio() = 0;
   virtual std::vector<NodeTransform> transforms() = 0;
