@@ -97,9 +97,10 @@ double errorAfter(const scenes::Motion& truth, double sigma_mm, bool follows_tis
   DeformObservation seen;
   seen.matches = scenes::makeMatches(model, truth, 8);
   std::mt19937 random(5);
-  std::normal_distribution<float> noise(0, static_cast<float>(sigma_mm));
+  std::normal_distribution<float> noise;
+  const auto sigma = static_cast<float>(sigma_mm);
   for (KeyPointMatch& match : seen.matches)
-    match.target_mm += Eigen::Vector3f(noise(random), noise(random), noise(random));
+    match.target_mm += sigma * Eigen::Vector3f(noise(random), noise(random), noise(random));
   DeformOptions options;
   options.solver.follows_tissue = follows_tissue;
   const auto view = scenes::renderHill(scenes::makeCamera(160, 130, 225), truth, 44, 34);

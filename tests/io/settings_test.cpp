@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "core/nearest_name.h"
 #include "io/settings/settings_binder.h"
 #include "io/settings/settings_text.h"
@@ -81,6 +84,22 @@ TEST(Settings, AssignmentsWinAndNeedNoQuotes) {
   EXPECT_EQ(options.method, "5");
   expectError<OptionError>([&] { addAssignment(settings, "fill"); }, {"fill", "key=value"});
   expectError<OptionError>([&] { addAssignment(settings, "=3"); }, {"key=value"});
+}
+
+// As everywhere else (docs/formats.md), though TOML has no such numbers.
+TEST(Settings, AssignedNumbersNeedNoDigitBesideThePoint) {
+  for (const auto& [text, number] : {std::pair(".5", 0.5), {"5.", 5.0}, {"+.25", 0.25}}) {
+    Settings settings;
+    addAssignment(settings, std::string("deform.weight=") + text);
+    Options options;
+    binderOf(options).apply(settings);
+    EXPECT_EQ(options.weight, number) << text;
+  }
+  Settings settings;
+  addAssignment(settings, "stereo.method=.5");
+  Options options;
+  binderOf(options).apply(settings);
+  EXPECT_EQ(options.method, ".5");
 }
 
 TEST(Settings, AnUnknownKeyGetsTheNearestName) {

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include "core/decimal_number.h"
 #include "core/error.h"
 #include "io/documents/toml_tree.h"
 #include "io/files/file_bytes.h"
@@ -46,7 +47,7 @@ void flatten(const toml::table& table, const std::string& head, const std::strin
   }
 }
 
-/// Value parsed by TOML, or a text if that fails.
+/// Value parsed by TOML; else a number that TOML does not know (.5), or a text.
 Setting valueOf(const std::string& key, const std::string& value) {
   requireShallowToml(value, "`set=` " + printable(key));
   try {
@@ -58,6 +59,7 @@ Setting valueOf(const std::string& key, const std::string& value) {
     }
   } catch (const toml::parse_error&) {
   }
+  if (const auto number = decimalNumber<double>(value)) return {*number, value, kAssigned};
   return {value, value, kAssigned};
 }
 
