@@ -59,7 +59,7 @@ struct SolverOptions {
 };
 
 /// Weights of the energy and all other options of stage 6. The defaults are
-/// from a simulated sequence with noise (docs/energy.md, "Which weights"),
+/// from a simulated sequence with noise (docs/energy.md, "Choice of weights"),
 /// for a point spacing of 0.2 mm: E_data grows with the number of points.
 struct DeformOptions {
   NodeModel node_model = NodeModel::kRigid;

@@ -30,7 +30,8 @@ void describe(Visitor& v, DeformOptions& o) {
     ChoiceRule<NodeModel>{{{"rigid", NodeModel::kRigid}, {"affine", NodeModel::kAffine}}},
     "motion of a node: 6 or 12 unknowns");
   v("deform.rotation_weight", o.rotation_weight, atLeast(0), "w_rot; for affine nodes alone");
-  v("deform.regularisation_weight", o.regularisation_weight, atLeast(0), "w_reg");
+  v("deform.regularisation_weight", o.regularisation_weight, atLeast(0),
+    "w_reg; by default less where tissue deforms");
   v("deform.seen_stiffness", o.seen_stiffness, aboveUpTo(0, 1),
     "factor of w_reg between nodes in sight");
   v("deform.shape_memory", o.shape_memory, between(0, 1),

@@ -79,8 +79,6 @@ class WarpSolver final : public DeformSolver {
         }
       }
       const Step step = stepDown(summary);
-      if (step == Step::kAccepted && options_.solver.follows_tissue && summary->iterations == 1)
-        system_->setStiffness(stiffnessAfter(system_->firstFit()));
       if (step == Step::kAccepted) continue;
       summary->reason =
           step == Step::kConverged ? StopReason::kConverged : StopReason::kNoBetterStep;
@@ -167,7 +165,10 @@ class WarpSolver final : public DeformSolver {
     current_ = trial.energy;
     ++summary->iterations;
     summary->last_step_mm = trial.furthest_mm;
-    if (options_.solver.follows_tissue && summary->iterations == 1) return Step::kAccepted;
+    if (options_.solver.follows_tissue && summary->iterations == 1) {
+      system_->setStiffness(stiffnessAfter(system_->firstFit()));
+      return Step::kAccepted;
+    }
     const bool small_step = summary->last_step_mm < options_.solver.step_tolerance_mm;
     const bool small_gain = gainToCome(summary->costs) < options_.solver.cost_tolerance;
     return undoubted && (small_step || small_gain) ? Step::kConverged : Step::kAccepted;
