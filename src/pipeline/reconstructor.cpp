@@ -105,23 +105,33 @@ void Reconstructor::reconstruct(const Frame& frame, const UpcomingFrames& upcomi
   if (!has_depth) return;
   if (backend_->empty()) return begin(record);
   if (update(record)) return join(record);
-  if (!scope_.lost) return;
   if (enterOther(ScopeState::kViewpointsPerFrame, isAnything, record))
     return others_.add(others_.take());
-  if (scope_.isSearched() && backend_->showsTissue()) begin(record);
+  if (scope_.lost && scope_.isSearched() && backend_->showsTissue()) begin(record);
 }
 
+/// From the last pose; else from wherever in the model the frame is recognised.
 bool Reconstructor::update(FrameRecord& record) {
   const ScopeState before = scope_;
-  const bool followed = locate(record);
-  if (!followed && !relocalise(record)) return false;
-  if (!explain(record)) {
-    scope_.world_from_left = before.world_from_left;
-    scope_.lost = before.lost;
-    return false;
+  const bool located = locate(record);
+  if (located && explain(record)) {
+    fuse(FrameStatus::kFused, record);
+    return true;
   }
-  fuse(followed ? FrameStatus::kFused : FrameStatus::kRecovered, record);
-  return true;
+  if (!matching_) return false;
+  FrameRecord found = measured(record);
+  scope_.world_from_left = before.world_from_left;
+  if (relocalise(found) && explain(found)) {
+    scope_.lost = false;
+    record = found;
+    fuse(FrameStatus::kRecovered, record);
+    return true;
+  }
+  scope_.world_from_left = before.world_from_left;
+  if (located) return false;  // a pose in doubt: the next frame is sought from the last one
+  scope_.lost = true;
+  record = found;
+  return false;
 }
 
 /// The warp, and the evidence for it.
@@ -164,7 +174,6 @@ ScopeBefore Reconstructor::scopeBefore() const {
 // After a loss, the model is searched in the whole image, then
 // again from the pose found, for matches that the warp can use.
 bool Reconstructor::relocalise(FrameRecord& record) {
-  scope_.lost = true;
   const RigidPose rough = backend_->relocalise(
       backend_->state().model, scope_.viewpointsToTry(ScopeState::kViewpointsPerFrame));
   ++scope_.searches;
@@ -174,7 +183,6 @@ bool Reconstructor::relocalise(FrameRecord& record) {
   if (!locateFrom(rough.target_from_source, record))
     return reject(record, FrameStatus::kLost,
                   text("found, but not confirmed: ", record.pose.failure));
-  scope_.lost = false;
   return true;
 }
 

@@ -1,0 +1,76 @@
+// tests/pipeline/doubtful_pose_test.cpp: matches that agree on a pose which the images contradict.
+#include <gtest/gtest.h>
+
+#include "pipeline/cpu_backend.h"
+#include "pipeline/reconstructor.h"
+#include "short_clip.h"
+
+namespace softscope::test {
+namespace {
+
+/// Of all matches of a call, those where the tissue would lie 8 mm aside.
+class MatchesAside : public MatchStage {
+ public:
+  MatchesAside(std::unique_ptr<MatchStage> stage, int* until, int* calls)
+      : stage_(std::move(stage)), until_(until), calls_(calls) {}
+  ModelMatches match(const PointModel& model, const Eigen::Isometry3d& viewed_from,
+                     const GrayImage& seen_gray, const MatchPicture& live,
+                     const MeasuredFrame& frame, StageClock* clock) override {
+    ModelMatches found = stage_->match(model, viewed_from, seen_gray, live, frame, clock);
+    if (++*calls_ <= *until_)
+      for (LiftedMatch& match : found.lifted) match.target_left_mm.x() += 8;
+    return found;
+  }
+
+ private:
+  std::unique_ptr<MatchStage> stage_;
+  int *until_, *calls_;
+};
+
+/// A clip, of which the matches of all calls up to one lie aside.
+struct MisledRun {
+  explicit MisledRun(int misled_calls) : until(misled_calls) {
+    const ReconstructionOptions options = smallOptions();
+    BackendParts parts;
+    parts.makeMatching = [this](const ReconstructionOptions& all, const RectifiedRig& rig) {
+      return std::make_unique<MatchesAside>(makeCpuMatchStage(all, rig), &until, &calls);
+    };
+    reconstructor = std::make_unique<Reconstructor>(
+        makeCpuBackend(shortClip().calibration, options, parts), options);
+    reconstructor->track(shortClip().seeds);
+    reconstructor->process(shortClip().frames[0]);
+  }
+
+  int until, calls = 0;
+  std::unique_ptr<Reconstructor> reconstructor;
+};
+
+TEST(DoubtfulPose, IsSoughtInTheWholeImageInTheSameFrame) {
+  const ShortClip& clip = shortClip();
+  MisledRun run(1);
+  const FrameRecord record = run.reconstructor->process(clip.frames[1]);
+  EXPECT_EQ(run.calls, 2);
+  ASSERT_EQ(record.status, FrameStatus::kRecovered) << record.reason;
+  EXPECT_LT(trackErrorMm(record, clip.truth[1]), 0.5);
+  EXPECT_EQ(run.reconstructor->process(clip.frames[2]).status, FrameStatus::kFused);
+}
+
+// Where it is found nowhere else, the frame changes nothing, and is told as what it is.
+TEST(DoubtfulPose, LeavesModelAndPoseAsTheyWere) {
+  const ShortClip& clip = shortClip();
+  MisledRun run(2);
+  const std::string before = bytesOf(run.reconstructor->model().model);
+  const FrameRecord record = run.reconstructor->process(clip.frames[1]);
+  EXPECT_EQ(run.calls, 2);
+  ASSERT_EQ(record.status, FrameStatus::kUnconfirmed) << record.reason;
+  EXPECT_TRUE(record.world_from_left.isApprox(Eigen::Isometry3d::Identity()));
+  PointModel after = run.reconstructor->model().model;
+  for (PointBinding& binding : after.bindings) binding = {};  // the graph may grow
+  EXPECT_TRUE(before == bytesOf(after));
+  const FrameRecord next = run.reconstructor->process(clip.frames[2]);
+  EXPECT_EQ(next.status, FrameStatus::kFused) << next.reason;
+  EXPECT_EQ(run.calls, 3) << "sought from the last pose";
+}
+
+}  // namespace
+}  // namespace softscope::test
