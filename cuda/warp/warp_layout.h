@@ -115,11 +115,17 @@ struct WarpPointLayout {
   PointTarget* targets = nullptr;
 };
 
-/// The rows of matches of a frame, three each.
+/// The matches of a frame, three rows each.
 struct WarpMatchLayout {
-  PlaneConstraint* rows = nullptr;
+  WarpMatchLayout() = default;
+  WarpMatchLayout(Arena& arena, std::size_t matches) : count(matches) {
+    list = arena.array<WarpMatch>(matches);
+    sizes_mm = arena.array<float>(matches);
+  }
+
+  WarpMatch* list = nullptr;
   float* sizes_mm = nullptr;  // size of each match
-  std::size_t count = 0;      // of matches
+  std::size_t count = 0;
 };
 
 /// The depth map of a frame.

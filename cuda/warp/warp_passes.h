@@ -65,8 +65,7 @@ class WarpPasses {
     executor_.mark("associate");
     constexpr bool kAssembles = true;
     launch("stencils",
-           StencilKernel<kAssembles>{graph, points, matches, transforms, inputs.weights.data_robust,
-                                     inputs.weights.correspondence_robust});
+           StencilKernel<kAssembles>{graph, points, matches, transforms, inputs.weights});
     launch("edges", EdgeKernel<kAssembles>{graph, transforms, inputs.weights.regularisation});
     launch("gather", GatherKernel{graph, transforms, inputs.weights.rest});
     executor_.launch("sums", SumKernel{graph, /*with_step=*/false}, Grid{});
@@ -98,9 +97,7 @@ class WarpPasses {
     executor_.mark("solve");
     launch("step", StepKernel{graph, transforms, trial, damping, inputs.lever_mm});
     constexpr bool kAssembles = false;
-    launch("stencils",
-           StencilKernel<kAssembles>{graph, points, matches, trial, inputs.weights.data_robust,
-                                     inputs.weights.correspondence_robust});
+    launch("stencils", StencilKernel<kAssembles>{graph, points, matches, trial, inputs.weights});
     launch("edges", EdgeKernel<kAssembles>{graph, trial, inputs.weights.regularisation});
     executor_.launch("sums", SumKernel{graph, /*with_step=*/true}, Grid{});
     executor_.mark("trial");

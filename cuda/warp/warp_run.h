@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -116,16 +117,23 @@ class WarpRun final : public WarpDevice {
     return loads;
   }
 
-  void setMatches(const WarpMatches& matches) override {
-    const auto rows = static_cast<std::size_t>(matches.rows);
+  void setMatches(int matches, const std::function<void(const WarpMatches&)>& fill) override {
+    const auto count = static_cast<std::size_t>(matches);
+    const auto starts = static_cast<std::size_t>(graph_.stencils) + 1;
     Arena counting;
-    counting.array<PlaneConstraint>(rows);
-    counting.array<float>(rows / 3);
+    WarpMatchLayout planned(counting, count);
     reserve(counting.bytes(), &match_memory_);
     Arena arena(match_memory_.data());
-    matches_ = {arena.array<PlaneConstraint>(rows), arena.array<float>(rows / 3), rows / 3};
-    send(matches_.rows, matches.constraints, rows);
-    send(graph_.match_start, matches.start, static_cast<std::size_t>(graph_.stencils) + 1);
+    matches_ = WarpMatchLayout(arena, count);
+    Arena room;
+    room.array<WarpMatch>(count);
+    room.array<int>(starts);
+    growTo(room.bytes(), "pinned memory for matches", &given_matches_);
+    room = Arena(given_matches_.data());
+    const WarpMatches given{room.array<WarpMatch>(count), room.array<int>(starts)};
+    fill(given);
+    send(matches_.list, given.matches, count);
+    send(graph_.match_start, given.start, starts);
     machine_.wait();
   }
 
@@ -213,7 +221,7 @@ class WarpRun final : public WarpDevice {
   }
 
   Memory structure_memory_, surface_memory_, point_memory_, list_memory_, match_memory_;
-  typename Machine::Pinned arrived_;
+  typename Machine::Pinned arrived_, given_matches_;
   Machine machine_;
   WarpPasses<typename Machine::Executor> passes_;
   FrontTables fronts_;

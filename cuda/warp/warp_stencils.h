@@ -95,7 +95,7 @@ struct StencilKernel {
   WarpPointLayout points;
   WarpMatchLayout matches;
   const NodeTransform* transforms;
-  RobustOptions data_robust, correspondence_robust;
+  WarpWeights weights;
 
   Grid blocks() const { return {graph.stencils, 1, 1}; }
   SOFTSCOPE_HD int repeats(const Place& at) const {
@@ -142,7 +142,7 @@ struct StencilKernel {
 
  private:
   SOFTSCOPE_HD int matchRows(int stencil) const {
-    return graph.match_start[stencil + 1] - graph.match_start[stencil];
+    return 3 * (graph.match_start[stencil + 1] - graph.match_start[stencil]);
   }
   SOFTSCOPE_HD int rowsOf(int stencil) const {
     return matchRows(stencil) + graph.point_start[stencil + 1] - graph.point_start[stencil];
@@ -156,8 +156,8 @@ struct StencilKernel {
     Vec3<double> point, normal, target;
     double weight;
     if (row < match_rows) {
-      const PlaneConstraint& match = matches.rows[graph.match_start[at.x] + row];
-      point = vectorOf(match.point), normal = vectorOf(match.normal);
+      const WarpMatch& match = matches.list[graph.match_start[at.x] + row / 3];
+      point = vectorOf(match.source), normal = vectorOf(match.sqrt_information + 3 * (row % 3));
       target = vectorOf(match.target), weight = match.node_weights[k];
     } else {
       const int i = graph.point_start[at.x] + row - match_rows;
@@ -187,7 +187,7 @@ struct StencilKernel {
     const double own = shared.residuals[slot];
     if (row >= match_rows) {
       const double base = points.targets[graph.point_start[at.x] + row - match_rows].weight;
-      const RobustValue value = robustValue(data_robust, own * own);
+      const RobustValue value = robustValue(weights.data_robust, own * own);
       setWeight(slot, base * value.weight, shared);
       if (!(base > 0)) return;
       local.sums.data += base * value.cost;
@@ -196,13 +196,12 @@ struct StencilKernel {
       return;
     }
     const double* r = shared.residuals + slot / 3 * 3;
-    const int match_row = graph.match_start[at.x] + row;
-    const double base = matches.rows[match_row].weight, square = squaredMatch(r);
-    const RobustValue value = robustValue(correspondence_robust, square);
+    const double base = weights.correspondence, square = squaredMatch(r);
+    const RobustValue value = robustValue(weights.correspondence_robust, square);
     setWeight(slot, base * value.weight, shared);
     if (slot % 3 != 0) return;
     local.sums.correspondence += base * value.cost;
-    matches.sizes_mm[match_row / 3] = static_cast<float>(std::sqrt(square));
+    matches.sizes_mm[graph.match_start[at.x] + row / 3] = static_cast<float>(std::sqrt(square));
   }
 
   SOFTSCOPE_HD static void setWeight(int slot, double weight, Shared& shared) {

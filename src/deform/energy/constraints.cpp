@@ -11,8 +11,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kMatchesPerTask = 512;
-
 bool usable(const PointModel& model, const WarpGraph& graph, int point) {
   const PointBinding& binding = model.bindings[point];
   return binding.bound() && binding.stencil < static_cast<int>(graph.stencils.size()) &&
@@ -156,53 +154,55 @@ CandidatePoints noCandidates(const WarpGraph& graph) {
   return none;
 }
 
+CarriedMatches::CarriedMatches(const PointModel& model, const WarpGraph& graph,
+                               const std::vector<KeyPointMatch>& matches)
+    : place(matches.size()), start(graph.stencils.size() + 1, 0) {
+  parallelRanges(static_cast<int>(matches.size()), kMatchesPerTask, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i)
+      place[i] = usable(model, graph, matches[i]) ? model.bindings[matches[i].model_point].stencil
+                                                  : PointBinding::kUnbound;
+  });
+  for (const std::int32_t stencil : place)
+    if (stencil >= 0) ++start[static_cast<std::size_t>(stencil)];
+  int total = 0;
+  for (int& first : start) total += std::exchange(first, total);
+  std::vector<int> next(start);
+  for (std::int32_t& stencil : place)
+    if (stencil >= 0) stencil = next[static_cast<std::size_t>(stencil)]++;
+}
+
+void countMatches(const CarriedMatches& carried, const WarpGraph& graph, ConstraintSet* set) {
+  set->rows.clear();
+  set->stencils.assign(graph.stencils.size(), StencilRows());
+  for (std::size_t s = 0; s < set->stencils.size(); ++s)
+    set->stencils[s].matches = carried.start[s + 1] - carried.start[s];
+  set->matches = carried.count();
+  set->matches_dropped = static_cast<int>(carried.place.size()) - carried.count();
+  set->stiffness.assign(graph.edges.size(), 1);
+  expectShape(graph, 0, &set->expected);
+  listActive(set);
+}
+
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
                      const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
                      double match_weight, ConstraintSet* set) {
-  set->stencils.assign(graph.stencils.size(), StencilRows());
-  const int count = static_cast<int>(matches.size());
-  std::vector<std::int32_t> stencils(matches.size());  // of the matches; none: dropped
-  parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i)
-      stencils[i] = usable(model, graph, matches[i])
-                        ? model.bindings[matches[i].model_point].stencil
-                        : PointBinding::kUnbound;
-  });
-  set->matches = 0;
-  for (const std::int32_t stencil : stencils) {
-    if (stencil == PointBinding::kUnbound) continue;
-    ++set->stencils[stencil].matches;
-    ++set->matches;
-  }
-  set->matches_dropped = count - set->matches;
-  int next = 0;
-  std::vector<int> next_match;
-  next_match.reserve(set->stencils.size());
-  for (std::size_t s = 0; s < set->stencils.size(); ++s) {
-    set->stencils[s].first = next;
-    next_match.push_back(next);
-    next += 3 * set->stencils[s].matches + candidates.stencil_start[s + 1] -
-            candidates.stencil_start[s];
-  }
-  set->rows.resize(static_cast<std::size_t>(next));
-  std::vector<int> first_row(matches.size());
-  for (int i = 0; i < count; ++i)
-    if (stencils[i] != PointBinding::kUnbound)
-      first_row[i] = std::exchange(next_match[stencils[i]], next_match[stencils[i]] + 3);
-  parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
+  const CarriedMatches carried(model, graph, matches);
+  countMatches(carried, graph, set);
+  for (std::size_t s = 0; s < set->stencils.size(); ++s)
+    set->stencils[s].first = 3 * carried.start[s] + candidates.stencil_start[s];
+  set->rows.resize(static_cast<std::size_t>(3 * carried.count() + candidates.stencil_start.back()));
+  parallelRanges(static_cast<int>(matches.size()), kMatchesPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      if (stencils[i] == PointBinding::kUnbound) continue;
+      if (carried.place[i] < 0) continue;
       const KeyPointMatch& match = matches[i];
       const PointBinding& binding = model.bindings[match.model_point];
+      const int first_row = 3 * carried.place[i] + candidates.stencil_start[binding.stencil];
       for (int c = 0; c < 3; ++c)
-        set->rows[first_row[i] + c] =
+        set->rows[first_row + c] =
             makeRow(binding, match.source_mm, match.sqrt_information.row(c).transpose(),
                     match.target_mm, static_cast<float>(match_weight));
     }
   });
-  set->stiffness.assign(graph.edges.size(), 1);
-  expectShape(graph, 0, &set->expected);
-  listActive(set);
 }
 
 void listActive(ConstraintSet* constraints) {

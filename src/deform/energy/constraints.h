@@ -23,6 +23,9 @@ struct KeyPointMatch {
   Eigen::Matrix3f sqrt_information = Eigen::Matrix3f::Identity();
 };
 
+/// Grain of loops over matches.
+inline constexpr int kMatchesPerTask = 512;
+
 /// sqrt_information of a match whose target has the standard error `along_mm` along `ray`
 /// (unit, world frame) and `across_mm` across it; errors of reference_mm have weight 1.
 Eigen::Matrix3f matchSqrtInformation(const Eigen::Vector3f& ray, double along_mm, double across_mm,
@@ -47,6 +50,17 @@ void collectCandidates(const PointModel& model, const WarpGraph& graph,
 /// Empty, for this graph.
 CandidatePoints noCandidates(const WarpGraph& graph);
 
+/// Matches in the order of the stencils that carry them, and as given within each.
+struct CarriedMatches {
+  CarriedMatches(const PointModel& model, const WarpGraph& graph,
+                 const std::vector<KeyPointMatch>& matches);
+
+  int count() const { return start.back(); }
+
+  std::vector<std::int32_t> place;  // of each match; negative: not finite, or of an unbound point
+  std::vector<int> start;           // places; one per stencil of the graph, and the end
+};
+
 /// Rows of one stencil: three per match, then one per point with a target.
 struct StencilRows {
   int first = 0;  // into ConstraintSet::rows
@@ -67,6 +81,10 @@ struct ConstraintSet {
   std::vector<ExpectedOffsets> expected;  // one per edge
   std::vector<double> hidden;             // one per node: invisible share of its points
 };
+
+/// Counts the matches of every stencil, without any row. Overwrites *constraints and reuses its
+/// memory.
+void countMatches(const CarriedMatches& carried, const WarpGraph& graph, ConstraintSet* set);
 
 /// Allocates rows for all candidates, and the rows of matches; all
 /// edges stiff. Overwrites *constraints and reuses its memory.

@@ -1,6 +1,8 @@
 #include "deform/solver/device_warp_system.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "core/error.h"
@@ -12,6 +14,17 @@
 
 namespace softscope {
 namespace {
+
+WarpMatch warpMatch(const KeyPointMatch& match, const PointModel& model) {
+  WarpMatch packed;
+  Eigen::Map<Eigen::Vector3f>(packed.source) = match.source_mm;
+  Eigen::Map<Eigen::Vector3f>(packed.target) = match.target_mm;
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(packed.sqrt_information) =
+      match.sqrt_information;
+  const PointBinding& binding = model.bindings[static_cast<std::size_t>(match.model_point)];
+  std::copy(binding.weights.begin(), binding.weights.end(), packed.node_weights);
+  return packed;
+}
 
 class DeviceWarpSystem final : public WarpSystem {
  public:
@@ -119,14 +132,19 @@ class DeviceWarpSystem final : public WarpSystem {
     return carried;
   }
 
-  /// The constraints contain no rows of points: the device creates them.
+  /// The constraints contain no rows: the device creates them.
   void takeMatches(const PointModel& model, const DeformObservation& seen) {
-    makeConstraints(model, graph_, noCandidates(graph_), seen.matches,
-                    options_.correspondence_weight, &constraints_);
-    std::vector<int> start;
-    for (const StencilRows& rows : constraints_.stencils) start.push_back(rows.first);
-    start.push_back(3 * constraints_.matches);
-    device_->setMatches({start.back(), constraints_.rows.data(), start.data()});
+    const CarriedMatches carried(model, graph_, seen.matches);
+    device_->setMatches(carried.count(), [&](const WarpMatches& room) {
+      std::copy(carried.start.begin(), carried.start.end(), room.start);
+      parallelRanges(static_cast<int>(seen.matches.size()), kMatchesPerTask,
+                     [&](int begin, int end) {
+                       for (int i = begin; i < end; ++i)
+                         if (carried.place[i] >= 0)
+                           room.matches[carried.place[i]] = warpMatch(seen.matches[i], model);
+                     });
+    });
+    countMatches(carried, graph_, &constraints_);
     expectShape(graph_, options_.shape_memory, &constraints_.expected);
   }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,12 +20,14 @@ namespace softscope {
 /// Options used by a device.
 struct WarpWeights {
   double regularisation = 0, rest = 0, data = 0;
+  float correspondence = 0;
   RobustOptions data_robust, correspondence_robust;
 };
 
 inline WarpWeights warpWeights(const DeformOptions& options) {
-  return {options.regularisation_weight, options.rest_weight, options.data_weight,
-          options.data_robust, options.correspondence_robust};
+  return {options.regularisation_weight, options.rest_weight,
+          options.data_weight,           static_cast<float>(options.correspondence_weight),
+          options.data_robust,           options.correspondence_robust};
 }
 
 /// Model points of the data term, sorted by stencil.
@@ -37,11 +40,17 @@ struct WarpPoints {
   float points_each = 1;
 };
 
-/// Rows of matches, three each, stencil by stencil.
+/// Match and the nodes that carry it: docs/energy.md (12). World frame, mm.
+struct WarpMatch {
+  float source[3], target[3];
+  float sqrt_information[9];  // by rows
+  float node_weights[4];
+};
+
+/// Memory of the host for the matches of a frame, stencil by stencil.
 struct WarpMatches {
-  int rows = 0;
-  const PlaneConstraint* constraints = nullptr;
-  const int* start = nullptr;  // rows; stencils + 1 entries
+  WarpMatch* matches = nullptr;
+  int* start = nullptr;  // stencils + 1 entries
 };
 
 /// Nodes, edges and their weights.
@@ -81,7 +90,8 @@ class WarpDevice {
   /// In place of setPoints(): those of the model on the device that the frame shows. None without
   /// such a model, or if it cannot list them.
   virtual std::optional<NodeLoads> setSeenPoints(const PointModel& model) = 0;
-  virtual void setMatches(const WarpMatches& matches) = 0;
+  /// Calls `fill` with memory for so many matches.
+  virtual void setMatches(int count, const std::function<void(const WarpMatches&)>& fill) = 0;
   virtual void setNodes(const WarpNodes& nodes) = 0;
   virtual void setWeights(const WarpWeights& weights) = 0;
   /// New targets and normal equations at the accepted transforms; their energy and the largest

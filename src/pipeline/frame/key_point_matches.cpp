@@ -8,8 +8,6 @@
 namespace softscope {
 namespace {
 
-constexpr int kMatchesPerTask = 512;
-
 /// None where the match is an outlier of the pose whose windows differ, or longer than the gate.
 std::optional<KeyPointMatch> keyPointMatch(const LiftedMatch& match, bool is_outlier,
                                            const AssociationOptions& association,
