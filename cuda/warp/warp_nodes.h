@@ -25,7 +25,7 @@ struct EdgeKernel {
     if (e >= graph.edges) return;
     const PlacedNode first = nodeAt(graph.edge_nodes[2 * e]);
     const PlacedNode second = nodeAt(graph.edge_nodes[2 * e + 1]);
-    graph.edge_energies[e] = graph.edge_weights[e] * edgeEnergy(first, second, graph.expected[e]);
+    graph.edge_energies[e] = edgeEnergy(first, second, graph.expected[e]);
     if constexpr (kAssembles) {
       const EdgeSystem<RigidNode> system(first, second, graph.expected[e],
                                          weight * graph.edge_weights[e]);
@@ -188,7 +188,8 @@ struct SumKernel {
       sums[2] += one.data_abs_mm;
       sums[3] += one.targets;
     }
-    for (int e = thread; e < graph.edges; e += kThreads) sums[4] += graph.edge_energies[e];
+    for (int e = thread; e < graph.edges; e += kThreads)
+      sums[4] += graph.edge_weights[e] * graph.edge_energies[e];
     for (int j = thread; j < graph.nodes; j += kThreads) {
       sums[5] += graph.rest_energies[j];
       if (!with_step) continue;

@@ -133,8 +133,7 @@ class WarpRun final : public WarpDevice {
     const WarpMatches given{room.array<WarpMatch>(count), room.array<int>(starts)};
     fill(given);
     send(matches_.list, given.matches, count);
-    send(graph_.match_start, given.start, starts);
-    machine_.wait();
+    send(graph_.match_start, given.start, starts);  // both arrive before linearise() runs
   }
 
   void setNodes(const WarpNodes& from) override {
@@ -170,9 +169,17 @@ class WarpRun final : public WarpDevice {
     return fetchSums();
   }
   void acceptStep() override { accepted_ = 1 - accepted_; }
-  std::vector<float> matchSizes() override {
-    const float* sizes_mm = fetch(matches_.sizes_mm, matches_.count);
-    return {sizes_mm, sizes_mm + matches_.count};
+  WarpFit fit() override {
+    const auto edges = static_cast<std::size_t>(graph_.edges);
+    Arena counting;
+    counting.array<float>(matches_.count);
+    counting.array<double>(edges);
+    growTo(counting.bytes(), "pinned memory for the warp", &arrived_);
+    Arena arena(arrived_.data());
+    float* sizes_mm = receive(matches_.sizes_mm, matches_.count, arena);
+    double* energies_mm2 = receive(graph_.edge_energies, edges, arena);
+    machine_.wait();
+    return {{sizes_mm, sizes_mm + matches_.count}, {energies_mm2, energies_mm2 + edges}};
   }
   std::vector<NodeTransform> transforms() override {
     const NodeTransform* found = fetch(accepted(), static_cast<std::size_t>(graph_.nodes));
@@ -209,15 +216,22 @@ class WarpRun final : public WarpDevice {
   void send(T* to, const std::vector<T>& from) {
     send(to, from.data(), from.size());
   }
+  /// Into pinned memory, which has it after wait().
+  template <class T>
+  T* receive(const T* from, std::size_t count, Arena& arena) {
+    T* to = arena.array<T>(count);
+    if (count > 0) machine_.fromDevice(to, from, count * sizeof(T));
+    return to;
+  }
   WarpSums fetchSums() { return *fetch(graph_.sums, 1); }
   /// Valid until the next call. Pinned memory is copied to without a detour.
   template <class T>
   const T* fetch(const T* from, std::size_t count) {
-    const std::size_t bytes = count * sizeof(T);
-    growTo(bytes, "pinned memory for the warp", &arrived_);
-    if (bytes > 0) machine_.fromDevice(arrived_.data(), from, bytes);
+    growTo(count * sizeof(T), "pinned memory for the warp", &arrived_);
+    Arena arena(arrived_.data());
+    const T* to = receive(from, count, arena);
     machine_.wait();
-    return static_cast<const T*>(arrived_.data());
+    return to;
   }
 
   Memory structure_memory_, surface_memory_, point_memory_, list_memory_, match_memory_;

@@ -18,23 +18,32 @@ constexpr double kHidden = 0.5;  // nodes with more invisible points are
 
 }  // namespace
 
-std::vector<double> squaresOfSeenEdges(const WarpGraph& graph,
-                                       const std::vector<NodeTransform>& transforms,
-                                       const ConstraintSet& constraints) {
-  std::vector<double> squares_mm2;
+std::vector<double> edgeEnergies(const WarpGraph& graph,
+                                 const std::vector<NodeTransform>& transforms,
+                                 const std::vector<ExpectedOffsets>& expected) {
+  std::vector<double> energies;
+  energies.reserve(graph.edges.size());
   const auto placed = [&](std::int32_t node) {
     const auto j = static_cast<std::size_t>(node);
     return PlacedNode{graph.positions_mm[j], transforms[j]};
   };
+  for (std::size_t e = 0; e < graph.edges.size(); ++e)
+    energies.push_back(
+        edgeEnergy(placed(graph.edges[e].first), placed(graph.edges[e].second), expected[e]));
+  return energies;
+}
+
+std::vector<double> squaresOfSeenEdges(const WarpGraph& graph, const std::vector<double>& energies,
+                                       const ConstraintSet& constraints) {
+  std::vector<double> squares_mm2;
+  squares_mm2.reserve(graph.edges.size());
   const auto isHidden = [&](std::int32_t node) {
     return constraints.hidden[static_cast<std::size_t>(node)] >= kHidden;
   };
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const GraphEdge& edge = graph.edges[e];
-    if (isHidden(edge.first) || isHidden(edge.second)) continue;
-    squares_mm2.push_back(
-        edge.weight * edgeEnergy(placed(edge.first), placed(edge.second), constraints.expected[e]) /
-        2);
+    if (!isHidden(edge.first) && !isHidden(edge.second))
+      squares_mm2.push_back(edge.weight * energies[e] / 2);
   }
   return squares_mm2;
 }

@@ -19,9 +19,13 @@ struct FirstFit {
   std::vector<double> edges_square_mm2;  // of edges between visible nodes: (6), with their weights
 };
 
-/// The latter, with these transforms in place of those of the graph.
-std::vector<double> squaresOfSeenEdges(const WarpGraph& graph,
-                                       const std::vector<NodeTransform>& transforms,
+/// Of each edge, without its weight, with these transforms in place of those of the graph.
+std::vector<double> edgeEnergies(const WarpGraph& graph,
+                                 const std::vector<NodeTransform>& transforms,
+                                 const std::vector<ExpectedOffsets>& expected);
+
+/// FirstFit::edges_square_mm2 from these energies.
+std::vector<double> squaresOfSeenEdges(const WarpGraph& graph, const std::vector<double>& energies,
                                        const ConstraintSet& constraints);
 
 /// Factor of w_reg and w_rest in the steps after the first one; 1 where matches or edges are few.

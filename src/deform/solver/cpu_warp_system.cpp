@@ -90,7 +90,9 @@ class CpuWarpSystem final : public WarpSystem {
   }
 
   FirstFit firstFit() override {
-    return {matchSizes(), squaresOfSeenEdges(graph_, graph_.transforms, constraints_)};
+    const std::vector<double> energies =
+        edgeEnergies(graph_, graph_.transforms, constraints_.expected);
+    return {matchSizes(), squaresOfSeenEdges(graph_, energies, constraints_)};
   }
   double pivotRatio() override { return cholesky_.pivotRatio(); }
   std::vector<NodeTransform> transforms() override { return graph_.transforms; }

@@ -42,7 +42,7 @@ class DeviceWarpSystem final : public WarpSystem {
     times_ = DeformTimes();
     const Stopwatch watch(&times_.prepare_ms);
     analyse(graph);
-    graph_ = graph;
+    graph_ = &graph;
     NodeLoads loads;
     // Independent.
     parallelInvoke([&] { takeMatches(model, seen); }, [&] { loads = takePoints(model, seen); });
@@ -70,7 +70,7 @@ class DeviceWarpSystem final : public WarpSystem {
     const std::vector<int> targets = device_->targetCounts();
     for (std::size_t s = 0; s < targets.size(); ++s) constraints_.stencils[s].points = targets[s];
     listActive(&constraints_);
-    return nodesWithData(graph_, constraints_);
+    return nodesWithData(*graph_, constraints_);
   }
 
   std::optional<TrialStep> tryStep(double damping) override {
@@ -84,7 +84,8 @@ class DeviceWarpSystem final : public WarpSystem {
 
   void acceptStep() override { device_->acceptStep(); }
   FirstFit firstFit() override {
-    return {device_->matchSizes(), squaresOfSeenEdges(graph_, device_->transforms(), constraints_)};
+    WarpFit fit = device_->fit();
+    return {std::move(fit.matches_mm), squaresOfSeenEdges(*graph_, fit.edges_mm2, constraints_)};
   }
   double pivotRatio() override { return pivot_ratio_; }
   std::vector<NodeTransform> transforms() override { return device_->transforms(); }
@@ -103,7 +104,7 @@ class DeviceWarpSystem final : public WarpSystem {
     if (takes_all && usesSurface(seen) && seen.visible != nullptr)
       if (std::optional<NodeLoads> loads = device_->setSeenPoints(model)) return *loads;
     NodeLoads loads;
-    parallelInvoke([&] { loads.all = carriedPoints(model.bindings, graph_, 1); },
+    parallelInvoke([&] { loads.all = carriedPoints(model.bindings, *graph_, 1); },
                    [&] { loads.seen = sendPoints(model, seen); });
     return loads;
   }
@@ -115,9 +116,10 @@ class DeviceWarpSystem final : public WarpSystem {
   /// Returns how many a node carries.
   std::vector<double> sendPoints(const PointModel& model, const DeformObservation& seen) {
     if (usesSurface(seen))
-      collectCandidates(model, graph_, seen.visible, options_.association.max_points, &candidates_);
+      collectCandidates(model, *graph_, seen.visible, options_.association.max_points,
+                        &candidates_);
     else
-      candidates_ = noCandidates(graph_);
+      candidates_ = noCandidates(*graph_);
     WarpPoints points;
     points.count = static_cast<int>(candidates_.bindings.size());
     points.positions_mm = candidates_.positions_mm.data();
@@ -128,13 +130,13 @@ class DeviceWarpSystem final : public WarpSystem {
     std::vector<double> carried;
     parallelInvoke(
         [&] { device_->setPoints(points); },
-        [&] { carried = carriedPoints(candidates_.bindings, graph_, candidates_.points_each); });
+        [&] { carried = carriedPoints(candidates_.bindings, *graph_, candidates_.points_each); });
     return carried;
   }
 
   /// The constraints contain no rows: the device creates them.
   void takeMatches(const PointModel& model, const DeformObservation& seen) {
-    const CarriedMatches carried(model, graph_, seen.matches);
+    const CarriedMatches carried(model, *graph_, seen.matches);
     device_->setMatches(carried.count(), [&](const WarpMatches& room) {
       std::copy(carried.start.begin(), carried.start.end(), room.start);
       parallelRanges(static_cast<int>(seen.matches.size()), kMatchesPerTask,
@@ -144,18 +146,18 @@ class DeviceWarpSystem final : public WarpSystem {
                            room.matches[carried.place[i]] = warpMatch(seen.matches[i], model);
                      });
     });
-    countMatches(carried, graph_, &constraints_);
-    expectShape(graph_, options_.shape_memory, &constraints_.expected);
+    countMatches(carried, *graph_, &constraints_);
+    expectShape(*graph_, options_.shape_memory, &constraints_.expected);
   }
 
   void takeNodes(const NodeLoads& loads) {
-    classifyNodes(graph_, loads.all, loads.seen, options_.seen_stiffness, &constraints_);
+    classifyNodes(*graph_, loads.all, loads.seen, options_.seen_stiffness, &constraints_);
     std::vector<double> edge_weights;
-    for (std::size_t e = 0; e < graph_.edges.size(); ++e)
-      edge_weights.push_back(constraints_.stiffness[e] * graph_.edges[e].weight);
-    device_->setNodes({graph_.positions_mm.data(), graph_.transforms.data(),
+    for (std::size_t e = 0; e < graph_->edges.size(); ++e)
+      edge_weights.push_back(constraints_.stiffness[e] * graph_->edges[e].weight);
+    device_->setNodes({graph_->positions_mm.data(), graph_->transforms.data(),
                        constraints_.hidden.data(), edge_weights.data(),
-                       constraints_.expected.data(), meanEdgeLength(graph_)});
+                       constraints_.expected.data(), meanEdgeLength(*graph_)});
   }
 
   EnergySums energyOf(const WarpSums& sums) const {
@@ -171,7 +173,7 @@ class DeviceWarpSystem final : public WarpSystem {
   DeformOptions given_, options_;  // the latter of the stiffness at hand
   std::unique_ptr<WarpDevice> device_;
   GraphStructure structure_;
-  WarpGraph graph_;
+  const WarpGraph* graph_ = nullptr;  // of the frame at hand
   CandidatePoints candidates_;
   ConstraintSet constraints_;  // matches, and constraints of edges and nodes
   double largest_diagonal_ = 0, pivot_ratio_ = 1;

@@ -34,8 +34,8 @@ class WarpSystem {
   virtual ~WarpSystem() = default;
   /// Depends on the structure of the graph only. Repeated calls are fast.
   virtual void analyse(const WarpGraph& graph) = 0;
-  /// Sets the observation of a frame, and the accepted transforms
-  /// from the graph. `seen` must live until the next begin().
+  /// Sets the observation of a frame, and the accepted transforms from the graph. `seen` and
+  /// `graph` must live until the last call for the frame, besides times().
   virtual MatchCounts begin(const PointModel& model, const DeformObservation& seen,
                             const WarpGraph& graph) = 0;
   /// Factor of w_reg and w_rest from the next association on: docs/energy.md (7c).
