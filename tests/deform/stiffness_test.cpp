@@ -25,7 +25,7 @@ TEST(Stiffness, StillTissueIsAsStiffAsTheOptionsSay) {
 
 // docs/energy.md (7c): edges of three times the square that noise leaves.
 TEST(Stiffness, IsLessWhereEdgesDeformByMoreThanNoise) {
-  EXPECT_DOUBLE_EQ(stiffnessAfter(fitOf(0.5f, 3 * 0.25 * 0.25)), 0.2);
+  EXPECT_DOUBLE_EQ(stiffnessAfter(fitOf(0.5f, 3 * 0.25 * 0.25)), 1.0 / 9);
 }
 
 TEST(Stiffness, DependsOnTheRatioAlone) {
@@ -35,7 +35,7 @@ TEST(Stiffness, DependsOnTheRatioAlone) {
 TEST(Stiffness, TheMedianMatchCounts) {
   FirstFit fit = fitOf(0.5f, 3 * 0.25 * 0.25, 100);
   for (std::size_t i = 0; i < 45; ++i) fit.matches_mm[i] = 50;  // wrong
-  EXPECT_DOUBLE_EQ(stiffnessAfter(fit), 0.2);
+  EXPECT_DOUBLE_EQ(stiffnessAfter(fit), 1.0 / 9);
 }
 
 TEST(Stiffness, FewMatchesOrEdgesSayNothing) {

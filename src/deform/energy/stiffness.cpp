@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kFewest = 20;  // matches, edges; the median of so few is right to a quarter
 constexpr double kStrainOfNoise = 0.25;  // mean square of edges of still tissue, in squares of the
                                          // median match
+constexpr double kSoftening = 4;  // how fast stiffness falls with what noise does not explain
 constexpr double kLeastStiffness = 1.0 / 64;
 constexpr double kHidden = 0.5;  // nodes with more invisible points are
 
@@ -58,7 +59,7 @@ double stiffnessAfter(const FirstFit& fit) {
   const double noise_mm2 = kStrainOfNoise * match_mm * match_mm;
   if (!(square_mm2 > noise_mm2)) return 1;
   if (!(noise_mm2 > 0)) return kLeastStiffness;
-  return std::max(kLeastStiffness, 1 / (1 + 2 * (square_mm2 / noise_mm2 - 1)));
+  return std::max(kLeastStiffness, 1 / (1 + kSoftening * (square_mm2 / noise_mm2 - 1)));
 }
 
 DeformOptions stiffer(const DeformOptions& options, double factor) {

@@ -11,7 +11,7 @@
 namespace softscope {
 
 /// Share of w_reg and w_rest in the first step, when neither noise nor deformation are known.
-constexpr double kFirstStiffness = 0.15;
+constexpr double kFirstStiffness = 0.2;
 
 /// What the first step leaves of matches and edges.
 struct FirstFit {

@@ -64,7 +64,7 @@ struct SolverOptions {
 struct DeformOptions {
   NodeModel node_model = NodeModel::kRigid;
   double rotation_weight = 40.0;         // w_rot; has no effect on rigid nodes
-  double regularisation_weight = 200.0;  // w_reg, of still tissue
+  double regularisation_weight = 300.0;  // w_reg, of still tissue
   double seen_stiffness = 0.2;           // share of it between nodes with visible points only
   double shape_memory = 0.2;             // share of the mean past shape in the expected shape
   double rest_weight = 0.05;             // w_rest, for invisible nodes
