@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cuda/device/downlink.h"
 #include "cuda/device/grown_memory.h"
 #include "cuda/device/shared_rasters.h"
 #include "cuda/model/model_home.h"
@@ -170,16 +171,11 @@ class WarpRun final : public WarpDevice {
   }
   void acceptStep() override { accepted_ = 1 - accepted_; }
   WarpFit fit() override {
-    const auto edges = static_cast<std::size_t>(graph_.edges);
-    Arena counting;
-    counting.array<float>(matches_.count);
-    counting.array<double>(edges);
-    growTo(counting.bytes(), "pinned memory for the warp", &arrived_);
-    Arena arena(arrived_.data());
-    float* sizes_mm = receive(matches_.sizes_mm, matches_.count, arena);
-    double* energies_mm2 = receive(graph_.edge_energies, edges, arena);
-    machine_.wait();
-    return {{sizes_mm, sizes_mm + matches_.count}, {energies_mm2, energies_mm2 + edges}};
+    WarpFit fit;
+    downlink_.add(matches_.sizes_mm, matches_.count, &fit.matches_mm);
+    downlink_.add(graph_.edge_energies, static_cast<std::size_t>(graph_.edges), &fit.edges_mm2);
+    downlink_.fetch(machine_);
+    return fit;
   }
   std::vector<NodeTransform> transforms() override {
     const NodeTransform* found = fetch(accepted(), static_cast<std::size_t>(graph_.nodes));
@@ -216,26 +212,20 @@ class WarpRun final : public WarpDevice {
   void send(T* to, const std::vector<T>& from) {
     send(to, from.data(), from.size());
   }
-  /// Into pinned memory, which has it after wait().
-  template <class T>
-  T* receive(const T* from, std::size_t count, Arena& arena) {
-    T* to = arena.array<T>(count);
-    if (count > 0) machine_.fromDevice(to, from, count * sizeof(T));
-    return to;
-  }
   WarpSums fetchSums() { return *fetch(graph_.sums, 1); }
   /// Valid until the next call. Pinned memory is copied to without a detour.
   template <class T>
   const T* fetch(const T* from, std::size_t count) {
-    growTo(count * sizeof(T), "pinned memory for the warp", &arrived_);
-    Arena arena(arrived_.data());
-    const T* to = receive(from, count, arena);
+    const std::size_t bytes = count * sizeof(T);
+    growTo(bytes, "pinned memory for the warp", &arrived_);
+    if (bytes > 0) machine_.fromDevice(arrived_.data(), from, bytes);
     machine_.wait();
-    return to;
+    return static_cast<const T*>(arrived_.data());
   }
 
   Memory structure_memory_, surface_memory_, point_memory_, list_memory_, match_memory_;
   typename Machine::Pinned arrived_, given_matches_;
+  Downlink<Machine> downlink_;
   Machine machine_;
   WarpPasses<typename Machine::Executor> passes_;
   FrontTables fronts_;

@@ -112,7 +112,7 @@ void Reconstructor::reconstruct(const Frame& frame, const UpcomingFrames& upcomi
 
 /// From the last pose; else from wherever in the model the frame is recognised.
 bool Reconstructor::update(FrameRecord& record) {
-  const ScopeState before = scope_;
+  const Eigen::Isometry3d last = scope_.world_from_left;
   const bool located = locate(record);
   if (located && explain(record)) {
     fuse(FrameStatus::kFused, record);
@@ -120,14 +120,14 @@ bool Reconstructor::update(FrameRecord& record) {
   }
   if (!matching_) return false;
   FrameRecord found = measured(record);
-  scope_.world_from_left = before.world_from_left;
+  scope_.world_from_left = last;
   if (relocalise(found) && explain(found)) {
     scope_.lost = false;
     record = found;
     fuse(FrameStatus::kRecovered, record);
     return true;
   }
-  scope_.world_from_left = before.world_from_left;
+  scope_.world_from_left = last;
   if (located) return false;  // a pose in doubt: the next frame is sought from the last one
   scope_.lost = true;
   record = found;

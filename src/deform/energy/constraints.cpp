@@ -179,7 +179,6 @@ void countMatches(const CarriedMatches& carried, const WarpGraph& graph, Constra
   set->matches = carried.count();
   set->matches_dropped = static_cast<int>(carried.place.size()) - carried.count();
   set->stiffness.assign(graph.edges.size(), 1);
-  expectShape(graph, 0, &set->expected);
   listActive(set);
 }
 
@@ -188,6 +187,7 @@ void makeConstraints(const PointModel& model, const WarpGraph& graph,
                      double match_weight, ConstraintSet* set) {
   const CarriedMatches carried(model, graph, matches);
   countMatches(carried, graph, set);
+  expectShape(graph, 0, &set->expected);
   for (std::size_t s = 0; s < set->stencils.size(); ++s)
     set->stencils[s].first = 3 * carried.start[s] + candidates.stencil_start[s];
   set->rows.resize(static_cast<std::size_t>(3 * carried.count() + candidates.stencil_start.back()));

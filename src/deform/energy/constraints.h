@@ -82,9 +82,10 @@ struct ConstraintSet {
   std::vector<double> hidden;             // one per node: invisible share of its points
 };
 
-/// Counts the matches of every stencil, without any row. Overwrites *constraints and reuses its
-/// memory.
-void countMatches(const CarriedMatches& carried, const WarpGraph& graph, ConstraintSet* set);
+/// Counts the matches of every stencil, without any row; all edges stiff, of no expected shape yet.
+/// Overwrites *constraints and reuses its memory.
+void countMatches(const CarriedMatches& carried, const WarpGraph& graph,
+                  ConstraintSet* constraints);
 
 /// Allocates rows for all candidates, and the rows of matches; all
 /// edges stiff. Overwrites *constraints and reuses its memory.
