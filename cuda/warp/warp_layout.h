@@ -120,11 +120,9 @@ struct WarpMatchLayout {
   WarpMatchLayout() = default;
   WarpMatchLayout(Arena& arena, std::size_t matches) : count(matches) {
     list = arena.array<WarpMatch>(matches);
-    sizes_mm = arena.array<float>(matches);
   }
 
   WarpMatch* list = nullptr;
-  float* sizes_mm = nullptr;  // size of each match
   std::size_t count = 0;
 };
 

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "cuda/device/downlink.h"
 #include "cuda/device/grown_memory.h"
 #include "cuda/device/shared_rasters.h"
 #include "cuda/model/model_home.h"
@@ -170,13 +169,6 @@ class WarpRun final : public WarpDevice {
     return fetchSums();
   }
   void acceptStep() override { accepted_ = 1 - accepted_; }
-  WarpFit fit() override {
-    WarpFit fit;
-    downlink_.add(matches_.sizes_mm, matches_.count, &fit.matches_mm);
-    downlink_.add(graph_.edge_energies, static_cast<std::size_t>(graph_.edges), &fit.edges_mm2);
-    downlink_.fetch(machine_);
-    return fit;
-  }
   std::vector<NodeTransform> transforms() override {
     const NodeTransform* found = fetch(accepted(), static_cast<std::size_t>(graph_.nodes));
     return {found, found + graph_.nodes};
@@ -225,7 +217,6 @@ class WarpRun final : public WarpDevice {
 
   Memory structure_memory_, surface_memory_, point_memory_, list_memory_, match_memory_;
   typename Machine::Pinned arrived_, given_matches_;
-  Downlink<Machine> downlink_;
   Machine machine_;
   WarpPasses<typename Machine::Executor> passes_;
   FrontTables fronts_;

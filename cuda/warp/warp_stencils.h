@@ -196,12 +196,11 @@ struct StencilKernel {
       return;
     }
     const double* r = shared.residuals + slot / 3 * 3;
-    const double base = weights.correspondence, square = squaredMatch(r);
-    const RobustValue value = robustValue(weights.correspondence_robust, square);
+    const double base = weights.correspondence;
+    const RobustValue value = robustValue(weights.correspondence_robust, squaredMatch(r));
     setWeight(slot, base * value.weight, shared);
     if (slot % 3 != 0) return;
     local.sums.correspondence += base * value.cost;
-    matches.sizes_mm[graph.match_start[at.x] + row / 3] = static_cast<float>(std::sqrt(square));
   }
 
   SOFTSCOPE_HD static void setWeight(int slot, double weight, Shared& shared) {

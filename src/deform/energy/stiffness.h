@@ -1,35 +1,31 @@
-// src/deform/energy/stiffness.h: how stiff the tissue is taken to be, from the first step of a
-// frame: docs/energy.md (7c).
+// src/deform/energy/stiffness.h: how stiff the tissue is taken to be, from the matches of a frame:
+// docs/energy.md (7c).
 #pragma once
 
 #include <vector>
 
+#include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "deform/energy/constraints.h"
 #include "deform/options/deform_options.h"
 
 namespace softscope {
 
-/// Share of w_reg and w_rest in the first step, when neither noise nor deformation are known.
-constexpr double kFirstStiffness = 0.2;
-
-/// What the first step leaves of matches and edges.
-struct FirstFit {
-  std::vector<float> matches_mm;         // size of each match (12)
-  std::vector<double> edges_square_mm2;  // of edges between visible nodes: (6), with their weights
+/// What the matches say of the deformation of a frame before any warp, both relative to their
+/// standard errors.
+struct MatchedStrain {
+  double edges_square = 0;  // mean over edges with enough matches at both ends, noise subtracted
+  double noise_square = 0;  // of a match, about the median of those of its node
+  int edges = 0;
 };
 
-/// Of each edge, without its weight, with these transforms in place of those of the graph.
-std::vector<double> edgeEnergies(const WarpGraph& graph,
-                                 const std::vector<NodeTransform>& transforms,
-                                 const std::vector<ExpectedOffsets>& expected);
+/// Matches of a node: those whose strongest node it is. Sources are taken as they are: transforms
+/// of the graph are those of rebase().
+MatchedStrain strainOfMatches(const PointModel& model, const WarpGraph& graph,
+                              const std::vector<KeyPointMatch>& matches);
 
-/// FirstFit::edges_square_mm2 from these energies.
-std::vector<double> squaresOfSeenEdges(const WarpGraph& graph, const std::vector<double>& energies,
-                                       const ConstraintSet& constraints);
-
-/// Factor of w_reg and w_rest in the steps after the first one; 1 where matches or edges are few.
-double stiffnessAfter(const FirstFit& fit);
+/// Factor of w_reg and w_rest; 1 where edges are few.
+double stiffnessOf(const MatchedStrain& strain);
 
 /// With these weights multiplied by it.
 DeformOptions stiffer(const DeformOptions& options, double factor);

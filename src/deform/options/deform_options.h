@@ -47,7 +47,7 @@ struct RobustOptions {
 /// Levenberg-Marquardt: docs/energy.md (16) to (19).
 struct SolverOptions {
   int max_iterations = 8;      // accepted linear solves, over all associations
-  bool follows_tissue = true;  // less stiff from the second on, where tissue deforms: (7c)
+  bool follows_tissue = true;  // less stiff where matches say that tissue deforms: (7c)
   static constexpr int kIterationsPerAssociation = 1;
   static constexpr int kMaxRejections = 8;         // consecutive, before the solver stops
   static constexpr double kInitialDamping = 1e-7;  // lambda, relative to the block diagonal

@@ -89,11 +89,6 @@ class CpuWarpSystem final : public WarpSystem {
     std::swap(current_, trial_);
   }
 
-  FirstFit firstFit() override {
-    const std::vector<double> energies =
-        edgeEnergies(graph_, graph_.transforms, constraints_.expected);
-    return {matchSizes(), squaresOfSeenEdges(graph_, energies, constraints_)};
-  }
   double pivotRatio() override { return cholesky_.pivotRatio(); }
   std::vector<NodeTransform> transforms() override { return graph_.transforms; }
   DeformTimes times() const override { return times_; }
@@ -102,16 +97,6 @@ class CpuWarpSystem final : public WarpSystem {
   void evaluate(EnergyValue* value) {
     const Stopwatch watch(&times_.evaluate_ms);
     evaluateEnergy(graph_, constraints_, options_, value);
-  }
-
-  std::vector<float> matchSizes() const {
-    std::vector<float> sizes_mm;
-    sizes_mm.reserve(static_cast<std::size_t>(constraints_.matches));
-    for (const StencilRows& rows : constraints_.stencils)
-      for (int m = 0; m < rows.matches; ++m)
-        sizes_mm.push_back(static_cast<float>(
-            std::sqrt(squaredMatch(current_.residuals.data() + rows.first + 3 * m))));
-    return sizes_mm;
   }
 
   bool findStep(double damping, Eigen::VectorXd* step) {

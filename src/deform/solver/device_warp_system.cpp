@@ -83,10 +83,6 @@ class DeviceWarpSystem final : public WarpSystem {
   }
 
   void acceptStep() override { device_->acceptStep(); }
-  FirstFit firstFit() override {
-    WarpFit fit = device_->fit();
-    return {std::move(fit.matches_mm), squaresOfSeenEdges(*graph_, fit.edges_mm2, constraints_)};
-  }
   double pivotRatio() override { return pivot_ratio_; }
   std::vector<NodeTransform> transforms() override { return device_->transforms(); }
   DeformTimes times() const override { return times_; }

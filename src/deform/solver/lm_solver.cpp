@@ -50,6 +50,9 @@ class WarpSolver final : public DeformSolver {
       return summary;
     }
     const MatchCounts matches = system_->begin(model, seen, *graph);
+    system_->setStiffness(options_.solver.follows_tissue
+                              ? stiffnessOf(strainOfMatches(model, *graph, seen.matches))
+                              : 1);
     summary.matches = matches.used;
     summary.matches_dropped = matches.dropped;
     iterate(*graph, &summary);
@@ -69,7 +72,6 @@ class WarpSolver final : public DeformSolver {
   void iterate(const WarpGraph& graph, DeformSummary* summary) {
     const SolverOptions& rules = options_.solver;
     damping_ = rules.kInitialDamping;
-    system_->setStiffness(options_.solver.follows_tissue ? kFirstStiffness : 1);
     summary->reason = StopReason::kIterationLimit;
     while (summary->iterations < rules.max_iterations) {
       if (summary->iterations % rules.kIterationsPerAssociation == 0) {
@@ -156,8 +158,7 @@ class WarpSolver final : public DeformSolver {
         std::clamp(damping_ * factor, options_.solver.kMinDamping, options_.solver.kMaxDamping);
   }
 
-  /// A step that is small because of damping does not indicate convergence, nor does the first
-  /// one if the weights of the next one follow from it.
+  /// A step that is small because of damping does not indicate convergence.
   Step accept(const TrialStep& trial, bool undoubted, DeformSummary* summary) {
     summary->costs.push_back(current_.terms.total());
     summary->costs.push_back(trial.energy.terms.total());
@@ -165,10 +166,6 @@ class WarpSolver final : public DeformSolver {
     current_ = trial.energy;
     ++summary->iterations;
     summary->last_step_mm = trial.furthest_mm;
-    if (options_.solver.follows_tissue && summary->iterations == 1) {
-      system_->setStiffness(stiffnessAfter(system_->firstFit()));
-      return Step::kAccepted;
-    }
     const bool small_step = summary->last_step_mm < options_.solver.step_tolerance_mm;
     const bool small_gain = gainToCome(summary->costs) < options_.solver.cost_tolerance;
     return undoubted && (small_step || small_gain) ? Step::kConverged : Step::kAccepted;

@@ -78,12 +78,6 @@ struct WarpSums {
   double failures = 0;  // pivots not above 0, steps not finite
 };
 
-/// What a step leaves.
-struct WarpFit {
-  std::vector<float> matches_mm;  // size of each match, by stencil
-  std::vector<double> edges_mm2;  // energy of each edge, without weights
-};
-
 /// Residuals, normal equations, their solution and the transforms are on the device.
 class WarpDevice {
  public:
@@ -108,8 +102,6 @@ class WarpDevice {
   /// Step with this damping, and the energy after it.
   virtual WarpSums tryStep(double damping) = 0;
   virtual void acceptStep() = 0;
-  /// After the last tryStep().
-  virtual WarpFit fit() = 0;
   virtual std::vector<NodeTransform> transforms() = 0;
 };
 

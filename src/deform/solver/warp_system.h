@@ -51,8 +51,6 @@ class WarpSystem {
   virtual std::optional<TrialStep> tryStep(double damping) = 0;
   /// Accepts the transforms of the last trial.
   virtual void acceptStep() = 0;
-  /// At the transforms of the accepted step.
-  virtual FirstFit firstFit() = 0;
   /// Smallest to largest pivot of the last factorisation.
   virtual double pivotRatio() = 0;
   virtual std::vector<NodeTransform> transforms() = 0;
