@@ -1,13 +1,11 @@
 #include "deform/solver/cpu_warp_system.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "deform/cholesky/block_cholesky.h"
 #include "deform/energy/graph_facts.h"
 #include "deform/energy/node_sight.h"
-#include "deform/energy/robust_loss.h"
 #include "deform/graph/shape_memory.h"
 #include "deform/kernels/node_terms.h"
 #include "deform/solver/normal_equations.h"
