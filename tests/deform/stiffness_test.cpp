@@ -26,7 +26,7 @@ MatchedStrain strainAfter(const scenes::Motion& truth, double noise_share, int w
   for (KeyPointMatch& match : matches) {
     const Eigen::Vector3f error_mm(noise(random), noise(random), noise(random));
     match.target_mm += static_cast<float>(noise_share) * error_mm;
-    if (wrong > 0 && ++at % wrong == 0) match.target_mm += 40 * error_mm.normalized() * 0.1f;
+    if (wrong > 0 && ++at % wrong == 0) match.target_mm += 4 * error_mm.normalized();
   }
   return strainOfMatches(model, graph, matches);
 }
