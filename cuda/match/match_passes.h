@@ -132,7 +132,11 @@ class MatchPasses {
     RefineKernel kernel{{}, 0, layout_.inputs, windowWeights(options().subpixel.kRadiusPx)};
     SigmaLimitKernel limit{
         {}, {}, static_cast<float>(options().subpixel.kMaxSigmaPx), layout_.sigma_limits};
-    ConsistentKernel consistent{{}, layout_.sigma_limits, consistencyRules(options().consistency)};
+    GoodSquaresKernel good{{}, layout_.sigma_limits};
+    ConsistentKernel consistent{{},
+                                layout_.sigma_limits,
+                                static_cast<float>(options().subpixel.kMaxLoneSigmaPx),
+                                consistencyRules(options().consistency)};
     for (const MatchScale& level : layout_.levels) {
       const int k = kernel.level_count++, count = static_cast<int>(level.slotCount());
       kernel.levels[k] = {readOnly(level.smooth[0]),
@@ -145,18 +149,24 @@ class MatchPasses {
                           count};
       limit.matches[k] = level.refined;
       limit.counts[k] = count;
-      consistent.levels[k] = {level.refined, level.kept, level.slot_columns, level.slot_rows};
+      good.levels[k] = consistent.levels[k] = {level.refined, level.kept, level.slot_columns,
+                                               level.slot_rows, squaresOf(level)};
     }
     executor_.launch("sub-pixel", kernel, kernel.blocks());
     executor_.mark("sub-pixel");
     executor_.launch("sigma limits", limit, Grid{kernel.level_count, 1, 1});
+    executor_.launch("good squares", good, good.blocks(kernel.level_count));
     executor_.launch("consistent", consistent, consistent.blocks(kernel.level_count));
     executor_.mark("consistent");
   }
 
+  TakenSquares squaresOf(const MatchScale& level) const {
+    return {level.taken, level.taken_columns, options().kCoarseSpacingPx};
+  }
+
   void takeCoarser(std::size_t k) {
     const MatchScale& level = layout_.levels[k];
-    const TakenSquares squares{level.taken, level.taken_columns, options().kCoarseSpacingPx};
+    const TakenSquares squares = squaresOf(level);
     perSlot("taken squares", TakeSquaresBody{level.kept, squares}, level.slotCount());
     SlotMatch* coarser = level.kept + level.slotCount();
     perSlot("from coarser", FromCoarserBody{coarser, squares},
@@ -166,8 +176,9 @@ class MatchPasses {
 
   void predict(const MatchScale& level, const MatchScale& finer) {
     const ConsistentKernel consistent{
-        {{level.rough, level.consistent, level.slot_columns, level.slot_rows}},
+        {{level.rough, level.consistent, level.slot_columns, level.slot_rows, {}}},
         nullptr,
+        0,
         consistencyRules(options().consistency)};
     executor_.launch("consistent", consistent, consistent.blocks(1));
     perElement("shift sums",

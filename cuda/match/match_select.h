@@ -95,15 +95,49 @@ struct SigmaLimitKernel {
   }
 };
 
+/// What matches occupy the squares of an image.
+enum SquareState : std::uint8_t { kSquareFree, kSquareHasGood, kSquareHasKept };
+struct TakenSquares {
+  std::uint8_t* states;  // free at first
+  int columns, square_px;
+  SOFTSCOPE_HD std::uint8_t& of(const SlotMatch& match) const {
+    return states[static_cast<int>(match.model_v) / square_px * columns +
+                  static_cast<int>(match.model_u) / square_px];
+  }
+};
+
 /// One level's slots.
 struct MatchSlots {
   const SlotMatch* matches;
   SlotMatch* kept;
   int columns, rows;
+  TakenSquares squares;
 };
 
-/// Keeps matches that are consistent with their
-/// neighbours and within the error limit; z: level.
+/// Marks the squares with matches within the limit of their level; z: level.
+struct GoodSquaresKernel {
+  static constexpr int kThreads = 256, kPhases = 1;
+  using Shared = Nothing;
+  using Local = Nothing;
+  MatchSlots levels[kMostMatchLevels];
+  const float* sigma_limits;  // per level
+
+  Grid blocks(int level_count) const {
+    return {blocksFor(levels[0].columns * levels[0].rows, kThreads), 1, level_count};
+  }
+  template <int kPhase>
+  SOFTSCOPE_HD void run(const Place& at, Shared&, Local&) const {
+    const MatchSlots& slots = levels[at.z];
+    const int slot = at.x * kThreads + at.thread;
+    if (slot >= slots.columns * slots.rows) return;
+    const SlotMatch& match = slots.matches[slot];
+    if (match.found != 0 && !(match.sigma_px > sigma_limits[at.z]))
+      slots.squares.of(match) = kSquareHasGood;
+  }
+};
+
+/// Keeps matches that are consistent with their neighbours and within the error limit, or
+/// within that of matches without better ones in their square; z: level.
 struct ConsistentKernel {
   static constexpr int kWidth = 16, kHeight = 8, kThreads = kWidth * kHeight, kPhases = 2;
   static constexpr int kSlotPx = MatcherOptions::kSpacingPx;
@@ -120,6 +154,7 @@ struct ConsistentKernel {
   using Local = Nothing;
   MatchSlots levels[kMostMatchLevels];
   const float* sigma_limits;  // per level; null: none
+  float lone_limit_px;
   ConsistencyRules rules;
 
   Grid blocks(int level_count) const {
@@ -157,7 +192,12 @@ struct ConsistentKernel {
     shared.live_u[y][x] = match.live_u;
     shared.live_v[y][x] = match.live_v;
     shared.counts[y][x] =
-        sigma_limits == nullptr || !(match.sigma_px > sigma_limits[level]) ? 1 : 0;
+        sigma_limits == nullptr || !(match.sigma_px > sigma_limits[level]) || isLone(slots, match)
+            ? 1
+            : 0;
+  }
+  SOFTSCOPE_HD bool isLone(const MatchSlots& slots, const SlotMatch& match) const {
+    return match.sigma_px <= lone_limit_px && slots.squares.of(match) == kSquareFree;
   }
   SOFTSCOPE_HD bool isKept(int x, int y, const Shared& shared) const {
     if (shared.counts[y][x] == 0) return false;
@@ -180,20 +220,12 @@ struct ConsistentKernel {
 
 // --- coarser levels ------------------------------------------------------------------------------
 
-/// Squares of the image with a match of this level.
-struct TakenSquares {
-  std::uint8_t* taken;  // 0 at first
-  int columns, square_px;
-  SOFTSCOPE_HD std::uint8_t& of(float u_px, float v_px) const {
-    return taken[static_cast<int>(v_px) / square_px * columns + static_cast<int>(u_px) / square_px];
-  }
-};
 struct TakeSquaresBody {
   const SlotMatch* matches;
   TakenSquares squares;
   SOFTSCOPE_HD void operator()(int slot) const {
     const SlotMatch& match = matches[slot];
-    if (match.found != 0) squares.of(match.model_u, match.model_v) = 1;
+    if (match.found != 0) squares.of(match) = kSquareHasKept;
   }
 };
 /// Coarser matches in pixels of this level, without those in occupied squares.
@@ -207,7 +239,7 @@ struct FromCoarserBody {
     match.live_u = toFinerPx(match.live_u);
     match.live_v = toFinerPx(match.live_v);
     match.sigma_px *= 2;
-    if (match.found != 0 && squares.of(match.model_u, match.model_v) != 0) match.found = 0;
+    if (match.found != 0 && squares.of(match) == kSquareHasKept) match.found = 0;
     matches[slot] = match;
   }
 };

@@ -14,7 +14,7 @@ struct DenseSurfOptions {
   static constexpr int kWaveletPx = 4;  // side of the Haar wavelets; even
   int cell_px = 6;                      // side of the 4 x 4 cells; a multiple of grid_px
   // of wavelets with ignored pixels in a descriptor
-  static constexpr double kMaxInvalidShare = 0.2;
+  static constexpr double kMaxInvalidShare = 0.4;
   // minimum mean difference of the halves of the wavelets
   static constexpr double kMinContrastGray = 0.8;
 };

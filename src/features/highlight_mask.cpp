@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kHighlightBrightness = 235;      // minimum, of the brightest channel
 constexpr double kHighlightSaturation = 0.25;  // maximum (max - min) / max of the channels
-constexpr int kHighlightHaloPx = 3;            // dilation: the halo is part of the highlight
+constexpr int kHighlightHaloPx = 1;            // dilation: the halo is part of the highlight
 
 }  // namespace
 

@@ -36,17 +36,16 @@ void requireOneShape(const MatchPicture& model, const MatchPicture& live) {
                   shape(picture->gray));
 }
 
-/// `fine`, and `coarse` matches in squares of `square_px` without a fine match; by rows.
-std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
-                                    const std::vector<PixelMatch>& coarse, int width_px,
-                                    int height_px, int square_px) {
+/// `fine`, and the `more` matches in squares of `square_px` without a fine match; by rows.
+std::vector<PixelMatch> filledUp(std::vector<PixelMatch> fine, const std::vector<PixelMatch>& more,
+                                 int width_px, int height_px, int square_px) {
   Mask taken((width_px + square_px - 1) / square_px, (height_px + square_px - 1) / square_px, 0);
   const auto square = [&](const PixelMatch& match) -> std::uint8_t& {
     return taken.at(static_cast<int>(match.model_px.x()) / square_px,
                     static_cast<int>(match.model_px.y()) / square_px);
   };
   for (const PixelMatch& match : fine) square(match) = 1;
-  for (const PixelMatch& match : coarse)
+  for (const PixelMatch& match : more)
     if (square(match) == 0) fine.push_back(match);
   std::stable_sort(fine.begin(), fine.end(), [](const PixelMatch& a, const PixelMatch& b) {
     return a.model_px.y() < b.model_px.y() ||
@@ -55,17 +54,27 @@ std::vector<PixelMatch> withCoarser(std::vector<PixelMatch> fine,
   return fine;
 }
 
-/// Drops matches with a predicted error above both `max_sigma_px` and the median:
-/// in a blurred image all errors are larger, and the better half is still usable.
-std::vector<PixelMatch> limitSigma(std::vector<PixelMatch> matches, double max_sigma_px) {
+std::vector<PixelMatch> within(float limit_px, const std::vector<PixelMatch>& matches) {
+  std::vector<PixelMatch> kept;
+  for (const PixelMatch& match : matches)
+    if (match.sigma_px <= limit_px) kept.push_back(match);
+  return kept;
+}
+
+/// Drops matches with a predicted error above both limit and median: in a blurred image all errors
+/// are larger, and the better half is still usable. Squares without a better match keep weaker
+/// ones: under glare there is no other evidence of a push.
+std::vector<PixelMatch> limitSigma(const std::vector<PixelMatch>& matches,
+                                   const SubpixelOptions& limits, int width_px, int height_px,
+                                   int square_px) {
   if (matches.empty()) return matches;
   std::vector<float> sigmas;
   for (const PixelMatch& match : matches) sigmas.push_back(match.sigma_px);
-  const float limit_px = std::max(static_cast<float>(max_sigma_px), medianOf(std::move(sigmas)));
-  matches.erase(std::remove_if(matches.begin(), matches.end(),
-                               [&](const PixelMatch& match) { return match.sigma_px > limit_px; }),
-                matches.end());
-  return matches;
+  const float limit_px =
+      std::max(static_cast<float>(limits.kMaxSigmaPx), medianOf(std::move(sigmas)));
+  return filledUp(within(limit_px, matches),
+                  within(static_cast<float>(limits.kMaxLoneSigmaPx), matches), width_px, height_px,
+                  square_px);
 }
 
 /// Coarse to fine: the coarsest level searches the full range, finer levels around
@@ -86,8 +95,8 @@ class DenseSurfMatcher : public FeatureMatcher {
                                    ? options_.reach * std::max(gray.width_px, gray.height_px)
                                    : options_.kSearchRadiusPx;
       const std::vector<PixelMatch> rough = roughMatches(levels[k], predicted, radius_px);
-      matches = withCoarser(refined(levels[k], rough), toFinerLevel(std::move(matches)),
-                            gray.width_px, gray.height_px, options_.kCoarseSpacingPx);
+      matches = filledUp(refined(levels[k], rough), toFinerLevel(std::move(matches)), gray.width_px,
+                         gray.height_px, options_.kCoarseSpacingPx);
       if (k > 0)
         predicted = ShiftField(toFinerLevel(keepConsistent(rough, options_.consistency)),
                                levels[k - 1].model.gray.width_px,
@@ -115,7 +124,8 @@ class DenseSurfMatcher : public FeatureMatcher {
     if (options_.subpixel.method != "gauss-newton") return rough;
     return keepConsistent(
         limitSigma(refineMatches(level.model, level.live, rough, options_.subpixel),
-                   options_.subpixel.kMaxSigmaPx),
+                   options_.subpixel, level.model.gray.width_px, level.model.gray.height_px,
+                   options_.kCoarseSpacingPx),
         options_.consistency);
   }
 

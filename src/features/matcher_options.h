@@ -16,8 +16,10 @@ struct SubpixelOptions {
   static constexpr double kMaxShiftPx = 3.0;     // from the initial position
   static constexpr double kMinSimilarity = 0.7;  // correlation of both windows
   // predicted standard error of a match; a match with a
-  // larger one is removed unless it is below the median
+  // larger one is removed unless it is below the median …
   static constexpr double kMaxSigmaPx = 0.3;
+  // … or below this one, and the only kind in its square of MatcherOptions::kCoarseSpacingPx
+  static constexpr double kMaxLoneSigmaPx = 0.5;
   static constexpr double kFloorSigmaPx = 0.03;  // error independent of texture
   // in addition, if only the present appearance of the model is matched
   static constexpr double kDriftPx = 0.1;

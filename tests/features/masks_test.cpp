@@ -20,9 +20,9 @@ TEST(HighlightMask, MarksWhiteWithItsHaloAndNothingElse) {
   test::paint(&image, 60, 40, 64, 44, {255, 252, 246});
   test::paint(&image, 80, 40, 84, 44, {255, 120, 90});  // saturated red is no highlight
   const Mask mask = highlightMask(image);
-  EXPECT_EQ(marked(mask), 10 * 10);  // 4 px and 3 px of halo on both sides
-  EXPECT_EQ(mask.at(57, 37), 1);
-  EXPECT_EQ(mask.at(56, 37), 0);
+  EXPECT_EQ(marked(mask), 6 * 6);  // 4 px and 1 px of halo on both sides
+  EXPECT_EQ(mask.at(59, 39), 1);
+  EXPECT_EQ(mask.at(58, 39), 0);
   EXPECT_TRUE(highlightMask({}).empty());
 }
 

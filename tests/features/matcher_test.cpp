@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <utility>
+
 #include "core/error.h"
 #include "core/parallel.h"
 #include "features/warped_pair.h"
@@ -50,6 +56,39 @@ TEST(DenseSurfMatcher, RefinementIsWorthItsTime) {
     medians[k] = test::errorsOf(matchBy(options, pair)).median_px;
   }
   EXPECT_LT(medians[1], 0.1 * medians[0]);
+}
+
+/// A pair whose live image has strong noise in the middle.
+test::WarpedPair noisyInTheMiddle(double noise_gray) {
+  test::WarpedPair pair = test::makeWarpedPair(1.0);
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, noise_gray);
+  for (int v = 80; v < 180; ++v)
+    for (int u = 100; u < 220; ++u) {
+      std::uint8_t& gray = pair.live.gray.at(u, v);
+      gray = static_cast<std::uint8_t>(std::clamp(std::lround(gray + noise(random)), 0L, 255L));
+    }
+  return pair;
+}
+
+TEST(DenseSurfMatcher, KeepsWeakMatchesWhereThereAreNoBetterOnes) {
+  MatcherOptions options;
+  const std::vector<PixelMatch> matches = matchBy(options, noisyInTheMiddle(25));
+  std::map<std::pair<int, int>, int> good;
+  const auto square = [&](const PixelMatch& match) {
+    return std::pair(static_cast<int>(match.model_px.x()) / options.kCoarseSpacingPx,
+                     static_cast<int>(match.model_px.y()) / options.kCoarseSpacingPx);
+  };
+  for (const PixelMatch& match : matches)
+    if (match.sigma_px <= options.subpixel.kMaxSigmaPx) ++good[square(match)];
+  std::vector<PixelMatch> weak;
+  for (const PixelMatch& match : matches)
+    if (match.sigma_px > options.subpixel.kMaxSigmaPx) {
+      weak.push_back(match);
+      EXPECT_EQ(good[square(match)], 0);
+    }
+  EXPECT_GT(weak.size(), 20u);
+  EXPECT_LT(test::errorsOf(weak).median_in_sigmas, 1.5);
 }
 
 /// The model's texture has slipped by `slip_px` to the right since its anchor was set.
