@@ -149,7 +149,6 @@ class WarpRun final : public WarpDevice {
     machine_.wait();
   }
 
-  void setWeights(const WarpWeights& weights) override { inputs_.weights = weights; }
   WarpSums linearise() override {
     passes_.linearise(graph_, points_, matches_, inputs_, accepted());
     const WarpSums sums = fetchSums();

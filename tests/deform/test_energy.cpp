@@ -31,7 +31,8 @@ struct TwoNodes {
     CandidatePoints none;
     none.stencil_start.assign(2, 0);
     ConstraintSet constraints;
-    makeConstraints(model, graph, none, matches, options.correspondence_weight, &constraints);
+    makeConstraints(model, graph, none, CarriedMatches(model, graph, matches),
+                    options.correspondence_weight, &constraints);
     EnergyValue value;
     evaluateEnergy(graph, constraints, options, &value);
     return value.terms;
@@ -149,7 +150,8 @@ struct BentHill {
                              options.association);
     CandidatePoints candidates;
     collectCandidates(model, graph, nullptr, 0, &candidates);
-    makeConstraints(model, graph, candidates, scenes::makeMatches(model, scenes::smoothBend, 37),
+    const std::vector<KeyPointMatch> matches = scenes::makeMatches(model, scenes::smoothBend, 37);
+    makeConstraints(model, graph, candidates, CarriedMatches(model, graph, matches),
                     options.correspondence_weight, &constraints);
     for (std::size_t j = 0; j < graph.size(); ++j) {
       const double s = static_cast<double>(j);

@@ -155,8 +155,8 @@ CandidatePoints noCandidates(const WarpGraph& graph) {
 }
 
 CarriedMatches::CarriedMatches(const PointModel& model, const WarpGraph& graph,
-                               const std::vector<KeyPointMatch>& matches)
-    : place(matches.size()), start(graph.stencils.size() + 1, 0) {
+                               const std::vector<KeyPointMatch>& given)
+    : matches(given), place(matches.size()), start(graph.stencils.size() + 1, 0) {
   parallelRanges(static_cast<int>(matches.size()), kMatchesPerTask, [&](int begin, int end) {
     for (int i = begin; i < end; ++i)
       place[i] = usable(model, graph, matches[i]) ? model.bindings[matches[i].model_point].stencil
@@ -183,9 +183,9 @@ void countMatches(const CarriedMatches& carried, const WarpGraph& graph, Constra
 }
 
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
-                     const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
+                     const CandidatePoints& candidates, const CarriedMatches& carried,
                      double match_weight, ConstraintSet* set) {
-  const CarriedMatches carried(model, graph, matches);
+  const std::vector<KeyPointMatch>& matches = carried.matches;
   countMatches(carried, graph, set);
   expectShape(graph, 0, &set->expected);
   for (std::size_t s = 0; s < set->stencils.size(); ++s)

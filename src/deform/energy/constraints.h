@@ -57,6 +57,7 @@ struct CarriedMatches {
 
   int count() const { return start.back(); }
 
+  const std::vector<KeyPointMatch>& matches;
   std::vector<std::int32_t> place;  // of each match; negative: not finite, or of an unbound point
   std::vector<int> start;           // places; one per stencil of the graph, and the end
 };
@@ -90,7 +91,7 @@ void countMatches(const CarriedMatches& carried, const WarpGraph& graph,
 /// Allocates rows for all candidates, and the rows of matches; all
 /// edges stiff. Overwrites *constraints and reuses its memory.
 void makeConstraints(const PointModel& model, const WarpGraph& graph,
-                     const CandidatePoints& candidates, const std::vector<KeyPointMatch>& matches,
+                     const CandidatePoints& candidates, const CarriedMatches& carried,
                      double match_weight, ConstraintSet* constraints);
 
 /// Counts rows and points again.

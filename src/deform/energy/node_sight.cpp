@@ -46,7 +46,7 @@ void classifyNodes(const WarpGraph& graph, const std::vector<double>& all,
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const double either = std::max(hidden[static_cast<std::size_t>(graph.edges[e].first)],
                                    hidden[static_cast<std::size_t>(graph.edges[e].second)]);
-    constraints->stiffness[e] = seen_stiffness + (1 - seen_stiffness) * either;
+    constraints->stiffness[e] *= seen_stiffness + (1 - seen_stiffness) * either;
   }
 }
 

@@ -11,23 +11,24 @@
 
 namespace softscope {
 
-/// What the matches say of the deformation of a frame before any warp, both relative to their
-/// standard errors.
+/// What the matches say of the deformation of a frame before any warp, relative to their standard
+/// errors.
 struct MatchedStrain {
-  double edges_square = 0;  // mean over edges with enough matches at both ends, noise subtracted
-  double noise_square = 0;  // of a match, about the median of those of its node
-  int edges = 0;
+  std::vector<double> edges_square;  // of the surroundings of each edge, noise subtracted
+  double noise_square = 0;           // of a match, about the median of those of its node
+  int edges = 0;                     // with enough matches at both ends
 };
 
 /// Matches of a node: those whose strongest node it is. Sources are taken as they are: transforms
 /// of the graph are those of rebase().
 MatchedStrain strainOfMatches(const PointModel& model, const WarpGraph& graph,
-                              const std::vector<KeyPointMatch>& matches);
+                              const CarriedMatches& carried);
 
-/// Factor of w_reg and w_rest; 1 where edges are few.
-double stiffnessOf(const MatchedStrain& strain);
+/// Factor of w_reg of each edge; 1 where edges are few.
+std::vector<double> stiffnessOf(const MatchedStrain& strain);
 
-/// With these weights multiplied by it.
-DeformOptions stiffer(const DeformOptions& options, double factor);
+/// Multiplies the stiffness of each edge, if the options follow the tissue.
+void followTissue(const DeformOptions& options, const PointModel& model, const WarpGraph& graph,
+                  const CarriedMatches& carried, ConstraintSet* constraints);
 
 }  // namespace softscope

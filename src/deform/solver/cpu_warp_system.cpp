@@ -6,6 +6,7 @@
 #include "deform/cholesky/block_cholesky.h"
 #include "deform/energy/graph_facts.h"
 #include "deform/energy/node_sight.h"
+#include "deform/energy/stiffness.h"
 #include "deform/graph/shape_memory.h"
 #include "deform/kernels/node_terms.h"
 #include "deform/solver/normal_equations.h"
@@ -17,7 +18,7 @@ namespace {
 template <class Node>
 class CpuWarpSystem final : public WarpSystem {
  public:
-  explicit CpuWarpSystem(const DeformOptions& options) : given_(options), options_(options) {}
+  explicit CpuWarpSystem(const DeformOptions& options) : options_(options) {}
 
   void analyse(const WarpGraph& graph) override {
     if (graph.empty() || structure_.sameAs(graph)) return;
@@ -39,15 +40,15 @@ class CpuWarpSystem final : public WarpSystem {
       collectCandidates(model, graph, seen.visible, options_.association.max_points, &candidates_);
     else
       candidates_ = noCandidates(graph);
-    makeConstraints(model, graph, candidates_, seen.matches, options_.correspondence_weight,
+    const CarriedMatches carried(model, graph, seen.matches);
+    makeConstraints(model, graph, candidates_, carried, options_.correspondence_weight,
                     &constraints_);
+    followTissue(options_, model, graph, carried, &constraints_);
     classifyNodes(model, graph, candidates_, options_.seen_stiffness, &constraints_);
     expectShape(graph, options_.shape_memory, &constraints_.expected);
     lever_mm_ = meanEdgeLength(graph);
     return {constraints_.matches, constraints_.matches_dropped};
   }
-
-  void setStiffness(double factor) override { options_ = stiffer(given_, factor); }
 
   AssociatedEnergy associate() override {
     {
@@ -116,7 +117,7 @@ class CpuWarpSystem final : public WarpSystem {
     return largest;
   }
 
-  DeformOptions given_, options_;  // the latter of the stiffness at hand
+  DeformOptions options_;
   GraphStructure structure_;
   BlockPattern pattern_;
   NormalEquations<Node> equations_;

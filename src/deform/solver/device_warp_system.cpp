@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "deform/energy/graph_facts.h"
 #include "deform/energy/node_sight.h"
+#include "deform/energy/stiffness.h"
 #include "deform/graph/shape_memory.h"
 #include "deform/solver/stopwatch.h"
 
@@ -29,7 +30,7 @@ WarpMatch warpMatch(const KeyPointMatch& match, const PointModel& model) {
 class DeviceWarpSystem final : public WarpSystem {
  public:
   DeviceWarpSystem(const DeformOptions& options, std::unique_ptr<WarpDevice> device)
-      : given_(options), options_(options), device_(std::move(device)) {}
+      : options_(options), device_(std::move(device)) {}
 
   void analyse(const WarpGraph& graph) override {
     if (graph.empty() || structure_.sameAs(graph)) return;
@@ -49,11 +50,6 @@ class DeviceWarpSystem final : public WarpSystem {
     device_->setSurface(surfaceOf(seen));
     takeNodes(loads);
     return {constraints_.matches, constraints_.matches_dropped};
-  }
-
-  void setStiffness(double factor) override {
-    options_ = stiffer(given_, factor);
-    device_->setWeights(warpWeights(options_));
   }
 
   /// The device assembles the normal equations with the energy.
@@ -143,6 +139,7 @@ class DeviceWarpSystem final : public WarpSystem {
                      });
     });
     countMatches(carried, *graph_, &constraints_);
+    followTissue(options_, model, *graph_, carried, &constraints_);
     expectShape(*graph_, options_.shape_memory, &constraints_.expected);
   }
 
@@ -166,7 +163,7 @@ class DeviceWarpSystem final : public WarpSystem {
     return energy;
   }
 
-  DeformOptions given_, options_;  // the latter of the stiffness at hand
+  DeformOptions options_;
   std::unique_ptr<WarpDevice> device_;
   GraphStructure structure_;
   const WarpGraph* graph_ = nullptr;  // of the frame at hand

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "deform/energy/graph_facts.h"
-#include "deform/energy/stiffness.h"
 #include "deform/solver/cpu_warp_system.h"
 
 namespace softscope {
@@ -50,9 +49,6 @@ class WarpSolver final : public DeformSolver {
       return summary;
     }
     const MatchCounts matches = system_->begin(model, seen, *graph);
-    system_->setStiffness(options_.solver.follows_tissue
-                              ? stiffnessOf(strainOfMatches(model, *graph, seen.matches))
-                              : 1);
     summary.matches = matches.used;
     summary.matches_dropped = matches.dropped;
     iterate(*graph, &summary);

@@ -93,7 +93,6 @@ class WarpDevice {
   /// Calls `fill` with memory for so many matches.
   virtual void setMatches(int count, const std::function<void(const WarpMatches&)>& fill) = 0;
   virtual void setNodes(const WarpNodes& nodes) = 0;
-  virtual void setWeights(const WarpWeights& weights) = 0;
   /// New targets and normal equations at the accepted transforms; their energy and the largest
   /// diagonal entry.
   virtual WarpSums linearise() = 0;

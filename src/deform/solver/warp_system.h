@@ -38,8 +38,6 @@ class WarpSystem {
   /// `graph` must live until the last call for the frame, besides times().
   virtual MatchCounts begin(const PointModel& model, const DeformObservation& seen,
                             const WarpGraph& graph) = 0;
-  /// Factor of w_reg and w_rest from the next association on: docs/energy.md (7c).
-  virtual void setStiffness(double factor) = 0;
   /// New target planes at the accepted transforms: docs/energy.md (8) to (11).
   virtual AssociatedEnergy associate() = 0;
   /// Per node, 1 if a point or a match of the last association constrains it.
