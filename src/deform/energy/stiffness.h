@@ -2,8 +2,6 @@
 // docs/energy.md (7c).
 #pragma once
 
-#include <vector>
-
 #include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "deform/energy/constraints.h"
@@ -11,12 +9,12 @@
 
 namespace softscope {
 
-/// What the matches say of the deformation of a frame before any warp, relative to their standard
-/// errors.
+/// What the matches say of the deformation of a frame before any warp, both relative to their
+/// standard errors.
 struct MatchedStrain {
-  std::vector<double> edges_square;  // of the surroundings of each edge, noise subtracted
-  double noise_square = 0;           // of a match, about the median of those of its node
-  int edges = 0;                     // with enough matches at both ends
+  double edges_square = 0;  // mean over edges with enough matches at both ends, noise subtracted
+  double noise_square = 0;  // of a match, about the median of those of its node
+  int edges = 0;
 };
 
 /// Matches of a node: those whose strongest node it is. Sources are taken as they are: transforms
@@ -24,11 +22,11 @@ struct MatchedStrain {
 MatchedStrain strainOfMatches(const PointModel& model, const WarpGraph& graph,
                               const CarriedMatches& carried);
 
-/// Factor of w_reg of each edge; 1 where edges are few.
-std::vector<double> stiffnessOf(const MatchedStrain& strain);
+/// Factor of w_reg; 1 where edges are few.
+double stiffnessOf(const MatchedStrain& strain);
 
-/// Multiplies the stiffness of each edge, if the options follow the tissue.
-void followTissue(const DeformOptions& options, const PointModel& model, const WarpGraph& graph,
-                  const CarriedMatches& carried, ConstraintSet* constraints);
+/// The same from the matches; 1 if the options do not follow the tissue.
+double tissueStiffness(const DeformOptions& options, const PointModel& model,
+                       const WarpGraph& graph, const CarriedMatches& carried);
 
 }  // namespace softscope

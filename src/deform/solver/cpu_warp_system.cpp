@@ -43,7 +43,8 @@ class CpuWarpSystem final : public WarpSystem {
     const CarriedMatches carried(model, graph, seen.matches);
     makeConstraints(model, graph, candidates_, carried, options_.correspondence_weight,
                     &constraints_);
-    followTissue(options_, model, graph, carried, &constraints_);
+    constraints_.stiffness.assign(graph.edges.size(),
+                                  tissueStiffness(options_, model, graph, carried));
     classifyNodes(model, graph, candidates_, options_.seen_stiffness, &constraints_);
     expectShape(graph, options_.shape_memory, &constraints_.expected);
     lever_mm_ = meanEdgeLength(graph);

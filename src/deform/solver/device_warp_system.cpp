@@ -44,9 +44,17 @@ class DeviceWarpSystem final : public WarpSystem {
     const Stopwatch watch(&times_.prepare_ms);
     analyse(graph);
     graph_ = &graph;
+    const CarriedMatches carried(model, graph, seen.matches);
     NodeLoads loads;
+    double stiffness = 1;
     // Independent.
-    parallelInvoke([&] { takeMatches(model, seen); }, [&] { loads = takePoints(model, seen); });
+    parallelInvoke(
+        [&] {
+          parallelInvoke([&] { takeMatches(model, carried); },
+                         [&] { loads = takePoints(model, seen); });
+        },
+        [&] { stiffness = tissueStiffness(options_, model, graph, carried); });
+    constraints_.stiffness.assign(graph.edges.size(), stiffness);
     device_->setSurface(surfaceOf(seen));
     takeNodes(loads);
     return {constraints_.matches, constraints_.matches_dropped};
@@ -127,19 +135,16 @@ class DeviceWarpSystem final : public WarpSystem {
   }
 
   /// The constraints contain no rows: the device creates them.
-  void takeMatches(const PointModel& model, const DeformObservation& seen) {
-    const CarriedMatches carried(model, *graph_, seen.matches);
+  void takeMatches(const PointModel& model, const CarriedMatches& carried) {
+    const std::vector<KeyPointMatch>& matches = carried.matches;
     device_->setMatches(carried.count(), [&](const WarpMatches& room) {
       std::copy(carried.start.begin(), carried.start.end(), room.start);
-      parallelRanges(static_cast<int>(seen.matches.size()), kMatchesPerTask,
-                     [&](int begin, int end) {
-                       for (int i = begin; i < end; ++i)
-                         if (carried.place[i] >= 0)
-                           room.matches[carried.place[i]] = warpMatch(seen.matches[i], model);
-                     });
+      parallelRanges(static_cast<int>(matches.size()), kMatchesPerTask, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i)
+          if (carried.place[i] >= 0) room.matches[carried.place[i]] = warpMatch(matches[i], model);
+      });
     });
     countMatches(carried, *graph_, &constraints_);
-    followTissue(options_, model, *graph_, carried, &constraints_);
     expectShape(*graph_, options_.shape_memory, &constraints_.expected);
   }
 
