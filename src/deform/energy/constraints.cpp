@@ -154,6 +154,16 @@ CandidatePoints noCandidates(const WarpGraph& graph) {
   return none;
 }
 
+void toPlaces(std::vector<std::int32_t>* keys, std::vector<int>* start) {
+  for (const std::int32_t key : *keys)
+    if (key >= 0) ++(*start)[static_cast<std::size_t>(key)];
+  int total = 0;
+  for (int& first : *start) total += std::exchange(first, total);
+  std::vector<int> next(*start);
+  for (std::int32_t& key : *keys)
+    if (key >= 0) key = next[static_cast<std::size_t>(key)]++;
+}
+
 CarriedMatches::CarriedMatches(const PointModel& model, const WarpGraph& graph,
                                const std::vector<KeyPointMatch>& given)
     : matches(given), place(matches.size()), start(graph.stencils.size() + 1, 0) {
@@ -162,13 +172,7 @@ CarriedMatches::CarriedMatches(const PointModel& model, const WarpGraph& graph,
       place[i] = usable(model, graph, matches[i]) ? model.bindings[matches[i].model_point].stencil
                                                   : PointBinding::kUnbound;
   });
-  for (const std::int32_t stencil : place)
-    if (stencil >= 0) ++start[static_cast<std::size_t>(stencil)];
-  int total = 0;
-  for (int& first : start) total += std::exchange(first, total);
-  std::vector<int> next(start);
-  for (std::int32_t& stencil : place)
-    if (stencil >= 0) stencil = next[static_cast<std::size_t>(stencil)]++;
+  toPlaces(&place, &start);
 }
 
 void countMatches(const CarriedMatches& carried, const WarpGraph& graph, ConstraintSet* set) {

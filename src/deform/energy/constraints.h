@@ -50,6 +50,11 @@ void collectCandidates(const PointModel& model, const WarpGraph& graph,
 /// Empty, for this graph.
 CandidatePoints noCandidates(const WarpGraph& graph);
 
+/// Counting sort: replaces each key by its place in the order of the keys, as given within each;
+/// negative ones stay. `start` has a 0 per key and one more, and becomes the first place of each,
+/// and the end.
+void toPlaces(std::vector<std::int32_t>* keys, std::vector<int>* start);
+
 /// Matches in the order of the stencils that carry them, and as given within each.
 struct CarriedMatches {
   CarriedMatches(const PointModel& model, const WarpGraph& graph,

@@ -19,10 +19,10 @@ constexpr double kLeastStiffness = 1.0 / 64;
 constexpr int kNodesPerMedians = 16;  // of a task
 
 /// Node that carries most of a point.
-std::size_t strongestNode(const WarpGraph& graph, const PointBinding& binding) {
+std::int32_t strongestNode(const WarpGraph& graph, const PointBinding& binding) {
   const auto strongest = std::max_element(binding.weights.begin(), binding.weights.end());
-  return static_cast<std::size_t>(graph.stencils[static_cast<std::size_t>(binding.stencil)]
-                                                [strongest - binding.weights.begin()]);
+  return graph
+      .stencils[static_cast<std::size_t>(binding.stencil)][strongest - binding.weights.begin()];
 }
 
 /// Whitened residuals of the matches, by node.
@@ -31,22 +31,16 @@ class NodeResiduals {
   NodeResiduals(const PointModel& model, const WarpGraph& graph, const CarriedMatches& carried)
       : start_(graph.size() + 1, 0), residuals_(static_cast<std::size_t>(carried.count())) {
     const int count = static_cast<int>(carried.matches.size());
-    std::vector<std::int32_t> node(carried.matches.size()), place(carried.matches.size());
+    std::vector<std::int32_t> place(carried.matches.size(), -1);
     parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
       for (int i = begin; i < end; ++i)
         if (carried.place[i] >= 0)
-          node[i] = strongestNode(graph, model.bindings[carried.matches[i].model_point]);
+          place[i] = strongestNode(graph, model.bindings[carried.matches[i].model_point]);
     });
-    for (int i = 0; i < count; ++i)
-      if (carried.place[i] >= 0) ++start_[node[i]];
-    int total = 0;
-    for (int& first : start_) total += std::exchange(first, total);
-    std::vector<int> next(start_);
-    for (int i = 0; i < count; ++i)
-      if (carried.place[i] >= 0) place[i] = next[node[i]]++;
+    toPlaces(&place, &start_);
     parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) {
-        if (carried.place[i] < 0) continue;
+        if (place[i] < 0) continue;
         const KeyPointMatch& match = carried.matches[i];
         residuals_[place[i]] = match.sqrt_information * (match.target_mm - match.source_mm);
       }
