@@ -87,11 +87,17 @@ class PoseRun final : public PoseSearch {
     std::copy_n(facts.counts, kRegions, found.counts.begin());
     std::copy_n(facts.score_counts, kRegions, found.score_counts.begin());
     found.explained = facts.explained;
-    for (int i = 0, at = 0; i < 6; ++i)
-      for (int j = 0; j <= i; ++j, ++at) found.normal(i, j) = found.normal(j, i) = facts.normal[at];
-    for (std::size_t r = 0; r < kRegions; ++r)
+    for (std::size_t r = 0; r < kRegions; ++r) {
+      found.normals[r] = symmetric(facts.normals[r]);
       found.scores[r] = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(facts.scores[r]);
+    }
     return found;
+  }
+  static Eigen::Matrix<double, 6, 6> symmetric(const double (&triangle)[triangleSize(6)]) {
+    Eigen::Matrix<double, 6, 6> full;
+    for (int i = 0, at = 0; i < 6; ++i)
+      for (int j = 0; j <= i; ++j, ++at) full(i, j) = full(j, i) = triangle[at];
+    return full;
   }
 
   using Memory = typename Machine::Memory;

@@ -36,7 +36,7 @@ struct PoseFacts {
   PoseRows best;
   double medians[3];  // shift, length, old length
   double gains[kRegions];
-  double normal[triangleSize(6)];
+  double normals[kRegions][triangleSize(6)];
   double scores[kRegions][6];
   int counts[kRegions], score_counts[kRegions];
   int explained, compared;
@@ -82,12 +82,13 @@ struct PoseSums {
 /// Normal matrix (lower triangle, by rows) and right-hand side.
 constexpr int kPoseSums = triangleSize(6) + 6;
 
-SOFTSCOPE_HD inline void addToSums(const PairResidual& residual, double weight,
+SOFTSCOPE_HD inline void addToSums(const PairResidual& residual, double curvature, double weight,
                                    double (&sums)[kPoseSums]) {
   int at = 0;
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j <= i; ++j, ++at)
-      for (int k = 0; k < 3; ++k) sums[at] += weight * residual.slope[k][i] * residual.slope[k][j];
+      for (int k = 0; k < 3; ++k)
+        sums[at] += curvature * residual.slope[k][i] * residual.slope[k][j];
   for (int i = 0; i < 6; ++i, ++at)
     for (int k = 0; k < 3; ++k) sums[at] -= weight * residual.slope[k][i] * residual.value[k];
 }
@@ -176,7 +177,8 @@ struct SearchPoseKernel {
       const PairResidual residual = residualAt(at, i, shared.pose);
       if (!residual.usable) continue;
       if (is_step) {
-        addToSums(residual, pairWeight(residual.squared(), scale_sq), sums);
+        const double weight = pairWeight(residual.squared(), scale_sq);
+        addToSums(residual, weight, weight, sums);
       } else {
         sums[0] += pairCost(residual.squared());
         sums[1] += 1;
@@ -216,7 +218,7 @@ struct SearchPoseKernel {
 
 /// Contribution of a pair, kept for the sums of regions.
 struct PairSaying {
-  double gain, score[6];
+  double gain;
   std::int32_t region;   // negative: not visible from the best pose
   std::int32_t is_both;  // visible from the old one, too
 };
@@ -224,27 +226,20 @@ struct PairSaying {
 /// One block per kind of positions: three medians, then the sums of regions.
 struct JudgePoseKernel {
   static constexpr int kThreads = kPoseThreads;
-  static constexpr int kSumStep = PoseMedian::kSteps, kTell = kSumStep + PoseSums<1>::kSteps;
-  static constexpr int kPhases = kTell + 2;
-  static constexpr int kRegionSums = 7;  // the scores, and the gain
-  static constexpr int kLanes = kPoseThreads / kRegions;
+  static constexpr int kTell = PoseMedian::kSteps, kPhases = kTell + 2;
+  static constexpr int kNormal = triangleSize(6), kGain = kPoseSums;
+  static constexpr int kRegionSums = kPoseSums + 1;
+  static constexpr int kLanes = 5;  // threads of a region, as shared memory allows
+  static_assert(kRegions * kLanes <= kPoseThreads);
   struct Shared {
     PoseMedian::Shared median;
-    PoseSums<kPoseSums>::Shared sums;
+    double lanes[kRegionSums][kRegions * kLanes];
+    double scale_sq;
     int score_counts[kRegions], counts[kRegions];
     int explained;
-
-    /// In memory that the sums of all pairs need no more.
-    SOFTSCOPE_HD double& regionSum(int what, int region, int lane) {
-      const int at = (what * kRegions + region) * kLanes + lane;
-      return sums.half[at / kHalf][at % kHalf];
-    }
-    static constexpr int kHalf = PoseSums<kPoseSums>::kHalf;
-    static_assert(kRegionSums * kRegions * kLanes <= kPoseSums * kHalf);
   };
   struct Local {
     std::uint64_t keys[kPairsEach];
-    double sums[kPoseSums];
   };
   const PoseInputs* inputs;
   const SeenPair* pairs;
@@ -252,7 +247,7 @@ struct JudgePoseKernel {
   PairSaying* sayings;  // kMostPosePairs a kind of places
   PoseFacts* facts;
 
-  static constexpr int kMedians = 3;
+  static constexpr int kMedians = 3, kLengths = 1;
   SOFTSCOPE_HD int repeats(const Place&) const { return kMedians; }
 
   template <int kPhase>
@@ -260,30 +255,17 @@ struct JudgePoseKernel {
     const bool is_last = at.repeat == kMedians - 1;
     if constexpr (kPhase == 0) {
       if (at.repeat == 0 && at.thread == 0) shared.explained = 0;
+      if (at.thread < kRegions) shared.score_counts[at.thread] = shared.counts[at.thread] = 0;
       PoseMedian::run<0>(at.thread, local.keys, shared.median);
-    } else if constexpr (kPhase < kSumStep) {
+    } else if constexpr (kPhase < kTell) {
       if constexpr (kPhase == 1) lookAt(at, shared, local);
       PoseMedian::run<kPhase>(at.thread, local.keys, shared.median);
-    } else if constexpr (kPhase < kTell) {
-      if (!is_last) return;
-      if constexpr (kPhase == kSumStep)
-        if (at.thread < kRegions) shared.score_counts[at.thread] = shared.counts[at.thread] = 0;
-      PoseSums<kPoseSums>::run<kPhase - kSumStep>(at.thread, local.sums, shared.sums);
     } else if constexpr (kPhase == kTell) {
-      PoseFacts& out = facts[at.x];
-      if (at.thread == 0) {
-        out.medians[at.repeat] = shared.median.count > 0 ? shared.median.value() : 0;
-        out.compared = shared.median.count;
-      }
-      if (!is_last) return;
-      if (at.thread == 0) {
-        out.best = betterEnd(ends + 2 * at.x);
-        out.explained = shared.explained;
-      }
-      if (at.thread < triangleSize(6)) out.normal[at.thread] = shared.sums.total[at.thread];
-      if (at.thread < kRegions * kLanes) sumRegion(at, shared);
+      if (at.thread == 0) tellMedian(at, shared, &facts[at.x]);
+      if (is_last && at.thread < kRegions * kLanes) sumRegion(at, shared);
     } else if (is_last) {
-      if (at.thread < kRegions * kRegionSums) tellRegion(at, shared, &facts[at.x]);
+      for (int i = at.thread; i < kRegions * kRegionSums; i += kThreads)
+        tellRegion(i / kRegionSums, i % kRegionSums, shared, &facts[at.x]);
     }
   }
 
@@ -292,7 +274,6 @@ struct JudgePoseKernel {
     const PairPlace place = static_cast<PairPlace>(at.x);
     const PoseRows& best = betterEnd(ends + 2 * at.x);
     const PoseRows& old = inputs->starts[place == PairPlace::kNow ? kOldPose : kPoseBefore];
-    for (double& sum : local.sums) sum = 0;
     int explained = 0;
     for (int k = 0; k < kPairsEach; ++k) {
       local.keys[k] = PoseMedian::kNoKey;
@@ -301,7 +282,6 @@ struct JudgePoseKernel {
       const PairResidual here = pairResidual(pairs[i], place, inputs->rig, best);
       const PairResidual there = pairResidual(pairs[i], place, inputs->rig, old);
       const double squared = here.squared(), old_squared = there.squared();
-      const double weight = pairWeight(squared, kCostScaleSq);
       if (here.usable && there.usable) {
         double between = 0;
         for (int c = 0; c < 3; ++c)
@@ -314,42 +294,53 @@ struct JudgePoseKernel {
       saying.region = here.usable ? inputs->regions.of(pairs[i].live_px) : -1;
       saying.is_both = here.usable && there.usable ? 1 : 0;
       saying.gain = pairCost(old_squared) - pairCost(squared);
-      for (int j = 0; j < 6; ++j) {
-        saying.score[j] = 0;
-        for (int c = 0; c < 3; ++c) saying.score[j] += weight * here.slope[c][j] * here.value[c];
-      }
-      if (!here.usable) continue;
-      explained += squared < kCostScaleSq ? 1 : 0;
-      addToSums(here, weight, local.sums);
+      if (here.usable) explained += squared < kCostScaleSq ? 1 : 0;
     }
     if (explained > 0) atomicPlus(&shared.explained, explained);
   }
 
+  SOFTSCOPE_HD void tellMedian(const Place& at, Shared& shared, PoseFacts* out) const {
+    const double median = shared.median.count > 0 ? shared.median.value() : 0;
+    out->medians[at.repeat] = median;
+    out->compared = shared.median.count;
+    if (at.repeat == kLengths)
+      shared.scale_sq = robustScaleSq(median * median, inputs->scale_of_median);
+    if (at.repeat < kMedians - 1) return;
+    out->best = betterEnd(ends + 2 * at.x);
+    out->explained = shared.explained;
+  }
   /// Every lane of a region has every kLanes-th pair.
   SOFTSCOPE_HD void sumRegion(const Place& at, Shared& shared) const {
     const int region = at.thread / kLanes, lane = at.thread % kLanes;
     const PairSaying* sayings_here = sayings + at.x * kMostPosePairs;
-    double sums[kRegionSums] = {};
+    const PairPlace place = static_cast<PairPlace>(at.x);
+    const PoseRows& best = betterEnd(ends + 2 * at.x);
+    double sums[kPoseSums] = {}, gain = 0;
     int count = 0, both = 0;
     for (int i = lane; i < inputs->pairs; i += kLanes) {
       const PairSaying& saying = sayings_here[i];
       if (saying.region != region) continue;
       ++count;
-      for (int j = 0; j < 6; ++j) sums[j] += saying.score[j];
+      const PairResidual residual = pairResidual(pairs[i], place, inputs->rig, best);
+      const double squared = residual.squared();
+      addToSums(residual, pairCurvature(squared, shared.scale_sq),
+                pairWeight(squared, shared.scale_sq), sums);
       if (saying.is_both == 0) continue;
       ++both;
-      sums[6] += saying.gain;
+      gain += saying.gain;
     }
-    for (int j = 0; j < kRegionSums; ++j) shared.regionSum(j, region, lane) = sums[j];
+    for (int j = 0; j < kPoseSums; ++j) shared.lanes[j][at.thread] = sums[j];
+    shared.lanes[kGain][at.thread] = gain;
     atomicPlus(&shared.score_counts[region], count);
     atomicPlus(&shared.counts[region], both);
   }
-  SOFTSCOPE_HD static void tellRegion(const Place& at, Shared& shared, PoseFacts* out) {
-    const int region = at.thread / kRegionSums, what = at.thread % kRegionSums;
+  SOFTSCOPE_HD static void tellRegion(int region, int what, const Shared& shared, PoseFacts* out) {
     double sum = 0;
-    for (int lane = 0; lane < kLanes; ++lane) sum += shared.regionSum(what, region, lane);
-    if (what < 6) {
-      out->scores[region][what] = sum;
+    for (int lane = 0; lane < kLanes; ++lane) sum += shared.lanes[what][region * kLanes + lane];
+    if (what < kNormal) {
+      out->normals[region][what] = sum;
+    } else if (what < kGain) {
+      out->scores[region][what - kNormal] = -sum;
     } else {
       out->gains[region] = sum;
       out->score_counts[region] = shared.score_counts[region];

@@ -86,6 +86,12 @@ SOFTSCOPE_HD inline double pairWeight(double squared, double scale_sq) {
   return share * share;
 }
 
+/// Second derivative of that cost as a factor of the pair's normal matrix, averaged over the
+/// directions of the residual: docs/energy.md (31).
+SOFTSCOPE_HD inline double pairCurvature(double squared, double scale_sq) {
+  return pairWeight(squared, scale_sq) * (1 - 4.0 / 3 * squared / (scale_sq + squared));
+}
+
 // Parts of the extent of the pairs in the image, with independent errors.
 constexpr int kRegionColumns = 6, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 

@@ -67,34 +67,53 @@ class Pairs {
   PoseFindings findingsAt(const Eigen::Isometry3d& best, const Eigen::Isometry3d& old) const {
     PoseFindings found;
     found.best = best;
-    found.scores.fill(Vector6d::Zero());
-    const PoseRows here_rows = rowsOf(best), there_rows = rowsOf(old);
-    std::vector<double> shifts, lengths, old_lengths;
-    for (const SeenPair& pair : question_.pairs) {
-      const Residual here = residualAt(pair, here_rows);
-      if (!here.usable) continue;
-      found.explained += here.value.squaredNorm() < kCostScaleSq;
-      const auto region = static_cast<std::size_t>(question_.regions.of(pair.live_px));
-      const double weight = pairWeight(here.value.squaredNorm(), kCostScaleSq);
-      found.normal += weight * here.slope.transpose() * here.slope;
-      found.scores[region] += weight * here.slope.transpose() * here.value;
-      ++found.score_counts[region];
-      const Residual there = residualAt(pair, there_rows);
-      if (!there.usable) continue;
-      shifts.push_back((here.value - there.value).norm());
-      lengths.push_back(here.value.norm());
-      old_lengths.push_back(there.value.norm());
-      found.gains[region] +=
-          pairCost(there.value.squaredNorm()) - pairCost(here.value.squaredNorm());
-      ++found.counts[region];
-    }
-    found.shift = medianOf(std::move(shifts));
-    found.length = medianOf(std::move(lengths));
-    found.old_length = medianOf(std::move(old_lengths));
+    compare(rowsOf(best), rowsOf(old), &found);
+    const double scale_sq = robustScaleSq(found.length * found.length, question_.scale_of_median);
+    differentiate(rowsOf(best), scale_sq, &found);
     return found;
   }
 
  private:
+  std::size_t regionOf(const SeenPair& pair) const {
+    return static_cast<std::size_t>(question_.regions.of(pair.live_px));
+  }
+
+  /// Medians and gains.
+  void compare(const PoseRows& best, const PoseRows& old, PoseFindings* found) const {
+    std::vector<double> shifts, lengths, old_lengths;
+    for (const SeenPair& pair : question_.pairs) {
+      const Residual here = residualAt(pair, best);
+      if (!here.usable) continue;
+      found->explained += here.value.squaredNorm() < kCostScaleSq;
+      const Residual there = residualAt(pair, old);
+      if (!there.usable) continue;
+      shifts.push_back((here.value - there.value).norm());
+      lengths.push_back(here.value.norm());
+      old_lengths.push_back(there.value.norm());
+      found->gains[regionOf(pair)] +=
+          pairCost(there.value.squaredNorm()) - pairCost(here.value.squaredNorm());
+      ++found->counts[regionOf(pair)];
+    }
+    found->shift = medianOf(std::move(shifts));
+    found->length = medianOf(std::move(lengths));
+    found->old_length = medianOf(std::move(old_lengths));
+  }
+
+  void differentiate(const PoseRows& best, double scale_sq, PoseFindings* found) const {
+    found->normals.fill(Matrix6d::Zero());
+    found->scores.fill(Vector6d::Zero());
+    for (const SeenPair& pair : question_.pairs) {
+      const Residual residual = residualAt(pair, best);
+      if (!residual.usable) continue;
+      const double squared = residual.value.squaredNorm();
+      const Eigen::Matrix<double, 6, 3> transposed = residual.slope.transpose();
+      const std::size_t region = regionOf(pair);
+      found->normals[region] += pairCurvature(squared, scale_sq) * transposed * residual.slope;
+      found->scores[region] += pairWeight(squared, scale_sq) * transposed * residual.value;
+      ++found->score_counts[region];
+    }
+  }
+
   Residual residualAt(const SeenPair& pair, const PoseRows& left_from_world) const {
     const PairResidual plain = pairResidual(pair, place_, question_.rig, left_from_world);
     Residual residual;

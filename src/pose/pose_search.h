@@ -37,8 +37,8 @@ struct PoseFindings {
   std::array<double, kRegions> gains{};  // of cost over the old pose, by region
   std::array<int, kRegions> counts{};    // of pairs in it
   int explained = 0;                     // pairs that `best` predicts to three standard errors
-  // At `best`: weighted normal matrix, gradients of the regions, and their pairs.
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  // Of the robust cost at `best`, by region: second derivatives, gradients, and pairs.
+  std::array<Eigen::Matrix<double, 6, 6>, kRegions> normals{};
   std::array<Eigen::Matrix<double, 6, 1>, kRegions> scores{};
   std::array<int, kRegions> score_counts{};
 };

@@ -16,8 +16,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // A scope that moved has stopped once its position is this close to the last one, in standard
-// errors; one at rest has moved, over tissue in its reference shape, once it is that far away.
-constexpr double kRestSigmas = 3, kMovedSigmas = 10;
+// errors.
+constexpr double kRestSigmas = 3;
 
 // Tissue has its reference shape while that explains this share of the matches.
 constexpr double kRigidShare = 2.0 / 3;
@@ -92,21 +92,24 @@ bool isGain(const std::array<double, kRegions>& gains, const std::array<int, kRe
   return mean > studentQuantile(significance, regions - 1.0) * error;
 }
 
-/// Whether the best pose differs from the old one: most of the pairs distinguish them, it leaves
-/// a small part of the residuals, and explains them significantly better: docs/energy.md (29).
+/// Whether the scope moved since the last frame: most of the pairs distinguish both poses, the new
+/// one leaves a small part of the residuals, and is significantly better: docs/energy.md (29).
 bool differs(const PoseFindings& found, double significance) {
   return found.shift > kSeenSigmas && found.length < kLeftShare * found.old_length &&
          isGain(found.gains, found.counts, significance);
 }
 
-/// Of the best pose as a twist in the left camera frame, clustered by regions: (31).
+/// Of the best pose as a twist in the left camera frame: jackknife over regions, (31).
 Matrix6d covarianceOf(const PoseFindings& found) {
   const int regions = usedOf(found.score_counts);
   if (regions < kFewestRegions) return Matrix6d::Constant(PoseFindings::kNan);
-  Matrix6d spread = Matrix6d::Zero();
-  for (const Vector6d& score : found.scores) spread += score * score.transpose();
-  const Matrix6d inverse = found.normal.ldlt().solve(Matrix6d::Identity());
-  return inverse * spread * inverse * regions / (regions - 1.0);
+  Matrix6d normal = Matrix6d::Zero(), spread = Matrix6d::Zero();
+  for (const Matrix6d& part : found.normals) normal += part;
+  for (std::size_t r = 0; r < found.normals.size(); ++r) {
+    const Vector6d change = (normal - found.normals[r]).ldlt().solve(found.scores[r]);
+    spread += change * change.transpose();
+  }
+  return spread * (regions - 1.0) / regions;
 }
 
 }  // namespace
@@ -144,22 +147,24 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
       (search != nullptr ? *search : on_cpu)
           .answer(poseQuestion(pairs, rig, fitted, last, reference, before, options));
   const PoseFindings &now = answer.now, &since = answer.since;
-  const bool moved_now = differs(now, options.significance),
-             moved_since = differs(since, options.significance);
   const double share_since =
       pairs.empty() ? 0 : static_cast<double>(since.explained) / static_cast<double>(pairs.size());
   const bool rigid = share_since >= kRigidShare;
-  const Eigen::Isometry3d& measured = rigid ? since.best : now.best;
-  const Matrix6d covariance = covarianceOf(rigid ? since : now);
+  const PoseFindings& found = rigid ? since : now;
+  const Eigen::Isometry3d& measured = found.best;
+  const Matrix6d covariance = covarianceOf(found);
   RefinedPose refined;
   refined.moved_mm = (measured.inverse().translation() - reference.translation()).norm();
   refined.sigma_mm = std::sqrt(covariance.diagonal().tail<3>().sum());
   refined.sigma_deg = 180 / M_PI * std::sqrt(covariance.diagonal().head<3>().sum());
-  const bool is_far = before == ScopeBefore::kMoving
-                          ? refined.moved_mm > kRestSigmas * refined.sigma_mm
-                          : rigid && refined.moved_mm > kMovedSigmas * refined.sigma_mm;
-  const bool moves = options.scope == "moving" || before == ScopeBefore::kUnclear || moved_now ||
-                     (rigid && moved_since) || is_far;
+  const double moved_sigmas = refined.moved_mm / refined.sigma_mm;
+  const bool is_far =
+      before == ScopeBefore::kMoving
+          ? moved_sigmas > kRestSigmas
+          : rigid && moved_sigmas >
+                         studentQuantile(options.significance, usedOf(found.score_counts) - 1.0);
+  const bool moves = options.scope == "moving" || before == ScopeBefore::kUnclear ||
+                     differs(now, options.significance) || is_far;
   refined.scope_static = options.scope == "static" || !moves;
   refined.keeps_shape = refined.scope_static || rigid;
   if (options.scope == "static")

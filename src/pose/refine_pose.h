@@ -49,16 +49,15 @@ struct RefinedPose {
 /// Iteratively reweighted Gauss-Newton over the pose: docs/energy.md (26) to (28).
 /// Pixels constrain it a hundred times more than depths, and pairs on moving tissue
 /// lose their weight (Geman and McClure). It starts at `fitted` and at `last`; the
-/// result with the lower cost counts. The scope moved if a new pose explains the
-/// pairs significantly better than the old one. The test uses the mean gain of image
-/// regions, because moving tissue shifts whole regions alike: (29). Two motions are
-/// tested: since the last fused frame, and, because a slow motion is never
-/// significant in one frame, since `reference` and the positions of the tissue then.
-/// While most of the tissue has its reference shape, the pose is measured in that
-/// shape, significant or not; with deformed tissue, a motion that is not significant
-/// is that of the tissue, and the pose is `last`. A scope that moved `before` still moves
-/// while its step exceeds a few standard errors; one at rest also moves once it is many
-/// standard errors away in the reference shape; if its state is unknown, it moves. Pairs
+/// result with the lower cost counts. The scope moved since the last fused frame if a
+/// new pose explains the pairs significantly better than the old one. The test uses the
+/// mean gain of image regions, because moving tissue shifts whole regions alike: (29).
+/// While most of the tissue has its shape at `reference`, the pose is measured in that
+/// shape, significant or not, and the scope moved if it is significantly far away, because
+/// a slow motion is never significant in one frame; with deformed tissue, a motion that is
+/// not significant is that of the tissue, and the pose is `last`. A scope that moved `before`
+/// still moves while its step exceeds a few standard errors; if its state is unknown, it
+/// moves. Pairs
 /// that are not finite or behind the camera have no weight; fewer than three are not
 /// refined. `search` finds the poses; by default, on the CPU. Throws OptionError for
 /// invalid options.

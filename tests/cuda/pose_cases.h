@@ -84,9 +84,10 @@ inline void expectSame(const PoseFindings& found, const PoseFindings& expected) 
   EXPECT_EQ(found.explained, expected.explained);
   EXPECT_EQ(found.counts, expected.counts);
   EXPECT_EQ(found.score_counts, expected.score_counts);
-  EXPECT_LT((found.normal - expected.normal).norm(), 1e-6 * (1 + expected.normal.norm()));
   for (std::size_t r = 0; r < kRegions; ++r) {
     expectClose(found.gains[r], expected.gains[r], 1e-6, "gain");
+    EXPECT_LT((found.normals[r] - expected.normals[r]).norm(),
+              1e-6 * (1 + expected.normals[r].norm()));
     EXPECT_LT((found.scores[r] - expected.scores[r]).norm(),
               1e-6 * (1 + expected.scores[r].norm()));
   }
@@ -99,7 +100,7 @@ inline void expectSame(const PoseAnswer& found, const PoseAnswer& expected) {
 }
 
 inline bool equal(const PoseFindings& a, const PoseFindings& b) {
-  return a.best.matrix() == b.best.matrix() && a.normal == b.normal && a.scores == b.scores &&
+  return a.best.matrix() == b.best.matrix() && a.normals == b.normals && a.scores == b.scores &&
          a.gains == b.gains && a.explained == b.explained && a.counts == b.counts;
 }
 inline bool equal(const PoseAnswer& a, const PoseAnswer& b) {
