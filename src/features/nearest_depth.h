@@ -30,6 +30,15 @@ void visitMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
         visit(u - pixel.x(), v - pixel.y(), depth_mm.at(u, v));
 }
 
+/// A pixel has a depth of its own where most of the pixels this close to it are measured.
+constexpr int kOwnRadiusPx = 2, kOwnLeast = 13;
+
+inline bool hasOwnDepth(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel) {
+  int measured = 0;
+  visitMeasured(depth_mm, pixel, kOwnRadiusPx, [&](double, double, float) { ++measured; });
+  return measured >= kOwnLeast;
+}
+
 /// Steepest surface that is followed: depth over width.
 constexpr double kSteepest = 4;
 

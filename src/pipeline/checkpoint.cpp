@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 12\n";
+constexpr std::string_view kMagic = "softscope checkpoint 13\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -174,6 +174,7 @@ void visitState(Archive& archive, State& state) {
   visitGraph(archive, state.graph);
   visitMemory(archive, state.memory);
   archive.array(state.tracked.points);
+  archive.value(state.tracked.fused_frames);
   archive.value(state.tracked.drift_mm2);
   visitErrors(archive, state.errors);
   visitLast(archive, state.last);

@@ -366,7 +366,7 @@ FrameOutcome CpuBackend::finish(const Eigen::Isometry3d& world_from_left) {
   if (tracks()) {
     outcome.tracked =
         TrackSight(frame_, rig()).positions(state_.tracked, world_from_left, pictures_.reliefPx());
-    if (fused) state_.tracked.countVisible(outcome.tracked);
+    if (fused) state_.tracked.countMeasured(outcome.tracked);
     state_.tracked.hideUnmeasured(&outcome.tracked);
   }
   clock_ = StageClock();

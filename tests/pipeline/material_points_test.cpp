@@ -260,22 +260,43 @@ TEST(MaterialPoints, GoWithTheirNeighboursWhereTheyAreNotSeen) {
   EXPECT_EQ(far.points[0].position_mm, alone_mm);
 }
 
-TEST(MaterialPoints, HaveNoPositionBeforeTheyWereVisible) {
+TEST(MaterialPoints, HaveNoPositionBeforeTheyWereMeasuredTwice) {
   MaterialPoints tracked;
   tracked.points.resize(2);
   tracked.points[0].id = 4;
   tracked.points[1].id = 5;
   const Eigen::Vector3d place(1, 2, 40);
-  const auto reported = [&](bool is_visible) {
-    std::vector<TrackedPosition> positions{{4, place, true, 0.1}, {5, place, is_visible, 0.1}};
-    tracked.countVisible(positions);
+  const auto reported = [&](bool is_measured) {
+    std::vector<TrackedPosition> positions{{4, place, true, 0.1, true},
+                                           {5, place, true, 0.1, is_measured}};
+    tracked.countMeasured(positions);
     tracked.hideUnmeasured(&positions);
     return positions;
   };
-  EXPECT_TRUE(reported(false)[1].position_mm.array().isNaN().all());
+  const std::vector<TrackedPosition> first = reported(false);
+  EXPECT_EQ(first[0].position_mm, place) << "of one frame, one measurement is all there is";
+  EXPECT_TRUE(first[1].position_mm.array().isNaN().all());
+  EXPECT_FALSE(first[1].visible);
+  EXPECT_TRUE(reported(true)[1].position_mm.array().isNaN().all());
   EXPECT_EQ(reported(false)[0].position_mm, place);
   EXPECT_EQ(reported(true)[1].position_mm, place);
   EXPECT_EQ(reported(false)[1].position_mm, place) << "hidden again, it is where it went";
+}
+
+// What the first frame alone shows may have the depth of another surface.
+TEST(MaterialPoints, LoseThePositionThatOnlyTheFirstFrameMeasured) {
+  MaterialPoints tracked;
+  tracked.points.resize(1);
+  const Eigen::Vector3d place(1, 2, 40);
+  const auto reported = [&](bool is_measured) {
+    std::vector<TrackedPosition> positions{{0, place, is_measured, 0.1, is_measured}};
+    tracked.countMeasured(positions);
+    tracked.hideUnmeasured(&positions);
+    return positions.front().position_mm;
+  };
+  EXPECT_EQ(reported(true), place);
+  EXPECT_TRUE(reported(false).array().isNaN().all());
+  EXPECT_EQ(reported(true), place);
 }
 
 TEST(PreciseShare, IsOfTheVisiblePointsWithATolerableError) {

@@ -251,6 +251,8 @@ TEST(Reconstructor, TracksBesideAnInstrumentBeginOnTheTissue) {
   reconstructor.track(seedsInColumn(152));
   for (const TrackedPosition& point : reconstructor.process(frame).tracked)
     EXPECT_TRUE(point.position_mm.array().isNaN().all()) << "not measured yet, row " << point.id;
+  for (const TrackedPosition& point : reconstructor.process(clip.frames[0]).tracked)
+    EXPECT_TRUE(point.position_mm.array().isNaN().all()) << "measured once, row " << point.id;
   const FrameRecord record = reconstructor.process(clip.frames[0]);
   const Raster<float>& truth_mm = clip.truth.front().depth_mm;
   for (const TrackedPosition& point : record.tracked)

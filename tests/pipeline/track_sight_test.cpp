@@ -55,6 +55,7 @@ TEST(TrackSight, SeesWhatLiesOnTheMeasuredSurface) {
   const WallWithHole wall;
   const TrackedPosition seen = wall.see(wall.at(40, 100, kDepthMm + 0.5));
   EXPECT_TRUE(seen.visible);
+  EXPECT_TRUE(seen.measured);
   EXPECT_NEAR(seen.sigma_mm, std::sqrt(2 * kAlongMm2 + kSigmaMm * kSigmaMm), 1e-5);
 }
 
@@ -66,6 +67,7 @@ TEST(TrackSight, DoesNotSeeWhatIsHiddenFloatsOrHasLeft) {
         Eigen::Vector3d(1e300, 0, 1e-300), Eigen::Vector3d(NAN, 0, 50)}) {
     const TrackedPosition seen = wall.see(point);
     EXPECT_FALSE(seen.visible) << point.transpose();
+    EXPECT_FALSE(seen.measured) << point.transpose();
     EXPECT_TRUE(std::isnan(seen.sigma_mm)) << point.transpose();
   }
 }
@@ -76,6 +78,9 @@ TEST(TrackSight, InAGapIsSureOfTheSurfaceBesideItAlone) {
   const double slack_mm = 4 * kDepthMm / 500;
   const TrackedPosition seen = wall.see(wall.at(88, 75, kDepthMm));
   EXPECT_TRUE(seen.visible);
+  EXPECT_FALSE(seen.measured);
+  EXPECT_TRUE(wall.see(wall.at(84, 75, kDepthMm)).measured);   // 15 of its 25 pixels
+  EXPECT_FALSE(wall.see(wall.at(85, 75, kDepthMm)).measured);  // 10
   EXPECT_NEAR(seen.sigma_mm, std::sqrt(2 * kAlongMm2 + kSigmaMm * kSigmaMm + slack_mm * slack_mm),
               1e-5);
   EXPECT_TRUE(wall.see(wall.at(88, 75, kDepthMm + 1 + 0.9 * slack_mm)).visible);

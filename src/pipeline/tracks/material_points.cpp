@@ -12,6 +12,7 @@
 namespace softscope {
 namespace {
 
+constexpr std::int64_t kFewestMeasurements = 2;  // in frames; the first one may be a mismatch
 constexpr double kMaxSettleMm = 0.5;    // of near tissue; a larger distance is another surface
 constexpr double kSettleShare = 0.3;    // of the distance to the surface, covered in a frame
 constexpr double kReachSpacings = 2;    // of nodes around the points that they carry
@@ -46,7 +47,7 @@ bool isAmongMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel
 /// or next to an instrument, from measured pixels around it, extrapolated
 /// from the nearest one at 45 degrees at most. NaN without any, or with a few only.
 double depthAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, double focal_px) {
-  const double here_mm = planeAround(depth_mm, pixel, 2, kLeastMeasured);
+  const double here_mm = planeAround(depth_mm, pixel, kOwnRadiusPx, kOwnLeast);
   if (std::isfinite(here_mm)) return here_mm;
   const int gap_px = gapPx(depth_mm.width_px);
   const double around_mm = planeAround(depth_mm, pixel, gap_px, gap_px * gap_px);
@@ -161,14 +162,16 @@ void MaterialPoints::settle(const PointModel& model, const Eigen::Vector3d& scop
   }
 }
 
-void MaterialPoints::countVisible(const std::vector<TrackedPosition>& positions) {
+void MaterialPoints::countMeasured(const std::vector<TrackedPosition>& positions) {
+  ++fused_frames;
   for (std::size_t k = 0; k < points.size(); ++k)
-    points[k].visible_frames += positions[k].visible ? 1 : 0;
+    points[k].measured_frames += positions[k].measured ? 1 : 0;
 }
 
 void MaterialPoints::hideUnmeasured(std::vector<TrackedPosition>* positions) const {
+  const std::int64_t fewest = std::min(kFewestMeasurements, fused_frames);
   for (std::size_t k = 0; k < points.size(); ++k)
-    if (points[k].visible_frames == 0) (*positions)[k] = {points[k].id};
+    if (points[k].measured_frames < fewest) (*positions)[k] = {points[k].id};
 }
 
 double preciseShare(const std::vector<TrackedPosition>& positions) {

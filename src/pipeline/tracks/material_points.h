@@ -25,14 +25,15 @@ struct TrackSeed {
   double u_px = 0, v_px = 0;
 };
 
-/// Position of a material point. position_mm: world frame; NaN before it was visible, with a depth
-/// of its own, for the first time: until then its depth is that of other pixels. sigma_mm:
-/// predicted root mean square error of the position in the frame of the scope; NaN if unknown.
+/// Position of a material point. position_mm: world frame; NaN before it was measured, until when
+/// its depth is that of other pixels. sigma_mm: predicted root mean square error of the position in
+/// the frame of the scope; NaN if unknown.
 struct TrackedPosition {
   int id = 0;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool visible = false;
   double sigma_mm = std::numeric_limits<double>::quiet_NaN();
+  bool measured = false;  // visible, with a depth of its own
 };
 
 /// Share of the visible points whose predicted error is tolerable with a probability of 95 %. NaN
@@ -56,7 +57,7 @@ class MaterialPoints {
     /// one pixel right and one down; moved by the warp.
     Eigen::Matrix<double, 3, 2> pixels_mm = Eigen::Matrix<double, 3, 2>::Zero();
     FirstLook look;
-    std::int64_t visible_frames = 0;  // so far
+    std::int64_t measured_frames = 0;  // so far
     /// Predicted, of the position along the surface, per direction; NaN if unknown.
     double variance_mm2 = 0;
   };
@@ -91,11 +92,13 @@ class MaterialPoints {
               SurfaceSearch* search);
 
   /// Of a frame that was fused, one position per point.
-  void countVisible(const std::vector<TrackedPosition>& positions);
-  /// What was not visible in any frame so far has no position.
+  void countMeasured(const std::vector<TrackedPosition>& positions);
+  /// A single measurement may be of another surface: from the second frame on, what fewer than two
+  /// frames measured has no position.
   void hideUnmeasured(std::vector<TrackedPosition>* positions) const;
 
   std::vector<Point> points;
+  std::int64_t fused_frames = 0;
   /// Drift variance of a warp, per direction, from the last first looks; NaN before.
   double drift_mm2 = std::numeric_limits<double>::quiet_NaN();
 };

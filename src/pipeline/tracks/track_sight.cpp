@@ -80,6 +80,7 @@ std::vector<TrackedPosition> TrackSight::positions(const MaterialPoints& tracked
     // As for a depth: worse ones update nothing.
     position.visible = !(sigma_mm > frame_.fusion.pixels.max_sigma_mm);
     if (position.visible) position.sigma_mm = sigma_mm;
+    position.measured = position.visible && hasOwnDepth(depth.depth_mm, pixelOf(rig_.left, centre));
     return position;
   };
   std::vector<TrackedPosition> positions(tracked.points.size());
