@@ -15,13 +15,11 @@ struct PoseLayout {
       : inputs(arena.array<PoseInputs>(1)),
         pairs(arena.array<SeenPair>(kMostPosePairs)),
         ends(arena.array<PoseEnd>(kPoseSearches)),
-        sayings(arena.array<PairSaying>(2 * kMostPosePairs)),
         facts(arena.array<PoseFacts>(2)) {}
 
   PoseInputs* inputs;
   SeenPair* pairs;
   PoseEnd* ends;
-  PairSaying* sayings;
   PoseFacts* facts;
 };
 
@@ -48,10 +46,9 @@ class PoseRun final : public PoseSearch {
         "search pose",
         SearchPoseKernel{layout_.inputs, layout_.pairs, layout_.ends, question.iterations},
         Grid{kPoseSearches, 1, 1});
-    machine_.executor().launch("judge pose",
-                               JudgePoseKernel{layout_.inputs, layout_.pairs, layout_.ends,
-                                               layout_.sayings, layout_.facts},
-                               Grid{2, 1, 1});
+    machine_.executor().launch(
+        "judge pose", JudgePoseKernel{layout_.inputs, layout_.pairs, layout_.ends, layout_.facts},
+        Grid{2, 1, 1});
     PoseFacts facts[2];
     machine_.fromDevice(facts, layout_.facts, sizeof facts);
     machine_.wait();

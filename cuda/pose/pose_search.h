@@ -216,24 +216,19 @@ struct SearchPoseKernel {
   }
 };
 
-/// Contribution of a pair, kept for the sums of regions.
-struct PairSaying {
-  double gain;
-  std::int32_t region;   // negative: not visible from the best pose
-  std::int32_t is_both;  // visible from the old one, too
-};
-
 /// One block per kind of positions: three medians, then the sums of regions.
 struct JudgePoseKernel {
   static constexpr int kThreads = kPoseThreads;
   static constexpr int kTell = PoseMedian::kSteps, kPhases = kTell + 2;
   static constexpr int kNormal = triangleSize(6), kGain = kPoseSums;
   static constexpr int kRegionSums = kPoseSums + 1;
-  static constexpr int kLanes = 5;  // threads of a region, as shared memory allows
+  static constexpr int kLanes = 7;      // threads of a region, as shared memory allows
+  static constexpr int kNoRegion = -1;  // of a pair that is not visible from the best pose
   static_assert(kRegions * kLanes <= kPoseThreads);
   struct Shared {
     PoseMedian::Shared median;
     double lanes[kRegionSums][kRegions * kLanes];
+    std::int8_t regions[kMostPosePairs];
     double scale_sq;
     int score_counts[kRegions], counts[kRegions];
     int explained;
@@ -244,7 +239,6 @@ struct JudgePoseKernel {
   const PoseInputs* inputs;
   const SeenPair* pairs;
   const PoseEnd* ends;
-  PairSaying* sayings;  // kMostPosePairs a kind of places
   PoseFacts* facts;
 
   static constexpr int kMedians = 3, kLengths = 1;
@@ -270,17 +264,22 @@ struct JudgePoseKernel {
   }
 
  private:
+  SOFTSCOPE_HD PairResidual residualAt(const Place& at, int i, const PoseRows& pose) const {
+    return pairResidual(pairs[i], static_cast<PairPlace>(at.x), inputs->rig, pose);
+  }
+  SOFTSCOPE_HD const PoseRows& bestOf(const Place& at) const { return betterEnd(ends + 2 * at.x); }
+  SOFTSCOPE_HD const PoseRows& oldOf(const Place& at) const {
+    const bool is_now = static_cast<PairPlace>(at.x) == PairPlace::kNow;
+    return inputs->starts[is_now ? kOldPose : kPoseBefore];
+  }
   SOFTSCOPE_HD void lookAt(const Place& at, Shared& shared, Local& local) const {
-    const PairPlace place = static_cast<PairPlace>(at.x);
-    const PoseRows& best = betterEnd(ends + 2 * at.x);
-    const PoseRows& old = inputs->starts[place == PairPlace::kNow ? kOldPose : kPoseBefore];
     int explained = 0;
     for (int k = 0; k < kPairsEach; ++k) {
       local.keys[k] = PoseMedian::kNoKey;
       const int i = k * kThreads + at.thread;
       if (i >= inputs->pairs) continue;
-      const PairResidual here = pairResidual(pairs[i], place, inputs->rig, best);
-      const PairResidual there = pairResidual(pairs[i], place, inputs->rig, old);
+      const PairResidual here = residualAt(at, i, bestOf(at));
+      const PairResidual there = residualAt(at, i, oldOf(at));
       const double squared = here.squared(), old_squared = there.squared();
       if (here.usable && there.usable) {
         double between = 0;
@@ -290,10 +289,8 @@ struct JudgePoseKernel {
         local.keys[k] = PoseMedian::keyOf(std::sqrt(of[at.repeat]));
       }
       if (at.repeat < kMedians - 1) continue;
-      PairSaying& saying = sayings[at.x * kMostPosePairs + i];
-      saying.region = here.usable ? inputs->regions.of(pairs[i].live_px) : -1;
-      saying.is_both = here.usable && there.usable ? 1 : 0;
-      saying.gain = pairCost(old_squared) - pairCost(squared);
+      const int region = here.usable ? inputs->regions.of(pairs[i].live_px) : kNoRegion;
+      shared.regions[i] = static_cast<std::int8_t>(region);
       if (here.usable) explained += squared < kCostScaleSq ? 1 : 0;
     }
     if (explained > 0) atomicPlus(&shared.explained, explained);
@@ -306,28 +303,24 @@ struct JudgePoseKernel {
     if (at.repeat == kLengths)
       shared.scale_sq = robustScaleSq(median * median, inputs->scale_of_median);
     if (at.repeat < kMedians - 1) return;
-    out->best = betterEnd(ends + 2 * at.x);
+    out->best = bestOf(at);
     out->explained = shared.explained;
   }
   /// Every lane of a region has every kLanes-th pair.
   SOFTSCOPE_HD void sumRegion(const Place& at, Shared& shared) const {
     const int region = at.thread / kLanes, lane = at.thread % kLanes;
-    const PairSaying* sayings_here = sayings + at.x * kMostPosePairs;
-    const PairPlace place = static_cast<PairPlace>(at.x);
-    const PoseRows& best = betterEnd(ends + 2 * at.x);
     double sums[kPoseSums] = {}, gain = 0;
     int count = 0, both = 0;
     for (int i = lane; i < inputs->pairs; i += kLanes) {
-      const PairSaying& saying = sayings_here[i];
-      if (saying.region != region) continue;
+      if (shared.regions[i] != region) continue;
       ++count;
-      const PairResidual residual = pairResidual(pairs[i], place, inputs->rig, best);
-      const double squared = residual.squared();
-      addToSums(residual, pairCurvature(squared, shared.scale_sq),
-                pairWeight(squared, shared.scale_sq), sums);
-      if (saying.is_both == 0) continue;
+      const PairResidual here = residualAt(at, i, bestOf(at)), there = residualAt(at, i, oldOf(at));
+      const double squared = here.squared();
+      addToSums(here, pairCurvature(squared, shared.scale_sq), pairWeight(squared, shared.scale_sq),
+                sums);
+      if (!there.usable) continue;
       ++both;
-      gain += saying.gain;
+      gain += pairCost(there.squared()) - pairCost(squared);
     }
     for (int j = 0; j < kPoseSums; ++j) shared.lanes[j][at.thread] = sums[j];
     shared.lanes[kGain][at.thread] = gain;
