@@ -123,5 +123,23 @@ TEST(FrameView, CoverageIsOfTheTissueNotOfBlackBorders) {
   EXPECT_EQ(view.summary.coverage(), 0.5) << "of the tissue the upper half has depth";
 }
 
+// A kidney in the distance, before nothing: the dark has no depth, and should have none.
+TEST(FrameView, CoverageIsOfWhatLightReaches) {
+  const auto seenTo = [](int lit_columns) {
+    MeasuredFrame measured = measuredAt(50, 0.05f);
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = lit_columns / 2; u < kWidth; ++u) {
+        measured.depth.depth_mm.at(u, v) = std::nanf("");
+        if (u >= lit_columns) measured.left.at(u, v) = Rgb8{9, 9, 9};
+      }
+    return viewOf(std::move(measured)).summary;
+  };
+  EXPECT_EQ(seenTo(20).tissue_px, 20 * kHeight);
+  EXPECT_EQ(seenTo(20).coverage(), 0.5);
+  EXPECT_EQ(seenTo(2).tissue_px, kWidth * kHeight / 5)
+      << "a light in the dark is no view of tissue";
+  EXPECT_EQ(seenTo(2).coverage(), 0.125);
+}
+
 }  // namespace
 }  // namespace softscope

@@ -8,7 +8,7 @@ namespace softscope {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct DepthSummary {
-  int tissue_px = 0;    // that no mask hides
+  int tissue_px = 0;    // that no mask hides, and light reaches
   int measured_px = 0;  // of those
   double median_sigma_mm = kUnknown;
   /// Of the measured pixels: their predicted error is tolerable with a probability of 95 %.

@@ -6,6 +6,7 @@
 
 #include "core/background_work.h"
 #include "core/parallel.h"
+#include "stereo/options/stereo_options.h"
 
 namespace softscope {
 namespace {
@@ -47,10 +48,25 @@ void scaleOptions(const ReconstructionOptions& options, const RectifiedRig& rig,
   if (reference_mm > 0) reference_mm = std::max(reference_mm, typical_mm);
 }
 
-DepthSummary summarise(const TissueDepths& depths, const MeasuredFrame& measured,
+/// Behind and around an organ in the distance there is no light. Where that is nearly everything,
+/// the rest is no view of tissue.
+constexpr int kMostDark = 5;  // of so many pixels all but one
+
+int litPx(const TissueDepths& depths, int dark_px) {
+  return std::max({depths.tissue_px - dark_px, depths.tissue_px / kMostDark, depths.measured_px});
+}
+
+int darkPx(const GrayImage& gray, const Mask& not_tissue) {
+  int dark = 0;
+  for (std::size_t i = 0; i < gray.values.size(); ++i)
+    dark += not_tissue.values[i] == 0 && gray.values[i] < StereoOptions::darkest_gray ? 1 : 0;
+  return dark;
+}
+
+DepthSummary summarise(const TissueDepths& depths, const MeasuredFrame& measured, int dark_px,
                        const RectifiedRig& rig) {
   DepthSummary summary;
-  summary.tissue_px = depths.tissue_px;
+  summary.tissue_px = litPx(depths, dark_px);
   summary.measured_px = depths.measured_px;
   if (depths.measured_px > 0 && !measured.depth.sigma_mm.empty())
     summary.precise_share = double(depths.precise_px) / depths.measured_px;
@@ -65,6 +81,7 @@ FramePictures picturesOf(const ColourImage& left, GrayImage gray, const Measured
                          const ReconstructionOptions& options) {
   FramePictures pictures;
   pictures.not_tissue = notTissue(left, measured, options.tissue);
+  pictures.dark_px = darkPx(gray, pictures.not_tissue);
   pictures.live = livePicture(left, std::move(gray), pictures.not_tissue);
   return pictures;
 }
@@ -101,7 +118,7 @@ FrameView viewFrame(MeasuredFrame measured, FramePictures pictures, const Rectif
   view.live = std::move(pictures.live);
   // Neither depends on the camera's pose.
   const Observation frame = observationOf(view, rig.left);
-  view.summary = summarise(survey->depthsOf(frame), view.measured, rig);
+  view.summary = summarise(survey->depthsOf(frame), view.measured, pictures.dark_px, rig);
   scaleOptions(options, rig, &view);
   view.states = survey->statesOf(frame, view.fusion.pixels);
   view.levelled = beginLevelling(view.measured.depth.depth_mm, rig);

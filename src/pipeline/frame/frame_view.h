@@ -42,6 +42,7 @@ inline Observation observationOf(
 struct FramePictures {
   Mask not_tissue;
   MatchPicture live;
+  int dark_px = 0;  // of what is not masked, too dark to be measured
 };
 
 /// Both depend on nothing else, and may run ahead: the first before the frame is measured.

@@ -13,7 +13,7 @@ namespace softscope {
 
 /// Conditions for a frame to update the model.
 struct GateOptions {
-  double min_coverage = 0.1;     // share of the unmasked pixels with depth
+  double min_coverage = 0.1;     // share of the tissue with depth
   double max_residual_mm = 2.0;  // mean distance of the warped model from the depth
   double min_explained = 0.3;    // share of visible points that the depth still constrains
   double min_confidence = 0.1;   // agreement of model and frame: docs/fusion.md (F27)
