@@ -30,13 +30,18 @@ void visitMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
         visit(u - pixel.x(), v - pixel.y(), depth_mm.at(u, v));
 }
 
+inline int measuredAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel,
+                          int radius_px) {
+  int measured = 0;
+  visitMeasured(depth_mm, pixel, radius_px, [&](double, double, float) { ++measured; });
+  return measured;
+}
+
 /// A pixel has a depth of its own where most of the pixels this close to it are measured.
 constexpr int kOwnRadiusPx = 2, kOwnLeast = 13;
 
 inline bool hasOwnDepth(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel) {
-  int measured = 0;
-  visitMeasured(depth_mm, pixel, kOwnRadiusPx, [&](double, double, float) { ++measured; });
-  return measured >= kOwnLeast;
+  return measuredAround(depth_mm, pixel, kOwnRadiusPx) >= kOwnLeast;
 }
 
 /// Steepest surface that is followed: depth over width.

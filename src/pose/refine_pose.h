@@ -57,10 +57,9 @@ struct RefinedPose {
 /// a slow motion is never significant in one frame; with deformed tissue, a motion that is
 /// not significant is that of the tissue, and the pose is `last`. A scope that moved `before`
 /// still moves while its step exceeds a few standard errors; if its state is unknown, it
-/// moves. Pairs
-/// that are not finite or behind the camera have no weight; fewer than three are not
-/// refined. `search` finds the poses; by default, on the CPU. Throws OptionError for
-/// invalid options.
+/// moves. Pairs that are not finite or behind the camera have no weight; fewer than three
+/// are not refined. `search` finds the poses; by default, on the CPU. Throws OptionError
+/// for invalid options.
 RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& rig,
                        const Eigen::Isometry3d& fitted, const Eigen::Isometry3d& last,
                        const Eigen::Isometry3d& reference, ScopeBefore before,

@@ -50,10 +50,11 @@ void scaleOptions(const ReconstructionOptions& options, const RectifiedRig& rig,
 
 /// Behind and around an organ in the distance there is no light. Where that is nearly everything,
 /// the rest is no view of tissue.
-constexpr int kMostDark = 5;  // of so many pixels all but one
+constexpr int kLeastLitPart = 5;  // a fifth
 
 int litPx(const TissueDepths& depths, int dark_px) {
-  return std::max({depths.tissue_px - dark_px, depths.tissue_px / kMostDark, depths.measured_px});
+  return std::max(
+      {depths.tissue_px - dark_px, depths.tissue_px / kLeastLitPart, depths.measured_px});
 }
 
 int darkPx(const GrayImage& gray, const Mask& not_tissue) {

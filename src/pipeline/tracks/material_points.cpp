@@ -38,9 +38,7 @@ double planeAround(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel, 
 constexpr int kLeastMeasured = 13;  // pixels: fewer may be a mismatch
 
 bool isAmongMeasured(const Raster<float>& depth_mm, const Eigen::Vector2d& pixel) {
-  int measured = 0;
-  visitMeasured(depth_mm, pixel, kSmallGapPx, [&](double, double, float) { ++measured; });
-  return measured >= kLeastMeasured;
+  return measuredAround(depth_mm, pixel, kSmallGapPx) >= kLeastMeasured;
 }
 
 /// Depth of the surface at the pixel: from its 5 x 5 neighbours; in a gap
