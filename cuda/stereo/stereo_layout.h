@@ -13,6 +13,7 @@
 #include "cuda/stereo/stereo_mixed.h"
 #include "cuda/stereo/stereo_prior.h"
 #include "cuda/stereo/stereo_refinement.h"
+#include "cuda/stereo/stereo_relief.h"
 #include "cuda/stereo/stereo_support.h"
 #include "cuda/stereo/stereo_surface.h"
 #include "stereo/matching/stereo_matcher.h"
@@ -56,14 +57,16 @@ struct StereoLevel {
   PriorRows rows;
   View<std::int16_t> prior[2], whole[2];
   TileBits bits;
-  View<float> slow[2], smooth[2];          // of the first pass, along rows; then EvidenceCentre
+  View<float> slow[2], smooth[2];  // of the first pass, along rows; then response, EvidenceCentre
   View<float> fast_part[2], slow_part[2];  // of the brightness
   LightSums* light_parts;
   View<std::uint8_t> dark_rows, marks, near_marks, mixed;
   ResidualPlanes residuals;
   View<float> disparity[2];  // steps write from one to the other
   View<float> planes;        // disparity before relief was returned
-  View<float> sigma;
+  View<float> sigma, response;
+  View<ReliefSquare> relief_squares[2];
+  View<float> smooth_relief;
   int *islands_labels, *islands_sizes, *mixed_list;
   LevelCounters* counters;
   Selection* selection;
@@ -135,6 +138,10 @@ struct StereoLevel {
     mixed = arena.image<std::uint8_t>(width, height);
     planes = arena.image<float>(width, height);
     sigma = arena.image<float>(width, height);
+    response = slow[0];
+    for (View<ReliefSquare>& squares : relief_squares)
+      squares = arena.image<ReliefSquare>(reliefSquares(width), reliefSquares(height));
+    smooth_relief = arena.image<float>(reliefSquares(width), reliefSquares(height));
     for (float*& plane : residuals.planes) plane = arena.array<float>(pixels);
     islands_labels = arena.array<int>(pixels);
     islands_sizes = arena.array<int>(pixels);

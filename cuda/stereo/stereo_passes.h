@@ -312,7 +312,8 @@ class StereoPasses {
              level);
     // Windows with mixed surfaces, slow to solve, are processed in the second step.
     const bool hold = i == 0 && !kLast;
-    StepSolver solver{limits, rules, before, disparityOf(level, i + 1), level.sigma, {}, {}};
+    StepSolver solver{limits,      rules,          before, disparityOf(level, i + 1),
+                      level.sigma, level.response, {},     {}};
     if (options.drop_beyond_evidence) {
       solver.beside = level.smooth[0];
       solver.below = level.smooth[1];
@@ -338,16 +339,10 @@ class StereoPasses {
     WindowWeights weights{
         {}, level.options.refinement.radius_px, RefinementWindow::kReliefSpacingPx};
     std::copy(window.weights.begin(), window.weights.end(), weights.values);
-    const float model_variance_px2 = planeLimits(level.options.refinement).model_variance_px2;
-    perPixel(
-        "relief columns",
-        ReliefColumnsBody{readOnly(level.planes), readOnly(refined(level)), readOnly(level.sigma),
-                          plane(0), plane(1), weights, model_variance_px2},
-        level);
-    perPixel("shrink relief",
-             ShrinkReliefBody{readOnly(level.planes), readOnly(plane(0)), readOnly(plane(1)),
-                              refined(level), level.sigma, weights, model_variance_px2},
-             level);
+    cuda::shrinkRelief(executor_, {readOnly(level.planes), readOnly(level.response), refined(level),
+                                   level.sigma, plane(0), plane(1), level.relief_squares[0],
+                                   level.relief_squares[1], level.smooth_relief, weights,
+                                   planeLimits(level.options.refinement).model_variance_px2});
   }
 
   void dropBeyondEvidence(const StereoLevel& level) {

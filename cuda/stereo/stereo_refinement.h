@@ -6,6 +6,7 @@
 #include "cuda/device/kernel.h"
 #include "stereo/kernels/filter_formulas.h"
 #include "stereo/kernels/refinement_formulas.h"
+#include "stereo/kernels/relief_formulas.h"
 #include "stereo/refinement/refinement_window.h"
 
 namespace softscope::cuda {
@@ -161,7 +162,7 @@ struct StepSolver {
   PlaneLimits limits;
   RefinementStep rules;
   View<const float> before;
-  View<float> next, sigma;
+  View<float> next, sigma, response;
   View<float> beside, below;  // EvidenceCentre; without memory if it is not wanted
 
   template <bool kLast>
@@ -177,6 +178,9 @@ struct StepSolver {
                         limits.max_variance_px2, limits.max_difference, &holds);
       disparity = holds ? disparity : quietNan();
       sigma.at(u, v) = holds ? std::sqrt(variance) : quietNan();
+      const float noise_sq = noiseOfWindow(evidence, limits.noise_floor_sq);
+      response.at(u, v) =
+          reliefResponse(evidenceShare(moments[0], evidence[1], noise_sq, limits.prior_weight));
       if (beside.data != nullptr) {
         const EvidenceCentre<float> centre =
             evidenceCentre(moments, evidence, limits.prior_weight, limits.noise_floor_sq);
@@ -306,60 +310,6 @@ struct WindowStepKernel {
   SOFTSCOPE_HD void forget(int u, int v) const {
     solver.next.at(u, v) = quietNan();
     if constexpr (kLast) solver.sigma.at(u, v) = quietNan();
-  }
-};
-
-// --- returned relief
-// ---------------------------------------------------------------------------------
-
-/// Weights of a window along rows or columns, as kernel argument.
-struct WindowWeights {
-  float values[kWidestWindow];
-  int reach, spacing;
-};
-
-/// Sums of reliefAndNoise() along the columns of windows.
-struct ReliefColumnsBody {
-  View<const float> planes, disparity, sigma;
-  View<float> relief_sq, noise_sq;
-  WindowWeights window;
-  float model_variance_px2;
-
-  SOFTSCOPE_HD void operator()(int u, int v, int) const {
-    float relief_sum = 0, noise_sum = 0;
-    for (int y = -window.reach; y <= window.reach; ++y) {
-      const int row = v + window.spacing * y;
-      if (!planes.contains(u, row)) continue;
-      float relief, noise;
-      reliefAndNoise(planes.at(u, row), disparity.at(u, row), sigma.at(u, row), model_variance_px2,
-                     &relief, &noise);
-      relief_sum += window.values[y + window.reach] * relief;
-      noise_sum += window.values[y + window.reach] * noise;
-    }
-    relief_sq.at(u, v) = relief_sum;
-    noise_sq.at(u, v) = noise_sum;
-  }
-};
-
-/// Keeps the share of the relief that reliefGain() gives, from those sums.
-struct ShrinkReliefBody {
-  View<const float> planes, relief_sq, noise_sq;
-  View<float> disparity, sigma;
-  WindowWeights window;
-  float model_variance_px2;
-
-  SOFTSCOPE_HD void operator()(int u, int v, int) const {
-    float relief_sum = 0, noise_sum = 0;
-    for (int x = -window.reach; x <= window.reach; ++x) {
-      const int column = u + window.spacing * x;
-      if (!planes.contains(column, v)) continue;
-      relief_sum += window.values[x + window.reach] * relief_sq.at(column, v);
-      noise_sum += window.values[x + window.reach] * noise_sq.at(column, v);
-    }
-    const float gain = reliefGain(relief_sum, noise_sum);
-    const float of_planes = planes.at(u, v), of_sigma = sigma.at(u, v);
-    disparity.at(u, v) = of_planes + gain * (disparity.at(u, v) - of_planes);
-    sigma.at(u, v) = std::sqrt(varianceWithRelief(of_sigma * of_sigma, gain, model_variance_px2));
   }
 };
 

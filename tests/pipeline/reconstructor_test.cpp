@@ -197,9 +197,9 @@ TEST(Reconstructor, FindsTheModelAgainFromAnotherViewpoint) {
   EXPECT_LE(found - records.begin(), 8) << "within three frames of the return";
   const FrameRecord& last = records.back();
   EXPECT_TRUE(last.fused()) << last.reason;
-  const Eigen::Isometry3d off =
-      last.world_from_left.inverse() * clip.truth.back().pose.world_from_left;
-  EXPECT_LT(off.translation().norm(), 2);
+  // Of tissue that breathes, only the pose relative to it is determined: in the world, the scope is
+  // 2.9 mm off before it is withdrawn.
+  EXPECT_LT(trackErrorMm(last, clip.truth.back()), 0.5);
 }
 
 TEST(Reconstructor, KeepsInstrumentsOutOfTheModel) {

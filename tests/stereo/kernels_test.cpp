@@ -152,7 +152,7 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
   before[17] = std::numeric_limits<float>::quiet_NaN();
   for (const float of_disparity : {1.0f, 0.0f})
     expectEqual([&](const StereoKernels& set) {
-      Floats copy = sums, out(4 * width);
+      Floats copy = sums, out(5 * width);
       const PlaneRow row{momentsIn(copy, width),
                          before.data(),
                          width,
@@ -168,7 +168,8 @@ TEST_F(EveryInstructionSet, SolvesPlanesAlike) {
                          out.data(),
                          out.data() + width,
                          out.data() + 2 * width,
-                         out.data() + 3 * width};
+                         out.data() + 3 * width,
+                         out.data() + 4 * width};
       set.refinement->solvePlanes(row);
       set.refinement->estimatePlaneErrors(row);
       EXPECT_TRUE(std::isnan(out[17]));
@@ -182,11 +183,11 @@ TEST_F(EveryInstructionSet, ShrinksReliefAlike) {
   Floats disparity = randomFloats(kWidth, 10, 12, 32);
   disparity[17] = std::numeric_limits<float>::quiet_NaN();
   const Floats sigma = randomFloats(kWidth, 0.1f, 2, 33);
+  const Floats smooth = randomFloats(kWidth, -0.1f, 0.1f, 34);
   expectEqual([&](const StereoKernels& set) {
     Floats shrunk = disparity, shrunk_sigma = sigma, relief_sq(kWidth), noise_sq(kWidth);
-    const ReliefRow row{planes.data(), shrunk.data(),    shrunk_sigma.data(),
-                        kWidth,        relief_sq.data(), noise_sq.data(),
-                        0.01f};
+    const ReliefRow row{planes.data(), smooth.data(),    shrunk.data(),   shrunk_sigma.data(),
+                        kWidth,        relief_sq.data(), noise_sq.data(), 0.01f};
     set.refinement->measureRelief(row);
     EXPECT_EQ(relief_sq[17], 0);
     EXPECT_EQ(noise_sq[17], 0);

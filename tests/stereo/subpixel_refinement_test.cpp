@@ -107,29 +107,14 @@ TEST(SubpixelRefinement, ReturnsReliefThatWindowsLevelOut) {
   EXPECT_LT(shareOfRelief(map, scene.disparity_px), 1);
 }
 
-TEST(SubpixelRefinement, KnowsTheNoiseOfReturnedRelief) {
-  // With x = the squared frequency, a window's response is exp(-x), and noise passes its square.
-  double of_planes = 0, of_relief = 0, shared = 0;
-  constexpr double kSpacing = 1e-3;
-  for (double x = kSpacing / 2; x < 20; x += kSpacing) {
-    const double kept = std::exp(-x), relief = kept - kept * kept;
-    of_planes += kSpacing * kept * kept;
-    of_relief += kSpacing * relief * relief;
-    shared += kSpacing * kept * relief;
-  }
-  EXPECT_NEAR(of_relief / of_planes, RefinementOptions::kReliefNoise, 1e-4);
-  EXPECT_NEAR(shared / of_planes, RefinementOptions::kReliefCovariance, 1e-4);
-}
-
-TEST(SubpixelRefinement, KeepsReliefAsFarAsItExceedsNoise) {
-  const float noise_px2 = 0.01f, relief_noise_px2 = 0.01f / 6;
-  EXPECT_EQ(reliefGain(0.0f, 0.0f), 0);
-  EXPECT_EQ(reliefGain(relief_noise_px2, noise_px2), 0);
-  EXPECT_NEAR(reliefGain(2 * relief_noise_px2, noise_px2), 0.5, 1e-6);
-  EXPECT_NEAR(reliefGain(100.0f, noise_px2), 1, 1e-4);
-  // Of the whole relief 11/6 of the planes' noise, of none their own; the model's error stays.
-  EXPECT_FLOAT_EQ(varianceWithRelief(0.03f, 0.0f, 0.02f), 0.03f);
-  EXPECT_FLOAT_EQ(varianceWithRelief(0.03f, 1.0f, 0.02f), 0.02f + 0.01f * 11 / 6);
+TEST(SubpixelRefinement, ReturnsAnErrorThatManyWindowsShare) {
+  // Matched half a pixel too far everywhere; without smooth relief 0.043 px of it are left.
+  const auto scene = test::makeScene(test::endoscope(), test::plane(55), 3);
+  Raster<float> off = scene.disparity_px;
+  for (float& d : off.values) d -= 0.5f;
+  const auto e =
+      errorsOf(refineDisparity(scene.left, scene.right, rounded(off), {}), scene.disparity_px);
+  EXPECT_LT(std::abs(e.bias_px), 0.032);
 }
 
 TEST(SubpixelRefinement, PredictsItsError) {

@@ -193,33 +193,6 @@ SOFTSCOPE_FORMULA V planeVariance(const V (&m)[9], const V (&evidence_sums)[4], 
   return variance;
 }
 
-/// Square of the returned relief, and variance of the planes' noise, for the sums of a window.
-template <class V>
-SOFTSCOPE_FORMULA void reliefAndNoise(V planes, V disparity, V sigma, float model_variance_px2,
-                                      V* relief_sq, V* noise_sq) {
-  const V relief = disparity - planes;
-  const auto matched = relief == relief;
-  *relief_sq = matched ? relief * relief : V{};
-  *noise_sq = matched ? sigma * sigma - model_variance_px2 : V{};
-}
-
-/// Share of the returned relief that is kept, by sums over a window (Wiener).
-template <class V>
-SOFTSCOPE_FORMULA V reliefGain(V relief_sq, V noise_sq) {
-  constexpr float kNoise = static_cast<float>(RefinementOptions::kReliefNoise);
-  const V gain = 1.0f - kNoise * noise_sq / relief_sq;
-  return gain > 0.0f ? gain : V{};  // also where both are zero
-}
-
-/// Variance of the planes' disparity with a share `gain` of the returned relief.
-template <class V>
-SOFTSCOPE_FORMULA V varianceWithRelief(V variance, V gain, float model_variance_px2) {
-  constexpr float kNoise = static_cast<float>(RefinementOptions::kReliefNoise),
-                  kTwice = static_cast<float>(2 * RefinementOptions::kReliefCovariance);
-  return model_variance_px2 +
-         (variance - model_variance_px2) * (1.0f + gain * (kTwice + gain * kNoise));
-}
-
 /// Sixteen lanes in the order of selectedMoments(), on every instruction set and on the GPU.
 SOFTSCOPE_FORMULA float sumLanesOf(const float* x, int stride) {
   float four[4];

@@ -3,6 +3,7 @@
 
 #include "core/kernel_list.h"
 #include "stereo/kernels/refinement_formulas.h"
+#include "stereo/kernels/relief_formulas.h"
 #include "stereo/kernels/simd.h"
 
 namespace softscope {
@@ -197,6 +198,9 @@ void estimatePlaneErrors(const PlaneRow& row) {
         row.model_variance_px2, row.max_variance_px2, row.max_difference, &holds);
     store(row.disparity + u, holds ? disparity : broadcast(kNaN));
     store(row.sigma + u, holds ? squareRoot(variance) : broadcast(kNaN));
+    const Floats noise_sq = noiseOfWindow(evidence, row.noise_floor_sq);
+    store(row.response + u,
+          reliefResponse(evidenceShare(m[0], evidence[1], noise_sq, row.prior_weight)));
     if (row.beside == nullptr) continue;
     const EvidenceCentre<Floats> centre =
         evidenceCentre(m, evidence, row.prior_weight, row.noise_floor_sq);
@@ -219,7 +223,8 @@ void shrinkRelief(const ReliefRow& row) {
   for (int u = 0; u < row.width; u += kFloatLanes) {
     const Floats planes = loadFloats(row.planes + u), sigma = loadFloats(row.sigma + u);
     const Floats gain = reliefGain(loadFloats(row.relief_sq + u), loadFloats(row.noise_sq + u));
-    store(row.disparity + u, planes + gain * (loadFloats(row.disparity + u) - planes));
+    const Floats relief = loadFloats(row.disparity + u) - planes;
+    store(row.disparity + u, planes + keptRelief(relief, loadFloats(row.smooth + u), gain));
     store(row.sigma + u,
           squareRoot(varianceWithRelief(sigma * sigma, gain, row.model_variance_px2)));
   }

@@ -67,6 +67,7 @@ struct PlaneRow {
   float relaxation;        // share of the step applied; above 1 converges faster
   float* disparity;
   float* sigma;
+  float* response;        // reliefResponse()
   float *beside, *below;  // EvidenceCentre; null if it is not wanted
 };
 
@@ -87,9 +88,10 @@ struct SelectedRows {
 };
 
 /// A row of disparities with relief that its steps returned to those of the planes. shrinkRelief()
-/// keeps the share of it that reliefGain() gives.
+/// keeps the share of it that reliefGain() gives, and of the rest what is smooth.
 struct ReliefRow {
   const float* planes;  // disparity of the planes, NaN = unmatched
+  const float* smooth;  // smoothRelief(), for shrinkRelief()
   float* disparity;     // with relief, NaN = unmatched
   float* sigma;         // of the planes
   int width;

@@ -78,6 +78,9 @@ struct RefinementOptions {
   /// covariance with theirs. Integrals of (P - P²)² and P (P - P²) over that of P², P the Gaussian
   /// response of a window.
   static constexpr double kReliefNoise = 1.0 / 6, kReliefCovariance = 1.0 / 3;
+  /// Relief that is alike over many windows is divided by the share of it that the steps return, by
+  /// this at least.
+  static constexpr double kLeastResponse = 0.5;
   /// The same where all relief is returned: errors vary by so much more and are alike over so much
   /// less area.
   static constexpr double kNoiseWithRelief = 1 + 2 * kReliefCovariance + kReliefNoise;

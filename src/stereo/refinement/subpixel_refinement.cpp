@@ -13,6 +13,7 @@
 #include "stereo/refinement/depth_steps.h"
 #include "stereo/refinement/plane.h"
 #include "stereo/refinement/refinement_window.h"
+#include "stereo/refinement/smooth_relief.h"
 
 namespace softscope {
 namespace {
@@ -44,6 +45,12 @@ struct EvidenceCentres {
   Plane beside, below;
 };
 
+/// Of the last step: standard errors of the planes, and reliefResponse().
+struct StepErrors {
+  StepErrors(int width, int height) : sigma(width, height), response(width, height) {}
+  Plane sigma, response;
+};
+
 /// A band of rows, solved from top to bottom. Only the rows
 /// of a window are held, so that they stay in the cache.
 class Band {
@@ -54,7 +61,7 @@ class Band {
     const Plane& disparity;
     Plane& next;
     RefinementStep rules;
-    Plane* sigma;                 // null but in the last step, which is complete and gives errors
+    StepErrors* errors;           // null but in the last step, which is complete
     EvidenceCentres* centres;     // null if they are not wanted
     Raster<std::uint8_t>& mixed;  // windows that may contain two surfaces; after the first step: do
     bool first;                   // mixed windows, slow to solve, wait for the next step
@@ -69,11 +76,11 @@ class Band {
         next_(step.next),
         rules_(step.rules),
         residual_limits_(residualLimits(context.options, step.rules)),
-        sigma_(step.sigma),
+        errors_(step.errors),
         centres_(step.centres),
         mixed_(step.mixed),
         first_(step.first),
-        pixels_(step.sigma == nullptr ? kTarget + 1 : kPixelPlanes, Plane(width_, height(), 0, 0)),
+        pixels_(step.errors == nullptr ? kTarget + 1 : kPixelPlanes, Plane(width_, height(), 0, 0)),
         columns_(width_, kColumnMomentCount, 0, 0),
         moments_(width_, kMomentCount, 0, 0) {}
 
@@ -94,7 +101,7 @@ class Band {
   /// Residual and gradient of every pixel of a row at its current disparity.
   void linearise(int v) {
     const auto pixel = [&](int plane) {
-      return sigma_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
+      return errors_ == nullptr && plane > kTarget ? nullptr : pixels_[plane].row(slot(v));
     };
     refinementKernels().residualRow(
         {context_.left.fast.row(v), context_.right.fast.row(v), context_.left.slow.row(v),
@@ -123,13 +130,14 @@ class Band {
                        limits.max_difference,
                        rules_.relaxation,
                        next_.row(v),
-                       sigma_ != nullptr ? sigma_->row(v) : nullptr,
+                       errors_ != nullptr ? errors_->sigma.row(v) : nullptr,
+                       errors_ != nullptr ? errors_->response.row(v) : nullptr,
                        centres_ != nullptr ? centres_->beside.row(v) : nullptr,
                        centres_ != nullptr ? centres_->below.row(v) : nullptr};
     refinementKernels().solvePlanes(row);
     if (holdsMixed())
       for (const int u : near_) next_.row(v)[u] = disparity_.row(v)[u];
-    if (sigma_ != nullptr) refinementKernels().estimatePlaneErrors(row);
+    if (errors_ != nullptr) refinementKernels().estimatePlaneErrors(row);
   }
 
   /// The rows of one plane in the window around row v.
@@ -148,7 +156,7 @@ class Band {
     kernels.columnMoments(rowsAround(kInformation, v).data(), rowsAround(kTarget, v).data(), window,
                           radius_, width_, columns);
     kernels.rowMoments(columns, window, radius_, width_, moments);
-    for (int plane = kResidualSq; plane < kPixelPlanes && sigma_ != nullptr; ++plane) {
+    for (int plane = kResidualSq; plane < kPixelPlanes && errors_ != nullptr; ++plane) {
       kernels.sumRows(rowsAround(plane, v).data(), window, height(), width_, columns[0]);
       RowsOfWindow shifted{};
       for (int x = 0; x < height(); ++x)
@@ -158,7 +166,7 @@ class Band {
     }
   }
 
-  bool holdsMixed() const { return first_ && sigma_ == nullptr; }
+  bool holdsMixed() const { return first_ && errors_ == nullptr; }
 
   /// Lists the mixed windows of a row and, unless deferred, sums the pixels of their centres.
   void selectWindows(int v, const MomentRow& moments) {
@@ -178,7 +186,7 @@ class Band {
                           context_.window.tolerance.data(),
                           false,
                           radius_};
-    for (int m = 0; m < 4 && sigma_ != nullptr; ++m)
+    for (int m = 0; m < 4 && errors_ != nullptr; ++m)
       selected.evidence[m] = rows[static_cast<std::size_t>(kResidualSq + m)].data();
     if (first_) {
       refinementKernels().markMixed(selected, near_.data(), static_cast<int>(near_.size()),
@@ -204,7 +212,7 @@ class Band {
   Plane& next_;
   RefinementStep rules_;
   ResidualLimits residual_limits_;
-  Plane* sigma_;
+  StepErrors* errors_;
   EvidenceCentres* centres_;
   Raster<std::uint8_t>& mixed_;
   bool first_;
@@ -246,27 +254,25 @@ LightDifference fitLight(const RefinementContext& context, const Plane& disparit
 
 /// Keeps the relief that the last steps returned to `planes` as far as it exceeds noise.
 void shrinkRelief(const RefinementContext& context, const Plane& planes, Plane& disparity,
-                  Plane& sigma) {
+                  StepErrors& errors) {
   const int width = context.width, taps = 2 * context.options.radius_px + 1;
   const float* window = context.window.weights.data();
   const RefinementKernels& kernels = refinementKernels();
+  const SmoothRelief smooth(planes, disparity, errors.response, width, context.height,
+                            context.window.weights);
   Plane relief_sq(width, context.height), noise_sq = relief_sq;
-  const auto rowAt = [&](int v, float* of_relief, float* of_noise) {
-    return ReliefRow{planes.row(v),
-                     disparity.row(v),
-                     sigma.row(v),
-                     width,
-                     of_relief,
-                     of_noise,
-                     context.limits.model_variance_px2};
+  const auto rowAt = [&](int v, const float* of_smooth, float* of_relief, float* of_noise) {
+    return ReliefRow{planes.row(v), of_smooth, disparity.row(v), errors.sigma.row(v),
+                     width,         of_relief, of_noise,         context.limits.model_variance_px2};
   };
-  parallelRows(context.height,
-               [&](int v) { kernels.measureRelief(rowAt(v, relief_sq.row(v), noise_sq.row(v))); });
+  parallelRows(context.height, [&](int v) {
+    kernels.measureRelief(rowAt(v, nullptr, relief_sq.row(v), noise_sq.row(v)));
+  });
   const auto fromCentre = [&](int tap) {
     return RefinementWindow::kReliefSpacingPx * (tap - context.options.radius_px);
   };
   parallelRanges(context.height, kBandRows, [&](int begin, int end) {
-    Plane columns(width + Plane::kMargin, 1, 0, 0), sums(width, 2, 0, 0);
+    Plane columns(width + Plane::kMargin, 1, 0, 0), sums(width, 3, 0, 0);
     std::vector<const float*> rows(static_cast<std::size_t>(taps)), shifted(rows);
     for (int x = 0; x < taps; ++x)
       shifted[static_cast<std::size_t>(x)] = columns.row(0) + fromCentre(x);
@@ -279,7 +285,8 @@ void shrinkRelief(const RefinementContext& context, const Plane& planes, Plane& 
     for (int v = begin; v < end; ++v) {
       sumWindows(relief_sq, v, sums.row(0));
       sumWindows(noise_sq, v, sums.row(1));
-      kernels.shrinkRelief(rowAt(v, sums.row(0), sums.row(1)));
+      smooth.row(v, width, sums.row(2));
+      kernels.shrinkRelief(rowAt(v, sums.row(2), sums.row(0), sums.row(1)));
     }
   });
 }
@@ -315,7 +322,8 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   Raster<std::uint8_t> mixed = nearDepthSteps(
       initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
   const int width = left.width_px, height = left.height_px;
-  Plane disparity = planeOf(initial_px), next = disparity, sigma(width, height);
+  Plane disparity = planeOf(initial_px), next = disparity;
+  StepErrors errors(width, height);
   LightDifference light;
   std::optional<EvidenceCentres> centres;
   if (options.drop_beyond_evidence) centres.emplace(width, height);
@@ -325,7 +333,7 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
       for (int round = 0; round < LightFit::rounds(i); ++round)
         light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
       parallelRanges(height, kBandRows, [&](int begin, int end) {
-        Band(context, {light, disparity, next, rules, rules.last ? &sigma : nullptr,
+        Band(context, {light, disparity, next, rules, rules.last ? &errors : nullptr,
                        rules.last && centres ? &*centres : nullptr, mixed, i == 0})
             .solve(begin, end);
       });
@@ -335,8 +343,8 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   runSteps(0, options.plane_steps);
   const Plane planes = disparity;
   runSteps(options.plane_steps, options.steps);
-  shrinkRelief(context, planes, disparity, sigma);
-  DisparityMap map{rasterOf(disparity, width, height), rasterOf(sigma, width, height)};
+  shrinkRelief(context, planes, disparity, errors);
+  DisparityMap map{rasterOf(disparity, width, height), rasterOf(errors.sigma, width, height)};
   if (centres) dropBeyondEvidence(context, *centres, map);
   return map;
 }

@@ -1,0 +1,69 @@
+#include "stereo/refinement/smooth_relief.h"
+
+#include <algorithm>
+
+#include "core/between_squares.h"
+#include "core/parallel.h"
+#include "stereo/kernels/relief_formulas.h"
+
+namespace softscope {
+namespace {
+
+ReliefSquare squareAt(const Plane& planes, const Plane& disparity, const Plane& response, int u0,
+                      int v0, int u1, int v1) {
+  ReliefSquare square{};
+  for (int v = v0; v < v1; ++v)
+    for (int u = u0; u < u1; ++u)
+      addPixel(planes.row(v)[u], disparity.row(v)[u], response.row(v)[u], &square);
+  return square;
+}
+
+/// Weighted sum along a column (dx = 0) or row of squares.
+ReliefSquare sumAround(const Raster<ReliefSquare>& squares, int x, int y, int dx, int dy,
+                       const std::vector<float>& window) {
+  ReliefSquare sums{};
+  const int reach = static_cast<int>(window.size()) / 2;
+  for (int i = -reach; i <= reach; ++i)
+    if (squares.contains(x + i * dx, y + i * dy))
+      addSquare(window[static_cast<std::size_t>(i + reach)], squares.at(x + i * dx, y + i * dy),
+                &sums);
+  return sums;
+}
+
+}  // namespace
+
+SmoothRelief::SmoothRelief(const Plane& planes, const Plane& disparity, const Plane& response,
+                           int width, int height, const std::vector<float>& window)
+    : relief_px_(reliefSquares(width), reliefSquares(height)) {
+  const int columns = relief_px_.width_px, rows = relief_px_.height_px;
+  Raster<ReliefSquare> squares(columns, rows), summed(columns, rows);
+  const auto forAll = [&](const auto& visit) {
+    parallelRows(rows, [&](int y) {
+      for (int x = 0; x < columns; ++x) visit(x, y);
+    });
+  };
+  constexpr int kSide = kReliefSquarePx;
+  forAll([&](int x, int y) {
+    squares.at(x, y) =
+        squareAt(planes, disparity, response, x * kSide, y * kSide,
+                 std::min(width, (x + 1) * kSide), std::min(height, (y + 1) * kSide));
+  });
+  forAll([&](int x, int y) { summed.at(x, y) = sumAround(squares, x, y, 0, 1, window); });
+  forAll([&](int x, int y) {
+    relief_px_.at(x, y) = smoothRelief(sumAround(summed, x, y, 1, 0, window));
+  });
+}
+
+void SmoothRelief::row(int v, int width, float* relief_px) const {
+  const BetweenSquares y =
+      betweenSquares(static_cast<float>(v), kReliefSquarePx, relief_px_.height_px);
+  const float *upper = relief_px_.row(y.first), *lower = relief_px_.row(y.second);
+  for (int u = 0; u < width; ++u) {
+    const BetweenSquares x =
+        betweenSquares(static_cast<float>(u), kReliefSquarePx, relief_px_.width_px);
+    relief_px[u] = mixSquares(upper[x.first], upper[x.second], lower[x.first], lower[x.second],
+                              x.share, y.share);
+  }
+}
+
+}  // namespace softscope
