@@ -1,6 +1,7 @@
 #include "pose/refine_pose.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -112,6 +113,24 @@ Matrix6d covarianceOf(const PoseFindings& found) {
   return spread * (regions - 1.0) / regions;
 }
 
+/// 1 where the reference shape explains all matches, 0 from kRigidShare on: what deforming tissue
+/// tells of a scope at rest must not begin at once.
+double rigidity(double share_since) {
+  return std::max(0.0, (share_since - kRigidShare) / (1 - kRigidShare));
+}
+
+/// The pose at that share of the way.
+Eigen::Isometry3d towards(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to,
+                          double share) {
+  if (share == 0) return from;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = from.translation() + share * (to.translation() - from.translation());
+  pose.linear() = Eigen::Quaterniond(from.linear())
+                      .slerp(share, Eigen::Quaterniond(to.linear()))
+                      .toRotationMatrix();
+  return pose;
+}
+
 }  // namespace
 
 void RefinePoseOptions::validate() const { requireAllowed(*this); }
@@ -169,8 +188,10 @@ RefinedPose refinePose(const std::vector<PosePair>& pairs, const RectifiedRig& r
   refined.keeps_shape = refined.scope_static || rigid;
   if (options.scope == "static")
     refined.world_from_left = reference;
+  else if (moves)
+    refined.world_from_left = measured.inverse();
   else
-    refined.world_from_left = rigid || moves ? measured.inverse() : last;
+    refined.world_from_left = towards(last, measured.inverse(), rigidity(share_since));
   return refined;
 }
 

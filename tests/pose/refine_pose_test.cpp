@@ -231,6 +231,18 @@ TEST(RefinePose, TissuePulledAsAWholeIsNoSlowMotionOfTheScope) {
   EXPECT_EQ(found.world_from_left.matrix(), last.matrix());
 }
 
+// A quarter of the tissue begins to move before a scope at rest: the pose does not follow at once.
+TEST(RefinePose, TissueThatBeginsToMoveHardlyMovesAScopeAtRest) {
+  const Eigen::Isometry3d last = Eigen::Isometry3d::Identity();
+  std::vector<PosePair> pairs = seenFrom(last, nothing, 0.02);
+  for (std::size_t i = 0; i < pairs.size() / 4; ++i) pairs[i].reference_world_mm.x() -= 0.3;
+  const RefinedPose found =
+      refinePose(pairs, someRig(), last, last, last, ScopeBefore::kStatic, {});
+  EXPECT_TRUE(found.scope_static);
+  EXPECT_GT(found.moved_mm, 0.001);
+  EXPECT_LT(found.world_from_left.translation().norm(), 0.3 * found.moved_mm);
+}
+
 TEST(RefinePose, TakesThePresentShapeOfTissueThatHasBent) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
   std::vector<PosePair> pairs = seenFrom(truth, nothing, 0.02);
