@@ -56,22 +56,13 @@ struct ReliefSquaresBody {
   }
 };
 
-/// Sums of squares around one, along a column or a row.
-SOFTSCOPE_HD inline ReliefSquare squaresAround(const View<const ReliefSquare>& squares, int x,
-                                               int y, int dx, int dy, const WindowWeights& window) {
-  ReliefSquare sums{};
-  for (int i = -window.reach; i <= window.reach; ++i)
-    if (squares.contains(x + i * dx, y + i * dy))
-      addSquare(window.values[i + window.reach], squares.at(x + i * dx, y + i * dy), &sums);
-  return sums;
-}
 struct ReliefSquareColumnsBody {
   View<const ReliefSquare> squares;
   View<ReliefSquare> summed;
   WindowWeights window;
 
   SOFTSCOPE_HD void operator()(int x, int y, int) const {
-    summed.at(x, y) = squaresAround(squares, x, y, 0, 1, window);
+    summed.at(x, y) = squaresAround(squares, x, y, 0, 1, window.values, window.reach);
   }
 };
 struct SmoothReliefBody {
@@ -80,7 +71,8 @@ struct SmoothReliefBody {
   WindowWeights window;
 
   SOFTSCOPE_HD void operator()(int x, int y, int) const {
-    relief_px.at(x, y) = smoothRelief(squaresAround(summed, x, y, 1, 0, window));
+    relief_px.at(x, y) =
+        smoothRelief(squaresAround(summed, x, y, 1, 0, window.values, window.reach));
   }
 };
 

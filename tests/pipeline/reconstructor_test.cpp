@@ -200,6 +200,12 @@ TEST(Reconstructor, FindsTheModelAgainFromAnotherViewpoint) {
   // Of tissue that breathes, only the pose relative to it is determined: in the world, the scope is
   // 2.9 mm off before it is withdrawn.
   EXPECT_LT(trackErrorMm(last, clip.truth.back()), 0.5);
+  const auto offMm = [&](std::size_t frame) {
+    return (records[frame].world_from_left.inverse() * clip.truth[frame].pose.world_from_left)
+        .translation()
+        .norm();
+  };
+  EXPECT_LE(offMm(records.size() - 1), 1.2 * offMm(2));
 }
 
 TEST(Reconstructor, KeepsInstrumentsOutOfTheModel) {

@@ -73,6 +73,17 @@ SOFTSCOPE_FORMULA void addSquare(float weight, const ReliefSquare& more, ReliefS
   sums->response += weight * more.response;
   sums->pixels += weight * more.pixels;
 }
+/// Weighted sum of the squares around one, along a column (dx = 0) or a row; `window` has
+/// 2 reach + 1 weights. Squares: a raster of the CPU or of the GPU.
+template <class Squares>
+SOFTSCOPE_FORMULA ReliefSquare squaresAround(const Squares& squares, int x, int y, int dx, int dy,
+                                             const float* window, int reach) {
+  ReliefSquare sums{};
+  for (int i = -reach; i <= reach; ++i)
+    if (squares.contains(x + i * dx, y + i * dy))
+      addSquare(window[i + reach], squares.at(x + i * dx, y + i * dy), &sums);
+  return sums;
+}
 /// What the steps would have returned in the end.
 SOFTSCOPE_FORMULA float smoothRelief(const ReliefSquare& sums) {
   constexpr float kLeast = static_cast<float>(RefinementOptions::kLeastResponse);

@@ -18,18 +18,6 @@ ReliefSquare squareAt(const Plane& planes, const Plane& disparity, const Plane& 
   return square;
 }
 
-/// Weighted sum along a column (dx = 0) or row of squares.
-ReliefSquare sumAround(const Raster<ReliefSquare>& squares, int x, int y, int dx, int dy,
-                       const std::vector<float>& window) {
-  ReliefSquare sums{};
-  const int reach = static_cast<int>(window.size()) / 2;
-  for (int i = -reach; i <= reach; ++i)
-    if (squares.contains(x + i * dx, y + i * dy))
-      addSquare(window[static_cast<std::size_t>(i + reach)], squares.at(x + i * dx, y + i * dy),
-                &sums);
-  return sums;
-}
-
 }  // namespace
 
 SmoothRelief::SmoothRelief(const Plane& planes, const Plane& disparity, const Plane& response,
@@ -42,15 +30,18 @@ SmoothRelief::SmoothRelief(const Plane& planes, const Plane& disparity, const Pl
       for (int x = 0; x < columns; ++x) visit(x, y);
     });
   };
+  const int reach = static_cast<int>(window.size()) / 2;
   constexpr int kSide = kReliefSquarePx;
   forAll([&](int x, int y) {
     squares.at(x, y) =
         squareAt(planes, disparity, response, x * kSide, y * kSide,
                  std::min(width, (x + 1) * kSide), std::min(height, (y + 1) * kSide));
   });
-  forAll([&](int x, int y) { summed.at(x, y) = sumAround(squares, x, y, 0, 1, window); });
   forAll([&](int x, int y) {
-    relief_px_.at(x, y) = smoothRelief(sumAround(summed, x, y, 1, 0, window));
+    summed.at(x, y) = squaresAround(squares, x, y, 0, 1, window.data(), reach);
+  });
+  forAll([&](int x, int y) {
+    relief_px_.at(x, y) = smoothRelief(squaresAround(summed, x, y, 1, 0, window.data(), reach));
   });
 }
 
