@@ -256,7 +256,8 @@ class StereoPasses {
     for (int i = 0; i + 1 < options.steps; ++i) step<false>(level, i, window);
     step<true>(level, options.steps - 1, window);
     shrinkRelief(level, window);
-    if (options.drop_beyond_evidence) dropBeyondEvidence(level);
+    if (options.dropsBeyondEvidence()) dropBeyondEvidence(level);
+    if (options.dropsUneven()) dropUneven(level);
     executor_.mark("refine");
   }
   static Selection selectionOf(const RefinementOptions& options) {
@@ -314,7 +315,7 @@ class StereoPasses {
     const bool hold = i == 0 && !kLast;
     StepSolver solver{limits,      rules,          before, disparityOf(level, i + 1),
                       level.sigma, level.response, {},     {}};
-    if (options.drop_beyond_evidence) {
+    if (options.dropsBeyondEvidence()) {
       solver.beside = level.smooth[0];
       solver.below = level.smooth[1];
     }
@@ -353,6 +354,16 @@ class StereoPasses {
                                     readOnly(level.slow_part[0]), level.near_marks,
                                     rimFromEvidencePx(options), options.radius_px},
              level);
+    dropMarked(level);
+  }
+  void dropUneven(const StereoLevel& level) {
+    perPixel("uneven windows",
+             MarkUnevenBody{readOnly(refined(level)), level.near_marks,
+                            level.options.refinement.radius_px},
+             level);
+    dropMarked(level);
+  }
+  void dropMarked(const StereoLevel& level) {
     perPixel("drop marked", DropMarkedBody{readOnly(level.near_marks), refined(level), level.sigma},
              level);
   }

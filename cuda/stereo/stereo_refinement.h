@@ -337,6 +337,23 @@ struct MarkBeyondEvidenceBody {
  private:
   SOFTSCOPE_HD static int clamped(int i, int last) { return i < 0 ? 0 : (i > last ? last : i); }
 };
+struct MarkUnevenBody {
+  View<const float> disparity;
+  View<std::uint8_t> uneven;
+  int radius;
+
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    const float centre = disparity.at(u, v);
+    int measured = 0, apart = 0;
+    for (int y = v - radius; y <= v + radius; y += kUnevenSpacingPx)
+      for (int x = u - radius; x <= u + radius; x += kUnevenSpacingPx) {
+        if (!disparity.contains(x, y)) continue;
+        measured += isNumber(disparity.at(x, y));
+        apart += isApart(disparity.at(x, y), centre);
+      }
+    uneven.at(u, v) = isUneven(apart, measured);
+  }
+};
 struct DropMarkedBody {
   View<const std::uint8_t> marks;
   View<float> disparity, sigma;

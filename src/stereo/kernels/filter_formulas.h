@@ -56,6 +56,19 @@ SOFTSCOPE_FORMULA bool isBeyondEvidence(float x, float y, float rim_px, int reac
   return false;
 }
 
+constexpr int kUnevenSpacingPx = 2;  // between the pixels of a window that are counted
+constexpr float kApartPx = 0.75f;
+constexpr float kMostApart = 0.35f;  // of the measured pixels
+/// Whether a pixel of a window is measured apart from its centre.
+SOFTSCOPE_FORMULA bool isApart(float disparity, float centre) {
+  return absoluteOf(disparity - centre) > kApartPx;
+}
+/// Windows with little texture take a ramp from one surface to another, as the prior has it, for
+/// tissue.
+SOFTSCOPE_FORMULA bool isUneven(int apart, int measured) {
+  return static_cast<float>(apart) > kMostApart * static_cast<float>(measured);
+}
+
 constexpr float kOneSurfacePx = 1.5f;  // four pixels with larger differences are on two surfaces
 
 /// Position of a pixel of the full size in the half size.

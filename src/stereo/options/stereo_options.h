@@ -68,9 +68,14 @@ struct RefinementOptions {
   static constexpr double max_difference = 0.5;
   // pixels whose predicted standard error is larger are dropped
   static constexpr double max_sigma_px = 2.0;
-  // pixels beyond the evidence of their windows, at the rim of what is measured, are dropped
-  bool drop_beyond_evidence = false;
+  int halvings = 0;  // of the images
 
+  /// As the noise of the mean of four pixels.
+  double lightGray() const { return std::ldexp(light_gray, -halvings); }
+  /// Whether pixels are dropped beyond the evidence of their windows, at the rim of what is
+  /// measured; and those of uneven windows. At smaller sizes windows are wider on the tissue.
+  bool dropsBeyondEvidence() const { return halvings >= 1; }
+  bool dropsUneven() const { return halvings >= 2; }
   /// Standard deviation of the Gaussian window, and the area of correlated errors.
   double windowSigmaPx() const { return 0.55 * radius_px; }
   double independentPx2() const { return 4 * M_PI * windowSigmaPx() * windowSigmaPx(); }

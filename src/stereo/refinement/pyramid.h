@@ -23,7 +23,7 @@ inline StereoOptions halved(StereoOptions options) {
   options.disparity_max_px = (options.disparity_max_px + 1) / 2;
   options.dark_margin_px = (options.dark_margin_px + 1) / 2;
   options.elas.speckle_size_px /= 4;
-  options.refinement.drop_beyond_evidence = true;  // windows are wider on the tissue
+  ++options.refinement.halvings;
   return options;
 }
 

@@ -84,7 +84,7 @@ inline float disparityPriorWeight(const RefinementOptions& options) {
 }
 inline ResidualLimits residualLimits(const RefinementOptions& options, const RefinementStep& step) {
   const float noise = static_cast<float>(options.noise_gray),
-              light = static_cast<float>(options.light_gray);
+              light = static_cast<float>(options.lightGray());
   const float prior_weight = disparityPriorWeight(options);
   return {1 / (noise * noise), prior_weight, light * light,
           static_cast<float>(1 - options.slow_evidence) / prior_weight, step.of_disparity};

@@ -14,6 +14,7 @@
 #include "stereo/refinement/plane.h"
 #include "stereo/refinement/refinement_window.h"
 #include "stereo/refinement/smooth_relief.h"
+#include "stereo/refinement/uneven_windows.h"
 
 namespace softscope {
 namespace {
@@ -326,7 +327,7 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   StepErrors errors(width, height);
   LightDifference light;
   std::optional<EvidenceCentres> centres;
-  if (options.drop_beyond_evidence) centres.emplace(width, height);
+  if (options.dropsBeyondEvidence()) centres.emplace(width, height);
   const auto runSteps = [&](int begin_step, int end_step) {
     for (int i = begin_step; i < end_step; ++i) {
       const RefinementStep rules = refinementStep(i);
@@ -346,6 +347,7 @@ DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
   shrinkRelief(context, planes, disparity, errors);
   DisparityMap map{rasterOf(disparity, width, height), rasterOf(errors.sigma, width, height)};
   if (centres) dropBeyondEvidence(context, *centres, map);
+  if (options.dropsUneven()) dropUnevenWindows(options.radius_px, &map);
   return map;
 }
 
