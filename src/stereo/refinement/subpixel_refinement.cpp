@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "core/not_measured.h"
@@ -292,6 +291,36 @@ void shrinkRelief(const RefinementContext& context, const Plane& planes, Plane& 
   });
 }
 
+/// All steps. `centres`: null if they are not wanted.
+DisparityMap refineAll(const RefinementContext& context, const Raster<float>& initial_px,
+                       EvidenceCentres* centres) {
+  const RefinementOptions& options = context.options;
+  const int width = context.width, height = context.height;
+  Raster<std::uint8_t> mixed = nearDepthSteps(
+      initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
+  Plane disparity = planeOf(initial_px), next = disparity;
+  StepErrors errors(width, height);
+  LightDifference light;
+  const auto runSteps = [&](int begin_step, int end_step) {
+    for (int i = begin_step; i < end_step; ++i) {
+      const RefinementStep rules = refinementStep(i);
+      for (int round = 0; round < LightFit::rounds(i); ++round)
+        light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
+      parallelRanges(height, kBandRows, [&](int begin, int end) {
+        Band(context, {light, disparity, next, rules, rules.last ? &errors : nullptr,
+                       rules.last ? centres : nullptr, mixed, i == 0})
+            .solve(begin, end);
+      });
+      std::swap(disparity, next);
+    }
+  };
+  runSteps(0, options.plane_steps);
+  const Plane planes = disparity;
+  runSteps(options.plane_steps, options.steps);
+  shrinkRelief(context, planes, disparity, errors);
+  return {rasterOf(disparity, width, height), rasterOf(errors.sigma, width, height)};
+}
+
 /// At the rim of a surface, windows see its texture from beside it.
 void dropBeyondEvidence(const RefinementContext& context, const EvidenceCentres& centres,
                         DisparityMap& map) {
@@ -319,36 +348,18 @@ void dropBeyondEvidence(const RefinementContext& context, const EvidenceCentres&
 
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options) {
+  if (!options.dropsBeyondEvidence()) return refineEveryPixel(left, right, initial_px, options);
   const RefinementContext context(left, right, options);
-  Raster<std::uint8_t> mixed = nearDepthSteps(
-      initial_px, options.radius_px, RefinementWindow::kClearStepPx, RefinementWindow::kSlope);
-  const int width = left.width_px, height = left.height_px;
-  Plane disparity = planeOf(initial_px), next = disparity;
-  StepErrors errors(width, height);
-  LightDifference light;
-  std::optional<EvidenceCentres> centres;
-  if (options.dropsBeyondEvidence()) centres.emplace(width, height);
-  const auto runSteps = [&](int begin_step, int end_step) {
-    for (int i = begin_step; i < end_step; ++i) {
-      const RefinementStep rules = refinementStep(i);
-      for (int round = 0; round < LightFit::rounds(i); ++round)
-        light = fitLight(context, disparity, light, LightFit::tolerance(i, round));
-      parallelRanges(height, kBandRows, [&](int begin, int end) {
-        Band(context, {light, disparity, next, rules, rules.last ? &errors : nullptr,
-                       rules.last && centres ? &*centres : nullptr, mixed, i == 0})
-            .solve(begin, end);
-      });
-      std::swap(disparity, next);
-    }
-  };
-  runSteps(0, options.plane_steps);
-  const Plane planes = disparity;
-  runSteps(options.plane_steps, options.steps);
-  shrinkRelief(context, planes, disparity, errors);
-  DisparityMap map{rasterOf(disparity, width, height), rasterOf(errors.sigma, width, height)};
-  if (centres) dropBeyondEvidence(context, *centres, map);
+  EvidenceCentres centres(context.width, context.height);
+  DisparityMap map = refineAll(context, initial_px, &centres);
+  dropBeyondEvidence(context, centres, map);
   if (options.dropsUneven()) dropUnevenWindows(options.radius_px, &map);
   return map;
+}
+
+DisparityMap refineEveryPixel(const GrayImage& left, const GrayImage& right,
+                              const Raster<float>& initial_px, const RefinementOptions& options) {
+  return refineAll(RefinementContext(left, right, options), initial_px, nullptr);
 }
 
 }  // namespace softscope

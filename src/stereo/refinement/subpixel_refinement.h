@@ -14,4 +14,8 @@ namespace softscope {
 DisparityMap refineDisparity(const GrayImage& left, const GrayImage& right,
                              const Raster<float>& initial_px, const RefinementOptions& options);
 
+/// The same without the rules that drop pixels at smaller sizes.
+DisparityMap refineEveryPixel(const GrayImage& left, const GrayImage& right,
+                              const Raster<float>& initial_px, const RefinementOptions& options);
+
 }  // namespace softscope

@@ -10,7 +10,7 @@
 namespace softscope {
 namespace {
 
-/// WindowCounts of a row of pixels.
+/// What isUneven() asks for, of a row of pixels.
 struct RowCounts {
   std::vector<int> measured, apart;
 
