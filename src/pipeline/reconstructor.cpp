@@ -48,7 +48,8 @@ Reconstructor::Reconstructor(std::unique_ptr<ReconstructionBackend> backend,
                              const ReconstructionOptions& options)
     : backend_(std::move(backend)),
       gate_(options.gate),
-      matching_(options.matcher.method != MatcherOptions::kNoMatches) {
+      matching_(options.matcher.method != MatcherOptions::kNoMatches),
+      poses_have_sigma_(matching_ && options.refine_pose.iterations > 0) {
   options.validate();
 }
 
@@ -205,6 +206,11 @@ bool Reconstructor::deform(FrameRecord& record) {
 }
 
 bool Reconstructor::confirm(FrameRecord& record) {
+  if (poses_have_sigma_ && !(record.pose.sigma_deg <= GateOptions::kMaxPoseSigmaDeg))
+    return reject(record, FrameStatus::kUnconfirmed,
+                  text(record.pose.inliers, " matches do not determine the scope's pose: sigma ",
+                       record.pose.sigma_deg, " deg, at most ", GateOptions::kMaxPoseSigmaDeg,
+                       " are needed"));
   record.evidence = backend_->confirm(scope_.world_from_left);
   const ViewEvidence& view = record.evidence.view;
   if (view.agreement() >= gate_.min_confidence) return true;

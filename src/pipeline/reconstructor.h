@@ -69,8 +69,9 @@ class Reconstructor {
 
   std::unique_ptr<ReconstructionBackend> backend_;
   GateOptions gate_;
-  bool matching_;     // false: the scope is treated as static
-  ScopeState scope_;  // in the map in use
+  bool matching_;          // false: the scope is treated as static
+  bool poses_have_sigma_;  // false: those of RANSAC are taken as they are
+  ScopeState scope_;       // in the map in use
   Submaps others_;
   int maps_ = 0;  // begun so far
 };
