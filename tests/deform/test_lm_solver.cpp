@@ -1,6 +1,8 @@
 // tests/deform/test_lm_solver.cpp: known motions come back.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "core/parallel.h"
 #include "deform/graph/warp.h"
 #include "deform/solver/lm_solver.h"
@@ -238,6 +240,32 @@ TEST(RobustSolve, WrongMatchesHaveABoundedPull) {
   }
   EXPECT_GT(errors[0], 0.3);  // a tenth of the matches is 5 mm off
   EXPECT_LT(errors[1], 0.01);
+}
+
+// What a first step cannot explain is noise, and another step cannot either; a step that explains
+// most of the cost was long, and another one corrects what is not linear in it.
+TEST(FirstStep, IsEnoughWhereItLeavesNoise) {
+  PointModel model = scenes::makeHill(30, 24, 0.5);
+  const WarpGraph start = scenes::bindGraph(&model);
+  std::mt19937 random(5);
+  const auto noise_mm = [&] { return 1e-9F * static_cast<float>(random()) - 2.1F; };
+  const auto solve = [&](double share_of_bend) {
+    const scenes::Motion motion = [&](const Eigen::Vector3d& p) {
+      return Eigen::Vector3d(p + share_of_bend * (scenes::smoothBend(p) - p));
+    };
+    DeformObservation seen;
+    seen.matches = scenes::makeMatches(model, motion, 20);
+    for (KeyPointMatch& match : seen.matches)
+      match.target_mm += 0.1F * Eigen::Vector3f(noise_mm(), noise_mm(), noise_mm());
+    WarpGraph graph = start;
+    return makeDeformSolver(optionsFor(NodeModel::kRigid))->solve(model, seen, &graph);
+  };
+  const DeformSummary still = solve(0.05), bent = solve(1);
+  EXPECT_EQ(still.iterations, 1);
+  EXPECT_TRUE(still.converged()) << toString(still.reason);
+  EXPECT_GT(still.costs[1], 0.5 * still.costs[0]);
+  EXPECT_GT(bent.iterations, 1);
+  EXPECT_LT(bent.costs[1], 0.5 * bent.costs[0]);
 }
 
 TEST(SubsampledSolve, FindsNearlyTheSameWarp) {

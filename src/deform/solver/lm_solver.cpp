@@ -12,6 +12,8 @@
 namespace softscope {
 namespace {
 
+// What a first step leaves above this share of the cost is noise: docs/energy.md after (19).
+constexpr double kNoiseShare = 0.5;
 constexpr double kSuspiciousPivotRatio = 3e-4;  // tissue with data has 0.01 and more
 
 double meanDataResidual(const EnergySums& energy, int points) {
@@ -29,6 +31,11 @@ double gainToCome(const std::vector<double>& costs) {
   if (costs.size() < 4) return last;
   const double shrinks = last / gain(costs.size() - 2);
   return shrinks < 0.5 ? last * shrinks / (1 - shrinks) : last;
+}
+
+/// Whether the only step so far is enough.
+bool leavesNoise(const std::vector<double>& costs) {
+  return costs.size() == 2 && costs[1] > kNoiseShare * costs[0];
 }
 
 class WarpSolver final : public DeformSolver {
@@ -164,7 +171,8 @@ class WarpSolver final : public DeformSolver {
     summary->last_step_mm = trial.furthest_mm;
     const bool small_step = summary->last_step_mm < options_.solver.step_tolerance_mm;
     const bool small_gain = gainToCome(summary->costs) < options_.solver.cost_tolerance;
-    return undoubted && (small_step || small_gain) ? Step::kConverged : Step::kAccepted;
+    const bool is_enough = small_step || small_gain || leavesNoise(summary->costs);
+    return undoubted && is_enough ? Step::kConverged : Step::kAccepted;
   }
 
   DeformOptions options_;
