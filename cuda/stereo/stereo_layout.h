@@ -190,6 +190,8 @@ struct StereoLayout {
     }
     smoothed = arena.image<float>(full.width, full.height);
     smoothed_sigma = arena.image<float>(full.width, full.height);
+    rims = arena.image<float>(full.width, full.height);
+    rim_rows = arena.image<float>(full.width, full.height);
     inputs = arena.array<FrameInputs>(1);
     disparity = arena.image<float>(full.width, full.height);
     sigma = arena.image<float>(full.width, full.height);
@@ -203,7 +205,7 @@ struct StereoLayout {
   SmoothingRules smoothing{};
   SmoothingBlock* means = nullptr;
   SmoothingPatch* patches = nullptr;
-  View<float> smoothed, smoothed_sigma;
+  View<float> smoothed, smoothed_sigma, rims, rim_rows;
   FrameInputs* inputs = nullptr;
   View<float> disparity, sigma, depth, depth_sigma;
   View<NormalPixel> normals;

@@ -79,8 +79,7 @@ class StereoPasses {
     executor_.mark("fill");
   }
 
-  /// Depth and normals from the disparities of the full
-  /// size; can be repeated, the levels are unchanged.
+  /// Depth and normals from the full size; can be repeated, the levels are unchanged.
   void finish(const RectifiedRig& rig) {
     const StereoLevel& level = layout_.levels.front();
     const StereoOptions& options = level.options;
@@ -91,19 +90,21 @@ class StereoPasses {
              level);
     if (options.smoothing.reach_blocks > 0) smooth(level);
     executor_.mark("smooth");
+    const View<const float> smoothed = readOnly(layout_.smoothed);
+    perPixel("rims", FindRimsBody{smoothed, layout_.rims}, level);
+    perPixel("rims in rows", LeastRimInRowBody{readOnly(layout_.rims), layout_.rim_rows}, level);
     perPixel("depth",
-             DepthBody{readOnly(layout_.smoothed), readOnly(layout_.smoothed_sigma),
+             DepthBody{smoothed, readOnly(layout_.smoothed_sigma), readOnly(layout_.rim_rows),
                        readOnly(layout_.mask), layout_.inputs, layout_.disparity, layout_.sigma,
                        layout_.depth, layout_.depth_sigma, options.erode_edges_px,
                        options.border_px, static_cast<float>(options.edge_step_px),
                        rig.left.fx_px * rig.baseline_mm, rig.disparity_offset_px},
              level);
     executor_.mark("depth");
-    const NormalKernel normals{readOnly(layout_.depth),
-                               layout_.normals,
-                               static_cast<float>(rig.left.fx_px),
-                               static_cast<float>(rig.left.fy_px),
-                               static_cast<float>(rig.left.cx_px),
+    const auto fx_px = static_cast<float>(rig.left.fx_px),
+               fy_px = static_cast<float>(rig.left.fy_px),
+               cx_px = static_cast<float>(rig.left.cx_px);
+    const NormalKernel normals{readOnly(layout_.depth), layout_.normals, fx_px, fy_px, cx_px,
                                rig.left.cy_px};
     executor_.launch("normals", normals, normals.blocks());
     executor_.mark("normals");

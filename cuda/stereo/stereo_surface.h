@@ -134,15 +134,38 @@ struct SmoothBody {
 // --- erosion and depth
 // -----------------------------------------------------------------------------
 
+/// Per pixel, the disparity of a rim there.
+struct FindRimsBody {
+  View<const float> disparity;
+  View<float> rims;
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    rims.at(u, v) = rimDisparity([&](int x, int y) {
+      return disparity.contains(u + x, v + y) ? disparity.at(u + x, v + y) : quietNan();
+    });
+  }
+};
+/// The least within their reach along the row.
+struct LeastRimInRowBody {
+  View<const float> rims;
+  View<float> out;
+  SOFTSCOPE_HD void operator()(int u, int v, int) const {
+    float least = kNoRim;
+    for (int x = u - kRimReachPx; x <= u + kRimReachPx; ++x)
+      if (x >= 0 && x < rims.width && rims.at(x, v) < least) least = rims.at(x, v);
+    out.at(u, v) = least;
+  }
+};
+
 /// Inputs of a frame besides its images.
 struct FrameInputs {
   double roll_rad;  // of the right image, whose effect on disparity is removed
   int masked;       // 0: the mask is not in use
 };
 
-/// Removes pixels near depth steps, the border and the mask; back-projects the others.
+/// Removes pixels near depth steps, the border and the mask, doubts those at rims; back-projects
+/// the others.
 struct DepthBody {
-  View<const float> disparity_in, sigma_in;
+  View<const float> disparity_in, sigma_in, rim_rows;
   View<const std::uint8_t> mask;
   const FrameInputs* inputs;
   View<float> disparity, sigma, depth, depth_sigma;
@@ -152,6 +175,7 @@ struct DepthBody {
 
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     float d = disparity_in.at(u, v), s = sigma_in.at(u, v);
+    if (isAtRim(d, leastRim(u, v))) s = sigmaAtRim(s);
     if (isDropped(u, v)) d = s = quietNan();
     const double centre_v = (disparity.height - 1) / 2.0;
     d -= static_cast<float>(inputs->roll_rad * (v - centre_v));
@@ -179,6 +203,12 @@ struct DepthBody {
       for (int x = u - reach; x < u + reach; ++x)
         if (disparity_in.contains(x, y)) found |= isEdge(x, y);
     return found;
+  }
+  SOFTSCOPE_HD float leastRim(int u, int v) const {
+    float least = kNoRim;
+    for (int y = v - kRimReachPx; y <= v + kRimReachPx; ++y)
+      if (y >= 0 && y < rim_rows.height && rim_rows.at(u, y) < least) least = rim_rows.at(u, y);
+    return least;
   }
   SOFTSCOPE_HD bool isEdge(int x, int y) const {
     const float here = disparity_in.at(x, y);

@@ -69,6 +69,34 @@ SOFTSCOPE_FORMULA bool isUneven(int apart, int measured) {
   return static_cast<float>(apart) > kMostApart * static_cast<float>(measured);
 }
 
+constexpr int kBehindRimPx = 13;  // from a rim to the surface behind it, at most: a window's width
+constexpr float kRimStepPx = 3;   // which is farther by more
+constexpr int kRimReachPx = 4;    // so far from a rim windows may have measured the near surface
+constexpr float kNoRim = 3e38f;
+/// Disparity of a rim: of a pixel beside which the next measured one, in its row or column, is of a
+/// farther surface; otherwise kNoRim. disparityAt(x, y) is relative to the pixel, NaN outside.
+template <class DisparityAt>
+SOFTSCOPE_FORMULA float rimDisparity(const DisparityAt& disparityAt) {
+  const float here = disparityAt(0, 0);
+  if (!isNumber(here)) return kNoRim;
+  for (int side = 0; side < 4; ++side) {
+    const int along = side % 2 == 0 ? 1 : -1, x = side < 2 ? along : 0, y = side < 2 ? 0 : along;
+    for (int i = 1; i <= kBehindRimPx; ++i) {
+      const float behind = disparityAt(i * x, i * y);
+      if (!isNumber(behind)) continue;
+      if (here - behind > kRimStepPx) return here;
+      break;
+    }
+  }
+  return kNoRim;
+}
+/// Whether a pixel is of the near surface, given the least disparity of a rim within its reach.
+SOFTSCOPE_FORMULA bool isAtRim(float disparity, float least_rim) {
+  return disparity > least_rim - kRimStepPx;
+}
+/// Such a pixel may be a step off.
+SOFTSCOPE_FORMULA float sigmaAtRim(float sigma) { return sigma < kRimStepPx ? kRimStepPx : sigma; }
+
 constexpr float kOneSurfacePx = 1.5f;  // four pixels with larger differences are on two surfaces
 
 /// Position of a pixel of the full size in the half size.

@@ -12,6 +12,7 @@
 #include "stereo/refinement/disparity_filter.h"
 #include "stereo/refinement/patch_smoothing.h"
 #include "stereo/refinement/pyramid.h"
+#include "stereo/refinement/rims.h"
 #include "stereo/refinement/subpixel_refinement.h"
 
 namespace softscope {
@@ -103,6 +104,7 @@ DisparityMap ElasMatcher::match(const GrayImage& left_image, const GrayImage& ri
   clock.lap("dark");
   smoothByPatches(options_.smoothing, options_.refinement, map);
   clock.lap("smooth");
+  doubtRims(&map);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
   clock.lap("erode");
   times_ = clock.laps();
