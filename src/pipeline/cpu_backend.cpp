@@ -78,7 +78,7 @@ class CpuBackend : public ReconstructionBackend {
   bool showsTissue() const override {
     return isAsRed(frame_.measured.left, frame_.measured.depth.depth_mm, state_.model);
   }
-  WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) override;
+  WarpSummary findWarp(const Eigen::Isometry3d& world_from_left, ScopeBefore before) override;
   void acceptWarp(bool is_reference) override;
   EvidenceSummary confirm(const Eigen::Isometry3d& world_from_left) override;
   void rejectWarp() override;
@@ -220,7 +220,7 @@ void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& 
   summary->sigma_deg = best.sigma_deg;
 }
 
-WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
+WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left, ScopeBefore before) {
   is_grown_ = false;
   if (!growth_.canWait(state_.model)) grow();
   clock_.lap("graph");
@@ -244,6 +244,7 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left) {
   summary.in_sight = static_cast<int>(visible.size());
   summary.nodes = static_cast<int>(state_.graph.size());
   seen.surface = &surface;
+  seen.after_gap = before == ScopeBefore::kUnclear;
   growth_.waitForSolver();
   summary.solver = solver_->solve(state_.model, seen, &state_.graph);
   clock_.lap("solve");

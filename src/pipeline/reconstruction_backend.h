@@ -94,7 +94,7 @@ class ReconstructionBackend {
   /// Whether the measured pixels of the frame are as red as the model: false for gauze.
   virtual bool showsTissue() const = 0;
   /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
-  virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left) = 0;
+  virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left, ScopeBefore before) = 0;
   /// Carries points, nodes and tracked points to the live shape. `is_reference`: that is the shape
   /// in which later poses are measured.
   virtual void acceptWarp(bool is_reference) = 0;

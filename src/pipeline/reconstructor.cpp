@@ -188,7 +188,7 @@ bool Reconstructor::relocalise(FrameRecord& record) {
 }
 
 bool Reconstructor::deform(FrameRecord& record) {
-  record.warp = backend_->findWarp(scope_.world_from_left);
+  record.warp = backend_->findWarp(scope_.world_from_left, scopeBefore());
   const DeformSummary& solver = record.warp.solver;
   const double explained =
       record.warp.in_sight > 0 ? double(solver.points_after) / record.warp.in_sight : 0;

@@ -249,11 +249,12 @@ TEST(FirstStep, IsEnoughWhereItLeavesNoise) {
   const WarpGraph start = scenes::bindGraph(&model);
   std::mt19937 random(5);
   const auto noise_mm = [&] { return 1e-9F * static_cast<float>(random()) - 2.1F; };
-  const auto solve = [&](double share_of_bend) {
+  const auto solve = [&](double share_of_bend, bool after_gap = false) {
     const scenes::Motion motion = [&](const Eigen::Vector3d& p) {
       return Eigen::Vector3d(p + share_of_bend * (scenes::smoothBend(p) - p));
     };
     DeformObservation seen;
+    seen.after_gap = after_gap;
     seen.matches = scenes::makeMatches(model, motion, 20);
     for (KeyPointMatch& match : seen.matches)
       match.target_mm += 0.1F * Eigen::Vector3f(noise_mm(), noise_mm(), noise_mm());
@@ -265,6 +266,7 @@ TEST(FirstStep, IsEnoughWhereItLeavesNoise) {
   EXPECT_TRUE(still.converged()) << toString(still.reason);
   EXPECT_GT(still.costs[1], 0.5 * still.costs[0]);
   EXPECT_GT(bent.iterations, 1);
+  EXPECT_GT(solve(0.05, /*after_gap=*/true).iterations, 1);  // it may have moved far
   EXPECT_LT(bent.costs[1], 0.5 * bent.costs[0]);
 }
 

@@ -15,6 +15,7 @@ struct DeformObservation {
   const SurfaceTarget* surface = nullptr;     // live surface; nullptr = matches only
   const std::vector<int>* visible = nullptr;  // model points of the data term; nullptr = all
   std::vector<KeyPointMatch> matches;
+  bool after_gap = false;  // frames before were not fused: tissue may have moved far
 };
 
 enum class StopReason {

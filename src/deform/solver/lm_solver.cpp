@@ -55,6 +55,7 @@ class WarpSolver final : public DeformSolver {
       summary.warnings.push_back("the graph holds positions or transforms that are not finite");
       return summary;
     }
+    after_gap_ = seen.after_gap;
     const MatchCounts matches = system_->begin(model, seen, *graph);
     summary.matches = matches.used;
     summary.matches_dropped = matches.dropped;
@@ -171,7 +172,7 @@ class WarpSolver final : public DeformSolver {
     summary->last_step_mm = trial.furthest_mm;
     const bool small_step = summary->last_step_mm < options_.solver.step_tolerance_mm;
     const bool small_gain = gainToCome(summary->costs) < options_.solver.cost_tolerance;
-    const bool is_enough = small_step || small_gain || leavesNoise(summary->costs);
+    const bool is_enough = small_step || small_gain || (!after_gap_ && leavesNoise(summary->costs));
     return undoubted && is_enough ? Step::kConverged : Step::kAccepted;
   }
 
@@ -180,6 +181,7 @@ class WarpSolver final : public DeformSolver {
   EnergySums current_;
   int points_ = 0;
   double damping_ = 0;
+  bool after_gap_ = false;
 };
 
 }  // namespace
