@@ -93,7 +93,8 @@ class ReconstructionBackend {
                                const std::vector<Eigen::Isometry3d>& viewpoints) = 0;
   /// Whether the measured pixels of the frame are as red as the model: false for gauze.
   virtual bool showsTissue() const = 0;
-  /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp().
+  /// Stages 5 and 6: finds the warp; nothing moves before acceptWarp(). `before`: as in locate();
+  /// tissue may have moved far where it is unclear.
   virtual WarpSummary findWarp(const Eigen::Isometry3d& world_from_left, ScopeBefore before) = 0;
   /// Carries points, nodes and tracked points to the live shape. `is_reference`: that is the shape
   /// in which later poses are measured.

@@ -1,4 +1,4 @@
-// tests/stereo/rims_test.cpp: what is dropped beside the rim of a near surface.
+// tests/stereo/rims_test.cpp: what is doubted beside the rim of a near surface.
 #include "stereo/refinement/rims.h"
 
 #include <gtest/gtest.h>
@@ -81,14 +81,14 @@ TEST(Rims, LeaveTheSurfaceBehind) {
   const Raster<float> hole = squareBefore(30, 2, 20);  // the square is the farther one here
   const Mask at_rim = doubted(hole);
   ASSERT_FALSE(at_rim.empty());
-  int dropped = 0;
+  int near_px = 0;
   for (std::size_t i = 0; i < hole.size(); ++i) {
-    dropped += at_rim.values[i] != 0;
+    near_px += at_rim.values[i] != 0;
     if (hole.values[i] == 20) {
       ASSERT_EQ(at_rim.values[i], 0) << i;
     }
   }
-  EXPECT_GT(dropped, 0);
+  EXPECT_GT(near_px, 0);
 }
 
 }  // namespace

@@ -6,9 +6,12 @@
 #include "core/not_measured.h"
 #include "core/parallel.h"
 #include "stereo/kernels/filter_formulas.h"
+#include "stereo/options/stereo_options.h"
 
 namespace softscope {
 namespace {
+
+static_assert(kBehindRimPx == 2 * RefinementOptions::radius_px + 1, "a window's width");
 
 struct Rim {
   int column;
