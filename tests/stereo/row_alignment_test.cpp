@@ -113,6 +113,33 @@ TEST(RowMeter, MatchesWeakTextureInOddRowsAsInEvenOnes) {
     EXPECT_GT(static_cast<double>(rightMatches(odd_px)), 0.75 * even) << odd_px;
 }
 
+/// Straight edges over the left half, at the same disparity in any row: an instrument, magnified.
+void cover(double shift_px, double disparity_px, GrayImage* image) {
+  constexpr double kSlopePx = 1.76;  // to the right with each row
+  for (int v = 0; v < image->height_px; ++v)
+    for (int u = 0; u < image->width_px / 2; ++u) {
+      const double across_px = u + disparity_px - kSlopePx * (v - shift_px);
+      image->at(u, v) = static_cast<std::uint8_t>(
+          std::lround(40 + 170 * test::solidTexture({across_px, 0, 0}, 7)));
+    }
+}
+
+/// Edges look alike in every row, and would confirm the first one that is tried.
+TEST(RowMeter, TakesNoRowFromAStraightEdge) {
+  constexpr double kShiftPx = 2.5;
+  test::Scene scene = misaligned(kShiftPx, 0);
+  cover(0, 0, &scene.left);
+  cover(kShiftPx, 40, &scene.right);
+  const std::vector<RowMatch> matches = RowMeter(scene.left, 100).match(scene.right);
+  const auto right = std::count_if(matches.begin(), matches.end(), [](const RowMatch& match) {
+    return std::abs(match.difference_px - kShiftPx) < 0.5;
+  });
+  EXPECT_GT(right, 300);
+  EXPECT_GT(static_cast<double>(right), 0.8 * static_cast<double>(matches.size()));
+  const RowAlignment found = measureRowAlignment(scene.left, scene.right, 100);
+  for (const int u : {80, 240}) EXPECT_NEAR(found.at(u, 120), kShiftPx, 0.2) << u;
+}
+
 /// Noise alone must not send the search to rows that cannot be the true ones.
 TEST(RowMeter, LooksNoFartherForNoiseAlone) {
   const test::Scene scene = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 9);

@@ -13,12 +13,15 @@ namespace {
 
 constexpr int kRows = 200;  // of a picture, out of 240
 
-/// The picture at moment t of a scope that moves up and down: another piece of a taller picture.
-GrayImage momentOf(const GrayImage& tall, int t, double reach_px) {
-  const int top = static_cast<int>(std::lround(20 + reach_px * std::sin(1.9 * t)));
+GrayImage pieceOf(const GrayImage& tall, int top) {
   GrayImage piece(tall.width_px, kRows);
   std::copy_n(tall.row(top), piece.size(), piece.row(0));
   return piece;
+}
+
+/// The picture at moment t of a scope that moves up and down: another piece of a taller picture.
+GrayImage momentOf(const GrayImage& tall, int t, double reach_px) {
+  return pieceOf(tall, static_cast<int>(std::lround(20 + reach_px * std::sin(1.9 * t))));
 }
 
 /// Right picture f shows moment f + late.
@@ -48,6 +51,20 @@ TEST(ViewSynchrony, FindsAViewThatIsPicturesApart) {
   EXPECT_EQ(measure(3, -2).right_offset, 2);
 }
 
+/// The scope moves by a row, once: one frame of eight has fewer matches without the offset.
+TEST(ViewSynchrony, FindsItInSlowMotionToo) {
+  const test::Scene tall = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
+  const auto topAt = [](int moment) { return moment < 7 ? 20 : 21; };
+  SynchronyMeter meter(100);
+  for (int f = 2; f < 10; ++f) {
+    std::array<GrayImage, SynchronyMeter::kOffsets> rights;
+    for (int k = 0; k < SynchronyMeter::kOffsets; ++k)
+      rights[k] = pieceOf(tall.right, topAt(f + k - SynchronyMeter::kReach + 1));
+    meter.add(pieceOf(tall.left, topAt(f)), rights);
+  }
+  EXPECT_EQ(meter.result().right_offset, -1);
+}
+
 TEST(ViewSynchrony, LeavesAClipInStepAsItIs) {
   const ViewSynchrony found = measure(3, 0);
   EXPECT_EQ(found.right_offset, 0);
@@ -66,6 +83,21 @@ TEST(ViewSynchrony, IsNotThatOfEasierMatchesOfOtherMoments) {
   for (int f = 0; f < 5; ++f) {
     const GrayImage earlier = momentOf(clean.right, f == 2 ? 1 : 0, 4);
     meter.add(momentOf(clean.left, 0, 4), {earlier, flat, momentOf(noisy.right, 0, 4), flat, flat});
+  }
+  const ViewSynchrony found = meter.result();
+  EXPECT_EQ(found.right_offset, 0);
+  EXPECT_GT(found.agreeing, 200);
+}
+
+/// Rows two pictures earlier have more matches and less scatter, but do not agree either.
+TEST(ViewSynchrony, IsNoneWhereRowsDisagreeAtEveryOffset) {
+  const test::Scene scene = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
+  const GrayImage flat(scene.left.width_px, kRows, 100);
+  SynchronyMeter meter(100);
+  for (int f = 0; f < 6; ++f) {
+    const GrayImage earlier = momentOf(scene.right, f < 4 ? 0 : 1, 2);
+    const GrayImage same = momentOf(scene.right, f, 4);
+    meter.add(momentOf(scene.left, 0, 4), {earlier, flat, same, flat, flat});
   }
   const ViewSynchrony found = meter.result();
   EXPECT_EQ(found.right_offset, 0);

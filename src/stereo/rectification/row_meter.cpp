@@ -25,7 +25,8 @@ constexpr double kManyMore = 1.5;     // matches one row off, where texture is w
 constexpr std::size_t kMany = 150;    // matches sufficient to determine the rows
 constexpr std::size_t kPlenty = 300;  // of a sparser grid: sufficient to see that rows correspond
 constexpr double kInReachPx = 0.35;   // mean difference: half of one spread evenly over the reach
-constexpr double kLeastCurvature = 0.3;  // of the cost over rows; below, rows are not determined
+constexpr double kLeastCurvature = 0.3;    // of the cost over rows; below, rows are not determined
+constexpr double kLeastShareAcross = 0.2;  // of the vertical texture; below, it is an edge's
 
 /// Mean difference of the two windows.
 double windowCost(const GradientView& left, const GradientView& right, int u, int v, int u_right,
@@ -39,9 +40,26 @@ double windowCost(const GradientView& left, const GradientView& right, int u, in
   return sum / 50.0;
 }
 
+/// Share of the window's vertical texture that a shift along the row does not explain: 1 - ρ², with
+/// the correlation ρ of horizontal and vertical gradients. A straight edge has 0: it looks alike in
+/// every row, at another disparity (the aperture problem).
+double shareAcross(const GradientView& left, int u, int v) {
+  double xx = 0, xy = 0, yy = 0;
+  for (int dy = -kMeterReach; dy <= kMeterReach; dy += 2)
+    for (int dx = -kMeterReach; dx <= kMeterReach; dx += 2) {
+      const int packed = *left.at(u + dx, v + dy);
+      const int x = packed % 256 - 128, y = packed / 256 - 128;
+      xx += x * x;
+      xy += x * y;
+      yy += y * y;
+    }
+  return xx > 0 && yy > 0 ? 1 - xy * xy / (xx * yy) : 0;
+}
+
 /// The row of the best match of the window of a support point, to a fraction of a pixel.
 std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& right,
                                  const SupportPoint& point, int row_offset) {
+  if (shareAcross(left, point.u_px, point.v_px) < kLeastShareAcross) return {};
   const int disparity = static_cast<int>(std::lround(point.disparity_px));
   std::array<double, 2 * kRowReach + 1> cost;
   cost.fill(1e9);

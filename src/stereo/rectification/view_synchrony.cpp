@@ -9,8 +9,8 @@
 namespace softscope {
 namespace {
 
-constexpr double kAgreesPx = 0.25;    // of a match with the model of all frames
-constexpr double kClearlyMore = 1.2;  // than the count at offset 0
+constexpr double kAgreesPx = 0.25;    // of a match, or of a frame's model, with that of all frames
+constexpr double kSteadier = 0.7;     // times the scatter at offset 0, at most
 constexpr int kFewestAgreeing = 200;  // for a decision
 constexpr int kBeyondDoubt = 2;       // times the count of any other offset
 
@@ -71,13 +71,13 @@ bool SynchronyMeter::isClear() const {
 ViewSynchrony SynchronyMeter::result() const {
   ViewSynchrony found;
   found.agreeing = found.agreeing_as_is = agreeingAt(0);
-  const double enough = std::max<double>(kFewestAgreeing, kClearlyMore * found.agreeing_as_is);
+  // More matches alone prove nothing: a scope that moves sideways may bring one view closer to
+  // where the other one was, and matches are then easier. Those of one moment agree in every frame.
+  const double most_scatter_px = std::min(kAgreesPx, kSteadier * scatterAt(0));
   for (int offset = -kReach; offset <= kReach; ++offset) {
     const int agreeing = agreeingAt(offset);
-    if (agreeing < enough || agreeing <= found.agreeing) continue;
-    // A scope that moves sideways may bring one view closer to where the other one was. Matches are
-    // then easier, but not those of one moment.
-    if (scatterAt(offset) > scatterAt(0)) continue;
+    if (agreeing < kFewestAgreeing || agreeing <= found.agreeing) continue;
+    if (scatterAt(offset) > most_scatter_px) continue;
     found.right_offset = offset;
     found.agreeing = agreeing;
   }

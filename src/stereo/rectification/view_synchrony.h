@@ -19,8 +19,8 @@ struct ViewSynchrony {
 /// Two videos may have been started or cut a few images apart; then tissue that moves sideways has
 /// a wrong depth, and tissue that moves up or down differs in its rows. For synchronous images,
 /// row differences are the same in every frame: the error of the calibration. The offset is
-/// therefore the one at which most matches of many frames agree on one row model, unless the models
-/// of single frames differ more than without it (docs/stereo.md).
+/// therefore the one at which most matches of many frames agree on one row model, if the models of
+/// single frames agree with it, and clearly better than without the offset (docs/stereo.md).
 class SynchronyMeter {
  public:
   static constexpr int kReach = 2;  // offsets -kReach … kReach are tried
