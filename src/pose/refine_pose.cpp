@@ -48,14 +48,18 @@ double studentQuantile(double probability, double freedom) {
               (((3 * sq + 19) * sq + 17) * sq - 15) / (384 * freedom * freedom * freedom));
 }
 
-/// Area of the regions: the extent of the pairs in the live image, but at
-/// least half of the image, because the errors of near pairs are correlated.
+/// Width and height that the regions divide at least, because the errors of near pairs are
+/// correlated. Half of the image would give a small organ no error and no motion.
+constexpr double kLeastExtent = 0.4;  // of those of the image
+
+/// Area of the regions: the extent of the pairs in the live image, if it is not too small.
 Eigen::AlignedBox2d extentOf(const std::vector<PosePair>& pairs, const PinholeCamera& camera) {
   Eigen::AlignedBox2d extent;
   for (const PosePair& pair : pairs)
     if (pair.live_px.allFinite()) extent.extend(pair.live_px);
   if (extent.isEmpty()) return extent;
-  const Eigen::Vector2d half(0.25 * camera.width_px, 0.25 * camera.height_px);
+  const Eigen::Vector2d half =
+      0.5 * kLeastExtent * Eigen::Vector2d(camera.width_px, camera.height_px);
   const Eigen::Vector2d middle = extent.center();
   return extent.extend(Eigen::AlignedBox2d(middle - half, middle + half));
 }

@@ -311,7 +311,6 @@ TEST(RefinePose, FollowsTheUsersWordThatTheScopeIsStatic) {
   EXPECT_GT(found.moved_mm, 2);
 }
 
-// Pairs in one corner do not distinguish a rotation from a shift.
 // After a loss only a part of the image shows tissue of the model.
 TEST(RefinePose, FindsAMotionThatHalfOfTheImageSees) {
   const Eigen::Isometry3d truth = poseOf(0.1, {4, -3, 5});
@@ -325,6 +324,23 @@ TEST(RefinePose, FindsAMotionThatHalfOfTheImageSees) {
   expectNear(found.world_from_left, truth, 0.3, 5e-3);
 }
 
+/// A fifth of the image is wide enough to distinguish a rotation from a shift.
+TEST(RefinePose, FindsTheMotionBeforeASmallOrgan) {
+  const Eigen::Isometry3d truth = poseOf(0.05, {2, -1.5, 1});
+  std::vector<PosePair> pairs;
+  for (const PosePair& pair : seenFrom(truth, nothing, 0.05)) {
+    const Eigen::Vector3d& place_mm = pair.model_world_mm;
+    if (std::abs(place_mm.x()) < 6 && std::abs(place_mm.y()) < 6) pairs.push_back(pair);
+  }
+  ASSERT_GT(pairs.size(), 40u);
+  const RefinedPose found = refined(pairs, truth, Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(found.scope_static);
+  EXPECT_LT(found.sigma_deg, 1);
+  const Eigen::Vector3d error_mm = found.world_from_left.translation() - truth.translation();
+  EXPECT_LT(error_mm.norm(), 4 * found.sigma_mm);
+}
+
+// Pairs in one corner do not distinguish a rotation from a shift.
 TEST(RefinePose, KnowsNoErrorWherePairsLieTooCloseTogether) {
   std::vector<PosePair> corner;
   for (const PosePair& pair : seenFrom(Eigen::Isometry3d::Identity(), nothing))
