@@ -44,7 +44,8 @@ double FrameRecord::confidence() const {
   // The minimum of an unknown number and another is the other.
   const double precise = std::fmin(depth.precise_share, precise_tracks_share);
   const double certain = is_first ? precise : std::fmin(evidence.view.agreement(), precise);
-  return map == 0 ? certain : std::fmin(certain, kUnknownPlace);
+  const bool is_placed = map == 0 && (is_first || pose.found);
+  return is_placed ? certain : std::fmin(certain, kUnknownPlace);
 }
 
 double FrameRecord::elapsed_ms() const {

@@ -59,7 +59,8 @@ struct FrameRecord {
   }
   /// Of pose, warp, depth and tracked points, 0 to 1: docs/fusion.md (F27). NaN if neither the
   /// first fused frame, of depth with sigmas, nor compared with the model. At most one half in
-  /// another map than the first: the pose relative to the first one is not known.
+  /// another map than the first, whose pose relative to the first one is not known, and at the last
+  /// pose, without one of its own.
   double confidence() const;
   double elapsed_ms() const;
 };

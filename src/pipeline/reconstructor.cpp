@@ -111,12 +111,13 @@ void Reconstructor::reconstruct(const Frame& frame, const UpcomingFrames& upcomi
   if (scope_.lost && scope_.isSearched() && backend_->showsTissue()) begin(record);
 }
 
-/// From the last pose; else from wherever in the model the frame is recognised.
+/// Seen from the last pose, or at it where matches determine none; else from wherever in the model
+/// the frame is recognised.
 bool Reconstructor::update(FrameRecord& record) {
   const Eigen::Isometry3d last = scope_.world_from_left;
-  const bool located = locate(record);
-  if (located && explain(record)) {
-    fuse(FrameStatus::kFused, record);
+  if (locate(record) ? explain(record) : assume(record)) {
+    fuse(scope_.lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
+    scope_.lost = false;
     return true;
   }
   if (!matching_) return false;
@@ -129,7 +130,7 @@ bool Reconstructor::update(FrameRecord& record) {
     return true;
   }
   scope_.world_from_left = last;
-  if (located) return false;  // a pose in doubt: the next frame is sought from the last one
+  if (record.pose.found) return false;  // in doubt: the next frame is sought from the last pose
   scope_.lost = true;
   record = found;
   return false;
@@ -139,6 +140,23 @@ bool Reconstructor::update(FrameRecord& record) {
 bool Reconstructor::explain(FrameRecord& record) {
   if (deform(record) && confirm(record)) return true;
   backend_->rejectWarp();
+  return false;
+}
+
+/// The scope keeps its last pose, which matches neither give nor deny, if the model then agrees
+/// with the frame in most places: moved by a hundredth of the image it would not.
+bool Reconstructor::assume(FrameRecord& record) {
+  FrameRecord assumed = measured(record);
+  assumed.matches = record.matches;
+  if (explain(assumed)) {
+    const ViewEvidence& view = assumed.evidence.view;
+    if (view.agreement() >= GateOptions::kMinAssumedAgreement &&
+        view.blocks >= GateOptions::kMinAssumedBlocks) {
+      record = assumed;
+      return true;
+    }
+    backend_->rejectWarp();
+  }
   return false;
 }
 
@@ -154,6 +172,7 @@ bool Reconstructor::locate(FrameRecord& record) {
   return !scope_.lost && locateFrom(scope_.world_from_left, record);
 }
 
+/// The scope has the pose that was found if its matches determine one.
 bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record) {
   const LocateSummary found =
       backend_->locate(viewpoint, scope_.world_from_left, scope_.reference_pose, scopeBefore());
@@ -163,8 +182,14 @@ bool Reconstructor::locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& 
     record.pose.found = true;
     record.pose.world_from_left = scope_.world_from_left;
   }
-  if (record.pose.found) scope_.world_from_left = record.pose.world_from_left;
-  return record.pose.found;
+  if (!record.pose.found) return false;
+  if (poses_have_sigma_ && !(record.pose.sigma_deg <= GateOptions::kMaxPoseSigmaDeg))
+    return reject(record, FrameStatus::kUnconfirmed,
+                  text(record.pose.inliers, " matches do not determine the scope's pose: sigma ",
+                       record.pose.sigma_deg, " deg, at most ", GateOptions::kMaxPoseSigmaDeg,
+                       " are needed"));
+  scope_.world_from_left = record.pose.world_from_left;
+  return true;
 }
 
 ScopeBefore Reconstructor::scopeBefore() const {
@@ -181,10 +206,10 @@ bool Reconstructor::relocalise(FrameRecord& record) {
   if (!rough.found)
     return reject(record, FrameStatus::kLost,
                   text("no view of the model matches the image: ", rough.failure));
-  if (!locateFrom(rough.target_from_source, record))
-    return reject(record, FrameStatus::kLost,
-                  text("found, but not confirmed: ", record.pose.failure));
-  return true;
+  if (locateFrom(rough.target_from_source, record)) return true;
+  if (record.pose.found) return false;
+  return reject(record, FrameStatus::kLost,
+                text("found, but not confirmed: ", record.pose.failure));
 }
 
 bool Reconstructor::deform(FrameRecord& record) {
@@ -206,11 +231,6 @@ bool Reconstructor::deform(FrameRecord& record) {
 }
 
 bool Reconstructor::confirm(FrameRecord& record) {
-  if (poses_have_sigma_ && !(record.pose.sigma_deg <= GateOptions::kMaxPoseSigmaDeg))
-    return reject(record, FrameStatus::kUnconfirmed,
-                  text(record.pose.inliers, " matches do not determine the scope's pose: sigma ",
-                       record.pose.sigma_deg, " deg, at most ", GateOptions::kMaxPoseSigmaDeg,
-                       " are needed"));
   record.evidence = backend_->confirm(scope_.world_from_left);
   const ViewEvidence& view = record.evidence.view;
   if (view.agreement() >= gate_.min_confidence) return true;
@@ -223,7 +243,7 @@ bool Reconstructor::confirm(FrameRecord& record) {
 void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {
   backend_->fuse(scope_.world_from_left);
   record.status = status;
-  scope_.scope_moves = status != FrameStatus::kStarted && !record.pose.scope_static;
+  if (record.pose.found) scope_.scope_moves = !record.pose.scope_static;
   if (scope_.scope_moves) scope_.reference_pose = scope_.world_from_left;
   ++scope_.fused_frames;
   scope_.remember(scope_.world_from_left);

@@ -56,6 +56,7 @@ class Reconstructor {
   bool locateFrom(const Eigen::Isometry3d& viewpoint, FrameRecord& record);
   bool relocalise(FrameRecord& record);
   ScopeBefore scopeBefore() const;
+  bool assume(FrameRecord& record);
   bool explain(FrameRecord& record);
   bool deform(FrameRecord& record);
   bool confirm(FrameRecord& record);

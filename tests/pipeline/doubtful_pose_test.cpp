@@ -1,6 +1,8 @@
 // tests/pipeline/doubtful_pose_test.cpp: matches that agree on a pose which the images contradict.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pipeline/cpu_backend.h"
 #include "pipeline/reconstructor.h"
 #include "short_clip.h"
@@ -90,14 +92,55 @@ TEST(DoubtfulPose, LeavesModelAndPoseAsTheyWere) {
   EXPECT_EQ(run.calls, 3) << "sought from the last pose";
 }
 
+void dropAll(ModelMatches* matches) { matches->lifted.clear(); }
+
+/// What both cameras see, this much lower in the image.
+Frame lowered(Frame frame, int rows_px) {
+  for (ColourImage* image : {&frame.pair.left, &frame.pair.right})
+    std::copy_backward(image->values.begin(), image->values.end() - rows_px * image->width_px,
+                       image->values.end());
+  return frame;
+}
+
 // Matches side by side agree with any rotation about them.
 TEST(DoubtfulPose, IsOneThatTheMatchesDoNotDetermine) {
   const ShortClip& clip = shortClip();
   MisledRun run(keepOnePlace, 2);
-  const FrameRecord record = run.reconstructor->process(clip.frames[1]);
+  const FrameRecord record = run.reconstructor->process(lowered(clip.frames[1], 40));
   ASSERT_EQ(record.status, FrameStatus::kUnconfirmed) << record.reason;
   EXPECT_NE(record.reason.find("do not determine"), std::string::npos) << record.reason;
   EXPECT_EQ(run.reconstructor->process(clip.frames[2]).status, FrameStatus::kFused);
+}
+
+/// The scope hardly moves between two frames, and the model agrees with the second one.
+TEST(DoubtfulPose, IsTheLastOneWhereMatchesDetermineNone) {
+  const ShortClip& clip = shortClip();
+  for (const Misled mislead : {keepOnePlace, dropAll}) {
+    MisledRun run(mislead, 1);
+    const FrameRecord record = run.reconstructor->process(clip.frames[1]);
+    ASSERT_EQ(record.status, FrameStatus::kFused) << record.reason;
+    EXPECT_EQ(run.calls, 1) << "it is not sought in the whole image";
+    EXPECT_EQ(record.reason, "");
+    EXPECT_FALSE(record.pose.found);
+    EXPECT_EQ(record.world_from_left.matrix(), Eigen::Matrix4d::Identity());
+    EXPECT_GE(record.evidence.view.agreement(), GateOptions::kMinAssumedAgreement);
+    EXPECT_LE(record.confidence(), 0.5);
+    EXPECT_LT(trackErrorMm(record, clip.truth[1]), 0.5);
+    const FrameRecord next = run.reconstructor->process(clip.frames[2]);
+    EXPECT_EQ(next.status, FrameStatus::kFused);
+    EXPECT_TRUE(next.pose.found);
+    EXPECT_LT(trackErrorMm(next, clip.truth[2]), 0.5);
+  }
+}
+
+// The tissue is in view, and is not where the model would be seen.
+TEST(DoubtfulPose, IsNotTheLastOneIfTheScopeMoved) {
+  const ShortClip& clip = shortClip();
+  MisledRun run(dropAll, 2);
+  const FrameRecord record = run.reconstructor->process(lowered(clip.frames[1], 40));
+  EXPECT_EQ(record.status, FrameStatus::kLost) << record.reason;
+  const FrameRecord next = run.reconstructor->process(clip.frames[2]);
+  EXPECT_EQ(next.status, FrameStatus::kRecovered) << "at the last pose again";
 }
 
 }  // namespace

@@ -87,6 +87,7 @@ TEST(FrameView, DepthIsPreciseIfItsErrorIsTolerableWith95PercentProbability) {
 TEST(FrameRecord, ConfidenceIsTheSmallestOfAgreementAndPreciseShares) {
   FrameRecord record;
   record.status = FrameStatus::kFused;
+  record.pose.found = true;
   record.evidence.view.depth_share = record.evidence.view.image_share = 1;
   EXPECT_EQ(record.confidence(), 1) << "depth without sigma";
   record.depth.precise_share = 0.3;
@@ -95,6 +96,15 @@ TEST(FrameRecord, ConfidenceIsTheSmallestOfAgreementAndPreciseShares) {
   EXPECT_EQ(record.confidence(), 0.2);
   record.precise_tracks_share = 0.1;
   EXPECT_EQ(record.confidence(), 0.1);
+}
+
+TEST(FrameRecord, HasAConfidenceOfAtMostOneHalfWithoutAPoseOfItsOwn) {
+  FrameRecord record;
+  record.status = FrameStatus::kFused;
+  record.evidence.view.depth_share = record.evidence.view.image_share = 1;
+  EXPECT_EQ(record.confidence(), 0.5);
+  record.depth.precise_share = 0.3;
+  EXPECT_EQ(record.confidence(), 0.3);
 }
 
 TEST(FrameRecord, TheFirstFrameHasTheConfidenceOfItsDepthAndPoints) {

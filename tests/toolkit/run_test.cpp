@@ -91,6 +91,17 @@ TEST_F(RunOfAClip, SaysWhetherTheScopeMoved) {
   EXPECT_THAT(nothing.warnings, Not(Contains(HasSubstr("no motion of the scope"))));
 }
 
+TEST_F(RunOfAClip, SaysWhichFramesHaveNoPoseOfTheirOwn) {
+  makeClip(4);
+  ReconstructOptions few = options();
+  set({"pose.threshold_mm=1e-6"}, &few.settings);  // no inliers
+  Told told;
+  const ReconstructedRun run = reconstructSequence(few, told.listener());
+  EXPECT_THAT(run.facts.text(), HasSubstr("4 of 4 fused"));
+  EXPECT_THAT(told.warnings, Contains(HasSubstr("3 of 4 frames were fused at the last pose")));
+  EXPECT_THAT(told.warnings, Not(Contains(HasSubstr("no motion of the scope"))));
+}
+
 TEST_F(RunOfAClip, SaysWhatWasNotFused) {
   makeClip(4);
   ReconstructOptions doubted = options();

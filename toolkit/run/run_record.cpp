@@ -96,6 +96,7 @@ void RunRecord::add(const FrameRecord& record) {
   imprecise_tracks_ += record.precise_tracks_share < kDoubtful;
   if (record.status == FrameStatus::kStarted) return;
   matches_.push_back(record.pose.inliers);
+  assumed_ += !record.pose.found;
   disagreeing_ += record.evidence.view.agreement() < kDoubtful;
   if (std::isfinite(record.fusion.corrected.mean_mm))
     backprojection_mm_.push_back(record.fusion.corrected.mean_mm);
@@ -125,6 +126,11 @@ std::vector<std::string> RunRecord::conclusions() const {
                   " frames were fused with a confidence below " + fixed(kDoubtful, 1) +
                   ": the model does not fit the image in many places; possible causes: blur, weak "
                   "texture, changing light");
+  if (assumed_ > kWarnShare * frames_)
+    all.push_back(
+        std::to_string(assumed_) + " of " + std::to_string(frames_) +
+        " frames were fused at the last pose, as their matches determined none "
+        "(frames.csv, no pose_sigma_mm): where the scope moved, the tissue has its motion");
   if (framesElsewhere() > 0)
     all.push_back(std::to_string(framesElsewhere()) +
                   " frames were fused with models of other places, begun where the first model was "

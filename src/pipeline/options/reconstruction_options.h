@@ -18,9 +18,13 @@ struct GateOptions {
   double min_explained = 0.3;    // share of visible points that the depth still constrains
   double min_confidence = 0.1;   // agreement of model and frame: docs/fusion.md (F27)
   static constexpr double kMaxPoseSigmaDeg = 10;  // beyond it, the matches determine no pose
-  static constexpr int kMaxKeyViews = 12;         // poses kept for relocalisation after a loss
-  static constexpr double kKeyViewStepMm = 10;    // distance of the scope from all of them …
-  static constexpr double kKeyViewStepDeg = 15;   // … or rotation that adds a key view
+  // Of a frame that is fused at the last pose, without one of its own. By chance ten blocks reach
+  // that agreement once in 5000 times.
+  static constexpr double kMinAssumedAgreement = 0.5;
+  static constexpr int kMinAssumedBlocks = 10;
+  static constexpr int kMaxKeyViews = 12;        // poses kept for relocalisation after a loss
+  static constexpr double kKeyViewStepMm = 10;   // distance of the scope from all of them …
+  static constexpr double kKeyViewStepDeg = 15;  // … or rotation that adds a key view
 };
 
 /// Parts of the image that are not tissue.
