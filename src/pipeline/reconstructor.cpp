@@ -143,8 +143,8 @@ bool Reconstructor::explain(FrameRecord& record) {
   return false;
 }
 
-/// The scope keeps its last pose, which matches neither give nor deny, if the model then agrees
-/// with the frame in most places: moved by a hundredth of the image it would not.
+/// The scope keeps its last pose, which matches neither give nor deny, if the warped model then
+/// agrees with the frame in most places. A motion of it that the warp can take up is the tissue's.
 bool Reconstructor::assume(FrameRecord& record) {
   FrameRecord assumed = measured(record);
   assumed.matches = record.matches;

@@ -34,6 +34,10 @@ constexpr double kScaleOfMedian = 0.5, kScaleAfterGap = 1.5;
 // errors included; deformed tissue leaves a larger share.
 constexpr double kLeftShare = 1.0 / 3;
 
+// Width and height that the regions divide at least, of those of the image: the errors of near
+// pairs are correlated. With a half, an organ of a fifth of the image has no error and no motion.
+constexpr double kLeastExtent = 0.4;
+
 /// Upper quantile of the normal distribution (Abramowitz and Stegun 26.2.23, to 4.5e-4).
 double normalQuantile(double probability) {
   const double t = std::sqrt(-2 * std::log(probability));
@@ -47,10 +51,6 @@ double studentQuantile(double probability, double freedom) {
   return z * (1 + (sq + 1) / (4 * freedom) + ((5 * sq + 16) * sq + 3) / (96 * freedom * freedom) +
               (((3 * sq + 19) * sq + 17) * sq - 15) / (384 * freedom * freedom * freedom));
 }
-
-/// Width and height that the regions divide at least, because the errors of near pairs are
-/// correlated. Half of the image would give a small organ no error and no motion.
-constexpr double kLeastExtent = 0.4;  // of those of the image
 
 /// Area of the regions: the extent of the pairs in the live image, if it is not too small.
 Eigen::AlignedBox2d extentOf(const std::vector<PosePair>& pairs, const PinholeCamera& camera) {

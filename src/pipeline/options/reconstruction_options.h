@@ -19,7 +19,7 @@ struct GateOptions {
   double min_confidence = 0.1;   // agreement of model and frame: docs/fusion.md (F27)
   static constexpr double kMaxPoseSigmaDeg = 10;  // beyond it, the matches determine no pose
   // Of a frame that is fused at the last pose, without one of its own. By chance ten blocks reach
-  // that agreement once in 5000 times.
+  // that agreement once in 4000 times.
   static constexpr double kMinAssumedAgreement = 0.5;
   static constexpr int kMinAssumedBlocks = 10;
   static constexpr int kMaxKeyViews = 12;        // poses kept for relocalisation after a loss
