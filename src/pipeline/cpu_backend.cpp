@@ -233,7 +233,7 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left, Scope
             comparer_->visiblePoints(state_.model, frame, frame_.states, frame_.fusion.visibility);
       },
       [&] {
-        if (options_.deform.correspondence_weight > 0 && pose_.found)
+        if (options_.deform.correspondence_weight > 0)
           seen.matches = keyPointMatches(matches_, pose_, frame_.association, world_from_left);
       });
   seen.visible = &visible;

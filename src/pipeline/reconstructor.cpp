@@ -117,14 +117,12 @@ bool Reconstructor::update(FrameRecord& record) {
   const Eigen::Isometry3d last = scope_.world_from_left;
   if (locate(record) ? explain(record) : assume(record)) {
     fuse(scope_.lost ? FrameStatus::kRecovered : FrameStatus::kFused, record);
-    scope_.lost = false;
     return true;
   }
   if (!matching_) return false;
   FrameRecord found = measured(record);
   scope_.world_from_left = last;
   if (relocalise(found) && explain(found)) {
-    scope_.lost = false;
     record = found;
     fuse(FrameStatus::kRecovered, record);
     return true;
@@ -243,6 +241,7 @@ bool Reconstructor::confirm(FrameRecord& record) {
 void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {
   backend_->fuse(scope_.world_from_left);
   record.status = status;
+  scope_.lost = false;
   if (record.pose.found) scope_.scope_moves = !record.pose.scope_static;
   if (scope_.scope_moves) scope_.reference_pose = scope_.world_from_left;
   ++scope_.fused_frames;
@@ -283,7 +282,6 @@ bool Reconstructor::enterOther(std::size_t viewpoints, bool (*accepts)(const Fra
   FrameRecord found = measured(record);
   try {
     if (locateFrom(rough.target_from_source, found) && explain(found) && accepts(found)) {
-      scope_.lost = false;
       fuse(FrameStatus::kRecovered, found);
       record = found;
       return true;

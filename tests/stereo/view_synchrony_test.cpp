@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "support/scene.h"
 
@@ -19,23 +20,32 @@ GrayImage pieceOf(const GrayImage& tall, int top) {
   return piece;
 }
 
-/// The picture at moment t of a scope that moves up and down: another piece of a taller picture.
-GrayImage momentOf(const GrayImage& tall, int t, double reach_px) {
-  return pieceOf(tall, static_cast<int>(std::lround(20 + reach_px * std::sin(1.9 * t))));
+/// The row at which the picture of moment t begins, of a scope that moves up and down.
+int topAt(int t, double reach_px) {
+  return static_cast<int>(std::lround(20 + reach_px * std::sin(1.9 * t)));
 }
 
-/// Right picture f shows moment f + late.
-SynchronyMeter meterOf(double reach_px, int late) {
+/// The picture of that moment: another piece of a taller picture.
+GrayImage momentOf(const GrayImage& tall, int t, double reach_px) {
+  return pieceOf(tall, topAt(t, reach_px));
+}
+
+/// Frames 2 to `end` of a scope whose pictures begin at those rows; right picture f shows moment
+/// f + late.
+SynchronyMeter meterOf(const std::function<int(int)>& top_at, int end, int late) {
   static const test::Scene tall =
       test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
   SynchronyMeter meter(100);
-  for (int f = 2; f < 6; ++f) {
+  for (int f = 2; f < end; ++f) {
     std::array<GrayImage, SynchronyMeter::kOffsets> rights;
     for (int k = 0; k < SynchronyMeter::kOffsets; ++k)
-      rights[k] = momentOf(tall.right, f + k - SynchronyMeter::kReach + late, reach_px);
-    meter.add(momentOf(tall.left, f, reach_px), rights);
+      rights[k] = pieceOf(tall.right, top_at(f + k - SynchronyMeter::kReach + late));
+    meter.add(pieceOf(tall.left, top_at(f)), rights);
   }
   return meter;
+}
+SynchronyMeter meterOf(double reach_px, int late) {
+  return meterOf([=](int t) { return topAt(t, reach_px); }, 6, late);
 }
 ViewSynchrony measure(double reach_px, int late) { return meterOf(reach_px, late).result(); }
 
@@ -53,16 +63,8 @@ TEST(ViewSynchrony, FindsAViewThatIsPicturesApart) {
 
 /// The scope moves by a row, once: one frame of eight has fewer matches without the offset.
 TEST(ViewSynchrony, FindsItInSlowMotionToo) {
-  const test::Scene tall = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
-  const auto topAt = [](int moment) { return moment < 7 ? 20 : 21; };
-  SynchronyMeter meter(100);
-  for (int f = 2; f < 10; ++f) {
-    std::array<GrayImage, SynchronyMeter::kOffsets> rights;
-    for (int k = 0; k < SynchronyMeter::kOffsets; ++k)
-      rights[k] = pieceOf(tall.right, topAt(f + k - SynchronyMeter::kReach + 1));
-    meter.add(pieceOf(tall.left, topAt(f)), rights);
-  }
-  EXPECT_EQ(meter.result().right_offset, -1);
+  const auto top_at = [](int t) { return t < 7 ? 20 : 21; };
+  EXPECT_EQ(meterOf(top_at, 10, 1).result().right_offset, -1);
 }
 
 TEST(ViewSynchrony, LeavesAClipInStepAsItIs) {

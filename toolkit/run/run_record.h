@@ -51,7 +51,7 @@ class RunRecord {
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
   int frames_ = 0, points_ = 0, nodes_ = 0;
   int located_ = 0, scope_static_ = 0, doubtful_ = 0, disagreeing_ = 0, imprecise_ = 0,
-      assumed_ = 0, imprecise_tracks_ = 0;
+      imprecise_tracks_ = 0, assumed_ = 0;
 };
 
 }  // namespace softscope

@@ -35,11 +35,11 @@ std::vector<KeyPointMatch> keyPointMatches(const std::vector<LiftedMatch>& lifte
                                            const RigidPose& pose,
                                            const AssociationOptions& association,
                                            const Eigen::Isometry3d& world_from_left) {
+  if (!pose.found) return {};
   std::vector<std::optional<KeyPointMatch>> pulls(lifted.size());
   parallelRanges(static_cast<int>(lifted.size()), kMatchesPerTask, [&](int begin, int end) {
     for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      pulls[i] =
-          keyPointMatch(lifted[i], pose.found && pose.inlier[i] == 0, association, world_from_left);
+      pulls[i] = keyPointMatch(lifted[i], pose.inlier[i] == 0, association, world_from_left);
   });
   std::vector<KeyPointMatch> matches;
   matches.reserve(pulls.size());

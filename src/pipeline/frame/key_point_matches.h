@@ -12,7 +12,7 @@
 namespace softscope {
 
 /// In the order of `lifted`, without wrong and too distant matches. `pose`: of estimateRigidPose()
-/// over them.
+/// over them; none where it found no pose, as it is not known then which are wrong.
 std::vector<KeyPointMatch> keyPointMatches(const std::vector<LiftedMatch>& lifted,
                                            const RigidPose& pose,
                                            const AssociationOptions& association,

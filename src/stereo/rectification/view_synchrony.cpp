@@ -71,13 +71,13 @@ bool SynchronyMeter::isClear() const {
 ViewSynchrony SynchronyMeter::result() const {
   ViewSynchrony found;
   found.agreeing = found.agreeing_as_is = agreeingAt(0);
-  // More matches alone prove nothing: a scope that moves sideways may bring one view closer to
-  // where the other one was, and matches are then easier. Those of one moment agree in every frame.
-  const double most_scatter_px = std::min(kAgreesPx, kSteadier * scatterAt(0));
   for (int offset = -kReach; offset <= kReach; ++offset) {
     const int agreeing = agreeingAt(offset);
     if (agreeing < kFewestAgreeing || agreeing <= found.agreeing) continue;
-    if (scatterAt(offset) > most_scatter_px) continue;
+    // More matches alone prove nothing: a scope that moves sideways may bring one view closer to
+    // where the other one was, and matches are then easier. Those of one moment agree in all
+    // frames.
+    if (scatterAt(offset) > std::min(kAgreesPx, kSteadier * scatterAt(0))) continue;
     found.right_offset = offset;
     found.agreeing = agreeing;
   }
